@@ -204,7 +204,7 @@ Exit contest_command(const ContestArguments& a) {
   if (interrupted()) return told_interrupted("compare " + a.motor);
   if (const base::Problems problems = over_the_tolerances(a, contest); !problems.empty())
     return refused(problems);
-  if (interrupted()) return told_interrupted("compare " + a.motor);
+  if (interrupted()) return told_interrupted("compare " + a.motor, kept_in(a.store));
   if (const base::Problems unwritten = write(contest, a, outputs); !unwritten.empty())
     return refused(unwritten);
   if (a.json == "-") print(text::contest_json(contest));

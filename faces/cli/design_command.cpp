@@ -8,6 +8,7 @@
 
 #include "faces/cli/choose.hpp"
 #include "faces/cli/design_arguments.hpp"
+#include "faces/cli/design_use.hpp"
 #include "faces/cli/field_design.hpp"
 #include "faces/cli/new_file.hpp"
 #include "faces/cli/optimise_command.hpp"
@@ -182,34 +183,22 @@ base::Result<analysis::DesignSubject> subject_of(const DesignArguments& a,
   return subject;
 }
 
-/// Options that only the other kind of motor has.
-void refuse_other_motion(const DesignArguments& a, const design::Sheet& sheet, base::Problems& found) {
-  const bool linear = sheet.kind == design::MotorKind::linear;
-  const auto refuse = [&](const std::optional<double>& given, const char* option, const char* instead) {
-    if (given)
-      found.push_back({option, fmt::format("{}", *given),
-                       linear ? "is a turning motor's, and this one is linear"
-                              : "is a linear motor's, and this one turns",
-                       fmt::format("write {}", instead)});
-  };
-  refuse(linear ? a.torque_limit_Nm : a.force_limit_N, linear ? "--torque-limit" : "--force-limit",
-         linear ? "--force-limit" : "--torque-limit");
-  refuse(linear ? a.load_inertia_kg_m2 : a.load_mass_kg, linear ? "--load-inertia" : "--load-mass",
-         linear ? "--load-mass" : "--load-inertia");
+Exit optimise(const DesignArguments& a) {
+  if (const base::Problems found = unread_by_optimise(a); !found.empty()) return refused(found);
+  return optimise_command({.plan = a.optimise,
+                           .store = a.store,
+                           .resume = a.resume,
+                           .force = a.force,
+                           .quiet = a.quiet,
+                           .toml = a.toml,
+                           .json = a.json,
+                           .data_dir = a.data_dir,
+                           .command = a.command,
+                           .jobs = a.jobs});
 }
 
 Exit design_command(const DesignArguments& a) {
-  if (!a.optimise.empty())
-    return optimise_command({.plan = a.optimise,
-                             .store = a.store,
-                             .resume = a.resume,
-                             .force = a.force,
-                             .quiet = a.quiet,
-                             .toml = a.toml,
-                             .json = a.json,
-                             .data_dir = a.data_dir,
-                             .command = a.command,
-                             .jobs = a.jobs});
+  if (!a.optimise.empty()) return optimise(a);
   base::Problems found;
   const std::optional<study::Scenario> board = board_of(a, found);
   if (board && found.empty()) found = analysis::passed_over(*board);
@@ -217,7 +206,8 @@ Exit design_command(const DesignArguments& a) {
   if (board && board->control.drive == study::FirmwareKind::field) return design_field(a, *board);
   const design::DesignSpec spec = spec_of(a, board ? &*board : nullptr, found);
   const base::Result<analysis::DesignSubject> subject = subject_of(a, board, found);
-  if (subject) refuse_other_motion(a, subject->sheet, found);
+  if (subject) append(found, of_other_motion(subject->sheet, a));
+  if (found.empty()) found = in_options(unread_by(spec, a));
   catch_interrupts();
   DesignFiles outputs;
   if (found.empty()) found = outputs.open(a);
@@ -278,9 +268,11 @@ void declare_options(CLI::App& design, DesignArguments& a) {
       "write the scenario that was simulated, for sixstep run and export; without --scenario it has, and is designed with, a dead "
       "time of 0.5 us");
   design.add_option("--html", a.html, "write the design as a page");
-  design.add_option("--models", a.models, "write the motor's two state spaces, as .json or .mat");
+  CLI::Option* models =
+      design.add_option("--models", a.models, "write the motor's two state spaces, as .json or .mat");
   design.add_option("--angle", a.angle_deg, "of the rotor for --models, in electrical degrees")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->needs(models);
   CLI::Option* optimise = design.add_option(
       "--optimise", a.optimise,
       "a plan that says what is to be small: the best point of its ranges, and what limits it");

@@ -16,6 +16,7 @@
 #include "files/atomic_file.hpp"
 #include "sixstep/base/plausible.hpp"
 #include "sixstep/study/scenario/choices.hpp"
+#include "text/escape/escape.hpp"
 #include "text/export/config_header.hpp"
 #include "text/keys/key_advice.hpp"
 
@@ -135,6 +136,12 @@ base::Result<study::Clearance> cleared(const study::Scenario& scenario) {
 Exit not_cleared(const ExportArguments& a, const study::Clearance& c) {
   complain(within(a.file, c.unmeasured));
   complain(within(a.file, c.unheld));
+  // Where the sensor goes, so do the loops that were laid out for it.
+  if (std::any_of(c.unmeasured.begin(), c.unmeasured.end(),
+                  [](const base::Problem& p) { return p.cure.find("designed for edges") != p.cure.npos; }))
+    print("with these keys set, sixstep design --scenario " + text::visible(a.file) +
+              " --toml NEW.toml writes a scenario with such gains and requirements\n",
+          stderr);
   print("no header was written; --despite REASON writes one that says all of this\n", stderr);
   return graver(exit_of(c.outcome), c.unmeasured.empty() ? Exit::ok : Exit::bad_input);
 }

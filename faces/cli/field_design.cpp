@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "faces/cli/field_design.hpp"
 
+#include "faces/cli/design_use.hpp"
 #include "faces/cli/keep.hpp"
 #include "faces/cli/terminal.hpp"
 #include "files/atomic_file.hpp"
@@ -8,45 +9,8 @@
 #include "text/results/field_design_text.hpp"
 
 namespace cli {
-namespace {
-
-/// Of a field-oriented drive the scenario says all, and its own rules have made the gains.
-base::Problems six_step_options(const DesignArguments& a) {
-  base::Problems found;
-  const auto refuse = [&](bool given, const char* option, const char* cure) {
-    if (given)
-      found.push_back(
-          {option, "", "is of six-step's design, and the scenario's drive is field-oriented", cure});
-  };
-  const char* const key = "say it in the scenario, in control, pwm, supply, sensors or load";
-  refuse(!a.motor.empty(), "MOTOR", "leave it out: the scenario names its motor");
-  refuse(a.mode.has_value(), "--mode", key);
-  refuse(a.method != "pole-placement", "--method", "see control.field.bandwidth_Hz");
-  refuse(a.bandwidth_rad_s.has_value(), "--bandwidth", "see control.field.bandwidth_Hz");
-  refuse(a.chopping.has_value(), "--chopping", key);
-  refuse(a.rotor || a.edges, a.rotor ? "--rotor" : "--edges", key);
-  refuse(a.currents.has_value(), "--currents", key);
-  refuse(a.settle_s.has_value(), "--settle", key);
-  refuse(a.current_settle_s.has_value(), "--current-settle", key);
-  refuse(a.damping.has_value(), "--damping", key);
-  refuse(a.period_s.has_value(), "--period", key);
-  refuse(a.delay_periods.has_value(), "--delay", key);
-  refuse(a.voltage_V.has_value(), "--voltage", key);
-  refuse(a.torque_limit_Nm || a.force_limit_N, a.torque_limit_Nm ? "--torque-limit" : "--force-limit", key);
-  refuse(a.load_inertia_kg_m2 || a.load_mass_kg, a.load_mass_kg ? "--load-mass" : "--load-inertia", key);
-  refuse(a.lowest_speed_rad_s.has_value(), "--lowest-speed", "it is the reference's own lowest");
-  refuse(a.step.has_value(), "--step", "nothing is simulated: sixstep run does that");
-  const char* const not_written = "leave it out: --json has all numbers";
-  refuse(!a.toml.empty(), "--toml", not_written);
-  refuse(!a.html.empty(), "--html", not_written);
-  refuse(!a.models.empty(), "--models", not_written);
-  return found;
-}
-
-}  // namespace
-
 Exit design_field(const DesignArguments& a, const study::Scenario& scenario) {
-  base::Problems found = six_step_options(a);
+  base::Problems found = unread_by_field_design(a);
   std::optional<files::AtomicFile> file;
   if (!a.json.empty() && a.json != "-") keep(file, files::AtomicFile::create({a.json, a.force}), found);
   if (!found.empty()) return refused(found);

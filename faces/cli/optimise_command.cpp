@@ -130,7 +130,7 @@ Exit optimise_command(const OptimiseArguments& a) {
   if (!store) return refused(store.problems());
   const std::optional<analysis::Optimum> best = search(a, *plan, *figure, *store);
   if (const base::Problems unwritten = store->finish(); !unwritten.empty()) return refused(unwritten);
-  if (interrupted()) return told_interrupted("the search");
+  if (interrupted()) return told_interrupted("the search", kept_in(a.store));
   if (!best)
     return refused({{a.plan + ":", "", "has no point that can be run",
                      "look at one of its runs: sixstep run --only 0"}});

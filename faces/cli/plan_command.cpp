@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -177,7 +178,11 @@ Exit run_plan(const RunArguments& a, const ReadPlan& plan, std::vector<text::Jun
   append(problems, made.problems());
   complain(problems);
   suites.push_back(made.verdicts());
-  if (interrupted()) return exit_of_interrupt();
+  if (interrupted()) {
+    const std::string left = left_behind(outputs.partial_files(), store_path(a, plan.name));
+    if (!left.empty()) tell_stop(text::visible(plan.name) + ": interrupted; " + left);
+    return exit_of_interrupt();
+  }
   return problems.empty() ? made.exit() : graver(made.exit(), Exit::bad_input);
 }
 
@@ -222,6 +227,10 @@ Exit run_plans(const RunArguments& a, const std::vector<ReadPlan>& plans,
   junit->write(text::junit_xml(suites));
   const base::Problems unwritten = interrupted() ? junit->commit_partial() : junit->commit();
   complain(unwritten);
+  // What is no regular file has no such name.
+  const std::string partial = files::partial_name(junit->path());
+  if (interrupted() && unwritten.empty() && std::filesystem::exists(partial))
+    tell_stop("the verdicts of what was finished are in " + text::visible(partial));
   return unwritten.empty() ? exit : graver(exit, Exit::bad_input);
 }
 

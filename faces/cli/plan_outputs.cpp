@@ -80,7 +80,12 @@ base::Problems PlanOutputs::publish(const text::PlanStory& story, const ReadPlan
     if (open.option == "--json") open.file.write(json);
     if (open.option == page_option) open.file.write(page(story, plan, problems));
     // Reports of the worst runs may be missing from the page of who was told to end just now.
-    append(problems, whole && !interrupted() ? open.file.commit() : open.file.commit_partial());
+    const bool in_place = whole && !interrupted();
+    const base::Problems unwritten = in_place ? open.file.commit() : open.file.commit_partial();
+    append(problems, unwritten);
+    // What is no regular file has no such name.
+    const std::string partial = files::partial_name(open.file.path());
+    if (!in_place && unwritten.empty() && fs::exists(partial)) partial_files_.push_back(partial);
   }
   if (prints_json_ && whole) print(json);
   return problems;

@@ -18,6 +18,8 @@ class PlanOutputs {
   base::Problems open(const RunArguments& arguments, const ReadPlan& plan);
   /// Of a plan that was cut short under partial names.
   base::Problems publish(const text::PlanStory& story, const ReadPlan& plan, bool whole);
+  /// Those names, after publish().
+  const std::vector<std::string>& partial_files() const { return partial_files_; }
 
  private:
   struct Open {
@@ -28,6 +30,7 @@ class PlanOutputs {
 
   const RunArguments* arguments_ = nullptr;
   std::vector<Open> open_;
+  std::vector<std::string> partial_files_;
   bool prints_json_ = false;
 };
 

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "faces/cli/plan_storing.hpp"
 
+#include <fmt/format.h>
+
+#include <filesystem>
 #include <utility>
 
 #include "sixstep/base/written.hpp"
+#include "text/escape/escape.hpp"
 #include "text/plan/plan_file.hpp"
 #include "text/scenario/scenario_text.hpp"
 
@@ -32,6 +36,20 @@ base::Result<files::PlanStore> store_of(const RunArguments& a, const ReadPlan& p
                            .scenario_text = text::scenario_text(plan.nominal),
                            .columns = plan.columns};
   return store_at(store_path(a, plan.name), a.plan.resume, a.paths.force, std::move(stored));
+}
+
+std::string kept_in(const std::string& store) {
+  if (store.empty() || !std::filesystem::exists(store)) return "";
+  return fmt::format("what has run is kept in {}, and the same command with --resume goes on",
+                     text::visible(store));
+}
+
+std::string left_behind(const std::vector<std::string>& partial_files, const std::string& store) {
+  std::string files;
+  for (const std::string& file : partial_files) files += (files.empty() ? "" : ", ") + text::visible(file);
+  const std::string kept = kept_in(store);
+  if (files.empty()) return kept;
+  return "what was finished is in " + files + (kept.empty() ? "" : "; " + kept);
 }
 
 std::string unit_of(const std::string& key) {

@@ -76,8 +76,8 @@ void tell_stop(const std::string& line) {
   stop_is_told();
 }
 
-Exit told_interrupted(const std::string& what) {
-  tell_stop(what + ": interrupted; nothing was written");
+Exit told_interrupted(const std::string& what, const std::string& kept) {
+  tell_stop(what + ": interrupted; " + (kept.empty() ? "nothing was written" : kept));
   return exit_of_interrupt();
 }
 

@@ -21,8 +21,8 @@ Exit exit_of_interrupt();
 void tell_stop(const std::string& line);
 /// Standard output says it already.
 void stop_is_told();
-/// Of work that leaves nothing behind where it is cut short, which is told.
-Exit told_interrupted(const std::string& what);
+/// Of work that leaves nothing behind where it is cut short, which is told; `kept` says what it does leave.
+Exit told_interrupted(const std::string& what, const std::string& kept = "");
 /// Of work that goes on until it is told to end: `exit` stands.
 Exit ended_as_asked(Exit exit);
 

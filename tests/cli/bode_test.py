@@ -99,7 +99,7 @@ class Bode(ProgramTest):
                             ((LOCKED, "--bode", "--out", "all"), "--out has nothing to do with --bode"),
                             ((LOCKED, "--amplitude", "1"), "--bode"),
                             ((LOCKED, "--bode", "--amplitude", "-1"), "--amplitude"),
-                            ((LOCKED, "--bode", "--set", "reference.shape=constant", "--set", "reference.value=0"), "--amplitude"),
+                            ((LOCKED, "--bode", "--set", "reference={ value = 0 }"), "--amplitude"),
                             ((LOCKED, "--bode", "--json", "/nowhere/b.json"), "/nowhere")):
             with self.subTest(words=words[1:]):
                 made = self.run_program("run", *words, code=2)

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """sixstep design: text, files, refusals."""
 import json
+import re
 import signal
 import struct
 import subprocess
@@ -135,6 +136,37 @@ class Design(ProgramTest):
         self.assertEqual(told, "--torque-limit = 1 is a turning motor's, and this one is linear; write --force-limit\n")
         told = self.run_program("design", "maxon-251601", "--load-mass", "1", code=2).stderr
         self.assertEqual(told, "--load-mass = 1 is a linear motor's, and this one turns; write --load-inertia\n")
+
+    def test_an_option_that_enters_nothing_is_refused_by_name(self):
+        """Each option of the help, in each kind of design: it changes the numbers, or is refused by its name."""
+        values = {"--settle": "2e-3", "--damping": "0.8", "--current-settle": "2e-3", "--method": "cancellation", "--bandwidth": "500", "--period": "25e-6",
+                  "--voltage": "20", "--torque-limit": "0.3", "--force-limit": "3", "--rotor": "encoder", "--edges": "3", "--lowest-speed": "55", "--currents": "dc-link",
+                  "--load-inertia": "1e-6", "--load-mass": "0.1", "--delay": "0", "--chopping": "complementary", "--step": "1.5", "--mode": "speed", "--angle": "10",
+                  "--html": "o.html", "--models": "o.json", "--quick": None}
+        helped = set(re.findall(r"^ +(?:-\w,)?(--[a-z-]+)", self.run_program("design", "--help").stdout, re.M))
+        only_how = {"--help", "--scenario", "--json", "--toml", "--optimise", "--store", "--resume", "--force", "--quiet", "--jobs", "--data"}
+        self.assertEqual(helped - only_how, set(values), "an option that no test has seen")
+        field, plan = str(SOURCE / "data/scenarios/gallery/machine-sine-field.toml"), str(SOURCE / "data/plans/best-pwm.toml")
+        for words in (["--scenario", field], ["--optimise", plan]):
+            for option, value in values.items():
+                with self.subTest(words=words, option=option):
+                    told = self.run_program("design", *words, option, *([value] if value else []), code=2).stderr
+                    self.assertIn(option, told)
+        self.assertIn("MOTOR is of a design's own", self.run_program("design", "maxon-251601", "--optimise", plan, code=2).stderr)
+        changes = ["--settle", "--damping", "--method", "--period", "--voltage", "--rotor", "--currents", "--delay", "--chopping", "--step"]
+        idle = ["--current-settle", "--torque-limit", "--edges", "--lowest-speed", "--load-inertia", "--load-mass", "--force-limit", "--bandwidth", "--angle"]
+        quick = ["design", "maxon-251601", "--quick", "--quiet", "--json", "-"]
+        plain = self.run_program(*quick).stdout
+        for option in changes:
+            with self.subTest(option=option):
+                result = subprocess.run([PROGRAM, *quick, option, values[option]], cwd=self.path, capture_output=True, text=True, check=False)
+                self.assertIn(result.returncode, (0, 1), result.stderr)
+                self.assertNotEqual(result.stdout, plain)
+        for option in idle:
+            with self.subTest(option=option):
+                self.assertRegex(self.run_program(*quick, option, values[option], code=2).stderr, f"(^|design ){option} ")
+        self.assertEqual(self.run_program(*quick, "--torque-limit", "0.3", code=2).stderr,
+                         "--torque-limit is the full output of a speed loop, and --mode current has none; add --mode speed or --mode position, or leave it out\n")
 
     def test_design_writes_a_page_that_needs_nothing(self):
         self.run_program("design", "maxon-251601", "--mode", "speed", "--quiet", "--html", "d.html")

@@ -133,6 +133,22 @@ class Gate(ProgramTest):
         self.assertEqual([line.split(" ")[0] for line in told],
                          ["sensors.currents", "pwm.delay_periods", "bridge.dead_time_s", "slowest"])
 
+    def test_the_cures_of_an_encoders_position_lead_to_a_header(self):
+        """All that is told at once, and the design that it names: no second refusal comes behind the first."""
+        encoder = SOURCE / "data/scenarios/gallery/encoder.toml"
+        said = self.run_program("export", "header", str(encoder), "--out", "d.hpp", code=2).stderr
+        self.assertIn('sensors.rotor = "encoder" has no decoder in the header\'s drive, which reads Hall probes; set rotor = "hall", '
+                      "and have gains and [[require]] designed for edges that come 7.5 deg apart\n", said)
+        for cure in ("currents = \"phases\"", "delay_periods = 1", "500e-9", "sixstep design --scenario"):
+            self.assertIn(cure, said)
+        text = encoder.read_text().replace('rotor = "encoder"\n', 'rotor = "hall"\ncurrents = "phases"\ncurrent_range_A = 40\n')
+        text = text.replace('commutation = "sample"', 'commutation = "sample"\ndelay_periods = 1') + "\n[bridge]\ndead_time_s = 500e-9\n"
+        (self.path / "hall.toml").write_text(text)
+        designed = self.run_program("design", "--scenario", "hall.toml", "--settle", "43e-3", "--quick", "--quiet", "--toml", "new.toml")
+        self.assertEqual(designed.stderr, "")
+        self.assertEqual(self.run_program("export", "header", "new.toml", "--out", "d.hpp").stderr, "")
+        self.assertIn("d.hpp", self.names())
+
     def test_a_fault_is_refused(self):
         told = self.refused(3, "product-broken-hall-line")
         self.assertRegex(told[-1], "the drive tripped by an impossible Hall code, jump or edge: line H2")

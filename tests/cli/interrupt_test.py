@@ -4,11 +4,14 @@
 
 Each verb is given work for far longer than the test, and is stopped at random instants; the seed is printed, and
 SIXSTEP_SEED repeats it. `-v` shows how long each took to end."""
+import contextlib
+import itertools
 import math
 import os
 import random
 import re
 import signal
+import sqlite3
 import subprocess
 import sys
 import time
@@ -18,6 +21,7 @@ from program import SOURCE, Started, hall_log
 
 SEED = int(os.environ.get("SIXSTEP_SEED", random.randrange(1 << 30)))
 R3 = str(SOURCE / "data/scenarios/reference/R3.toml")
+PLAN = str(SOURCE / "data/plans/best-pwm.toml")
 SERIES = str(SOURCE / "data/scenarios/current-square-series.toml")
 LONG = ["--set", "duration_s=1e4", "--set", "record.grid_s=1e-3"]
 # A fifth of a second where the machine is ours: a computer that runs other tests beside these takes longer.
@@ -125,6 +129,52 @@ class Ends(Started):
             self.assertTrue(ended or said == "interrupted before the first of 1000000 drives ended\n", said)
             if ended:
                 self.assertGreaterEqual(said.count(f" {ended[1]} of {ended[1]}\n"), 2, said)
+
+    def rows(self, store):
+        with contextlib.closing(sqlite3.connect(self.path / store)) as read:
+            return read.execute("SELECT COUNT(*) FROM run").fetchone()[0]
+
+    def test_a_plan_names_what_it_leaves_and_how_to_go_on(self):
+        """Its files under partial names, and the runs of its store: with --resume no run is made a second time."""
+        files = ["--csv", "o.csv", "--json", "o.json", "--junit", "o.xml"]
+        for store, quiet in itertools.product((False, True), (False, True)):
+            words = ["run", SERIES, "--runs", "1000000", *files, *(["--store", "o.sqlite"] if store else []), *(["--quiet"] if quiet else [])]
+            with self.started(*words) as program:
+                time.sleep(0.8)
+                program.send_signal(signal.SIGINT)
+                told = program.communicate(timeout=60)[1]
+            self.assertEqual(program.returncode, 130, told)
+            left = "current-square-series: interrupted; what was finished is in o.partial.csv, o.partial.json"
+            kept = "; what has run is kept in o.sqlite, and the same command with --resume goes on"
+            self.assertIn(left + (kept if store else "") + "\n", told)
+            self.assertIn("the verdicts of what was finished are in o.partial.xml\n", told)
+            self.assertEqual([name for name in self.names() if name.startswith("o.")],
+                             ["o.partial.csv", "o.partial.json", "o.partial.xml"] + (["o.sqlite"] if store else []))
+            for name in self.names():
+                if name.startswith("o.partial"):
+                    (self.path / name).unlink()
+            if store:
+                before = self.rows("o.sqlite")
+                with self.started(*words[:-1] if quiet else words, "--resume") as program:
+                    time.sleep(0.8)
+                    program.send_signal(signal.SIGINT)
+                    told = program.communicate(timeout=60)[1]
+                self.assertIn(kept, told)
+                self.assertGreater(self.rows("o.sqlite"), before)
+                for name in self.names():
+                    if name.startswith("o."):
+                        (self.path / name).unlink()
+
+    def test_a_search_and_a_contest_name_the_store_that_has_their_runs(self):
+        for words, what in ((["design", "--optimise", PLAN], "the search"), (["compare", "maxon-251601", "--runs", "2000"], "compare maxon-251601")):
+            with self.subTest(what), self.started(*words, "--jobs", "1", "--store", "s.sqlite") as program:
+                self.wait_until(lambda: (self.path / "s.sqlite").exists(), seconds=60)
+                time.sleep(0.3)
+                program.send_signal(signal.SIGINT)
+                told = program.communicate(timeout=60)[1]
+                self.assertEqual(program.returncode, 130, told)
+                self.assertIn(f"{what}: interrupted; what has run is kept in s.sqlite, and the same command with --resume goes on\n", told)
+            (self.path / "s.sqlite").unlink()
 
     def test_curves(self):
         for duty, latest in (("1", 0.1), ("0.5", 0.5)):

@@ -85,12 +85,10 @@ TEST(Check, EachContradictionIsFoundAndNamed) {
          s.control.current = {.type = CurrentLoopType::hysteresis};
        }},
       {"reference.unit", [](Scenario& s) { s.reference.unit = "V"; }},
-      {"reference.times_s", [](Scenario& s) { s.reference.shape = study::Shape::steps; }},
+      {"reference.times_s", [](Scenario& s) { s.reference = {.shape = study::Shape::steps}; }},
       {"reference.values",
        [](Scenario& s) {
-         s.reference.shape = study::Shape::steps;
-         s.reference.times_s = {0.0, 1e-3};
-         s.reference.values = {1.0};
+         s.reference = {.shape = study::Shape::steps, .times_s = {0.0, 1e-3}, .values = {1.0}};
        }},
       {"load.times_s",
        [](Scenario& s) {
@@ -232,8 +230,7 @@ TEST(Check, ASheetWithoutANominalCurrentNeedsTheTorqueLimit) {
 TEST(Check, DutyBeyondOneIsNamedByTheKeyThatHoldsIt) {
   Scenario s = maxon_scenario(control::Mode::duty, 1.5);
   EXPECT_THAT(places(s), ::testing::ElementsAre("reference.value"));
-  s.reference.shape = study::Shape::square;
-  s.reference.high = -2.0;
+  s.reference = {.shape = Shape::square, .high = -2.0};
   EXPECT_THAT(places(s), ::testing::ElementsAre("reference.high"));
   s.reference.high = 0.5;
   s.reference.low = -2.0;

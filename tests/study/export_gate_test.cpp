@@ -63,6 +63,42 @@ TEST(ExportGate, IdealSensorsAreRefusedWhereTheDriveReadsThem) {
   EXPECT_THAT(unmeasured(s), IsEmpty()) << "nothing is read";
 }
 
+/// What the first message says is all: with it done nothing else is refused, neither by the check nor by the gate.
+TEST(ExportGate, TheCureOfAnotherSensorIsAllThatHasToChange) {
+  const Scenario usual = on_a_board(Mode::position);
+  for (const study::RotorSensing rotor :
+       {study::RotorSensing::encoder, study::RotorSensing::absolute, study::RotorSensing::resolver})
+    for (const study::SensorShaft shaft : {study::SensorShaft::motor, study::SensorShaft::load}) {
+      Scenario s = usual;
+      s.sensors.rotor = rotor;
+      s.sensors.shaft = shaft;
+      s.sensors.resolver.excitation_Hz = 0.5 / s.pwm.period_s;
+      s.pwm.commutation = study::CommutationAt::sample;
+      if (shaft == study::SensorShaft::load) s.load.gear = 2.0;
+      const bool encoder = rotor == study::RotorSensing::encoder;
+      if (encoder) {
+        s.at = {{.time_s = 1e-3}};
+        s.at[0].sensors.missed_edges = 40;
+        s.record.columns = {"encoder_A"};
+      }
+      ASSERT_TRUE(study::check(s).empty()) << to_string(study::check(s)[0]);
+      const base::Problems told = study::never_measured(s);
+      ASSERT_THAT(wheres(told), ElementsAre("sensors.rotor"));
+      const std::string& cure = told[0].cure;
+      EXPECT_NE(cure.find("set rotor = \"hall\""), cure.npos) << cure;
+      EXPECT_EQ(cure.find("and shaft = \"motor\"") != cure.npos, shaft == study::SensorShaft::load) << cure;
+      EXPECT_EQ(cure.find("at[0].sensors.missed_edges") != cure.npos, encoder) << cure;
+      EXPECT_EQ(cure.find("record.columns = \"encoder_A\"") != cure.npos, encoder) << cure;
+      EXPECT_NE(cure.find("gains and [[require]] designed for edges"), cure.npos) << cure;
+      s.sensors.rotor = study::RotorSensing::hall;
+      if (cure.find("shaft = ") != cure.npos) s.sensors.shaft = study::SensorShaft::motor;
+      if (cure.find("missed_edges") != cure.npos) s.at.clear();
+      if (cure.find("encoder_A") != cure.npos) s.record.columns.clear();
+      EXPECT_THAT(unmeasured(s), IsEmpty());
+      EXPECT_TRUE(study::check_columns(s).empty());
+    }
+}
+
 TEST(ExportGate, AnAnswerWithoutDelayIsRefused) {
   Scenario s = on_a_board(Mode::current);
   s.pwm.delay_periods = 0;

@@ -121,6 +121,22 @@ TEST(ReferenceCourse, RowsAreJoinedOrHeldAndRunOnAtBothEnds) {
   EXPECT_FALSE(reference_moves(with(r), 0.0, 9.0));
 }
 
+TEST(ReferenceCourse, RestsWhereItsLastWayEnds) {
+  const auto rests = [](const Reference& r) { return reference_rests_from_s(with(r)); };
+  const Reference ramp{.shape = Shape::ramp, .begin_s = 1.0, .end = 6.0, .slope = 0.5};
+  EXPECT_EQ(rests(ramp), 13.0) << "behind the run's end, which is 10 s";
+  EXPECT_EQ(rests({.shape = Shape::csv, .times_s = {1.0, 12.0}, .values = {5.0, 7.0}}), 12.0);
+  EXPECT_EQ(rests({.shape = Shape::steps, .times_s = {0.0, 9.0}, .values = {5.0, 7.0}}), 0.0);
+  EXPECT_EQ(rests({.shape = Shape::square, .high = 4.0, .low = -4.0, .period_s = 1e-3}), 0.0);
+  EXPECT_EQ(rests({.shape = Shape::sine, .amplitude = 1.0, .frequency_Hz = 1.0}), std::nullopt);
+  // What takes over decides, and what came before it only where it had come to.
+  Scenario s = with({.shape = Shape::sine, .amplitude = 1.0, .frequency_Hz = 1.0});
+  s.at.push_back({.time_s = 5.0, .reference = Reference{.value = 1.0}});
+  EXPECT_EQ(reference_rests_from_s(s), 5.0);
+  s.at.push_back({.time_s = 6.0, .reference = ramp});
+  EXPECT_EQ(reference_rests_from_s(s), 17.0);
+}
+
 TEST(ReferenceCourse, AnEventTakesOverWhereTheReferenceStood) {
   Scenario s = with({.shape = Shape::square, .high = 4.0, .low = -4.0, .period_s = 2.0});
   // Times count from the event, which replaces all that the square would still have done.

@@ -31,6 +31,22 @@ study::Scenario as_at_the_end(const study::Scenario& s) {
   return study::settled(s, events.empty() ? nullptr : events.back());
 }
 
+/// A way that ends where the run does has come to where it is held: what the drive still lags behind dies away in the multisine's
+/// first period, as after a step.
+base::Problems still_moving(const study::Scenario& run) {
+  constexpr double rounding = 1e-12;
+  const std::optional<double> rests_s = study::reference_rests_from_s(run);
+  if (!rests_s)
+    return {{"reference", "", "never comes to rest, and a loop is measured around a value that is held",
+             "let it stand: shape = \"constant\""}};
+  if (!(*rests_s > run.duration_s * (1 + rounding))) return {};
+  return {{"reference", "",
+           "moves until " + base::written(*rests_s) +
+               " s, and the measurement begins where the run ends, at " + base::written(run.duration_s) +
+               " s",
+           "set duration_s = " + base::written(*rests_s) + ", or let it stand: shape = \"constant\""}};
+}
+
 /// `run` is the scenario as written, `s` the one of the chip at its end.
 base::Problems not_measurable(const study::Scenario& run, const study::Scenario& s) {
   base::Problems problems;
@@ -45,9 +61,7 @@ base::Problems not_measurable(const study::Scenario& run, const study::Scenario&
     problems.push_back({"control.position.profile", "",
                         "shapes the setpoint, which would hide the loop behind it",
                         "leave it out for this measurement"});
-  if (problems.empty() && study::reference_moves(run, run.duration_s - run.pwm.period_s, run.duration_s))
-    problems.push_back({"reference", "", "still moves at the end of the run, where the measurement begins",
-                        "let it stand there: shape = \"constant\", or a longer duration_s"});
+  if (problems.empty()) append(problems, still_moving(run));
   return problems;
 }
 

@@ -127,7 +127,9 @@ std::vector<DesignSpec> single_changes(const DesignOrder& order, const DriveDesi
   if (w.rotor.hall && w.rotor.edges > 1) with([](DesignSpec& n) { n.rotor.edges = 1; });
   if (w.rotor.hall && w.mode == Mode::position)
     with([&](DesignSpec& n) { n.rotor = encoder(order, w.period_s); });
-  if (w.method == design::GainMethod::pole_placement && w.mode == Mode::current)
+  // A damping that somebody chose is of placed poles: the other method has no use for it.
+  if (w.method == design::GainMethod::pole_placement && w.mode == Mode::current &&
+      w.damping == design::usual_damping)
     with([](DesignSpec& n) { n.method = design::GainMethod::cancellation; });
   add_slower(w, d, out);
   add_torque(d, w, out);
@@ -171,7 +173,8 @@ std::string words_of_change(const DesignSpec& before, const DesignSpec& after) {
                           const std::optional<double>& is) {
     if (is && was != is) say(name, base::written(*is));
   };
-  if (after.rotor.shaft.kind != before.rotor.shaft.kind) say("rotor", "encoder");
+  if (after.rotor.shaft.kind != before.rotor.shaft.kind)
+    say("rotor", before.rotor.hall && before.rotor.edges > 0 ? "encoder without edges" : "encoder");
   if (after.method != before.method) say("method", "cancellation");
   number("period_s", before.period_s, after.period_s);
   if (after.chopping != before.chopping)

@@ -7,6 +7,7 @@
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/sheet/motion.hpp"
 #include "sixstep/study/check/reference_cures.hpp"
+#include "sixstep/study/check/reference_keys.hpp"
 #include "sixstep/study/scenario/changes.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
@@ -46,27 +47,14 @@ void check_unit(const Place& p) {
           cure_of_unit(*p.r.unit, mode, motion));
 }
 
-/// A key that only another shape reads was meant to do something.
 void check_strays(const Place& p) {
-  const Reference& r = p.r;
-  const bool move = r.shape == Shape::ramp || r.shape == Shape::trapezoid;
-  const auto stray = [&p](const char* key, bool given, bool read, const char* shapes) {
-    if (given && !read)
-      p.say(key, "", "means nothing for " + p.shape(),
-            std::string("set shape = ") + shapes + ", or remove it");
-  };
-  stray("begin_s", r.begin_s != 0, move, "\"ramp\" or \"trapezoid\"");
-  stray("start", r.start.has_value(), move, "\"ramp\" or \"trapezoid\"");
-  stray("end", r.end != 0, move, "\"ramp\" or \"trapezoid\"");
-  stray("end_s", r.end_s.has_value(), r.shape == Shape::ramp, "\"ramp\"");
-  stray("slope", r.slope.has_value(), move, "\"ramp\" or \"trapezoid\"");
-  stray("acceleration", r.acceleration.has_value(), r.shape == Shape::trapezoid, "\"trapezoid\"");
-  stray("offset", r.offset != 0, r.shape == Shape::sine, "\"sine\"");
-  stray("amplitude", r.amplitude != 0, r.shape == Shape::sine, "\"sine\"");
-  stray("frequency_Hz", r.frequency_Hz != 0, r.shape == Shape::sine, "\"sine\"");
-  stray("phase_deg", r.phase_deg != 0, r.shape == Shape::sine, "\"sine\"");
-  stray("file", !r.file.empty(), r.shape == Shape::csv, "\"csv\"");
-  stray("column", r.column.has_value(), r.shape == Shape::csv, "\"csv\"");
+  for (const ShapeKey& key : shape_keys)
+    if (key.given(p.r) && !reads(p.r.shape, key))
+      p.say(key.key, "", "means nothing for " + p.shape(),
+            "set shape = " + readers_of(key) + ", or remove it");
+  if (p.r.shape == Shape::csv && p.r.column && p.r.file.empty() && !p.r.times_s.empty())
+    p.say("column", "\"" + *p.r.column + "\"", "is of a file, and times_s and values are no file",
+          "give file = \"NAME.csv\" instead of them, or remove it");
 }
 
 void check_ramp(const Place& p) {

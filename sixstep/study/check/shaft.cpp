@@ -33,6 +33,20 @@ void check_table(const Load& l, base::Problems& out) {
     }
 }
 
+/// A torque that the table has replaced before the run's first instant is over, and a way from point to point of no table.
+void check_torques(const Scenario& s, base::Problems& out) {
+  const Load& l = s.load;
+  check_steps(l.times_s, l.torques_Nm, "load", "torques_Nm",
+              l.between == Between::lines ? endless : s.duration_s, out);
+  if (l.torque_Nm != 0 && !l.times_s.empty() && l.times_s.front() == 0)
+    out.push_back({"load.torque_Nm", base::six_digits(l.torque_Nm),
+                   "never acts: load.torques_Nm has the torque from load.times_s[0] = 0 on",
+                   "leave it away, or let times_s begin later"});
+  if (l.between == Between::lines && l.times_s.empty() && l.torques_Nm.empty())
+    out.push_back({"load.between", "\"lines\"", "is of load.torques_Nm, which is not given",
+                   "give load.times_s and load.torques_Nm, or leave it away"});
+}
+
 /// Whose speed is given has no other law.
 void check_dynamometer(const Scenario& s, base::Problems& out) {
   const Load& l = s.load;
@@ -83,8 +97,7 @@ void check_shaft(const Scenario& s, base::Problems& out) {
   if (l.locked && s.initial.speed_rad_s != 0)
     out.push_back({"initial.speed_rad_s", base::six_digits(s.initial.speed_rad_s),
                    "contradicts load.locked = true", "set it to 0 or unlock the rotor"});
-  check_steps(l.times_s, l.torques_Nm, "load", "torques_Nm",
-              l.between == Between::lines ? endless : s.duration_s, out);
+  check_torques(s, out);
 }
 
 }  // namespace sixstep::study

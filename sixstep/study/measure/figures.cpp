@@ -107,15 +107,36 @@ bool tells_apart(const Requirement& r, double samples, double whole) {
   return meets(r, samples) != meets(r, whole);
 }
 
-std::string sample_note(const Scenario& s, const std::string& figure, double samples, double whole,
-                        std::string_view unit) {
-  const bool middle = s.pwm.sample == SampleAt::middle && s.pwm.alignment == Alignment::centre;
-  return figure + " is " + base::rounded(samples, 4) + " " + std::string(unit) +
-         " at the controller's samples and " + base::rounded(whole, 4) + " " + std::string(unit) +
+/// Of a figure that a ripple does not enter: what it is of the whole signal, samples beside the ripple's mean tell too.
+bool levels_the_ripple(MetricKind metric) {
+  return metric == MetricKind::mean || metric == MetricKind::rms || metric == MetricKind::steady_error;
+}
+
+/// Comparators wait for no sample, a deadbeat step answers one at the period's start, three legs have their own place for it.
+bool may_sample_in_the_middle(const Control& c) {
+  return (c.drive == FirmwareKind::lean || c.drive == FirmwareKind::product) &&
+         c.current.type == CurrentLoopType::pi;
+}
+
+/// In the middle of a centred pulse a current passes its mean, but for the dead time by which a pulse begins late. A largest value, an
+/// overshoot or a ripple has the ripple in it wherever the sample stands.
+std::string cure_of_samples(const Scenario& s, const Measure& m) {
+  const std::string whole = "sampled = false judges the whole signal";
+  if (!levels_the_ripple(m.metric)) return whole + ", with the ripple that no sample sees";
+  const bool is_so = s.pwm.sample == SampleAt::middle && s.pwm.alignment == Alignment::centre;
+  if (is_so || unit_of(m.signal) != "A" || !may_sample_in_the_middle(s.control)) return whole;
+  return "pwm.alignment = \"centre\" with pwm.sample = \"middle\" samples next to the mean; or " + whole;
+}
+
+std::string sample_note(const Scenario& s, const Measure& m, double samples, double whole,
+                        const base::LinearUnit& unit) {
+  const auto told = [&unit](double x) {
+    return base::rounded(x * unit.factor, 4) + " " + std::string(unit.linear);
+  };
+  return figure_name(s, m) + " is " + told(samples) + " at the controller's samples and " + told(whole) +
          " of the whole signal, which differ by more than the requirement allows: each sample stands at the same place of the "
          "PWM's ripple; " +
-         (middle ? "sampled = false judges the whole signal"
-                 : "pwm.alignment = \"centre\" with pwm.sample = \"middle\" samples next to the mean");
+         cure_of_samples(s, m);
 }
 
 Taken taken_by(const Measure& m, const Scenario& scenario, const std::vector<Level>& levels) {
@@ -200,8 +221,7 @@ void Figures::judge(const Scenario& scenario, Outcome& outcome) const {
     const double whole = next();
     const base::LinearUnit unit = unit_in(scenario, figure_unit(r.measure));
     if (tells_apart(r, judged[k], whole))
-      outcome.notes.push_back(sample_note(scenario, figure_name(scenario, r.measure), judged[k] * unit.factor,
-                                          whole * unit.factor, unit.linear));
+      outcome.notes.push_back(sample_note(scenario, r.measure, judged[k], whole, unit));
   }
 }
 

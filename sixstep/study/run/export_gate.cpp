@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/study/run/export_gate.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "sixstep/base/written.hpp"
+#include "sixstep/design/sheet/parameters.hpp"
+#include "sixstep/study/check/check.hpp"
 #include "sixstep/study/scenario/changes.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
 
@@ -53,8 +58,42 @@ bool reads_rotor(const Scenario& s) {
   return is_cascade(s) || in_the_field(s) || (has_current_loop(s) && within_current_loop);
 }
 
+/// What is of the sensor that goes, by its keys: found by asking for the scenario without it. Empty where nothing is.
+std::string of_this_sensor(const Scenario& s, const Scenario& without) {
+  const auto found = [](const Scenario& x) {
+    base::Problems all = check_columns(x);
+    append(all, check(x));
+    return all;
+  };
+  const base::Problems before = found(s);
+  std::vector<std::string> keys;
+  for (const base::Problem& p : found(without)) {
+    const std::string key = p.value.empty() ? p.where : p.where + " = " + p.value;
+    const bool known = std::find(before.begin(), before.end(), p) != before.end();
+    if (!known && std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+  }
+  std::string words;
+  for (const std::string& key : keys) words += (words.empty() ? "" : ", ") + key;
+  return words;
+}
+
+/// All that has to change for Hall probes in the place of another sensor, at once.
+std::string cure_by_hall(const Scenario& s) {
+  Scenario without = s;
+  without.sensors.rotor = RotorSensing::hall;
+  without.sensors.shaft = SensorShaft::motor;
+  std::string cure = "set rotor = \"hall\"";
+  if (s.sensors.shaft == SensorShaft::load) cure += " and shaft = \"motor\"";
+  if (const std::string gone = of_this_sensor(s, without); !gone.empty())
+    cure += ", leave out what is of the other sensor (" + gone + ")";
+  if (!is_cascade(s)) return cure;
+  const base::Result<design::MotorModel> motor = design::motor_model(s.sheet);
+  const std::string step = motor ? base::three_digits(60.0 / motor->machine.pole_pairs) + " deg" : "a step";
+  return cure + ", and have gains and [[require]] designed for edges that come " + step + " apart";
+}
+
 void look_at_sensors(const Scenario& s, base::Problems& out) {
-  const auto ideal = [&out](const char* key, const char* what, const char* cure) {
+  const auto ideal = [&out](const char* key, const char* what, const std::string& cure) {
     out.push_back({key, "\"ideal\"", std::string("tells the drive ") + what, cure});
   };
   if (reads_rotor(s) && s.sensors.rotor == RotorSensing::ideal)
@@ -63,10 +102,11 @@ void look_at_sensors(const Scenario& s, base::Problems& out) {
                           : "speed and position at every instant, and a board has the Hall edges",
           in_the_field(s)
               ? "set rotor = \"encoder\", \"absolute\" or \"resolver\", or \"hall\" with hall_angle"
-              : "set rotor = \"hall\"");
+              : cure_by_hall(s));
   if (!in_the_field(s) && s.sensors.rotor != RotorSensing::ideal && s.sensors.rotor != RotorSensing::hall)
-    out.push_back({"sensors.rotor", std::string(base::word(rotor_sensing_choices, s.sensors.rotor)),
-                   "has no decoder in the header's drive, which reads Hall probes", "set rotor = \"hall\""});
+    out.push_back({"sensors.rotor",
+                   '"' + std::string(base::word(rotor_sensing_choices, s.sensors.rotor)) + '"',
+                   "has no decoder in the header's drive, which reads Hall probes", cure_by_hall(s)});
   if (reads_currents(s) && s.sensors.currents == rig::CurrentMeasurement::ideal)
     ideal("sensors.currents", "currents that no amplifier and converter have been through",
           in_the_field(s) ? "set currents = \"phases\" and current_range_A"

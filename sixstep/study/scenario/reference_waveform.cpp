@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sixstep/study/scenario/changes.hpp"
+#include "sixstep/study/scenario/reference_description.hpp"
 
 namespace sixstep::study {
 
@@ -153,6 +154,21 @@ bool reference_moves(const Scenario& s, double from_s, double to_s) {
         end_of(stretches, n, s.duration_s) > from_s)
       return true;
   return false;
+}
+
+std::optional<double> reference_rests_from_s(const Scenario& s) {
+  Scenario longer = s;
+  const Reference* last = &s.reference;
+  for (const At* at : in_order(s))
+    if (at->reference) last = &*at->reference;
+  // A square wave has a level each half period for ever, and the one that the run ends in is as good as those behind it.
+  if (last->shape != Shape::square) longer.duration_s = longest_s;
+  const std::vector<Stretch> stretches = reference_waveform(longer);
+  if (stretches.back().waveform.moves()) return std::nullopt;
+  double rests_s = 0.0;
+  for (std::size_t n = 0; n + 1 < stretches.size(); ++n)
+    if (stretches[n].waveform.moves()) rests_s = stretches[n + 1].at_s;
+  return rests_s;
 }
 
 }  // namespace sixstep::study

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The reference over a whole run, in closed form: stretches that stand or move, [[at]] events included.
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "sixstep/rig/timeline.hpp"
@@ -33,5 +34,9 @@ double largest_reference(const Scenario& scenario);
 
 /// Whether the reference moves anywhere in [from_s, to_s).
 bool reference_moves(const Scenario& scenario, double from_s, double to_s);
+
+/// The instant in s from which on the reference would not move any more if the run went on, behind its end too; 0 where it never
+/// moves. Steps and square waves are no movement. Empty: a sine, or a way longer than any run.
+std::optional<double> reference_rests_from_s(const Scenario& scenario);
 
 }  // namespace sixstep::study

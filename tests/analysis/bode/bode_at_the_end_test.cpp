@@ -2,6 +2,7 @@
 // A loop is measured where the scenario ends: with the chip that the events have made there, and on a drive that has come to rest.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -95,8 +96,8 @@ TEST(BodeAtTheEnd, AnEventsSlewAndRampAreRefused) {
   ramp.at[0].reference->end = 200;
   ramp.at[0].reference->begin_s = 0.01;
   ramp.at[0].reference->end_s = 0.1;
-  const std::string moves = "reference: still moves at the end of the run, where the measurement begins";
-  EXPECT_EQ(problem_of(ramp), moves);
+  EXPECT_EQ(problem_of(ramp),
+            "reference: moves until 0.11 s, and the measurement begins where the run ends, at 0.1 s");
   ramp.at[0].reference->end_s = 0.05;
   EXPECT_EQ(problem_of(ramp), "measured");
 }
@@ -111,6 +112,35 @@ TEST(BodeAtTheEnd, AStepJustBeforeTheEndChangesNothing) {
   ASSERT_TRUE(one) << to_string(one.problems()[0]);
   ASSERT_TRUE(other) << to_string(other.problems()[0]);
   EXPECT_LT(apart(*one, *other), 0.02);
+}
+
+/// A ramp that gets there with the run's end lags behind by what a step would, and less: its loop is that of a drive at rest. One
+/// that would go on is refused, and the duration that is told for it is one that works.
+TEST(BodeAtTheEnd, ARampThatEndsWithTheRunIsMeasured) {
+  study::Scenario rested = both_ways();
+  rested.reference.value = 200;
+  study::Scenario ramp = both_ways();
+  ramp.reference = {.shape = study::Shape::ramp, .end = 200, .end_s = ramp.duration_s};
+  study::Scenario profile = both_ways();
+  profile.reference = {.shape = study::Shape::trapezoid, .end = 200, .slope = 4000, .acceleration = 80e3};
+  const auto one = analysis::study_bode(rested);
+  ASSERT_TRUE(one) << to_string(one.problems()[0]);
+  for (const study::Scenario& s : {ramp, profile}) {
+    const auto other = analysis::study_bode(s);
+    ASSERT_TRUE(other) << to_string(other.problems()[0]);
+    EXPECT_EQ(other->stands_at, 200.0);
+    EXPECT_LT(apart(*one, *other), 0.02);
+  }
+  for (study::Scenario s : {ramp, profile}) {
+    s.duration_s = 0.07;
+    const auto refused = analysis::study_bode(s);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.problems()[0].where, "reference");
+    const std::string& cure = refused.problems()[0].cure;
+    ASSERT_TRUE(cure.starts_with("set duration_s = ")) << cure;
+    s.duration_s = std::stod(cure.substr(std::string("set duration_s = ").size()));
+    EXPECT_EQ(problem_of(s), "measured");
+  }
 }
 
 /// J = 1e-2 kg m^2 and 0.195 N m, 2.5 times the nominal torque: 400 rad/s take 20 s. A straight way has the same lines in every

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faces/cli/design_use.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string_view>
+
+#include "sixstep/design/loops/spec_use.hpp"
+
+namespace cli {
+namespace {
+
+constexpr const char* in_scenario = "say it in the scenario, in control, pwm, supply, sensors or load";
+constexpr const char* by_bandwidth = "see control.field.bandwidth_Hz";
+constexpr const char* not_written = "leave it out: --json has all numbers";
+
+struct Use {
+  const char* option;
+  bool (*given)(const DesignArguments&);
+  std::string_view member;  ///< of the spec; empty: read by every design of gains
+  const char* in_field;     ///< the cure where a field-oriented drive has no use for it; nullptr: it has
+  bool in_optimise;         ///< whether --optimise reads it
+};
+
+using A = DesignArguments;
+
+/// All options but those that only say how: --force, --quiet, --jobs, --data and what --optimise alone has.
+constexpr Use uses[] = {
+    {"MOTOR", [](const A& a) { return !a.motor.empty(); }, "", "leave it out: the scenario names its motor",
+     false},
+    {"--scenario", [](const A& a) { return !a.scenario.empty(); }, "", nullptr, false},
+    {"--mode", [](const A& a) { return a.mode.has_value(); }, "mode", in_scenario, false},
+    {"--method", [](const A& a) { return a.method != A{}.method; }, "method", by_bandwidth, false},
+    {"--bandwidth", [](const A& a) { return a.bandwidth_rad_s.has_value(); }, "bandwidth_rad_s", by_bandwidth,
+     false},
+    {"--chopping", [](const A& a) { return a.chopping.has_value(); }, "chopping", in_scenario, false},
+    {"--rotor", [](const A& a) { return a.rotor.has_value(); }, "rotor", in_scenario, false},
+    {"--edges", [](const A& a) { return a.edges.has_value(); }, "edges", in_scenario, false},
+    {"--currents", [](const A& a) { return a.currents.has_value(); }, "", in_scenario, false},
+    {"--settle", [](const A& a) { return a.settle_s.has_value(); }, "settle_s", in_scenario, false},
+    {"--current-settle", [](const A& a) { return a.current_settle_s.has_value(); }, "current_settle_s",
+     in_scenario, false},
+    {"--damping", [](const A& a) { return a.damping.has_value(); }, "damping", in_scenario, false},
+    {"--period", [](const A& a) { return a.period_s.has_value(); }, "period_s", in_scenario, false},
+    {"--delay", [](const A& a) { return a.delay_periods.has_value(); }, "delay_periods", in_scenario, false},
+    {"--voltage", [](const A& a) { return a.voltage_V.has_value(); }, "voltage_V", in_scenario, false},
+    {"--torque-limit", [](const A& a) { return a.torque_limit_Nm.has_value(); }, "torque_limit_Nm",
+     in_scenario, false},
+    {"--force-limit", [](const A& a) { return a.force_limit_N.has_value(); }, "torque_limit_Nm", in_scenario,
+     false},
+    {"--load-inertia", [](const A& a) { return a.load_inertia_kg_m2.has_value(); }, "load_inertia_kg_m2",
+     in_scenario, false},
+    {"--load-mass", [](const A& a) { return a.load_mass_kg.has_value(); }, "load_inertia_kg_m2", in_scenario,
+     false},
+    {"--lowest-speed", [](const A& a) { return a.lowest_speed_rad_s.has_value(); }, "lowest_speed_rad_s",
+     "it is the reference's own lowest", false},
+    {"--step", [](const A& a) { return a.step.has_value(); }, "",
+     "nothing is simulated: sixstep run does that", false},
+    {"--quick", [](const A& a) { return a.quick; }, "",
+     "leave it out: it is computed in closed form, without tolerances", false},
+    {"--json", [](const A& a) { return !a.json.empty(); }, "", nullptr, true},
+    {"--toml", [](const A& a) { return !a.toml.empty(); }, "", not_written, true},
+    {"--html", [](const A& a) { return !a.html.empty(); }, "", not_written, false},
+    {"--models", [](const A& a) { return !a.models.empty(); }, "", not_written, false},
+};
+
+}  // namespace
+
+base::Problems unread_by(const design::DesignSpec& spec, const DesignArguments& a) {
+  base::Problems found;
+  for (const Use& use : uses)
+    if (use.given(a))
+      if (std::optional<base::Problem> idle = design::without_use(spec, use.member)) {
+        idle->where = use.option;
+        found.push_back(std::move(*idle));
+      }
+  return found;
+}
+
+base::Problems of_other_motion(const design::Sheet& sheet, const DesignArguments& a) {
+  base::Problems found;
+  const bool linear = sheet.kind == design::MotorKind::linear;
+  const auto refuse = [&](const std::optional<double>& given, const char* option, const char* instead) {
+    if (given)
+      found.push_back({option, fmt::format("{}", *given),
+                       linear ? "is a turning motor's, and this one is linear"
+                              : "is a linear motor's, and this one turns",
+                       fmt::format("write {}", instead)});
+  };
+  refuse(linear ? a.torque_limit_Nm : a.force_limit_N, linear ? "--torque-limit" : "--force-limit",
+         linear ? "--force-limit" : "--torque-limit");
+  refuse(linear ? a.load_inertia_kg_m2 : a.load_mass_kg, linear ? "--load-inertia" : "--load-mass",
+         linear ? "--load-mass" : "--load-inertia");
+  return found;
+}
+
+base::Problems unread_by_field_design(const DesignArguments& a) {
+  base::Problems found;
+  for (const Use& use : uses)
+    if (use.in_field != nullptr && use.given(a))
+      found.push_back({use.option, "", "is of six-step's design, and the scenario's drive is field-oriented",
+                       use.in_field});
+  return found;
+}
+
+base::Problems unread_by_optimise(const DesignArguments& a) {
+  base::Problems found;
+  for (const Use& use : uses)
+    if (!use.in_optimise && use.given(a))
+      found.push_back({use.option, "", "is of a design's own, and with --optimise the plan says all",
+                       "leave it out, or say it in the plan or its scenario"});
+  return found;
+}
+
+}  // namespace cli

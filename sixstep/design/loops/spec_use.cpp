@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/design/loops/spec_use.hpp"
+
+#include <string>
+
+namespace sixstep::design {
+namespace {
+
+using control::Mode;
+
+bool current_alone(const DesignSpec& w) { return w.mode == Mode::current; }
+bool no_probes(const DesignSpec& w) { return !w.rotor.hall; }
+bool never_late(const DesignSpec& w) { return !w.rotor.lags(); }
+bool cancels(const DesignSpec& w) { return w.method == GainMethod::cancellation; }
+bool cancels_alone(const DesignSpec& w) { return cancels(w) && current_alone(w); }
+bool by_bandwidth(const DesignSpec& w) { return cancels(w) && w.bandwidth_rad_s.has_value(); }
+bool by_bandwidth_alone(const DesignSpec& w) { return by_bandwidth(w) && current_alone(w); }
+bool symmetrical(const DesignSpec& w) { return w.method == GainMethod::symmetrical_optimum; }
+
+struct Idle {
+  std::string_view member;
+  bool (*where)(const DesignSpec&);
+  const char *limit, *cure;
+};
+
+constexpr const char* with_speed = "add mode = speed or mode = position, or leave it out";
+constexpr const char* one_of_two = "keep one of the two";
+
+/// Of a member that stands in several rows the first that holds is told.
+constexpr Idle idles[] = {
+    {"current_settle_s", current_alone,
+     "is of the loop within a speed loop, and the current loop of mode = current has none around it",
+     "give settle_s, or add mode = speed or mode = position"},
+    {"current_settle_s", by_bandwidth, "says what bandwidth_rad_s says already", one_of_two},
+    {"torque_limit_Nm", current_alone, "is the full output of a speed loop, and mode = current has none",
+     with_speed},
+    {"lowest_speed_rad_s", current_alone, "is what a speed loop is to hold, and mode = current has none",
+     with_speed},
+    {"lowest_speed_rad_s", never_late,
+     "is where a sensor tells the speed at its latest, and ideal ones are never late",
+     "take rotor = hall or another sensor, or leave it out"},
+    {"load_inertia_kg_m2", current_alone,
+     "is moved by a speed loop, and mode = current has none: its rotor is held", with_speed},
+    {"edges", current_alone, "is of a speed that a loop holds, and mode = current has none", with_speed},
+    {"edges", no_probes, "is of Hall probes, and the rotor has none", "take rotor = hall, or leave it out"},
+    {"damping", cancels_alone, "is of poles that are placed, and cancellation places none",
+     "take method = pole-placement, or leave it out"},
+    {"settle_s", by_bandwidth_alone, "says what bandwidth_rad_s says already", one_of_two},
+    {"settle_s", symmetrical,
+     "is of poles that are placed, and the symmetrical optimum is as fast as the current loop lets it",
+     "give current_settle_s, or take method = pole-placement"},
+};
+
+}  // namespace
+
+std::optional<base::Problem> without_use(const DesignSpec& spec, std::string_view member) {
+  for (const Idle& idle : idles)
+    if (idle.member == member && idle.where(spec))
+      return base::Problem{std::string(member), "", idle.limit, idle.cure};
+  return std::nullopt;
+}
+
+}  // namespace sixstep::design

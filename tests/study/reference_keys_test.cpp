@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// No key of a reference is without effect: each either changes what is asked for over time, or is refused by name.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "sixstep/study/check/check.hpp"
+#include "sixstep/study/check/reference_keys.hpp"
+#include "sixstep/study/scenario/reference_description.hpp"
+#include "sixstep/study/scenario/reference_waveform.hpp"
+#include "tests/support/scenarios.hpp"
+
+namespace {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using study::Reference;
+using study::Shape;
+
+std::vector<Reference> one_of_each_shape() {
+  return {{.value = 1.0},
+          {.shape = Shape::steps, .times_s = {0.0, 1e-3}, .values = {1.0, 2.0}},
+          {.shape = Shape::square, .high = 4.0, .low = -4.0, .period_s = 2e-3},
+          {.shape = Shape::ramp, .begin_s = 1e-3, .start = 1.0, .end = 6.0, .end_s = 5e-3},
+          {.shape = Shape::sine, .offset = 1.0, .amplitude = 1.0, .frequency_Hz = 100.0, .phase_deg = 90.0},
+          {.shape = Shape::trapezoid,
+           .begin_s = 1e-3,
+           .start = 1.0,
+           .end = 6.0,
+           .slope = 2e3,
+           .acceleration = 2e6},
+          {.shape = Shape::csv, .times_s = {0.0, 1e-3}, .values = {1.0, 2.0}}};
+}
+
+/// Walks the description: counts the keys, and gives the n-th another value that a run could have.
+struct AnotherValue {
+  std::size_t wanted, n = 0;
+  std::string key{};
+
+  template <class T, class Change>
+  void at(std::string_view name, T& member, const Change& change) {
+    if (n++ != wanted) return;
+    key = name;
+    change(member);
+  }
+  void value(std::string_view name, double& x, const base::About&) {
+    at(name, x, [](double& d) { d = d == 0.0 ? 1e-3 : 1.25 * d; });
+  }
+  void value(std::string_view name, std::optional<double>& x, const base::About&) {
+    at(name, x, [](std::optional<double>& d) { d = d.value_or(4e-3) * 1.25; });
+  }
+  void value(std::string_view name, std::vector<double>& x, const base::About&) {
+    at(name, x, [](std::vector<double>& list) {
+      if (list.empty()) list = {0.0, 1e-3};
+      list.back() *= 2;
+    });
+  }
+  void value(std::string_view name, std::string& x, const base::About&) {
+    at(name, x, [](std::string& text) { text = "x.csv"; });
+  }
+  void value(std::string_view name, std::optional<std::string>& x, const base::About&) {
+    at(name, x, [](std::optional<std::string>& text) { text = "speed"; });
+  }
+  template <class Enum, class Choices>
+  void choice(std::string_view name, Enum& x, const Choices& choices, const base::About&) {
+    at(name, x, [&](Enum& e) { e = std::end(choices)[-1].value; });
+  }
+};
+
+study::Scenario with(const Reference& r) {
+  study::Scenario s = maxon_scenario(control::Mode::current, 0.0);
+  s.duration_s = 10e-3;
+  s.reference = r;
+  return s;
+}
+
+bool asks_for_the_same(const Reference& one, const Reference& other) {
+  const std::vector<study::Stretch> a = study::reference_waveform(with(one)),
+                                    b = study::reference_waveform(with(other));
+  const auto at = [](const std::vector<study::Stretch>& all, double t_s) {
+    const auto next = std::find_if(all.begin(), all.end(), [t_s](const auto& s) { return s.at_s > t_s; });
+    return (next - 1)->at(t_s);
+  };
+  for (int n = 0; n < 500; ++n)
+    if (at(a, n * 2e-5) != at(b, n * 2e-5)) return false;
+  return true;
+}
+
+TEST(ReferenceKeys, EachChangesWhatIsAskedForOrIsRefusedByName) {
+  for (const Reference& good : one_of_each_shape()) {
+    ASSERT_TRUE(study::check(with(good)).empty()) << base::to_string(study::check(with(good))[0]);
+    std::size_t keys = 1, refused = 0;
+    for (std::size_t n = 0; n < keys; ++n) {
+      Reference changed = good;
+      AnotherValue walk{n};
+      describe(walk, changed);
+      keys = walk.n;
+      // What the file holds is read before this, and what the shape is decides about all others.
+      if (walk.key == "shape" || (walk.key == "file" && good.shape == Shape::csv)) continue;
+      const base::Problems problems = study::check(with(changed));
+      SCOPED_TRACE(walk.key + " of " + std::string(base::word(study::shape_choices, good.shape)));
+      if (problems.empty()) {
+        EXPECT_FALSE(asks_for_the_same(good, changed)) << "given, and without effect";
+        continue;
+      }
+      ++refused;
+      EXPECT_EQ(problems[0].where, "reference." + walk.key);
+      EXPECT_FALSE(problems[0].cure.empty());
+    }
+    EXPECT_GT(refused, 5u);
+  }
+}
+
+/// A key that is new in the description has a row, or is nobody's.
+TEST(ReferenceKeys, TheTableHasAllOfThem) {
+  std::vector<std::string> described, rows;
+  for (std::size_t n = 0, keys = 1; n < keys; ++n) {
+    Reference r;
+    AnotherValue walk{n};
+    describe(walk, r);
+    keys = walk.n;
+    if (walk.key != "shape" && walk.key != "unit") described.push_back(walk.key);
+  }
+  for (const study::ShapeKey& row : study::shape_keys) rows.emplace_back(row.key);
+  EXPECT_EQ(described, rows);
+}
+
+TEST(ReferenceKeys, ARampBesideAListIsRefused) {
+  Reference r = one_of_each_shape()[3];
+  r.times_s = {0.0, 1e-3};
+  r.values = {1.0, 2.0};
+  const base::Problems problems = study::check(with(r));
+  ASSERT_EQ(problems.size(), 2u);
+  EXPECT_EQ(
+      base::to_string(problems[0]),
+      "reference.times_s means nothing for shape = \"ramp\"; set shape = \"steps\" or \"csv\", or remove it");
+  EXPECT_EQ(problems[1].where, "reference.values");
+}
+
+TEST(ReferenceKeys, WhatATableOfTheLoadLeavesNothingForIsRefused) {
+  const auto told = [](const study::Load& load) {
+    study::Scenario s = with({.value = 1.0});
+    s.load = load;
+    const base::Problems problems = study::check(s);
+    return problems.empty() ? "" : problems[0].where;
+  };
+  study::Load load;
+  load.torque_Nm = 0.01;
+  load.times_s = {0.0};
+  load.torques_Nm = {0.02};
+  EXPECT_EQ(told(load), "load.torque_Nm");
+  load.times_s = {1e-3};
+  EXPECT_EQ(told(load), "") << "until then it acts";
+  study::Load lines;
+  lines.between = study::Between::lines;
+  EXPECT_EQ(told(lines), "load.between");
+}
+
+}  // namespace
