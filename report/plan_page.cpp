@@ -134,8 +134,8 @@ std::string statistics_row(const std::string& tag, const analysis::SpreadFigure&
       "<tr{}><th scope=\"row\">{}{}</th>{}{}", f.column.required && f.holds < runs ? " class=\"bad\"" : "",
       tag, escaped(f.column.name), number_cell(escaped(required)),
       number_cell(f.column.required ? fmt::format("{} of {}", count(f.holds), count(runs)) : ""));
-  for (const std::optional<double>& x : {s.min(), s.quantile(0.05), s.quantile(0.5), s.quantile(0.95),
-                                         s.max(), s.mean(), s.standard_deviation()})
+  for (const std::optional<double>& x :
+       {s.min(), s.quantile(0.05), s.median(), s.quantile(0.95), s.max(), s.mean(), s.standard_deviation()})
     row += value_cell(x, unit);
   return row + "</tr>\n";
 }

@@ -251,11 +251,12 @@ void declare_options(CLI::App& design, DesignArguments& a) {
   design.add_option("--force-limit", a.force_limit_N, "linear motor, for --torque-limit: in N");
   design.add_option("--rotor", a.rotor, "hall, encoder, absolute, resolver, or ideal; hall");
   design.add_option("--edges", a.edges,
-                    "Hall edges that a speed is taken over, 1 to 6; else 6 or 1, adaptive");
+                    "speed, position: Hall edges that a speed is taken over, 1 to 6; else 6 or 1, adaptive");
   design.add_option("--lowest-speed", a.lowest_speed_rad_s,
-                    "that is to be held, in rad/s or m/s; a tenth of what the bus reaches");
+                    "speed, position: that is to be held, in rad/s or m/s; a tenth of what the bus reaches");
   design.add_option("--currents", a.currents, "phases, dc-link or ideal; phases");
-  design.add_option("--load-inertia", a.load_inertia_kg_m2, "on the shaft, beside the rotor's, in kg m2; 0");
+  design.add_option("--load-inertia", a.load_inertia_kg_m2,
+                    "speed, position: on the shaft, beside the rotor's, in kg m2; 0");
   design.add_option("--load-mass", a.load_mass_kg,
                     "linear motor, for --load-inertia: on the slide, in kg; 0");
   design.add_option("--delay", a.delay_periods, "periods until a command counts, 0 or 1; 1");

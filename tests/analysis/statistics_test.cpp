@@ -34,6 +34,23 @@ TEST(Statistics, QuantilesAreValuesThatOccurred) {
   EXPECT_EQ(s.quantile(1.0), 40.0);
 }
 
+/// As many values lie above it as below.
+TEST(Statistics, TheMedianIsTheMiddleOrTheMeanOfTheTwoThere) {
+  EXPECT_EQ(of({30, 10, 40}).median(), 30.0);
+  EXPECT_EQ(of({30, 10, 40, 20}).median(), 25.0);
+  EXPECT_EQ(of({1, 2}).median(), 1.5);
+  EXPECT_EQ(of({7, 7}).median(), 7.0);
+  EXPECT_EQ(of({3}).median(), 3.0);
+  EXPECT_FALSE(of({}).median());
+  const double never = std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::max();
+  EXPECT_EQ(of({1, never}).median(), never) << "of two drives one never settles";
+  EXPECT_EQ(of({1, 2, never}).median(), 2.0);
+  EXPECT_EQ(of({never, never}).median(), never);
+  EXPECT_EQ(of({most, most}).median(), most);
+  // Mirrored values have the mirrored median, which no one-sided choice of the two has.
+  EXPECT_EQ(*of({-30, -10, -40, -20}).median(), -*of({30, 10, 40, 20}).median());
+}
+
 TEST(Statistics, OfOneValueThereIsNoDeviation) {
   EXPECT_EQ(of({3}).mean(), 3.0);
   EXPECT_EQ(of({3}).quantile(0.5), 3.0);

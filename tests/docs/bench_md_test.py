@@ -3,6 +3,7 @@
 """bench_md_test.py PROGRAM [--renew]: docs/bench.md shows what the program says of recordings, and what it says of real motors
 is what others measured of them."""
 import json
+import math
 import re
 
 import page
@@ -36,6 +37,19 @@ class BenchPage(page.PageTest):
         self.assertTrue(0.002 < parts[7]["value"] < 0.005)
         first, second = (channel["fundamental_V"]["value"] for channel in told["channels"])
         self.assertAlmostEqual(first / second, 1, delta=0.004)
+
+    def test_the_losses_of_cut_tops_are_those_of_a_cut_sine(self):
+        """By another way than the page's formulas: the wave itself, its Fourier integral, and it less the mean of its thirds of a turn."""
+        rows = {line.split("|")[1].strip(): [float(cell.split()[0]) for cell in line.split("|")[2:-1]]
+                for line in self.page.text.splitlines() if line.startswith(("| cut off, 1", "| fundamental too low", "| peak too low"))}
+        count = 14400
+        for cut, fundamental, peak in zip(*(rows[name] for name in ("cut off, 1 - c", "fundamental too low by", "peak too low by"))):
+            c = 1 - cut / 100
+            wave = [max(-c, min(c, math.sin(2 * math.pi * n / count))) for n in range(count)]
+            first = 2 / count * sum(u * math.sin(2 * math.pi * n / count) for n, u in enumerate(wave))
+            between = [u - (u + wave[(n + count // 3) % count] + wave[(n + 2 * count // 3) % count]) / 3 for n, u in enumerate(wave)]
+            for told, true in ((fundamental, 100 * (1 - first)), (peak, 100 * (1 - max(between)))):
+                self.assertAlmostEqual(told, true, delta=0.5 * 10 ** (-1 if told >= 10 else -2) + 1e-4)
 
     def test_what_the_simulator_was_told_is_found_again(self):
         told = json.loads(self.shell("./run motor identify turned.csv --json"))

@@ -29,7 +29,7 @@ const std::vector<MotorStyle>& motor_styles() {
          "terminals, or a drive's identification, tells."},
         {"inertia_gcm2",
          "Such sheets lack it. Most of it is the bell: its mass times the square of its mean radius, 0.03 kg at 13 mm make 51 g "
-         "cm2; or give rotor = \"outer\" with its measures instead. A propeller is the load's."}}},
+         "cm2; or give rotor = \"outer\" with rotor_radius_mm, rotor_inner_radius_mm and rotor_length_mm instead. A propeller is the load's."}}},
       {"servo",
        "torque per ampere rms, back-EMF per 1000 rpm, inertia with and without brake",
        "sine",

@@ -46,7 +46,7 @@ Json columns_json(const PlanStory& s) {
     figure["statistics"] = {{"count", t.count()},
                             {"least", stored_or_null(t.min())},
                             {"p5", stored_or_null(t.quantile(0.05))},
-                            {"median", stored_or_null(t.quantile(0.5))},
+                            {"median", stored_or_null(t.median())},
                             {"p95", stored_or_null(t.quantile(0.95))},
                             {"greatest", stored_or_null(t.max())},
                             {"mean", stored_or_null(t.mean())},

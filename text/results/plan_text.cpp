@@ -64,7 +64,7 @@ Cells cells_of(const Point& point, const PlanStory& story, bool asks) {
   for (std::size_t k = 0; k < point.values.size(); ++k)
     cells.push_back(value_text(point.values[k], story.columns.keys[k].unit));
   for (std::size_t n = 0; n < figures.size(); ++n) {
-    const std::optional<double> x = point.figures[n].quantile(0.5);
+    const std::optional<double> x = point.figures[n].median();
     const bool holds = !x || figures[n].holds(*x);
     cells.push_back(x ? quantity_text(*x, figures[n].unit, plan_digits) + (holds ? "" : " !") : "-");
   }

@@ -34,7 +34,7 @@ Row row_of(const analysis::SpreadFigure& f, std::size_t runs) {
           required(f.column),
           cell(s.min(), unit),
           cell(s.quantile(0.05), unit),
-          cell(s.quantile(0.5), unit),
+          cell(s.median(), unit),
           cell(s.quantile(0.95), unit),
           cell(s.max(), unit),
           cell(s.mean(), unit),

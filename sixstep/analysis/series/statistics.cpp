@@ -33,6 +33,16 @@ std::optional<double> Statistics::standard_deviation() const {
   return std::sqrt(squares / static_cast<double>(values_.size() - 1));
 }
 
+std::optional<double> Statistics::median() const {
+  if (values_.empty()) return {};
+  std::vector<double> values = values_;
+  const auto upper = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), upper, values.end());
+  if (values.size() % 2 == 1) return *upper;
+  // Halves first: twice a value that never comes is infinite too, and half the largest double is none too many.
+  return *std::max_element(values.begin(), upper) / 2 + *upper / 2;
+}
+
 std::optional<double> Statistics::quantile(double p) const {
   if (values_.empty()) return {};
   const auto count = static_cast<double>(values_.size());

@@ -22,6 +22,8 @@ class Statistics {
   /// The order statistic x_(k), k = ceil(p count) and at least 1: the least value that at least the part p of
   /// all values do not exceed. A value that occurred, nothing interpolated. 0 is the least, 1 the greatest.
   std::optional<double> quantile(double p) const;
+  /// The value in the middle; of an even count, which has two, their mean.
+  std::optional<double> median() const;
   std::optional<double> min() const { return quantile(0.0); }
   std::optional<double> max() const { return quantile(1.0); }
 

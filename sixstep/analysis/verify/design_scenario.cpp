@@ -243,9 +243,10 @@ void add_position(const DriveDesign& d, const DesignSubject& subject, study::Sce
       step_measure(study::MetricKind::overshoot, study::Signal::position, 0, end, 0, step, "overshoot");
   s.compare = {
       {settling, fastest,
-       hall     ? "full torque forth and back; to three Hall steps"
-       : counts ? "full torque forth and back; to 1 %, or three steps of the sensor"
-                : "full torque forth and back; to 0.05 %"},
+       hall ? "full torque, half the way on and half off; simulated: to within three Hall steps"
+       : counts
+           ? "full torque, half the way on and half off; simulated: to within 1 %, or three steps of the sensor"
+           : "full torque, half the way on and half off; simulated: to within 0.05 %"},
       {overshoot, 0.0, "none wanted"},
       {window_measure(study::MetricKind::maximum, study::Signal::speed, 0, end, "peak speed"), top,
        "bus/K_t"},

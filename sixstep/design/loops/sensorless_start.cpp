@@ -122,6 +122,7 @@ std::vector<DerivationStep> steps_of(const SensorlessBasis& b, const SensorlessS
       {"w_high", least_sector(b), s.highest_rad_s, "rad/s"},
       {"I_start", "overload I_N, at most 0.8 U/R_tt", b.start_A, "A"},
       {"T_swing", "2 pi sqrt(J/(p K_t I_start))", b.swing_s(), "s"},
+      {"T_load", "greatest_load K_t I_N + T_c, at rest the static torque where larger", b.load_Nm, "N m"},
       {"a", "(K_t I_start - T_load)/(2 J)", b.ramp_rad_s2(), "rad/s^2"},
       {"I_ramp", "(J a + T_c + B w_low)/K_t, where the speed loop goes on", b.ramp_A(), "A"},
       {"d'", "I_N K_t^2/(J U), of 2 U unless soft", s.duty_per_period / b.spec.period_s, "1/s"}};

@@ -50,8 +50,10 @@ void check_unit(const Place& p) {
 void check_strays(const Place& p) {
   for (const ShapeKey& key : shape_keys)
     if (key.given(p.r) && !reads(p.r.shape, key))
-      p.say(key.key, "", "means nothing for " + p.shape(),
-            "set shape = " + readers_of(key) + ", or remove it");
+      p.say(
+          key.key, "", "means nothing for " + p.shape(),
+          "set shape = " + readers_of(key) +
+              ", or remove it; where a base or the file has it, reference = { .. } replaces all of its keys");
   if (p.r.shape == Shape::csv && p.r.column && p.r.file.empty() && !p.r.times_s.empty())
     p.say("column", "\"" + *p.r.column + "\"", "is of a file, and times_s and values are no file",
           "give file = \"NAME.csv\" instead of them, or remove it");

@@ -33,8 +33,8 @@ struct HallEdges {
   std::size_t skipped = 0;            ///< sectors that were passed unseen
   std::array<std::size_t, 6> seen{};  ///< edges by boundary modulo 6
   std::size_t forward = 0, backward = 0;
-  std::size_t unused = 0;       ///< edges behind the first most_edges
-  double sector_s = 0.0;        ///< median time between two edges
+  std::size_t unused = 0;  ///< edges behind the first most_edges
+  double sector_s = 0.0;   ///< time between two edges: the middle one by length, of an even count the longer
   double sector_samples = 0.0;  ///< and its rows; 0 where each row is a change
 };
 

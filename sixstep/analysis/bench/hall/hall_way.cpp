@@ -65,7 +65,7 @@ std::vector<Whereabouts> cheapest(const std::vector<Stay>& stays, std::uint8_t m
   return way;
 }
 
-/// The median time in a sector of that way.
+/// The time in a sector of that way that is the middle one by length, of an even count the longer of two.
 double usual_sector_s(const std::vector<Stay>& stays, const std::vector<Whereabouts>& way) {
   std::vector<double> times;
   double from_s = stays.front().came_before_s;

@@ -17,7 +17,8 @@ struct Whereabouts {
 
 struct Way {
   std::vector<Whereabouts> at_stays;  ///< one per stay
-  double sector_s = 0.0;              ///< median time in a sector; 0 where there is none
+  double sector_s =
+      0.0;  ///< time in a sector, the middle one by length, of an even count the longer; 0 where there is none
 };
 
 /// The likeliest way (A. J. Viterbi's algorithm): a rotor goes on more often than it turns back, and passes
