@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Laws of what a bench finds: constants of one back-EMF in all frames, intervals around their value, and what the log was made with."""
 import re
-from math import pi, sqrt
+from math import pi, sin, sqrt
 
 
 def between(test, spot, name, x, low, high):
@@ -52,6 +52,18 @@ def harmonics(test, spot):
     test.assertTrue(1.0 < crest < 1.8, str(spot))
     for peak, low, high in re.findall(r"^  \S+ +([\d.]+) +([\d.]+) \.\. ([\d.]+) +(?:[\d.]+ +)?-?[\d.]+ +[\d.]+ +[\d.]+$", spot.text, re.M):
         between(test, spot, "peak of a channel", peak, low, high)
+
+
+def clipped(test, spot):
+    """A sine cut off at c, by its own Fourier integral; of the peak the orders 3, 9, 15.. are missing between two terminals."""
+    rows = [[float(x) for x in re.findall(r"([\d.]+) %", line)] for line in spot.text.splitlines() if "%" in line]
+    steps = 20000
+    for cut, fundamental, peak in zip(*rows, strict=True):
+        wave = [max(-1 + cut / 100, min(1 - cut / 100, sin(2 * pi * n / steps))) for n in range(steps)]
+        orders = [2 / steps * sum(x * sin(k * 2 * pi * n / steps) for n, x in enumerate(wave)) for k in (1, 3, 9, 15, 21, 27)]
+        top = 1 - cut / 100 - sum(size * (-1) ** (k // 2) for size, k in zip(orders[1:], (3, 9, 15, 21, 27)))
+        near(test, spot, "fundamental", fundamental, 100 * (1 - orders[0]), 0.02)
+        near(test, spot, "peak", peak, 100 * (1 - top), 0.05)
 
 
 def held_against(test, spot):

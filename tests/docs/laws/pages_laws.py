@@ -147,6 +147,7 @@ BY_TEXT = [
     ("docs/many-runs.md", "verdict", series.judge_plan), ("docs/many-runs.md", "limited by", series.judge_best_pwm),
     ("docs/many-runs.md", "least_W", capacitor_store), ("docs/manual/control.md", "$ sixstep compare", contest.judge),
     ("docs/bench.md", "Constant  ", bench.emf), ("docs/bench.md", "CONTRADICTS", bench.held_against),
+    ("docs/bench.md", "cut off, 1 - c", bench.clipped),
     ("docs/bench.md", "hysteresis  ", bench.identify), ("docs/commissioning.md", "off by     bound", bench.commission_sheet),
     ("docs/commissioning.md", "psi ", bench.commission_constants), ("docs/commissioning.md", "worst edge off", bench.hall_places),
     ("docs/commissioning.md", "rotor angles", rotor_angles), ("docs/wiring.md", "theory   speed", tables.wiring),

@@ -42,6 +42,7 @@
 //   ATmega2560  q15             5365     976 cycles            14594     229 bytes
 //   ATmega2560  q31            11568     975 cycles            20552     289 bytes
 //   ATmega2560  float           9508     976 cycles            11872     285 bytes
+// Note: a control period of 30 us is shorter than the ATmega2560's image needs, 100 us.
 #pragma once
 #if __cplusplus < 201709L && !defined(_MSC_VER)
 #error "C++20 is needed: avr-gcc 5 and 7, of Debian 12 and the Arduino IDE, have none; take clang 19 for the AVR"
