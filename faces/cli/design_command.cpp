@@ -123,6 +123,7 @@ base::Problems write(const analysis::DesignStudy& s, const DesignArguments& a, D
   base::Problems found = put(out.json, text::design_json(s));
   study::Scenario scenario = s.scenario;
   scenario.motor = motor_beside(scenario.motor, a.toml);
+  analysis::require_swing(s, scenario);
   const std::string text =
       files::with_own_mark(a.command, text::scenario_text(scenario, text::design_lines(s)));
   append(found, put(out.toml, text));

@@ -79,7 +79,7 @@ Exit new_command(const NewArguments& a) {
                   text::shell_word(fs::path(path).replace_extension(".html").string())));
   if (scenario->pwm.period_s < text::stm32_least_period_s)
     print(fmt::format(
-        "note: {}; this winding's ripple asks for it, and a choke in each line allows a longer one\n",
+        "note: {}; this winding's ripple asks for it, and a choke in each line, counted into the sheet's inductance, allows a longer one\n",
         text::too_short_for_images(scenario->pwm.period_s)));
   return Exit::ok;
 }

@@ -7,6 +7,7 @@
 
 #include "sixstep/analysis/verify/design_scenario.hpp"
 #include "sixstep/analysis/verify/design_study.hpp"
+#include "sixstep/base/angle.hpp"
 #include "tests/support/bench.hpp"
 
 namespace {
@@ -72,6 +73,43 @@ TEST(UsableDesign, HoldsItsOwnFiguresOutOfToleranceToo) {
     }
   }
   EXPECT_GE(usable, 2);
+}
+
+/// A move of height h under the torque T takes 2 sqrt(h J/T), and h/top + top J/T where the bus ends the acceleration before its middle.
+TEST(DesignedMove, IsExpectedAsFastAsTorqueAndBusAllow) {
+  for (const double bus_V : {6.0, 24.0, 200.0}) {
+    DesignOrder order = on_a_board(Mode::position);
+    order.spec.rotor.hall = false;
+    const auto d = design::design_drive(*design::motor_model(order.subject.sheet),
+                                        {.mode = Mode::position, .voltage_V = bus_V});
+    ASSERT_TRUE(d);
+    const study::Scenario s = design_scenario(*d, order.subject);
+    const double h = 1000 * base::pi / 180, a = d->torque_limit_Nm / d->motor.shaft.J_kg_m2;
+    const double top = bus_V / d->motor.K_t_Nm_A;
+    double least = 0.0;  // by steps: full acceleration up to the top speed, and as long down
+    for (double x = 0.0, dt = 1e-6; x < h / 2; least += 2 * dt) x += std::min(a * least / 2, top) * dt;
+    EXPECT_NEAR(s.compare.front().value, least, 2e-3 * least) << bus_V;
+  }
+}
+
+/// A position's run is required to rest as well as not to overshoot: who exports a design that does not is refused.
+TEST(DesignedMove, IsRequiredToRest) {
+  DesignOrder order = on_a_board(Mode::position);
+  const auto d = design::design_drive(*design::motor_model(order.subject.sheet), order.spec);
+  ASSERT_TRUE(d);
+  const study::Scenario s = design_scenario(*d, order.subject);
+  ASSERT_EQ(s.require.size(), 2u);
+  EXPECT_EQ(s.require[1].measure.label, swing_at_target);
+  EXPECT_DOUBLE_EQ(*s.require[1].max, 100.0);
+}
+
+TEST(DesignedSpeed, BeyondTheBusIsRefusedByName) {
+  DesignOrder order = on_a_board(Mode::speed);
+  const design::MotorModel motor = *design::motor_model(order.subject.sheet);
+  order.spec.lowest_speed_rad_s = 1.01 * motor.nominal_voltage_V / motor.K_t_Nm_A;
+  const auto study = study_design(order);
+  ASSERT_FALSE(study);
+  EXPECT_EQ(study.problems().front().where, "lowest_speed_rad_s");
 }
 
 /// Of a placed pair d1 is positive while 2 x 4.6/T_reg is above R/L.

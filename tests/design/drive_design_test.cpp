@@ -170,7 +170,9 @@ bool warns(const DriveDesign& d, const std::string& of) {
 
 TEST(DriveDesign, WarnsOfWhatIsOffAndOfNothingElse) {
   const DriveDesign good = designed({.mode = Mode::current, .chopping = control::Chopping::complementary});
-  for (const Warning& w : good.warnings) EXPECT_EQ(w.what, "");
+  ASSERT_EQ(good.warnings.size(), 1u);
+  EXPECT_TRUE(warns(good, "the sheet names no nominal current"));
+  EXPECT_FALSE(good.warnings[0].grave);
   EXPECT_TRUE(warns(designed({.mode = Mode::current}), "soft chopping cannot hold a braking current"));
   EXPECT_TRUE(warns(designed({.mode = Mode::current, .settle_s = 0.3e-3}), "degrees of phase"));
   EXPECT_TRUE(warns(designed({.mode = Mode::current, .settle_s = 0.1e-3}), "unstable where"));
@@ -178,6 +180,18 @@ TEST(DriveDesign, WarnsOfWhatIsOffAndOfNothingElse) {
                     "times the frequency"));
   EXPECT_TRUE(warns(designed({.mode = Mode::current, .settle_s = 0.25e-3}), "asks for"));
   EXPECT_TRUE(warns(designed({.mode = Mode::current, .period_s = 60e-6}), "ripple"));
+  // A ripple of more than the nominal current is grave, and the chokes that are named leave a fifth: it goes with 1/L.
+  MotorModel bare = thesis_motor();
+  bare.machine.L_H /= 40;
+  const DesignSpec hurried{.mode = Mode::current, .period_s = 10e-6};
+  const auto rippled = design_drive(bare, hurried);
+  ASSERT_TRUE(rippled);
+  ASSERT_GT(rippled->ripple.worst_A, rippled->nominal_current_A);
+  EXPECT_TRUE(warns(*rippled, "of choke in each line leave 20 %"));
+  bare.machine.L_H *= rippled->ripple.worst_A / (0.2 * rippled->nominal_current_A);
+  const auto choked = design_drive(bare, hurried);
+  ASSERT_TRUE(choked);
+  EXPECT_NEAR(choked->ripple.worst_A, 0.2 * choked->nominal_current_A, 0.01 * choked->nominal_current_A);
   EXPECT_TRUE(warns(designed({.mode = Mode::speed}), "names no nominal current"));
   MotorModel printed = thesis_motor();
   printed.nominal_current_A = 2.33;

@@ -129,6 +129,14 @@ bool DesignStudy::usable() const {
   return std::none_of(warnings.begin(), warnings.end(), [](const design::Warning& w) { return w.grave; });
 }
 
+void require_swing(const DesignStudy& study, study::Scenario& s) {
+  if (!study.allowed_swing_rad_s || s.require.empty()) return;
+  study::Measure swing = s.require.front().measure;
+  swing.metric = study::MetricKind::peak_to_peak;
+  swing.label = "swing of the speed at the end";
+  s.require.push_back({swing, std::nullopt, *study.allowed_swing_rad_s});
+}
+
 base::Result<DesignStudy> study_design(const DesignOrder& order) {
   base::Result<DesignStudy> s = studied(order);
   const bool linear = order.subject.sheet.kind == design::MotorKind::linear;

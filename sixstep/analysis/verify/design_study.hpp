@@ -42,6 +42,10 @@ struct DesignOrder {
   bool advises = true;                 ///< tries what helps against each warning (advice.hpp)
 };
 
+/// Adds to a scenario of a speed design what no mean shows: that the speed does not swing further than the design may. A position's
+/// scenario has it.
+void require_swing(const DesignStudy& study, study::Scenario& scenario);
+
 /// Problems are those of sheet, spec and scenario.
 base::Result<DesignStudy> study_design(const DesignOrder& order);
 

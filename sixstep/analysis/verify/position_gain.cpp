@@ -50,6 +50,7 @@ class Trial {
     d.loops.back().gains.d1 = gain;
     study::Scenario s = design_scenario(d, subject_);
     s.compare.clear();
+    s.require.resize(1);
     if (!left_.takes(s, 1)) {
       problems = {none_found()};
       return true;
@@ -95,6 +96,7 @@ class Field {
     d.loops.back().gains.d1 = gain;
     study::Scenario nominal = design_scenario(d, subject_);
     nominal.compare.clear();
+    nominal.require.resize(1);
     nominal.require.front().max = allowed_overshoot_deg(d, nominal.reference.value);
     if (!left_.takes(nominal, all_.size())) {
       too_long = true;

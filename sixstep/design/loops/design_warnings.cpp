@@ -13,7 +13,8 @@ namespace sixstep::design {
 namespace {
 
 /// Three digits say what a warning needs.
-std::string milliseconds(double s) { return base::three_digits(s * 1e3) + " ms"; }
+std::string milli(double x) { return base::three_digits(x * 1e3); }
+std::string milliseconds(double s) { return milli(s) + " ms"; }
 
 struct Collector {
   std::vector<Warning> found;
@@ -101,11 +102,19 @@ void look_at_separation(const LoopDesign& inner, const LoopDesign& outer, Collec
                                      " loop, less than " + base::three_digits(least_separation));
 }
 
+/// A ripple above the nominal current heats the winding as that current does, whatever mean is asked for.
 void look_at_ripple(const DriveDesign& d, Collector& out) {
-  if (d.ripple.worst_A > greatest_ripple * d.nominal_current_A)
-    out.add(Concern::ripple, "the PWM ripple reaches " + base::three_digits(d.ripple.worst_A) + " A, " +
-                                 base::three_digits(100.0 * d.ripple.worst_A / d.nominal_current_A) +
-                                 " % of " + nominal_current_words(d));
+  const double allowed_A = greatest_ripple * d.nominal_current_A;
+  if (!(d.ripple.worst_A > allowed_A)) return;
+  const bool grave = d.ripple.worst_A > d.nominal_current_A;
+  std::string what = "the PWM ripple reaches " + base::three_digits(d.ripple.worst_A) + " A, " +
+                     base::rounded(100.0 * d.ripple.worst_A / d.nominal_current_A, 4) + " % of " +
+                     nominal_current_words(d);
+  // Two lines are in the loop, and the ripple goes with 1/L.
+  if (grave)
+    what += ": " + milli((d.ripple.worst_A / allowed_A - 1) * d.motor.machine.L_H) +
+            " mH of choke in each line leave " + base::three_digits(100 * greatest_ripple) + " %";
+  out.add(Concern::ripple, std::move(what), grave);
 }
 
 void look_at_braking(const DriveDesign& d, Collector& out) {
@@ -142,17 +151,20 @@ void look_at_settling(const DriveDesign& d, const LoopDesign& loop, Collector& o
 }
 
 void look_at_heat(const DriveDesign& d, Collector& out) {
-  if (d.spec.mode == control::Mode::current) return;
+  const bool current = d.spec.mode == control::Mode::current;
   if (!d.nominal_printed) {
     if (!d.spec.torque_limit_Nm)
-      out.add(Concern::heat,
-              "the sheet names no nominal current: a tenth of the stall current, " +
-                  base::three_digits(d.nominal_current_A) + " A, stands in for it",
-              false,
-              "give the sheet's nominal_current_A, or torque_limit_Nm with what bridge and winding bear");
+      out.add(
+          Concern::heat,
+          "the sheet names no nominal current: a tenth of the stall current, " +
+              base::three_digits(d.nominal_current_A) + " A, stands in for it",
+          false,
+          current
+              ? "give the sheet's nominal_current_A"
+              : "give the sheet's nominal_current_A, or torque_limit_Nm with what bridge and winding bear");
     return;
   }
-  if (d.current_at_full_torque_A > 3.0 * d.nominal_current_A)
+  if (!current && d.current_at_full_torque_A > 3.0 * d.nominal_current_A)
     out.add(Concern::heat, "the speed loop may ask for " + base::three_digits(d.current_at_full_torque_A) +
                                " A, " + base::three_digits(d.current_at_full_torque_A / d.nominal_current_A) +
                                " times the nominal current");

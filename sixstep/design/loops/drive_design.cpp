@@ -23,8 +23,11 @@ constexpr double inner_faster = 10.0;
 /// A pair placed slower than 2 time_constants_to_settle L/R wants a negative proportional gain.
 constexpr double winding_times = 8.0;
 
+/// No placed pair settles within fewer control periods.
+constexpr double fewest_periods = 4.0;
+
 double settle_of_current(const DesignSpec& w, const MotorModel& m) {
-  const double usual = usual_current_settle_s_of(m);
+  const double usual = std::fmax(usual_current_settle_s_of(m), fewest_periods * w.period_s);
   if (w.mode == Mode::current) return w.settle_s.value_or(usual);
   return w.current_settle_s.value_or(
       std::fmin(usual, w.settle_s.value_or(usual_speed_settle_s) / inner_faster));

@@ -45,6 +45,12 @@ base::Problems check_spec(const MotorModel& motor, const DesignSpec& w) {
   hold("damping", w.damping, {0, 1, false, true}, "", "0.9 is the thesis's choice");
   hold("torque_limit_Nm", w.torque_limit_Nm, above(0), "N m", "give it in N m");
   hold("lowest_speed_rad_s", w.lowest_speed_rad_s, above(0), "rad/s", "give it in rad/s");
+  const double bus_V = w.voltage_V.value_or(motor.nominal_voltage_V);
+  if (const double top = bus_V / motor.K_t_Nm_A;
+      w.lowest_speed_rad_s && *w.lowest_speed_rad_s >= top && top > 0.0)
+    found.push_back({"lowest_speed_rad_s", base::written(*w.lowest_speed_rad_s),
+                     "is above what the bus reaches without load, " + base::three_digits(top) + " rad/s",
+                     "lower it, or give a higher voltage_V"});
   if (w.rotor.edges < 0 || w.rotor.edges > 6)
     add("edges", std::to_string(w.rotor.edges), "must lie in 1 to 6", "leave it out to have them adaptive");
   hold("load_inertia_kg_m2", w.load_inertia_kg_m2, base::from(0), "kg m2", "give it in kg m2");
