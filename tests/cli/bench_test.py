@@ -4,6 +4,7 @@
 is no recording gets one line and exit code 2."""
 import json
 import math
+import re
 import unittest
 
 from program import SOURCE, Started
@@ -65,6 +66,18 @@ class Bench(Started):
         (self.path / "log.csv").write_text(log(swapped=True))
         self.assertEqual(self.told("identify", "log.csv")["place"]["wires"][0]["hall_lines"], "132")
         self.assertIn("move the wire at H2 to H3, the wire at H3 to H2", self.run_program("motor", "identify", "log.csv").stdout)
+
+    def test_probes_that_sit_far_off_are_not_called_60_degrees_apart(self):
+        for off in (20, 35, 40, 50):
+            (self.path / "log.csv").write_text(log(edges=[off] * 6))
+            self.assertEqual(self.told("identify", "log.csv")["place"]["wires"][0]["spacing_deg"], 120)
+            text = self.run_program("motor", "identify", "log.csv").stdout
+            self.assertIn('hall_spacing = "120"', text)
+            self.assertNotIn("to mend", text)
+            straight = re.search(r"or, (\S+) deg off: probes 120 degrees apart, each at its own pin, none inverted", text)
+            self.assertEqual(bool(straight), off > 30, text)
+            if straight:
+                self.assertLess(abs(float(straight[1]) - off), 1.5)  # the rows lie two degrees apart
 
     def test_what_it_writes_runs(self):
         self.run_program("motor", "identify", "log.csv", "--write", "sensors.toml")

@@ -116,6 +116,20 @@ TEST(SheetCheck, EverySlipOfALineThatIsPrintedTwiceIsNoticed) {
     }
 }
 
+/// Friction is a torque: between terminals and of a phase it is the same, and half of a current is no sign of another frame.
+TEST(SheetCheck, FrictionThatLacksHalfTheCurrentIsNoFactorOfAFrame) {
+  Sheet s = printed_251601();
+  const double w = s.no_load_speed_rpm->value * base::pi / 30.0;
+  const double loss_Nm = 1e-6 * s.torque_constant_mNm_A->value * s.no_load_current_mA->value;
+  s.viscous_friction_Nm_s = Quantity{0.5 * loss_Nm / w, "", ""};
+  EXPECT_EQ(relation(checked(s), "no-load current").remark,
+            "dry friction T_c is not given: it would add to the left side");
+  s.coulomb_friction_mNm = Quantity{1e-6, "", ""};
+  EXPECT_EQ(relation(checked(s), "no-load current").remark, "");
+  s.coulomb_friction_mNm = Quantity{0.5e3 * loss_Nm, "", ""};
+  EXPECT_EQ(relation(checked(s), "no-load current").verdict, RelationVerdict::holds);
+}
+
 TEST(SheetCheck, AWellKnownFactorIsNamed) {
   Sheet s = printed_251601();
   s.resistance_ohm->value *= 2;

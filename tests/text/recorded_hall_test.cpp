@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "sixstep/analysis/bench/hall/identify.hpp"
 #include "text/recording/bench_recordings.hpp"
@@ -45,12 +47,12 @@ struct Seen {
   Notes notes;
   analysis::HallLog log;
 };
-Seen seen(const std::string& bytes, std::vector<std::string> hall = {}) {
+Seen seen(const std::string& bytes, std::vector<std::string> hall = {}, BenchColumns columns = {}) {
   Seen out;
   const auto recording = read_recording("r.csv", bytes);
   if (!recording) return out.problem = to_string(recording.problems()[0]), out;
-  const auto found = hall_log_of(
-      *recording, {.hall = std::move(hall), .voltages = {}, .between = {}, .interval_s = {}}, out.notes);
+  columns.hall = std::move(hall);
+  const auto found = hall_log_of(*recording, columns, out.notes);
   if (!found) return out.problem = to_string(found.problems()[0]), out;
   out.log = *found;
   return out;
@@ -163,6 +165,36 @@ TEST(RecordedHall, AKnownColumnThatIsNotUsedSaysTrulyWhy) {
   for (int row = 0; row < 300; ++row)
     file += fmt::format("{:.5f},{},{}\n", row * 5e-5, codes[row / 10 % 6] >> 2, codes[row / 10 % 6]);
   EXPECT_THAT(seen(file).notes, ElementsAre("not used: hall1 (a Hall line; the codes are used)"));
+}
+
+/// u_a, u_b taken for u_ab, u_bc makes the flux linkage 1/sqrt(3) of what it is and turns the rotor by 30 degrees: what the voltages are of
+/// has to be said by headings or by the user, and a number of columns does not say it.
+TEST(RecordedHall, WhatVoltagesAreOfIsNeverGuessedByTheirNumber) {
+  using analysis::EmfBetween;
+  using analysis::RecordedVoltages;
+  const auto with = [](const std::string& heads, std::vector<std::string> voltages = {},
+                       std::optional<EmfBetween> between = {}) {
+    std::string file = "time,hall1,hall2,hall3," + heads + "\n";
+    for (int row = 0; row < 300; ++row)
+      file += fmt::format("{:.5f},{},1,2{}\n", row * 5e-5, bits(codes[row / 10 % 6]),
+                          std::count(heads.begin(), heads.end(), ',') == 2 ? ",3" : "");
+    return seen(file, {},
+                {.hall = {}, .voltages = std::move(voltages), .between = between, .interval_s = {}});
+  };
+  const std::vector<std::string> two = {"CH4", "CH5"}, three = {"CH4", "CH5", "CH6"};
+  for (const Seen& found : {with("u_a,u_b"), with("u_a,u_b", {"u_a", "u_b"}),
+                            with("u_a,u_b", {}, EmfBetween::star), with("CH4,CH5", two, EmfBetween::star)})
+    EXPECT_THAT(found.problem, HasSubstr("has 2 voltages of terminals; u_a, u_b and u_c are needed"));
+  for (const Seen& found :
+       {with("CH4,CH5", two), with("CH4,CH5,CH6", three), with("u_ab,u_b", {"u_ab", "u_b"})})
+    EXPECT_THAT(found.problem, HasSubstr("between is missing: the headings do not say"));
+  EXPECT_EQ(with("u_ab,u_bc").log.voltages, RecordedVoltages::lines);
+  EXPECT_EQ(with("u_a,u_b,u_c").log.voltages, RecordedVoltages::terminals);
+  // Three between terminals stay so where they are asked for by name.
+  EXPECT_EQ(with("u_ab,u_bc,u_ca", {"u_ab", "u_bc", "u_ca"}).log.voltages, RecordedVoltages::lines);
+  for (const Seen& found : {with("CH4,CH5", two, EmfBetween::lines), with("u_a,u_b", {}, EmfBetween::lines)})
+    EXPECT_EQ(found.log.voltages, RecordedVoltages::lines) << found.problem;
+  EXPECT_EQ(with("CH4,CH5,CH6", three, EmfBetween::star).log.voltages, RecordedVoltages::terminals);
 }
 
 TEST(RecordedHall, ABadCellIsNamed) {

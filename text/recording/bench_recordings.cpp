@@ -180,12 +180,26 @@ base::Result<Codes> hall_codes(const Recording& r, const Columns& columns) {
                       "head them hall1, hall2, hall3, or one of codes hall, or name the columns");
 }
 
+/// What the probes of a log hung between: what was asked for, else what each heading says, and a number of columns says nothing.
+base::Result<analysis::EmfBetween> between_of(const Voltages& voltages) {
+  if (voltages.between) return *voltages.between;
+  const Meaning meaning = meaning_of_first(voltages.columns);
+  const bool alike = std::all_of(voltages.columns.begin(), voltages.columns.end(),
+                                 [&](const Picked& p) { return meaning_of(*p.column) == meaning; });
+  if (alike && meaning == Meaning::between_terminals) return analysis::EmfBetween::lines;
+  if (alike && meaning == Meaning::of_terminal) return analysis::EmfBetween::star;
+  return base::Problem{.where = "between",
+                       .value = "",
+                       .limit = "is missing: the headings do not say what the probes hung between",
+                       .cure = "lines is two terminals, star a terminal and any one point"};
+}
+
 base::Problems take_voltages(const Recording& r, const Voltages& voltages, const Times& times,
                              analysis::HallLog& out) {
   const std::size_t count = voltages.columns.size();
-  const bool lines =
-      voltages.between.value_or(count == 2 ? analysis::EmfBetween::lines : analysis::EmfBetween::star) ==
-      analysis::EmfBetween::lines;
+  const base::Result<analysis::EmfBetween> between = between_of(voltages);
+  if (!between) return between.problems();
+  const bool lines = *between == analysis::EmfBetween::lines;
   if (count > 3 || count < (lines ? 2U : 3U))
     return {
         of_recording(r,

@@ -43,8 +43,10 @@ std::string constant_line(const MeasuredEmf& m) {
     const Interval V_krpm =
         analysis::scaled(r.constants.line_fundamental, r.pole_pairs * 1000.0 * base::pi / 30.0);
     return pairs +
-           fmt::format("back_emf_constant_V_krpm = {{ value = {}, frame = \"line-peak\", {} }}  # 95 %: {}\n",
-                       measured_text(V_krpm), source_words(m), bounds_text(V_krpm));
+           fmt::format(
+               "back_emf_constant_V_krpm = {{ value = {}, frame = \"line-peak\", {} }}  # of the fundamental, "
+               "95 %: {}\n",
+               measured_text(V_krpm), source_words(m), bounds_text(V_krpm));
   }
   const Interval mWb = analysis::scaled(r.constants.phase_fundamental, 1e3);
   return pairs + fmt::format("flux_linkage_mWb = {{ value = {}, {} }}  # 95 %: {}\n", measured_text(mWb),

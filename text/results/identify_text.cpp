@@ -54,9 +54,24 @@ std::string never_seen(const HallIdentity& f) {
 
 /// What the pair of codes that never occurs means, whichever pin it is.
 std::string spacing_words(const HallIdentity& f) {
-  if (f.mask == 0b000) return "probes 120 degrees apart";
+  if (f.mask == 0b000) return "probes 120 degrees apart, or 60, some inverted";
   const int pin = f.mask == 0b100 ? 1 : f.mask == 0b010 ? 2 : 3;
   return fmt::format("probes 60 degrees apart, the middle one at H{0}, or 120 degrees, H{0} inverted", pin);
+}
+
+/// A line inverted is the same line half a turn on. Where all three are, that is another order and an offset that is 60 degrees greater
+/// or less; a scenario and an assembly can have that, though no edge then is at the place nearest to it.
+std::string none_inverted_words(const IdentifiedPlace& p) {
+  analysis::HallWires wires = p.wires.front();
+  if (wires.inverted != 0b111) return "";
+  const bool further = p.offset_deg.value < 0.0;
+  analysis::PinCodes codes = p.codes;
+  std::rotate(codes.begin(), further ? codes.begin() + 1 : codes.end() - 1, codes.end());
+  for (const analysis::HallWires& other : analysis::wires_behind(codes))
+    if (other.inverted == 0) wires = other;
+  return fmt::format("or, {} deg off: {}, none inverted",
+                     as_good_as(p.offset_deg.value + (further ? 60.0 : -60.0), p.offset_deg),
+                     wires_words(wires));
 }
 
 void add(Rows& rows, const char* what, const Interval& x, double factor, const char* unit,
@@ -88,8 +103,10 @@ std::string wires_section(const HallIdentity& f) {
   rows.add({"lines", wires_words(p.wires.front()), certainty_text(p.probability)});
   for (std::size_t n = 1; n < p.wires.size() && n < 3; ++n)
     rows.add({"", "or " + wires_words(p.wires[n]), ""});
-  if (const std::string moves = moves_words(p.wires.front().probes); !moves.empty())
-    rows.add({"to mend", "move " + moves, ""});
+  const std::string none = none_inverted_words(p), moves = moves_words(p.wires.front().probes);
+  if (!none.empty()) rows.add({"", none, ""});
+  // Where an offset explains the lines as well as wires do, no wire may have to move.
+  if (none.empty() && !moves.empty()) rows.add({"to mend", "move " + moves, ""});
   return rows.text();
 }
 

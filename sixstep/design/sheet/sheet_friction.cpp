@@ -98,8 +98,8 @@ void take_from_points(SheetReader& reader, const Point& point) {
   if (f.coulomb_Nm > point.loss_Nm && point.loss_Nm > 0.0)
     return reader.problem(
         s.coulomb_friction_mNm ? "coulomb_friction_mNm" : "iron_coulomb_mNm",
-        base::written(f.coulomb_Nm * 1e3),
-        "exceeds the loss at no load, K_t I_0 = " + base::written(point.loss_Nm * 1e3) + " mNm",
+        base::six_digits(f.coulomb_Nm * 1e3),
+        "exceeds the loss at no load, K_t I_0 = " + base::six_digits(point.loss_Nm * 1e3) + " mNm",
         "lower it, or give viscous_friction_Nm_s");
   if (point.loss_Nm > 0.0) f.B_Nm_s = (point.loss_Nm - f.coulomb_Nm) / point.speed_rad_s;
   f.from = point.printed_speed ? "the no-load point, B = (K_t I_0 - T_c)/w_0"

@@ -125,7 +125,8 @@ class NoLoad {
                       "rpm",
                       no_load_margin,
                       no_load_margin,
-                      ""};
+                      "",
+                      false};
     if (!printed) without_current(I, sides);
     if (!turns) sides.remark = "R I_0 is all of the voltage: with this current it does not turn";
     found_.push_back(std::move(sides));
@@ -156,7 +157,8 @@ class NoLoad {
     found_.push_back(
         {at.name + "no-load current", linear ? "(F_c + B v_0) / k_M" : "(T_c + B w_0) / k_M",
          at.name + "no-load current", loss * 1e3 / *K_t_, *at.current_A * 1e3, "mA", margin, margin,
-         margin > 0.0 ? "not all of it is the sheet's own, and friction differs from motor to motor" : ""});
+         margin > 0.0 ? "not all of it is the sheet's own, and friction differs from motor to motor" : "",
+         true});
   }
 
   const Sheet& s_;

@@ -15,7 +15,8 @@ struct NoLoadSides {
   Term left, right;
   std::string unit;
   double below = 0.0, above = 0.0;
-  std::string remark;  ///< where the left side's current is from, or why so much is allowed
+  std::string remark;        ///< where the left side's current is from, or why so much is allowed
+  bool of_friction = false;  ///< a current against the friction lines
 };
 
 /// Of the first point and the second, each speed and each current that the sheet gives another way to.

@@ -20,6 +20,7 @@ constexpr double rpm_per_rad_s = 30.0 / base::pi;
 struct Factor {
   double ratio;
   std::string_view words;
+  bool of_frames = true;  ///< needs a constant that is told between terminals or of a phase, of a peak or rms
 };
 constexpr Factor factors[] = {
     {2.0, "a factor 2: terminal against phase, or poles against pole pairs?"},
@@ -27,8 +28,8 @@ constexpr Factor factors[] = {
     {1.4142135623730951, "a factor sqrt 2: peak against rms?"},
     {2.449489742783178, "a factor sqrt 6: line peak against phase rms?"},
     {1.5, "a factor 3/2: torque of the q axis against one phase's EMF?"},
-    {10.0, "a factor 10: the point, or the unit?"},
-    {1000.0, "a factor 1000: the unit?"},
+    {10.0, "a factor 10: the point, or the unit?", false},
+    {1000.0, "a factor 1000: the unit?", false},
 };
 
 class Relations {
@@ -69,9 +70,9 @@ class Relations {
     r.right *= unit.factor;
   }
 
-  /// `below` and `above` widen what rounding allows.
+  /// `below` and `above` widen what rounding allows; `frames`: whether a constant with a frame is what may be wrong.
   Relation& add(std::string name, std::string left_words, std::string right_words, Term left, Term right,
-                std::string unit, double below = 0.0, double above = 0.0) {
+                std::string unit, double below = 0.0, double above = 0.0, bool frames = true) {
     Relation r;
     r.name = std::move(name);
     r.left_words = std::move(left_words);
@@ -87,16 +88,17 @@ class Relations {
     constexpr double arithmetic = 1e-12;
     const bool holds = r.deviation >= r.lowest - arithmetic && r.deviation <= r.highest + arithmetic;
     r.verdict = holds ? RelationVerdict::holds : RelationVerdict::broken;
-    if (!holds) r.remark = looks_like(left.value / right.value, rounding);
+    if (!holds) r.remark = looks_like(left.value / right.value, rounding, frames);
     return found_.emplace_back(std::move(r));
   }
 
   /// A ratio that is one of the well-known factors within the rounding, at least half a percent: the nearest
   /// two of them lie 6 % apart.
-  static std::string looks_like(double ratio, double rounding) {
+  static std::string looks_like(double ratio, double rounding, bool frames) {
     const double size = ratio < 1.0 ? 1.0 / ratio : ratio, reach = rounding > 0.005 ? rounding : 0.005;
     for (const Factor& factor : factors)
-      if (std::abs(size / factor.ratio - 1.0) <= reach) return std::string(factor.words);
+      if ((frames || !factor.of_frames) && std::abs(size / factor.ratio - 1.0) <= reach)
+        return std::string(factor.words);
     return "";
   }
 
@@ -124,7 +126,15 @@ class Relations {
 
   void no_load() {
     for (const NoLoadSides& n : no_load_sides(s_, c_)) {
-      Relation& r = add(n.name, n.left_words, n.right_words, n.left, n.right, n.unit, n.below, n.above);
+      // A current against friction lines: these are torques, without a frame.
+      Relation& r =
+          add(n.name, n.left_words, n.right_words, n.left, n.right, n.unit, n.below, n.above, !n.of_friction);
+      const bool lacks_dry = n.of_friction && r.verdict == RelationVerdict::broken && r.deviation < 0.0 &&
+                             !s_.coulomb_friction_mNm;
+      if (lacks_dry)
+        r.remark = s_.kind == MotorKind::linear
+                       ? "dry friction F_c is not given: it would add to the left side"
+                       : "dry friction T_c is not given: it would add to the left side";
       if (r.remark.empty()) r.remark = n.remark;
     }
   }
@@ -185,9 +195,9 @@ class Relations {
   void body() {
     if (!c_.J_of_body_kg_m2 || !s_.inertia_gcm2 || !J_) return;
     const Term printed{s_.inertia_gcm2->value, relative_doubt(*s_.inertia_gcm2)};
-    Relation& r =
-        add("inertia", s_.rotor_inner_radius_mm ? "pi/2 rho l (r^4 - r_i^4)" : "pi/2 rho l r^4", "inertia",
-            Term{c_.J_of_body_kg_m2->value * 1e7, body_doubt()}, printed, "g cm2", body_margin, body_margin);
+    Relation& r = add("inertia", s_.rotor_inner_radius_mm ? "pi/2 rho l (r^4 - r_i^4)" : "pi/2 rho l r^4",
+                      "inertia", Term{c_.J_of_body_kg_m2->value * 1e7, body_doubt()}, printed, "g cm2",
+                      body_margin, body_margin, false);
     if (r.verdict == RelationVerdict::broken && std::abs(r.left / r.right / 16.0 - 1.0) < 0.3)
       r.remark = "a factor 16: a diameter for the radius?";
   }

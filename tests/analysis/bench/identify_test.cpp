@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <set>
 
 #include "sixstep/analysis/bench/hall/hall_edges.hpp"
@@ -44,6 +45,25 @@ TEST(HallWires, EveryOrderOfCodesHasOneWayOfProbes120DegreesApart) {
     }
   EXPECT_EQ(all.size(), 48u);
   EXPECT_TRUE(analysis::wires_behind({1, 1, 1, 1, 1, 1}).empty());
+}
+
+/// 000 and 111 never occur of probes 120 degrees apart, none or all inverted, and the plainest wires say no other thing than these codes do.
+TEST(HallWires, TheCodesThatNeverOccurAndTheSpacingAgree) {
+  for (const bool spaced_60 : {false, true})
+    for (int order = 0; order < 6; ++order)
+      for (Code inverted = 0; inverted < 8; ++inverted) {
+        const PinCodes codes =
+            analysis::codes_behind({spaced_60, static_cast<rig::WireOrder>(order), inverted});
+        const HallWires plainest = analysis::wires_behind(codes).front();
+        const bool all_alike =
+            std::any_of(codes.begin(), codes.end(), [](Code c) { return c == 0 || c == 7; });
+        if (!all_alike) {
+          EXPECT_FALSE(plainest.spaced_60);
+          EXPECT_TRUE(plainest.inverted == 0 || plainest.inverted == 7) << int{plainest.inverted};
+        } else if (spaced_60 && inverted == 0) {
+          EXPECT_TRUE(plainest.spaced_60);
+        }
+      }
 }
 
 TEST(HallWires, TheGeneratorsProbesAreTheDrives) {

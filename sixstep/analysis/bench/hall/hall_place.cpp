@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sixstep/analysis/bench/hall/hall_alike.hpp"
 #include "sixstep/base/elementary.hpp"
 #include "sixstep/base/written.hpp"
 
@@ -145,6 +146,9 @@ base::Result<FoundPlace> which_way(const HallLog& log, const std::vector<Voltage
 
 base::Result<FoundPlace> place_by_voltages(const HallLog& log, const HallEdges& edges,
                                            const FoundMotion& by_edges) {
+  if (base::Problems wrong = check_alike(log, MotionPath(by_edges.points), edges.edges.size());
+      !wrong.empty())
+    return wrong;
   const std::vector<VoltageVector> vectors = vectors_of(log);
   MotionPath path({});
   base::Result<FoundPlace> place = which_way(log, vectors, by_edges, path);

@@ -18,6 +18,9 @@ std::uint8_t as_60_degrees(std::uint8_t code) {
   return 0;
 }
 
+/// Ways to have gone wrong: one stage or magnet inverts all three lines, two lines invert each by itself.
+int inversions(std::uint8_t inverted) { return inverted == 0b111 ? 1 : std::popcount(inverted); }
+
 constexpr rig::WireOrder wire_orders[] = {rig::WireOrder::abc, rig::WireOrder::bca, rig::WireOrder::cab,
                                           rig::WireOrder::acb, rig::WireOrder::cba, rig::WireOrder::bac};
 
@@ -44,7 +47,7 @@ std::vector<HallWires> wires_behind(const PinCodes& codes) {
           out.push_back(wires);
   std::stable_sort(out.begin(), out.end(), [](const HallWires& a, const HallWires& b) {
     const auto rank = [](const HallWires& w) {
-      return std::tuple(std::popcount(w.inverted), w.spaced_60, static_cast<int>(w.probes));
+      return std::tuple(inversions(w.inverted), w.spaced_60, static_cast<int>(w.probes));
     };
     return rank(a) < rank(b);
   });

@@ -24,8 +24,9 @@ using PinCodes = std::array<std::uint8_t, 6>;
 
 PinCodes codes_behind(const HallWires& wires);
 
-/// All wires that show these codes; the plainest first: fewest inverted lines, probes 120 degrees apart, each
-/// at its own pin. Codes alone cannot tell them apart, and the table for a drive is the same. Probes 120
+/// All wires that show these codes; the plainest first: fewest inverted lines, where all three count as one, for one
+/// stage does that; probes 120 degrees apart; each at its own pin. Where 000 and 111 never occur these are probes 120
+/// degrees apart, none or all inverted. Codes alone cannot tell them apart, and the table for a drive is the same. Probes 120
 /// degrees apart make every order of codes that three lines can show, in one way.
 std::vector<HallWires> wires_behind(const PinCodes& codes);
 
