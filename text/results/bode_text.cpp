@@ -36,19 +36,15 @@ const char* unit_of(const BodeStudy& s) {
                                                    : "deg";
 }
 
-/// The designed L at a point. A phase is known but for whole turns: the designed takes the turn nearest to the measured
-/// phase, or, where the coherence is too small to believe that phase, the one in (-360, 0] deg.
+/// The designed L at a point.
 struct Designed {
   double gain_dB = 0.0, phase_deg = 0.0;
 };
 std::optional<Designed> designed_at(const BodeStudy& s, const LoopPoint& p) {
   const auto L = s.designed_at(p.w_rad_s);
   if (!L) return std::nullopt;
-  const double angle = L->angle_rad();
-  const double turns = p.coherence < analysis::little_coherence
-                           ? (angle > 0.0 ? -1.0 : 0.0)
-                           : std::floor((p.phase_rad - angle) / sixstep::base::turn_rad + 0.5);
-  return Designed{dB(L->size()), (angle + sixstep::base::turn_rad * turns) * degrees_per_rad};
+  const auto k = static_cast<std::size_t>(&p - s.points.data());
+  return Designed{dB(L->size()), s.designed_phase_rad[k] * degrees_per_rad};
 }
 
 /// By more than this two loops are not the same; margins are read between a quarter and four times the crossover's gain.

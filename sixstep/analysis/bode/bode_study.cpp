@@ -209,6 +209,16 @@ base::Problems prepare(BodeStudy& b, const study::Scenario& s, const BodeOrder& 
   return {};
 }
 
+/// The designed phase is exact and goes on from line to line; a measured one that strays at a line must not carry a turn along.
+void lay_beside_the_designed(BodeStudy& b) {
+  if (!b.designed) return;
+  std::vector<double> angles;
+  for (const LoopPoint& p : b.points) angles.push_back(b.designed_at(p.w_rad_s)->angle_rad());
+  b.designed_phase_rad = unwrapped(angles);
+  for (std::size_t k = 0; k < b.points.size(); ++k)
+    b.points[k].phase_rad = next_to(b.points[k].phase_rad, b.designed_phase_rad[k]);
+}
+
 }  // namespace
 
 std::optional<design::Complex> BodeStudy::designed_at(double w_rad_s) const {
@@ -231,7 +241,8 @@ base::Result<BodeStudy> study_bode(const study::Scenario& scenario, const BodeOr
   if (const base::Problems problems = still_on_its_way(b, *output, scenario.duration_s); !problems.empty())
     return problems;
   const Answer answer = answer_to(b.signal, *output);
-  b.points = loop_points(b.signal, answer, b.period_s);
+  b.points = loop_points(b.signal, answer, b.period_s, b.lag);
+  lay_beside_the_designed(b);
   b.beside = answer.beside;
   b.measured = margins_of(b.points);
   return b;

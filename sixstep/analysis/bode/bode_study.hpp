@@ -40,7 +40,10 @@ struct BodeStudy {
   std::optional<design::SpeedLag> lag;  ///< of a speed that a sensor tells, at the speed that it has there
   std::optional<design::LoopFigures> figures;  ///< of `designed`, lag included
 
-  /// The designed L at a frequency, and its phase next to one that was measured.
+  /// Of the designed L at each point, unwrapped over all of them: what is measured has the turn that lies nearest.
+  std::vector<double> designed_phase_rad;
+
+  /// The designed L at a frequency.
   std::optional<design::Complex> designed_at(double w_rad_s) const;
 };
 
