@@ -34,6 +34,7 @@ struct BodeStudy {
   std::vector<LoopPoint> points;
   double beside =
       0.0;  ///< of the answer's rms, the part at no line: ripple, commutation, whatever is not linear
+  double without_current = 0.0;  ///< of the samples looked at, the part at which no phase carried current
   ReadMargins measured;
   std::optional<design::Transfer> designed;  ///< empty where the loop is none of linear blocks alone
   std::string not_linear;                    ///< why
