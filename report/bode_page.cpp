@@ -35,15 +35,14 @@ std::vector<double> frequencies(const BodeStudy& s) {
   return w;
 }
 
-/// The designed curves, the phase beginning next to the first that was measured and going on without a jump.
+/// The designed curves, the phase beginning as at the first line and going on without a jump.
 void add_designed(const BodeStudy& s, SvgChart& gain, SvgChart& phase) {
-  if (!s.designed) return;
+  if (!s.designed || s.points.empty()) return;
   SvgCurve g{"designed", "reference", {}, {}}, p{"designed", "reference", {}, {}};
-  double last = s.points.empty() ? 0.0 : s.points.front().phase_rad;
+  double last = s.designed_phase_rad.front();
   for (const double w : frequencies(s)) {
     const auto L = *s.designed_at(w);
-    last = L.angle_rad() +
-           sixstep::base::turn_rad * std::floor((last - L.angle_rad()) / sixstep::base::turn_rad + 0.5);
+    last = sixstep::analysis::next_to(L.angle_rad(), last);
     g.x.push_back(w / sixstep::base::turn_rad);
     p.x.push_back(w / sixstep::base::turn_rad);
     g.y.push_back(20 * std::log10(L.size()));

@@ -14,6 +14,7 @@
 #include "sixstep/base/angle.hpp"
 #include "sixstep/design/sheet/motion.hpp"
 #include "sixstep/design/thesis/thesis_figures.hpp"
+#include "text/results/design_text.hpp"
 
 namespace report {
 namespace {
@@ -41,13 +42,13 @@ std::string simulated(const DesignStudy& s) {
   std::string out = "<table class=\"comparisons\">" +
                     table_head({"Figure", "#Expected", "#Simulated", "#Deviation", "Expected is"}) +
                     "<tbody>\n";
-  for (const auto& c : s.outcome.comparisons)
-    out += fmt::format(
-        "<tr><th scope=\"row\">{}</th>{}{}{}<td class=\"source\">{}</td></tr>\n", escaped(c.figure),
-        number_cell(shown(c.value, c.unit)),
-        number_cell(shown(sixstep::analysis::as_read(c, s.scenario), c.unit)),
-        number_cell(escaped(deviation(sixstep::analysis::as_read(c, s.scenario), c.value, c.unit))),
-        escaped(c.source));
+  for (const auto& told : s.outcome.comparisons) {
+    const auto c = text::as_shown(told, s.scenario);
+    out += fmt::format("<tr><th scope=\"row\">{}</th>{}{}{}<td class=\"source\">{}</td></tr>\n",
+                       escaped(c.figure), number_cell(shown(c.value, c.unit)),
+                       number_cell(shown(c.measured, c.unit)),
+                       number_cell(escaped(deviation(c.measured, c.value, c.unit))), escaped(c.source));
+  }
   return out + "</tbody></table>\n";
 }
 

@@ -88,6 +88,27 @@ class Bode(ProgramTest):
             self.assertNotIn("+-", page[page.index("<h1"):page.index("<footer") if "<footer" in page else len(page)])
             (self.path / "b.html").unlink()
 
+    def test_a_cause_is_named_where_its_cure_works(self):
+        """Complementary chopping was named where the rotor's sensor was the cause, and cured nothing. With the cure no loop is beside the designed one."""
+        for mode, name in (("speed", "sp"), ("position", "po")):
+            self.run_program("new", name, "--motor", "maxon-251601", "--mode", mode)
+        free = ("--set", "load.torque_Nm=0", "--set", "bridge.dead_time_s=0")  # around no current a dead time bends the loop too
+        both, ideal = ("--set", "pwm.chopping=complementary"), ("--set", "sensors.rotor=ideal")
+        encoder = ("--set", "sensors.rotor=encoder", "--set", "pwm.commutation=sample")
+        for words, said, cures in (
+                (("sp.toml",), None, ()),
+                (("sp.toml", *ideal), None, ()),
+                (("sp.toml", *free, *ideal), "this chopping lets no current flow backwards", (both,)),
+                (("po.toml",), "Hall probes tell the position in steps of 7.5 deg", (ideal, encoder)),
+                (("po.toml", *both), "Hall probes tell the position in steps of 7.5 deg", (ideal, encoder))):
+            with self.subTest(words=words):
+                beside = re.findall("deg beside the designed one: (.*)", self.run_program("run", *words, "--bode").stdout)
+                self.assertEqual(len(beside), said is not None, beside)
+                if said:
+                    self.assertTrue(beside[0].startswith(said), beside)
+                for cure in cures:
+                    self.assertNotIn("beside the designed one", self.run_program("run", *words, *cure, "--bode").stdout)
+
     def test_json_is_alone_on_standard_output(self):
         made = self.run_program("run", LOCKED, "--bode", "--amplitude", "0.5", "--json", "-")
         self.assertEqual(json.loads(made.stdout)["amplitude"], 0.5)

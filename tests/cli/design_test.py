@@ -38,6 +38,19 @@ def mat_variables(data):
 
 
 class Design(ProgramTest):
+    def test_an_interval_rises_and_an_expected_rounding_is_nothing(self):
+        """Of a slow speed loop the linear gain is the smaller one: each number keeps its own words."""
+        for settle in ((), ("--settle", "0.15", "--rotor", "ideal"), ("--settle", "0.3")):
+            told = self.run_program("design", "maxon-251601", "--mode", "position", "--quick", *settle, code=None).stdout
+            found = re.search(r"found by (\d+) simulation(s?) between (\S+) \((.*?)\) and (\S+) \((.*?)\)", told)
+            self.assertTrue(found, told)
+            self.assertLessEqual(float(found.group(3)), float(found.group(5)))
+            self.assertEqual(found.group(1) == "1", found.group(2) == "")
+            self.assertEqual({found.group(4), found.group(6)}, {"full torque stops it from top speed", "no limit acts"})
+        told = self.run_program("design", "maxon-251601", "--mode", "current", "--method", "cancellation", "--quick", code=None).stdout
+        self.assertRegex(told, r"overshoot +0 A +0 A +designed")
+        self.assertNotRegex(told, r"e\+\d+ %|e-1\d")
+
     def test_design_prints_verdict_first_then_every_step(self):
         text = self.run_program("design", "maxon-251601").stdout
         self.assertRegex(text.splitlines()[0], r"^usable, 2 warnings: the current loop settles in 930 us \(1 ms asked for\), 1\.02 ms at worst, .*; with Hall probes, over 10 motors$")

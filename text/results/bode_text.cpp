@@ -36,32 +36,41 @@ const char* unit_of(const BodeStudy& s) {
                                                    : "deg";
 }
 
-/// The designed L at a point. A phase is known but for whole turns: the designed takes the turn nearest to the measured
-/// phase, or, where the coherence is too small to believe that phase, the one in (-360, 0] deg.
+/// The designed L at a point.
 struct Designed {
   double gain_dB = 0.0, phase_deg = 0.0;
 };
 std::optional<Designed> designed_at(const BodeStudy& s, const LoopPoint& p) {
   const auto L = s.designed_at(p.w_rad_s);
   if (!L) return std::nullopt;
-  const double angle = L->angle_rad();
-  const double turns = p.coherence < analysis::little_coherence
-                           ? (angle > 0.0 ? -1.0 : 0.0)
-                           : std::floor((p.phase_rad - angle) / sixstep::base::turn_rad + 0.5);
-  return Designed{dB(L->size()), (angle + sixstep::base::turn_rad * turns) * degrees_per_rad};
+  const auto k = static_cast<std::size_t>(&p - s.points.data());
+  return Designed{dB(L->size()), s.designed_phase_rad[k] * degrees_per_rad};
 }
 
 /// By more than this two loops are not the same; margins are read between a quarter and four times the crossover's gain.
 constexpr double far_dB = 1.5, far_deg = 8.0, near_crossover_dB = 20.0;
 
+/// Less than this part of the samples without current is commutation.
+constexpr double has_gaps = 0.01;
+
 /// Why: the first that holds.
-const char* why_beside(const study::Scenario& s) {
-  const bool one_way = s.pwm.chopping != sixstep::control::Chopping::complementary &&
-                       !s.control.smooth_chopping.on && s.control.drive != study::FirmwareKind::field;
-  if (one_way && s.control.mode != sixstep::control::Mode::current)
-    return "this chopping lets no current flow backwards, so that the drive slows down by load and friction alone and the answer is "
-           "another one up than down; pwm.chopping = \"complementary\" lets it";
-  return "each period of the multisine is answered alike, and not as a linear loop does: commutation, gaps in the current or a limit";
+std::string why_beside(const BodeStudy& s) {
+  const study::Scenario& end = s.at_end;
+  const bool hall =
+      end.sensors.rotor == study::RotorSensing::hall && end.control.drive != study::FirmwareKind::sensorless;
+  if (hall && s.mode == sixstep::control::Mode::position)
+    return fmt::format(
+        "Hall probes tell the position in steps of {}, and around a standstill their edges hardly tell a speed; sensors.rotor = "
+        "\"ideal\" shows the loop without them, and an encoder with pwm.commutation = \"sample\" tells both finely",
+        quantity_text(60 / s.pole_pairs, "deg", 3));
+  const bool one_way = end.pwm.chopping != sixstep::control::Chopping::complementary &&
+                       !end.control.smooth_chopping.on && end.control.drive != study::FirmwareKind::field;
+  if (one_way && s.without_current > has_gaps)
+    return fmt::format(
+        "this chopping lets no current flow backwards, and at {:.2g} % of the samples there is none: the answer is another one up "
+        "than down; pwm.chopping = \"complementary\" lets it",
+        100 * s.without_current);
+  return "each period of the multisine is answered alike, and not as a linear loop does: commutation, dead time, gaps in the current or a limit";
 }
 
 /// A coherence near 1 says that the answers are alike, not that the loop is linear.
@@ -79,7 +88,7 @@ std::string beside_the_designed(const BodeStudy& s) {
   }
   if (Hz == 0.0) return "";
   return fmt::format("at {:.3g} Hz the loop is {:+.2g} dB and {:+.2g} deg beside the designed one: {}", Hz,
-                     most_dB, deg, why_beside(s.at_end));
+                     most_dB, deg, why_beside(s));
 }
 
 std::string gain_margin(const std::optional<double>& gain) {
@@ -136,6 +145,10 @@ std::vector<std::string> bode_notes(const BodeStudy& s) {
         "{} of {} lines have a coherence below {:g}: commutation, ripple or noise is larger there than the answer; "
         "a larger amplitude helps",
         few, s.points.size(), analysis::little_coherence));
+  if (s.lag)
+    notes.push_back(fmt::format(
+        "the loop goes round what the sensor tells: the speed {} late at this one; sensors.rotor = \"ideal\" shows the loop without it",
+        quantity_text(s.lag->delay_s(), "s", 3)));
   if (std::string told = beside_the_designed(s); !told.empty()) notes.push_back(std::move(told));
   if (std::isfinite(s.beside))
     notes.push_back(fmt::format("{:.2g} % of the answer's rms stands at no line", 100 * s.beside));

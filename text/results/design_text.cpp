@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/sheet/motion.hpp"
+#include "sixstep/study/measure/figures.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "text/escape/escape.hpp"
 #include "text/results/design_loops_text.hpp"
@@ -57,9 +59,11 @@ std::string motor_line(const DriveDesign& d, const study::Scenario& s) {
 std::string simulated_text(const analysis::DesignStudy& s) {
   Rows rows;
   rows.add({"figure", "expected", "simulated", "", ""});
-  for (const auto& c : s.outcome.comparisons)
-    rows.add({c.figure, quantity_text(c.value, c.unit),
-              quantity_text(sixstep::analysis::as_read(c, s.scenario), c.unit), deviation_text(c), c.source});
+  for (const auto& told : s.outcome.comparisons) {
+    const study::ComparisonResult c = as_shown(told, s.scenario);
+    rows.add({c.figure, quantity_text(c.value, c.unit), quantity_text(c.measured, c.unit), deviation_text(c),
+              c.source});
+  }
   const study::Scenario& n = s.scenario;
   const Motion motion = sixstep::design::motion_of(n.sheet);
   const sixstep::base::LinearUnit deg = motion.unit("deg");
@@ -97,20 +101,24 @@ std::string robust_text(const analysis::Robustness& r) {
          rows.text();
 }
 
+std::string counted(std::size_t n, const char* what) {
+  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+}
+
 std::string position_text(const analysis::PositionGain& p, const Motion& motion) {
   const sixstep::base::LinearUnit gain = motion.unit("rad/s/deg");
-  std::string text = motion.words(fmt::format(
-      "  found by {} simulations between {} (full torque stops it from top speed) and {} (no limit acts)\n",
-      p.runs, sixstep::base::six_digits(p.estimate * gain.factor),
-      sixstep::base::six_digits(p.linear * gain.factor)));
+  // A drive with little speed to lose brakes faster than its linear loop is: the smaller one first, each with its own words.
+  const std::string braking = sixstep::base::six_digits(p.estimate * gain.factor) +
+                              " (full torque stops it from top speed)",
+                    linear = sixstep::base::six_digits(p.linear * gain.factor) + " (no limit acts)";
+  const bool rising = p.estimate <= p.linear;
+  std::string text = motion.words(fmt::format("  found by {} between {} and {}\n",
+                                              counted(static_cast<std::size_t>(p.runs), "simulation"),
+                                              rising ? braking : linear, rising ? linear : braking));
   if (p.gain_rad_s_per_deg < p.nominal)
     text += fmt::format("  the sheet's motor alone would stand {} {}; the tolerances do not\n",
                         sixstep::base::six_digits(p.nominal * gain.factor), gain.linear);
   return text;
-}
-
-std::string counted(std::size_t n, const char* what) {
-  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 
 /// What the motor worst off makes of a figure.
@@ -139,6 +147,17 @@ std::string conditions(const analysis::DesignStudy& s) {
 }
 
 }  // namespace
+
+study::ComparisonResult as_shown(study::ComparisonResult c, const study::Scenario& scenario) {
+  double height = std::fabs(scenario.reference.value);
+  for (const double value : scenario.reference.values) height = std::max(height, std::fabs(value));
+  height *= study::unit_in(scenario, study::reference_unit(scenario.control.mode)).factor;
+  const bool of_the_reference =
+      c.unit == study::unit_in(scenario, study::reference_unit(scenario.control.mode)).linear;
+  if (of_the_reference && std::fabs(c.value) <= 1e-9 * height) c.value = 0.0;
+  c.measured = sixstep::analysis::as_read(c, scenario);
+  return c;
+}
 
 std::string design_verdict(const analysis::DesignStudy& s) {
   const std::string mode = s.design.loops.back().name;

@@ -13,6 +13,9 @@ std::string design_text(const analysis::DesignStudy& study, bool colour);
 /// "usable, 2 warnings: the current loop settles in 990 us (asked for 1 ms), overshoot 7.9 %"
 std::string design_verdict(const analysis::DesignStudy& study);
 
+/// A figure as a reader is shown it: an expected value of rounding's size, beside what the reference asks for, is 0.
+study::ComparisonResult as_shown(study::ComparisonResult figure, const study::Scenario& scenario);
+
 /// For the head of a scenario file: where the gains come from, one line per loop.
 std::vector<std::string> design_lines(const analysis::DesignStudy& study);
 

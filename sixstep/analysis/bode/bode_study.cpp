@@ -20,6 +20,8 @@ namespace {
 using control::Mode;
 using study::ColumnId;
 
+constexpr ColumnId phase_currents[] = {ColumnId::i_a, ColumnId::i_b, ColumnId::i_c};
+
 /// From a thirtieth of the crossover to thirty times it, or to four fifths of half the sampling rate.
 constexpr double below_crossover = 30.0, above_crossover = 30.0, of_half_the_rate = 0.8;
 /// A period of the multisine; the longest is 16 Mi samples over seven periods of it.
@@ -72,6 +74,13 @@ double i_q_of(const study::FullRow& row, double pole_pairs) {
   const base::SinCos magnet = base::sin_cos(at(ColumnId::angle) * pole_pairs - rig::magnet_behind_rad);
   constexpr double root_3 = 1.73205080756887729353;
   return -(2 * a - b - c) / 3 * magnet.sin + (b - c) / root_3 * magnet.cos;
+}
+
+bool carries_no_current(const study::FullRow& row) {
+  constexpr double nothing_A = 1e-6;
+  return std::all_of(std::begin(phase_currents), std::end(phase_currents), [&row](ColumnId id) {
+    return std::fabs(row[static_cast<std::size_t>(id)]) < nothing_A;
+  });
 }
 
 /// What the loop holds, in the mode's unit.
@@ -137,11 +146,11 @@ base::Result<study::Session> at_the_end(const study::Scenario& s, const BodeStud
 }
 
 /// What the controller saw at each sample of the periods that count.
-base::Result<std::vector<double>> outputs_of(study::Session& session, const BodeStudy& b,
-                                             std::size_t periods) {
+base::Result<std::vector<double>> outputs_of(study::Session& session, BodeStudy& b, std::size_t periods) {
   const std::size_t N = b.signal.samples;
   std::vector<double> output;
   output.reserve(periods * N);
+  std::size_t without = 0;
   for (std::size_t n = N; n < (1 + periods) * N; ++n) {
     const double t_s = b.begin_s + static_cast<double>(n) * b.period_s;
     const bool goes_on = session.advance(t_s);
@@ -149,7 +158,10 @@ base::Result<std::vector<double>> outputs_of(study::Session& session, const Bode
       return base::Problem{"reference", "", "with the multisine on it ended the run early",
                            "choose a smaller amplitude"};
     output.push_back(controlled(session.present().signals, b));
+    if (carries_no_current(session.present().signals)) ++without;
   }
+  b.without_current =
+      static_cast<double>(without) / static_cast<double>(std::max<std::size_t>(1, output.size()));
   return output;
 }
 
@@ -209,6 +221,16 @@ base::Problems prepare(BodeStudy& b, const study::Scenario& s, const BodeOrder& 
   return {};
 }
 
+/// The designed phase is exact and goes on from line to line; a measured one that strays at a line must not carry a turn along.
+void lay_beside_the_designed(BodeStudy& b) {
+  if (!b.designed) return;
+  std::vector<double> angles;
+  for (const LoopPoint& p : b.points) angles.push_back(b.designed_at(p.w_rad_s)->angle_rad());
+  b.designed_phase_rad = unwrapped(angles);
+  for (std::size_t k = 0; k < b.points.size(); ++k)
+    b.points[k].phase_rad = next_to(b.points[k].phase_rad, b.designed_phase_rad[k]);
+}
+
 }  // namespace
 
 std::optional<design::Complex> BodeStudy::designed_at(double w_rad_s) const {
@@ -231,7 +253,8 @@ base::Result<BodeStudy> study_bode(const study::Scenario& scenario, const BodeOr
   if (const base::Problems problems = still_on_its_way(b, *output, scenario.duration_s); !problems.empty())
     return problems;
   const Answer answer = answer_to(b.signal, *output);
-  b.points = loop_points(b.signal, answer, b.period_s);
+  b.points = loop_points(b.signal, answer, b.period_s, b.lag);
+  lay_beside_the_designed(b);
   b.beside = answer.beside;
   b.measured = margins_of(b.points);
   return b;

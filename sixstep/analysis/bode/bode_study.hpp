@@ -34,13 +34,17 @@ struct BodeStudy {
   std::vector<LoopPoint> points;
   double beside =
       0.0;  ///< of the answer's rms, the part at no line: ripple, commutation, whatever is not linear
+  double without_current = 0.0;  ///< of the samples looked at, the part at which no phase carried current
   ReadMargins measured;
   std::optional<design::Transfer> designed;  ///< empty where the loop is none of linear blocks alone
   std::string not_linear;                    ///< why
   std::optional<design::SpeedLag> lag;  ///< of a speed that a sensor tells, at the speed that it has there
   std::optional<design::LoopFigures> figures;  ///< of `designed`, lag included
 
-  /// The designed L at a frequency, and its phase next to one that was measured.
+  /// Of the designed L at each point, unwrapped over all of them: what is measured has the turn that lies nearest.
+  std::vector<double> designed_phase_rad;
+
+  /// The designed L at a frequency.
   std::optional<design::Complex> designed_at(double w_rad_s) const;
 };
 

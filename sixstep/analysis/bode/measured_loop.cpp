@@ -43,29 +43,38 @@ std::optional<Fall> fall_through(const std::vector<LoopPoint>& points, double le
 double log_gain(const LoopPoint& p) { return base::log(p.gain); }
 double phase(const LoopPoint& p) { return p.phase_rad; }
 
-/// From the last point's phase by the shorter way; the first between -360 and 0 degrees, as a loop that integrates has it.
-double unwrapped(double angle, const std::vector<LoopPoint>& before) {
-  constexpr double turn = 2 * base::pi;
-  if (before.empty()) return angle > 0.0 ? angle - turn : angle;
-  const double last = before.back().phase_rad;
-  return angle - turn * std::floor((angle - last) / turn + 0.5);
-}
-
 }  // namespace
 
-std::vector<LoopPoint> loop_points(const Multisine& signal, const Answer& answer, double period_s) {
+double next_to(double angle, double near) {
+  return angle - base::turn_rad * std::ceil((angle - near) / base::turn_rad - 0.5);
+}
+
+std::vector<double> unwrapped(const std::vector<double>& angles) {
+  std::vector<double> out;
+  out.reserve(angles.size());
+  for (const double angle : angles) out.push_back(next_to(angle, out.empty() ? -base::pi : out.back()));
+  return out;
+}
+
+std::vector<LoopPoint> loop_points(const Multisine& signal, const Answer& answer, double period_s,
+                                   const std::optional<design::SpeedLag>& lag) {
   std::vector<LoopPoint> points;
+  std::vector<double> angles;
   for (std::size_t k = 0; k < answer.lines.size(); ++k) {
     const LineAnswer& line = answer.lines[k];
-    const design::Complex T = line.gain, L = T / design::Complex{1.0 - T.re, -T.im};
-    const double turns = static_cast<double>(signal.lines[k]) / static_cast<double>(signal.samples);
-    points.push_back({.w_rad_s = 2 * base::pi * turns / period_s,
+    const double w_rad_s = base::turn_rad * static_cast<double>(signal.lines[k]) /
+                           static_cast<double>(signal.samples) / period_s;
+    const design::Complex T = lag ? line.gain * lag->at(w_rad_s) : line.gain;
+    const design::Complex L = T / design::Complex{1.0 - T.re, -T.im};
+    angles.push_back(L.angle_rad());
+    points.push_back({.w_rad_s = w_rad_s,
                       .closed = T,
                       .coherence = line.coherence,
                       .gain = L.size(),
-                      .phase_rad = unwrapped(L.angle_rad(), points),
                       .scatter = line.scatter * (design::Complex{1.0, 0.0} + L).size()});
   }
+  const std::vector<double> phases = unwrapped(angles);
+  for (std::size_t k = 0; k < points.size(); ++k) points[k].phase_rad = phases[k];
   return points;
 }
 
@@ -74,7 +83,7 @@ ReadMargins margins_of(const std::vector<LoopPoint>& points) {
   if (!answered(points)) return out;
   if (const auto crossing = fall_through(points, 0.0, Which::last, log_gain)) {
     out.crossover_rad_s = crossing->w_rad_s();
-    out.phase_rad = base::pi + crossing->at(phase);
+    out.phase_rad = next_to(base::pi + crossing->at(phase), 0.0);
     out.delay_s = std::fmax(0.0, *out.phase_rad) / *out.crossover_rad_s;
   }
   if (const auto turned = fall_through(points, -base::pi, Which::first, phase))

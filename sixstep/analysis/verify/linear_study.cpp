@@ -51,6 +51,10 @@ void tell_loop(design::LoopDesign& loop) {
 
 void tell_sensing(std::vector<design::DerivationStep>& steps) {
   for (design::DerivationStep& s : steps) {
+    if (s.symbol == "w_c") {  // a frequency, and no speed
+      s.formula = "d1 F_max/m, where the speed loop crosses over by d1 alone";
+      s.unit = "1/s";
+    }
     if (s.symbol != "w_low" && s.symbol != "q") continue;  // the phase of a loop stays in degrees
     const base::LinearUnit unit = base::in_linear(s.unit);
     s.value *= unit.factor;

@@ -57,6 +57,14 @@ SpeedLag speed_lag(const RotorSensing& sensing, double pole_pairs, double speed_
 
 namespace {
 
+/// Of the loop as its gains alone have it: by it the chip's window is laid out too. The loop with its integral and its lags crosses
+/// over elsewhere.
+void add_crossover(double crossover_rad_s, std::vector<DerivationStep>& steps) {
+  if (!(crossover_rad_s > 0.0)) return;
+  steps.push_back(
+      {"w_c", "d1 T_max/J, where the speed loop crosses over by d1 alone", crossover_rad_s, "rad/s"});
+}
+
 /// What a sensor costs, for a reader.
 void add_cost(const SpeedLag& lag, const char* formula, double crossover_rad_s,
               std::vector<DerivationStep>& steps) {
@@ -74,6 +82,7 @@ std::vector<DerivationStep> lag_steps(const RotorSensing& sensing, double pole_p
   if (sensing.shaft.kind != ShaftSensorKind::none) {
     std::vector<DerivationStep> steps{{"w_low", "lowest speed asked for", speed_rad_s, "rad/s"}};
     for (const DerivationStep& step : shaft_sensing_steps(sensing.shaft, speed_rad_s)) steps.push_back(step);
+    add_crossover(crossover_rad_s, steps);
     add_cost(lag, "half of what it is the mean over and stands for, and what it is late", crossover_rad_s,
              steps);
     return steps;
@@ -81,6 +90,7 @@ std::vector<DerivationStep> lag_steps(const RotorSensing& sensing, double pole_p
   std::vector<DerivationStep> steps{
       {"w_low", "lowest speed asked for", speed_rad_s, "rad/s"},
       {"T", "(pi/3)/(p w_low), a sector at that speed", sector_s(pole_pairs, speed_rad_s), "s"}};
+  add_crossover(crossover_rad_s, steps);
   if (sensing.edges == 0)
     steps.push_back({"T_6", "pi/8 12/7 / w_c: six edges where they come within it, else one",
                      hall_window_s(crossover_rad_s), "s"});
