@@ -121,7 +121,7 @@ bool may_sample_in_the_middle(const Control& c) {
 /// In the middle of a centred pulse a current passes its mean, but for the dead time by which a pulse begins late. A largest value, an
 /// overshoot or a ripple has the ripple in it wherever the sample stands.
 std::string cure_of_samples(const Scenario& s, const Measure& m) {
-  const std::string whole = "sampled = false judges the whole signal";
+  std::string whole = "sampled = false judges the whole signal";
   if (!levels_the_ripple(m.metric)) return whole + ", with the ripple that no sample sees";
   const bool is_so = s.pwm.sample == SampleAt::middle && s.pwm.alignment == Alignment::centre;
   if (is_so || unit_of(m.signal) != "A" || !may_sample_in_the_middle(s.control)) return whole;
