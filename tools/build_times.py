@@ -5,8 +5,6 @@
 Each is compiled to nowhere, and once more with -fsyntax-only: reading headers and instantiating templates is the front end, the rest
 the back end (optimising, assembling). CPU seconds, so that what else the machine does only adds a little. Without --target of all
 objects, which takes half an hour of one core; --target sixstep is what ./run builds.
-
-  --renew   also writes the table between its markers in docs/contributing.md
 """
 import argparse
 import collections
@@ -19,7 +17,6 @@ import shlex
 import subprocess
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-BEGIN, END = "<!-- build times: tools/build_times.py --renew -->", "<!-- end of build times -->"
 
 
 def arguments():
@@ -28,7 +25,6 @@ def arguments():
     parser.add_argument("--target", default="")
     parser.add_argument("--top", type=int, default=40)
     parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
-    parser.add_argument("--renew", action="store_true")
     return parser.parse_args()
 
 
@@ -96,24 +92,13 @@ def tables(costs, top):
     return "\n".join(lines)
 
 
-def renew(text):
-    page = ROOT / "docs/contributing.md"
-    old = page.read_text()
-    before, rest = old.split(BEGIN)
-    page.write_text(before + BEGIN + "\n\n" + text + "\n\n" + END + rest.split(END)[1])
-
-
 def main():
     a = arguments()
     build = (ROOT / a.build) if not a.build.is_absolute() else a.build
-    # A precompiled header that others read must be there.
     chosen = [e for e in entries(build, a.target) if e["file"].endswith((".cpp", ".cxx", ".c"))]
     with concurrent.futures.ThreadPoolExecutor(a.jobs) as pool:
         costs = list(pool.map(cost, chosen))
-    text = tables(costs, a.top)
-    print(text)
-    if a.renew:
-        renew(text)
+    print(tables(costs, a.top))
 
 
 if __name__ == "__main__":
