@@ -47,7 +47,7 @@ std::string kept_in(const std::string& store) {
 std::string left_behind(const std::vector<std::string>& partial_files, const std::string& store) {
   std::string files;
   for (const std::string& file : partial_files) files += (files.empty() ? "" : ", ") + text::visible(file);
-  const std::string kept = kept_in(store);
+  std::string kept = kept_in(store);
   if (files.empty()) return kept;
   return "what was finished is in " + files + (kept.empty() ? "" : "; " + kept);
 }
