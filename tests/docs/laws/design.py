@@ -125,9 +125,15 @@ def sensors(test, spot):
         test.assertTrue(0 < s["I_ramp"] < s["I_start"] and 0 < s["a"] < K_T * s["I_start"] / J, str(spot))
     if "phase" in s and "w_c times it" in text:
         test.assertTrue(0 < s["phase"] < 45, f"{spot}: a sensor may not cost all of the phase that is to be left")
-        close(test, spot, "phase", s["phase"], s["w_c"] * s["delay"] * 1e-6 * 180 / pi, 1e-4)
+        close(test, spot, "phase", s["phase"], s["w_c"] * seconds(text, "delay") * 180 / pi, 1e-4)
     if "T_6" in s:
-        close(test, spot, "T_6", s["T_6"], pi / 8 * 12 / 7 / s["w_c"] * 1e6, 1e-4)
+        close(test, spot, "T_6", seconds(text, "T_6"), pi / 8 * 12 / 7 / s["w_c"], 1e-4)
+
+
+def seconds(text, symbol):
+    """A row of a derivation in s, whichever unit it is shown in."""
+    value, unit = re.search(rf"^  {symbol} +([\d.]+) (us|ms|s) ", text, re.M).groups()
+    return float(value) * {"us": 1e-6, "ms": 1e-3, "s": 1.0}[unit]
 
 
 def swing(test, spot):
