@@ -95,7 +95,7 @@ TEST(CoreCosts, APeriodTooShortForAnImageIsToldAsTheImageHasIt) {
             "a control period of 30 us is shorter than the ATmega2560's image needs, 100 us");
   EXPECT_EQ(
       text::too_short_for_images(4.2e-6),
-      "a control period of 4.2 us is shorter than either image needs: 22.3 us on the STM32F303, 100 us on the ATmega2560");
+      "a control period of 4.2 us is shorter than either image needs: 22.2 us on the STM32F303, 100 us on the ATmega2560");
 }
 
 TEST(CoreCosts, EveryLineIsAComment) {

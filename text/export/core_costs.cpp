@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -113,7 +112,7 @@ std::string too_short_for_images(double period_s) {
   if (period_s >= stm32_least_period_s)
     return fmt::format("{} the ATmega2560's image needs, {}", period, atmega);
   return fmt::format("{} either image needs: {:.1f} us on the STM32F303, {} on the ATmega2560", period,
-                     std::ceil(1e7 * stm32_least_period_s) / 10, atmega);
+                     1e6 * stm32_least_period_s, atmega);
 }
 
 std::string core_cost_lines(const study::Compiled& c) {

@@ -153,7 +153,7 @@ void look_at_settling(const DriveDesign& d, const LoopDesign& loop, Collector& o
 void look_at_heat(const DriveDesign& d, Collector& out) {
   const bool current = d.spec.mode == control::Mode::current;
   if (!d.nominal_printed) {
-    if (!d.spec.torque_limit_Nm)
+    if (current || !d.spec.torque_limit_Nm)
       out.add(
           Concern::heat,
           "the sheet names no nominal current: a tenth of the stall current, " +
