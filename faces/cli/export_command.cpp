@@ -133,15 +133,19 @@ base::Result<study::Clearance> cleared(const study::Scenario& scenario) {
 }
 
 /// All that stands against it, at once.
-Exit not_cleared(const ExportArguments& a, const study::Clearance& c) {
+Exit not_cleared(const ExportArguments& a, const study::Control& control, const study::Clearance& c) {
   complain(within(a.file, c.unmeasured));
   complain(within(a.file, c.unheld));
   // Where the sensor goes, so do the loops that were laid out for it.
-  if (std::any_of(c.unmeasured.begin(), c.unmeasured.end(),
-                  [](const base::Problem& p) { return p.cure.find("designed for edges") != p.cure.npos; }))
-    print("with these keys set, sixstep design --scenario " + text::visible(a.file) +
-              " --toml NEW.toml writes a scenario with such gains and requirements\n",
-          stderr);
+  const bool of_sensor = std::any_of(c.unmeasured.begin(), c.unmeasured.end(),
+                                     [](const base::Problem& p) { return p.where == "sensors.rotor"; });
+  using Mode = sixstep::control::Mode;
+  const bool cascade = control.mode == Mode::speed || control.mode == Mode::position;
+  if (of_sensor && cascade && control.drive != study::FirmwareKind::field)
+    print(
+        "with these keys set, sixstep design --scenario " + text::visible(a.file) +
+            " --toml NEW.toml writes a scenario with gains and requirements for it, and says whether they are usable\n",
+        stderr);
   print("no header was written; --despite REASON writes one that says all of this\n", stderr);
   return graver(exit_of(c.outcome), c.unmeasured.empty() ? Exit::ok : Exit::bad_input);
 }
@@ -170,7 +174,7 @@ Exit export_header(const ExportArguments& a) {
   const base::Result<study::Clearance> clearance = cleared(*scenario);
   if (interrupted()) return told_interrupted("export " + a.file);
   if (!clearance) return refused(within(a.file, clearance.problems()));
-  if (!clearance->clear() && !a.despite) return not_cleared(a, *clearance);
+  if (!clearance->clear() && !a.despite) return not_cleared(a, scenario->control, *clearance);
   if (a.despite && clearance->clear())
     print("--despite was not needed: the run holds, and the header says so\n", stderr);
   wanted.clearance = &*clearance;
