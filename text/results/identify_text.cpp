@@ -97,8 +97,10 @@ std::string wires_section(const HallIdentity& f) {
     return rows.text();
   }
   const IdentifiedPlace& p = *f.place;
+  const std::string most = f.forward > 0 && f.backward > 0 ? " most of the log" : "";
   rows.add({"turned",
-            p.forward ? "forward, as a b c follow each other" : "backward, as c b a follow each other",
+            p.forward ? "forward" + most + ", as a b c follow each other"
+                      : "backward" + most + ", as c b a follow each other",
             certainty_text(p.order_probability)});
   rows.add({"lines", wires_words(p.wires.front()), certainty_text(p.probability)});
   for (std::size_t n = 1; n < p.wires.size() && n < 3; ++n)
