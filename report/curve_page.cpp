@@ -90,14 +90,21 @@ std::string lasting_fact(const analysis::Curve& curve, const CurveUnits& u) {
   return fmt::format("from {} ({}) on", u.speed_text(from.speed_rad_s), u.torque_text(from.shaft_torque_Nm));
 }
 
+std::string stands_fact(const analysis::ThermalLimits& still) {
+  return fmt::format("{} continuously, {} for 60\u00a0s, {} for 10\u00a0s", amperes(still.continuous_A),
+                     amperes(still.short_A[1]), amperes(still.short_A[0]));
+}
+
 std::string thermal_facts(const analysis::CurveRequest& r, const analysis::Curve& curve,
                           const CurveUnits& u) {
   if (!curve.thermal) return "";
-  const analysis::ThermalLimits still = analysis::thermal_limits(*curve.thermal, r, 0.0);
-  return fact(fmt::format("Current at {}\u00a0°C ambient", plain(r.ambient_degC, 3, true)),
-              fmt::format("{} continuously, {} for 60\u00a0s, {} for 10\u00a0s", amperes(still.continuous_A),
-                          amperes(still.short_A[1]), amperes(still.short_A[0]))) +
-         fact("The curve itself can be held continuously", lasting_fact(curve, u));
+  std::string html = fact(fmt::format("Current at {}\u00a0°C ambient", plain(r.ambient_degC, 3, true)),
+                          stands_fact(analysis::thermal_limits(*curve.thermal, r, 0.0)));
+  if (curve.worse_ends)
+    html += fact("At the worse ends of the motor file's ranges",
+                 stands_fact(analysis::thermal_limits(curve.worse_ends->model, r, 0.0)) + ": " +
+                     curve.worse_ends->values);
+  return html + fact("The curve itself can be held continuously", lasting_fact(curve, u));
 }
 
 std::string facts(const analysis::CurveRequest& r, const analysis::Curve& curve, const CurveUnits& u) {

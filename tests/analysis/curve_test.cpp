@@ -165,6 +165,31 @@ TEST(Curve, ContinuousTorqueWarmsTheWindingToItsLimit) {
   }
 }
 
+/// By the network's own equations: what is allowed at the worse ends takes that motor's winding just to its limit,
+/// and what is allowed by the values would take it beyond.
+TEST(Curve, WhatTheWindingStandsIsToldOfBothEndsOfARange) {
+  CurveRequest r = request(3);
+  r.sheet.thermal_time_constant_winding_s->range = base::Interval{11.7, 17.7};
+  r.sheet.thermal_resistance_winding_housing_K_W->range = base::Interval{4.5, 5.3};
+  const Curve curve = whole(r);
+  ASSERT_TRUE(curve.thermal && curve.worse_ends);
+  const design::ThermalModel& worse = curve.worse_ends->model;
+  EXPECT_EQ(worse.winding_s, 11.7);
+  EXPECT_EQ(worse.winding_housing_K_W, 5.3);
+  EXPECT_EQ(worse.motor_s, curve.thermal->motor_s);
+  const analysis::ThermalLimits by_values = analysis::thermal_limits(*curve.thermal, r, 0.0),
+                                at_worst = analysis::thermal_limits(worse, r, 0.0);
+  const auto winding = [&](double current, double seconds) {
+    return design::temperatures_after(worse, {current * current * 1.03, 0.0, 25}, {25, 25}, seconds)
+        .winding_degC;
+  };
+  for (std::size_t n = 0; n < analysis::short_times_s.size(); ++n) {
+    EXPECT_NEAR(winding(at_worst.short_A[n], analysis::short_times_s[n]), 125, 1e-9);
+    EXPECT_GT(winding(by_values.short_A[n], analysis::short_times_s[n]), 126);
+  }
+  EXPECT_LT(at_worst.continuous_A, by_values.continuous_A);
+}
+
 TEST(Curve, AWarmMotorTurnsFasterAndPullsLess) {
   const CurveRequest cold = request(3);
   CurveRequest warm = cold;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The two-body thermal model against its differential equations, integrated otherwise, and against the
 // textbook's two exponentials.
-#include "sixstep/design/sheet/thermal.hpp"
+#include "sixstep/design/sheet/thermal_ranges.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,6 +13,7 @@
 namespace {
 
 using namespace sixstep;
+using base::Quantity;
 using design::Heating;
 using design::Temperatures;
 using design::ThermalModel;
@@ -55,6 +56,65 @@ TEST(Thermal, ClosedFormIsTheEquationsSolution) {
       EXPECT_NEAR(exact.winding_degC, rk4.winding_degC, 1e-6 * change) << copper_W << " W " << seconds;
       EXPECT_NEAR(exact.housing_degC, rk4.housing_degC, 1e-6 * change) << copper_W << " W " << seconds;
     }
+}
+
+Quantity ranged(double value, double low, double high) {
+  Quantity q;
+  q.value = value;
+  q.range = base::Interval{low, high};
+  return q;
+}
+
+design::Sheet ranged_sheet() {
+  design::Sheet s;
+  s.thermal_resistance_winding_housing_K_W = ranged(4.5, 4.0, 5.3);
+  s.thermal_resistance_housing_ambient_K_W = ranged(4.25, 3.9, 4.4);
+  s.thermal_time_constant_winding_s = ranged(16.6, 11.7, 17.7);
+  s.thermal_time_constant_motor_s = ranged(212, 200, 240);
+  s.max_winding_temperature_degC = ranged(125, 120, 155);
+  return s;
+}
+
+/// Each end is tried alone: none takes the winding farther than the ones that are called worse.
+TEST(ThermalRanges, TheWorseEndsWarmTheWindingMost) {
+  const design::Sheet sheet = ranged_sheet();
+  const auto worse = design::at_worse_ends(sheet);
+  ASSERT_TRUE(worse);
+  EXPECT_EQ(worse->model.max_winding_degC, 120);
+  for (const double seconds : {3.0, 30.0, 300.0, 3000.0})
+    for (int corner = 0; corner < 16; ++corner) {
+      const auto end = [&](const std::optional<Quantity>& q, int bit) {
+        return (corner >> bit) % 2 == 0 ? q->range->low : q->range->high;
+      };
+      const ThermalModel m{end(sheet.thermal_resistance_winding_housing_K_W, 0),
+                           end(sheet.thermal_resistance_housing_ambient_K_W, 1),
+                           end(sheet.thermal_time_constant_winding_s, 2),
+                           end(sheet.thermal_time_constant_motor_s, 3), 125};
+      const auto reached = [&](const ThermalModel& of) {
+        return design::temperatures_after(of, {7.0, 0.5, 25}, {25, 25}, seconds).winding_degC;
+      };
+      EXPECT_LE(reached(m), reached(worse->model) + 1e-9) << corner << " after " << seconds << " s";
+    }
+}
+
+TEST(ThermalRanges, ARangeWithoutAWorseEndIsNone) {
+  design::Sheet sheet = ranged_sheet();
+  for (auto* q :
+       {&sheet.thermal_resistance_winding_housing_K_W, &sheet.thermal_resistance_housing_ambient_K_W})
+    (*q)->value = (*q)->range->high;
+  for (auto* q : {&sheet.thermal_time_constant_winding_s, &sheet.thermal_time_constant_motor_s,
+                  &sheet.max_winding_temperature_degC})
+    (*q)->value = (*q)->range->low;
+  EXPECT_FALSE(design::at_worse_ends(sheet));
+  sheet.thermal_time_constant_winding_s.reset();
+  EXPECT_FALSE(design::at_worse_ends(sheet));
+}
+
+/// Resistances k times, capacities 1/k times: the same time constants, k times the rise for the same constant loss.
+TEST(ThermalRanges, ANetworkScaledAllOverRisesByThatMuchMore) {
+  const ThermalModel scaled{4.5 * 1.3, 4.25 * 1.3, 16.6, 212, 125};
+  EXPECT_NEAR(design::greater_rise(flat, scaled), 1.3, 1e-12);
+  EXPECT_NEAR(design::greater_rise(flat, {4.5, 4.25, 16.6 / 1.5, 212, 125}), 1.5, 1e-12);
 }
 
 TEST(Thermal, CoolingIsTheTextbooksTwoExponentials) {

@@ -147,6 +147,25 @@ TEST(Remarks, AWindingAboveItsLimit) {
   EXPECT_THAT(remarks_on(s), IsEmpty());
 }
 
+/// A winding near its limit by the values is beyond it by their ranges; one far below is not.
+TEST(Remarks, AWindingThatIsCoolByTheValuesAlone) {
+  Scenario s = held(10.0);
+  s.duration_s = 2.0;
+  s.sheet.thermal_resistance_winding_housing_K_W = base::Quantity{4.0, "", ""};
+  s.sheet.thermal_resistance_housing_ambient_K_W = base::Quantity{4.0, "", ""};
+  base::Quantity winding_s{10.0, "", ""};
+  winding_s.range = base::Interval{4.0, 10.0};
+  s.sheet.thermal_time_constant_winding_s = winding_s;
+  s.sheet.thermal_time_constant_motor_s = base::Quantity{200.0, "", ""};
+  s.sheet.max_winding_temperature_degC = base::Quantity{125.0, "", ""};
+  s.heat.motor = true;
+  // 10 A on 1.03 ohm, two seconds: 206 J into 2.5 J/K, or into 1 J/K.
+  EXPECT_THAT(remarks_on(s), Contains(AllOf(HasSubstr("the winding stayed below 125 degC"),
+                                            HasSubstr("thermal_time_constant_winding_s = 4"))));
+  s.duration_s = 0.2;
+  EXPECT_THAT(remarks_on(s), ::testing::Not(Contains(HasSubstr("the winding stayed below"))));
+}
+
 TEST(Remarks, FewSamplesInACommutationStep) {
   Scenario s = maxon_scenario(Mode::current, 0.0);
   s.duration_s = 2e-3;

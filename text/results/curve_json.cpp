@@ -78,16 +78,19 @@ Json locked(const analysis::OperatingPoint& turning) {
           {"ripple_Nm", l.ripple_Nm}};
 }
 
-Json thermal(const analysis::Curve& curve) {
-  if (!curve.thermal) return nullptr;
-  const design::ThermalModel& m = *curve.thermal;
+/// A thermal model, and the currents that it stands at standstill.
+Json stands(const analysis::CurveRequest& r, const design::ThermalModel& m) {
+  const analysis::ThermalLimits still = analysis::thermal_limits(m, r, 0.0);
   return {{"winding_housing_K_W", m.winding_housing_K_W},
           {"housing_ambient_K_W", m.housing_ambient_K_W},
           {"winding_s", m.winding_s},
           {"motor_s", m.motor_s},
           {"max_winding_degC", m.max_winding_degC},
           {"copper_per_K", design::copper_per_K},
-          {"sheet_degC", design::sheet_degC}};
+          {"sheet_degC", design::sheet_degC},
+          {"continuous_current_A", still.continuous_A},
+          {"current_60s_A", still.short_A[1]},
+          {"current_10s_A", still.short_A[0]}};
 }
 
 }  // namespace
@@ -103,7 +106,8 @@ std::string curve_json(const analysis::CurveRequest& r, const analysis::Curve& c
   out["best_efficiency"] = loose(r, curve, curve.marks.best_efficiency);
   out["for_ever_from"] = loose(r, curve, curve.marks.for_ever);
   out["nominal"] = nominal(r, curve);
-  out["thermal"] = thermal(curve);
+  out["thermal"] = curve.thermal ? stands(r, *curve.thermal) : Json(nullptr);
+  out["thermal_at_worse_ends"] = curve.worse_ends ? stands(r, curve.worse_ends->model) : Json(nullptr);
   out["thermal_missing"] =
       curve.thermal ? Json(nullptr) : Json(motion.words(to_string(curve.thermal_missing[0])));
   if (!r.bench.motor.left_to_a_run.empty()) out["left_to_a_run"] = motion.words(r.bench.motor.left_to_a_run);

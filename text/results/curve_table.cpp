@@ -251,15 +251,24 @@ std::string lasting(const analysis::Curve& curve, const Units& u) {
                      speed_text(from.speed_rad_s, u), torque_text(from.shaft_torque_Nm, u));
 }
 
+/// What the winding stands at standstill.
+std::string stands(const analysis::ThermalLimits& l, const Units& u) {
+  return fmt::format("{} A ({} at standstill) for ever, {} A for {} s, {} A for {} s",
+                     significant(l.continuous_A, 3), torque_text(l.continuous_Nm, u),
+                     significant(l.short_A[1], 3), analysis::short_times_s[1], significant(l.short_A[0], 3),
+                     analysis::short_times_s[0]);
+}
+
 std::string thermal(const analysis::CurveRequest& r, const analysis::Curve& curve, const Units& u) {
   if (!curve.thermal) return fmt::format("No thermal limits: {}.\n", to_string(curve.thermal_missing[0]));
-  const analysis::ThermalLimits still = analysis::thermal_limits(*curve.thermal, r, 0.0);
-  std::string text = fmt::format(
-      "At {:g} degC ambient the winding stays below {:g} degC with {} A ({} at standstill) for ever, {} "
-      "A for {} s, {} A for {} s.\n",
-      r.ambient_degC, curve.thermal->max_winding_degC, significant(still.continuous_A, 3),
-      torque_text(still.continuous_Nm, u), significant(still.short_A[1], 3), analysis::short_times_s[1],
-      significant(still.short_A[0], 3), analysis::short_times_s[0]);
+  std::string text = fmt::format("At {:g} degC ambient the winding stays below {:g} degC with {}.\n",
+                                 r.ambient_degC, curve.thermal->max_winding_degC,
+                                 stands(analysis::thermal_limits(*curve.thermal, r, 0.0), u));
+  if (curve.worse_ends)
+    text +=
+        fmt::format("At the worse ends of the motor file's ranges ({}) it stays below {:g} degC with {}.\n",
+                    curve.worse_ends->values, curve.worse_ends->model.max_winding_degC,
+                    stands(analysis::thermal_limits(curve.worse_ends->model, r, 0.0), u));
   return text + lasting(curve, u);
 }
 

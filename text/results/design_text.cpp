@@ -130,6 +130,13 @@ std::string at_worst(const analysis::DesignStudy& s, const char* figure, double 
   return "";
 }
 
+/// The band of its step in which the loop has settled: the one that the design's run measures in.
+double settled_percent(const analysis::DesignStudy& s) {
+  for (const study::Comparison& c : s.scenario.compare)
+    if (c.measure.label == "settling time") return 100 * c.measure.band;
+  return 100 * sixstep::design::settling_band(s.design);
+}
+
 /// What the verdict holds for.
 std::string conditions(const analysis::DesignStudy& s) {
   const DriveDesign& d = s.design;
@@ -171,9 +178,10 @@ std::string design_verdict(const analysis::DesignStudy& s) {
   if (settling && !std::isfinite(settling->measured)) {
     text += fmt::format(": the {} loop's settling cannot be told", mode);
   } else if (settling) {
-    text += fmt::format(": the {} loop settles in {}", mode, quantity_text(settling->measured, "s", 4));
+    text += fmt::format(": the {} loop settles to {:g} % in {}", mode, settled_percent(s),
+                        quantity_text(settling->measured, "s", 4));
     const auto& placed = s.design.loops.back().placed;
-    if (placed) text += fmt::format(" ({} asked for)", quantity_text(placed->settle_s, "s", 4));
+    if (placed) text += fmt::format(" ({} to 1 % asked for)", quantity_text(placed->settle_s, "s", 4));
     text += at_worst(s, "settling time", settling->measured, 4);
   }
   if (overshoot) {

@@ -40,6 +40,9 @@ std::string heading(const std::string& name, const HallIdentity& f) {
   if (f.left_out > 0)
     out += fmt::format("  {} left out, out of place by more than five deviations\n",
                        count(f.left_out, "edge", "edges"));
+  if (f.voltages_left_out > 0)
+    out += fmt::format("  {} of the voltages left out, out of place by more than five deviations\n",
+                       count(f.voltages_left_out, "reading", "readings"));
   if (f.place && f.place->at_turns > 0)
     out += fmt::format("  {} not used, for the rotor turned back beyond {}\n",
                        count(f.place->at_turns, "edge", "edges"), f.place->at_turns == 1 ? "it" : "them");

@@ -135,6 +135,7 @@ base::Result<Curve> curve_of(const CurveRequest& r, const CurvePlan& plan,
     out.thermal = *model;
   else
     out.thermal_missing = model.problems();
+  out.worse_ends = design::at_worse_ends(r.sheet);
   base::Result<Marks> marks = find_marks(
       r.bench,
       {out.thermal, r.ambient_degC, design::on_R(r.motor_degC), scaled(r.sheet.nominal_torque_mNm, 1e-3)},

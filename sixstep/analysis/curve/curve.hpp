@@ -8,7 +8,7 @@
 
 #include "sixstep/analysis/curve/marks.hpp"
 #include "sixstep/analysis/curve/no_load.hpp"
-#include "sixstep/design/sheet/thermal.hpp"
+#include "sixstep/design/sheet/thermal_ranges.hpp"
 
 namespace sixstep::analysis {
 
@@ -65,9 +65,10 @@ struct Curve {
   Marks marks{};
   std::optional<NominalPoint> nominal{};
   std::optional<design::ThermalModel> thermal{};
-  std::vector<ThermalLimits> limits{};  ///< one per point; empty without thermal lines
-  std::vector<Warming> warming{};       ///< likewise
-  base::Problems thermal_missing{};     ///< why there are none
+  std::vector<ThermalLimits> limits{};            ///< one per point; empty without thermal lines
+  std::vector<Warming> warming{};                 ///< likewise
+  std::optional<design::WorseEnds> worse_ends{};  ///< where the sheet's thermal lines have ranges
+  base::Problems thermal_missing{};               ///< why there are none
 };
 
 /// What comes first: the no-load point, and the speeds that are then independent of each other: those of the

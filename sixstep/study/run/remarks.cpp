@@ -11,6 +11,7 @@
 #include "sixstep/design/loops/drive_loops.hpp"
 #include "sixstep/design/loops/field_current.hpp"
 #include "sixstep/design/loops/transfer.hpp"
+#include "sixstep/design/sheet/thermal_ranges.hpp"
 #include "sixstep/study/compile/field_parts.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
 
@@ -143,12 +144,28 @@ std::string on_back_emf(const Scenario& s, const Compiled& c, const RunWatch& w)
          " V: without a current against the magnet the diodes feed the bus, whatever the bridge is told";
 }
 
+/// A winding that stays below its limit by the motor file's thermal values may pass it by their ranges.
+std::string on_worse_ends(const Scenario& s, const RunWatch& w) {
+  const auto model = design::thermal_model(s.sheet);
+  const auto worse = design::at_worse_ends(s.sheet);
+  if (!model || !worse) return {};
+  const double start = s.heat.winding_degC.value_or(s.heat.ambient_degC);
+  const double rise = design::greater_rise(*model, worse->model) * (w.winding_degC - start);
+  if (!(start + rise > worse->model.max_winding_degC)) return {};
+  return "the winding stayed below " + three_digits(model->max_winding_degC) +
+         " degC by the thermal values of the motor file; by the worse ends of their ranges it may not: repeat it "
+         "with [motor_override] " +
+         worse->values;
+}
+
 std::string on_heat(const Scenario& s, const RunWatch& w, const Outcome& out) {
   std::string text;
   const auto& limit = s.sheet.max_winding_temperature_degC;
   if (s.heat.motor && limit && w.winding_degC > limit->value)
     text = "the winding reached " + three_digits(w.winding_degC) + " degC, and its sheet allows " +
            three_digits(limit->value) + " degC";
+  else if (s.heat.motor && limit)
+    text = on_worse_ends(s, w);
   double junction = s.heat.devices ? w.junction_degC : 0.0;
   for (const DeviceLoss& device : out.devices) junction = std::fmax(junction, device.junction_degC);
   if (junction > usual_junction_limit_degC)

@@ -109,6 +109,9 @@ TEST(Identify, EveryWiringIsFoundWithVoltages) {
         const HallWires drawn{spaced_60, static_cast<rig::WireOrder>(order), static_cast<Code>(inverted)};
         EXPECT_EQ(std::count(place.wires.begin(), place.wires.end(), drawn), 1) << "case " << n;
         EXPECT_EQ(place.forward, !t.backward) << "case " << n;
+        std::size_t edges = found->left_out + place.at_turns;
+        for (const analysis::IdentifiedEdge& e : found->edges) edges += e.seen;
+        EXPECT_EQ(edges, found->forward + found->backward) << "case " << n;
         EXPECT_NEAR(place.offset_deg.value, t.offset_deg, 0.75)
             << "case " << n;  // half of what lies between two rows
         EXPECT_GT(place.probability, 0.9999) << "case " << n;

@@ -84,6 +84,9 @@ def identify(test, spot):
         test.assertLess(abs(places[int(edge)] - float(place)), 0.2, f"{spot}: edge {edge}")
     m = re.search(r"(\d+) edges, (\d+) forward and (\d+) backward", spot.text)
     test.assertEqual(int(m.group(1)), int(m.group(2)) + int(m.group(3)))
+    unused = sum(int(n) for n in re.findall(r"^  (\d+) edges? (?:left out|not used)", spot.text, re.M))
+    seen = sum(int(n) for n in re.findall(r"^  \d +\d+ deg .* (\d+)$", spot.text, re.M))
+    test.assertEqual(int(m.group(1)), seen + unused, f"{spot}: edges")
 
 
 def commission_sheet(test, spot):

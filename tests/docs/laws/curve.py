@@ -40,7 +40,35 @@ def point(test, spot, name, p, duty):
     test.assertLessEqual(p["supply"], p["current"] * 1.001, f"{spot}: {name}: a chopped drive takes less than flows in the motor")
 
 
+# The 251601's thermal lines: K/W and s, winding against housing, housing against air.
+THERMAL = {"thermal_resistance_winding_housing_K_W": 4.5, "thermal_resistance_housing_ambient_K_W": 4.25,
+           "thermal_time_constant_winding_s": 17.7, "thermal_time_constant_motor_s": 212.0}
+
+
+def winding_after(lines, current, seconds, ambient=25.0, steps=4000):
+    """The two bodies, stepped: P = I^2 R (1 + a (T_w - 25)) into the winding, nothing else into the housing at rest."""
+    r_wh, r_ha, tau_w, tau_m = lines.values()
+    winding = housing = ambient
+    for _ in range(steps):
+        across = (winding - housing) / r_wh
+        warm = R * current**2 * (1 + 0.00393 * (winding - 25)) - across
+        winding, housing = (winding + seconds / steps * warm * r_wh / tau_w,
+                            housing + seconds / steps * (across - (housing - ambient) / r_ha) * r_ha / tau_m)
+    return winding
+
+
+def stands(test, spot):
+    """What the winding stands takes it to its limit, by the values and by the worse ends of their ranges."""
+    told = re.findall(r"(?:ranges \(([^)]*)\) it|the winding) stays below ([\d.]+) degC with ([\d.]+) A \([^)]*\) for ever, ([\d.]+) A for 60 s, ([\d.]+) A for 10 s", spot.text)
+    for ends, limit, *amperes in told:
+        lines = THERMAL | {k: float(v) for k, v in re.findall(r"(\w+) = ([\d.]+)", ends) if k in THERMAL}
+        for current, seconds in zip(map(float, amperes), (4000.0, 60.0, 10.0), strict=True):
+            rise = winding_after(lines, current, seconds) - 25
+            same(test, spot, f"{current} A for {seconds} s", rise, float(limit) - 25, 0.03 if seconds > 1000 else 0.015)
+
+
 def judge(test, spot):
+    stands(test, spot)
     if "ripple  current     rms" not in spot.text:
         return short(test, spot)
     duty = float(re.search(r"duty ([\d.]+)", spot.text.splitlines()[0]).group(1)) if "duty" in spot.text.splitlines()[0] else 1.0

@@ -166,7 +166,7 @@ BY_TEXT = [
     ("docs/manual/faq.md", "motor show kv.toml | grep K_t", drives.kv), ("docs/manual/faq.md", "torque_constant_Nm_A = 0.42", drives.frames),
     ("docs/manual/faq.md", "braking, soft", drives.braking), ("docs/manual/faq.md", '"device"', drives.devices),
     ("docs/manual/tour.md", "held as", drives.exported), ("docs/manual/faq.md", "cases match", counted),
-    ("docs/manual/tour.md", "settles in", design.judge), ("docs/manual/faq.md", "Fastest settling", design.judge),
+    ("docs/manual/tour.md", "settles to", design.judge), ("docs/manual/faq.md", "Fastest settling", design.judge),
     ("docs/design.md", "", design.judge), ("README.md", "Fastest settling", design.judge),
     ("docs/scenario.md", "| key |", default_in_range),
 ]

@@ -112,6 +112,16 @@ std::optional<base::Problem> too_rare(const HallEdges& edges, std::size_t own) {
                        .cure = "turn the shaft by two turns and more in one go, or leave the pole pairs out"};
 }
 
+/// What contradicts all others: edges, those at turns of the rotor apart, and readings of the voltages.
+void count_left_out(const FoundMotion& motion, std::size_t at_turns, HallIdentity& out) {
+  std::size_t edges = 0;
+  for (const Sighting& s : motion.sightings) {
+    if (!s.left_out) continue;
+    ++(s.is_edge ? edges : out.voltages_left_out);
+  }
+  out.left_out = edges - at_turns;
+}
+
 void take_place(const FoundPlace& found, const MotionPosterior& posterior, HallIdentity& out) {
   const EdgeEffects& effects = found.motion.effects;
   const Weights mean = Weights(effects).mean(1.0);
@@ -146,7 +156,7 @@ void take_place(const FoundPlace& found, const MotionPosterior& posterior, HallI
   place.explained = 1.0 - v.residual_V2 / v.still_V2;
   out.edges = edges_of(found.motion, posterior, place.codes, shift);
   out.passages = passages_of(found.motion, shift);
-  out.left_out = found.motion.left_out;
+  count_left_out(found.motion, found.at_turns, out);
   out.jitter_deg = posterior.jitter_deg();
   out.place = std::move(place);
 }
@@ -157,7 +167,7 @@ void take_codes(const FoundMotion& motion, const MotionPosterior& posterior, Hal
     codes[sector] = static_cast<std::uint8_t>(control::hall_of_sector(sector) ^ out.mask);
   out.edges = edges_of(motion, posterior, codes, 0);
   out.passages = passages_of(motion, 0);
-  out.left_out = motion.left_out;
+  count_left_out(motion, 0, out);
   out.jitter_deg = posterior.jitter_deg();
   out.jitter_deg.low = 0.0;
 }
@@ -173,6 +183,7 @@ HallIdentity counted(const HallLog& log, const HallEdges& edges) {
           .glitches = edges.glitches,
           .skipped = edges.skipped,
           .left_out = 0,
+          .voltages_left_out = 0,
           .unused = edges.unused,
           .mask = edges.mask,
           .mask_probability = edges.mask_probability,

@@ -25,7 +25,7 @@ namespace sixstep::analysis {
 struct IdentifiedEdge {
   std::uint8_t before = 0, after = 0;  ///< codes at the pins, turning forward
   Interval own_deg;                    ///< electrical
-  std::size_t seen = 0;                ///< passages that say so
+  std::size_t seen = 0;                ///< passages that say so: all but those left out and not used
 };
 
 /// What only voltages tell.
@@ -65,6 +65,7 @@ struct HallIdentity {
   std::size_t forward = 0, backward = 0;  ///< edges; without voltages as if each line were at its own pin
   std::size_t glitches = 0, skipped = 0;  ///< hall_edges.hpp
   std::size_t left_out = 0;               ///< edges that contradict all others
+  std::size_t voltages_left_out = 0;      ///< readings of the voltages that do
   std::size_t unused = 0;                 ///< edges behind the first most_edges
   std::uint8_t mask = 0;                  ///< the codes that never occur are this one and its complement
   double mask_probability = 0.0;
