@@ -59,7 +59,8 @@ std::string table(const WiringStudy& s) {
   const sixstep::base::Motion motion = sixstep::design::motion_of(s.subject.sheet);
   return "<table>" +
          motion.words(table_head({"Phases at a, b, c", "Probes at H1, H2, H3", "Theory", "Simulation",
-                                  "#Torque per A,<br>theory", "#simulated", "#Speed", "#Phase rms",
+                                  "#Torque per A,<br>theory", "#simulated", "#Speed,<br>end of run",
+                                  "#Phase rms,<br>end of run",
                                   "Fewest wires to move"})) +
          "<tbody>\n" + rows + "</tbody></table>\n";
 }

@@ -98,21 +98,29 @@ Exit out_of_memory() {
   return Exit::bad_input;
 }
 
+/// At once, where memory is asked for: streams swallow std::bad_alloc, and a value that was read in one is then called wrong.
+[[noreturn]] void end_without_memory() {
+  const Exit exit = out_of_memory();
+  files::remove_temporary_files();
+  ::_exit(static_cast<int>(exit));
+}
+
 /// What nobody catches: memory that a thread of the program's own did not get, or a mistake, whose trace the abort keeps.
 [[noreturn]] void end_uncaught() {
   try {
     if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
   } catch (const std::bad_alloc&) {
-    out_of_memory();
-    files::remove_temporary_files();
-    ::_exit(static_cast<int>(Exit::bad_input));
+    end_without_memory();
   } catch (...) {
   }
   std::abort();
 }
 
 /// Before the program's own constants are made, which takes memory, too.
-[[gnu::constructor(101)]] void take_terminations() { std::set_terminate(end_uncaught); }
+[[gnu::constructor(101)]] void take_terminations() {
+  std::set_terminate(end_uncaught);
+  std::set_new_handler(end_without_memory);
+}
 
 int whole_program(int count, const char* const* words) {
   try {

@@ -166,18 +166,26 @@ void tell(const RunArguments& a, const MadePlan& made) {
   if (made.cut_short()) stop_is_told();
 }
 
+/// A build server is told of it, too: a suite without cases would look as if all were well.
+Exit refused_plan(const std::string& name, const base::Problems& problems,
+                  std::vector<text::JunitSuite>& suites) {
+  suites.push_back(text::junit_suite(name, problems));
+  return refused(problems);
+}
+
 Exit run_plan(const RunArguments& a, const ReadPlan& plan, std::vector<text::JunitSuite>& suites) {
   PlanOutputs outputs;
-  if (const base::Problems problems = outputs.open(a, plan); !problems.empty()) return refused(problems);
+  if (const base::Problems problems = outputs.open(a, plan); !problems.empty())
+    return refused_plan(plan.name, problems, suites);
   base::Result<files::PlanStore> store = make_runs(a, plan);
-  if (!store) return refused(store.problems());
+  if (!store) return refused_plan(plan.name, store.problems(), suites);
   const MadePlan made(plan, std::move(*store));
   if (made.problems().empty()) tell(a, made);
   if (!a.quiet) print(made.beyond(), stderr);
   base::Problems problems = outputs.publish(made.story(), plan, !interrupted());
   append(problems, made.problems());
   complain(problems);
-  suites.push_back(made.verdicts());
+  suites.push_back(problems.empty() ? made.verdicts() : text::junit_suite(plan.name, problems));
   if (interrupted()) {
     const std::string left = left_behind(outputs.partial_files(), store_path(a, plan.name));
     if (!left.empty()) tell_stop(text::visible(plan.name) + ": interrupted; " + left);
@@ -190,14 +198,14 @@ Exit run_plan(const RunArguments& a, const ReadPlan& plan, std::vector<text::Jun
 Exit compare_plans(const RunArguments& a, const std::vector<ReadPlan>& plans,
                    std::vector<text::JunitSuite>& suites) {
   base::Result<files::AtomicFile> file = files::AtomicFile::create({a.paths.of(page_option), a.paths.force});
-  if (!file) return refused(file.problems());
+  if (!file) return refused_plan(a.paths.of(page_option), file.problems(), suites);
   std::vector<std::unique_ptr<MadePlan>> made;
   std::vector<report::PagePlan> pages;
   base::Problems problems;
   Exit exit = Exit::ok;
   for (const ReadPlan& plan : plans) {
     base::Result<files::PlanStore> store = make_runs(a, plan);
-    if (!store) return refused(store.problems());
+    if (!store) return refused_plan(plan.name, store.problems(), suites);
     if (interrupted()) return told_interrupted("the comparison");
     const MadePlan& one = *made.emplace_back(std::make_unique<MadePlan>(plan, std::move(*store)));
     exit = graver(exit, one.exit());
@@ -210,6 +218,7 @@ Exit compare_plans(const RunArguments& a, const std::vector<ReadPlan>& plans,
   for (const auto& one : made) append(problems, one->problems());
   const base::Problems unwritten = problems.empty() ? file->commit() : problems;
   complain(unwritten);
+  if (!unwritten.empty()) suites.push_back(text::junit_suite(a.paths.of(page_option), unwritten));
   return unwritten.empty() ? exit : graver(exit, Exit::bad_input);
 }
 

@@ -29,6 +29,9 @@ base::Result<Statement> Database::prepare(const std::string& sql) {
 
 base::Problem Database::problem() const {
   const int code = handle_ ? sqlite3_errcode(handle_.get()) : SQLITE_NOMEM;
+  if ((code & 0xff) == SQLITE_NOMEM)
+    return {path_.empty() ? "the rows of the runs" : path_ + ":", "", "found no memory",
+            "make room, or ask for less: fewer --jobs, fewer runs"};
   base::Problem problem{.where = path_ + ":", .limit = "cannot be used as a store"};
   switch (code & 0xff) {
     case SQLITE_BUSY:
@@ -45,7 +48,7 @@ base::Problem Database::problem() const {
     case SQLITE_PERM:
       return {path_ + ":", "", "cannot be opened for writing", "name a file in a folder that can be written"};
     default:
-      problem.limit += std::string(": ") + (handle_ ? sqlite3_errmsg(handle_.get()) : "no memory");
+      problem.limit += std::string(": ") + sqlite3_errmsg(handle_.get());
       problem.cure = "name another file";
       return problem;
   }

@@ -63,6 +63,12 @@ TEST(WiringRuns, OfATrapezoidDoWhatTheorySays) {
   // What a bench tells apart: without load a rough one draws half of the stalled current, a good one next to nothing.
   EXPECT_NEAR(s.symptom(WiringDoes::forward_late).phase_rms_A, std::sqrt(2.0 / 3) * 0.5 * 2.33, 0.05 * 2.33);
   EXPECT_LT(s.symptom(WiringDoes::forward).phase_rms_A, 0.05 * 2.33);
+  // A motor that has settled takes from its supply what friction and copper lose: nothing speeds it up.
+  for (const analysis::Symptom& well : {s.symptom(WiringDoes::forward), s.symptom(WiringDoes::backward)}) {
+    const double friction_W = s.bench.motor.shaft.B_Nm_s * well.speed_rad_s * well.speed_rad_s;
+    const double copper_W = 3 * 0.515 * well.phase_rms_A * well.phase_rms_A;
+    EXPECT_NEAR(24 * well.supply_A, friction_W + copper_W, 0.01 * friction_W);
+  }
   EXPECT_GT(s.symptom(WiringDoes::forward_early).speed_rad_s,
             s.symptom(WiringDoes::forward_late).speed_rad_s);
 }

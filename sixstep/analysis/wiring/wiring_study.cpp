@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "sixstep/analysis/curve/no_load.hpp"
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/hash.hpp"
 #include "sixstep/study/check/check.hpp"
@@ -136,6 +137,18 @@ Symptom mean_of(const std::vector<const WiringCase*>& cases) {
   return sum;
 }
 
+Symptom shown_by(const std::vector<const WiringCase*>& alike, const std::optional<OperatingPoint>& settled) {
+  Symptom s = mean_of(alike);
+  if (alike.empty() || !settled) return s;
+  const WiringDoes does = alike.front()->measured.does;
+  if (does != WiringDoes::forward && does != WiringDoes::backward) return s;
+  s.speed_rad_s = (does == WiringDoes::forward ? 1 : -1) * settled->speed_rad_s;
+  s.phase_rms_A = settled->phase_rms_A;
+  s.peak_A = settled->phase_peak_A;
+  s.supply_A = settled->bus_current_A;
+  return s;
+}
+
 /// The runs of one wiring, started one by one: six let free, then one turned.
 struct Runs {
   std::array<std::optional<base::Result<Recorded>>, starts + 1> of;
@@ -191,15 +204,21 @@ Symptom WiringStudy::symptom(WiringDoes does) const {
   std::vector<const WiringCase*> alike;
   for (const WiringCase& c : cases)
     if (c.measured.does == does) alike.push_back(&c);
-  return mean_of(alike);
+  return shown_by(alike, settled);
 }
 
-Symptom WiringStudy::straight() const { return mean_of({&cases.front()}); }
+Symptom WiringStudy::straight() const { return shown_by({&cases.front()}, settled); }
 
 base::Result<WiringStudy> study_wiring(const WiringOrder& order) {
   base::Result<WiringBench> bench = wiring_bench(order.subject);
   if (!bench) return bench.problems();
   WiringStudy s{.subject = order.subject, .bench = std::move(*bench), .machine = {}, .cases = {}};
+  const base::Result<NoLoad> settled = no_load({.motor = s.bench.motor,
+                                                .voltage_V = s.bench.voltage_V,
+                                                .duty = s.bench.duty,
+                                                .pwm_period_s = study::Pwm{}.period_s,
+                                                .keep_going = order.keep_going});
+  if (settled) s.settled = settled->point;
   // With a dynamometer the general kernel has it: its machine is that of all the runs with crossed wires.
   const study::Scenario turned = turned_run(s.bench, order.subject, {});
   if (base::Problems found = study::check(turned); !found.empty()) return found;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "sixstep/analysis/curve/operating_point.hpp"
 #include "sixstep/analysis/for_each.hpp"
 #include "sixstep/analysis/wiring/cures.hpp"
 #include "sixstep/analysis/wiring/wiring_bench.hpp"
@@ -49,7 +50,9 @@ struct WiringCase {
   bool agrees() const { return theory.does == measured.does; }
 };
 
-/// What the runs of all wirings that do the same show, in the mean over ways and starts; of the peaks the largest.
+/// What the runs of all wirings that do the same show, in the mean over ways and starts; of the peaks the largest. A
+/// motor that runs well gathers speed for much longer than a run lasts, for its current has gaps: speed and currents
+/// are then those it settles at (curve/no_load.hpp), unless the sheet's friction holds it.
 struct Symptom {
   std::size_t ways = 0;
   double part = 0.0, speed_rad_s = 0.0, phase_rms_A = 0.0, peak_A = 0.0, supply_A = 0.0, swing_deg = 0.0,
@@ -61,6 +64,7 @@ struct WiringStudy {
   WiringBench bench;
   plant::general::Machine machine;  ///< whose torque the theory is of
   std::vector<WiringCase> cases;    ///< in the order of all_wirings()
+  std::optional<OperatingPoint> settled{};  ///< straight wires without load
 
   std::size_t agreeing() const;
   const WiringCase& at(const rig::Wiring& wiring) const;

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Laws of tables that are not printed by one run: counts, speeds, costs, motors."""
 import re
+from math import pi
 
+from gallery_sheet import B, R
 from laws.quantities import quantity
 from laws.scenarios import motor, terminal_ohm, value
 from page import REPOSITORY
@@ -201,6 +203,10 @@ def wiring(test, spot):
     for one, other in (("FORWARD", "BACKWARD"), ("forward, early", "backward, early"), ("forward, late", "backward, late")):
         test.assertEqual(rows[one][2], str(-int(rows[other][2])), str(spot))
         test.assertEqual(rows[one][4], rows[other][4].removeprefix("-"), f"{spot}: {one}")
+    run = re.search(r"^  FORWARD .* % +(\d+) rpm +([\d.]+) mA +\S+ A +([\d.]+) mA", spot.text, re.M)
+    speed, phase, supply = float(run[1]) * pi / 30, 1e-3 * float(run[2]), 1e-3 * float(run[3])
+    lost = B * speed**2 + 1.5 * R * phase**2
+    test.assertLess(abs(24 * supply - lost), 0.01 * lost, f"{spot}: what settles takes from its supply what it loses")
     stalled, full = map(float, re.search(r"stalled it draws ([\d.]+) A, .*?, at full duty ([\d.]+) A", spot.text).groups())
     test.assertLess(abs(24 / 1.03 - full), 0.05)
     test.assertLess(abs(stalled / full - 0.1), 0.002, "duty 0.1")
