@@ -136,6 +136,7 @@ class Charts {
   std::vector<Line> regions() const {
     if (!curve_.thermal) return {};
     const auto below = [per_Nm = units_.per_Nm](double allowed_Nm, const Place& p) {
+      if (std::isnan(allowed_Nm)) return 0.0;
       return per_Nm * std::fmax(0.0, std::fmin(allowed_Nm, p.point->shaft_torque_Nm));
     };
     const auto limit = limits();

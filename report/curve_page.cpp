@@ -91,6 +91,7 @@ std::string lasting_fact(const analysis::Curve& curve, const CurveUnits& u) {
 }
 
 std::string stands_fact(const analysis::ThermalLimits& still) {
+  if (std::isnan(still.continuous_A)) return "none";
   return fmt::format("{} continuously, {} for 60\u00a0s, {} for 10\u00a0s", amperes(still.continuous_A),
                      amperes(still.short_A[1]), amperes(still.short_A[0]));
 }

@@ -127,7 +127,9 @@ std::string margins(const DesignStudy& s) {
         [&](const LoopDesign& l) { return in(l.built.phase_rad, degrees, "deg"); });
   row(s.design.lag.delay_s() > 0 ? "step: settling" : "step: settling to 2 %",
       [&](const LoopDesign& l) { return shown(l.step.settling_s, "s"); });
-  row("step: overshoot", [&](const LoopDesign& l) { return plain(100 * l.step.overshoot, 3) + " %"; });
+  row("step: overshoot", [&](const LoopDesign& l) {
+    return std::isfinite(l.step.overshoot) ? plain(100 * l.step.overshoot, 3) + " %" : "without bound";
+  });
   return out + "</tbody></table>\n";
 }
 

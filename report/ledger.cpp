@@ -16,8 +16,8 @@ namespace report {
 namespace {
 
 struct Entry {
-  const char* name;
-  const char* law;
+  std::string name;
+  std::string law;
   double joule;
 };
 
@@ -77,7 +77,8 @@ std::string told_in(const sixstep::base::Motion& motion, std::string html) {
 
 }  // namespace
 
-std::string energy_section(const sixstep::study::EnergyBook& b, const sixstep::base::Motion& motion) {
+std::string energy_section(const sixstep::study::EnergyBook& b, const sixstep::base::Motion& motion,
+                           StoredBeside beside) {
   // One unit and one length of bar for both accounts: the air gap's energy stands in each.
   double largest = 0.0;
   for (const double joule :
@@ -95,7 +96,11 @@ std::string energy_section(const sixstep::study::EnergyBook& b, const sixstep::b
       {b.iron != 0.0 ? "Bearing friction" : "Friction", "viscous and Coulomb", b.friction - b.iron}};
   if (b.iron != 0.0) shaft.push_back({"Iron drag", "eddy currents and hysteresis", b.iron});
   shaft.push_back({"Load", "∫ T<sub>load</sub> ω dt", b.load});
-  shaft.push_back({"Kinetic energy", "Δ ½ J ω²", b.kinetic});
+  const std::string stored = std::string(beside.twist ? ", twist" : "") + (beside.cogging ? ", cogging" : "");
+  shaft.push_back({"Kinetic energy" + stored,
+                   std::string(beside.twist ? "Δ ½ J ω² of both masses, Δ ½ k φ²" : "Δ ½ J ω²") +
+                       (beside.cogging ? ", −∫ T<sub>cog</sub> ω dt" : ""),
+                   b.kinetic});
   html += account({"Across the air gap", "∫ T<sub>e</sub> ω dt", b.air_gap}, shaft, b.mechanical_residual,
                   largest);
   return told_in(motion, html + "</div></div>\n");

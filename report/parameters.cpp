@@ -105,7 +105,7 @@ std::string model_section(const sixstep::design::MotorModel& m) {
                  : row("Pole pairs p", plain(m.machine.pole_pairs, 4, true), "", "");
   html += row("Back-EMF shape", shape_words(m), "electrical", "");
   html += row(linear ? "m" : "J", given(m.shaft.J_kg_m2, linear ? "kg" : "kg m2"), "mechanical",
-              m.from.J.empty() ? "rotor and load" : m.from.J + ", and load");
+              m.from.J.empty() ? "rotor, without the load" : m.from.J + ", without the load");
   const char *viscous = linear ? "N s/m" : "Nm s", *dry = linear ? "N" : "Nm";
   html += row("B", given(m.shaft.B_Nm_s, viscous), "mechanical", m.from.friction);
   if (m.shaft.coulomb_Nm != 0.0)

@@ -68,6 +68,10 @@ std::string comparisons(const sixstep::study::Outcome& outcome) {
          comparison_rows(outcome) + "</tbody></table>\n";
 }
 
+StoredBeside stored_beside(const sixstep::study::Scenario& s) {
+  return {.twist = s.load.stiffness_Nm_rad > 0.0, .cogging = !s.sheet.cogging_orders.empty()};
+}
+
 /// Who interrupts a run waits for its report: packing every row would take longest.
 PlotSize size_of(const ReportInput& in) {
   PlotSize size;
@@ -100,7 +104,8 @@ std::string render(const ReportInput& in) {
               {"sheet", sheet_section(in.scenario.sheet)},
               {"model", model_section(in.outcome.motor)},
               {"gains", gains_section(in.outcome)},
-              {"energy", in.outcome.energy ? energy_section(*in.outcome.energy, motion_of(in.outcome.motor)) +
+              {"energy", in.outcome.energy ? energy_section(*in.outcome.energy, motion_of(in.outcome.motor),
+                                                            stored_beside(in.scenario)) +
                                                  device_section(in.outcome.devices)
                                            : "<p class=\"quiet\">No books were kept.</p>\n"},
               {"events", event_section(in.outcome)},

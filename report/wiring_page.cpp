@@ -60,8 +60,7 @@ std::string table(const WiringStudy& s) {
   return "<table>" +
          motion.words(table_head({"Phases at a, b, c", "Probes at H1, H2, H3", "Theory", "Simulation",
                                   "#Torque per A,<br>theory", "#simulated", "#Speed,<br>end of run",
-                                  "#Phase rms,<br>end of run",
-                                  "Fewest wires to move"})) +
+                                  "#Phase rms,<br>end of run", "Fewest wires to move"})) +
          "<tbody>\n" + rows + "</tbody></table>\n";
 }
 

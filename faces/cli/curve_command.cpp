@@ -5,6 +5,7 @@
 #include <CLI/App.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "batch/curve.hpp"
@@ -103,6 +104,16 @@ void read_chopping(const std::string& word, analysis::Bench& bench, base::Proble
                       near.empty() ? "soft is the default" : fmt::format("did you mean {}?", near)});
 }
 
+/// At full duty nothing is chopped.
+void refuse_chopping_without_use(const CurveArguments& a, double duty, base::Problems& problems) {
+  if (std::fabs(duty) != 1.0) return;
+  for (const auto& [option, given] :
+       {std::pair{"--chopping", !a.chopping.empty()}, std::pair{"--pwm-period", a.pwm_period_s.has_value()}})
+    if (given)
+      problems.push_back({option, "", "is of no use at full duty: nothing is chopped",
+                          "give a --duty below 1, or leave it out"});
+}
+
 /// "--pwm-period" of pwm_period_s: options are told by their names, without the unit's suffix.
 std::string option_of(std::string member) {
   member.erase(std::min(member.rfind('_'), member.size()));
@@ -137,6 +148,7 @@ base::Result<analysis::CurveRequest> request_of(const CurveArguments& a) {
   base::Problems problems = analysis::check(r);
   read_chopping(a.chopping, b, problems);
   for (base::Problem& p : problems) p.where = option_of(p.where);
+  refuse_chopping_without_use(a, b.duty, problems);
   if (!problems.empty()) return problems;
   return r;
 }
@@ -169,7 +181,7 @@ void declare_options(CLI::App& curve, CurveArguments& a) {
   curve.add_option("--voltage", a.voltage_V, "bus voltage, V; without it the sheet's nominal voltage");
   curve.add_option("--duty", a.duty, "in (0, 1]; without it 1, full voltage");
   curve.add_option("--chopping", a.chopping, "soft, hard or complementary, where the duty is below 1");
-  curve.add_option("--pwm-period", a.pwm_period_s, "s; without it 30e-6");
+  curve.add_option("--pwm-period", a.pwm_period_s, "s, where the duty is below 1; without it 30e-6");
   curve.add_option("--on-resistance", a.on_resistance_ohm, "of a switch, ohm; without it 0");
   curve.add_option("--diode-drop", a.diode_drop_V, "V; without it 0");
   curve.add_option("--points", a.points, "from standstill to no load; without it 41");

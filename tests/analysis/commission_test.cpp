@@ -32,11 +32,11 @@ struct OnBench {
   const char* motor;
   double voltage_V;  ///< 0: nominal
 };
-constexpr OnBench benches[] = {{"anaheim-bly172s", 0}, {"baldor-bsm90n-175", 0}, {"dji-2212-920kv", 0},
-                               {"maxon-200142", 0},    {"maxon-251601", 0},      {"maxon-339285", 0},
-                               {"maxon-339286", 0},    {"maxon-397172", 0},      {"maxon-488607", 0},
-                               {"maxon-651607", 0},    {"maxon-651609", 0},      {"maxon-651614", 0},
-                               {"teknic-m2310p", 0},   {"hoverboard-hub", 36},   {"mjbots-mj5208", 24}};
+constexpr OnBench benches[] = {
+    {"anaheim-bly172s", 0}, {"baldor-bsm90n-175", 0}, {"dji-2212-920kv", 0}, {"maxon-200142", 0},
+    {"maxon-251601", 0},    {"maxon-339285", 0},      {"maxon-339286", 0},   {"maxon-397172", 0},
+    {"maxon-488607", 0},    {"maxon-651607", 0},      {"maxon-651609", 0},   {"maxon-651614", 0},
+    {"teknic-m2310p", 0},   {"hoverboard-hub", 36},   {"mjbots-mj5208", 24}, {"gmcc-ksk89d53u", 100}};
 
 /// All of them where the environment says so (ctest --preset long), else one in four.
 bool in_full() { return std::getenv("SIXSTEP_ALL_MOTORS") != nullptr; }

@@ -190,6 +190,19 @@ TEST(Curve, WhatTheWindingStandsIsToldOfBothEndsOfARange) {
   EXPECT_LT(at_worst.continuous_A, by_values.continuous_A);
 }
 
+/// Where the air or friction alone take the winding beyond its limit there is no torque that it stands.
+TEST(Curve, InHotAirTheWindingStandsNothing) {
+  CurveRequest r = request(3);
+  r.ambient_degC = 130;
+  const design::ThermalModel model = *design::thermal_model(r.sheet);
+  const analysis::ThermalLimits still = analysis::thermal_limits(model, r, 0.0);
+  EXPECT_TRUE(std::isnan(still.continuous_A) && std::isnan(still.short_Nm[0]));
+  r.ambient_degC = 120;
+  EXPECT_GT(analysis::thermal_limits(model, r, 0.0).continuous_Nm, 0.0);
+  // 700 rad/s of 7.3e-6 N m s: 3.6 W through 4.25 K/W are 15 K.
+  EXPECT_TRUE(std::isnan(analysis::thermal_limits(model, r, 700.0).continuous_Nm));
+}
+
 TEST(Curve, AWarmMotorTurnsFasterAndPullsLess) {
   const CurveRequest cold = request(3);
   CurveRequest warm = cold;

@@ -71,6 +71,10 @@ class Export(ProgramTest):
         self.assertIn("--range current_A = 3A must be a number above 0", told(position, "--range", "current_A=3A", "--arithmetic", "q15"))
         self.assertIn("--range current_A", told(position, "--range", "current_A", "--arithmetic", "q15"))
         self.assertIn("add --arithmetic q15", told(position, "--range", "current_A=3"))
+        # What the scenario itself asks for, or its source gives, is within every range.
+        square = self.scenario("current-square-board")
+        for stated, least in (("current_A=4.9", "5 A"), ("setpoint=4.9", "5 of its unit"), ("bus_V=23", "24 V")):
+            self.assertIn(f"is less than the {least} that this scenario reaches", told(square, "--range", stated, "--arithmetic", "q15"))
         self.assertIn("is no name of a C++ namespace", told(position, "--namespace", "7up"))
         self.assertIn("does not name a key and a value", told(position, "--set", "novalue"))
         small = told(position, "--arithmetic", "q15", "--set", "control.speed.d1=1e-9", "--set", "control.speed.d0=-0.9e-9")

@@ -121,7 +121,7 @@ void expect_scaled(const DriveConfig<S>& drive, const Units<S>& units, const cha
   EXPECT_EQ(units.position_deg, scaled->bases.position_deg);
 }
 
-constexpr design::OperatingRange stated{.current_A = 20.1, .speed_rad_s = 850, .bus_V = 40, .setpoint = 700};
+constexpr design::OperatingRange stated{.current_A = 24, .speed_rad_s = 850, .bus_V = 40, .setpoint = 700};
 
 TEST(ExportHeader, FixedPointIsWhatTheScalingProved) {
   expect_scaled(exported_duty::drive, exported_duty::units, "reference/R3");

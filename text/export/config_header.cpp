@@ -163,6 +163,28 @@ design::OperatingRange range_of(const ConfigHeader& w, const study::Compiled& c)
           stated(w.range.setpoint, own.setpoint),         own.speed_change_rad_s};
 }
 
+/// A range that the scenario itself leaves would be proved for a drive that nobody runs.
+base::Problems too_small(const ConfigHeader& w, const study::Compiled& c) {
+  const design::OperatingRange least = study::least_range(w.scenario, c);
+  base::Problems problems;
+  const auto look = [&](const char* key, double stated, double asked, const char* unit) {
+    if (stated > 0 && stated < asked)
+      problems.push_back(
+          {fmt::format("--range {}", key), sixstep::base::six_digits(stated),
+           fmt::format(
+               "is less than the {} {} that this scenario reaches: by its reference, a limit, its source or its start",
+               sixstep::base::six_digits(asked), unit),
+           "give the most that may be measured or asked for, or leave it out"});
+  };
+  look("current_A", w.range.current_A, least.current_A, "A");
+  look("speed_rad_s", w.range.speed_rad_s, least.speed_rad_s, "rad/s");
+  look("bus_V", w.range.bus_V, least.bus_V, "V");
+  if (c.drive.mode == control::Mode::position)
+    look("position_deg", w.range.position_deg, least.position_deg, "deg");
+  look("setpoint", w.range.setpoint, least.setpoint, "of its unit");
+  return problems;
+}
+
 template <class Scalar>
 base::Result<std::string> floating_header(const ConfigHeader& w, const study::Compiled& c,
                                           std::string_view type) {
@@ -211,6 +233,7 @@ base::Result<std::string> fixed_header(const ConfigHeader& w, const study::Compi
                                                 w.arithmetic.value_or(w.scenario.control.arithmetic))),
                          "has no scaling that is proved for the field-oriented drive",
                          "take float or double"};
+  if (base::Problems problems = too_small(w, c); !problems.empty()) return problems;
   const design::OperatingRange range = range_of(w, c);
   const base::Result<design::Bases> bases = chosen_bases<Scalar>(w, c, range);
   if (!bases) return bases.problems();

@@ -88,9 +88,9 @@ Json stands(const analysis::CurveRequest& r, const design::ThermalModel& m) {
           {"max_winding_degC", m.max_winding_degC},
           {"copper_per_K", design::copper_per_K},
           {"sheet_degC", design::sheet_degC},
-          {"continuous_current_A", still.continuous_A},
-          {"current_60s_A", still.short_A[1]},
-          {"current_10s_A", still.short_A[0]}};
+          {"continuous_current_A", finite(still.continuous_A)},
+          {"current_60s_A", finite(still.short_A[1])},
+          {"current_10s_A", finite(still.short_A[0])}};
 }
 
 }  // namespace

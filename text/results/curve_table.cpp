@@ -49,6 +49,7 @@ std::string fixed(double x, int decimals) {
 }
 
 std::string significant(double x, int digits = 5) {
+  if (std::isnan(x)) return "none";
   if (std::fabs(x) < 1e-9) return "0";  // a no-load point's rounding
   const int before = x == 0 ? 1 : static_cast<int>(std::floor(std::log10(std::fabs(x)))) + 1;
   return fixed(x, std::clamp(digits - before, 0, digits));
@@ -193,7 +194,7 @@ std::string no_load(const analysis::NoLoad& n, const Units& u) {
       significant(n.point.winding_current_A, 4), significant(n.point.bus_current_A, 4),
       significant(n.free_speed_rad_s * per_rad_s), u.speed.name, significant(n.free_s, 2),
       n.settled ? ""
-                : fmt::format(", short of 20 time constants of {} s", significant(n.time_constant_s, 2)));
+                : fmt::format(", short of 22 time constants of {} s", significant(n.time_constant_s, 2)));
 }
 
 std::string ideal(const analysis::Bench& b, const Units& u) {
@@ -252,23 +253,26 @@ std::string lasting(const analysis::Curve& curve, const Units& u) {
 }
 
 /// What the winding stands at standstill.
-std::string stands(const analysis::ThermalLimits& l, const Units& u) {
-  return fmt::format("{} A ({} at standstill) for ever, {} A for {} s, {} A for {} s",
-                     significant(l.continuous_A, 3), torque_text(l.continuous_Nm, u),
-                     significant(l.short_A[1], 3), analysis::short_times_s[1], significant(l.short_A[0], 3),
-                     analysis::short_times_s[0]);
+std::string stands(const std::string& when, const design::ThermalModel& model,
+                   const analysis::CurveRequest& r, const Units& u) {
+  const analysis::ThermalLimits l = analysis::thermal_limits(model, r, 0.0);
+  if (std::isnan(l.continuous_A))
+    return fmt::format("{} the winding is above {:g} degC without any current.\n", when,
+                       model.max_winding_degC);
+  return fmt::format(
+      "{} the winding stays below {:g} degC with {} A ({} at standstill) for ever, {} A for {} s, {} A for {} "
+      "s.\n",
+      when, model.max_winding_degC, significant(l.continuous_A, 3), torque_text(l.continuous_Nm, u),
+      significant(l.short_A[1], 3), analysis::short_times_s[1], significant(l.short_A[0], 3),
+      analysis::short_times_s[0]);
 }
 
 std::string thermal(const analysis::CurveRequest& r, const analysis::Curve& curve, const Units& u) {
   if (!curve.thermal) return fmt::format("No thermal limits: {}.\n", to_string(curve.thermal_missing[0]));
-  std::string text = fmt::format("At {:g} degC ambient the winding stays below {:g} degC with {}.\n",
-                                 r.ambient_degC, curve.thermal->max_winding_degC,
-                                 stands(analysis::thermal_limits(*curve.thermal, r, 0.0), u));
+  std::string text = stands(fmt::format("At {:g} degC ambient", r.ambient_degC), *curve.thermal, r, u);
   if (curve.worse_ends)
-    text +=
-        fmt::format("At the worse ends of the motor file's ranges ({}) it stays below {:g} degC with {}.\n",
-                    curve.worse_ends->values, curve.worse_ends->model.max_winding_degC,
-                    stands(analysis::thermal_limits(curve.worse_ends->model, r, 0.0), u));
+    text += stands(fmt::format("At the worse ends of the motor file's ranges ({})", curve.worse_ends->values),
+                   curve.worse_ends->model, r, u);
   return text + lasting(curve, u);
 }
 

@@ -103,8 +103,10 @@ std::string figures_text(const DriveDesign& d) {
          [&](const LoopDesign& l) { return or_none(l.built.phase_rad, degrees_text); });
   line(d.lag.delay_s() > 0 ? "step: settling" : "step: settling to 2 %",
        [&](const LoopDesign& l) { return quantity_text(l.step.settling_s, "s", 4); });
-  line("step: overshoot",
-       [&](const LoopDesign& l) { return fmt::format("{:.1f} %", 100 * l.step.overshoot); });
+  line("step: overshoot", [&](const LoopDesign& l) {
+    return std::isfinite(l.step.overshoot) ? fmt::format("{:.1f} %", 100 * l.step.overshoot)
+                                           : "without bound";
+  });
   return "\nLoops, with the hold of the PWM and the loops within\n" + rows.text();
 }
 

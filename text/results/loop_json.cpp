@@ -52,7 +52,7 @@ Json step(const LoopDesign& loop, double period_s) {
     out["value"].push_back(samples[n]);
   }
   out["settling_s"] = finite(loop.step.settling_s);
-  out["overshoot"] = loop.step.overshoot;
+  out["overshoot"] = finite(loop.step.overshoot);
   return out;
 }
 

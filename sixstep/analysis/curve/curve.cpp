@@ -2,6 +2,7 @@
 #include "sixstep/analysis/curve/curve.hpp"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "sixstep/base/angle.hpp"
@@ -73,12 +74,15 @@ ThermalLimits thermal_limits(const design::ThermalModel& model, const CurveReque
   const auto torque = [&](double current, const design::Temperatures& at) {
     return sign * (design::on_K_e(r.sheet, at) * K_t * current - friction);
   };
+  const auto current = [R_tt](double copper_W) {
+    return copper_W > 0.0 ? std::sqrt(copper_W / R_tt) : std::numeric_limits<double>::quiet_NaN();
+  };
   ThermalLimits out;
-  out.continuous_A = std::sqrt(design::continuous_copper_W(model, heat, r.ambient_degC) / R_tt);
+  out.continuous_A = current(design::continuous_copper_W(model, heat, r.ambient_degC));
   out.continuous_Nm = torque(out.continuous_A, design::at_the_limit(model, heat, r.ambient_degC));
   for (std::size_t n = 0; n < short_times_s.size(); ++n) {
     const double copper = design::short_time_copper_W(model, heat, r.ambient_degC, short_times_s[n]);
-    out.short_A[n] = std::sqrt(copper / R_tt);
+    out.short_A[n] = current(copper);
     out.short_Nm[n] = torque(out.short_A[n],
                              design::temperatures_after(model, {copper, heat, r.ambient_degC},
                                                         {r.ambient_degC, r.ambient_degC}, short_times_s[n]));

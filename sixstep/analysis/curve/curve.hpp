@@ -46,7 +46,8 @@ inline constexpr std::array<double, 2> short_times_s = {10.0, 60.0};
 
 /// What the winding stands at one speed, as shaft torque of a drive that holds the current constant: block
 /// current through two phases, P = I^2 R_tt, and K_t I less friction, with K_t of the magnets as warm as they then
-/// are. Friction warms the housing. None of it depends on how warm the curve's own motor is.
+/// are. Friction warms the housing. None of it depends on how warm the curve's own motor is. No value (NaN) where the
+/// winding is above its limit without any current: the air or friction alone warm it that far.
 struct ThermalLimits {
   double continuous_A = 0.0, continuous_Nm = 0.0;
   std::array<double, short_times_s.size()> short_A{}, short_Nm{};  ///< from ambient temperature

@@ -173,7 +173,7 @@ void look_at_loop(const LoopDesign& loop, FieldStudy& f) {
          false);
   else if (built.sensitivity_peak > design::greatest_sensitivity)
     warn("amplifies disturbances up to " + base::three_digits(built.sensitivity_peak) + " times", false);
-  if (loop.name != "position" && loop.step.overshoot > 0.1)
+  if (loop.name != "position" && std::isfinite(loop.step.overshoot) && loop.step.overshoot > 0.1)
     f.warnings.push_back({"the " + loop.name + " loop overshoots a step by " +
                               base::three_digits(100.0 * loop.step.overshoot) + " %, for the PI's zero",
                           "limit how fast the setpoint rises (control.slew)", false});

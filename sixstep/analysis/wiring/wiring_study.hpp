@@ -62,8 +62,8 @@ struct Symptom {
 struct WiringStudy {
   WiringSubject subject;
   WiringBench bench;
-  plant::general::Machine machine;  ///< whose torque the theory is of
-  std::vector<WiringCase> cases;    ///< in the order of all_wirings()
+  plant::general::Machine machine;          ///< whose torque the theory is of
+  std::vector<WiringCase> cases;            ///< in the order of all_wirings()
   std::optional<OperatingPoint> settled{};  ///< straight wires without load
 
   std::size_t agreeing() const;

@@ -52,8 +52,9 @@ struct StepResponse {
   std::vector<double> samples;                                  ///< from the instant of the step on
   double settling_s = std::numeric_limits<double>::infinity();  ///< last exit from +-band; infinite where
                                                                 ///< `seconds` do not suffice
-  double overshoot = 0.0;                                       ///< part of the step
-  std::optional<double> reach_s;                                ///< first sample at 98 %
+  /// Part of the step; infinite of a loop that is not stable, whose samples are empty.
+  double overshoot = std::numeric_limits<double>::infinity();
+  std::optional<double> reach_s;  ///< first sample at 98 %
 };
 /// Settled from the first sample on after which each lies inside the band, as study's gauge counts.
 StepResponse step_response(const Transfer& closed_loop, double period_s, double seconds, double band = 0.02);

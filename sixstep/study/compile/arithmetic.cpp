@@ -137,6 +137,18 @@ design::OperatingRange operating_range(const Scenario& s, const Compiled& c) {
   return range;
 }
 
+design::OperatingRange least_range(const Scenario& s, const Compiled& c) {
+  design::OperatingRange least = operating_range(s, c);
+  if (c.product) return least;
+  const double asked = least.setpoint;
+  const Mode mode = s.control.mode;
+  least.current_A = mode == Mode::current ? asked : c.drive.current_limit_A;
+  if (c.sensorless)
+    least.current_A = std::max(least.current_A, c.sensorless->drive.sensorless.start.current_A);
+  least.speed_rad_s = std::max(mode == Mode::speed ? asked : 0.0, std::fabs(c.start.speed_rad_s));
+  return least;
+}
+
 template <class Scalar>
 base::Result<DriveIn<Scalar>> drive_in(const Scenario& s, const Compiled& c) {
   if constexpr (std::is_arithmetic_v<Scalar>) {

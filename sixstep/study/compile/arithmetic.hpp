@@ -20,6 +20,10 @@ namespace sixstep::study {
 /// The product drive meets what its converters span, and a speed that its threshold can pass.
 design::OperatingRange operating_range(const Scenario& scenario, const Compiled& compiled);
 
+/// What this scenario asks for or starts with, and no range may be less than: largest reference, limits, source,
+/// start; of the product drive what its converters span.
+design::OperatingRange least_range(const Scenario& scenario, const Compiled& compiled);
+
 /// The same controller in float or double.
 template <class Scalar>
 control::DriveConfig<Scalar> in_arithmetic(const control::DriveConfig<double>& c);
