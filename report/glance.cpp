@@ -57,8 +57,10 @@ std::string limits(const Scenario& scenario, const Outcome& outcome, const Trace
       return fmt::format("<b>{}</b>, {} of {}", computed(seconds, "s"),
                          percent(seconds / (trace.whole.empty() ? outcome.simulated_s : held->seen_s)), seen);
     };
+    const bool legs = scenario.control.drive == sixstep::study::FirmwareKind::field;
     text += answer("Bus voltage", held->bus_s > 0.0 ? "all of it in use for " + lasted(held->bus_s)
-                                                    : fmt::format("never all in use: duty {} at most",
+                                                    : fmt::format("never all in use: {} {} at most",
+                                                                  legs ? "vector over its circle" : "duty",
                                                                   plain(held->largest_duty, 3)));
     if (held->limit_A)
       text += answer("Current limit", held->limit_s > 0.0

@@ -186,18 +186,36 @@ std::optional<double> current_limit_A(const Scenario& s, const sixstep::design::
   return torque / motor.K_t_Nm_A;
 }
 
+/// What is asked of the bus, of all it has: a pair's duty, or of three legs the vector against the circle that they reach at
+/// every angle, bus over sqrt 3.
+std::optional<Values> part_of_bus(const Trace& trace, const Scenario& scenario) {
+  const Values *d = find_column(trace, "v_d_V"), *q = find_column(trace, "v_q_V"),
+               *bus = find_column(trace, "bus_V"), *duty = find_column(trace, "duty");
+  if (scenario.control.drive != sixstep::study::FirmwareKind::field)
+    return duty ? std::optional(*duty) : std::nullopt;
+  // Each state of a finite set is the whole bus, or none of it.
+  if (!d || !q || !bus || scenario.control.field.law == sixstep::study::FieldLaw::finite_set)
+    return std::nullopt;
+  Values part(d->size());
+  for (std::size_t n = 0; n < part.size(); ++n)
+    part[n] = (*bus)[n] > 0.0 ? std::sqrt(3.0) * std::hypot((*d)[n], (*q)[n]) / (*bus)[n] : 0.0;
+  return part;
+}
+
 }  // namespace
 
 std::optional<Held> held_back(const Trace& trace, const Scenario& scenario,
                               const sixstep::study::Outcome& outcome) {
   const auto* time = find_column(trace, "t_s");
-  const auto* duty = find_column(trace, "duty");
+  const std::optional<Values> duty = part_of_bus(trace, scenario);
   const bool compares = scenario.control.current.type == sixstep::study::CurrentLoopType::hysteresis &&
                         scenario.control.mode >= Mode::current;
   if (!time || !duty || compares || scenario.control.mode == Mode::off) return std::nullopt;
   const double from_s = whole_from_s(trace);
+  // A vector's length is rounded; a duty is not.
+  const double whole = scenario.control.drive == sixstep::study::FirmwareKind::field ? 1.0 - 1e-6 : 1.0;
   Held out{.seen_s = time->back() - from_s,
-           .bus_s = seconds_at(*time, *duty, 1.0, from_s),
+           .bus_s = seconds_at(*time, *duty, whole, from_s),
            .limit_A = current_limit_A(scenario, outcome.motor)};
   for (const double d : *duty) out.largest_duty = std::max(out.largest_duty, std::abs(d));
   const auto* reference = find_column(trace, "i_ref_A");
@@ -208,7 +226,7 @@ std::optional<Held> held_back(const Trace& trace, const Scenario& scenario,
 }
 
 double switching_frequency_Hz(const sixstep::study::Outcome& outcome) {
-  return static_cast<double>(outcome.turn_ons) / outcome.simulated_s;
+  return static_cast<double>(outcome.turn_ons) / outcome.chopped_switches / outcome.simulated_s;
 }
 
 std::optional<std::array<long long, 6>> turn_on_counts(const Trace& trace) {

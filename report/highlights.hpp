@@ -49,8 +49,8 @@ std::optional<StepCurrent> step_current(const sixstep::study::Trace& trace, cons
 struct Held {
   double seen_s =
       0.0;  ///< of the run's last part, where an envelope stands for the rows before; else all of it
-  double bus_s = 0.0;  ///< the driven pair fully on: no more voltage to be had
-  double largest_duty = 0.0;
+  double bus_s = 0.0;  ///< the driven pair fully on, or the vector on its circle: no more voltage to be had
+  double largest_duty = 0.0;      ///< of three legs the vector's part of the circle
   std::optional<double> limit_A;  ///< of the current reference, in cascades
   double limit_s = 0.0;           ///< the reference at it
 };

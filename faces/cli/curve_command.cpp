@@ -148,7 +148,7 @@ base::Result<analysis::CurveRequest> request_of(const CurveArguments& a) {
   base::Problems problems = analysis::check(r);
   read_chopping(a.chopping, b, problems);
   for (base::Problem& p : problems) p.where = option_of(p.where);
-  refuse_chopping_without_use(a, b.duty, problems);
+  if (problems.empty()) refuse_chopping_without_use(a, b.duty, problems);
   if (!problems.empty()) return problems;
   return r;
 }

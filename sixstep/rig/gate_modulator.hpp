@@ -58,6 +58,7 @@ class GateModulator {
 
   const plant::Gates& gates() const { return gates_; }
   std::int64_t turn_ons() const { return turn_ons_; }
+  std::int64_t turn_ons_before(const sim::Instant&) const { return turn_ons_; }
   /// The bus stands between two legs.
   bool drives() const { return gates_.high.any() && gates_.low.any(); }
   bool enabled() const { return gates_.high.any() || gates_.low.any(); }

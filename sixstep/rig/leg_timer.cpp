@@ -13,7 +13,9 @@ void LegTimer::wake(const Instant& t) {
   for (Pulse& pulse : pulses_) pulse.on = false;
 }
 
-void LegTimer::start_period() {
+void LegTimer::start_period(const Instant& t) {
+  period_begun_ = t;
+  before_period_ = turn_ons_;
   for (; chopping_ != 0; chopping_ &= chopping_ - 1)
     pulses_[static_cast<unsigned>(std::countr_zero(chopping_))].cancel();
 }

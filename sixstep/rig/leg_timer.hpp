@@ -21,7 +21,7 @@ class LegTimer {
   /// Nobody knows what the legs did before: whatever turns on waits. No pulse is on.
   void wake(const sim::Instant& t);
   /// A PWM period begins: the edges of the one before are gone.
-  void start_period();
+  void start_period(const sim::Instant& t);
   void start_pulse(unsigned pulse, const sim::Instant& t, double duty);
   /// As a comparator does.
   void switch_pulse(unsigned pulse, bool on);
@@ -55,6 +55,10 @@ class LegTimer {
   bool steady() const { return next_edge_ == sim::Instant::never(); }
   /// Of all pulses.
   std::int64_t turn_ons() const { return turn_ons_; }
+  /// Without those of a period that begins at this instant.
+  std::int64_t turn_ons_before(const sim::Instant& t) const {
+    return period_begun_ == t ? before_period_ : turn_ons_;
+  }
   bool dead_time_at_commutation() const { return config_.dead_time_at_commutation; }
 
  private:
@@ -90,7 +94,8 @@ class LegTimer {
   sim::Instant wait_end_ = sim::Instant::never();   ///< the first one of a leg
   sim::Instant next_edge_ = sim::Instant::never();  ///< of pulses and legs
   plant::Gates gates_{};                            ///< what the legs say
-  std::int64_t turn_ons_ = 0;
+  std::int64_t turn_ons_ = 0, before_period_ = 0;
+  sim::Instant period_begun_ = sim::Instant::never();
 };
 
 }  // namespace sixstep::rig

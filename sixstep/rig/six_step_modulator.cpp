@@ -54,7 +54,7 @@ int SixStepModulator::take(const Instant& t, const BoardCommand& command) {
 
 void SixStepModulator::start_period(const Instant& t, const BoardCommand& command) {
   const int entered = take(t, command);
-  timer_.start_period();
+  timer_.start_period(t);
   if (command.enabled && command.watch == Watch::none) timer_.start_pulse(source_pulse, t, command.duty);
   if (command.overlap != 0.0 || timer_.pulse_on(overlap_pulse))
     timer_.start_pulse(overlap_pulse, t, std::fabs(command.overlap));

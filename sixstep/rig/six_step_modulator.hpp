@@ -77,6 +77,7 @@ class SixStepModulator {
   /// No edge will come before the next command: duty 0 or 1, or off.
   bool steady() const { return timer_.steady(); }
   std::int64_t turn_ons() const { return timer_.turn_ons(); }
+  std::int64_t turn_ons_before(const sim::Instant& t) const { return timer_.turn_ons_before(t); }
 
  private:
   /// The second pulse is that of hard chopping's second comparator, the third that of the leg in no pair.

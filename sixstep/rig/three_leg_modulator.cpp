@@ -8,7 +8,10 @@ using control::LegState;
 void ThreeLegModulator::start_period(const sim::Instant& t, const Command& command) {
   const bool wakes = command.enabled && !command_.enabled;
   command_ = command;
-  timer_.start_period();
+  const plant::Gates before = timer_.gates();
+  period_begun_ = t;
+  before_period_ = turn_ons_;
+  timer_.start_period(t);
   timer_.disconnect();
   if (wakes) timer_.wake(t);
   for (unsigned k = 0; command.enabled && k < 3; ++k) {
@@ -21,6 +24,7 @@ void ThreeLegModulator::start_period(const sim::Instant& t, const Command& comma
     timer_.connect(k, sides_of(leg), k);
   }
   timer_.update(t);
+  count(before);
 }
 
 void ThreeLegModulator::turn_off(const sim::Instant& t) {

@@ -26,17 +26,31 @@ class ThreeLegModulator {
 
   const sim::Instant& next_edge() const { return timer_.next_edge(); }
   /// Does the edges due at `now`; false where none was.
-  bool act(const sim::Instant& now) { return timer_.act(now); }
+  bool act(const sim::Instant& now) {
+    const plant::Gates before = timer_.gates();
+    const bool acted = timer_.act(now);
+    count(before);
+    return acted;
+  }
 
   const plant::Gates& gates() const { return timer_.gates(); }
   const Command& command() const { return command_; }
   bool steady() const { return timer_.steady(); }
-  /// Of all three legs' pulses.
-  std::int64_t turn_ons() const { return timer_.turn_ons(); }
+  /// Of the three upper switches, whatever makes them: a pulse, or a whole period's command.
+  std::int64_t turn_ons() const { return turn_ons_; }
+  std::int64_t turn_ons_before(const sim::Instant& t) const {
+    return period_begun_ == t ? before_period_ : turn_ons_;
+  }
 
  private:
+  void count(const plant::Gates& before) {
+    for (unsigned k = 0; k < 3; ++k) turn_ons_ += timer_.gates().high[k] && !before.high[k];
+  }
+
   Command command_{};
   LegTimer timer_;
+  std::int64_t turn_ons_ = 0, before_period_ = 0;
+  sim::Instant period_begun_ = sim::Instant::never();
 };
 
 }  // namespace sixstep::rig

@@ -177,9 +177,19 @@ class DrawnMotors(MotorTest):
             (self.path / f"m{n}.toml").write_text(sheet)
             mode = MODES[n % len(MODES)]
             with self.subTest(f"seed {SEED}, motor {n}, {mode}\n{sheet}"):
-                self.new_runs(f"m{n}", mode)
-                if mode != "duty":
-                    self.design_leads_on(f"m{n}", mode)
+                self.judge(f"m{n}", mode)
+            if n % 100 == 99:
+                print(f"{n + 1} motors", flush=True)
+
+    def judge(self, name, mode):
+        """A failure is told at once, too: a thousand motors take hours, and who stops them keeps what was found."""
+        try:
+            self.new_runs(name, mode)
+            if mode != "duty":
+                self.design_leads_on(name, mode)
+        except AssertionError as told:
+            print(f"{name} {mode}: {str(told)[:300]}", flush=True)
+            raise
 
 
 if __name__ == "__main__":

@@ -120,6 +120,16 @@ TEST(FiniteSet, NoSwitchIsFasterThanHalfTheSamples) {
   EXPECT_GT(fastest, 0.1 / T) << "it does switch";
 }
 
+/// Without a pulse the drive's switching is that of its three upper switches, in the mean.
+TEST(FiniteSet, ItsFrequencyIsTheMeanOfTheLegs) {
+  Scenario s = finite_set(4.0, 60.0, 1);
+  for (const Signal what : {Signal::current, Signal::gate_T1, Signal::gate_T3, Signal::gate_T5})
+    ask(s, over(MetricKind::switching_frequency, what, 4e-3));
+  const std::vector<double> f = figures_of(s);
+  EXPECT_GT(f[0], 0.02 / T);
+  EXPECT_NEAR(f[0], (f[1] + f[2] + f[3]) / 3, 1e-9 / T);
+}
+
 /// A leg's weight s keeps legs where they are: fewer turn on, and the cost of the nearest, three legs at most, bounds the distance.
 TEST(FiniteSet, AWeightOnSwitchingSlowsIt) {
   double last = 1 / T;

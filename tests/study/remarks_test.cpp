@@ -122,6 +122,38 @@ TEST(Remarks, TheGainAtWhichALoopBecomesUnstable) {
   }
 }
 
+/// Each key alone, on a drive that has nothing for it to act on; and none where it acts.
+TEST(Remarks, KeysWithoutEffectAreNamed) {
+  const std::pair<const char*, void (*)(Scenario&)> keys[] = {
+      {"sensors.current_noise_A (sensors.currents is ideal)",
+       [](Scenario& s) { s.sensors.current_noise_A = 0.1; }},
+      {"sensors.bus_noise_V", [](Scenario& s) { s.sensors.bus_noise_V = 0.1; }},
+      {"sensors.adc_bits", [](Scenario& s) { s.sensors.adc_bits = 10; }},
+      {"sensors.capture_Hz", [](Scenario& s) { s.sensors.capture_Hz = 2e6; }},
+      {"sensors.encoder.lines", [](Scenario& s) { s.sensors.encoder.lines = 500; }},
+      {"sensors.hall_break.line", [](Scenario& s) { s.sensors.hall_break.line = 2; }},
+      {"heat.ambient_degC (nothing warms up)", [](Scenario& s) { s.heat.ambient_degC = 60.0; }},
+      {"supply.mains_Hz (no mains)", [](Scenario& s) { s.supply.mains_Hz = 60.0; }},
+      {"control.current.band_A", [](Scenario& s) { s.control.current.band_A = 0.3; }},
+      {"control.smooth_chopping.soft_above_A",
+       [](Scenario& s) { s.control.smooth_chopping.soft_above_A = 1.0; }},
+  };
+  for (const auto& [name, give] : keys) {
+    Scenario s = held(5.0);
+    const auto without = run(s);
+    give(s);
+    const auto with = run(s);
+    ASSERT_TRUE(with && without) << name;
+    EXPECT_THAT(with->remarks, Contains(HasSubstr(std::string("given without effect: ") + name))) << name;
+    EXPECT_EQ(with->digest, without->digest) << name;
+  }
+  Scenario s = held(5.0);
+  s.sensors.currents = rig::CurrentMeasurement::phases;
+  s.sensors.current_range_A = 30.0;
+  s.sensors.current_noise_A = 0.01;
+  EXPECT_THAT(remarks_on(s), ::testing::Not(Contains(HasSubstr("without effect"))));
+}
+
 TEST(Remarks, ABackEmfAboveTheBus) {
   Scenario s = maxon_scenario(Mode::off, 0.0);
   s.duration_s = 2e-3;

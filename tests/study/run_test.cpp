@@ -246,6 +246,26 @@ TEST(Run, APulseOrGapBelowTheMinimumIsNotSwitched) {
   }
 }
 
+/// A PWM reads its own frequency, of a pair and of three legs: the period that begins at the end is none of the run.
+TEST(Run, APwmReadsItsOwnFrequency) {
+  Scenario pair = maxon_scenario(control::Mode::duty, 0.5);
+  pair.duration_s = 3e-3;  // 100 periods
+  Scenario legs = maxon_scenario(control::Mode::current, 1.0);
+  legs.control.drive = FirmwareKind::field;
+  legs.sheet.back_emf = design::BackEmfShape::sine;
+  legs.pwm.alignment = Alignment::centre;
+  legs.load.locked = true;
+  legs.duration_s = 3e-3;
+  for (Scenario* s : {&pair, &legs}) {
+    ask(*s, measure(MetricKind::switching_frequency, Signal::current));
+    const auto out = run(*s);
+    ASSERT_TRUE(out) << to_string(out.problems()[0]);
+    const double hertz = static_cast<double>(out->turn_ons) / out->chopped_switches / out->simulated_s;
+    EXPECT_NEAR(hertz, 1 / 30e-6, s == &pair ? 1e-6 : 1 / 3e-3) << "of legs that begin within the on-time";
+    EXPECT_NEAR(asked(*out, 0), 1 / 30e-6, s == &pair ? 1e-6 : 1 / 3e-3);
+  }
+}
+
 TEST(Run, SwitchingFrequencyIsTurnOnsOverTheWindow) {
   Scenario s = current_square();
   s.control.current = {.type = CurrentLoopType::hysteresis, .band_A = 0.2};

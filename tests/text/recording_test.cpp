@@ -180,7 +180,7 @@ TEST(Recording, WrongColumns) {
       "r.csv: has no column \"hal3\"; did you mean \"hall3\"?");
   EXPECT_THAT(told_of_hall(hall_log(36),
                            {.hall = {"hall1", "hall2"}, .voltages = {}, .between = {}, .interval_s = {}}),
-              StartsWith("r.csv: has no columns of Hall lines"));
+              StartsWith("r.csv: has not three columns of Hall lines"));
   EXPECT_THAT(told_of_hall("time [s],hall\n0,4\n1e-3,8\n"),
               StartsWith("r.csv: hall 8 in row 2 is no Hall code, 0 to 7"));
   EXPECT_THAT(told_of_hall("time [s],hall\n0,4\n1e-3,4.5\n"),

@@ -176,7 +176,9 @@ base::Result<Columns> hall_columns(const Recording& r, const BenchColumns& wante
 base::Result<Codes> hall_codes(const Recording& r, const Columns& columns) {
   if (columns.size() == 1) return codes_of(r, columns[0]);
   if (columns.size() == 3) return codes_of(r, columns);
-  return of_recording(r, "has no columns of Hall lines: it has " + headings_of(r),
+  const char* lacks = columns.empty() ? "has no columns of Hall lines: it has "
+                                      : "has not three columns of Hall lines: it has ";
+  return of_recording(r, lacks + headings_of(r),
                       "head them hall1, hall2, hall3, or one of codes hall, or name the columns");
 }
 

@@ -69,6 +69,12 @@ std::string casualties(const std::vector<analysis::Casualty>& which, const char*
                      which[0].number, visible(which[0].problem));
 }
 
+/// A run that a fault stopped holds nothing, whatever its figures were until then.
+bool stopped(std::size_t number, const analysis::Series& series) {
+  return std::any_of(series.faults.begin(), series.faults.end(),
+                     [number](const analysis::Casualty& c) { return c.number == number; });
+}
+
 bool draws(const analysis::Plan& plan) {
   return plan.drives > 0 || plan.sampling != analysis::Sampling::grid;
 }
@@ -107,8 +113,9 @@ std::string casualties_text(const analysis::Series& series, const analysis::Plan
   std::string text = stopped_text(series, plan);
   for (const analysis::SpreadFigure& f : series.figures)
     if (f.first_miss)
-      text += fmt::format("  {}: the first miss is {} {} ({})\n", visible(f.column.name), one_of(plan),
-                          *f.first_miss, repeats_text(plan, *f.first_miss));
+      text += fmt::format("  {}: the first miss is {} {}{} ({})\n", visible(f.column.name), one_of(plan),
+                          *f.first_miss, stopped(*f.first_miss, series) ? ", which a fault stopped" : "",
+                          repeats_text(plan, *f.first_miss));
   return text;
 }
 

@@ -28,15 +28,14 @@ bool holds(const SettlingQuestion& q, const RotorSensing& sensing, double speed_
 
 std::optional<double> fastest_settling_s(const SettlingQuestion& q, const RotorSensing& sensing,
                                          double lowest_speed_rad_s) {
-  // The phase grows with the settling time: doubled until it holds, then halved until a printed digit is sure.
-  constexpr double near = 1e-6;
+  // The phase grows with the settling time: doubled until it holds, then halved to a thousandth.
   double low = 2 * q.drive.period_s, high = 4 * q.drive.period_s;
   while (!holds(q, sensing, lowest_speed_rad_s, high)) {
     low = high;
     high *= 2;
     if (high > longest_s) return std::nullopt;
   }
-  while (high - low > near * low) {
+  while (high - low > 1e-3 * low) {
     const double middle = low + (high - low) / 2;
     (holds(q, sensing, lowest_speed_rad_s, middle) ? high : low) = middle;
   }

@@ -42,7 +42,8 @@ base::Problems note_end(const Rig& rig, sim::Stop stop, Observers& w, Outcome& o
   if constexpr (requires { rig.plant().breaking(); }) note_wires(rig.plant().breaking(), out);
   if constexpr (requires { rig.firmware().latest_edge_s(); })
     out.chip.emplace().latest_edge_s = rig.firmware().latest_edge_s();
-  out.turn_ons = rig.modulator().turn_ons();
+  out.turn_ons = rig.modulator().turn_ons_before(rig.now());
+  out.chopped_switches = ModulatorView(rig.modulator()).chopped();
   out.simulated_s = t_s;
   out.digest = w.digest.after(rig);
   if (w.logic) w.logic->end(rig);

@@ -26,6 +26,8 @@ struct ModulatorView {
   std::int64_t turn_ons() const {
     return pair ? pair->turn_ons() : legs ? legs->turn_ons() : pins->turn_ons();
   }
+  /// Switches that are chopped side by side: turn_ons are of all of them.
+  int chopped() const { return legs ? 3 : 1; }
   /// The bus stands between two legs: the source's switch is told to be on, or three legs are not told the same.
   bool drives() const {
     if (pair) return pair->source_on();

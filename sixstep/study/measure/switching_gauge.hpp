@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turn-ons per second: of what the modulator chops, or of one switch's gate.
+// Turn-ons per second: of what the modulator chops, of three legs the mean of their upper switches, or of one switch's gate.
 #pragma once
 #include <cstdint>
 #include <limits>
@@ -18,7 +18,7 @@ class SwitchingGauge {
   /// Hz; NaN where the run ended before the window.
   double value() const {
     if (!(last_s_ > window_.from_s)) return std::numeric_limits<double>::quiet_NaN();
-    return static_cast<double>(after_ - before_) / (last_s_ - window_.from_s);
+    return static_cast<double>(after_ - before_) / switches_ / (last_s_ - window_.from_s);
   }
 
  private:
@@ -27,13 +27,17 @@ class SwitchingGauge {
   Window window_;
   Signal signal_;
   bool on_ = false;  ///< the gate, before the run off
+  int switches_ = 1;
   std::int64_t gate_turn_ons_ = 0;
   std::int64_t before_ = 0, after_ = 0;
   double last_s_ = 0.0;
 };
 
 inline std::int64_t SwitchingGauge::count(const SegmentView& g) {
-  if (!is_gate(signal_)) return g.modulator.turn_ons();
+  if (!is_gate(signal_)) {
+    switches_ = g.modulator.chopped();
+    return g.modulator.turn_ons();
+  }
   const bool on = signal_now(g, signal_) > 0.5;
   gate_turn_ons_ += int{on && !on_};
   on_ = on;

@@ -12,6 +12,7 @@
 #include "sixstep/design/loops/field_current.hpp"
 #include "sixstep/design/loops/transfer.hpp"
 #include "sixstep/design/sheet/thermal_ranges.hpp"
+#include "sixstep/study/check/unused_keys.hpp"
 #include "sixstep/study/compile/field_parts.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
 
@@ -188,6 +189,7 @@ void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, Outcom
   const auto add = [&out](std::string text) {
     if (!text.empty()) out.remarks.push_back(std::move(text));
   };
+  if (const std::string unused = unused_keys(s); !unused.empty()) add("given without effect: " + unused);
   if (c.own.is) return;  // its gains and samples are its own
   add(on_shunt(s, c, w));
   add(on_hall_timeout(s, c));

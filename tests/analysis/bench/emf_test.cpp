@@ -6,6 +6,7 @@
 
 #include "sixstep/analysis/bench/emf/emf_shape.hpp"
 #include "sixstep/analysis/bench/emf/frame_check.hpp"
+#include "sixstep/base/angle.hpp"
 #include "sixstep/design/sheet/shape_factors.hpp"
 #include "tests/analysis/bench/counted.hpp"
 #include "tests/analysis/bench/drawn_emf.hpp"
@@ -133,7 +134,7 @@ TEST(Emf, APhaseOfATrapezoidIsFlatForAsLongAsItIs) {
   ASSERT_TRUE(sine);
   EXPECT_NEAR(sine->flat_deg, analysis::flat_of_sine_deg, 0.3);
   EXPECT_NEAR(sine->crest, std::sqrt(2.0), 1e-5);
-  EXPECT_NEAR(sine->shape_sector_mean, 1.65399, 2e-3);  // straight between points two degrees apart
+  EXPECT_NEAR(sine->shape_sector_mean, 3 * std::sqrt(3.0) / base::pi, 1e-7);
 }
 
 /// The same motor turned the other way, seen between lines or in a phase, has the same shape over its angle.

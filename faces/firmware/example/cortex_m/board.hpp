@@ -49,7 +49,7 @@ constexpr auto pwm_counts =
 /// states come on top; an answer that is too late counts a period later, and is told (tests/target/image_load.py).
 constexpr std::uint32_t least_period_counts = 1600;
 static_assert(pwm_counts >= least_period_counts && pwm_counts <= 65536,
-              "TIM1 has 16 bits, and the interrupts take 22.3 us at least");
+              "TIM1 has 16 bits, and the interrupts take 22.2 us at least");
 constexpr auto dead_counts =
     static_cast<std::uint32_t>((exported::dead_time_ps * (clock_Hz / 1'000'000) + 999'999) / 1'000'000);
 static_assert(

@@ -64,7 +64,7 @@ struct EmfResult {
   /// do not stand out of the noise are left out.
   std::vector<double> angle_deg, shape;
   HarmonicFit fit;                 ///< for a picture
-  double shape_sector_mean = 0.0;  ///< K_t over K_e of that shape: design::table_factors()
+  double shape_sector_mean = 0.0;  ///< K_t over K_e of the fitted shape; of the table within 1e-4
 };
 
 /// A sine that is flat for so much of its top, and a trapezoid of 120 degrees: what flat_deg is compared with.
