@@ -105,17 +105,12 @@ std::string runs(const WiringCase& c, double running_turns) {
   return out;
 }
 
-double rms(const WiringCase& c) {
-  double sum = 0.0;
-  for (const analysis::FreeRun& run : c.measured.runs) sum += run.phase_rms_A / analysis::starts;
-  return sum;
-}
-
 }  // namespace
 
 Panel wiring_grid(const WiringStudy& s) {
   const analysis::PairTorque of(s.machine, s.bench.current_A);
   const WiringCase& straight = s.cases.front();
+  const double straight_A = s.straight().phase_rms_A;
   double most = 1.0;
   for (const WiringCase& c : s.cases)
     for (const analysis::FreeRun& run : c.measured.runs)
@@ -123,6 +118,7 @@ Panel wiring_grid(const WiringStudy& s) {
   std::string svg = headers(s);
   for (std::size_t n = 0; n < s.cases.size(); ++n) {
     const WiringCase& c = s.cases[n];
+    const double times = s.symptom(c).phase_rms_A / straight_A;
     const double x = at(n % 6, left, cell_width), y = at(n / 6, top, cell_height);
     svg += fmt::format(
         "<g class=\"{}\" transform=\"translate({:.0f} {:.0f})\"><title>phases {}, Hall lines {}: {}</title>\n"
@@ -131,7 +127,7 @@ Panel wiring_grid(const WiringStudy& s) {
         style_of(c.measured.does), x, y, text::phases_word(c.wiring), text::hall_lines_word(c.wiring),
         text::does_text(c.measured.does), cell_width, cell_height, cell_width,
         mark_of(c.measured.does, side, 8), text::short_does_text(c.measured.does), cell_width - side,
-        rms(c) < 1.5 * rms(straight) ? "" : times_text(rms(c) / rms(straight)));
+        times < 1.5 ? "" : times_text(times));
     for (const double middle : {torque_middle, run_middle})
       svg += fmt::format("<path class=\"w-axis\" d=\"M{:.0f} {:.0f}h{:.0f}\"/>", side, middle,
                          cell_width - 2 * side);

@@ -39,11 +39,7 @@ std::string recipe() {
 std::string table(const WiringStudy& s) {
   std::string rows;
   for (const WiringCase& c : s.cases) {
-    double speed = 0.0, current = 0.0;
-    for (const analysis::FreeRun& run : c.measured.runs) {
-      speed += run.speed_rad_s / analysis::starts;
-      current += run.phase_rms_A / analysis::starts;
-    }
+    const analysis::Symptom seen = s.symptom(c);
     std::string cures;
     for (const analysis::Cure& cure : c.cures)  // of four wires there are three alike
       if (cures.empty() || cure.wires() < 4) cures += (cures.empty() ? "" : "; or ") + text::cure_text(cure);
@@ -53,14 +49,14 @@ std::string table(const WiringStudy& s) {
         text::phases_word(c.wiring), text::hall_lines_word(c.wiring), text::does_text(c.theory.does),
         c.agrees() ? "the same" : text::does_text(c.measured.does), number_cell(percent(c.theory.part)),
         number_cell(percent(c.measured.part)),
-        number_cell(runs ? escaped(text::wiring_speed_text(s, speed)) : "–"),
-        number_cell(escaped(computed(current, "A"))), escaped(cures));
+        number_cell(runs ? escaped(text::wiring_speed_text(s, seen.speed_rad_s)) : "–"),
+        number_cell(escaped(computed(seen.phase_rms_A, "A"))), escaped(cures));
   }
   const sixstep::base::Motion motion = sixstep::design::motion_of(s.subject.sheet);
   return "<table>" +
          motion.words(table_head({"Phases at a, b, c", "Probes at H1, H2, H3", "Theory", "Simulation",
-                                  "#Torque per A,<br>theory", "#simulated", "#Speed,<br>end of run",
-                                  "#Phase rms,<br>end of run", "Fewest wires to move"})) +
+                                  "#Torque per A,<br>theory", "#simulated", "#Speed", "#Phase rms",
+                                  "Fewest wires to move"})) +
          "<tbody>\n" + rows + "</tbody></table>\n";
 }
 

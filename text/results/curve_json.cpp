@@ -15,7 +15,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json finite(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 Json point(const CurveRow& row) {
   Json out = Json::object();
   for (const CurveColumn& c : curve_columns()) out[c.column.name] = finite(c.value(row));

@@ -52,6 +52,7 @@ std::string identify_json(const std::string& name, const analysis::HallIdentity&
               {"glitches", f.glitches},
               {"sectors_skipped", f.skipped},
               {"edges_left_out", f.left_out},
+              {"voltage_readings_left_out", f.voltages_left_out},
               {"edges_unused", f.unused}};
   out["codes_never_seen"] = {code_word(f.mask), code_word(static_cast<std::uint8_t>(f.mask ^ 7))};
   out["codes_never_seen_probability"] = f.mask_probability;

@@ -207,7 +207,9 @@ Symptom WiringStudy::symptom(WiringDoes does) const {
   return shown_by(alike, settled);
 }
 
-Symptom WiringStudy::straight() const { return shown_by({&cases.front()}, settled); }
+Symptom WiringStudy::symptom(const WiringCase& one) const { return shown_by({&one}, settled); }
+
+Symptom WiringStudy::straight() const { return symptom(cases.front()); }
 
 base::Result<WiringStudy> study_wiring(const WiringOrder& order) {
   base::Result<WiringBench> bench = wiring_bench(order.subject);

@@ -68,8 +68,9 @@ struct WiringStudy {
 
   std::size_t agreeing() const;
   const WiringCase& at(const rig::Wiring& wiring) const;
-  /// Of all that are seen to do this; of straight wires.
+  /// Of all that are seen to do this; of one; of straight wires.
   Symptom symptom(WiringDoes does) const;
+  Symptom symptom(const WiringCase& one) const;
   Symptom straight() const;
   /// The first that is seen to do this; null where none does.
   const WiringCase* example(WiringDoes does) const;

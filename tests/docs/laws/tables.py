@@ -203,6 +203,10 @@ def wiring(test, spot):
     for one, other in (("FORWARD", "BACKWARD"), ("forward, early", "backward, early"), ("forward, late", "backward, late")):
         test.assertEqual(rows[one][2], str(-int(rows[other][2])), str(spot))
         test.assertEqual(rows[one][4], rows[other][4].removeprefix("-"), f"{spot}: {one}")
+    drawn = (REPOSITORY / "docs/images/wiring.svg").read_text(encoding="utf-8")
+    cells = {times for times in re.findall(r">×([\d.]+)<", drawn)}
+    told = set(re.findall(r"([\d.]+) times the current", spot.text))
+    test.assertEqual(cells, told, f"{spot}: a picture's cells say what the table says")
     run = re.search(r"^  FORWARD .* % +(\d+) rpm +([\d.]+) mA +\S+ A +([\d.]+) mA", spot.text, re.M)
     speed, phase, supply = float(run[1]) * pi / 30, 1e-3 * float(run[2]), 1e-3 * float(run[3])
     lost = B * speed**2 + 1.5 * R * phase**2
