@@ -56,6 +56,10 @@ std::string with_own_mark(std::string_view command, const std::string& text) {
                      text::visible(command), text);
 }
 
+std::string csv_head(std::string_view command) {
+  return fmt::format("# sixstep " SIXSTEP_VERSION "\n# command: {}\n", text::visible(command));
+}
+
 bool is_foreign(const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code failed;

@@ -159,10 +159,11 @@ std::string usual_figures(const std::vector<ComparedRun>& runs) {
     const auto step = largest_step(run.events, run.scenario);
     return step ? step_current(run.events, *step) : std::nullopt;
   };
-  std::string rows = figure_row("peak current of the largest step", "A", runs, [&](const ComparedRun& run) {
-    const auto current = of_step(run);
-    return current ? std::optional(Measured{current->peak_A, ""}) : std::nullopt;
-  });
+  std::string rows =
+      figure_row("peak current of the largest step, its size", "A", runs, [&](const ComparedRun& run) {
+        const auto current = of_step(run);
+        return current ? std::optional(Measured{std::abs(current->peak_A), ""}) : std::nullopt;
+      });
   rows += figure_row("all of the bus in use for", "s", runs, [](const ComparedRun& run) {
     const auto held = held_back(run.events, run.scenario, *run.outcome);
     return held && run.events.whole.empty() ? std::optional(Measured{held->bus_s, ""}) : std::nullopt;

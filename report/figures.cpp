@@ -116,7 +116,9 @@ std::string computed(double value, std::string_view unit) {
 std::string deviation(double measured, double reference, std::string_view unit) {
   const double difference = measured - reference;
   if (!std::isfinite(difference)) return "not comparable";
-  if (reference == 0.0) return fmt::format("{}{}", difference > 0.0 ? "+" : "", computed(difference, unit));
+  // A part of what is turned round tells nothing: the difference itself.
+  if (reference == 0.0 || (measured < 0.0) != (reference < 0.0))
+    return fmt::format("{}{}", difference > 0.0 ? "+" : "", computed(difference, unit));
   const double percent = 100.0 * difference / reference;
   const double size = std::abs(percent);
   const int decimals = size >= 100 ? 0 : size >= 10 ? 1 : size >= 0.095 ? 2 : 4;

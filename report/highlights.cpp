@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "report/windows.hpp"
-#include "sixstep/design/loops/operating_limits.hpp"
+#include "sixstep/study/check/product.hpp"
 #include "sixstep/study/measure/trace.hpp"
 
 namespace report {
@@ -76,7 +76,10 @@ Step from_start(const Values& time, const Scenario& scenario) {
 std::optional<double> last_setpoint_s(const Trace& trace, const Scenario& scenario) {
   const auto* time = find_column(trace, "t_s");
   const Loop* loop = loop_of(scenario);
-  const Values* reference = loop ? find_column(trace, loop->reference) : nullptr;
+  const bool duty = scenario.control.mode == Mode::duty;
+  const Values* reference = loop   ? find_column(trace, loop->reference)
+                            : duty ? find_column(trace, "duty")
+                                   : nullptr;
   if (!time || !reference) return std::nullopt;
   const std::vector<Change> changes = changes_of(*reference, 0.0);
   return changes.empty() ? time->front() : (*time)[changes.back().row];
@@ -175,17 +178,6 @@ double seconds_at(const Values& time, const Values& held, double bound, double f
   return sum;
 }
 
-/// Of the current reference of a cascade: what the speed loop may ask for.
-std::optional<double> current_limit_A(const Scenario& s, const sixstep::design::MotorModel& motor) {
-  const bool cascade = s.control.mode == Mode::speed || s.control.mode == Mode::position;
-  if (!cascade || s.control.speed.output == sixstep::study::SpeedOutput::duty) return std::nullopt;
-  if (s.control.current.limit_A) return s.control.current.limit_A;
-  const double torque = s.control.speed.torque_limit_Nm.value_or(
-      sixstep::design::usual_torque_limit_Nm(motor, s.supply.voltage_V));
-  if (!(motor.K_t_Nm_A > 0.0) || !(torque > 0.0)) return std::nullopt;
-  return torque / motor.K_t_Nm_A;
-}
-
 /// What is asked of the bus, of all it has: a pair's duty, or of three legs the vector against the circle that they reach at
 /// every angle, bus over sqrt 3.
 std::optional<Values> part_of_bus(const Trace& trace, const Scenario& scenario) {
@@ -216,7 +208,7 @@ std::optional<Held> held_back(const Trace& trace, const Scenario& scenario,
   const double whole = scenario.control.drive == sixstep::study::FirmwareKind::field ? 1.0 - 1e-6 : 1.0;
   Held out{.seen_s = time->back() - from_s,
            .bus_s = seconds_at(*time, *duty, whole, from_s),
-           .limit_A = current_limit_A(scenario, outcome.motor)};
+           .limit_A = sixstep::study::current_limit_A(scenario, outcome.motor)};
   for (const double d : *duty) out.largest_duty = std::max(out.largest_duty, std::abs(d));
   const auto* reference = find_column(trace, "i_ref_A");
   // The controller's number may be a float or a fixed one: as near as its coarsest step, 2^-14 of full scale.

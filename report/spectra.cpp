@@ -19,8 +19,8 @@ std::string how(const Spectra& s) {
   const std::string part = s.stretch.turns > 0 ? fmt::format("{} electrical turns", grouped(s.stretch.turns))
                                                : std::string("stretch of one setpoint");
   return fmt::format(
-      "<p class=\"origin\">Amplitudes over the last {}, from {} to {}: Hann window, one line every {}, from "
-      "means of the recorded curve over {}. The mean itself is left out.</p>\n",
+      "<p class=\"origin\">Amplitudes over the last {}, from {} to {}: Hann window, one line every {}, a tone between "
+      "two lines placed by both, from means of the recorded curve over {}. The mean itself is left out.</p>\n",
       part, escaped(given(s.stretch.time.from, "s")), escaped(given(s.stretch.time.to, "s")),
       escaped(computed(lines.spacing_Hz, "Hz")), escaped(computed(lines.cell_s, "s")));
 }
@@ -29,11 +29,13 @@ std::string table(const Spectra& s, const DrawnSpectrum& d) {
   constexpr std::size_t most = 6;
   const double periods = s.period_s > 0.0 ? (s.stretch.time.to - s.stretch.time.from) / s.period_s : 0.0;
   std::string rows;
-  for (const std::size_t k : strongest(d.lines, most))
+  for (std::size_t n = 0; n < std::min(most, d.lines.tones.size()); ++n) {
+    const Tone& tone = d.lines.tones[n];
     rows += fmt::format("<tr><td class=\"num\">{}</td><td class=\"num\">{}</td><td>{}</td></tr>\n",
-                        escaped(computed(static_cast<double>(k) * d.lines.spacing_Hz, "Hz")),
-                        escaped(computed(d.lines.amplitude[k], d.unit)),
-                        escaped(origin_of(k, s.stretch.turns, periods)));
+                        escaped(computed(tone.line * d.lines.spacing_Hz, "Hz")),
+                        escaped(computed(tone.amplitude, d.unit)),
+                        escaped(origin_of(tone.line, s.stretch.turns, periods)));
+  }
   return fmt::format(
       "<div><h3>{}, strongest lines</h3><table><thead><tr><th class=\"num\">Frequency</th><th "
       "class=\"num\">Amplitude</th>"

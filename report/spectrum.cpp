@@ -63,6 +63,32 @@ Values cell_means(const Values& time, const Values& y, const Interval& stretch, 
   return means;
 }
 
+/// The tone behind a highest line, from its higher neighbour: the Hann window's lines of a tone `off` lines away.
+Tone tone_at(const Values& a, std::size_t k) {
+  const bool up = a[k + 1] >= a[k - 1];
+  const double ratio = (up ? a[k + 1] : a[k - 1]) / a[k];
+  const double off = std::clamp((2 * ratio - 1) / (ratio + 1), 0.0, 0.5);
+  const double window = off > 0.0 ? std::sin(pi * off) / (pi * off * (1 - off * off)) : 1.0;
+  return {static_cast<double>(k) + (up ? off : -off), a[k] / window};
+}
+
+/// At most what a Hann window leaves of a tone so many lines away.
+double leakage(double lines) { return lines > 1.2 ? 1 / (pi * lines * (lines * lines - 1)) : 1.0; }
+
+std::vector<Tone> tones_of(const Values& a) {
+  const double floor = a.empty() ? 0.0 : 1e-3 * std::ranges::max(a);
+  std::vector<Tone> peaks, tones;
+  for (std::size_t k = 1; k + 1 < a.size(); ++k)
+    if (a[k] > floor && a[k] > a[k - 1] && a[k] >= a[k + 1]) peaks.push_back(tone_at(a, k));
+  std::ranges::stable_sort(peaks, [](const Tone& p, const Tone& q) { return p.amplitude > q.amplitude; });
+  for (const Tone& p : peaks) {
+    double leaked = 0.0;
+    for (const Tone& t : tones) leaked += t.amplitude * leakage(std::abs(t.line - p.line));
+    if (p.amplitude > 2 * leaked) tones.push_back(p);
+  }
+  return tones;
+}
+
 }  // namespace
 
 std::optional<Stretch> steady_stretch(const sixstep::study::Trace& trace,
@@ -115,12 +141,14 @@ Lines lines_of(const Values& time, const Values& values, const Interval& stretch
   std::size_t count = fewest_cells;
   while (count < most_cells && duration / static_cast<double>(count) > cell_s) count *= 2;
   const Values means = cell_means(time, values, stretch, count);
+  const auto window = [count](std::size_t n) {
+    return 0.5 - 0.5 * std::cos(2 * pi * static_cast<double>(n) / static_cast<double>(count));
+  };
+  // As the window weighs it: what a plain mean leaves of a part of a period would look like a tone of the first line.
   double mean = 0.0;
-  for (const double v : means) mean += v / static_cast<double>(count);
+  for (std::size_t n = 0; n < count; ++n) mean += means[n] * window(n) / (0.5 * static_cast<double>(count));
   std::vector<std::complex<double>> bins(count);
-  for (std::size_t n = 0; n < count; ++n)
-    bins[n] = (means[n] - mean) *
-              (0.5 - 0.5 * std::cos(2 * pi * static_cast<double>(n) / static_cast<double>(count)));
+  for (std::size_t n = 0; n < count; ++n) bins[n] = (means[n] - mean) * window(n);
   transform(bins);
   Lines out{.spacing_Hz = 1 / duration, .cell_s = duration / static_cast<double>(count)};
   out.amplitude.assign(count / 8 + 1, 0.0);
@@ -129,31 +157,16 @@ Lines lines_of(const Values& time, const Values& values, const Interval& stretch
     // 2/N for an amplitude, 1/2 for the window's mean; and what the cell's mean damped.
     out.amplitude[k] = 4.0 / static_cast<double>(count) * std::abs(bins[k]) * x / std::sin(x);
   }
+  out.tones = tones_of(out.amplitude);
+  for (const Tone& t : out.tones) out.amplitude[static_cast<std::size_t>(std::lround(t.line))] = t.amplitude;
   return out;
 }
 
-std::vector<std::size_t> strongest(const Lines& lines, std::size_t most) {
-  constexpr std::size_t apart = 4;
-  const Values& a = lines.amplitude;
-  const double floor = a.empty() ? 0.0 : 1e-3 * std::ranges::max(a);
-  std::vector<std::size_t> peaks;
-  for (std::size_t k = 1; k < a.size(); ++k) {
-    const std::size_t from = k > apart ? k - apart : 1, to = std::min(k + apart, a.size() - 1);
-    if (a[k] > floor && std::max_element(a.begin() + static_cast<std::ptrdiff_t>(from),
-                                         a.begin() + static_cast<std::ptrdiff_t>(to) + 1) ==
-                            a.begin() + static_cast<std::ptrdiff_t>(k))
-      peaks.push_back(k);
-  }
-  std::ranges::stable_sort(peaks, [&](std::size_t p, std::size_t q) { return a[p] > a[q]; });
-  peaks.resize(std::min(peaks.size(), most));
-  return peaks;
-}
-
-std::string origin_of(std::size_t line, long long turns, double periods) {
-  constexpr double near = 1.5;  // lines: half the width of a tone in a Hann window
+std::string origin_of(double at, long long turns, double periods) {
   constexpr long long highest_side = 12;
-  const auto at = static_cast<double>(line);
   const double electrical = static_cast<double>(turns);
+  // Half the width of a tone in a Hann window; of few turns, whose multiples stand near each other, as near as a tone is placed.
+  const double near = turns > 6 ? 1.5 : 0.3;
   const auto times = [](double n, const char* what) {
     return n == 1.0 ? std::string(what) : fmt::format("{} × {}", n, what);
   };
@@ -169,10 +182,8 @@ std::string origin_of(std::size_t line, long long turns, double periods) {
   }
   if (beat >= 1.0 && turns > 0 && std::abs(at - beat * periods) < electrical / 2)
     return "beside " + times(beat, "PWM");
-  // The stretch is whole turns, so that a multiple stands on its own line: of few turns that line alone is
-  // named, of many its neighbours too. Far up every line is near some multiple.
-  const double off = electrical > 4 * near ? near : 0.0;
-  if (order >= 1.0 && order <= 60.0 && std::abs(at - order * electrical) <= off)
+  // Far up every line is near some multiple.
+  if (order >= 1.0 && order <= 60.0 && std::abs(at - order * electrical) <= near)
     return order == 1.0 ? "electrical, the fundamental" : times(order, "electrical");
   return "";
 }

@@ -23,23 +23,27 @@ struct Stretch {
 std::optional<Stretch> steady_stretch(const sixstep::study::Trace& trace,
                                       const sixstep::study::Scenario& scenario, double pole_pairs);
 
-/// Amplitude (peak value) of the line k at k/duration. A Hann window widens a pure tone to three lines, whose
-/// middle one has its amplitude where it lies on a line, and at worst 15 % less between two.
+/// A pure tone: where it is, in lines, which may be between two, and its amplitude (peak value).
+struct Tone {
+  double line = 0.0, amplitude = 0.0;
+};
+
+/// Amplitude (peak value) of the line k at k/duration. A Hann window widens a pure tone to three lines. Between two lines its highest
+/// one would be up to 15 % too low: from the two highest the tone's own place and amplitude are computed, and its highest line has that.
 struct Lines {
   double spacing_Hz = 0.0, cell_s = 0.0;
   std::vector<double> amplitude{};  ///< up to an eighth of the cells' frequency; [0], the mean, is 0
+  std::vector<Tone>
+      tones{};  ///< the strongest first, none below a thousandth of it or in the leakage of a stronger one
 };
 /// Of the straight lines between the rows, averaged exactly over equal cells no longer than `cell_s` (which
 /// damps what lies above their frequency instead of folding it down; the damping below is divided out again).
 Lines lines_of(const std::vector<double>& time, const std::vector<double>& values, const Interval& stretch,
                double cell_s);
 
-/// The strongest lines: none within four of a stronger one, none below a thousandth of the strongest.
-std::vector<std::size_t> strongest(const Lines& lines, std::size_t most);
-
 /// "6 × electrical", "PWM", "PWM − 2 × electrical", "beside 3 × PWM"; empty where it is none of these. K PWM
 /// periods in the stretch, 0 where nothing beats time.
-std::string origin_of(std::size_t line, long long turns, double periods);
+std::string origin_of(double line, long long turns, double periods);
 
 /// In place, decimation in time; the size is a power of two.
 void transform(std::vector<std::complex<double>>& values);

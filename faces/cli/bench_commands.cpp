@@ -169,11 +169,7 @@ std::string shape_beside(const EmfArguments& a) {
 
 void write_emf(const EmfArguments& a, const text::MeasuredEmf& measured, const analysis::EmfRecord& record,
                BenchOutputs& out, base::Problems& problems) {
-  if (out.shape)
-    put(out.shape,
-        fmt::format("# sixstep {}\n# command: {}\n", SIXSTEP_VERSION, text::visible(a.command)) +
-            text::emf_shape_csv(measured),
-        problems);
+  if (out.shape) put(out.shape, files::csv_head(a.command) + text::emf_shape_csv(measured), problems);
   if (out.write)
     put(out.write, files::with_own_mark(a.command, text::emf_motor_lines(measured, shape_beside(a))),
         problems);

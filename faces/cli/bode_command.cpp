@@ -13,6 +13,7 @@
 #include "faces/cli/stop_signals.hpp"
 #include "faces/cli/terminal.hpp"
 #include "files/atomic_file.hpp"
+#include "files/own_file.hpp"
 #include "report/bode_page.hpp"
 #include "sixstep/analysis/bode/bode_study.hpp"
 #include "text/escape/escape.hpp"
@@ -65,7 +66,7 @@ base::Result<std::vector<BodeFile>> opened(const OutputPaths& paths) {
 
 std::string content(const std::string& option, const std::string& name, const analysis::BodeStudy& s,
                     const RunArguments& a) {
-  if (option == "--csv") return text::bode_csv(s);
+  if (option == "--csv") return files::csv_head(a.command) + text::bode_csv(s);
   if (option == "--json") return text::bode_json(name, s);
   return report::render_bode({name, s, a.command, SIXSTEP_VERSION});
 }

@@ -90,7 +90,7 @@ base::Problems write(const analysis::Contest& contest, const ContestArguments& a
     append(found, file.commit());
   };
   if (out.json) put(*out.json, text::contest_json(contest));
-  if (out.csv) put(*out.csv, text::contest_csv(contest));
+  if (out.csv) put(*out.csv, files::csv_head(a.command) + text::contest_csv(contest));
   if (out.html) put(*out.html, report::render_contest({contest, a.command, SIXSTEP_VERSION}));
   auto file = out.scenarios.begin();
   for (const analysis::ContestEntry& entry : contest.entries) {
@@ -103,7 +103,7 @@ base::Problems write(const analysis::Contest& contest, const ContestArguments& a
 }
 
 /// Members are told as options.
-base::Problems in_options(base::Problems problems) {
+base::Problems in_contest_options(base::Problems problems) {
   constexpr std::pair<std::string_view, std::string_view> options[] = {
       {"voltage_V", "--voltage"},
       {"settle_s", "--settle"},
@@ -131,11 +131,11 @@ base::Result<analysis::ContestBench> bench_of(const ContestArguments& a) {
     spec.board = *board;
   }
   base::Result<analysis::ContestBench> bench = analysis::contest_bench(spec);
-  if (!bench) return in_options(bench.problems());
+  if (!bench) return in_contest_options(bench.problems());
   return bench;
 }
 
-Exit exit_of(const analysis::Contest& contest) {
+Exit exit_of_contest(const analysis::Contest& contest) {
   const bool any = std::any_of(contest.rows.begin(), contest.rows.end(),
                                [](const analysis::ContestRow& row) { return row.nominal_held; });
   return any ? Exit::ok : Exit::failed;
@@ -175,7 +175,7 @@ base::Problems over_the_tolerances(const ContestArguments& a, analysis::Contest&
                      *store);
 }
 
-base::Problems contradictions(const ContestArguments& a) {
+base::Problems contest_contradictions(const ContestArguments& a) {
   base::Problems problems;
   if (a.resume && a.store.empty())
     problems.push_back({.where = "--resume",
@@ -189,7 +189,7 @@ base::Problems contradictions(const ContestArguments& a) {
 }
 
 Exit contest_command(const ContestArguments& a) {
-  if (const base::Problems problems = contradictions(a); !problems.empty()) return refused(problems);
+  if (const base::Problems problems = contest_contradictions(a); !problems.empty()) return refused(problems);
   catch_interrupts();
   base::Result<analysis::ContestBench> bench = bench_of(a);
   if (!bench) return refused(bench.problems());
@@ -208,9 +208,9 @@ Exit contest_command(const ContestArguments& a) {
   if (const base::Problems unwritten = write(contest, a, outputs); !unwritten.empty())
     return refused(unwritten);
   if (a.json == "-") print(text::contest_json(contest));
-  if (a.csv == "-") print(text::contest_csv(contest));
+  if (a.csv == "-") print(files::csv_head(a.command) + text::contest_csv(contest));
   if (!a.quiet && a.json != "-" && a.csv != "-") print(text::contest_text(contest));
-  return exit_of(contest);
+  return exit_of_contest(contest);
 }
 
 void declare_options(CLI::App& verb, ContestArguments& a) {

@@ -30,6 +30,7 @@ bool is_plan_file(const std::string& file) {
 /// What the command line adds to a plan; an axis takes the place of the file's for the same key.
 base::Problems add_options(const RunArguments& a, analysis::Plan& plan) {
   base::Problems problems;
+  std::size_t of_file = plan.axes.size();
   for (const std::string& vary : a.plan.vary) {
     base::Result<analysis::Axis> axis = text::axis_of(vary);
     if (!axis) {
@@ -39,13 +40,29 @@ base::Problems add_options(const RunArguments& a, analysis::Plan& plan) {
       }
       continue;
     }
-    std::erase_if(plan.axes, [&](const analysis::Axis& other) { return other.key == axis->key; });
+    // Of the file's, not of an option before: two that say different things are told.
+    const auto end = plan.axes.begin() + static_cast<std::ptrdiff_t>(of_file);
+    const auto same = std::find_if(plan.axes.begin(), end,
+                                   [&](const analysis::Axis& other) { return other.key == axis->key; });
+    if (same != end) {
+      plan.axes.erase(same);
+      --of_file;
+    }
     plan.axes.push_back(std::move(*axis));
   }
   if (!a.plan.sampling.empty())
     choose("--sampling", a.plan.sampling, analysis::sampling_choices, plan.sampling, problems);
   else if (a.plan.points > 0 && plan.sampling == analysis::Sampling::grid)
     plan.sampling = analysis::Sampling::sobol;
+  if (a.plan.points > 0 && plan.sampling == analysis::Sampling::grid)
+    problems.push_back({"--points", std::to_string(a.plan.points),
+                        "is of drawn points, and a grid has those of each range",
+                        "write --vary KEY=FROM:TO:POINTS, or leave --sampling grid out"});
+  for (const analysis::Axis& axis : plan.axes)
+    for (const std::string& set : a.sets)
+      if (set.substr(0, set.find('=')) == axis.key)
+        problems.push_back(
+            {"--set " + axis.key, "", "would be lost: the plan varies this key", "give one of the two"});
   if (a.plan.points > 0) plan.points = a.plan.points;
   if (a.runs > 0) plan.drives = a.runs;
   if (a.drive) plan.drives = static_cast<std::size_t>(*a.drive) + 1;

@@ -57,8 +57,10 @@ class LegTimer {
   std::int64_t turn_ons() const { return turn_ons_; }
   /// Without those of a period that begins at this instant.
   std::int64_t turn_ons_before(const sim::Instant& t) const {
-    return period_begun_ == t ? before_period_ : turn_ons_;
+    return began_at(t) ? before_period_ : turn_ons_;
   }
+  /// Whether the last period began at this instant.
+  bool began_at(const sim::Instant& t) const { return period_begun_ == t; }
   bool dead_time_at_commutation() const { return config_.dead_time_at_commutation; }
 
  private:

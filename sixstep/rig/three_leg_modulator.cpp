@@ -9,7 +9,6 @@ void ThreeLegModulator::start_period(const sim::Instant& t, const Command& comma
   const bool wakes = command.enabled && !command_.enabled;
   command_ = command;
   const plant::Gates before = timer_.gates();
-  period_begun_ = t;
   before_period_ = turn_ons_;
   timer_.start_period(t);
   timer_.disconnect();

@@ -39,7 +39,7 @@ class ThreeLegModulator {
   /// Of the three upper switches, whatever makes them: a pulse, or a whole period's command.
   std::int64_t turn_ons() const { return turn_ons_; }
   std::int64_t turn_ons_before(const sim::Instant& t) const {
-    return period_begun_ == t ? before_period_ : turn_ons_;
+    return timer_.began_at(t) ? before_period_ : turn_ons_;
   }
 
  private:
@@ -50,7 +50,6 @@ class ThreeLegModulator {
   Command command_{};
   LegTimer timer_;
   std::int64_t turn_ons_ = 0, before_period_ = 0;
-  sim::Instant period_begun_ = sim::Instant::never();
 };
 
 }  // namespace sixstep::rig

@@ -37,9 +37,12 @@ def value(text):
         return text or None
 
 
+def lines_of_csv(path):
+    return list(csv.DictReader(line for line in path.read_text().splitlines() if not line.startswith("# ")))
+
+
 def of_csv(path):
-    lines = [line for line in path.read_text().splitlines() if not line.startswith("# ")]
-    return [{name: cell if name in BEHIND else value(cell) for name, cell in row.items()} for row in csv.DictReader(lines)]
+    return [{name: cell if name in BEHIND else value(cell) for name, cell in row.items()} for row in lines_of_csv(path)]
 
 
 def of_store(path, view="runs"):
@@ -82,7 +85,9 @@ def of_page(path):
 def figures_alone(path):
     """What one run said of itself: figures by name and unit, as its own JSON has them."""
     alone = json.loads(path.read_text())
-    return alone["digest"], {with_unit(f["figure"], f["unit"]): f["measured"] for f in alone["require"] + alone["compare"]}
+    told = {"never": math.inf, "-never": -math.inf}
+    return alone["digest"], {with_unit(f["figure"], f["unit"]): told.get(f["measured"], f["measured"])
+                             for f in alone["require"] + alone["compare"]}
 
 
 def hash_word(value, bits):

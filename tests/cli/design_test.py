@@ -42,7 +42,7 @@ class Design(ProgramTest):
         """Of a slow speed loop the linear gain is the smaller one: each number keeps its own words."""
         for settle in ((), ("--settle", "0.15", "--rotor", "ideal"), ("--settle", "0.3")):
             told = self.run_program("design", "maxon-251601", "--mode", "position", "--quick", *settle, code=None).stdout
-            found = re.search(r"found by (\d+) simulation(s?) between (\S+) \((.*?)\) and (\S+) \((.*?)\)", told)
+            found = re.search(r"found by (\d+) simulation(s?); the search began between (\S+) \((.*?)\) and (\S+) \((.*?)\)", told)
             self.assertTrue(found, told)
             self.assertLessEqual(float(found.group(3)), float(found.group(5)))
             self.assertEqual(found.group(1) == "1", found.group(2) == "")

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 namespace cli {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 study::Outcome judged(bool ok) {
   study::Outcome outcome;
@@ -35,5 +35,5 @@ TEST(ExitCode, AFaultIsGraverThanAMissedRequirement) {
   EXPECT_EQ(graver(exit_of(faulted(true)), exit_of(judged(true))), Exit::fault);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace cli

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 constexpr long KiB_per_MiB = 1024, bound_KiB = 2 * KiB_per_MiB;
 
@@ -113,4 +113,4 @@ TEST_F(Memory, OfAReportHasABound) {
   EXPECT_LT(std::filesystem::file_size(report), 3'000'000u);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -209,7 +209,10 @@ class Plan(ProgramTest):
                             (["--resume"], "--resume goes on with the runs of a store"),
                             (["--tolerances"], "--tolerances makes drives differ"),
                             ([*varied, "--tolerances"], "--tolerances makes drives differ"),
-                            ([*varied, "--watch"], "--watch runs scenarios again")):
+                            ([*varied, "--watch"], "--watch runs scenarios again"),
+                            ([*varied, "--vary", "supply.voltage_V=5,6"], "is varied already"),
+                            ([*varied, "--set", "supply.voltage_V=6"], "--set supply.voltage_V would be lost: the plan varies this key"),
+                            ([*varied, "--points", "4", "--sampling", "grid"], "--points = 4 is of drawn points")):
             self.assertIn(told, self.run_program("run", self.held(), *words, code=2).stderr)
         self.assertEqual(self.names(), ["a.toml"])
 
@@ -277,7 +280,7 @@ class Plan(ProgramTest):
                            ("supply.voltage_V", "KEY=FROM:TO:POINTS"),
                            ("supply.voltage_V=1:2:x", "is no number of points"),
                            ("supply.voltage_V=1:2:3:cubic", "write log or linear"),
-                           ("supply.voltage_V=1:2", "do not reach both ends"),
+                           ("supply.voltage_V=1:2", "give 2 points or more"),
                            ("supply.voltage_V=-1:2:3:log", "has no logarithm"),
                            ("supply.voltage_V=1m:2m:3", "m"),
                            ("pwm.chopping=soft,hrad", "hrad"),

@@ -17,12 +17,12 @@
 #include "sixstep/study/measure/trace.hpp"
 #include "tests/report/synthetic_run.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace report;
 using sixstep_tests::synthetic_run;
 using sixstep_tests::SyntheticRun;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 std::string page(const SyntheticRun& run) { return glance_section(run.scenario, run.outcome, run.trace); }
 
@@ -149,8 +149,8 @@ TEST(Conduction, a_leg_without_a_gate_carries_by_the_diode_its_current_opens) {
                   {0, 0, 0, 0, 0, 0, 1, 1},  {1, 1, 1, 1, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0, 0, 0},
                   {0, 0, 0, 0, 0, 0, 0, 0}};
   const Conduction found = conduction(trace);
-  EXPECT_THAT(found.time_s, testing::ElementsAre(0, 1, 2, 3));
-  EXPECT_THAT(found.code, testing::ElementsAre(1 + 5 * 2, 4 + 5 * 2, 0, 5 * 1 + 25 * 3));
+  EXPECT_THAT(found.time_s, ::testing::ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(found.code, ::testing::ElementsAre(1 + 5 * 2, 4 + 5 * 2, 0, 5 * 1 + 25 * 3));
   EXPECT_EQ(found.end_s, 4.0);
 }
 
@@ -162,8 +162,8 @@ TEST(Conduction, an_igbt_that_is_on_carries_one_direction_and_its_diode_the_othe
   // T1, T4 and T6 are on: a feeds, b returns through its transistor, c through its lower diode; then none flows.
   trace.values = {{0, 1, 1, 2}, {2, 2, 0, 0}, {-3, -3, 0, 0}, {1, 1, 0, 0}, {1, 1, 1, 1},
                   {0, 0, 0, 0}, {0, 0, 0, 0}, {1, 1, 1, 1},   {0, 0, 0, 0}, {1, 1, 1, 1}};
-  EXPECT_THAT(conduction(trace, true).code, testing::ElementsAre(1 + 5 * 2 + 25 * 4, 0));
-  EXPECT_THAT(conduction(trace).code, testing::ElementsAre(1 + 5 * 2 + 25 * 2));
+  EXPECT_THAT(conduction(trace, true).code, ::testing::ElementsAre(1 + 5 * 2 + 25 * 4, 0));
+  EXPECT_THAT(conduction(trace).code, ::testing::ElementsAre(1 + 5 * 2 + 25 * 2));
 }
 
 TEST(Conduction, a_leg_carries_the_current_of_the_phase_that_hangs_at_it) {
@@ -173,8 +173,8 @@ TEST(Conduction, a_leg_carries_the_current_of_the_phase_that_hangs_at_it) {
     trace.columns.push_back({name, "", "", ""});
   // No gate. Phase a feeds and b returns; phases b, c, a hang at legs a, b, c: leg a carries b's by its upper diode, c a's.
   trace.values = {{0, 1}, {2, 2}, {-2, -2}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}};
-  EXPECT_THAT(conduction(trace).code, testing::ElementsAre(4 + 5 * 3));
-  EXPECT_THAT(conduction(trace, false, {1, 2, 0}).code, testing::ElementsAre(3 + 25 * 4));
+  EXPECT_THAT(conduction(trace).code, ::testing::ElementsAre(4 + 5 * 3));
+  EXPECT_THAT(conduction(trace, false, {1, 2, 0}).code, ::testing::ElementsAre(3 + 25 * 4));
 }
 
 TEST(Glance, answers_what_a_reader_asks_first) {
@@ -241,7 +241,42 @@ TEST(Spectrum, of_a_saw_is_the_fourier_series) {
     EXPECT_NEAR(lines.amplitude[k + 1], 1 / (M_PI * n), folded + 1e-12) << "Hann: half of it beside the line";
   }
   for (const std::size_t k : {5u, 20u, 55u}) EXPECT_LT(lines.amplitude[k], 1e-2) << "between the harmonics";
-  EXPECT_THAT(strongest(lines, 3), testing::ElementsAre(37u, 74u, 111u));
+  ASSERT_GE(lines.tones.size(), 3u);
+  for (std::size_t n = 0; n < 3; ++n)
+    EXPECT_NEAR(lines.tones[n].line, turns * (static_cast<double>(n) + 1), 1e-3);
+}
+
+/// The stretch is no whole number of teeth: every harmonic lies between two lines, and has its place and amplitude all the same.
+TEST(Spectrum, a_tone_between_two_lines_has_its_own_amplitude_and_frequency) {
+  const Saw s = saw(37);
+  for (const double end : {0.9871, 0.9932, 0.9999}) {
+    const Lines lines = lines_of(s.time, s.values, {0, end}, 1.0 / 16384);
+    ASSERT_GE(lines.tones.size(), 8u);
+    for (int n = 1; n <= 8; ++n) {
+      const Tone& tone = lines.tones[static_cast<std::size_t>(n - 1)];
+      EXPECT_NEAR(tone.line * lines.spacing_Hz, 37.0 * n, 0.01 * lines.spacing_Hz) << end << ' ' << n;
+      EXPECT_NEAR(tone.amplitude, 2 / (M_PI * n), 2e-3 / n) << end << ' ' << n;
+      const auto k = static_cast<std::size_t>(std::lround(tone.line));
+      EXPECT_EQ(std::max(lines.amplitude[k], lines.amplitude[k - 1]), tone.amplitude) << "in the chart too";
+    }
+  }
+}
+
+TEST(Spectrum, a_weak_tone_near_a_strong_one_is_found_and_leakage_is_none) {
+  const auto tones = [](double weak) {
+    std::vector<double> time, values;
+    for (int n = 0; n <= 4096; ++n) {
+      const double t = n / 4096.0;
+      time.push_back(t);
+      values.push_back(std::sin(2 * M_PI * 20.4 * t) + weak * std::sin(2 * M_PI * 23.9 * t + 1));
+    }
+    return lines_of(time, values, {0, 1}, 1.0 / 4096).tones;
+  };
+  EXPECT_EQ(tones(0.0).size(), 1u);
+  const std::vector<Tone> both = tones(0.2);
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_NEAR(both[1].line, 23.9, 0.2);
+  EXPECT_NEAR(both[1].amplitude, 0.2, 0.03);
 }
 
 TEST(Spectrum, is_taken_over_whole_electrical_turns_of_the_last_setpoint) {
@@ -274,11 +309,14 @@ TEST(Spectrum, lines_are_called_by_what_they_come_from) {
   EXPECT_EQ(origin_of(65, 10, 1000), "");
   EXPECT_EQ(origin_of(65, 0, 0), "");
   EXPECT_EQ(origin_of(10, 10, 1000), "electrical, the fundamental");
+  // Three turns, 2.5 lines away from the PWM: no side line of the electrical frequency, which is at 3.
+  EXPECT_EQ(origin_of(1002.5, 3, 1000), "");
+  EXPECT_EQ(origin_of(1003.1, 3, 1000), "PWM + electrical");
 }
 
 TEST(Spectrum, of_few_turns_the_harmonics_are_named_on_their_own_lines) {
   for (const long long turns : {1, 2, 3, 4, 5, 6}) {
-    const auto t = static_cast<std::size_t>(turns);
+    const auto t = static_cast<double>(turns);
     EXPECT_EQ(origin_of(t, turns, 1000), "electrical, the fundamental") << turns;
     EXPECT_EQ(origin_of(5 * t, turns, 1000), "5 × electrical") << turns;
     EXPECT_EQ(origin_of(6 * t, turns, 1000), "6 × electrical") << turns;
@@ -299,4 +337,4 @@ TEST(Spectrum, a_drawn_chart_keeps_the_highest_line_of_each_step) {
   EXPECT_EQ(drawn.frequency_Hz[static_cast<std::size_t>(peak)], 58000.0);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

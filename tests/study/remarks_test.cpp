@@ -9,7 +9,7 @@
 #include "sixstep/study/session/session.hpp"
 #include "tests/support/product_scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -134,6 +134,8 @@ TEST(Remarks, KeysWithoutEffectAreNamed) {
       {"sensors.hall_break.line", [](Scenario& s) { s.sensors.hall_break.line = 2; }},
       {"heat.ambient_degC (nothing warms up)", [](Scenario& s) { s.heat.ambient_degC = 60.0; }},
       {"supply.mains_Hz (no mains)", [](Scenario& s) { s.supply.mains_Hz = 60.0; }},
+      {"protection.align.sector (no protection.align.current_A)",
+       [](Scenario& s) { s.protection.align.sector = 3; }},
       {"control.current.band_A", [](Scenario& s) { s.control.current.band_A = 0.3; }},
       {"control.smooth_chopping.soft_above_A",
        [](Scenario& s) { s.control.smooth_chopping.soft_above_A = 1.0; }},
@@ -221,4 +223,4 @@ TEST(Remarks, ASessionTellsThemToo) {
   EXPECT_THAT(out->remarks, Contains(HasSubstr("back-EMF")));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

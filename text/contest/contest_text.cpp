@@ -11,6 +11,7 @@
 
 #include "text/escape/csv_cell.hpp"
 #include "text/escape/escape.hpp"
+#include "text/escape/json_number.hpp"
 #include "text/escape/json_text.hpp"
 #include "text/export/core_costs.hpp"
 #include "text/results/quantity_text.hpp"
@@ -34,7 +35,9 @@ std::optional<CoreCost> cost_of(const analysis::Contestant& who) {
   return core_cost(contest_core, who.core_drive, arithmetic);
 }
 
-std::string name_of(const Contest& c, std::size_t row) { return std::string(c.entries[row].who->name); }
+std::string controller_name(const Contest& c, std::size_t row) {
+  return std::string(c.entries[row].who->name);
+}
 
 /// Figures of a row: of the nominal drive, or the worst of all; null where it has none.
 using FiguresOf = const ContestValues* (*)(const ContestRow& row);
@@ -61,40 +64,41 @@ struct ContestColumn {
 };
 
 std::vector<ContestColumn> contest_columns(const Contest& c, ContestGroup group, FiguresOf figures) {
-  std::vector<ContestColumn> columns{{"controller", [&c](std::size_t n) { return visible(name_of(c, n)); }}};
+  std::vector<ContestColumn> shown{
+      {"controller", [&c](std::size_t n) { return visible(controller_name(c, n)); }}};
   for (std::size_t f = 0; f < std::size(contest_figures); ++f)
     if (contest_figures[f].group == group)
-      columns.push_back({std::string(contest_figures[f].name),
-                         [&c, f, figures, least = least_of(c, f, figures)](std::size_t n) {
-                           const double x = (*figures(c.rows[n]))[f];
-                           return contest_value(x, contest_figures[f]) + (x == least ? " *" : "");
-                         }});
-  if (group != ContestGroup::moving) return columns;
+      shown.push_back({std::string(contest_figures[f].name),
+                       [&c, f, figures, least = least_of(c, f, figures)](std::size_t n) {
+                         const double x = (*figures(c.rows[n]))[f];
+                         return contest_value(x, contest_figures[f]) + (x == least ? " *" : "");
+                       }});
+  if (group != ContestGroup::moving) return shown;
   if (figures == worst_of) {
-    columns.push_back(
+    shown.push_back(
         {"hold", [&c](std::size_t n) { return fmt::format("{} of {}", c.rows[n].held, c.rows[n].drives); }});
-    return columns;
+    return shown;
   }
-  columns.push_back({"holds", [&c](std::size_t n) { return c.rows[n].nominal_held ? "yes" : "NO"; }});
-  columns.push_back({"lowest", [&c](std::size_t n) { return lowest_text(c.rows[n]); }});
+  shown.push_back({"holds", [&c](std::size_t n) { return c.rows[n].nominal_held ? "yes" : "NO"; }});
+  shown.push_back({"lowest", [&c](std::size_t n) { return lowest_text(c.rows[n]); }});
   const auto cost = [&c](std::string CoreCost::*of) {
     return [&c, of](std::size_t n) {
       const auto found = cost_of(*c.entries[n].who);
       return found ? (*found).*of : "-";
     };
   };
-  columns.push_back({"tick", cost(&CoreCost::tick)});
-  columns.push_back({"flash", cost(&CoreCost::flash_bytes)});
-  return columns;
+  shown.push_back({"tick", cost(&CoreCost::tick)});
+  shown.push_back({"flash", cost(&CoreCost::flash_bytes)});
+  return shown;
 }
 
 std::string table(const Contest& c, ContestGroup group, FiguresOf figures) {
-  const std::vector<ContestColumn> columns = contest_columns(c, group, figures);
+  const std::vector<ContestColumn> shown = contest_columns(c, group, figures);
   Rows rows(Rows::Side::left);
   const auto add = [&](const auto& text_of) {
     std::vector<std::string> cells;
-    cells.reserve(columns.size());
-    for (const ContestColumn& column : columns) cells.push_back(text_of(column));
+    cells.reserve(shown.size());
+    for (const ContestColumn& column : shown) cells.push_back(text_of(column));
     rows.add(std::move(cells));
   };
   add([](const ContestColumn& column) { return column.head; });
@@ -125,11 +129,6 @@ std::string paragraph(const std::string& words) {
   return text + line + "\n";
 }
 
-Json figure_json(double x) {
-  if (std::isfinite(x)) return x;
-  return std::isinf(x) ? Json("never") : Json(nullptr);
-}
-
 Json figures_json(const ContestValues& values) {
   Json out = Json::object();
   for (std::size_t f = 0; f < values.size(); ++f)
@@ -152,13 +151,13 @@ std::vector<std::string> contest_notes(const Contest& c) {
     const base::Result<study::Scenario>& scenario = c.entries[n].scenario;
     const std::string problem = c.rows[n].nominal ? (*c.rows[n].nominal)->problem : std::string();
     if (!scenario)
-      notes.push_back(
-          fmt::format("{} is left out: {}", name_of(c, n), base::to_string(scenario.problems().front())));
+      notes.push_back(fmt::format("{} is left out: {}", controller_name(c, n),
+                                  base::to_string(scenario.problems().front())));
     else if (!problem.empty())
-      notes.push_back(fmt::format("{} stopped: {}", name_of(c, n), problem));
+      notes.push_back(fmt::format("{} stopped: {}", controller_name(c, n), problem));
     else if (!c.rows[n].nominal_held)
-      notes.push_back(
-          fmt::format("{} does not hold the speed that is asked for, and wins nothing", name_of(c, n)));
+      notes.push_back(fmt::format("{} does not hold the speed that is asked for, and wins nothing",
+                                  controller_name(c, n)));
   }
   return notes;
 }
@@ -187,7 +186,7 @@ std::string contest_csv(const Contest& c) {
   text += "\n";
   const auto line = [&](std::size_t n, const char* drive, bool holds, const std::optional<double>& lowest,
                         const ContestValues& values) {
-    text += fmt::format("{},{},{},{}", csv_cell(name_of(c, n)), drive, holds ? 1 : 0,
+    text += fmt::format("{},{},{},{}", csv_cell(controller_name(c, n)), drive, holds ? 1 : 0,
                         lowest ? fmt::format("{}", *lowest) : "");
     for (const double x : values) text += "," + csv_cell(x);
     text += "\n";

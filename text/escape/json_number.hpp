@@ -17,4 +17,11 @@ inline nlohmann::ordered_json or_null(const std::optional<double>& x) {
   return x ? finite(*x) : nlohmann::ordered_json(nullptr);
 }
 
+/// The value of a figure of merit: null where it has none, a word for what never came.
+inline nlohmann::ordered_json figure_json(double x) {
+  if (x != x) return nullptr;
+  if (x - x != 0.0) return x > 0 ? "never" : "-never";
+  return x;
+}
+
 }  // namespace text

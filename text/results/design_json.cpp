@@ -56,16 +56,19 @@ Json sensing(const DriveDesign& d) {
           {"fastest_settling", limits}};
 }
 
+/// A time may never come; what is infinite in another unit has no number.
+Json told(double x, const std::string& unit) { return unit == "s" ? figure_json(x) : finite(x); }
+
 Json robust(const std::vector<RobustFigure>& list) {
   Json out = Json::array();
   for (const RobustFigure& f : list)
     out.push_back({{"figure", f.figure},
                    {"unit", f.unit},
-                   {"nominal", finite(f.nominal)},
-                   {"worst", finite(f.worst)},
+                   {"nominal", told(f.nominal, f.unit)},
+                   {"worst", told(f.worst, f.unit)},
                    {"at", f.at},
                    {"chiefly", f.culprit},
-                   {"chiefly_alone", finite(f.alone)}});
+                   {"chiefly_alone", told(f.alone, f.unit)}});
   return out;
 }
 
@@ -75,7 +78,7 @@ Json simulated(const analysis::DesignStudy& s) {
     out.push_back({{"figure", c.figure},
                    {"unit", c.unit},
                    {"designed", c.value},
-                   {"simulated", finite(c.measured)},
+                   {"simulated", told(c.measured, c.unit)},
                    {"source", c.source}});
   return out;
 }

@@ -46,7 +46,7 @@ std::string motor_words(const sixstep::design::MotorModel& m) {
       sixstep::base::six_digits(1e7 * m.shaft.J_kg_m2), sixstep::base::six_digits(m.shaft.B_Nm_s));
 }
 
-std::string motor_line(const DriveDesign& d, const study::Scenario& s) {
+std::string designed_motor_line(const DriveDesign& d, const study::Scenario& s) {
   const std::string chopping(sixstep::base::word(sixstep::study::chopping_choices, d.spec.chopping));
   return fmt::format(
       "{} on {} V: {}\n"
@@ -112,7 +112,7 @@ std::string position_text(const analysis::PositionGain& p, const Motion& motion)
                               " (full torque stops it from top speed)",
                     linear = sixstep::base::six_digits(p.linear * gain.factor) + " (no limit acts)";
   const bool rising = p.estimate <= p.linear;
-  std::string text = motion.words(fmt::format("  found by {} between {} and {}\n",
+  std::string text = motion.words(fmt::format("  found by {}; the search began between {} and {}\n",
                                               counted(static_cast<std::size_t>(p.runs), "simulation"),
                                               rising ? braking : linear, rising ? linear : braking));
   if (p.gain_rad_s_per_deg < p.nominal)
@@ -199,7 +199,7 @@ std::string design_text(const analysis::DesignStudy& s, bool colour) {
   std::string verdict = design_verdict(s);
   if (colour) verdict = fmt::format("\x1b[{}m{}\x1b[0m", s.usable() ? "32" : "31;1", verdict);
   const Motion motion = sixstep::design::motion_of(s.design.motor);
-  std::string text = verdict + "\n\n" + motor_line(s.design, s.scenario);
+  std::string text = verdict + "\n\n" + designed_motor_line(s.design, s.scenario);
   for (const LoopDesign& loop : s.design.loops) text += loop_text(loop, motion);
   if (s.position) text += position_text(*s.position, motion);
   text += figures_text(s.design) + sensing_text(s.design) + sensorless_text(s.sensorless) +

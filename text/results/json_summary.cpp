@@ -21,7 +21,7 @@ Json verdicts(const study::Outcome& outcome) {
   for (const study::Verdict& v : outcome.verdicts)
     list.push_back({{"figure", v.figure},
                     {"unit", v.unit},
-                    {"measured", v.measured},
+                    {"measured", figure_json(v.measured)},
                     {"min", or_null(v.min)},
                     {"max", or_null(v.max)},
                     {"ok", v.ok}});
@@ -33,7 +33,7 @@ Json comparisons(const study::Outcome& outcome) {
   for (const study::ComparisonResult& c : outcome.comparisons)
     list.push_back({{"figure", c.figure},
                     {"unit", c.unit},
-                    {"measured", c.measured},
+                    {"measured", figure_json(c.measured)},
                     {"value", c.value},
                     {"source", c.source}});
   return list;

@@ -51,7 +51,7 @@ Json step(const LoopDesign& loop, double period_s) {
     out["t_s"].push_back(static_cast<double>(n) * period_s);
     out["value"].push_back(samples[n]);
   }
-  out["settling_s"] = finite(loop.step.settling_s);
+  out["settling_s"] = figure_json(loop.step.settling_s);
   out["overshoot"] = finite(loop.step.overshoot);
   return out;
 }

@@ -82,7 +82,7 @@ std::string optimum_json(const OptimumStory& s, const analysis::Optimum& best) {
     const analysis::FigureColumn& f = s.columns.figures[n];
     json["figures"].push_back({{"figure", f.name},
                                {"unit", f.unit},
-                               {"worst", finite(best.figures[n])},
+                               {"worst", figure_json(best.figures[n])},
                                {"min", or_null(f.min)},
                                {"max", or_null(f.max)}});
   }

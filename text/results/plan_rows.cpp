@@ -10,6 +10,7 @@
 #include "sixstep/analysis/plan/plan_description.hpp"
 #include "sixstep/base/written.hpp"
 #include "text/escape/csv_cell.hpp"
+#include "text/escape/json_number.hpp"
 #include "text/escape/json_text.hpp"
 #include "text/keys/decimal_number.hpp"
 #include "text/results/plan_columns.hpp"
@@ -21,14 +22,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// As JSON has it: no number is null, one that never came a word.
-Json stored(double x) {
-  if (x != x) return nullptr;
-  if (x - x != 0.0) return x > 0 ? "never" : "-never";
-  return x;
-}
-
-Json stored_or_null(const std::optional<double>& x) { return x ? stored(*x) : Json(nullptr); }
+Json stored_or_null(const std::optional<double>& x) { return x ? figure_json(*x) : Json(nullptr); }
 
 Json columns_json(const PlanStory& s) {
   Json keys = Json::array(), strayed = Json::array(), figures = Json::array();
@@ -88,8 +82,8 @@ std::vector<std::string> row_names(const analysis::PlanColumns& columns) {
 Json row_json(const analysis::RunRecord& r) {
   Json row = {r->number, base::word(analysis::run_ends, r->end), analysis::passed(r)};
   for (const std::string& value : r->point) row.push_back(value_json(value));
-  for (const double x : r->strayed) row.push_back(stored(x));
-  for (const double x : r->figures) row.push_back(stored(x));
+  for (const double x : r->strayed) row.push_back(figure_json(x));
+  for (const double x : r->figures) row.push_back(figure_json(x));
   row.push_back(r->problem);
   row.push_back(base::written_hex(r->digest));
   return row;

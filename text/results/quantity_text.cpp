@@ -17,7 +17,7 @@ struct Prefix {
   std::string_view letter;
   double times;  ///< 1 milli is written as x times 1000
 };
-constexpr Prefix none{"", 1.0};
+constexpr Prefix no_prefix{"", 1.0};
 
 /// rad/s, degrees and ratios are read without prefix.
 bool takes_prefix(std::string_view unit) {
@@ -27,18 +27,22 @@ bool takes_prefix(std::string_view unit) {
 
 Prefix prefix_for(double x, std::string_view unit) {
   const double size = std::abs(x);
-  if (!takes_prefix(unit) || !(size >= 1e-12) || !(size < 1e9)) return none;
-  if (size >= 0.1 && size < 1e3) return none;  // 0.78 N m and 0.5 A are read as they stand
+  if (!takes_prefix(unit) || !(size >= 1e-12) || !(size < 1e9)) return no_prefix;
+  if (size >= 0.1 && size < 1e3) return no_prefix;  // 0.78 N m and 0.5 A are read as they stand
   constexpr std::array<Prefix, 7> prefixes = {
       {{"M", 1e-6}, {"k", 1e-3}, {"", 1.0}, {"m", 1e3}, {"u", 1e6}, {"n", 1e9}, {"p", 1e12}}};
   // A hair below 1 counts as 1: 1e-9 * 1e9 need not be 1.
   for (const Prefix& prefix : prefixes)
     if (size * prefix.times >= 1.0 - 1e-12) return prefix;
-  return none;
+  return no_prefix;
 }
 
 std::string prefixed(double x, Prefix prefix, int digits) {
-  const std::string text = fmt::format("{:.{}g}", x * prefix.times, digits);
+  // 800 of two digits is no 8e+02.
+  const double value = x * prefix.times, size = std::fabs(value);
+  if (size >= 100.0 && size < 1e6 && size >= std::pow(10.0, digits) - 0.5)
+    return fmt::format("{:.0f}", value);
+  const std::string text = fmt::format("{:.{}g}", value, digits);
   return text == "-0" ? "0" : text;
 }
 
@@ -53,7 +57,8 @@ std::string joined(const std::string& text, const std::string& unit) {
 /// A time that did not come, a figure of an empty window: words, for numbers they are not.
 std::string without_number(double x, const std::string& unit) {
   if (std::isnan(x)) return "no value";
-  return unit == "s" && x > 0.0 ? "never" : joined(prefixed(x, none, few_digits), unit_text(none, unit));
+  return unit == "s" && x > 0.0 ? "never"
+                                : joined(prefixed(x, no_prefix, few_digits), unit_text(no_prefix, unit));
 }
 
 }  // namespace
@@ -78,7 +83,7 @@ ComparedTexts compared_texts(double x, std::span<const double> yardsticks, const
   for (const double y : yardsticks) largest = std::max(largest, std::abs(y));
   // Beside zero only x itself has a magnitude.
   Prefix shared = prefix_for(largest > 0.0 ? largest : x, unit);
-  if (largest == 0.0 && x == 0.0) shared = none;
+  if (largest == 0.0 && x == 0.0) shared = no_prefix;
   const double ratio = std::abs(largest > 0.0 ? x / largest : 1.0);
   const bool alike = x == 0.0 || (ratio >= 1e-3 && ratio < 1e3);
   const Prefix own = alike ? shared : prefix_for(x, unit);
@@ -103,10 +108,10 @@ ComparedTexts compared_texts(double x, std::span<const double> yardsticks, const
   // The prefix's product has swallowed the last bit: without prefix it shows.
   return {[&] {
             std::vector<std::string> plain;
-            for (const double y : yardsticks) plain.push_back(prefixed(y, none, all_digits));
+            for (const double y : yardsticks) plain.push_back(prefixed(y, no_prefix, all_digits));
             return plain;
           }(),
-          joined(prefixed(x, none, all_digits), unit_text(none, unit)), unit_text(none, unit)};
+          joined(prefixed(x, no_prefix, all_digits), unit_text(no_prefix, unit)), unit_text(no_prefix, unit)};
 }
 
 }  // namespace text

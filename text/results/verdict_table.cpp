@@ -96,7 +96,10 @@ std::string counted(std::size_t n, const char* what) {
 std::string deviation_text(const study::ComparisonResult& c) {
   if (!std::isfinite(c.measured)) return "not comparable";
   if (c.value == 0.0) return "";
-  const double percent = 100.0 * (c.measured - c.value) / std::abs(c.value);
+  // More of the same sign is more, forward and backward; a part of what is turned round tells nothing.
+  if ((c.measured < 0.0) != (c.value < 0.0))
+    return (c.measured > c.value ? "+" : "") + quantity_text(c.measured - c.value, c.unit);
+  const double percent = 100.0 * (c.measured - c.value) / c.value;
   return std::abs(percent) < 1e-9 ? "0 %" : fmt::format("{:+.3g} %", percent);
 }
 

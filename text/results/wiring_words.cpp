@@ -105,7 +105,10 @@ std::string symptom_text(const analysis::WiringStudy& s, WiringDoes does) {
   if (does == WiringDoes::forward) return "runs as it should";
   if (does == WiringDoes::backward) return "runs as well as forward";
   const auto times = [](double x) { return fmt::format("{:.{}f}", x, x < 9.95 ? 1 : 0); };
-  const std::string current = fmt::format("{} times the current", times(here.phase_rms_A / well.phase_rms_A));
+  // Of a sheet without friction a right wiring takes no current at all: any other takes some thousand times that.
+  const double ratio = here.phase_rms_A / well.phase_rms_A;
+  const std::string current =
+      ratio < 100 ? times(ratio) + " times the current" : "more than 100 times the current";
   if (does == WiringDoes::hums) return fmt::format("jerks, stands, hums; {}", current);
   if (analysis::direction_of(does) == 0) return "does not do the same from every start";
   return fmt::format("runs rough; {}", current);

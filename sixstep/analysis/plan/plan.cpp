@@ -101,7 +101,8 @@ class Checker {
       return add(where + "from", base::written(std::min(a.from, a.to)),
                  "has no logarithm: ends of a logarithmic range are above 0", "space it linearly");
     if (plan_.sampling == Sampling::grid && a.points < 2)
-      return add(where + "points", std::to_string(a.points), "do not reach both ends", "take 2 or more");
+      return add(where + "points", std::to_string(a.points),
+                 "leave out an end of the range that the grid goes over", "give 2 points or more");
   }
 
   bool too_many() const {

@@ -17,7 +17,7 @@ void add(Series& series, const RunRecord& record) {
   for (std::size_t n = 0; n < series.figures.size(); ++n) {
     SpreadFigure& figure = series.figures[n];
     figure.statistics.add(record->figures[n]);
-    const bool holds = record->end == RunEnd::whole && figure.column.holds(record->figures[n]);
+    const bool holds = record->end != RunEnd::refused && figure.column.holds(record->figures[n]);
     figure.holds += holds;
     if (!holds && record->end != RunEnd::refused && !figure.first_miss) figure.first_miss = record->number;
     all = all && holds;

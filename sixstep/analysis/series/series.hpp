@@ -14,8 +14,8 @@ namespace sixstep::analysis {
 
 struct SpreadFigure {
   FigureColumn column;
-  std::size_t holds = 0;                  ///< runs that hold it
-  std::optional<std::size_t> first_miss;  ///< number of the first run that does not
+  std::size_t holds = 0;  ///< runs whose value holds it, as a run alone says; a fault is told beside it
+  std::optional<std::size_t> first_miss;  ///< number of the first run whose value does not
   Statistics statistics;
 };
 

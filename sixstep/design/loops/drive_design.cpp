@@ -150,11 +150,11 @@ double largest_position_gain(const DriveDesign& d) {
   return low;
 }
 
-LoopDesign position_loop(double gain, const char* method) {
+LoopDesign position_loop(double gain, const char* method, const char* meaning) {
   return {.name = "position",
           .method = method,
           .gains = {gain, 0.0},
-          .steps = {{"K_p", "largest gain without overshoot", gain, "rad/s/deg"},
+          .steps = {{"K_p", meaning, gain, "rad/s/deg"},
                     {"K_p", "the same in radians", gain * 180.0 / base::pi, "1/s"}},
           .placed = {},
           .loop = {},
@@ -295,14 +295,16 @@ base::Result<DriveDesign> design_drive(const MotorModel& motor, const DesignSpec
   add_limits(d);
   add_sensing(d);
   if (spec.mode == Mode::position)
-    d.loops.push_back(position_loop(largest_position_gain(d), "largest linear gain without overshoot"));
+    d.loops.push_back(position_loop(largest_position_gain(d), "largest linear gain without overshoot",
+                                    "largest gain without overshoot"));
   finish(d);
   return d;
 }
 
 DriveDesign with_position_gain(const DriveDesign& design, double gain_rad_s_per_deg) {
   DriveDesign d = design;
-  d.loops.back() = position_loop(gain_rad_s_per_deg, "largest gain without overshoot under the limits");
+  d.loops.back() = position_loop(gain_rad_s_per_deg, "largest gain under the limits",
+                                 "largest that overshoots by 1 % of the move or three sensor steps at most");
   finish(d);
   return d;
 }

@@ -141,7 +141,7 @@ void check_tunings(const Scenario& s, const std::optional<design::MotorModel>& m
     base::Problems found;
     check_control(then, found);
     check_extras(then, found);
-    check_product(then, std::nullopt, found);
+    check_product(then, motor, found);
     check_sensorless(then, found);
     check_field(then, found);
     check_own(then, found);
@@ -182,13 +182,11 @@ base::Problems check(const Scenario& s) {
   // What follows computes with the numbers: an absurd one makes no sense of it.
   if (base::Problems absurd = check_numbers(s); !absurd.empty()) return absurd;
   base::Problems out;
-  std::optional<double> sector_rad;
   std::optional<design::MotorModel> model;
   if (const auto motor = design::motor_model(s.sheet)) {
     model = *motor;
     check_torque_limit(s, *motor, out);
     check_pace(s, *motor, out);
-    sector_rad = base::pi / 3 / motor->machine.pole_pairs;
   } else {
     out = motor.problems();
   }
@@ -205,7 +203,7 @@ base::Problems check(const Scenario& s) {
   check_tunings(s, model, out);
   check_sensors(s, model, out);
   check_shaft_sensor(s, model, out);
-  check_product(s, sector_rad, out);
+  check_product(s, model, out);
   check_sensorless(s, out);
   check_field(s, out);
   check_own(s, out);

@@ -4,7 +4,10 @@
 #include <cmath>
 #include <string>
 
+#include "sixstep/base/angle.hpp"
+#include "sixstep/base/decimal.hpp"
 #include "sixstep/base/written.hpp"
+#include "sixstep/design/loops/operating_limits.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
 
@@ -117,18 +120,36 @@ void check_advance(const Scenario& s, base::Problems& out) {
 }
 
 /// A sector passes unseen, and the next code is a jump, where it does not hold as many samples.
-void check_hall_filter(const Scenario& s, const std::optional<double>& sector_rad, base::Problems& out) {
+void check_hall_filter(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
   const std::optional<double>& fastest = s.protection.over_speed_rad_s;
   const double stands_s = s.sensors.hall_stable_samples * s.pwm.period_s;
-  if (s.sensors.hall_stable_samples < 2 || !sector_rad || !fastest || stands_s * *fastest <= *sector_rad)
-    return;
-  const double most = std::floor(*sector_rad / (*fastest * s.pwm.period_s));
-  const std::string sector = written(*sector_rad / *fastest);
+  const double sector_rad = base::sector_rad / motor.machine.pole_pairs;
+  if (s.sensors.hall_stable_samples < 2 || !fastest || stands_s * *fastest <= sector_rad) return;
+  const double most = std::floor(sector_rad / (*fastest * s.pwm.period_s));
+  const std::string sector = written(sector_rad / *fastest);
   out.push_back(
       {"sensors.hall_stable_samples", std::to_string(s.sensors.hall_stable_samples),
        "last longer than a sector, " + sector + " s at protection.over_speed_rad_s = " + written(*fastest),
        most >= 2 ? "lower it to " + written(most) + " at most, or lower over_speed_rad_s"
                  : "set it to 1, shorten pwm.period_s, or lower over_speed_rad_s"});
+}
+
+/// A rotor that is held takes the current that the speed loop may ask for, and no more.
+void check_against_limit(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
+  const std::optional<double> most = current_limit_A(s, motor);
+  const Protection& p = s.protection;
+  if (most && p.stall_current_A && *p.stall_current_A >= *most)
+    out.push_back({"protection.stall_current_A", written(*p.stall_current_A),
+                   "is never passed: the current is limited to " + base::three_digits(*most) + " A, " +
+                       (s.control.current.limit_A         ? "control.current.limit_A"
+                        : s.control.speed.torque_limit_Nm ? "control.speed.torque_limit_Nm over K_t"
+                                                          : "the usual torque limit over K_t"),
+                   "lower it, as to " + base::written(base::shortened(0.8 * *most, 2, base::Towards::down))});
+  if (p.over_current_A && p.brake_current_A >= *p.over_current_A)
+    out.push_back({"protection.brake_current_A", written(p.brake_current_A),
+                   "is not below protection.over_current_A = " + written(*p.over_current_A) +
+                       ": braking would be a fault",
+                   "lower it"});
 }
 
 /// Of the lean drive, which is told sector and edges as they are.
@@ -150,13 +171,25 @@ void check_lean(const Scenario& s, base::Problems& out) {
 
 }  // namespace
 
-void check_product(const Scenario& s, const std::optional<double>& sector_rad, base::Problems& out) {
+std::optional<double> current_limit_A(const Scenario& s, const design::MotorModel& motor) {
+  const bool cascade = s.control.mode == Mode::speed || s.control.mode == Mode::position;
+  if (!cascade || s.control.speed.output == SpeedOutput::duty) return std::nullopt;
+  if (s.control.current.limit_A) return s.control.current.limit_A;
+  const double torque =
+      s.control.speed.torque_limit_Nm.value_or(design::usual_torque_limit_Nm(motor, s.supply.voltage_V));
+  if (!(motor.K_t_Nm_A > 0.0) || !(torque > 0.0)) return std::nullopt;
+  return torque / motor.K_t_Nm_A;
+}
+
+void check_product(const Scenario& s, const std::optional<design::MotorModel>& motor, base::Problems& out) {
   if (s.control.drive != FirmwareKind::product) return check_lean(s, out);
   check_registers(s, out);
   check_thresholds(s, out);
   check_activities(s, out);
   check_advance(s, out);
-  check_hall_filter(s, sector_rad, out);
+  if (!motor) return;
+  check_hall_filter(s, *motor, out);
+  check_against_limit(s, *motor, out);
 }
 
 namespace {

@@ -3,13 +3,18 @@
 #include <optional>
 
 #include "sixstep/base/problem.hpp"
+#include "sixstep/design/sheet/parameters.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
 
 namespace sixstep::study {
 
 /// What [protection] and [sensors] lack for the product drive, and what of its keys the lean one ignores.
-/// `sector_rad`: a sector of the shaft's turn, (pi/3)/p; empty where the motor is not known.
-void check_product(const Scenario& scenario, const std::optional<double>& sector_rad, base::Problems& out);
+/// `motor`: empty where its sheet is wrong.
+void check_product(const Scenario& scenario, const std::optional<design::MotorModel>& motor,
+                   base::Problems& out);
+
+/// The most that a speed loop asks of the current loop, in A; empty where there is no such pair of loops.
+std::optional<double> current_limit_A(const Scenario& scenario, const design::MotorModel& motor);
 
 /// Extras that contradict the loops they would be added to.
 void check_extras(const Scenario& scenario, base::Problems& out);

@@ -56,6 +56,15 @@ void of_power(const Scenario& s, Unused& out) {
     out.add("supply.mains_Hz", s.supply.mains_Hz, Supply{}.mains_Hz, "no mains");
 }
 
+void of_protection(const Scenario& s, Unused& out) {
+  const Align usual, &x = s.protection.align;
+  if (x.current_A) return;
+  constexpr char reason[] = "no protection.align.current_A";
+  out.add("protection.align.longest_s", x.longest_s, usual.longest_s, reason);
+  out.add("protection.align.settled_s", x.settled_s, usual.settled_s, reason);
+  out.add("protection.align.sector", x.sector, usual.sector, reason);
+}
+
 void of_control(const Scenario& s, Unused& out) {
   const Control usual, &x = s.control;
   if (x.current.type != CurrentLoopType::hysteresis && s.at.empty()) {
@@ -77,6 +86,7 @@ std::string unused_keys(const Scenario& s) {
   Unused out;
   of_sensors(s, out);
   of_power(s, out);
+  of_protection(s, out);
   of_control(s, out);
   return out.text();
 }

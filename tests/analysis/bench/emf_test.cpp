@@ -11,7 +11,7 @@
 #include "tests/analysis/bench/counted.hpp"
 #include "tests/analysis/bench/drawn_emf.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -160,6 +160,45 @@ TEST(Emf, TheShapeIsTheMotorsWhicheverWayItIsTurnedAndProbed) {
     }
 }
 
+/// Of a whole trapezoid of height 1, not of its first harmonics: the top at y = 0, straight flanks.
+double whole_trapezoid(double y, double flat_deg) {
+  const double off = std::fabs(std::remainder(y, 2 * base::pi)), half = flat_deg / 2 * base::rad_per_deg;
+  return std::clamp((base::pi / 2 - off) / (base::pi / 2 - half), -1.0, 1.0);
+}
+
+/// A flat top's harmonics do not end at the 25th: their sum overshoots, the motor does not.
+TEST(Emf, ThePeakIsThatOfTheWaveAndNotOfItsFirstHarmonics) {
+  for (const double flat_deg : {30.0, 60.0, 90.0, 120.0, 150.0, 165.0})
+    for (const bool star : {false, true}) {
+      EmfTruth t = clean(false);
+      t.star = star;
+      analysis::EmfRequest request = drawn_record(t);
+      const auto f = [&](double y) { return whole_trapezoid(y, flat_deg); };
+      const double third = 2 * base::pi / 3, V = 20e-3, w = 2 * base::pi * t.frequency_Hz;
+      double line_peak = 0.0;
+      for (double y = 0; y < 2 * base::pi; y += 1e-3)
+        line_peak = std::max(line_peak, V * (f(y) - f(y - third)));
+      for (std::size_t n = 0; n < request.record.t_s.size(); ++n) {
+        const double y = w * request.record.t_s[n];
+        const double wave = star ? f(y) : f(y) - f(y - third),
+                     noise = request.record.channels[0].u_V[n] > 0 ? 1e-6 : -1e-6;
+        request.record.channels[0].u_V[n] = V * w * wave + noise;
+      }
+      const auto found = analysis::measure_emf(request);
+      ASSERT_TRUE(found) << flat_deg;
+      const analysis::EmfConstants& k = found->constants;
+      EXPECT_TRUE(k.line_peak.holds(line_peak))
+          << flat_deg << star << k.line_peak.low << ' ' << k.line_peak.high;
+      const bool flat = flat_deg > 60.0;  // a line's voltage is the pointed sum of two phases of less
+      EXPECT_NEAR(k.line_peak.value, line_peak, (flat ? 2.5e-3 : 0.02) * line_peak) << flat_deg << star;
+      EXPECT_LT(k.line_peak.half_width(), 0.025 * line_peak);
+      if (!star)
+        continue;  // between lines what is of order 3, 9, 15 is not seen, and the star's peak not known
+      EXPECT_TRUE(k.phase_peak.holds(V)) << flat_deg << k.phase_peak.low << ' ' << k.phase_peak.high;
+      EXPECT_NEAR(k.phase_peak.value, V, 4e-3 * V) << flat_deg;
+    }
+}
+
 TEST(Emf, LinesOfAPhaseAndBack) {
   analysis::ShapeHarmonics phase;
   phase.resize(13);
@@ -275,4 +314,4 @@ TEST(Emf, WhatIsNoRecordingIsToldWhy) {
   EXPECT_THAT(told(request), HasSubstr("channels = 0"));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

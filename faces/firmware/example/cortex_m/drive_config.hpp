@@ -88,7 +88,7 @@ constexpr sixstep::control::DriveConfig<Scalar> make_drive() {
   c.speed.d1 = 0x1.03ed9ap-6f;                                            // 0.015864755 per rad/s
   c.speed.d0 = -0x1.035fdep-6f;                                           // -0.0158309613 per rad/s
   c.speed.limit = 0x1p+0f;                                                // 1 of full torque
-  c.current_at_full_torque_A = 0x1.74898ep+2f;                            // 5.82089552 A: torque limit over K_t
+  c.current_at_full_torque_A = 0x1.74898ep+2f;                            // 5.82089552 A: torque limit over the motor's torque per ampere
   c.current_limit_A = 0x1.74898ep+2f;                                     // 5.82089552 A
   return c;
 }

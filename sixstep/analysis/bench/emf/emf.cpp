@@ -16,8 +16,6 @@
 namespace sixstep::analysis {
 namespace {
 
-constexpr double per_deg = base::pi / 180.0;
-
 double size_of(const Harmonic& h) { return std::sqrt(h.a_V * h.a_V + h.b_V * h.b_V); }
 /// Of a cos x + b sin x = size cos(x + angle).
 double angle_of(const Harmonic& h) { return base::atan2(-h.b_V, h.a_V); }
@@ -38,8 +36,8 @@ ShapeHarmonics seen_by(const ChannelFit& channel) {
 
 /// What the channel lags behind the first one, in [0, 360).
 double lag_deg(const HarmonicFit& fit, std::size_t channel) {
-  const double lag =
-      (angle_of(fit.channels[0].harmonics[0]) - angle_of(fit.channels[channel].harmonics[0])) / per_deg;
+  const double lag = (angle_of(fit.channels[0].harmonics[0]) - angle_of(fit.channels[channel].harmonics[0])) /
+                     base::rad_per_deg;
   return lag - 360.0 * std::floor(lag / 360.0);
 }
 
@@ -83,7 +81,8 @@ void take_channels(const EmfRequest& request, const HarmonicFit& fit, EmfResult&
     const double student = student_95(first.degrees_of_freedom);
     const double here = first.deviation_V / size_of(first),
                  there = reference.deviation_V / size_of(reference);
-    const double lag_width = c == 0 ? 0.0 : student * std::sqrt(here * here + there * there) / per_deg;
+    const double lag_width =
+        c == 0 ? 0.0 : student * std::sqrt(here * here + there * there) / base::rad_per_deg;
     const std::vector<double>& u = request.record.channels[c].u_V;
     out.channels.push_back({request.record.channels[c].name, of_c.offset_V,
                             around(size_of(first), student * first.deviation_V),
@@ -180,15 +179,23 @@ void take_constants(const HarmonicFit& fit, const MeanShape& mean, EmfResult& ou
   const ShapeHarmonics between = line_of_phase(mean.phase);
   EmfConstants& k = out.constants;
   // To an rms value, harmonics of parts small against the fundamental hardly add.
-  k.line_peak = doubt.of(line, peak_of(between).value, 1.0);
+  const auto peak = [&doubt](double fundamental, const ShapeHarmonics& shape) {
+    const WavePeak wave = wave_peak(shape);
+    Interval out_of = doubt.of(fundamental, wave.peak.value, 1.0);
+    out_of.low -= fundamental * wave.below;
+    out_of.high += fundamental * wave.above;
+    return out_of;
+  };
+  k.line_peak = peak(line, between);
   k.line_rms = doubt.of(line, between.rms(), 0.0);
   k.line_fundamental = doubt.of(line, 1.0, 0.0);
-  k.phase_peak = doubt.of(phase, peak_of(mean.phase).value, 1.0);
+  k.phase_peak = peak(phase, mean.phase);
   k.phase_rms = doubt.of(phase, mean.phase.rms(), 0.0);
   k.phase_fundamental = doubt.of(phase, 1.0, 0.0);
   const ShapeHarmonics& probed = out.between == EmfBetween::lines ? between : mean.phase;
-  out.crest = peak_of(probed).value / probed.rms();
-  out.flat_deg = peak_of(probed).flat_deg;
+  const ShapePeak top = wave_peak(probed).peak;
+  out.crest = top.value / probed.rms();
+  out.flat_deg = top.flat_deg;
 }
 
 struct ShapeTable {
@@ -201,7 +208,7 @@ ShapeTable table_of(const ShapeHarmonics& phase, double peak, int per_degree, in
   for (int n = 0; n < 360 * per_degree; n += step) {
     const double deg = static_cast<double>(n) / per_degree;
     out.angle_deg.push_back(deg);
-    out.shape.push_back(phase.at((deg - 60) * per_deg) / peak);
+    out.shape.push_back(phase.at((deg - 60) * base::rad_per_deg) / peak);
   }
   return out;
 }
@@ -213,8 +220,9 @@ void take_table(const ShapeHarmonics& phase, EmfResult& out) {
   out.shape = std::move(table.shape);
   // Straight lines between two degrees take a ten-thousandth from the mean of a round shape. Their error falls with the square of
   // the step: two steps tell it (Richardson).
+  const double told = wave_peak(phase).peak.value;
   out.shape_sector_mean =
-      (4 * table_of(phase, peak, 2, 1).sector_mean() - table_of(phase, peak, 1, 1).sector_mean()) / 3;
+      (4 * table_of(phase, told, 2, 1).sector_mean() - table_of(phase, told, 1, 1).sector_mean()) / 3;
 }
 
 /// From the speed that someone read off; it has to be a whole number.

@@ -73,6 +73,29 @@ ShapeHarmonics line_of_phase(const ShapeHarmonics& phase) {
   return out;
 }
 
+WavePeak wave_peak(const ShapeHarmonics& shape) {
+  const std::size_t count = shape.size();
+  double high = 0.0;
+  for (std::size_t n = 2 * count / 3; n < count; ++n)
+    high += std::sqrt(shape.re[n] * shape.re[n] + shape.im[n] * shape.im[n]);
+  const ShapePeak sum = peak_of(shape);
+  // A corner leaves 0.6 % and more of the fundamental in the last third of 25, a round shape next to nothing.
+  constexpr double least_corner = 3e-3;
+  if (high < least_corner) return {sum};
+  ShapeHarmonics mean = shape;
+  for (std::size_t n = 0; n < count; ++n) {
+    const double x = base::pi * static_cast<double>(n + 1) / static_cast<double>(count + 1);
+    mean.re[n] *= base::sin(x) / x;
+    mean.im[n] *= base::sin(x) / x;
+  }
+  const ShapePeak smooth = peak_of(mean);
+  const double gap = std::fmax(sum.value - smooth.value, 0.0);
+  constexpr double sine_flat_deg = 36.4;  // 2 arccos 0.95
+  if (smooth.flat_deg > 1.1 * sine_flat_deg)
+    return {{smooth.value, smooth.x_rad, sum.flat_deg}, 0.5 * gap, gap};
+  return {sum, 1.5 * gap, 1.25 * gap};
+}
+
 ShapePeak peak_of(const ShapeHarmonics& shape) {
   constexpr int steps = 1440;
   constexpr double step = 2.0 * base::pi / steps, flat_part = 0.95;

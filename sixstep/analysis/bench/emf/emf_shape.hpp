@@ -37,4 +37,13 @@ struct ShapePeak {
 };
 ShapePeak peak_of(const ShapeHarmonics& shape);
 
+/// The peak of the wave whose first harmonics these are. A flat top's harmonics go on: their sum without the rest overshoots it by
+/// 1 to 5 % beside the flanks (Gibbs). Averaged over a turn of the first one that is missing (Lanczos) the sum leaves a tenth of that. A
+/// pointed top lacks what the missing ones would add, and stays as summed. `below` and `above` is what is not known of either.
+struct WavePeak {
+  ShapePeak peak;
+  double below = 0.0, above = 0.0;
+};
+WavePeak wave_peak(const ShapeHarmonics& shape);
+
 }  // namespace sixstep::analysis
