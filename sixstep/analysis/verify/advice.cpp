@@ -40,7 +40,7 @@ bool promises(const std::vector<Warning>& found, const DriveDesign& next) {
 }
 
 /// Runs of a study, counted as whole ones: a position's gain is searched for.
-double runs_of(const DesignOrder& order) {
+double runs_of_study(const DesignOrder& order) {
   const double motors =
       order.tolerances.empty() ? 1.0 : static_cast<double>(variations(order.tolerances).size());
   if (order.spec.mode != Mode::position) return 2.0 + motors;
@@ -83,11 +83,12 @@ std::vector<DesignSpec> rescues(const DesignOrder& order, const DriveDesign& d) 
   std::vector<DesignSpec> all = single_changes(order, d);
   for (const DesignSpec& spec : joint_changes(order, d)) all.push_back(spec);
   if (!order.spec.rotor.hall) return all;
-  const DesignSpec own_period = on_encoder(order, order.spec.period_s);
   if (order.spec.mode == Mode::position) {
-    all.insert(all.begin(), {own_period, on_encoder(order, unhurried_period_s)});
+    std::vector<DesignSpec> first = on_encoders(order, d);
+    first.push_back(on_encoder(order, unhurried_period_s));
+    all.insert(all.begin(), first.begin(), first.end());
   } else {
-    all.push_back(own_period);
+    for (const DesignSpec& spec : on_encoders(order, d)) all.push_back(spec);
   }
   return all;
 }
@@ -100,11 +101,24 @@ std::string rescue(const DesignOrder& order, const DriveDesign& d) {
   DesignOrder alone = order;
   alone.tolerances.clear();
   if (position) alone.gain = {.quick = true, .longest_periods = 6e5, .periods = 1.5e6};
+  const auto rescued = [&](const DesignSpec& spec) {
+    if (!holds(alone, spec, budget)) return false;
+    if (!position && order.tolerances.empty()) return true;
+    return holds(order, spec, position ? whole_searches : budget);
+  };
+  std::vector<DesignSpec> dear;
   for (const DesignSpec& spec : rescues(order, d)) {
-    if (!holds(alone, spec, budget)) continue;
-    if (!position && order.tolerances.empty()) return words_of_change(order.spec, spec);
-    if (holds(order, spec, position ? whole_searches : budget)) return words_of_change(order.spec, spec);
+    const std::optional<DriveDesign> next = in_closed_form(order, spec);
+    if (!next) continue;
+    // One that would take most of the budget waits until the cheap ones have been tried.
+    if (periods_of(order, *next) > rescue_periods / 4 && !position) {
+      dear.push_back(spec);
+      continue;
+    }
+    if (rescued(spec)) return words_of_change(order.spec, spec);
   }
+  for (const DesignSpec& spec : dear)
+    if (rescued(spec)) return words_of_change(order.spec, spec);
   return "";
 }
 
@@ -127,7 +141,7 @@ double periods_of(const DesignOrder& order, DriveDesign d) {
     double& gain = d.loops.back().gains.d1;
     gain = std::min(gain, braking_gain(d));
   }
-  return runs_of(order) * design_scenario(d, order.subject).duration_s / d.spec.period_s;
+  return runs_of_study(order) * design_scenario(d, order.subject).duration_s / d.spec.period_s;
 }
 
 std::optional<DesignStudy> tried(const DesignOrder& order, const DesignSpec& spec, TrialBudget& budget) {

@@ -23,15 +23,18 @@ constexpr double shortest_period_s = 1e-6;
 
 double plain(double x, base::Towards towards) { return base::shortened(x, 2, towards); }
 
-/// Ripple low enough, and 45 degrees of phase with one period of delay.
-std::optional<double> shorter_period(const DesignSpec& w, const DriveDesign& d) {
+/// Ripple low enough, or such that a drive lives with it; and 45 degrees of phase with one period of delay.
+std::vector<double> shorter_periods(const DesignSpec& w, const DriveDesign& d) {
   if (w.rotor.shaft.kind == design::ShaftSensorKind::resolver)
-    return std::nullopt;  // its carrier is tied to the period
-  const double ripple =
-      period_for_ripple_s(d.motor, d.bus_V, w.chopping, design::greatest_ripple * d.nominal_current_A);
-  const double period = plain(std::min(ripple, d.longest_period_s), base::Towards::down);
-  if (!(period < w.period_s && period >= shortest_period_s)) return std::nullopt;
-  return period;
+    return {};  // its carrier is tied to the period
+  std::vector<double> out;
+  for (const double part : {design::greatest_ripple, usable_ripple}) {
+    const double ripple = period_for_ripple_s(d.motor, d.bus_V, w.chopping, part * d.nominal_current_A);
+    const double period = plain(std::min(ripple, d.longest_period_s), base::Towards::down);
+    if (period < w.period_s && period >= shortest_period_s && (out.empty() || out.back() < period))
+      out.push_back(period);
+  }
+  return out;
 }
 
 void take_period(DesignSpec& w, double period_s) {
@@ -112,6 +115,14 @@ DesignSpec on_encoder(const DesignOrder& order, double period_s) {
   return w;
 }
 
+std::vector<DesignSpec> on_encoders(const DesignOrder& order, const DriveDesign& d) {
+  if (!order.spec.rotor.hall) return {};
+  std::vector<DesignSpec> out{on_encoder(order, order.spec.period_s)};
+  const std::vector<double> periods = shorter_periods(out.front(), d);
+  for (std::size_t n = periods.size(); n-- > 0;) out.push_back(on_encoder(order, periods[n]));
+  return out;
+}
+
 std::vector<DesignSpec> single_changes(const DesignOrder& order, const DriveDesign& d) {
   const DesignSpec& w = order.spec;
   std::vector<DesignSpec> out;
@@ -122,8 +133,7 @@ std::vector<DesignSpec> single_changes(const DesignOrder& order, const DriveDesi
   };
   if (w.chopping != Chopping::complementary)
     with([](DesignSpec& n) { n.chopping = Chopping::complementary; });
-  if (const std::optional<double> period = shorter_period(w, d))
-    with([&](DesignSpec& n) { take_period(n, *period); });
+  for (const double period : shorter_periods(w, d)) with([&](DesignSpec& n) { take_period(n, period); });
   if (w.rotor.hall && w.rotor.edges > 1) with([](DesignSpec& n) { n.rotor.edges = 1; });
   if (w.rotor.hall && w.mode == Mode::position)
     with([&](DesignSpec& n) { n.rotor = encoder(order, w.period_s); });
@@ -139,12 +149,19 @@ std::vector<DesignSpec> single_changes(const DesignOrder& order, const DriveDesi
 
 std::vector<DesignSpec> joint_changes(const DesignOrder& order, const DriveDesign& d) {
   std::vector<DesignSpec> out;
-  if (order.spec.rotor.hall && order.spec.mode == Mode::position)
-    out.push_back(on_encoder(order, order.spec.period_s));
+  if (order.spec.mode == Mode::position) out = on_encoders(order, d);
   DesignSpec base = order.spec;
   base.chopping = Chopping::complementary;
-  if (const std::optional<double> period = shorter_period(base, d)) take_period(base, *period);
+  const std::vector<double> periods = shorter_periods(base, d);
+  if (!periods.empty()) take_period(base, periods.front());
   out.push_back(base);
+  if (periods.size() > 1) {
+    DesignSpec longer = base;
+    take_period(longer, periods.back());
+    out.push_back(longer);
+    slow_down(longer, d, 2.0);
+    out.push_back(longer);
+  }
   for (const double times : {2.0, 5.0, 10.0, 20.0}) {
     DesignSpec slower = base;
     slow_down(slower, d, times);

@@ -11,6 +11,9 @@ namespace sixstep::analysis {
 /// A heavy rotor on a winding that lets it wait.
 inline constexpr double unhurried_period_s = 1e-4;
 
+/// Of the nominal current: above it a drive's current is hardly more than ripple.
+inline constexpr double usable_ripple = 0.5;
+
 /// Specifications that may do better, each with one change: chopping, period, sensor, rule, how fast each loop is to be.
 std::vector<design::DesignSpec> single_changes(const DesignOrder& order, const design::DriveDesign& design);
 
@@ -22,5 +25,7 @@ std::string words_of_change(const design::DesignSpec& before, const design::Desi
 
 /// The same on an encoder, both switches of a leg in turns, with this control period.
 design::DesignSpec on_encoder(const DesignOrder& order, double period_s);
+/// Of a drive on Hall probes: at its own period, and at each shorter one that the ripple asks for, the longest first.
+std::vector<design::DesignSpec> on_encoders(const DesignOrder& order, const design::DriveDesign& design);
 
 }  // namespace sixstep::analysis

@@ -32,9 +32,6 @@ constexpr double longest_run_up_s = 600;
 /// Control periods of a trial, and of all together: half a second, and one and a half, of one core.
 constexpr double trial_periods = 3.5e5, all_trials_periods = 1.2e6;
 
-/// Above it a drive's current is hardly more than ripple.
-constexpr double usable_ripple = 0.5;
-
 study::Measure measure(study::MetricKind metric, study::Signal signal, double from_s, const char* label) {
   study::Measure m;
   m.metric = metric;
@@ -148,7 +145,7 @@ bool shorten_trial(DesignOrder& order, const design::MotorModel& motor, double l
       order.subject.step = step_deg;
       if (fits()) return true;
     }
-  const double ripple_A = design::greatest_ripple * d->nominal_current_A;
+  const double ripple_A = usable_ripple * d->nominal_current_A;
   if (period_for_ripple_s(d->motor, d->bus_V, order.spec.chopping, ripple_A) < unhurried_period_s)
     return false;
   order.spec.period_s = order.spec.rotor.shaft.period_s = unhurried_period_s;
@@ -237,6 +234,7 @@ base::Result<study::Scenario> usable_design(const FirstScenarioSpec& spec, const
       DesignOrder next = order;
       next.spec = candidate;
       next.gain.periods = longest;
+      next.gain.longest_periods = std::max(next.gain.longest_periods, longest / 2);
       if (!shorten_trial(next, motor, longest)) continue;
       std::optional<DesignStudy> study = tried(next, next.spec, budget);
       if (!study) continue;
