@@ -25,7 +25,7 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 /// Between two looks for letters: nobody burns a core by waiting.
-constexpr milliseconds pause{2};
+constexpr milliseconds follower_pause{2};
 /// Between two letters with rows: what a kill takes from a process is what it made since.
 constexpr milliseconds rows_every{50};
 /// So much work lies ready, by the pace since it last was asked for; runs that take longer are fetched one by one.
@@ -142,7 +142,7 @@ class Hand {
     for (const letters::Question& question : std::exchange(questions_, {})) send(question);
     if (steady_clock::now() - rows_sent_ >= rows_every) send_rows();
     if (!hungry_ && !over_) ask_for_work();
-    moved_.wait_for(lock, pause);
+    moved_.wait_for(lock, follower_pause);
   }
 
   void send_rows() {
@@ -187,7 +187,7 @@ int follow(Cluster& cluster, const Prepare& prepare, const std::function<bool()>
   for (;;) {
     const std::optional<Mail> mail = cluster.receive();
     if (!mail) {
-      std::this_thread::sleep_for(pause);
+      std::this_thread::sleep_for(follower_pause);
       continue;
     }
     const letters::Letter letter = letter_of(*mail);

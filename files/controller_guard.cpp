@@ -44,7 +44,7 @@ struct Guarded {
 
 constexpr std::size_t most_controllers = 64;
 std::array<Guarded, most_controllers> controllers;
-std::size_t count = 0;
+std::size_t loaded_controllers = 0;
 std::mutex adding;
 
 /// Code of the controller on this thread, until it comes back: whatever does not is told.
@@ -182,17 +182,18 @@ void in_controller(const std::string& path, const std::function<void()>& work) {
 base::Result<const sixstep_controller*> guarded_controller(const std::string& path,
                                                            const sixstep_controller& real) {
   const std::lock_guard lock(adding);
-  for (std::size_t n = 0; n < count; ++n)
+  for (std::size_t n = 0; n < loaded_controllers; ++n)
     if (controllers[n].path == path && std::memcmp(&controllers[n].real, &real, sizeof real) == 0)
       return &controllers[n].shown;
-  if (count == most_controllers)
-    return base::Problem{
-        .where = path,
-        .limit = fmt::format("is one more than the {} controllers that a program may load", count),
-        .cure = "run it in another one"};
-  take(controllers[count], path, real);
-  show(count, controllers[count].shown, std::make_index_sequence<most_controllers>());
-  return &controllers[count++].shown;
+  if (loaded_controllers == most_controllers)
+    return base::Problem{.where = path,
+                         .limit = fmt::format("is one more than the {} controllers that a program may load",
+                                              loaded_controllers),
+                         .cure = "run it in another one"};
+  take(controllers[loaded_controllers], path, real);
+  show(loaded_controllers, controllers[loaded_controllers].shown,
+       std::make_index_sequence<most_controllers>());
+  return &controllers[loaded_controllers++].shown;
 }
 
 }  // namespace files

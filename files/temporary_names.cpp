@@ -9,12 +9,12 @@ namespace files {
 namespace {
 
 // A handler may take no lock and no memory.
-constexpr int most_names = 512;
-std::atomic<const char*> names[most_names];
+constexpr int most_temporaries = 512;
+std::atomic<const char*> being_written[most_temporaries];
 static_assert(std::atomic<const char*>::is_always_lock_free);
 
 void change(const char* from, const char* to) {
-  for (std::atomic<const char*>& name : names)
+  for (std::atomic<const char*>& name : being_written)
     if (const char* is = from; name.compare_exchange_strong(is, to)) return;
 }
 
@@ -24,7 +24,7 @@ void note_temporary(const char* name) { change(nullptr, name); }
 void forget_temporary(const char* name) { change(name, nullptr); }
 
 void remove_temporary_files() {
-  for (const std::atomic<const char*>& name : names)
+  for (const std::atomic<const char*>& name : being_written)
     if (const char* is = name.load(); is != nullptr && *is != '\0') ::unlink(is);
 }
 

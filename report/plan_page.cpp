@@ -68,7 +68,7 @@ std::string verdict(const PlanPageInput& in, std::size_t p) {
       css, tag(in, p), count(judges ? s.passed : s.runs), line, alert);
 }
 
-std::string fact(std::string_view name, const std::string& html) {
+std::string plan_fact(std::string_view name, const std::string& html) {
   return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, html);
 }
 
@@ -103,18 +103,18 @@ std::string layout_text(const analysis::Plan& plan) {
 std::string facts(const PlanPageInput& in, std::size_t p) {
   const PagePlan& plan = in.plans[p];
   std::string html =
-      whose(in, p) + "<dl class=\"setup facts\">\n" + fact("Laid out", layout_text(plan.story.plan));
+      whose(in, p) + "<dl class=\"setup facts\">\n" + plan_fact("Laid out", layout_text(plan.story.plan));
   if (plan.story.plan.drives > 0 || plan.story.plan.sampling != analysis::Sampling::grid)
-    html += fact("Seed", std::to_string(plan.story.plan.seed));
+    html += plan_fact("Seed", std::to_string(plan.story.plan.seed));
   for (std::size_t k = 0; k < plan.story.plan.axes.size(); ++k)
-    html += fact(escaped(plan.story.columns.keys[k].key), escaped(range_text(plan, k)));
+    html += plan_fact(escaped(plan.story.columns.keys[k].key), escaped(range_text(plan, k)));
   if (!plan.story.columns.strayed.empty()) {
     std::string names;
     for (const analysis::InputColumn& c : plan.story.columns.strayed)
       names += (names.empty() ? "" : ", ") + escaped(c.key);
-    html += fact("Strays from drive to drive", names);
+    html += plan_fact("Strays from drive to drive", names);
   }
-  return html + fact("Digest of all runs", base::written_hex(plan.story.series.digest)) + "</dl>\n";
+  return html + plan_fact("Digest of all runs", base::written_hex(plan.story.series.digest)) + "</dl>\n";
 }
 
 std::string notes(const PagePlan& plan) {

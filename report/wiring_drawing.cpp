@@ -22,7 +22,7 @@ double distance(const Place& p, const Place& a, const Place& b) {
 }
 
 /// Ramer, Douglas and Peucker: the point that lies farthest from the straight line stays, and so on at both sides of it.
-std::vector<Place> thinned(const std::vector<Place>& points) {
+std::vector<Place> thinned_wave(const std::vector<Place>& points) {
   std::vector<bool> stays(points.size(), false);
   std::vector<std::pair<std::size_t, std::size_t>> open = {{0, points.size() - 1}};
   stays.front() = stays.back() = true;
@@ -65,7 +65,7 @@ std::string line_through(const std::vector<Place>& points) {
   if (points.empty()) return "";
   std::string d;
   long x = 0, y = 0;
-  for (const Place& p : thinned(points)) {
+  for (const Place& p : thinned_wave(points)) {
     const long to_x = std::lround(10 * p.x), to_y = std::lround(10 * p.y);
     if (d.empty())
       d = fmt::format("M{} {}l", to_x, to_y);

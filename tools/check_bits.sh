@@ -21,13 +21,14 @@ out=build/bits
 mkdir -p "$out"
 
 # What a run needs: analysis/ is above it, and compiling it takes a fifth of all.
-mapfile -t library < <(find sixstep -name '*.cpp' -not -path 'sixstep/analysis/*' -not -path 'sixstep/study/*'
-  find sixstep/study/{live,session} -name '*.cpp')
-# The other small sources eight at a time, as cmake/rooms.cmake has them.
-mapfile -t small < <(find sixstep/study -name '*.cpp' -not -path '*/live/*' -not -path '*/session/*' | LC_ALL=C sort)
+mapfile -t library < <(find sixstep -name '*.cpp' -not -path 'sixstep/analysis/*' -not -path 'sixstep/study/*' -not -path 'sixstep/design/*'
+  find sixstep/study/{live,session} -name '*.cpp'; find sixstep/design -name '*_scaling.cpp')
+# The other small sources together, as cmake/rooms.cmake has them.
+mapfile -t small < <(find sixstep/{design,study} -name '*.cpp' -not -path '*/live/*' -not -path '*/session/*' -not -name '*_scaling.cpp' |
+  LC_ALL=C sort)
 rm -f "$out"/batch_*.cpp
-for ((n = 0; n < ${#small[@]}; n += 8)); do
-  printf '#include "%s"\n' "${small[@]:n:8}" >"$out/batch_$n.cpp"
+for ((n = 0; n < ${#small[@]}; n += 16)); do
+  printf '#include "%s"\n' "${small[@]:n:16}" >"$out/batch_$n.cpp"
   library+=("$out/batch_$n.cpp")
 done
 mapfile -t above < <(find sixstep/analysis -name '*.cpp' | LC_ALL=C sort)

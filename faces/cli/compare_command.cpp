@@ -153,7 +153,7 @@ base::Problems lay_over(Log& log, const Compared& run) {
 }
 
 /// Nothing where no page is wanted.
-base::Result<std::optional<files::AtomicFile>> page_of(const RunArguments& arguments) {
+base::Result<std::optional<files::AtomicFile>> page_of_runs(const RunArguments& arguments) {
   const std::string& path = arguments.paths.of(page_option);
   if (path.empty()) return std::optional<files::AtomicFile>();
   base::Result<files::AtomicFile> file = files::AtomicFile::create({path, arguments.paths.force});
@@ -208,7 +208,7 @@ base::Problems check_comparison(const RunArguments& arguments) {
 }
 
 Exit compare_command(const RunArguments& arguments, const std::vector<Job>& jobs) {
-  base::Result<std::optional<files::AtomicFile>> file = page_of(arguments);
+  base::Result<std::optional<files::AtomicFile>> file = page_of_runs(arguments);
   if (!file) return refused(file.problems());
   base::Result<std::optional<Log>> log = read_log(arguments.log, jobs.front().scenario());
   if (!log) return refused(log.problems());

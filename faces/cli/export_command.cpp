@@ -147,7 +147,7 @@ Exit not_cleared(const ExportArguments& a, const study::Control& control, const 
             " --toml NEW.toml writes a scenario with gains and requirements for it, and says whether they are usable\n",
         stderr);
   print("no header was written; --despite REASON writes one that says all of this\n", stderr);
-  return graver(exit_of(c.outcome), c.unmeasured.empty() ? Exit::ok : Exit::bad_input);
+  return graver(cli::exit_of(c.outcome), c.unmeasured.empty() ? Exit::ok : Exit::bad_input);
 }
 
 Exit export_header(const ExportArguments& a) {

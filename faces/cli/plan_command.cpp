@@ -32,7 +32,7 @@
 namespace cli {
 namespace {
 
-Exit exit_of(const analysis::Series& series) {
+Exit exit_of_series(const analysis::Series& series) {
   Exit exit = series.passed == series.runs ? Exit::ok : Exit::failed;
   if (!series.refused.empty()) exit = graver(exit, Exit::bad_input);
   if (!series.faults.empty()) exit = graver(exit, Exit::fault);
@@ -94,7 +94,7 @@ class MadePlan {
                        text::visible(store_.path()), beyond_, beyond_ == 1 ? "" : "s",
                        analysis::runs_of(plan_.scenarios->plan()));
   }
-  Exit exit() const { return exit_of(series_); }
+  Exit exit() const { return exit_of_series(series_); }
   /// How many runs were stopped or refused, and why the first.
   std::string stopped() const {
     const std::string lines = text::stopped_text(series_, plan_.scenarios->plan());
@@ -243,7 +243,7 @@ Exit run_plans(const RunArguments& a, const std::vector<ReadPlan>& plans,
   return unwritten.empty() ? exit : graver(exit, Exit::bad_input);
 }
 
-base::Problems contradictions(const RunArguments& a) {
+base::Problems plan_contradictions(const RunArguments& a) {
   base::Problems problems;
   if (a.plan.resume && a.plan.store.empty() && a.out.empty())
     problems.push_back({.where = "--resume",
@@ -270,7 +270,8 @@ base::Problems contradictions(const RunArguments& a) {
 }  // namespace
 
 Exit plan_command(const RunArguments& arguments) {
-  if (const base::Problems problems = contradictions(arguments); !problems.empty()) return refused(problems);
+  if (const base::Problems problems = plan_contradictions(arguments); !problems.empty())
+    return refused(problems);
   if (!arguments.out.empty())
     if (const base::Problems unmade = make_folder(arguments.out); !unmade.empty()) return refused(unmade);
   std::vector<ReadPlan> read;

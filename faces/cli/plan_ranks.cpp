@@ -89,8 +89,8 @@ std::string answer(const text::Resolve& resolve, const std::string& question) {
 }
 
 /// What turns a number into a run, in a process that has nothing but what it was told.
-decltype(batch::PlanRuns::scenario) scenario_of(const std::string& made_of, const analysis::Plan& plan,
-                                                batch::Ask ask) {
+decltype(batch::PlanRuns::scenario) planned_scenario(const std::string& made_of, const analysis::Plan& plan,
+                                                     batch::Ask ask) {
   text::PlannedText of = planned_text(made_of);
   of.options.resolve = [ask = std::move(ask)](const text::Naming& naming) -> base::Result<text::NamedText> {
     if (naming.kind == text::Naming::Kind::controller) return files::on_disk()(naming);
@@ -121,7 +121,7 @@ Exit among_ranks(const std::function<Exit()>& program) {
     batch::dismiss(cluster, static_cast<int>(exit));
   } else {
     catch_interrupts();
-    exit = static_cast<Exit>(batch::follow(cluster, scenario_of, interrupted));
+    exit = static_cast<Exit>(batch::follow(cluster, planned_scenario, interrupted));
   }
   batch::part();
   return exit;

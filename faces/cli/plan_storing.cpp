@@ -15,7 +15,7 @@ namespace cli {
 namespace {
 
 /// What the store calls by its meaning has a name here.
-void in_options(base::Problem& problem) {
+void in_store_options(base::Problem& problem) {
   const auto replace = [](std::string& text, std::string_view word, std::string_view option) {
     if (const std::size_t at = text.find(word); at != std::string::npos)
       text.replace(at, word.size(), option);
@@ -63,7 +63,7 @@ base::Result<files::PlanStore> store_at(const std::string& path, bool resume, bo
                                                 : files::PlanStore::create(path, std::move(plan), force);
   if (store) return store;
   base::Problems problems = store.problems();
-  for (base::Problem& problem : problems) in_options(problem);
+  for (base::Problem& problem : problems) in_store_options(problem);
   return problems;
 }
 

@@ -28,7 +28,7 @@ constexpr sixstep::base::LinearWord linear_symbols[] = {
     {"J_kg_m2", "m_kg"},       {"B_Nm_s", "B_N_s_m"},
 };
 
-std::string symbol(const ModelPoint& p, const std::string& turning) {
+std::string symbol_of(const ModelPoint& p, const std::string& turning) {
   if (!sixstep::design::motion_of(p.motor).linear) return turning;
   for (const sixstep::base::LinearWord& word : linear_symbols)
     if (word.turning == turning) return std::string(word.linear);
@@ -36,7 +36,7 @@ std::string symbol(const ModelPoint& p, const std::string& turning) {
 }
 
 std::vector<std::string> symbols(const ModelPoint& p, std::vector<std::string> names) {
-  for (std::string& name : names) name = symbol(p, name);
+  for (std::string& name : names) name = symbol_of(p, name);
   return names;
 }
 
@@ -84,7 +84,7 @@ std::string models_json(const ModelPoint& p) {
   const sixstep::plant::Machine& machine = p.motor.machine;
   const sixstep::plant::Shaft& shaft = p.motor.shaft;
   Json out{{"sixstep", SIXSTEP_VERSION}, {"parameters", Json::object()}};
-  for (const auto& [name, value] : parameters(p)) out["parameters"][symbol(p, name)] = value;
+  for (const auto& [name, value] : parameters(p)) out["parameters"][symbol_of(p, name)] = value;
   if (!p.motor.left_to_a_run.empty()) out["left_to_a_run"] = p.motor.left_to_a_run;
   out["phase_voltage"] = space_json(sixstep::design::phase_voltage_model(machine, shaft, angle_of(p)),
                                     symbols(p, phase_states), symbols(p, phase_inputs));
@@ -103,7 +103,7 @@ std::string models_mat(const ModelPoint& p) {
                      mat5_text("terminal_states", joined(symbols(p, terminal_states))) +
                      mat5_text("terminal_inputs", joined(symbols(p, terminal_inputs)));
   if (!p.motor.left_to_a_run.empty()) file += mat5_text("left_to_a_run", p.motor.left_to_a_run);
-  for (const auto& [name, value] : parameters(p)) file += mat5_numbers(symbol(p, name), {&value, 1}, 1, 1);
+  for (const auto& [name, value] : parameters(p)) file += mat5_numbers(symbol_of(p, name), {&value, 1}, 1, 1);
   return file;
 }
 

@@ -26,6 +26,8 @@ struct PolePairs {
 /// An electrical sector, 60 degrees, in rad: pi/3 rounded to nearest.
 inline constexpr double sector_rad = 1.0471975511965977461542144610932;
 inline constexpr double pi = 3.1415926535897932384626433832795;
+inline constexpr double rad_per_deg = pi / 180, rpm_per_rad_s = 30 / pi;
+inline constexpr double root_3 = 1.7320508075688772935274463415059;
 inline constexpr double turn_rad = 2 * pi;
 
 }  // namespace sixstep::base

@@ -13,7 +13,7 @@
 #include "tests/support/in_part.hpp"
 #include "text/scenario/scenario_file.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -193,4 +193,4 @@ TEST(Commission, PhasesFollowEachOtherWithoutAGap) {
   EXPECT_EQ(s->phases.back().from_s, s->seconds);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

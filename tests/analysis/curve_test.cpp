@@ -8,7 +8,7 @@
 
 #include "tests/support/bench.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -276,4 +276,4 @@ TEST(IdealLine, EndsAtZeroWhereTheCurrentCannotTurnBack) {
   EXPECT_NEAR(analysis::ideal_torque_Nm(b, 0), 0.0335 * 12 / 1.03, 1e-15);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

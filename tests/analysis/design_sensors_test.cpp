@@ -12,7 +12,7 @@
 #include "sixstep/study/check/check.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::analysis;
@@ -172,4 +172,4 @@ TEST(DesignSensors, WhatASensorlessDriveComesToIsTold) {
   EXPECT_NE(refused.problems().front().where.find("greatest_load"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -16,7 +16,7 @@
 #include "tests/support/bench.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::analysis;
@@ -320,4 +320,4 @@ TEST(DesignStudy, PassesProblemsOn) {
   EXPECT_EQ(refused({.mode = Mode::speed}, -20.0), "");  // downwards is a step too
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -11,7 +11,7 @@
 #include "sixstep/base/angle.hpp"
 #include "tests/support/figures.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -152,4 +152,4 @@ TEST(FieldStudy, WhatIsWrongIsTold) {
   EXPECT_EQ(off.problems()[0].where, "control.mode");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -8,7 +8,7 @@
 #include "tests/support/bench.hpp"
 #include "tests/support/linear.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -70,4 +70,4 @@ TEST(LinearCurve, IsTheTurningOnesUnrolled) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -11,7 +11,7 @@
 #include "tests/support/linear.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::analysis;
@@ -122,4 +122,4 @@ TEST(LinearDesign, AFirstScenarioRunsAndPasses) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -8,7 +8,7 @@
 
 #include "tests/support/bench.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -101,4 +101,4 @@ TEST(NoLoad, IsRefusedWhereFrictionHoldsTheRotor) {
   EXPECT_NE(n.problems()[0].limit.find("friction"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

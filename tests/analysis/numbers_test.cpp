@@ -12,7 +12,7 @@
 #include "tests/support/scenarios.hpp"
 
 namespace sixstep {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 const double hostile[] = {std::nan(""), inf, -inf, 1e308, -1e308, 5e-324};
@@ -83,5 +83,5 @@ TEST(Numbers, OfAFirstScenarioAreHeldToTheTable) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace sixstep

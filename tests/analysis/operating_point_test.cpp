@@ -13,7 +13,7 @@
 #include "sixstep/base/random.hpp"
 #include "tests/support/bench.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -326,4 +326,4 @@ TEST(OperatingPoint, RefusesWhatIsNoOperatingPoint) {
   refused([](Bench&) {}, "must be a finite number", std::nan(""));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -11,7 +11,7 @@
 #include "tests/support/bench.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using control::Mode;
@@ -117,4 +117,4 @@ TEST(SpecUse, WhatIsRefusedChangesNothing) {
     }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

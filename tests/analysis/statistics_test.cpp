@@ -7,7 +7,7 @@
 #include <limits>
 
 namespace sixstep::analysis {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 Statistics of(std::initializer_list<double> values) {
   Statistics s;
@@ -85,5 +85,5 @@ TEST(Statistics, KeepsTheDigitsOfFiguresThatHardlyDiffer) {
   EXPECT_DOUBLE_EQ(*s.standard_deviation(), step * std::sqrt(2.0 * 500 * 501 * 1001 / 6 / 1000));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace sixstep::analysis

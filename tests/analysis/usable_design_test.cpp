@@ -10,7 +10,7 @@
 #include "sixstep/base/angle.hpp"
 #include "tests/support/bench.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::analysis;
@@ -127,4 +127,4 @@ TEST(UsualCurrentLoop, OfAnyWindingGainsPositively) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -8,7 +8,7 @@
 #include "sixstep/study/check/check.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -178,4 +178,4 @@ TEST(WiringBench, RunsThatAreToldToStopEndAtOnce) {
   EXPECT_EQ(s.problems()[0].limit, "was interrupted");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

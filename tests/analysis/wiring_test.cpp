@@ -12,7 +12,7 @@
 #include "sixstep/analysis/wiring/cures.hpp"
 #include "sixstep/base/angle.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using analysis::WiringDoes;
@@ -344,4 +344,4 @@ TEST(Cures, StepByStepLeadFromEveryWiringForward) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -9,7 +9,7 @@
 
 #include "sixstep/base/random.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::base;
 
@@ -41,4 +41,4 @@ TEST(Decimal, LastDigitIsThatOfTheShortestDecimal) {
   EXPECT_EQ(last_digit_of(0.1 + 0.2), 0.0);  // no print
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

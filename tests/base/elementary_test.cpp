@@ -15,7 +15,7 @@
 
 #include "sixstep/base/angle.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using Wide = long double;
@@ -267,4 +267,4 @@ TEST(ElementaryBits, AreTheSameOnEveryCompilerAndPlatform) {
   EXPECT_EQ(digest.value, 10020102203770733934u);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -11,7 +11,7 @@
 #include <vector>
 
 namespace sixstep::base {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 // Random123's kat_vectors, philox4x32 with 10 rounds: counter, key, result.
 static_assert(philox({0, 0, 0, 0}, {0, 0}) ==
@@ -124,5 +124,5 @@ TEST(Random, HasTheSameBitsEverywhere) {
   EXPECT_EQ(std::bit_cast<std::uint64_t>(normal({1, 2, 3})), 0xbfb26ab5baedb393u);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace sixstep::base

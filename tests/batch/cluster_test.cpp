@@ -18,7 +18,7 @@
 #include "tests/support/scenarios.hpp"
 
 namespace batch {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::testing;
 
@@ -167,7 +167,7 @@ TEST(Cluster, MakesWhatIsWantedAlone) {
   EXPECT_TRUE(cluster.lead(3, runs));
   std::set<std::size_t> numbers;
   for (const auto& [n, row] : cluster.rows) numbers.insert(n);
-  EXPECT_THAT(numbers, testing::ElementsAre(3, 10, 17, 24, 31, 38, 45, 52, 59));
+  EXPECT_THAT(numbers, ::testing::ElementsAre(3, 10, 17, 24, 31, 38, 45, 52, 59));
 }
 
 TEST(Cluster, FillsInThePointsOfOthersRows) {
@@ -255,5 +255,5 @@ TEST(Cluster, AnotherBuildsLettersAreNoRows) {
                std::runtime_error);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace batch

@@ -11,7 +11,7 @@
 #include "sixstep/design/loops/field_current.hpp"
 #include "text/contest/contest_entries.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using analysis::Contest;
@@ -116,4 +116,4 @@ TEST(Contest, DrivesAreTheSameOnAnyNumberOfThreadsAndNoneIsBetterThanTheWorst) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -9,7 +9,7 @@
 #include "batch/for_each.hpp"
 #include "tests/support/bench.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -61,4 +61,4 @@ TEST(TorqueSpeedCurve, HandsOnWhatIsWrong) {
   EXPECT_FALSE(batch::torque_speed_curve(r, batch::on_threads(1)));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -7,13 +7,13 @@
 #include <vector>
 
 namespace batch {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 TEST(ForEach, DoesEachWorkOnce) {
   for (const unsigned jobs : {0U, 1U, 3U, 64U}) {
     std::vector<int> done(40, 0);
     for_each(done.size(), jobs, [&](std::size_t n) { ++done[n]; });
-    EXPECT_THAT(done, testing::Each(1)) << jobs;
+    EXPECT_THAT(done, ::testing::Each(1)) << jobs;
   }
   for_each(0, 4, [](std::size_t) { FAIL(); });
 }
@@ -26,8 +26,8 @@ TEST(ForEach, ThrowsTheFirstExceptionAfterAllEnded) {
                           if (n == 3) throw std::runtime_error("third");
                         }),
                std::runtime_error);
-  EXPECT_THAT(done, testing::Each(1));
+  EXPECT_THAT(done, ::testing::Each(1));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace batch

@@ -10,9 +10,9 @@
 #include "batch/byte_format.hpp"
 
 namespace batch::letters {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 template <class L>
 L through_bytes(const L& letter) {
@@ -128,5 +128,5 @@ TEST(Letters, WhatWasCutOrBrokenIsNone) {
   EXPECT_FALSE(read(endless));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace batch::letters

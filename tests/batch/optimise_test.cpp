@@ -12,10 +12,10 @@
 #include "tests/support/scenarios.hpp"
 
 namespace batch {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::testing;
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 /// Held at full voltage for thirty time constants: the figure is the current's end.
 struct Held {
@@ -168,5 +168,5 @@ TEST(Optimise, TakesTheSameWayOnAnyNumberOfThreadsAndFromRowsThatAreThere) {
   for (const auto& [n, row] : again.rows) EXPECT_EQ(row->digest, one.rows.at(n)->digest);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace batch

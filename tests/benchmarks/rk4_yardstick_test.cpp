@@ -11,7 +11,7 @@
 #include "benchmarks/rk4_textbook.hpp"
 #include "benchmarks/rk4_tuned.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace benchmarks;
 
@@ -109,4 +109,4 @@ void expect_mean_speed() {
 TEST(Rk4Tuned, HoldsItsReferences) { expect_mean_speed<Rk4Tuned>(); }
 TEST(Rk4Textbook, HoldsItsReferences) { expect_mean_speed<Rk4Textbook>(); }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -9,7 +9,7 @@
 #include "sixstep/control/drive.hpp"
 #include "tests/control/scalars.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -37,7 +37,7 @@ double slope(Pair pair, Leg staying, ChoppedSwitch chopped, double duty, double 
 }
 
 template <class Scalar>
-class CommutationStepOf : public testing::Test {};
+class CommutationStepOf : public ::testing::Test {};
 TYPED_TEST_SUITE(CommutationStepOf, Scalars);
 
 TYPED_TEST(CommutationStepOf, HoldsTheStayingPhase) {
@@ -158,4 +158,4 @@ TEST(CommutationStep, TheLoopRestsMeanwhile) {
   EXPECT_EQ(state.command.duty, 0.25) << "a duty that is asked for stays";
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

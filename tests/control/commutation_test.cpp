@@ -5,7 +5,7 @@
 
 #include "sixstep/plant/hall.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -64,4 +64,4 @@ TEST(StayingPhase, IsTheOneThatBothPairsHave) {
   EXPECT_EQ(staying_current(state, m, 4), 5.0);  // c to a, with no leg in its place: the source's
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

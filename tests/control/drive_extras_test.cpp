@@ -10,7 +10,7 @@
 #include "sixstep/control/drive.hpp"
 #include "tests/control/scalars.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -43,7 +43,7 @@ struct Bench {
 };
 
 template <class Scalar>
-class Extras : public testing::Test {};
+class Extras : public ::testing::Test {};
 TYPED_TEST_SUITE(Extras, Scalars);
 
 TYPED_TEST(Extras, SpeedSetsTheDutyWithoutACurrentLoop) {
@@ -247,4 +247,4 @@ TYPED_TEST(Extras, TheDerivativeIsOfTheMeasuredSpeed) {
   EXPECT_EQ(without.telemetry.current_reference_A - b.telemetry.current_reference_A, TypeParam(0.0625));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -6,7 +6,7 @@
 #include <random>
 #include <type_traits>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -206,4 +206,4 @@ TEST(Drive, FloatFollowsDouble) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

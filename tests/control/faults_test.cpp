@@ -8,14 +8,14 @@
 #include "sixstep/control/state_machine.hpp"
 #include "tests/control/scalars.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
 static_assert(std::is_trivially_copyable_v<FaultState> && std::is_trivially_copyable_v<ActivityState>);
 
 template <class Scalar>
-class Faults : public testing::Test {
+class Faults : public ::testing::Test {
  public:
   FaultConfig<Scalar> config{.over_current_A = Scalar(0.8),
                              .over_voltage_V = Scalar(0.9),
@@ -178,4 +178,4 @@ TYPED_TEST(Faults, ASpeedOfAnEdgeThatNoRotorBringsIsToldAsBothUntilACodeProvesTh
   EXPECT_EQ(this->state.hall_line, 2);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

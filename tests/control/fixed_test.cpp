@@ -8,7 +8,7 @@
 #include <random>
 #include <type_traits>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 __extension__ typedef __int128 I128;  // g++ and clang have it on every host
@@ -60,9 +60,9 @@ TEST(Fixed, AllPairsOfEightBitsAreExactlyRounded) {
 }
 
 template <class F>
-class FixedFormats : public testing::Test {};
-using Formats =
-    testing::Types<Q15, Q31, Fixed<std::int16_t, 12>, Q14, Fixed<std::int32_t, 16>, Fixed<std::int32_t, 27>>;
+class FixedFormats : public ::testing::Test {};
+using Formats = ::testing::Types<Q15, Q31, Fixed<std::int16_t, 12>, Q14, Fixed<std::int32_t, 16>,
+                                 Fixed<std::int32_t, 27>>;
 TYPED_TEST_SUITE(FixedFormats, Formats);
 
 /// Corners as often as anything else: that is where fixed point goes wrong.
@@ -190,4 +190,4 @@ static_assert(Q15(0.5) * Q15(0.5) == Q15(0.25) && -Q15::min() == Q15::max());
 static_assert(Q15::min() * Q15::min() == Q15::max(), "(-1)(-1) is the one product that does not fit");
 static_assert(one<Q15> == Q15::max() && one<Q14>.raw == 16384);
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -12,7 +12,7 @@
 #include "sixstep/plant/hall.hpp"
 #include "tests/control/scalars.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -169,7 +169,7 @@ TEST(Hall, FromRestNoEdgeComesSoonerThanARotorBringsIt) {
 }
 
 template <class Scalar>
-class HallMotion : public testing::Test {};
+class HallMotion : public ::testing::Test {};
 TYPED_TEST_SUITE(HallMotion, Scalars);
 
 /// Eight pole pairs, a 1 MHz timer, speeds in units of 1000 rad/s so that every scalar holds them.
@@ -306,4 +306,4 @@ TYPED_TEST(HallMotion, AdvanceMovesTheEdgeForwardInTheDirectionOfTurning) {
   EXPECT_EQ(advanced_sector(config, no_sector, std::int8_t{1}, S(0.99), S(0.2)), no_sector);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

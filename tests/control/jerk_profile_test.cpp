@@ -11,7 +11,7 @@
 
 #include "sixstep/base/angle.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 using sixstep::base::pi;
@@ -80,8 +80,8 @@ struct Shares {
 };
 
 template <class Scalar>
-class JerkProfile : public testing::Test {};
-using Floating = testing::Types<double, float>;
+class JerkProfile : public ::testing::Test {};
+using Floating = ::testing::Types<double, float>;
 TYPED_TEST_SUITE(JerkProfile, Floating);
 
 /// 4 ulp of what is computed in so many products.
@@ -235,4 +235,4 @@ TYPED_TEST(JerkProfile, SmallAndFarAndNothing) {
   EXPECT_EQ(jerk_profile({0.0, 1.0, 1.0}, 1e-4), JerkProfileConfig<double>{});
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

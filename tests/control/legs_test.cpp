@@ -9,7 +9,7 @@
 #include "sixstep/control/three_phase_pwm.hpp"
 #include "tests/control/scalars.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -61,7 +61,7 @@ TEST(Legs, SixStepAsLegsHasItsGates) {
 }
 
 template <class Scalar>
-class Frames : public testing::Test {
+class Frames : public ::testing::Test {
  public:
   static Abc<Scalar> phases(double peak, double angle, double common = 0.0) {
     return {Scalar(peak * std::cos(angle) + common), Scalar(peak * std::cos(angle - third) + common),
@@ -176,4 +176,4 @@ TYPED_TEST(Modulation, WithoutABusThereIsNoVoltage) {
   for (int k = 0; k < 3; ++k) EXPECT_EQ(duty(space_vector(this->phases(0.5, 0.3), S{}), k), 0.5);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

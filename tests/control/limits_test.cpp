@@ -10,14 +10,14 @@
 #include "sixstep/control/smooth_chopping.hpp"
 #include "tests/control/scalars.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
 static_assert(std::is_trivially_copyable_v<SmoothChoppingState<Q15>>);
 
 template <class Scalar>
-class Limits : public testing::Test {};
+class Limits : public ::testing::Test {};
 TYPED_TEST_SUITE(Limits, Scalars);
 
 TYPED_TEST(Limits, TheDefaultAllowsNothingAndTheCurrentLimitIsSymmetric) {
@@ -170,4 +170,4 @@ TEST(Gates, DrivenPairAsTheModelsTableSays) {
   EXPECT_EQ(gates(c, true), 0);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

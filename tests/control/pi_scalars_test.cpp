@@ -9,7 +9,7 @@
 #include "sixstep/control/pi_positional.hpp"
 #include "tests/control/scalars.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -17,7 +17,7 @@ static_assert(std::is_trivially_copyable_v<PiState<Q15>> && std::is_trivially_co
               std::is_trivially_copyable_v<PiPositionalState<Q15>>);
 
 template <class Scalar>
-class PiScalars : public testing::Test {};
+class PiScalars : public ::testing::Test {};
 TYPED_TEST_SUITE(PiScalars, Scalars);
 
 /// The gain as the format holds it: what the comparison in double must use.
@@ -160,4 +160,4 @@ TYPED_TEST(PiScalars, FeedForwardSharesTheLimitOfThePositionalForm) {
   EXPECT_EQ(pi_positional_step(PiPositionalConfig<S>{}, state, S(0.75), S(0.25)), S{}) << "default: nothing";
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -7,7 +7,7 @@
 
 #include "sixstep/control/hysteresis.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -68,4 +68,4 @@ TEST(Hysteresis, StartsOnSwitchesOutsideAndKeepsBetween) {
   EXPECT_TRUE(hysteresis_step(c, s, 5.1, 5.0));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

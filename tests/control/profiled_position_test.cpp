@@ -9,7 +9,7 @@
 #include "sixstep/control/field/field_drive.hpp"
 #include "sixstep/control/retune.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -177,4 +177,4 @@ TEST(ProfiledPosition, OfTheFieldOrientedDriveToo) {
   EXPECT_EQ(now.position_deg, 720.0f);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -7,7 +7,7 @@
 #include "sixstep/control/gates.hpp"
 #include "tests/control/product.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -18,9 +18,9 @@ bool is_number(S x) {
 
 /// What must hold of every answer, whatever the registers said.
 template <class S>
-testing::AssertionResult lawful(const ProtectedConfig<S>& config, const ProtectedState<S>& state,
-                                const ProtectedTelemetry<S>& t, const BridgeCommand<S>& c) {
-  const auto no = [](const char* why) { return testing::AssertionFailure() << why; };
+::testing::AssertionResult lawful(const ProtectedConfig<S>& config, const ProtectedState<S>& state,
+                                  const ProtectedTelemetry<S>& t, const BridgeCommand<S>& c) {
+  const auto no = [](const char* why) { return ::testing::AssertionFailure() << why; };
   for (const S x : {c.duty, c.on_below_A, c.off_above_A, t.drive.motor_current_A, t.drive.current_reference_A,
                     t.drive.speed_reference_rad_s, t.drive.duty, t.measured.i_a_A, t.measured.i_b_A,
                     t.measured.i_c_A, t.measured.speed_rad_s, t.measured.position_deg, t.measured.bus_V,
@@ -37,7 +37,7 @@ testing::AssertionResult lawful(const ProtectedConfig<S>& config, const Protecte
     return no("on in an activity that has no bridge");
   const bool loops = t.activity == Activity::run && config.drive.mode >= Mode::speed;
   if (loops && magnitude(t.drive.current_reference_A) > config.drive.current_limit_A) return no("reference");
-  return testing::AssertionSuccess();
+  return ::testing::AssertionSuccess();
 }
 
 /// What probes of the arrangement say (model.md 3): each is high over half a turn.
@@ -86,7 +86,7 @@ void configure(ProtectedConfig<S>& c, std::uint64_t bits) {
 }
 
 template <class Scalar>
-class ProductFuzz : public testing::Test {};
+class ProductFuzz : public ::testing::Test {};
 TYPED_TEST_SUITE(ProductFuzz, Scalars);
 
 TYPED_TEST(ProductFuzz, RandomRegistersNeverLeadToAnUnlawfulCommand) {
@@ -136,4 +136,4 @@ TYPED_TEST(ProductFuzz, RandomRegistersNeverLeadToAnUnlawfulCommand) {
               static_cast<unsigned long long>(seed), enabled, faulty);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

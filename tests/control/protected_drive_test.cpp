@@ -9,7 +9,7 @@
 #include "sixstep/control/gates.hpp"
 #include "tests/control/product.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -18,7 +18,7 @@ static_assert(std::is_trivially_copyable_v<ProtectedState<double>> &&
               std::is_trivially_copyable_v<ProtectedConfig<Q15>>);
 
 template <class Scalar>
-class Product : public testing::Test {};
+class Product : public ::testing::Test {};
 TYPED_TEST_SUITE(Product, Scalars);
 
 TYPED_TEST(Product, DefaultsNeverTurnTheBridgeOn) {
@@ -185,4 +185,4 @@ TYPED_TEST(Product, AdvanceCommutatesBeforeTheEdge) {
   EXPECT_GT(present, 200);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

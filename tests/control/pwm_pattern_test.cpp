@@ -7,7 +7,7 @@
 #include "sixstep/control/drive.hpp"
 #include "tests/control/scalars.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -42,7 +42,7 @@ bool chops(PwmPattern pattern, bool upper, bool begun, bool second_half) {
 }
 
 template <class Scalar>
-class PwmPatternOf : public testing::Test {};
+class PwmPatternOf : public ::testing::Test {};
 TYPED_TEST_SUITE(PwmPatternOf, Scalars);
 
 TYPED_TEST(PwmPatternOf, ChopsWhatItsNameSaysBothWays) {
@@ -122,4 +122,4 @@ TEST(PwmPattern, TheDriveHasItAtTicksAndInTheInterrupt) {
   EXPECT_EQ(tick(7), ChoppedSwitch::upper);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -123,4 +123,4 @@ TEST(Retune, ABrakingProductKeepsTheLoopThatBrakes) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

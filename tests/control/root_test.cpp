@@ -6,7 +6,7 @@
 
 #include "tests/control/scalars.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -32,7 +32,7 @@ TEST(Root, OfWhatHasNoneIsNothing) {
 }
 
 template <class Scalar>
-class Circle : public testing::Test {};
+class Circle : public ::testing::Test {};
 TYPED_TEST_SUITE(Circle, SensingScalars);
 
 /// Fixed point cuts off to a digit; floating point rounds a handful of times.
@@ -60,8 +60,8 @@ TYPED_TEST(Circle, NothingIsLeftOutsideOrOfNoCircle) {
 }
 
 template <class Scalar>
-class FixedCircle : public testing::Test {};
-using FixedScalars = testing::Types<Q15, Q14, Q31, Q30>;
+class FixedCircle : public ::testing::Test {};
+using FixedScalars = ::testing::Types<Q15, Q14, Q31, Q30>;
 TYPED_TEST_SUITE(FixedCircle, FixedScalars);
 
 TYPED_TEST(FixedCircle, NeitherWrapsAtTheEnds) {
@@ -73,4 +73,4 @@ TYPED_TEST(FixedCircle, NeitherWrapsAtTheEnds) {
   EXPECT_EQ(circle_rest(most, TypeParam{}), most);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

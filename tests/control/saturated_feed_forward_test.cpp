@@ -6,7 +6,7 @@
 #include "sixstep/control/drive.hpp"
 #include "tests/control/scalars.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -31,7 +31,7 @@ TEST(SaturatedFeedForward, GivesTheWholeVoltageAndSoTheWholeDuty) {
 }
 
 template <class Scalar>
-class EveryScalar : public testing::Test {};
+class EveryScalar : public ::testing::Test {};
 TYPED_TEST_SUITE(EveryScalar, Scalars);
 
 TYPED_TEST(EveryScalar, ReachesItsLimitExactlyAndLeavesItAtOnce) {
@@ -53,4 +53,4 @@ TYPED_TEST(EveryScalar, ReachesItsLimitExactlyAndLeavesItAtOnce) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -9,14 +9,14 @@
 #include "sixstep/control/one_shunt.hpp"
 #include "tests/control/scalars.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
 static_assert(std::is_trivially_copyable_v<AdcState> && std::is_trivially_copyable_v<OneShuntState<Q15>>);
 
 template <class Scalar>
-class Sensing : public testing::Test {};
+class Sensing : public ::testing::Test {};
 TYPED_TEST_SUITE(Sensing, Scalars);
 
 /// 12 bits, 0.0005 per count around 2048.
@@ -133,4 +133,4 @@ TYPED_TEST(Sensing, ADerivativeMayExceedTheSignalItIsTakenOff) {
   EXPECT_GT(exact, 5.9);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

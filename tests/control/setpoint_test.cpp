@@ -8,7 +8,7 @@
 #include "sixstep/control/slew.hpp"
 #include "tests/control/scalars.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -16,7 +16,7 @@ static_assert(std::is_trivially_copyable_v<SlewState<Q15>> &&
               std::is_trivially_copyable_v<ProfileState<Q31>>);
 
 template <class Scalar>
-class SetpointShaping : public testing::Test {};
+class SetpointShaping : public ::testing::Test {};
 TYPED_TEST_SUITE(SetpointShaping, Scalars);
 
 TYPED_TEST(SetpointShaping, SlewGoesInEvenStepsAndStopsExactly) {
@@ -110,4 +110,4 @@ TYPED_TEST(SetpointShaping, ProfileSurvivesTheEndsOfItsRange) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

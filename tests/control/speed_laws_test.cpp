@@ -10,19 +10,19 @@
 
 #include "sixstep/control/retune.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
 template <class S>
-class SpeedLaws : public testing::Test {
+class SpeedLaws : public ::testing::Test {
  public:
   /// So many roundings of numbers up to `largest`.
   static double roundings(double largest, int count) {
     return count * largest * static_cast<double>(std::numeric_limits<S>::epsilon());
   }
 };
-using Floating = testing::Types<double, float>;
+using Floating = ::testing::Types<double, float>;
 TYPED_TEST_SUITE(SpeedLaws, Floating);
 
 // t[n] = c t[n-1] + (1 - c) u[n], w[n+1] = a w[n] + b (t[n] - l)
@@ -368,4 +368,4 @@ TYPED_TEST(SpeedLaws, AnIPControllerDoesNotOvershootWhereThePiDoes) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

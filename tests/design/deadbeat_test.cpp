@@ -9,7 +9,7 @@
 
 #include "tests/control/scalars.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::control;
@@ -127,7 +127,7 @@ TEST(Deadbeat, DefaultsAnswerNothing) {
 }
 
 template <class Scalar>
-class DeadbeatScalars : public testing::Test {};
+class DeadbeatScalars : public ::testing::Test {};
 TYPED_TEST_SUITE(DeadbeatScalars, Scalars);
 
 /// In parts of 40 A, 60 V and 1500 rad/s: each format follows the double one as far as its digits tell. The current that comes back
@@ -164,4 +164,4 @@ TYPED_TEST(DeadbeatScalars, FollowsTheDoubleOne) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -9,7 +9,7 @@
 #include "sixstep/design/sheet/sheet_override.hpp"
 #include "tests/design/sheets.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::design;
@@ -99,4 +99,4 @@ TEST(RotorBody, AnOverriddenMeasureDropsThePrintedInertia) {
   EXPECT_FALSE(s.rotor_radius_mm);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -12,7 +12,7 @@
 #include "sixstep/design/loops/drive_loops.hpp"
 #include "sixstep/design/loops/margins.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::design;
@@ -271,4 +271,4 @@ TEST(DriveDesign, NamesOptionsThatContradict) {
   EXPECT_NE(refused({.damping = 1.5}), "");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

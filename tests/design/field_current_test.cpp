@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::design;
@@ -111,4 +111,4 @@ TEST(Weakening, IsTenTimesSlowerThanTheCurrentsWhereTheCircleEnds) {
   EXPECT_NEAR(1 - K * w_0 * 8 * L_H, std::exp(-4000.0 * T / 10), 1e-15);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

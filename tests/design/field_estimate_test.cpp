@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::design;
@@ -136,4 +136,4 @@ TEST(FieldEstimate, WhatCannotBeSeenIsTold) {
   EXPECT_EQ(field_estimate(salient, 0, fast).problems()[0].where, "control.field.angle_bandwidth_Hz");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -9,7 +9,7 @@
 #include "sixstep/design/fields/estimator_fields.hpp"
 #include "sixstep/design/fields/product_fields.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::control;
@@ -108,4 +108,4 @@ TEST(Fields, AsFloatTakesThemAll) {
   EXPECT_EQ(f.extras.speed.K_c, -0.125f);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::design;
 
@@ -21,4 +21,4 @@ TEST(FiniteSetDesign, IsTheWindingsZeroOrderHold) {
   EXPECT_NEAR(f.band_A, 2 / (3 * std::numbers::sqrt3) * f.config.d_A_per_V * 24, 1e-14);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

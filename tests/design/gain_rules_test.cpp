@@ -7,7 +7,7 @@
 
 #include "sixstep/design/loops/loop_figures.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::design;
 
@@ -80,4 +80,4 @@ TEST(GainRules, NameWhatTheyCannotUse) {
             "a = 1 must be above 1; take a larger damping or a smaller bandwidth: a = 2 is the classic");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

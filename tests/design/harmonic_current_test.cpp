@@ -8,7 +8,7 @@
 #include <functional>
 #include <numbers>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::design;
@@ -89,4 +89,4 @@ TEST(HarmonicShape, OfADeltaIsThatOfItsStar) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -13,7 +13,7 @@
 #include "sixstep/control/pi.hpp"
 #include "sixstep/design/loops/margins.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::design;
 
@@ -132,4 +132,4 @@ TEST(BodeData, FollowTheLoopAndUnwrapItsPhase) {
   EXPECT_NEAR(points.front().phase_rad, -std::numbers::pi / 2, 0.02);  // an integrator
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -11,7 +11,7 @@
 #include <numbers>
 #include <vector>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::design;
 using Complex = std::complex<double>;
@@ -86,4 +86,4 @@ TEST(Margins, ADelayCostsPhaseAndNothingElse) {
 
 TEST(Margins, WithoutGainThereAreNone) { EXPECT_FALSE(margins(current, {0.0, 0.0}, period_s, false)); }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

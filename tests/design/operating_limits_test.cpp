@@ -8,7 +8,7 @@
 
 #include "sixstep/control/leg_command.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::design;
@@ -87,4 +87,4 @@ TEST(Headroom, EndsWhereTheBusIsUsedUp) {
   EXPECT_NEAR(soft_braking_limit_rad_s(m, 2.33), 2.33 / 0.0335 * 1.03, 1e-12);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -11,7 +11,7 @@
 #include "sixstep/base/angle.hpp"
 #include "sixstep/design/thesis/thesis_models.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::design;
@@ -170,4 +170,4 @@ TEST(MotorModel, EveryProblemIsReportedAtOnce) {
   EXPECT_EQ(motor_model(wrong).problems().size(), 4u);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

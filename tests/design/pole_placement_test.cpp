@@ -9,7 +9,7 @@
 #include <complex>
 #include <string>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::design;
 using Wide = long double;
@@ -116,4 +116,4 @@ TEST(PolePlacement, NamesEveryInputItCannotUse) {
   EXPECT_FALSE(place_poles(current, std::nan(""), 0.9, period_s));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::control;
@@ -32,8 +32,8 @@ ProtectedConfig<double> product() {
 constexpr design::OperatingRange range{.current_A = 20.1, .speed_rad_s = 850, .bus_V = 40, .setpoint = 700};
 
 template <class Scalar>
-class ProductScaling : public testing::Test {};
-using Formats = testing::Types<Q15, Q31, Q14, Fixed<std::int32_t, 29>>;
+class ProductScaling : public ::testing::Test {};
+using Formats = ::testing::Types<Q15, Q31, Q14, Fixed<std::int32_t, 29>>;
 TYPED_TEST_SUITE(ProductScaling, Formats);
 
 TYPED_TEST(ProductScaling, CountsAndEdgesReadTheSameAsInDouble) {
@@ -95,4 +95,4 @@ TYPED_TEST(ProductScaling, WhatCannotWorkIsNamed) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

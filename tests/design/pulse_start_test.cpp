@@ -9,7 +9,7 @@
 #include "sixstep/base/angle.hpp"
 #include "tests/design/sensorless_maxon.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using sixstep::testing::maxon;
@@ -144,4 +144,4 @@ TEST(PulseStartDesign, TellsEveryMistakeByItsKey) {
   EXPECT_EQ(where(salient, maxon()), "");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

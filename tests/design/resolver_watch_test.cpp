@@ -7,7 +7,7 @@
 
 #include "sixstep/base/random.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 
@@ -57,4 +57,4 @@ TEST(ResolverWatch, SoManyInARowAsNoiseDoesNotBring) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

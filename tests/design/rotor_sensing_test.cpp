@@ -12,7 +12,7 @@
 #include "sixstep/design/loops/loop_figures.hpp"
 
 namespace sixstep::design {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 /// The sensor by its definition: at each edge, one sector apart, the mean over the last k sectors, held until
 /// the next. A speed 1 + sin v t comes in; what its part at v comes out as, over whole beats of both.
@@ -111,5 +111,5 @@ TEST(SensedStep, IsTheStepOfTheLoopWithItsDelayedMean) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace sixstep::design

@@ -8,7 +8,7 @@
 
 #include "sixstep/control/drive.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::control;
@@ -39,8 +39,8 @@ OperatingRange range(Mode mode) {
 }
 
 template <class Scalar>
-class Scaling : public testing::Test {};
-using Formats = testing::Types<Q15, Q31, Q14, Fixed<std::int32_t, 29>>;
+class Scaling : public ::testing::Test {};
+using Formats = ::testing::Types<Q15, Q31, Q14, Fixed<std::int32_t, 29>>;
 TYPED_TEST_SUITE(Scaling, Formats);
 
 template <class S>
@@ -203,4 +203,4 @@ TYPED_TEST(Scaling, AnIntegralBehindASteepDerivativeIsProved) {
   EXPECT_TRUE(names(free.problems(), "speed.K_b"));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -10,7 +10,7 @@
 #include "sixstep/design/scaling/observer_scaling.hpp"
 #include "tests/design/sensorless_maxon.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using control::Follow;
@@ -99,4 +99,4 @@ TEST(SensorlessObserver, FixedPointKeepsEveryRatio) {
   EXPECT_EQ(design::observer_in<double>(o->chip, bases), o->chip) << "floating point: every base is 1";
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

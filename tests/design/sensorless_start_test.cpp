@@ -9,7 +9,7 @@
 #include "sixstep/base/angle.hpp"
 #include "tests/design/sensorless_maxon.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using sixstep::testing::maxon;
@@ -181,4 +181,4 @@ TEST(SensorlessStart, HardAndComplementaryChoppingMoveTheirDutyHalfAsFast) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -16,7 +16,7 @@
 #include "sixstep/design/loops/tracking_loop.hpp"
 
 namespace sixstep::design {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 constexpr double T_s = 30e-6;
 
@@ -156,5 +156,5 @@ TEST(DriveDesign, KnowsWhatItsEncoderOrResolverCosts) {
   EXPECT_TRUE(told);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace sixstep::design

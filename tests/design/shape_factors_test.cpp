@@ -10,7 +10,7 @@
 #include "sixstep/base/elementary.hpp"
 #include "sixstep/design/thesis/thesis_models.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::design;
@@ -64,4 +64,4 @@ TEST(ShapeFactors, OfEveryWidthAreThoseOfThePlantsShape) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

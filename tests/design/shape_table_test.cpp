@@ -10,7 +10,7 @@
 #include "sixstep/plant/general/shape.hpp"
 #include "tests/design/sheets.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::design;
@@ -173,4 +173,4 @@ TEST(ShapeTable, WhatIsNoTableIsTold) {
   EXPECT_NE(first(s).find("is of a table, and back_emf is none"), std::string::npos) << first(s);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

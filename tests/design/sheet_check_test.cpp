@@ -10,7 +10,7 @@
 #include "sixstep/base/angle.hpp"
 #include "tests/design/sheets.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::design;
@@ -200,4 +200,4 @@ TEST(SheetCheck, EveryLineIsUsedOrSaysWhyNot) {
                                             "torque_constant_mNm_A", "viscous_friction_Nm_s"}));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

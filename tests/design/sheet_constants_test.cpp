@@ -10,7 +10,7 @@
 #include "sixstep/base/written.hpp"
 #include "tests/design/sheets.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::design;
@@ -270,4 +270,4 @@ TEST(SheetConstants, StandardKeysMeanTheSameModel) {
   EXPECT_EQ(printed->machine.L_H, again->machine.L_H);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -12,7 +12,7 @@
 #include "sixstep/design/sheet/sheet_check.hpp"
 #include "tests/design/sheets.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::design;
@@ -259,4 +259,4 @@ TEST(SheetNoLoad, ALineThatIsNotUsedSaysTruly) {
             "friction comes of a no-load current with its speed, or with its voltage, R and K_t");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

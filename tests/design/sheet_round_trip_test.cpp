@@ -9,7 +9,7 @@
 #include "sixstep/base/random.hpp"
 #include "tests/design/sheets.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::design;
@@ -153,4 +153,4 @@ TEST(SheetRoundTrip, AMachinePrintedInAnyStyleIsReadBack) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using design::SpeedLawDesign;
@@ -215,4 +215,4 @@ TEST(SpeedLawDesign, SaysWhatCannotBeDesigned) {
   EXPECT_EQ(design::sliding_mode(nothing).problems().size(), 3u);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

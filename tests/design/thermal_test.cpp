@@ -10,7 +10,7 @@
 
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using base::Quantity;
@@ -202,4 +202,4 @@ TEST(Thermal, ASheetWithoutItsThermalLinesSaysWhichAreMissing) {
   EXPECT_FALSE(design::thermal_model(sheet));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -9,7 +9,7 @@
 #include <complex>
 #include <string_view>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::design;
 
@@ -63,4 +63,4 @@ TEST(ThesisFigures, StandOnlyBesideTheThesissOwnDesign) {
   EXPECT_FALSE(thesis_figure("current", *other, "d1"));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::design;
@@ -171,4 +171,4 @@ TEST(Trapezoid, HasItsTopsRampsAndSymmetry) {
     EXPECT_NEAR(at(deg, 100.0), -at(deg + 180.0, 100.0), 1e-13);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -13,7 +13,7 @@
 #include "sixstep/base/random.hpp"
 
 namespace sixstep::design {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using Number = std::complex<double>;
 
@@ -104,5 +104,5 @@ TEST(TrackingLoop, RefusesWhatIsNoLoop) {
   EXPECT_TRUE(tracking_loop({0.999 * base::pi / 1e-4, 1, 1e-4}));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace sixstep::design

@@ -8,7 +8,7 @@
 #include "sixstep/design/thesis/thesis_models.hpp"
 #include "tests/support/board.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -136,4 +136,4 @@ TEST(ThesisModels, TorqueIsTheEnginesTorque) {
   EXPECT_LE(torque.worst, 3 * b.machine.K_e_V_s * 23.3 * shape_error + 64 * eps);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -10,7 +10,7 @@
 #include "sixstep/design/loops/loop_figures.hpp"
 #include "sixstep/design/loops/pole_placement.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::design;
 
@@ -94,4 +94,4 @@ TEST(Transfers, CloseAndDelay) {
   EXPECT_NEAR(at.size(), 0.5 / std::hypot(std::cos(0.3) - 0.875, std::sin(0.3)), 4 * eps);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -23,7 +23,7 @@
 #include "text/export/config_header.hpp"
 #include "text/export/config_text.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::control;
@@ -370,4 +370,4 @@ TEST(ExportHeader, TextsStayInTheirComment) {
       << text->substr(0, 400);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

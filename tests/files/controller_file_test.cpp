@@ -11,7 +11,7 @@
 #include "files/text_file.hpp"
 #include "sixstep/study/run/run.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 
@@ -41,7 +41,7 @@ TEST(ControllerFile, WhatIsNoneIsToldAsSuch) {
             folder +
                 "/in_float.so has a controller whose interface = 257 is that of float, and this program's is "
                 "of double; compile it without -DSIXSTEP_REAL=float");
-  const std::string text = testing::TempDir() + "text.so";
+  const std::string text = ::testing::TempDir() + "text.so";
   std::ofstream(text) << "no machine code\n";
   const auto loaded = files::load_controller(text);
   ASSERT_FALSE(loaded);
@@ -130,4 +130,4 @@ TEST(ControllerFile, ItsBytesCountAsRead) {
   EXPECT_NE(digest("sine_voltage.so"), digest("pi_in_integers.so"));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

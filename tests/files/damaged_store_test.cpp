@@ -10,10 +10,10 @@
 #include "tests/files/a_store.hpp"
 
 namespace files {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr std::size_t count = 200;
 
@@ -145,5 +145,5 @@ TEST_F(DamagedStore, OfAnotherFormatOrVersionSaysSo) {
   EXPECT_THAT(told(), HasSubstr("was begun by sixstep 0.0.9, and this is "));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace files

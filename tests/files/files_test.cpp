@@ -17,18 +17,18 @@
 #include "sixstep/study/measure/trace.hpp"
 
 namespace files {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 namespace fs = std::filesystem;
 
 /// As a file begins that may be written over.
 constexpr const char* ours = "# sixstep 0.1.0\n";
 
-class Files : public testing::Test {
+class Files : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / "sixstep-files" /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ = fs::path(::testing::TempDir()) / "sixstep-files" /
+              ::testing::UnitTest::GetInstance()->current_test_info()->name();
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
@@ -172,5 +172,5 @@ TEST(AppendNumber, WritesNoDigitThatIsNotNeeded) {
   EXPECT_EQ(written(0.1 + 0.2), "0.30000000000000004") << "17 digits where it takes them";
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace files

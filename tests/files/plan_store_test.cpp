@@ -15,9 +15,9 @@
 #include "tests/files/a_store.hpp"
 
 namespace files {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 TEST_F(Store, GivesBackEachRowToTheBitInTheOrderOfItsNumber) {
   const double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
@@ -199,5 +199,5 @@ TEST_F(Store, KeepsWhatItHasCountedThroughKills) {
   EXPECT_GT(told, 100u);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace files

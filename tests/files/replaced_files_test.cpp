@@ -18,18 +18,18 @@
 #include "files/text_file.hpp"
 
 namespace files {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr const char* ours = "# sixstep 0.1.0\nold\n";
 
-class ReplacedFiles : public testing::Test {
+class ReplacedFiles : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / "sixstep-replaced" /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ = fs::path(::testing::TempDir()) / "sixstep-replaced" /
+              ::testing::UnitTest::GetInstance()->current_test_info()->name();
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
@@ -82,7 +82,7 @@ TEST_F(ReplacedFiles, OursAndEmptyOnesAreReplaced) {
 
 TEST_F(ReplacedFiles, ATextThatTheUserWentOnWithIsTheUsers) {
   const std::string text = with_own_mark("sixstep design x", "duration_s = 1\n");
-  EXPECT_THAT(text, testing::MatchesRegex(
+  EXPECT_THAT(text, ::testing::MatchesRegex(
                         "# Made by sixstep [0-9.]+, digest [0-9a-f]+: sixstep design x\nduration_s = 1\n"));
   EXPECT_FALSE(is_foreign(with("a.toml", text)));
   EXPECT_TRUE(is_foreign(with("a.toml", text + "# mine\n")));
@@ -229,5 +229,5 @@ TEST_F(ReplacedFiles, ASlowReaderGetsAllOfIt) {
   EXPECT_EQ(got, text);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace files

@@ -5,7 +5,7 @@
 #include "faces/firmware/example/avr/bridge.hpp"
 #include "faces/firmware/example/cortex_m/bridge.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -125,4 +125,4 @@ TEST(Avr, NeverBothGatesOfALeg) {
     }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -16,7 +16,7 @@
 #include "faces/firmware/example/commands.hpp"
 #include "faces/firmware/example/fault_reason.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 std::string written(std::int32_t value, unsigned decimals = 0) {
   std::string out;
@@ -278,4 +278,4 @@ TEST(Reasons, WhatPowerUpLeavesInMemoryIsNotBelieved) {
   EXPECT_EQ(kept.kept(), firmware::Reason::none);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

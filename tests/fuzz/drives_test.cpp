@@ -6,7 +6,7 @@
 #include "tests/fuzz/drawn_drive.hpp"
 #include "tests/support/laws.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -51,4 +51,4 @@ TEST(Fuzz, DrawnDrivesKeepTheLaws) {
   for (std::uint64_t n = 0; n < range.count; ++n) run_one(range.first + n);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

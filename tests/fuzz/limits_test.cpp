@@ -15,7 +15,7 @@
 #include "tests/fuzz/draw.hpp"
 #include "text/motor/motor_library.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -236,4 +236,4 @@ TEST(Fuzz, LimitsHoldOrAreRefused) {
     EXPECT_GT(times, t.runs / 50) << "or nothing was tried";
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

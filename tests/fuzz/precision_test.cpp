@@ -9,7 +9,7 @@
 
 #include "tests/fuzz/drawn_drive.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -96,4 +96,4 @@ TEST(Fuzz, DoubleFollowsLongDoubleAsFarAsTheDriveAllows) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -14,7 +14,7 @@
 #include "text/recording/bench_recordings.hpp"
 #include "text/results/identify_text.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -137,4 +137,4 @@ TEST(BrokenRecordings, AreRefusedWithWordsOrAnsweredWithNumbers) {
   EXPECT_GT(tally.kinds.size(), 15u);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -6,7 +6,7 @@
 #include "tests/fuzz/campaign.hpp"
 #include "tests/fuzz/draw.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::testing;
 
@@ -39,4 +39,4 @@ TEST(HostileScenarios, AreRefusedWithWordsOrRunToNumbers) {
   EXPECT_GT(result.refused, hostile_count / 3);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

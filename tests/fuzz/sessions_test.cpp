@@ -14,7 +14,7 @@
 #include "text/scenario/scenario_file.hpp"
 #include "text/scenario/scenario_text.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -189,4 +189,4 @@ TEST(Sessions, ReplayFromWhatTheyWroteWhateverTheyWereTold) {
   EXPECT_GT(told.mode_changes, examined / 20);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -8,10 +8,10 @@
 #include <csignal>
 
 namespace loop {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using rig::CoreTrouble;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 Core playing(const char* how) {
   return {.name = "fake",
@@ -62,5 +62,5 @@ TEST(Chip, WhatDoesNotGreetAsOneIsTold) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace loop

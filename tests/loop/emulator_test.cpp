@@ -7,10 +7,10 @@
 #include <chrono>
 
 namespace loop {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using rig::CoreTrouble;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 using Command = sixstep::control::BridgeCommand<double>;
 
 Core playing(const char* how) { return {"fake", "Fake", {}, {FAKE_CORE, how}, "", "", {}}; }
@@ -86,5 +86,5 @@ TEST(Emulator, WhatDoesNotStartIsTold) {
   EXPECT_THAT(base::to_string(emulator.problems().front()), HasSubstr("is not on this machine"));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace loop

@@ -12,7 +12,7 @@
 #include <thread>
 
 namespace loop {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 namespace fs = std::filesystem;
 
@@ -72,5 +72,5 @@ TEST(Child, TellsItsStatusAndIsEndedWithWhoHoldsIt) {
   EXPECT_NE(::kill(id, 0), 0);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace loop

@@ -11,7 +11,7 @@
 #include "tests/support/board.hpp"
 #include "tests/support/laws.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -199,4 +199,4 @@ TEST(Audit, SeesADiodeThatConductsBackwards) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

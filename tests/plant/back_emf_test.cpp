@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using plant::EmfPiece;
@@ -103,4 +103,4 @@ TEST(BackEmf, PhasesSumToZeroForASineAndNotForATrapezoid) {
   EXPECT_NEAR(p.alpha[0] + p.alpha[1] + p.alpha[2], 1.0, 4 * eps);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

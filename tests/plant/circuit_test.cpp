@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::plant;
 using enum Connection;
@@ -62,4 +62,4 @@ TEST(Circuit, BusCarriesTheLegsThatHangOnIt) {
   static_assert(connected_count({high_switch, floating, low_diode}) == 2);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -7,7 +7,7 @@
 #include "tests/support/laws.hpp"
 #include "tests/support/maxon.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -209,4 +209,4 @@ TEST(Gates, ShootThroughIsRefusedAndChangesNothing) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

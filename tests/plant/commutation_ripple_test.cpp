@@ -7,7 +7,7 @@
 
 #include "tests/support/general.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -145,4 +145,4 @@ TYPED_TEST(CarlsonsRipple, IsAtItsPeakWhenChoppingBegins) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

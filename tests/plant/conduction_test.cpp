@@ -7,7 +7,7 @@
 #include "tests/support/laws.hpp"
 #include "tests/support/maxon.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -217,4 +217,4 @@ TEST(SectorEdge, FirstMotionBackwardsFromZeroMakesItSectorFive) {
   EXPECT_EQ(bench.events[0].at, sim::Instant{});
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -10,7 +10,7 @@
 
 #include "sixstep/plant/resolver.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using Angle = plant::ShaftAngle<double>;
@@ -108,4 +108,4 @@ TEST(Resolver, AgreesWithItsEquation) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

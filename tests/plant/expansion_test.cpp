@@ -11,7 +11,7 @@
 #include "tests/support/laws.hpp"
 #include "tests/support/maxon.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -193,4 +193,4 @@ TEST(Series, BothBuildsGiveTheSameBits) {
 
 #endif
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -9,7 +9,7 @@
 #include "tests/support/laws.hpp"
 #include "tests/support/naive.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -136,4 +136,4 @@ TEST(PwmPattern, OnlyPwmOnPwmLeavesTheFreePhaseWithoutCurrent) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

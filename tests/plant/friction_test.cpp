@@ -7,7 +7,7 @@
 #include "tests/support/laws.hpp"
 #include "tests/support/maxon.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -158,4 +158,4 @@ TEST(Pitfall05_SnapFirst, ARotorThatHardlyTurnsStillTurns) {
       }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

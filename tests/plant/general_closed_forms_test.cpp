@@ -8,7 +8,7 @@
 #include "sixstep/plant/terminals.hpp"
 #include "tests/support/general.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -262,4 +262,4 @@ TEST(GeneralClosedForms, TheBooksCloseWithEverythingAtOnce) {
   EXPECT_EQ(watch.audit.laws().floating_current_A, 0);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -7,7 +7,7 @@
 #include "sixstep/plant/general/heat.hpp"
 #include "tests/support/general.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -109,4 +109,4 @@ TEST(GeneralHeat, AJunctionIsAsWarmAsItsOwnSwitchLoses) {
       << "carries nothing";
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

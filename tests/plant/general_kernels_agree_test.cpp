@@ -6,7 +6,7 @@
 
 #include "tests/support/general.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -41,4 +41,4 @@ TEST(BothKernels, SayTheSameOfSoftChopping) {
   EXPECT_LT(d.speed, 1e-12);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

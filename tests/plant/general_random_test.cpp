@@ -10,7 +10,7 @@
 #include "sixstep/plant/general/audit.hpp"
 #include "tests/support/general.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -139,4 +139,4 @@ TEST(GeneralRandom, DrawnMachinesKeepTheLaws) {
   for (unsigned seed = 1; seed <= draws; ++seed) run_drawn(seed);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -11,7 +11,7 @@
 
 #include "tests/support/general.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -181,4 +181,4 @@ TEST(GeneralReference, ProbesThatAreMountedAskew) {
   matches("G14", c);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

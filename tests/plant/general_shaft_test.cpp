@@ -7,7 +7,7 @@
 #include "sixstep/plant/general/audit.hpp"
 #include "tests/support/general.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -155,4 +155,4 @@ TEST(GeneralShaft, ADynamometerOnAnElasticShaftKeepsTheBooks) {
   EXPECT_LT(std::fabs(audit.energy().mechanical_residual), 1e-12);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

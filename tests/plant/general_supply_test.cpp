@@ -6,7 +6,7 @@
 
 #include "tests/support/general.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -171,4 +171,4 @@ TEST(GeneralSupply, ThreePhasesLeaveTheRippleOfSixPulses) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

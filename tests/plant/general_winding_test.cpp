@@ -8,7 +8,7 @@
 #include "sixstep/plant/general/audit.hpp"
 #include "tests/support/general.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -120,4 +120,4 @@ TEST(GeneralWinding, AShortedSwitchIsOnForEverAndTheOtherGateIsToldBeforeItShoot
   EXPECT_FALSE(held.plant().set_gates(gates({false, false, false}, {true, false, false})));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

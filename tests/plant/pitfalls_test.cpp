@@ -9,7 +9,7 @@
 #include "tests/support/board.hpp"
 #include "tests/support/laws.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -194,4 +194,4 @@ TEST(Pitfall06_GuardsShareThePolynomials, EachGuardIsTheQuantityItWatches) {
     EXPECT_GT(same.seen[static_cast<std::size_t>(id)], 0) << id;
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

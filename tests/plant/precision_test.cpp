@@ -6,7 +6,7 @@
 
 #include "tests/support/board.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -51,4 +51,4 @@ TEST(Pitfall11_ScalarIsATemplate, AndWithFriction) {
   compare(board, 0.05, 0.25e-3);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

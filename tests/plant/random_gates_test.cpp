@@ -8,7 +8,7 @@
 #include "tests/support/laws.hpp"
 #include "tests/support/maxon.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -58,4 +58,4 @@ TEST(RandomGates, TheLawsHold) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -7,7 +7,7 @@
 
 #include "tests/support/maxon.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -80,4 +80,4 @@ TEST(Remainders, ACurrentThroughSwitchesIsNeverTakenForNone) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -7,7 +7,7 @@
 
 #include "tests/support/maxon.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -33,4 +33,4 @@ TEST(SineGuards, DiodeConductsWhereTheEmfReachesItsDropWithoutCurrentToo) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

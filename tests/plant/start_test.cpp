@@ -4,7 +4,7 @@
 
 #include "tests/support/maxon.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -49,4 +49,4 @@ TEST(Start, AnAngleBesideAnEdgeIsBesideIt) {
   EXPECT_EQ(setup.plant().state().sector, -1);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

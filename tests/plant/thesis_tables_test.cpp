@@ -12,7 +12,7 @@
 
 #include "sixstep/plant/circuit.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::plant;
 
@@ -111,4 +111,4 @@ TEST(ThesisTables, EveryRowNamesItsFreeLegsAndNoOther) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using report::dumped;
 using report::json;
@@ -28,4 +28,4 @@ TEST(Dumped, IsWhatTheLibraryWrites) {
     EXPECT_EQ(dumped(part), part.dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -14,7 +14,7 @@
 #include "text/results/curve_json.hpp"
 #include "text/results/curve_table.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -155,4 +155,4 @@ TEST(CurvePage, IsWholeAndHarmless) {
   EXPECT_EQ(page, report::render_curve({m.request, m.curve, "sixstep curve x", "0.1.0"}));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -12,12 +12,12 @@
 #include "text/results/design_text.hpp"
 
 namespace report {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 namespace analysis = sixstep::analysis;
 using sixstep::control::Mode;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 analysis::DesignStudy studied(Mode mode, const std::string& name = "") {
   const auto file = std::filesystem::path(SIXSTEP_SOURCE_DIR) / "data/motors/maxon-251601.toml";
@@ -125,5 +125,5 @@ TEST(SvgCharts, DrawWhatIsFiniteAndBreakWhereItIsNot) {
   EXPECT_THAT(svg_chart(chart), Not(HasSubstr("inf")));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace report

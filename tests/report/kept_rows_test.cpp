@@ -11,7 +11,7 @@
 #include "report/windows.hpp"
 #include "sixstep/study/measure/columns.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace report;
 using sixstep::control::Mode;
@@ -142,4 +142,4 @@ TEST(KeptRows, AreForetoldWhereTheirNumberCanBe) {
   EXPECT_THAT(rows_foretold(s), HasSubstr("a report keeps 160 MB"));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -32,7 +32,7 @@
 #include "text/scenario/starter_scenario.hpp"
 
 namespace report {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using sixstep::testing::turning_words;
@@ -167,5 +167,5 @@ TEST(LinearWords, OfAScenarioToStartFrom) {
   EXPECT_THAT(turning_words(text), IsEmpty()) << text;
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace report

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using report::packed_rows;
 using report::PackedRows;
@@ -93,4 +93,4 @@ TEST(PackedRows, AreLeftOutOnlyWhereNoWayIsSmallEnough) {
   EXPECT_FALSE(packed_rows(rows.time, {&rows.wave, &rows.noise}, thorough->bytes.size() - 1));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

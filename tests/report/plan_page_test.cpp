@@ -15,7 +15,7 @@
 #include "tests/report/synthetic_plan.hpp"
 
 namespace report {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using nlohmann::json;
 using sixstep::analysis::Sampling;
@@ -23,8 +23,8 @@ using sixstep_tests::drawn_plan;
 using sixstep_tests::grid_plan;
 using sixstep_tests::synthetic_plan;
 using sixstep_tests::SyntheticPlan;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::string page_of(const SyntheticPlan& made, std::map<std::size_t, std::string> reports = {}) {
   const text::PlanStory story = made.story();
@@ -206,5 +206,5 @@ TEST(PlanPage, HoldsNamesAsText) {
   EXPECT_EQ(data_of(page)["plans"][0]["columns"][3]["name"], bad);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace report

@@ -12,12 +12,12 @@
 #include "sixstep/study/measure/trace.hpp"
 #include "tests/report/synthetic_run.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace report;
 using sixstep_tests::synthetic_run;
 using sixstep_tests::SyntheticRun;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// A run of three rows: a current that jumps in the middle, on its own events; and its grid of two.
 SyntheticRun ramp_run(double height) {
@@ -75,10 +75,10 @@ TEST(Comparison, names_the_keys_that_differ_and_no_others) {
   const auto found = differences({&one, &two});
   ASSERT_EQ(found.size(), 3u);
   EXPECT_EQ(found[0].key, "motor_override.resistance_ohm");
-  EXPECT_THAT(found[0].values, testing::ElementsAre("1.03\u00a0ohm", "1.5\u00a0ohm"));
+  EXPECT_THAT(found[0].values, ::testing::ElementsAre("1.03\u00a0ohm", "1.5\u00a0ohm"));
   EXPECT_EQ(found[1].key, "supply.sinks");
   EXPECT_EQ(found[2].key, "control.current.settle_s");
-  EXPECT_THAT(found[2].values, testing::ElementsAre("–", "0.002\u00a0s"));
+  EXPECT_THAT(found[2].values, ::testing::ElementsAre("–", "0.002\u00a0s"));
 }
 
 TEST(Comparison, names_what_an_event_changes) {
@@ -91,7 +91,7 @@ TEST(Comparison, names_what_an_event_changes) {
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[0].key, "at[0].time_s");
   EXPECT_EQ(found[1].key, "at[0].supply.voltage_V");
-  EXPECT_THAT(found[1].values, testing::ElementsAre("–", "12 V"));
+  EXPECT_THAT(found[1].values, ::testing::ElementsAre("–", "12 V"));
 }
 
 TEST(Comparison, a_boards_log_has_its_columns_and_no_verdict) {
@@ -133,4 +133,4 @@ TEST(Comparison, foreign_text_stays_text_and_figures_stand_side_by_side) {
   EXPECT_THAT(html, HasSubstr("Nothing that changes a run."));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -20,13 +20,13 @@
 #include "tests/report/synthetic_run.hpp"
 #include "text/results/json_summary.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace report;
 using sixstep_tests::synthetic_run;
 using sixstep_tests::SyntheticRun;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::string page(const SyntheticRun& run, const std::string& text = "title = \"x\"") {
   return render({.scenario = run.scenario,
@@ -188,7 +188,7 @@ TEST(Thinning, every_bucket_keeps_its_extremes) {
   const Thinned result = thinned(time, {wave, spike}, {}, 2000, 4000);
   EXPECT_FALSE(result.complete);
   EXPECT_LE(result.rows.size(), 2000u);
-  EXPECT_THAT(result.rows, testing::IsSupersetOf({0u, 7u, 31234u, 49999u}));
+  EXPECT_THAT(result.rows, ::testing::IsSupersetOf({0u, 7u, 31234u, 49999u}));
   // Between two kept rows no value lies outside what a neighbourhood of a bucket shows.
   for (std::size_t from = 0; from + 1000 <= time.size(); from += 1000) {
     double high = -1.0, drawn = -1.0;
@@ -205,12 +205,12 @@ TEST(Thinning, level_stretches_cost_nothing_and_lose_nothing) {
     time.push_back(n);
     step.push_back(n < 500 ? 0.0 : 1.0);
   }
-  EXPECT_THAT(thinned(time, {step}, {}, 10, 10).rows, testing::ElementsAre(0u, 499u, 500u, 999u));
+  EXPECT_THAT(thinned(time, {step}, {}, 10, 10).rows, ::testing::ElementsAre(0u, 499u, 500u, 999u));
 }
 
 TEST(Thinning, jumps_keep_both_sides) {
   const std::vector<double> time{0, 1, 1, 2}, value{0, 0, 5, 5};
-  EXPECT_THAT(thinned(time, {value}, {}, 10, 10).rows, testing::ElementsAre(0u, 1u, 2u, 3u));
+  EXPECT_THAT(thinned(time, {value}, {}, 10, 10).rows, ::testing::ElementsAre(0u, 1u, 2u, 3u));
 }
 
 TEST(Windows, three_periods_switch_and_the_commutation_holds_a_hall_edge) {
@@ -314,4 +314,4 @@ TEST(Html, underscores_become_subscripts) {
   EXPECT_EQ(with_subscripts("resistance_ohm"), "resistance_ohm");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

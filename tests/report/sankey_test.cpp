@@ -14,12 +14,12 @@
 
 #include "sixstep/base/random.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using report::energy_sankey;
 using sixstep::study::EnergyBook;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 struct Band {
   double wide, x0, y0, x1, y1;
@@ -140,4 +140,4 @@ TEST(Sankey, nothing_is_drawn_that_is_not_so) {
   EXPECT_EQ(energy_sankey(open), "");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

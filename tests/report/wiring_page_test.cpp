@@ -10,13 +10,13 @@
 #include "tests/support/wirings.hpp"
 
 namespace report {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using sixstep::analysis::WiringDoes;
 using sixstep::analysis::WiringStudy;
 using sixstep::testing::made_up_wirings;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::string page_of(const WiringStudy& s) {
   return render_wiring({s, "motor = \"<x>\"", "sixstep motor wiring", "0"});
@@ -94,5 +94,5 @@ TEST(WiringPage, HoldsNamesAsText) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace report

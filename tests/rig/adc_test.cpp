@@ -8,7 +8,7 @@
 
 #include "sixstep/control/adc.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using rig::AdcPath;
@@ -65,4 +65,4 @@ TEST(Adc, FirmwareReadsBackWhatWentIn) {
                 path.lsb() / 2 * (1 + 0x1p-40));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

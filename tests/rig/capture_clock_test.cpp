@@ -6,7 +6,7 @@
 
 #include "sixstep/rig/registers.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using rig::CaptureClock;
@@ -67,4 +67,4 @@ TEST(CaptureClock, IsWhatTheRegistersCount) {
     ASSERT_EQ(registers.counter({static_cast<std::int64_t>(n) * 2'000'000, 0.0}), n);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -10,7 +10,7 @@
 #include "sixstep/control/gates.hpp"
 #include "tests/support/board.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -172,4 +172,4 @@ TEST(ChipDrive, OneThatAWatchdogResetGoesOn) {
   EXPECT_GT(chip.event_count(EventKind::tick), 290) << "of 500 periods 200 had none";
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -8,7 +8,7 @@
 #include "tests/support/coinciding.hpp"
 #include "tests/support/laws.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -213,4 +213,4 @@ TEST(Pitfall01_CoincidentInstants, TickAndCurrentZero) {
   laws.expect_all();
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

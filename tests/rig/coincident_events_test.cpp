@@ -7,7 +7,7 @@
 #include "tests/support/coinciding.hpp"
 #include "tests/support/laws.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -218,4 +218,4 @@ TEST(Pitfall08_Sticking, TheComparatorIsJudgedAgainAfterASectorEdge) {
   EXPECT_EQ(watch.beyond, 0);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

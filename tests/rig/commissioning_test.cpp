@@ -5,7 +5,7 @@
 
 #include <cstdio>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -217,4 +217,4 @@ TEST(Commissioning, SaysWhatIsWrong) {
   EXPECT_TRUE(held_rig.firmware().found().winding.usable);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -4,7 +4,7 @@
 
 #include "tests/support/modulating.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -51,4 +51,4 @@ TEST(Comparator, TicksNeitherRestartNorResetIt) {
   EXPECT_TRUE(m.steady());
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

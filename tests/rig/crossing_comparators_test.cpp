@@ -10,7 +10,7 @@
 
 #include "tests/support/board.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -123,4 +123,4 @@ TEST(CrossingComparators, WithoutThemNothingIsCaptured) {
   EXPECT_TRUE(edges_of(board, 5e-3).empty());
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -6,7 +6,7 @@
 #include "tests/support/coinciding.hpp"
 #include "tests/support/dead_time_watch.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -70,4 +70,4 @@ TEST(DeadTime, AtCommutationDelaysSourceAndSinkAlsoAtTheSampleAndOnlyWhereItIsAs
     }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -12,7 +12,7 @@
 #include "sixstep/control/three_phase_pwm.hpp"
 #include "tests/support/three_leg_firmware.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -85,4 +85,4 @@ TEST(FieldOriented, FollowsTheReferenceTrajectory) {
     EXPECT_LE(worst[k], (k < 3 ? 1e-10 : 1e-12) * peak[k]) << "column " << k + 1;
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -6,7 +6,7 @@
 #include "sixstep/control/commutation.hpp"
 #include "tests/support/coinciding.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -74,4 +74,4 @@ TEST(FirstInstant, ASetpointOfAnEventHysteresisSlewsOncePerTick) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

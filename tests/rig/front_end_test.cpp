@@ -10,7 +10,7 @@
 
 #include "tests/support/general.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -251,4 +251,4 @@ TEST(FrontEnd, WithoutAnyItIsNotThere) {
   EXPECT_GT(rig.plant().state().i[0], 1);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <functional>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using rig::HallAngleFrom;
@@ -162,4 +162,4 @@ TEST(HallInterpolator, WithoutASpeedTheProbesCommutate) {
   EXPECT_NEAR(m.position_deg, 30 / p, 1e-6) << "the sector's middle";
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -9,7 +9,7 @@
 #include "tests/support/coinciding.hpp"
 #include "tests/support/laws.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -86,4 +86,4 @@ TEST(OneHour, OfChoppingCountsEveryPeriod) {
   expect_angle(rig, way.rad());
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -6,7 +6,7 @@
 
 #include "tests/support/board.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -72,4 +72,4 @@ TEST(IdleTicks, FromRestWithTheBridgeAtZero) {
   EXPECT_GT(rig.plant().state().w, 0.0);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

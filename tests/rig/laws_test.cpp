@@ -8,7 +8,7 @@
 
 #include "tests/support/board.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -95,4 +95,4 @@ TEST(Laws, HoldOnEveryDrawnDrive) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

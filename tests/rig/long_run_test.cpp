@@ -7,7 +7,7 @@
 
 #include "tests/support/coinciding.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -62,4 +62,4 @@ TEST(Pitfall02_TimeAndAngleAreCounted, AngleDoesNotDriftAtASpeedThatNoTorqueChan
   EXPECT_NEAR(static_cast<double>(rig.event_count(EventKind::sector_edge)), static_cast<double>(edges), 1.0);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -6,7 +6,7 @@
 
 #include "tests/support/board.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -87,4 +87,4 @@ TEST(Mirror, HardChoppingDoesNotKnowTheRails) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

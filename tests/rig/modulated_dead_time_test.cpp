@@ -6,7 +6,7 @@
 #include "tests/support/maxon.hpp"
 #include "tests/support/modulating.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -261,4 +261,4 @@ TEST(Modulator, DeadTimeAtCommutationDelaysSourceAndSinkAtTheSampleToo) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

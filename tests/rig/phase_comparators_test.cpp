@@ -5,7 +5,7 @@
 
 #include "tests/support/board.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -48,4 +48,4 @@ TEST(PhaseComparators, BothSwitchWhereBothReachTheirLevel) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -12,7 +12,7 @@
 #include "sixstep/control/hall.hpp"
 #include "tests/support/general.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -164,4 +164,4 @@ TEST(Probes, HysteresisHoldsAgainstARotorThatTurnsBack) {
   EXPECT_EQ(sectors, (std::vector<int>{0, 1, 0, 1, 0}));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -7,7 +7,7 @@
 #include "tests/support/in_part.hpp"
 #include "tests/support/sensorless.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -152,4 +152,4 @@ TEST(PulseStart, RefusesTheRound251601AndAlignsIt) {
     }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -8,7 +8,7 @@
 
 #include "tests/support/board.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -177,4 +177,4 @@ TEST(Rig, HysteresisSwitchesAsOftenAsTheReference) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

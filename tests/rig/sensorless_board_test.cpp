@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -163,4 +163,4 @@ TEST(SensorlessBoard, ASpeedStepMayLoseTheRotorOnce) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -4,7 +4,7 @@
 #include "tests/support/sensorless_comparators.hpp"
 #include "tests/support/seen_crossings.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -172,4 +172,4 @@ TEST(SensorlessComparators, NamesWhatWentWrong) {
     }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -3,7 +3,7 @@
 // `mismatch` makes keeps the rotor.
 #include "tests/support/seen_crossings.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -35,4 +35,4 @@ TEST(SensorlessDividers, ACrossingIsSeenBesideItsPlaceByMismatchTimesBusOverSlop
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

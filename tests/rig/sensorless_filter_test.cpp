@@ -3,7 +3,7 @@
 // lead takes that off the commutation.
 #include "tests/support/sensorless.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -100,4 +100,4 @@ TEST(SensorlessFilter, WithoutItsBlankingTheRotorIsLost) {
   EXPECT_NE(rig.firmware().rotor().lock.last, LockLoss::none);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -2,7 +2,7 @@
 // Losses of a sensorless drive and their names, rotors that spin already, and Hall probes beside it.
 #include "tests/support/sensorless.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -245,4 +245,4 @@ TEST(Sensorless, TheGeneralKernelShowsTheSameTerminals) {
   EXPECT_NEAR(general.plant().state().w, lean.plant().state().w, 0.01 * lean.plant().state().w);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -185,4 +185,4 @@ TEST(SensorlessNames, ADividerThatBreaksIsOneOfThree) {
     }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

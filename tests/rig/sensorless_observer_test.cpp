@@ -4,7 +4,7 @@
 #include "tests/support/in_part.hpp"
 #include "tests/support/observers.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -12,10 +12,6 @@ using control::Follow;
 using control::LockLoss;
 using control::Mode;
 using control::SensorlessPhase;
-
-double aligned_s(const SensorlessBench& bench) {
-  return 2 * bench.start.rotor.start.align_ticks / bench.spec.capture_Hz;
-}
 
 /// A sector's angle that passes in one control period: what no chip that looks once a period is to be better than is a
 /// small part of it, and a commutation late by a whole one is a fault.
@@ -189,4 +185,4 @@ TEST(SensorlessObserver, TellsTheLowestSpeedThatItHolds) {
     }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -3,7 +3,7 @@
 // that dies in flight or was dead before, both ways, at a steady speed and while it changes; caught under load.
 #include "tests/support/sensorless_board.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -158,4 +158,4 @@ TEST(SensorlessSource, StartsARotorThatStoppedWhileItWasCaught) {
             0);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <random>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -117,4 +117,4 @@ TEST(Sensorless, ThrottleStepsKeepLock) {
       }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

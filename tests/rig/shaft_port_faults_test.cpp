@@ -9,7 +9,7 @@
 #include "sixstep/design/loops/tracking_loop.hpp"
 #include "tests/support/turning_shaft.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using rig::ShaftPorts;
@@ -221,4 +221,4 @@ TEST(ConverterChip, WithoutExcitationGoesOnAtItsSpeed) {
   EXPECT_NEAR(off_turns(none, m.theta(0.03) / (2 * base::pi)), 0, 0x1p-16 + step);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

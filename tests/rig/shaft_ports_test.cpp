@@ -11,7 +11,7 @@
 #include "sixstep/design/loops/tracking_loop.hpp"
 #include "tests/support/turning_shaft.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using rig::ShaftPorts;
@@ -284,4 +284,4 @@ TEST(ConverterChip, WithoutItsCosineSaysAQuarterOfATurn) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -9,7 +9,7 @@
 #include "tests/support/maxon.hpp"
 #include "tests/support/modulating.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -191,4 +191,4 @@ TEST(Modulator, DeadTimeHoldsInEveryLegOverAnyDutiesChoppingsSignsAndCommutation
     }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

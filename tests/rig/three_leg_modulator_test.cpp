@@ -7,7 +7,7 @@
 #include "tests/support/dead_time_watch.hpp"
 #include "tests/support/modulating.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -225,4 +225,4 @@ TEST(ThreeLegModulator, SixStepAsLegsIsSixStep) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -6,7 +6,7 @@
 #include "tests/support/laws.hpp"
 #include "tests/support/three_leg_firmware.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -186,4 +186,4 @@ TEST(ThreeLegs, AnAnswerFromTheMiddleActsFromTheNextPeriod) {
   EXPECT_EQ(rig.plant().gates(), gates({true, false, false}, {false, true, true}));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

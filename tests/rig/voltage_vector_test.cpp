@@ -10,7 +10,7 @@
 #include "sixstep/control/three_phase_pwm.hpp"
 #include "tests/support/three_leg_firmware.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -161,4 +161,4 @@ TEST(VoltageVector, SpaceVectorReachesUOverRoot3AndSineTriangleHalfOfU) {
   EXPECT_LT(made(1.2 * root3, true), 0.95);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -9,7 +9,7 @@
 
 #include "tests/support/general.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -218,4 +218,4 @@ TEST(CrossedWires, MayBeCrossedAtAnyTime) {
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(rig.plant().state().i[k], before[k], 1e-4);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

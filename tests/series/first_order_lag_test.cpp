@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::series;
 using Poly = Coefficients<double>;
@@ -137,4 +137,4 @@ TEST(FirstOrderLag, AMillionShortSegmentsLoseNothing) {
   EXPECT_NEAR(lag.x.value, -std::expm1(-1.0), 1e-14);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::series;
 using Poly = Coefficients<double>;
@@ -239,4 +239,4 @@ TEST(Leading, NamesTheFirstRealCoefficient) {
   EXPECT_EQ(leading<double>({1e-16, 0.0, 0.0}, 2, 1e-15).sign, 0);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

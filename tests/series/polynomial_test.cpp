@@ -8,7 +8,7 @@
 
 #include "sixstep/series/extremes.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::series;
 using Poly = Coefficients<double>;
@@ -173,4 +173,4 @@ TEST(Extremes, NoSampleOfTheCurveLiesOutside) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

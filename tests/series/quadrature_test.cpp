@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::series;
 using Poly = Coefficients<double>;
@@ -202,4 +202,4 @@ TEST(WholeIntegral, AgreesWithTheDivisions) {
   EXPECT_EQ(whole_integral<double>({1.0, -2.0, 3.0}, 2), 1.0);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

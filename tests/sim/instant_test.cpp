@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using sixstep::sim::Instant;
 using sixstep::sim::seconds_between;
@@ -70,4 +70,4 @@ TEST(Instant, FilesNameTheNearestTick) {
   EXPECT_EQ(to_instant(1e6).seconds(), 1e6);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

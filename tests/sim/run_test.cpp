@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using sim::Instant;
@@ -285,4 +285,4 @@ TEST(Pitfall05_SnapFirst, ATieGoesToTheGuardNamedFirst) {
   EXPECT_EQ(two.applied, 5);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

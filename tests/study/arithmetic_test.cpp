@@ -9,7 +9,7 @@
 #include "sixstep/study/run/run.hpp"
 #include "tests/support/product_scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -123,4 +123,4 @@ TEST(Arithmetic, FullDutyIsWholeWhereTheFormatHasIt) {
   EXPECT_NE(study::run(s)->digest, wide->digest);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

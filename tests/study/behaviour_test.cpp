@@ -9,7 +9,7 @@
 #include "sixstep/study/run/run.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -142,4 +142,4 @@ TEST(Behaviour, OneShuntTurnsTheRotorAsPhaseCurrentsDo) {
   EXPECT_NEAR(shunt->comparisons[0].measured, ideal->comparisons[0].measured, 10e-3);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

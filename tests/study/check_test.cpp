@@ -8,7 +8,7 @@
 #include "sixstep/study/check/check.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -255,4 +255,4 @@ TEST(Check, AllProblemsComeAtOnceAndEachHasACure) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -5,7 +5,7 @@
 
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -60,4 +60,4 @@ TEST(ClampOnCogging, TakesWhatTheMagnetsGaveARotorFromRest) {
   EXPECT_LT(std::fabs(outcome->energy->mechanical_residual), 1e-13);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

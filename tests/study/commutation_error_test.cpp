@@ -7,7 +7,7 @@
 #include "tests/support/figures.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -81,4 +81,4 @@ TEST(CommutationError, IsNoNumberWithoutACommutation) {
   EXPECT_TRUE(std::isnan(errors(s).worst));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

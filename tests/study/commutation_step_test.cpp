@@ -8,7 +8,7 @@
 #include "sixstep/study/check/check.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -167,4 +167,4 @@ TEST(CommutationStep, IsRefusedWhereNothingHolds) {
   EXPECT_EQ(told(s), "control.current.commutation");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -14,7 +14,7 @@
 #include "sixstep/study/measure/recorder.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -85,4 +85,4 @@ TEST(Pitfall13_Conditioning, TheSpeedCascadeAmplifiesATwelfthDigit) {
   EXPECT_NEAR(eleventh.current_A / 10, twelfth.current_A, 2 * bit.current_A);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -9,7 +9,7 @@
 #include "sixstep/study/compile/compile.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -123,4 +123,4 @@ TEST(Deadbeat, WhatItLacksIsRefusedWithACure) {
   EXPECT_EQ(late.problems()[0].where, "control.current.type");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -17,7 +17,7 @@
 #include "tests/support/product_scenarios.hpp"
 #include "tests/support/scenario_walk.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -224,4 +224,4 @@ TEST(Hash, KnowsOneNaNOnly) {
   EXPECT_NE(of(0.0), of(-0.0));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

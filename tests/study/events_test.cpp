@@ -7,7 +7,7 @@
 #include "tests/support/figures.hpp"
 #include "tests/support/product_scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -126,4 +126,4 @@ TEST(Events, AClearedFaultLetsTheProductDriveRunAgain) {
   EXPECT_LT(never.off_for_good(), 0.201);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -8,7 +8,7 @@
 #include "sixstep/study/run/export_gate.hpp"
 #include "tests/support/product_scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -201,4 +201,4 @@ TEST(ExportGate, ATripStandsAgainstItToo) {
   EXPECT_NE(tripped->unheld[0].limit.find("over-current"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -9,7 +9,7 @@
 #include "sixstep/study/compile/compile.hpp"
 #include "tests/support/product_scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -175,4 +175,4 @@ TEST(Extras, WhatContradictsTheLoopIsSaid) {
   EXPECT_EQ(study::check(s).size(), 3u);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -17,7 +17,7 @@
 #include "tests/support/field_ticks.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -332,4 +332,4 @@ TEST(FieldEstimate, ADriveThatSeesNoNorthGivesUp) {
   EXPECT_LT(out->simulated_s, 0.1);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

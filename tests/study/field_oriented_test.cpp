@@ -21,7 +21,7 @@
 #include "tests/support/figures.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -366,4 +366,4 @@ TEST(FieldOriented, WhatItDoesNotDoIsRefusedWithACure) {
   EXPECT_EQ(compiled.problems()[0].where, "control.field.bandwidth_Hz");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

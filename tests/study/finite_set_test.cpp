@@ -19,7 +19,7 @@
 #include "tests/support/figures.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -255,4 +255,4 @@ TEST(FiniteSet, WhatItDoesNotDoIsRefusedWithACure) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

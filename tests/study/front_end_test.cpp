@@ -10,7 +10,7 @@
 #include "sixstep/study/run/run.hpp"
 #include "tests/support/product_scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -159,4 +159,4 @@ TEST(FrontEnd, IdealMeasurementIsNotTouched) {
   EXPECT_EQ(a->digest, b->digest);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

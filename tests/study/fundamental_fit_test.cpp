@@ -10,7 +10,7 @@
 #include <numbers>
 #include <random>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::study;
@@ -64,7 +64,7 @@ struct BothWays {
   RotatedRows rows;
 
   void see(long double from, long double to, const Curve& signal) {
-    ::see(fit, from, to, signal);
+    SIXSTEP_TEST_FILE::see(fit, from, to, signal);
     for (int k = 0; k < points; ++k) {
       const long double at = from + series::gauss<points>.node[k] * (to - from);
       const long double root = std::sqrt(series::gauss<points>.weight[k] * (to - from));
@@ -198,4 +198,4 @@ TEST(FundamentalFit, OfNothingIsNoNumber) {
   EXPECT_TRUE(std::isnan(FundamentalFit().distortion()));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

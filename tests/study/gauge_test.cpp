@@ -7,7 +7,7 @@
 #include <cmath>
 #include <functional>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::study;
 
@@ -172,4 +172,4 @@ TEST(Gauge, SamplesAreAllThatASampledMeasureSees) {
   EXPECT_EQ(*mean.value(), 1.5) << "0, 1, 2, 3: half-open windows";
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

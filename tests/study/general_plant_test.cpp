@@ -15,7 +15,7 @@
 #include "sixstep/study/run/run.hpp"
 #include "tests/support/general_scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -174,4 +174,4 @@ TEST(GeneralPlant, WhatContradictsIsNamed) {
             "phase_resistance_deviation");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

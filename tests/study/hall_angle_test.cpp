@@ -8,7 +8,7 @@
 #include "tests/support/figures.hpp"
 #include "tests/support/product_scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -107,4 +107,4 @@ TEST(HallAngle, WhatCannotBeIsRefused) {
   EXPECT_THAT(to_string(check(product)[0]), HasSubstr("goes by sectors"));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -13,7 +13,7 @@
 #include "tests/support/figures.hpp"
 #include "tests/support/product_scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -147,4 +147,4 @@ TEST(HallPlacement, WhatCannotBeIsRefused) {
   EXPECT_THAT(refused([](Sensors& s) { s.hall_glitches_Hz = 1e8; }), HasSubstr("100000 glitches"));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -14,7 +14,7 @@
 #include "tests/support/figures.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -179,4 +179,4 @@ TEST(HarmonicCurrent, WhatItDoesNotDoIsRefusedWithACure) {
   EXPECT_EQ(check(s)[0].where, "control.field");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

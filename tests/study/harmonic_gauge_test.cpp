@@ -8,7 +8,7 @@
 
 #include "tests/support/figures.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -92,4 +92,4 @@ TEST(Distortion, WantsAWholeTurnThatGoesOneWay) {
   EXPECT_GT(thd[1], 0.1) << "it has turned round";
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

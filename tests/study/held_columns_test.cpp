@@ -9,7 +9,7 @@
 #include "sixstep/study/run/run.hpp"
 #include "tests/support/general_scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -96,4 +96,4 @@ TEST(HeldColumns, ABatterysRecoveringVoltageIsWhatItsCurrentMakesIt) {
   EXPECT_GT(v, 0.01);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -5,7 +5,7 @@
 
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -42,4 +42,4 @@ TEST(HysteresisFigures, SampledComparatorsHoldNoBand) {
   EXPECT_EQ(out.problems().front().where, "compare[0].metric");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -14,7 +14,7 @@
 #include "tests/support/linear.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -130,4 +130,4 @@ TEST(LinearEncoder, WhatCannotBeIsRefused) {
   EXPECT_THAT(to_string(check(turning)[0]), HasSubstr("this one turns"));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

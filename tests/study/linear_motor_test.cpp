@@ -10,7 +10,7 @@
 #include "sixstep/study/measure/columns.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -120,4 +120,4 @@ TEST(LinearMotor, WhatTurnsHasNoPlaceThere) {
   EXPECT_EQ(first([](Scenario& s) { s.sheet.kind = design::MotorKind::rotary; }), "pole_pitch_mm");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

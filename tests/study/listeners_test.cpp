@@ -6,7 +6,7 @@
 
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -68,4 +68,4 @@ TEST(Listeners, TimeOfEventRowsNeverDecreases) {
   EXPECT_EQ(rows.worst_back, 0.0);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -8,7 +8,7 @@
 #include "sixstep/study/run/run.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -41,4 +41,4 @@ TEST(ManySteps, CostNoMoreThanTheRunBetweenThem) {
   EXPECT_LT(least_cpu_seconds(s), 5 * alone);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -10,7 +10,7 @@
 #include "sixstep/study/measure/figures.hpp"
 #include "tests/support/figures.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -322,4 +322,4 @@ TEST(Measures, EachHasANameAndAUnit) {
             "switching frequency of gate T3");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -14,7 +14,7 @@
 #include "tests/support/scenarios.hpp"
 
 namespace sixstep {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using testing::maxon_scenario;
 
@@ -126,5 +126,5 @@ TEST(Numbers, OfASheetThatLiesAreRefused) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace sixstep

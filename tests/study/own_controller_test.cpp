@@ -12,7 +12,7 @@
 #include "sixstep/study/session/session.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -248,4 +248,4 @@ TEST(OwnController, ASessionIsCutWhereOneLikes) {
   EXPECT_EQ(kept.close()->digest, uncut);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

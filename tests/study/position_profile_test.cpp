@@ -15,7 +15,7 @@
 #include "tests/support/figures.hpp"
 #include "tests/support/product_scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -233,10 +233,10 @@ TEST(PositionProfile, ContradictionsAreTold) {
   EXPECT_THAT(with([](Control& c) { c.slew = 10.0; }), HasSubstr("control.slew = 10 shapes a setpoint"));
   EXPECT_THAT(with([](Control& c) { c.arithmetic = Arithmetic::q31; }),
               HasSubstr("control.arithmetic = q31 has no room for"));
-  EXPECT_THAT(with([](Control& c) { c.speed.law = SpeedLaw::disturbance_rejection; }),
+  EXPECT_THAT(with([](Control& c) { c.speed.law = study::SpeedLaw::disturbance_rejection; }),
               HasSubstr("would take for a load"));
   EXPECT_EQ(with([](Control& c) {
-              c.speed.law = SpeedLaw::disturbance_rejection;
+              c.speed.law = study::SpeedLaw::disturbance_rejection;
               c.position.profile.feed_forward = false;
             }),
             "");
@@ -248,4 +248,4 @@ TEST(PositionProfile, ContradictionsAreTold) {
   EXPECT_THAT(with([](Control& c) { c.position.profile.smoothing_s = 1000.0; }), HasSubstr("lower it"));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

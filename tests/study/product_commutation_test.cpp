@@ -11,7 +11,7 @@
 #include "sixstep/study/compile/arithmetic.hpp"
 #include "tests/support/product_scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -189,4 +189,4 @@ TEST(ProductCommutation, FullScaleMayBeChosenForTheProductToo) {
   EXPECT_THAT(to_string(refused.problems()[0]), HasSubstr("control.full_scale"));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -8,7 +8,7 @@
 #include "sixstep/study/check/check.hpp"
 #include "tests/support/product_scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -335,4 +335,4 @@ TEST(Product, SaysWhatItLacks) {
   EXPECT_THAT(to_string(study::check(s)[0]), HasSubstr("product drive only"));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -12,7 +12,7 @@
 #include "sixstep/study/scenario/reference_waveform.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -158,4 +158,4 @@ TEST(ReferenceKeys, WhatATableOfTheLoadLeavesNothingForIsRefused) {
   EXPECT_EQ(told(lines), "load.between");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -9,7 +9,7 @@
 #include "sixstep/control/profile.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -235,4 +235,4 @@ TEST(ReferenceCourse, ADutyRampDrivesTheHeldMotorAsTheSamplesSay) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

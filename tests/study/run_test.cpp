@@ -9,7 +9,7 @@
 
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -282,4 +282,4 @@ TEST(Run, SwitchingFrequencyIsTurnOnsOverTheWindow) {
   EXPECT_NEAR(asked(*out, 1) + asked(*out, 2) + asked(*out, 3) + asked(*out, 4), 4 * asked(*out, 0), 1e-6);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -9,7 +9,7 @@
 #include "sixstep/study/run/run.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -84,4 +84,4 @@ TEST(SampleNote, WhereTheSampleStandsAlreadyTheWholeSignalIsLeft) {
   EXPECT_FALSE(says(outcome.notes[0], centred)) << outcome.notes[0];
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

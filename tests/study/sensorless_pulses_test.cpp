@@ -14,7 +14,7 @@
 #include "tests/support/figures.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -211,4 +211,4 @@ TEST(SensorlessPulses, SayWhatTheyNeed) {
   EXPECT_EQ(weak.problems()[0].where, "control.sensorless.overload");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

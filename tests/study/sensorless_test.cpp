@@ -11,7 +11,7 @@
 #include "tests/support/figures.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -288,4 +288,4 @@ TEST(SensorlessScenario, IsRefusedWhereItsCurrentDoesNotMoveTheLoad) {
   EXPECT_EQ(compiled.problems()[0].where, "control.sensorless.greatest_load");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -9,7 +9,7 @@
 #include "sixstep/study/run/run.hpp"
 #include "tests/support/product_scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -291,4 +291,4 @@ TEST(Sensors, AnImpossibleCodeStopsTheBridgeWithinAPeriod) {
   EXPECT_LE(stood, s.pwm.period_s) << "at the next sample";
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -8,7 +8,7 @@
 #include "tests/support/product_scenarios.hpp"
 #include "tests/support/sessions.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -129,4 +129,4 @@ TEST(SessionOnGeneral, ClosedBeforeWhatAskedForTheKernelItStaysThere) {
   EXPECT_EQ(outcome(session.scenario()).digest, lived.digest);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

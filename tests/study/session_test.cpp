@@ -8,7 +8,7 @@
 #include "tests/support/product_scenarios.hpp"
 #include "tests/support/sessions.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -311,4 +311,4 @@ TEST(Session, NothingCanBeToldOnceItIsOver) {
   EXPECT_EQ(closed(session).digest, outcome(cascade()).digest);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

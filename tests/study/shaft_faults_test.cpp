@@ -12,7 +12,7 @@
 #include "tests/support/figures.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -215,4 +215,4 @@ TEST(ShaftSensorFaults, WhatCannotBeIsRefused) {
       << "the Hall probes commutate";
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

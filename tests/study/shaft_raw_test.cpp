@@ -11,7 +11,7 @@
 #include "sixstep/study/run/run.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -162,4 +162,4 @@ TEST(LogicLines, AnEncodersEdgesStandWhereTheShaftPassesThem) {
             std::floor(2000 * (theta_0 + w * s.duration_s) / two_pi) - std::floor(2000 * theta_0 / two_pi));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

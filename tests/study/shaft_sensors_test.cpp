@@ -14,7 +14,7 @@
 #include "tests/support/figures.hpp"
 #include "tests/support/product_scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -190,4 +190,4 @@ TEST(ShaftSensors, WhatCannotBeIsRefused) {
               HasSubstr("half the rate"));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -12,7 +12,7 @@
 #include "tests/support/figures.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -211,4 +211,4 @@ TEST(ShaftWatch, WhatCannotBeIsRefused) {
               HasSubstr("must lie in 0 to 2"));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -13,7 +13,7 @@
 #include "sixstep/study/run/run.hpp"
 #include "tests/support/board.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -246,4 +246,4 @@ TEST(GaugeHolds, NeverBeforeTheFirstPartNorForOtherMetrics) {
   EXPECT_FALSE(seen(MetricKind::final_value).holds([] { return series::Extremes<double>{2.0, 2.0}; }));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

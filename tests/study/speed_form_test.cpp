@@ -10,7 +10,7 @@
 #include "sixstep/study/compile/compile.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -156,4 +156,4 @@ TEST(SpeedForm, SaysWhatOnlyThePositionalFormHas) {
   EXPECT_THAT(to_string(study::check(s)[0]), HasSubstr("no derivative to smooth"));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -11,7 +11,7 @@
 #include "sixstep/study/compile/compile.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -224,4 +224,4 @@ TEST(SpeedLaw, SaysWhatALawDoesNotHave) {
               HasSubstr("control.speed.settle_s = 0.02 is longer than friction alone takes"));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -7,7 +7,7 @@
 #include "sixstep/study/run/run.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -75,4 +75,4 @@ TEST(SpeedToDuty, RefusesWhatOnlyACurrentLoopCouldHold) {
     EXPECT_EQ(p.limit, "needs a current loop, and control.speed.output = \"duty\" has none") << p.where;
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -11,7 +11,7 @@
 #include "sixstep/study/compile/compile.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -241,4 +241,4 @@ TEST(Spread, RefusesOneQuantityTwice) {
   EXPECT_EQ(check(s)[0].where, "spread[1].key");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

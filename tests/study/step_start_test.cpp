@@ -7,7 +7,7 @@
 
 #include "tests/support/figures.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -59,4 +59,4 @@ TEST(StepStart, IsTheGivenOneWhereOneIsGiven) {
     EXPECT_EQ(own_steps(metric, 2.0), slowest(metric, given));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -8,7 +8,7 @@
 #include "sixstep/study/compile/general_plant.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -149,4 +149,4 @@ TEST(IronDrag, ChangesNoBitOfARunThatHasTheSameSum) {
   EXPECT_GT(a->energy->iron, 0.0);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -9,7 +9,7 @@
 #include "sixstep/study/scenario/choices.hpp"
 #include "tests/support/product_scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -212,4 +212,4 @@ TEST(Tunings, AReferenceIsOfTheModeThatItStandsIn) {
   EXPECT_EQ(refused_at(s), "");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

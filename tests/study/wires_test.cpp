@@ -12,7 +12,7 @@
 #include "sixstep/study/run/run.hpp"
 #include "tests/support/product_scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -125,4 +125,4 @@ TEST(Wires, AnInvertedLineIsNamedByTheProductDrive) {
   EXPECT_EQ(out.trip->hall_line, 3);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -5,11 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
-using testing::DoubleEq;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::DoubleEq;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 std::vector<std::string> names_of(const sixstep::study::Trace& trace) {
   std::vector<std::string> out;
@@ -57,10 +57,10 @@ TEST(BoardLog, SaysWhatIsWrong) {
   EXPECT_THAT(limit("t [us],temper\n1,2\n3,4\n"), HasSubstr("no column that a simulation has"));
   EXPECT_THAT(limit("t [us],i_m [mA]\n1,2\n1,4\n"), HasSubstr("does not rise"));
   EXPECT_THAT(limit("t [us],i_m [mA]\n1,x\n2,4\n"), HasSubstr("is no number"));
-  EXPECT_THAT(limit("i_m [mA],duty\n1,0\n2,0\n"), testing::Not("nothing"));
+  EXPECT_THAT(limit("i_m [mA],duty\n1,0\n2,0\n"), ::testing::Not("nothing"));
   EXPECT_EQ(limit("t [us],i_m [mA]\n1,2\n"), "nothing");  // how few rows suffice is for the comparison to say
   EXPECT_THAT(limit("t [us],i_m [mA]\n"), HasSubstr("holds no row of numbers"));
   EXPECT_EQ(limit("t [us],i_m [mA]\n1,2\n3,4\n"), "nothing");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -11,7 +11,7 @@
 
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -92,4 +92,4 @@ TEST(BodeText, DesignedPhaseDoesNotFollowAPhaseThatIsNoise) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -9,7 +9,7 @@
 
 using namespace sixstep;
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 study::Compiled drive_of(control::Mode mode) {
   study::Compiled c;
@@ -117,4 +117,4 @@ TEST(CoreCosts, WhatComesToItIsNamed) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

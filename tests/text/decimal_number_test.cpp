@@ -16,7 +16,7 @@
 #include "text/keys/nearest_double.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using Kind = DecimalNumber::Kind;
 
@@ -136,5 +136,5 @@ TEST(NearestDouble, BeyondAllIsNothingOrInfinite) {
   EXPECT_EQ(nearest_double("18", 307), std::numeric_limits<double>::infinity());
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

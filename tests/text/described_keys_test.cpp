@@ -13,7 +13,7 @@
 #include "text/toml/table_reader.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 /// Writes a struct as TOML; with `change` it first gives every member another value that its range allows.
 class Dump {
@@ -263,5 +263,5 @@ TEST(DescribedKeys, HelpTellsUnitRangeDefaultAndWords) {
       "    centre        on-time lies in the middle of the period\n");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

@@ -22,7 +22,7 @@
 #include "text/toml/document.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using sixstep::testing::hostile_names;
 
@@ -58,7 +58,7 @@ std::string as_utf8(const std::string& text) {
 
 /// What bash makes of words in a row.
 std::vector<std::string> read_by_bash(const std::string& words) {
-  const std::string script = testing::TempDir() + "sixstep-words.sh";
+  const std::string script = ::testing::TempDir() + "sixstep-words.sh";
   std::ofstream(script) << "printf '%s\\0' " << words << "\n";
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(
       ::popen(("bash " + shell_word(script)).c_str(), "r"), &::pclose);
@@ -75,10 +75,10 @@ std::vector<std::string> read_by_bash(const std::string& words) {
 TEST(Escape, TheListHoldsWhatItIsFor) {
   const std::vector<std::string> names = hostile_names();
   EXPECT_GT(names.size(), 40U);
-  EXPECT_THAT(names, testing::Contains("a$(touch X)"));
-  EXPECT_THAT(names, testing::Contains("a\nall 3 requirements hold"));
-  EXPECT_THAT(names, testing::Contains("a\xff"
-                                       "b"));
+  EXPECT_THAT(names, ::testing::Contains("a$(touch X)"));
+  EXPECT_THAT(names, ::testing::Contains("a\nall 3 requirements hold"));
+  EXPECT_THAT(names, ::testing::Contains("a\xff"
+                                         "b"));
   EXPECT_GT(std::ranges::count_if(names, acts), 10);
 }
 
@@ -218,5 +218,5 @@ TEST(Escape, ACellIsANameAndRunsNothing) {
   EXPECT_EQ(cell_name(""), "");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

@@ -12,7 +12,7 @@
 #include "sixstep/study/session/session.hpp"
 #include "text/scenario/scenario_text.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::study;
@@ -76,4 +76,4 @@ TEST(ExportedSession, TheFileRunsToItsDigest) {
   EXPECT_EQ(digest, "# digest " + base::written_hex(out->digest));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -5,10 +5,10 @@
 
 #include "sixstep/base/problem.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 const std::string whole = "chip = \"atmega2560\"\nelf = \"a.elf\"\nsetpoint_range = 2\n";
 
@@ -47,4 +47,4 @@ TEST(FirmwareMap, EachSlipIsToldWithItsCure) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

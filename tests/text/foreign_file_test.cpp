@@ -8,9 +8,9 @@
 #include "text/scenario/scenario_file.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr const char* vesc =
     "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<MCConfiguration>\n    <l_current_max>60</l_current_max>\n"
@@ -84,5 +84,5 @@ TEST(ForeignFile, OtherTextsStayWhatTheyAre) {
   EXPECT_EQ(told("motor = \"pmsm.FluxPM\"\n").find("MATLAB"), std::string::npos) << "what is TOML is TOML";
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

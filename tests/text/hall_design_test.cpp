@@ -15,7 +15,7 @@
 #include "text/scenario/scenario_file.hpp"
 
 namespace sixstep::analysis {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using study::ComparisonResult, study::Outcome, study::Scenario;
 
@@ -67,7 +67,7 @@ Field field_of(const DesignSubject& subject, const design::DesignSpec& spec, boo
   return found;
 }
 
-class HallDesign : public testing::TestWithParam<Drawn> {
+class HallDesign : public ::testing::TestWithParam<Drawn> {
  protected:
   void SetUp() override {
     const auto sheet = text::read_sheet(GetParam().motor);
@@ -97,13 +97,13 @@ TEST_P(HallDesign, SettlesAsNamedAtEveryCornerAndNotAtAThird) {
 }
 
 INSTANTIATE_TEST_SUITE_P(SixMotors, HallDesign,
-                         testing::Values(Drawn{"dji-2212-920kv", 12, 1}, Drawn{"dji-2212-920kv", 12, 6},
-                                         Drawn{"anaheim-bly172s", 24, 1}, Drawn{"anaheim-bly172s", 24, 6},
-                                         Drawn{"maxon-251601", 24, 1}, Drawn{"maxon-251601", 24, 6},
-                                         Drawn{"mjbots-mj5208", 24, 1}, Drawn{"mjbots-mj5208", 24, 6},
-                                         Drawn{"baldor-bsm90n-175", 200, 1},
-                                         Drawn{"baldor-bsm90n-175", 200, 6}, Drawn{"hoverboard-hub", 36, 1},
-                                         Drawn{"hoverboard-hub", 36, 6}));
+                         ::testing::Values(Drawn{"dji-2212-920kv", 12, 1}, Drawn{"dji-2212-920kv", 12, 6},
+                                           Drawn{"anaheim-bly172s", 24, 1}, Drawn{"anaheim-bly172s", 24, 6},
+                                           Drawn{"maxon-251601", 24, 1}, Drawn{"maxon-251601", 24, 6},
+                                           Drawn{"mjbots-mj5208", 24, 1}, Drawn{"mjbots-mj5208", 24, 6},
+                                           Drawn{"baldor-bsm90n-175", 200, 1},
+                                           Drawn{"baldor-bsm90n-175", 200, 6}, Drawn{"hoverboard-hub", 36, 1},
+                                           Drawn{"hoverboard-hub", 36, 6}));
 
 TEST(HallTable, EachOfItsEntriesHoldsAtEveryCorner) {
   const DesignSubject subject{.motor = "maxon-251601", .sheet = *text::read_sheet("maxon-251601")};
@@ -135,5 +135,5 @@ TEST(HallDesigned, DefaultEdgesHoldWhereSixWouldNot) {
   EXPECT_FALSE(fixed->usable());
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace sixstep::analysis

@@ -9,11 +9,11 @@
 #include "text/scenario/scenario_file.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::SizeIs;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
 
 const std::string head = "motor = \"maxon-251601\"\nduration_s = 0.001\n";
 
@@ -271,7 +271,7 @@ TEST(HostileInput, CellsOfTenMillionDigitsAreReadOrToldInAFewWords) {
   EXPECT_THAT(told_of_rows(std::string(10'000'000, 'a') + "\n"), SizeIs(1));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 /// A lossy gear before a heavy load: the little that it hands on as its torque turns round is noise, and had a sign.
 TEST(HostileInput, AGearsTorqueThatTurnsRoundHasOneSign) {
   const auto scenario = read_scenario_text("x.toml", R"(motor = "maxon-397172"

@@ -18,7 +18,7 @@
 #include "text/scenario/scenario_file.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 /// One entry in every list of tables, and a bus, so that each key has something to act on.
 const std::string common = R"(
@@ -301,5 +301,5 @@ TEST(HostileNumbers, PairsOfExtremesAreRefusedOrRunToNumbers) {
     }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

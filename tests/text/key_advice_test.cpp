@@ -6,7 +6,7 @@
 #include <vector>
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 TEST(EditDistance, CountsInsertionsDeletionsReplacementsAndSwaps) {
   EXPECT_EQ(edit_distance("", ""), 0);
@@ -50,5 +50,5 @@ TEST(LimitOf, SaysTheRangeInWords) {
   EXPECT_EQ(limit_of({0, 1, false, true}), "must be above 0 and at most 1");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

@@ -9,10 +9,10 @@
 #include "text/scenario/scenario_text.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 base::Result<study::Scenario> read(const std::string& text, const std::string& motor = "example-linear") {
   return read_scenario_text("s.toml", "motor = \"" + motor + "\"\nduration_s = 0.01\n" + text, {});
@@ -187,5 +187,5 @@ TEST(LinearMotorFile, ATemplateFilledInReadsBackClean) {
   EXPECT_TRUE(design::check_sheet(*sheet)->consistent);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

@@ -20,15 +20,15 @@
 #include "text/toml/table_reader.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
-class MotorFile : public testing::Test {
+class MotorFile : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ = std::filesystem::path(::testing::TempDir()) /
+              ::testing::UnitTest::GetInstance()->current_test_info()->name();
     std::filesystem::create_directories(folder_);
   }
   base::Result<design::Sheet> read(const std::string& text) {
@@ -201,7 +201,7 @@ TEST_F(MotorFile, AFreshTemplateAsksForEachNumber) {
     ASSERT_TRUE(text);
     const std::vector<std::string> lines = told(*text);
     EXPECT_GE(lines.size(), 4u) << style;
-    for (const std::string& line : lines) EXPECT_THAT(line, testing::HasSubstr(" must ")) << style;
+    for (const std::string& line : lines) EXPECT_THAT(line, ::testing::HasSubstr(" must ")) << style;
   }
   EXPECT_EQ(
       to_string(motor_template("servos", "x").problems().front()),
@@ -300,5 +300,5 @@ TEST_F(MotorFile, TheTemplatesFilledInAreTheReferenceMotor) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

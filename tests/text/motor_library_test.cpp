@@ -15,7 +15,7 @@
 #include "text/scenario/scenario_file.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 namespace fs = std::filesystem;
 
@@ -35,7 +35,7 @@ struct EachQuantity {
 template <class Call>
 EachQuantity(Call) -> EachQuantity<Call>;
 
-class MotorLibrary : public testing::TestWithParam<std::string> {
+class MotorLibrary : public ::testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
     base::Result<design::Sheet> sheet = read_sheet(GetParam());
@@ -78,10 +78,10 @@ TEST_P(MotorLibrary, SimulatesOrSaysWhyNot) {
     return;
   }
   ASSERT_EQ(scenario.problems().size(), 1u);
-  EXPECT_THAT(
-      to_string(scenario.problems().front()),
-      testing::AllOf(testing::StartsWith("built-in " + GetParam() + ":"),
-                     testing::HasSubstr("simulatable = false because " + sheet_.not_simulatable_because)));
+  EXPECT_THAT(to_string(scenario.problems().front()),
+              ::testing::AllOf(
+                  ::testing::StartsWith("built-in " + GetParam() + ":"),
+                  ::testing::HasSubstr("simulatable = false because " + sheet_.not_simulatable_because)));
 }
 
 TEST_P(MotorLibrary, WhatIsNotSimulatableLacksSomethingOrSaysItsDoubt) {
@@ -94,19 +94,19 @@ TEST_P(MotorLibrary, WhatIsNotSimulatableLacksSomethingOrSaysItsDoubt) {
   EXPECT_EQ(static_cast<bool>(design::motor_model(sheet_)), doubted.contains(GetParam()));
 }
 
-std::string in_letters(const testing::TestParamInfo<std::string>& info) {
+std::string in_letters(const ::testing::TestParamInfo<std::string>& info) {
   std::string name;
   for (const char c : info.param) name += c == '-' ? '_' : c;
   return name;
 }
-INSTANTIATE_TEST_SUITE_P(Each, MotorLibrary, testing::ValuesIn(built_in_motors()), in_letters);
+INSTANTIATE_TEST_SUITE_P(Each, MotorLibrary, ::testing::ValuesIn(built_in_motors()), in_letters);
 
 TEST(MotorLibraryFolder, IsCompiledInWhole) {
   std::vector<std::string> files;
   for (const fs::directory_entry& entry :
        fs::directory_iterator(fs::path(SIXSTEP_SOURCE_DIR) / "data" / "motors"))
     files.push_back(entry.path().stem().string());
-  EXPECT_THAT(built_in_motors(), testing::UnorderedElementsAreArray(files));
+  EXPECT_THAT(built_in_motors(), ::testing::UnorderedElementsAreArray(files));
   EXPECT_GE(files.size(), 30u);
 }
 
@@ -123,13 +123,13 @@ TEST(MotorNames, AWordStandsForAllThatContainIt) {
     const auto sheet = read_sheet(name);
     return sheet ? std::string("found") : sheet.problems()[0].cure;
   };
-  EXPECT_THAT(cure("Maxon"), testing::AllOf(testing::HasSubstr("\"maxon-200142\""),
-                                            testing::HasSubstr("or \"maxon-651614\"?")));
+  EXPECT_THAT(cure("Maxon"), ::testing::AllOf(::testing::HasSubstr("\"maxon-200142\""),
+                                              ::testing::HasSubstr("or \"maxon-651614\"?")));
   EXPECT_EQ(cure("488607"), "did you mean \"maxon-488607\"?");
   EXPECT_EQ(cure("maxon-25160"), "did you mean \"maxon-251601\"?") << "a slip means one";
-  EXPECT_THAT(cure("x"), testing::HasSubstr("sixstep motor list"));
-  EXPECT_THAT(cure("unheard-of"), testing::HasSubstr("sixstep motor list"));
+  EXPECT_THAT(cure("x"), ::testing::HasSubstr("sixstep motor list"));
+  EXPECT_THAT(cure("unheard-of"), ::testing::HasSubstr("sixstep motor list"));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

@@ -10,9 +10,9 @@
 #include "text/results/plan_text.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 analysis::PlanColumns columns() {
   analysis::PlanColumns c;
@@ -50,5 +50,5 @@ TEST(PlanColumns, StandOverTheCellsOfARow) {
       << "a number is a number, minus and all";
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

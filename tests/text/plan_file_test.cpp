@@ -9,10 +9,10 @@
 #include "text/plan/planned_scenarios.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 constexpr char scenario[] = R"(motor = "maxon-251601"
 duration_s = 2e-3
@@ -217,5 +217,5 @@ TEST(PlannedScenarios, StrayInWhatASheetDoesNotPromise) {
   EXPECT_EQ(nominal->spread[0].relative, 0.1) << "what the file says stays";
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

@@ -10,9 +10,9 @@
 #include "text/scenario/scenario_file.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// A motor file that is nowhere but here.
 base::Result<design::Sheet> sheet_of(const std::string& text) {
@@ -234,7 +234,7 @@ TEST(PrintedUnits, AWordWithoutAKeyIsToldWhereItBelongs) {
   EXPECT_THAT(told("name = \"m\"\npeak_current_A = 10\n"), HasSubstr("control.limits.current_A"));
   EXPECT_THAT(told("name = \"m\"\nresistnce_ohm = 10\n"), HasSubstr("did you mean resistance_ohm?"));
   double unused = 0.0;
-  EXPECT_THAT(scenario_told("gear_ratio = 10\n", unused), testing::Not(HasSubstr("load.gear in")));
+  EXPECT_THAT(scenario_told("gear_ratio = 10\n", unused), ::testing::Not(HasSubstr("load.gear in")));
 }
 
 /// Half of what lies between two terminals is what a drive identifies; a branch of the delta is 3/2 of it.
@@ -247,5 +247,5 @@ TEST(PrintedUnits, OfADeltaBothValuesThatAPhaseCanMeanAreNamed) {
   EXPECT_THAT(all, HasSubstr("give back_emf_constant_V_krpm with frame = \"line-peak\""));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

@@ -3,13 +3,13 @@
 #include "tests/text/emf_by_formula.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace emf_by_formula;
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::SizeIs;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
 
 TEST(RecordedDoubts, WordsThatAreNoUnitsAreRefused) {
   for (const char* head :
@@ -238,5 +238,5 @@ TEST(RecordedDoubts, ClippedNoisyAndTornRecordingsAreCalledSo) {
   EXPECT_EQ(seen(trapezoid).problem, "");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

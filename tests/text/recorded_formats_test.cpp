@@ -3,11 +3,11 @@
 #include "tests/text/emf_by_formula.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace emf_by_formula;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 TEST(RecordedFormats, TheRightNumberIs37Comma83) {
   EXPECT_NEAR(right_mV_s, 37.83, 0.005);
@@ -171,5 +171,5 @@ TEST(RecordedFormats, AnInstantTwice) {
               HasSubstr("does not rise"));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

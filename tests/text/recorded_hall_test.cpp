@@ -12,12 +12,12 @@
 #include "text/recording/bench_recordings.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
-using testing::AllOf;
-using testing::Contains;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 constexpr int rows = 4000, codes[] = {4, 6, 2, 3, 1, 5};  // docs/notation.md, forward
 constexpr double rate_Hz = 20e3, frequency_Hz = 700.0 / 6.0;
@@ -205,5 +205,5 @@ TEST(RecordedHall, ABadCellIsNamed) {
   EXPECT_THAT(seen(file).problem, AllOf(HasSubstr("r.csv:44: hall2 \"OL\" is no number")));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

@@ -11,7 +11,7 @@
 #include "text/recording/times.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using ::testing::AllOf;
 using ::testing::ElementsAre;
@@ -234,5 +234,5 @@ TEST(Recording, WhatIsQuotedIsShort) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

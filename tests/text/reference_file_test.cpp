@@ -12,10 +12,10 @@
 #include "text/scenario/scenario_text.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 std::vector<std::string> told(const std::string& text, const std::optional<std::string>& column = {}) {
   const base::Result<ReferenceRows> rows = reference_rows("r.csv", text, column, "A");
@@ -151,5 +151,5 @@ TEST_F(ReferenceInAFile, WhatCannotChangeDuringARunIsToldWhatCan) {
                           "the value in that unit: 1 mNm = 0.001 Nm"));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

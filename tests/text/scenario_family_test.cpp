@@ -7,9 +7,9 @@
 #include "text/scenario/scenario_text.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 const std::string head = "motor = \"maxon-251601\"\nduration_s = 0.02\n";
 
@@ -111,16 +111,16 @@ TEST_F(Family, EachMistakeIsToldInTheFileThatHoldsIt) {
       complaints("extends = \"base.toml\"\n[load]\nlocked = 1\n[[require]]\nmetric = \"maximum\"\nmax = 1\n"),
       ElementsAre(
           "x.toml:3:10: load.locked = 1 must be true or false; it means: whether the rotor is held",
-          testing::AllOf(testing::StartsWith("x.toml:5:10: require.metric = \"maximum\" is none of"),
-                         testing::EndsWith("did you mean \"max\"?")),
+          ::testing::AllOf(::testing::StartsWith("x.toml:5:10: require.metric = \"maximum\" is none of"),
+                           ::testing::EndsWith("did you mean \"max\"?")),
           "base.toml:4:13: supply.voltage_V = -3 must be above 0; it means: voltage of the source, in V",
           "base.toml:6:1: pwm.choping is not a key here; did you mean chopping?",
-          testing::StartsWith("base.toml:7:1: require.metric is missing")));
+          ::testing::StartsWith("base.toml:7:1: require.metric is missing")));
   // What two files contradict each other in is told where it stands too.
   write("gains.toml", head + "[control]\nmode = \"current\"\n[control.current]\nd1 = 4.5\nd0 = -4\n");
   EXPECT_THAT(
       complaints("extends = \"gains.toml\"\n[control.current]\nsettle_s = 1e-3\n"),
-      ElementsAre(testing::StartsWith("gains.toml:6:6: control.current.d1 = 4.5 contradicts settle_s")));
+      ElementsAre(::testing::StartsWith("gains.toml:6:6: control.current.d1 = 4.5 contradicts settle_s")));
 }
 
 TEST_F(Family, ANameThatLeadsNowhereOrInACircleIsTold) {
@@ -137,11 +137,11 @@ TEST_F(Family, ANameThatLeadsNowhereOrInACircleIsTold) {
   write("a.toml", "extends = [\"b.toml\"]\n");
   write("b.toml", "extends = [\"./bases/../a.toml\"]\n");
   EXPECT_THAT(complaints("extends = \"a.toml\"\n" + head),
-              ElementsAre(testing::StartsWith(
+              ElementsAre(::testing::StartsWith(
                   "b.toml:1:12: extends = \"./bases/../a.toml\" goes round in a circle")));
   write("syntax.toml", "duration_s = 20 ms\n");
   EXPECT_THAT(complaints("extends = \"syntax.toml\"\n"),
-              ElementsAre(testing::StartsWith("syntax.toml:1:17: ")));
+              ElementsAre(::testing::StartsWith("syntax.toml:1:17: ")));
   EXPECT_THAT(
       complaints("extends = 3\n" + head),
       ElementsAre("x.toml:1:11: extends = 3 must be a list of words; write it in brackets: [\"a\", \"b\"]"));
@@ -155,8 +155,8 @@ TEST_F(Family, ANameThatLeadsNowhereOrInACircleIsTold) {
   write("d20.toml", head);
   const std::vector<std::string> told = complaints("extends = \"d0.toml\"\n");
   ASSERT_FALSE(told.empty());
-  EXPECT_THAT(told.front(), testing::HasSubstr("makes the family larger than 64 files"));
+  EXPECT_THAT(told.front(), ::testing::HasSubstr("makes the family larger than 64 files"));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

@@ -14,7 +14,7 @@
 #include "text/scenario/starter_scenario.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 namespace fs = std::filesystem;
 
@@ -214,5 +214,5 @@ TEST(ScenarioText, EscapesWhatAStringMayHold) {
   EXPECT_EQ(read_back(scenario_text(s)).title, s.title);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

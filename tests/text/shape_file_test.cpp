@@ -6,10 +6,10 @@
 #include "text/scenario/scenario_file.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 constexpr const char* motor = R"(name = "tabled"
 pole_pairs = 4
@@ -62,5 +62,5 @@ TEST(ShapeFile, SaysWhatIsWrongWithItself) {
   EXPECT_THAT(of(named, "0,1\n120,1\n180,-1\n300,-0.9\n"), HasSubstr("subtract 0.0"));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

@@ -25,7 +25,7 @@
 #include "sixstep/study/run/run.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using study::Arithmetic;
@@ -106,7 +106,7 @@ double unit_of(Signal signal, Arithmetic arithmetic, const Scenario& s) {
                                    : units.position_deg;
 }
 
-class ArithmeticOf : public testing::TestWithParam<Case> {};
+class ArithmeticOf : public ::testing::TestWithParam<Case> {};
 
 TEST_P(ArithmeticOf, DiffersByItsResolution) {
   const Case& c = GetParam();
@@ -142,11 +142,11 @@ constexpr double sector_s = 3.14159265358979 / 3 / 8 / 100.0;  // 8 pole pairs, 
 
 INSTANTIATE_TEST_SUITE_P(
     Thesis, ArithmeticOf,
-    testing::Values(Case{"7.3.1-locked-exact-design", Signal::current, 0, half_waves},
-                    Case{"7.3.1-turning-exact-design", Signal::current, 0, half_waves},
-                    Case{"7.3.2-motor-soft", Signal::current, 60e-6, half_waves},
-                    Case{"7.4-speed-exact-design", Signal::speed, sector_s, levels},
-                    Case{"7.5-position", Signal::position, 0, {{0.2, 0.25}, {0.25, 0.3}}}),
+    ::testing::Values(Case{"7.3.1-locked-exact-design", Signal::current, 0, half_waves},
+                      Case{"7.3.1-turning-exact-design", Signal::current, 0, half_waves},
+                      Case{"7.3.2-motor-soft", Signal::current, 60e-6, half_waves},
+                      Case{"7.4-speed-exact-design", Signal::speed, sector_s, levels},
+                      Case{"7.5-position", Signal::position, 0, {{0.2, 0.25}, {0.25, 0.3}}}),
     [](const auto& c) {
       std::string name = c.param.file;
       for (char& letter : name)
@@ -186,5 +186,5 @@ TEST(Arithmetic, TheSpeedCascadeStraysAsFarByADigitOfItsInertia) {
   EXPECT_LT(q30, 1.5 * heavier);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

@@ -8,10 +8,10 @@
 #include "text/motor/motor_library.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 namespace fs = std::filesystem;
-using testing::Contains;
+using ::testing::Contains;
 
 const fs::path data = fs::path(SIXSTEP_SOURCE_DIR) / "data";
 
@@ -114,8 +114,8 @@ TEST(ShippedFiles, AReferenceCaseSaysWhatItsTableSays) {
   EXPECT_EQ(r6.reference.low, -5.0);
   EXPECT_EQ(r6.record.grid_s, 30e-6);
   EXPECT_THAT(r6.record.columns,
-              testing::ElementsAre("i_a_A", "i_b_A", "i_c_A", "speed_rad_s", "angle_rad", "bus_V"));
+              ::testing::ElementsAre("i_a_A", "i_b_A", "i_c_A", "speed_rad_s", "angle_rad", "bus_V"));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

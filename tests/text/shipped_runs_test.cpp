@@ -10,7 +10,7 @@
 #include "sixstep/study/run/run.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 namespace fs = std::filesystem;
 using namespace sixstep;
@@ -42,7 +42,7 @@ bool misleads(const study::Scenario& s) {
                      [](const study::At& at) { return at.sensors.hall_break.has_value(); });
 }
 
-class EveryShippedRun : public testing::TestWithParam<std::string> {};
+class EveryShippedRun : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EveryShippedRun, ObeysTheStandingLaws) {
   const auto scenario = files::read_scenario(GetParam());
@@ -88,7 +88,7 @@ TEST_P(EveryShippedRun, ObeysTheStandingLaws) {
     EXPECT_TRUE(v.ok) << v.figure << ": " << v.measured << " " << v.unit;
 }
 
-INSTANTIATE_TEST_SUITE_P(Data, EveryShippedRun, testing::ValuesIn(shipped_scenarios()),
+INSTANTIATE_TEST_SUITE_P(Data, EveryShippedRun, ::testing::ValuesIn(shipped_scenarios()),
                          [](const auto& scenario) {
                            std::string name = fs::path(scenario.param).stem().string();
                            for (char& c : name)
@@ -96,5 +96,5 @@ INSTANTIATE_TEST_SUITE_P(Data, EveryShippedRun, testing::ValuesIn(shipped_scenar
                            return name;
                          });
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

@@ -8,10 +8,10 @@
 #include "tests/text/scenario_folder.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 class SlipsAtOnce : public ScenarioFolder {
  protected:
@@ -32,7 +32,7 @@ TEST_F(SlipsAtOnce, AllSlipsAreToldAtOnce) {
       "name = \"m\"\npole_pairs = 8\npolar = 3\nresistance_ohm = 1.03\ninductance_mH = \"0.572 mF\"\n"
       "torque_constant_mNm_A = 33.5\nback_emf_mV_s = 16\ninertia_gcm2 = -135\ninertias = 4\n"
       "cogging_orders = [13]\ncogging_mNm = [1, 2]\n";
-  const std::vector<testing::Matcher<std::string>> all = {
+  const std::vector<::testing::Matcher<std::string>> all = {
       HasSubstr(":3:1: polar is not a key here; "),
       HasSubstr(":4:18: resistance_ohm = 1.03 must say its frame"),
       HasSubstr(":5:17: inductance_mH = \"0.572 mF\" carries the unit mF"),
@@ -42,7 +42,7 @@ TEST_F(SlipsAtOnce, AllSlipsAreToldAtOnce) {
       HasSubstr(":10:18: cogging_orders = 13 must be a multiple of the number of poles, 16; "),
       HasSubstr(":11:15: cogging_mNm = 2 values needs one for each of the 1 cogging_orders; "),
   };
-  EXPECT_THAT(told(sheet), testing::ElementsAreArray(all));
+  EXPECT_THAT(told(sheet), ::testing::ElementsAreArray(all));
   // What only follows is not told: with the misspelt key mended nothing is left of the axes.
   EXPECT_THAT(told("name = \"m\"\nd_axis_inductance_mH = 1\nq_axis_inductence_mH = 2\n"),
               ElementsAre(HasSubstr("q_axis_inductence_mH is not a key here; did you mean")));
@@ -68,5 +68,5 @@ TEST_F(SlipsAtOnce, AScenarioTellsItsOwnSlipsBesideItsMotors) {
                           HasSubstr("x.toml:9:17: motor_override.back_emf_mV_s = 12 contradicts")));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

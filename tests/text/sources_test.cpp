@@ -7,7 +7,7 @@
 #include "text/scenario/scenario_file.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -66,5 +66,5 @@ TEST(Sources, ACircleIsFoundInAnySpelling) {
       ElementsAre(HasSubstr("goes round in a circle")));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

@@ -11,7 +11,7 @@
 #include "text/keys/units.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 struct Row {
   const char *written, *wanted;
@@ -148,7 +148,7 @@ TEST(UnitTable, ElectricalTurnsConvertByThePolePairs) {
     EXPECT_NEAR(*x, row.value, 1e-15 * row.value) << row.written << " in " << row.wanted;
     const base::Result<double> without = in_unit(row.written, row.wanted);
     ASSERT_FALSE(without) << row.written;
-    EXPECT_THAT(to_string(without.problems()[0]), testing::HasSubstr("the pole pairs are not known here"));
+    EXPECT_THAT(to_string(without.problems()[0]), ::testing::HasSubstr("the pole pairs are not known here"));
   }
 }
 
@@ -159,19 +159,19 @@ std::string refused(const std::string& written, const Wanted& wanted) {
 
 TEST(UnitTable, HertzOfAShaftAreNobodysTurns) {
   for (const std::optional<int> pairs : {std::optional<int>(), std::optional(2)}) {
-    EXPECT_THAT(refused("10 Hz", {"rad/s", "", pairs}), testing::HasSubstr("hertz do not say of what"));
-    EXPECT_THAT(refused("1 mNm/Hz", {"N m s", "", pairs}), testing::HasSubstr("hertz do not say of what"));
+    EXPECT_THAT(refused("10 Hz", {"rad/s", "", pairs}), ::testing::HasSubstr("hertz do not say of what"));
+    EXPECT_THAT(refused("1 mNm/Hz", {"N m s", "", pairs}), ::testing::HasSubstr("hertz do not say of what"));
   }
-  EXPECT_THAT(refused("6.28 1/s", "rad/s"), testing::HasSubstr("not of the kind of rad/s"));
-  EXPECT_THAT(refused("20 rad/s", "Hz"), testing::HasSubstr("not of the kind of Hz"));
+  EXPECT_THAT(refused("6.28 1/s", "rad/s"), ::testing::HasSubstr("not of the kind of rad/s"));
+  EXPECT_THAT(refused("20 rad/s", "Hz"), ::testing::HasSubstr("not of the kind of Hz"));
 }
 
 TEST(UnitTable, MinutesAreNoRevolutionsPerMinute) {
   for (const char* unit : {"mV min", "mV*min", "V min"})
     for (const char* wanted : {"V/krpm", "mV s", "mWb"})
-      EXPECT_THAT(refused(std::string("4 ") + unit, wanted), testing::HasSubstr("minutes multiply here"))
+      EXPECT_THAT(refused(std::string("4 ") + unit, wanted), ::testing::HasSubstr("minutes multiply here"))
           << unit << " in " << wanted;
-  EXPECT_THAT(refused("4 mNm min", "N m s"), testing::HasSubstr("minutes multiply here"));
+  EXPECT_THAT(refused("4 mNm min", "N m s"), ::testing::HasSubstr("minutes multiply here"));
   EXPECT_EQ(*in_unit("2 min", "s"), 120.0);
 }
 
@@ -191,12 +191,12 @@ TEST(UnitTable, RmsAndPeakBelongToTheFrame) {
   EXPECT_EQ(measure_in("Vpk/krpm"), "peak");
   EXPECT_EQ(measure_in("V/krpm"), "");
   EXPECT_THAT(frames_with("line-peak|line-rms|phase-peak|phase-rms", "rms"),
-              testing::ElementsAre("line-rms", "phase-rms"));
+              ::testing::ElementsAre("line-rms", "phase-rms"));
   EXPECT_EQ(refused("230 Vrms", "V"),
             "carries the unit Vrms, and no rms value belongs here; write it in V; of a "
             "sine the peak is sqrt 2 times the rms value");
-  EXPECT_THAT(refused("5 Apk", {"A", "terminal|rms"}), testing::HasSubstr("no peak value belongs here"));
-  EXPECT_THAT(refused("5 oz-in/Arms", "Nm/A"), testing::HasSubstr("no rms value belongs here"));
+  EXPECT_THAT(refused("5 Apk", {"A", "terminal|rms"}), ::testing::HasSubstr("no peak value belongs here"));
+  EXPECT_THAT(refused("5 oz-in/Arms", "Nm/A"), ::testing::HasSubstr("no rms value belongs here"));
 }
 
 /// Of a file that is all unit each sign is looked at a few times, not as often as there are signs.
@@ -299,5 +299,5 @@ TEST(UnitTable, FactorsAndDimensionsMultiply) {
     }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

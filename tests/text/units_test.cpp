@@ -9,7 +9,7 @@
 #include "text/scenario/scenario_file.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 double value(const std::string& written, const std::string& wanted) {
   const base::Result<double> x = in_unit(written, wanted);
@@ -79,7 +79,7 @@ TEST(Units, AWrongOneIsToldWithThoseThatFit) {
   EXPECT_EQ(refused("1e400 A", "A"), "is beyond what a number holds; look at its exponent");
   EXPECT_EQ(refused("1e99999999999 A", "A"), "is beyond what a number holds; look at its exponent");
   for (const char* no_number : {"a lot", "", " ", "nan A", "-inf A", "A", "--5 A", "e5 A"})
-    EXPECT_THAT(refused(no_number, "A"), testing::HasSubstr("must be a number, in A")) << no_number;
+    EXPECT_THAT(refused(no_number, "A"), ::testing::HasSubstr("must be a number, in A")) << no_number;
   for (const char* no_unit :
        {"(", ")", "A)", "(A", "A//s", "/A", "A/", "((((((A))))))", "A-", "A0", "2", "*"})
     EXPECT_NE(refused("1 " + std::string(no_unit), "A"), "accepted") << no_unit;
@@ -161,9 +161,9 @@ TEST(Units, ALimitIsToldInTheUnitThatWasWritten) {
     const auto s = with("duration_s = 0.1\n[sensors]\ncapture_Hz = " + hertz + "\n");
     return s ? std::string("taken") : to_string(s.problems()[0]);
   };
-  EXPECT_THAT(told("\"5000 MHz\""), testing::HasSubstr("\"5000 MHz\" must lie in 1e-06 to 1000, in MHz;"));
-  EXPECT_THAT(told("\"2e6 kHz\""), testing::HasSubstr("must lie in 0.001 to 1000000, in kHz;"));
-  EXPECT_THAT(told("5e9"), testing::HasSubstr("must lie in 1 to 1000000000;"));
+  EXPECT_THAT(told("\"5000 MHz\""), ::testing::HasSubstr("\"5000 MHz\" must lie in 1e-06 to 1000, in MHz;"));
+  EXPECT_THAT(told("\"2e6 kHz\""), ::testing::HasSubstr("must lie in 0.001 to 1000000, in kHz;"));
+  EXPECT_THAT(told("5e9"), ::testing::HasSubstr("must lie in 1 to 1000000000;"));
 }
 
 TEST(Units, OfALimitFollowMetricAndSignal) {
@@ -221,9 +221,9 @@ TEST(Units, OfALimitAreRefusedByMetricAndSignal) {
   EXPECT_EQ(told("metric = \"maxi\"\nmax = \"20 ms\"\n").find("require.max"), std::string::npos);
   const std::string word =
       told("metric = \"max\"\nsignal = \"spede\"\nlevel = \"3 rpm\"\nmax = \"20 rpm\"\n");
-  EXPECT_THAT(word, testing::StartsWith("x.toml:5:10: require.signal = \"spede\""));
+  EXPECT_THAT(word, ::testing::StartsWith("x.toml:5:10: require.signal = \"spede\""));
   EXPECT_EQ(word.find('\n'), word.size() - 1) << word;
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

@@ -12,7 +12,7 @@
 #include "text/results/quantity_text.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 TEST(QuantityText, HasEngineeringPrefixesAndFiveDigits) {
   EXPECT_EQ(quantity_text(0.000131172659, "s"), "131.17 us");
@@ -53,10 +53,10 @@ TEST(VerdictTable, ShowsAsManyDigitsAsTellMeasuredFromLimit) {
                       {"band", "A", 23.3009709, 23.3009476, 23.3009942, true},
                       {"last bit", "V", std::nextafter(0.3, 1.0), std::nullopt, 0.3, false}};
   const std::string text = table_of(outcome);
-  EXPECT_THAT(text, testing::HasSubstr("1.0000000003 ms"));
-  EXPECT_THAT(text, testing::HasSubstr("23.30095 .. 23.30099 A    23.30097 A "));
-  EXPECT_THAT(text, testing::HasSubstr("<= 0.29999999999999999 V"));
-  EXPECT_THAT(text, testing::HasSubstr("0.30000000000000004 V"));
+  EXPECT_THAT(text, ::testing::HasSubstr("1.0000000003 ms"));
+  EXPECT_THAT(text, ::testing::HasSubstr("23.30095 .. 23.30099 A    23.30097 A "));
+  EXPECT_THAT(text, ::testing::HasSubstr("<= 0.29999999999999999 V"));
+  EXPECT_THAT(text, ::testing::HasSubstr("0.30000000000000004 V"));
 }
 
 TEST(VerdictTable, WhatNeverCameIsNoNumber) {
@@ -65,12 +65,12 @@ TEST(VerdictTable, WhatNeverCameIsNoNumber) {
       {"reach", "s", std::numeric_limits<double>::infinity(), std::nullopt, 1e-3, false},
       {"mean of an empty window", "A", std::numeric_limits<double>::quiet_NaN(), 1, 2, false}};
   const std::string text = table_of(outcome);
-  EXPECT_THAT(text, testing::HasSubstr("<= 1 ms   never     FAILED"));
-  EXPECT_THAT(text, testing::HasSubstr("1 .. 2 A  no value  FAILED"));
+  EXPECT_THAT(text, ::testing::HasSubstr("<= 1 ms   never     FAILED"));
+  EXPECT_THAT(text, ::testing::HasSubstr("1 .. 2 A  no value  FAILED"));
   outcome.comparisons = {{"reach", "s", std::numeric_limits<double>::infinity(), 5e-3, "hand"},
                          {"THD", "1", std::numeric_limits<double>::quiet_NaN(), 0.3, "hand"}};
-  EXPECT_THAT(table_of(outcome), testing::HasSubstr("5 ms      never     not comparable  hand"));
-  EXPECT_THAT(table_of(outcome), testing::HasSubstr("0.3       no value  not comparable  hand"));
+  EXPECT_THAT(table_of(outcome), ::testing::HasSubstr("5 ms      never     not comparable  hand"));
+  EXPECT_THAT(table_of(outcome), ::testing::HasSubstr("0.3       no value  not comparable  hand"));
 }
 
 TEST(ComparedTexts, NeverGiveDifferentNumbersOneText) {
@@ -91,7 +91,7 @@ TEST(VerdictTable, RoundingIsNoDeviation) {
   EXPECT_EQ(deviation_text({"f", "Hz", 16600 * (1 + 2e-16), 16600, ""}), "0 %");
   study::Outcome outcome;
   outcome.comparisons = {{"f", "Hz", 16600 * (1 + 2e-16), 16600, "s"}};
-  EXPECT_THAT(table_of(outcome), testing::HasSubstr("16.6 kHz  16.6 kHz  0 %  s"));
+  EXPECT_THAT(table_of(outcome), ::testing::HasSubstr("16.6 kHz  16.6 kHz  0 %  s"));
   EXPECT_EQ(deviation_text({"f", "Hz", 16558.5, 16600, ""}), "-0.25 %");
   EXPECT_EQ(deviation_text({"f", "A", -0.02, 0, ""}), "");
 }
@@ -108,8 +108,8 @@ TEST(VerdictSummary, SaysHowManyAndWhich) {
   EXPECT_EQ(summary({{"x", &good}, {"z", &stopped}}),
             "2 experiments: all 2 requirements hold, 1 stopped by a fault\n  z: stopped by a fault\n");
   EXPECT_EQ(summary({{"x", &free}}), "1 experiment: nothing required\n");
-  EXPECT_THAT(table_of(stopped), testing::HasSubstr("STOPPED by a fault: shoot-through"));
-  EXPECT_THAT(table_of(free), testing::HasSubstr("requires nothing"));
+  EXPECT_THAT(table_of(stopped), ::testing::HasSubstr("STOPPED by a fault: shoot-through"));
+  EXPECT_THAT(table_of(free), ::testing::HasSubstr("requires nothing"));
 }
 
 study::Outcome of_chip(const std::string& sent) {
@@ -121,7 +121,7 @@ study::Outcome of_chip(const std::string& sent) {
 }
 
 TEST(ChipFaults, AreWhatItsSerialLineGivesAsReasonsEachOnce) {
-  using testing::ElementsAre, testing::IsEmpty;
+  using ::testing::ElementsAre, ::testing::IsEmpty;
   EXPECT_THAT(chip_faults(*of_chip("# a board\nt [us],hall\n100,5\n").chip), IsEmpty());
   EXPECT_THAT(chip_faults(*of_chip("# a board\n100,5\n# fault: hall\n200,0\n# fault: hall\n").chip),
               ElementsAre("hall"));
@@ -133,7 +133,7 @@ TEST(ChipFaults, AreWhatItsSerialLineGivesAsReasonsEachOnce) {
 }
 
 TEST(ChipFaults, AreToldBelowTheTableAndAWaitIsWhereItIsTheLastRemark) {
-  using testing::Contains, testing::HasSubstr, testing::Not;
+  using ::testing::Contains, ::testing::HasSubstr, ::testing::Not;
   EXPECT_THAT(core_texts(of_chip("# a board\n# fault: hall\n")), Contains(HasSubstr("says why: hall")));
   EXPECT_THAT(core_texts(of_chip("# a board\n# waits for the middle\n")),
               Contains(HasSubstr("waits for the middle")));
@@ -141,5 +141,5 @@ TEST(ChipFaults, AreToldBelowTheTableAndAWaitIsWhereItIsTheLastRemark) {
               Not(Contains(HasSubstr("WAITS"))));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

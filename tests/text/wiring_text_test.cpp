@@ -12,7 +12,7 @@
 #include "text/results/wiring_json.hpp"
 #include "text/results/wiring_words.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -149,4 +149,4 @@ TEST(WiringWords, OfTheRecipeAreItsSteps) {
               HasSubstr("swap the phases at legs a and b and the Hall lines H2 and H3"));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

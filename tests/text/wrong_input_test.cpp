@@ -8,16 +8,16 @@
 #include "files/scenario_on_disk.hpp"
 
 namespace text {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
-class WrongInput : public testing::Test {
+class WrongInput : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ = std::filesystem::path(::testing::TempDir()) /
+              ::testing::UnitTest::GetInstance()->current_test_info()->name();
     std::filesystem::create_directories(folder_);
   }
   std::string write(const std::string& name, const std::string& text) {
@@ -287,9 +287,9 @@ TEST_F(WrongInput, AStepOfASignalThatIsNotControlledNeedsItsLevel) {
 
 TEST_F(WrongInput, FrequentSlipsOfSyntaxHaveTheirCure) {
   EXPECT_THAT(complaints("motor = \"maxon-251601\nduration_s = 1\n"),
-              ElementsAre(testing::EndsWith("; close the quote on the same line")));
+              ElementsAre(::testing::EndsWith("; close the quote on the same line")));
   EXPECT_THAT(complaints(head + "duration_s = 3\n"),
-              ElementsAre(testing::EndsWith("; give each key and table once")));
+              ElementsAre(::testing::EndsWith("; give each key and table once")));
 }
 
 TEST_F(WrongInput, ValuesOfTheCommandLineAreNamedAsSuch) {
@@ -336,5 +336,5 @@ TEST_F(WrongInput, ALetterBesideAKeyIsASyntaxErrorOnly) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace text

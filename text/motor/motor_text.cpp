@@ -107,7 +107,7 @@ std::string model_row(std::string_view symbol, const std::optional<Constant>& co
                    from.empty() ? std::string_view(constant->from) : from);
 }
 
-std::string shape_words(const design::Sheet& sheet) {
+std::string back_emf_words(const design::Sheet& sheet) {
   std::string words = sheet.back_emf == design::BackEmfShape::sine ? "sine"
                       : sheet.back_emf == design::BackEmfShape::table
                           ? fmt::format("table of {} points", sheet.back_emf_shape.size())
@@ -205,7 +205,7 @@ std::string model_table(const design::Sheet& sheet, const SheetCheck& check) {
   text += model_row("L_s", c.L_H, 1e3, "mH");
   const bool table = sheet.back_emf == design::BackEmfShape::table;
   const std::string peak = fmt::format("{} per {}; {}", table ? "times the table" : "a phase's peak",
-                                       linear ? "m/s" : "rad/s", shape_words(sheet));
+                                       linear ? "m/s" : "rad/s", back_emf_words(sheet));
   text +=
       linear ? model_row("K_e", c.K_e_V_s, 1, "V s/m", peak) : model_row("K_e", c.K_e_V_s, 1e3, "mV s", peak);
   text += linear ? model_row("K_f", c.K_t_Nm_A, 1, "N/A") : model_row("K_t", c.K_t_Nm_A, 1e3, "mNm/A");

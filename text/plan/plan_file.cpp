@@ -24,7 +24,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// A value as a file would write it: what a list mixes is read as words.
-std::string as_written(const toml::node& node) {
+std::string axis_as_written(const toml::node& node) {
   if (const auto* text = node.as_string()) return toml_text(text->get());
   if (const auto* whole = node.as_integer()) return fmt::format("{}", whole->get());
   if (const auto* number = node.as_floating_point()) return base::written(number->get());
@@ -40,7 +40,7 @@ void values_as_words(Document& document) {
     toml::array* values = entry.is_table() ? (*entry.as_table())["values"].as_array() : nullptr;
     if (!values) continue;
     for (std::size_t n = 0; n < values->size(); ++n) {
-      const std::string text = as_written((*values)[n]);
+      const std::string text = axis_as_written((*values)[n]);
       if (!text.empty()) values->replace(values->cbegin() + static_cast<std::ptrdiff_t>(n), text);
     }
   }

@@ -30,7 +30,7 @@ constexpr double no_level = std::numeric_limits<double>::quiet_NaN();
 double dB(double gain) { return gain > 0.0 ? 20 * std::log10(gain) : no_level; }
 double degrees(const LoopPoint& p) { return p.gain > 0.0 ? p.phase_rad * degrees_per_rad : no_level; }
 
-const char* unit_of(const BodeStudy& s) {
+const char* setpoint_unit(const BodeStudy& s) {
   return s.mode == sixstep::control::Mode::current ? "A"
          : s.mode == sixstep::control::Mode::speed ? "rad/s"
                                                    : "deg";
@@ -128,7 +128,8 @@ std::vector<BodeMargin> bode_margins(const BodeStudy& s) {
 
 std::string bode_place(const BodeStudy& s) {
   return fmt::format("{} around {}, +-{}", sixstep::base::word(study::mode_choices, s.mode),
-                     quantity_text(s.stands_at, unit_of(s)), quantity_text(s.amplitude, unit_of(s)));
+                     quantity_text(s.stands_at, setpoint_unit(s)),
+                     quantity_text(s.amplitude, setpoint_unit(s)));
 }
 
 std::vector<std::string> bode_notes(const BodeStudy& s) {
@@ -200,7 +201,7 @@ std::string bode_json(std::string_view name, const BodeStudy& s) {
                {"mode", sixstep::base::word(study::mode_choices, s.mode)},
                {"stands_at", s.stands_at},
                {"amplitude", s.amplitude},
-               {"unit", unit_of(s)},
+               {"unit", setpoint_unit(s)},
                {"samples", s.signal.samples},
                {"sample_s", s.period_s},
                {"beside", finite(s.beside)},

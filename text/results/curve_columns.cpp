@@ -7,9 +7,9 @@
 namespace text {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
 
-double number(const std::optional<double>& x) { return x.value_or(none); }
+double number(const std::optional<double>& x) { return x.value_or(not_there); }
 
 template <double analysis::OperatingPoint::*member>
 double of_point(const CurveRow& row) {
@@ -17,11 +17,11 @@ double of_point(const CurveRow& row) {
 }
 template <double analysis::ThermalLimits::*member>
 double of_limits(const CurveRow& row) {
-  return row.limits ? row.limits->*member : none;
+  return row.limits ? row.limits->*member : not_there;
 }
 template <std::size_t n>
 double short_torque(const CurveRow& row) {
-  return row.limits ? row.limits->short_Nm[n] : none;
+  return row.limits ? row.limits->short_Nm[n] : not_there;
 }
 
 using P = analysis::OperatingPoint;
@@ -53,7 +53,7 @@ const std::array<CurveColumn, 25> columns = {{
      of_point<&P::energy_residual>},
     {{"current_bound_A", "A", "phase", "error bound of the steady state's currents"},
      [](const CurveRow& row) {
-       return row.point.orbit == analysis::Orbit::quasi_periodic ? none : row.point.error_bound_A;
+       return row.point.orbit == analysis::Orbit::quasi_periodic ? not_there : row.point.error_bound_A;
      }},
     {{"torque_half_width_Nm", "N m", "", "half width of the mean torque's 99 % interval (chopped)"},
      of_point<&P::half_width_Nm>},
@@ -62,11 +62,11 @@ const std::array<CurveColumn, 25> columns = {{
     {{"torque_60s_Nm", "N m", "shaft", "what it stands for 60 s from ambient temperature"}, short_torque<1>},
     {{"torque_10s_Nm", "N m", "shaft", "what it stands for 10 s from ambient temperature"}, short_torque<0>},
     {{"winding_degC", "degC", "", "winding in the end, were this point held"},
-     [](const CurveRow& row) { return row.warming ? number(row.warming->winding_degC) : none; }},
+     [](const CurveRow& row) { return row.warming ? number(row.warming->winding_degC) : not_there; }},
     {{"permissible_s", "s", "", "how long this point may last from ambient temperature; inf: for ever"},
      [](const CurveRow& row) {
        constexpr double ever = std::numeric_limits<double>::infinity();
-       return row.warming ? row.warming->permissible_s.value_or(ever) : none;
+       return row.warming ? row.warming->permissible_s.value_or(ever) : not_there;
      }},
 }};
 

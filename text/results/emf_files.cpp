@@ -30,7 +30,7 @@ bool counts(const EmfHarmonic& h, const EmfResult& r) {
   return h.stands_out && !common && h.part.value >= as_good_as_none;
 }
 
-std::string source_words(const MeasuredEmf& m) {
+std::string measured_source(const MeasuredEmf& m) {
   return fmt::format("source = {}, kind = \"measured\"", toml_text(m.name));
 }
 
@@ -46,11 +46,11 @@ std::string constant_line(const MeasuredEmf& m) {
            fmt::format(
                "back_emf_constant_V_krpm = {{ value = {}, frame = \"line-peak\", {} }}  # of the fundamental, "
                "95 %: {}\n",
-               measured_text(V_krpm), source_words(m), bounds_text(V_krpm));
+               measured_text(V_krpm), measured_source(m), bounds_text(V_krpm));
   }
   const Interval mWb = analysis::scaled(r.constants.phase_fundamental, 1e3);
   return pairs + fmt::format("flux_linkage_mWb = {{ value = {}, {} }}  # 95 %: {}\n", measured_text(mWb),
-                             source_words(m), bounds_text(mWb));
+                             measured_source(m), bounds_text(mWb));
 }
 
 std::string harmonic_lines(const EmfResult& r) {

@@ -21,15 +21,15 @@ using analysis::Interval;
 
 constexpr double rad_s_per_krpm = 1000.0 * base::pi / 30.0, to_percent = 100.0;
 
-std::string shown(const Interval& x, const char* unit) {
+std::string shown_constant(const Interval& x, const char* unit) {
   return fmt::format("{} {}", measured_text(x), unit);
 }
 
 std::string heading(const MeasuredEmf& m) {
   const EmfResult& r = m.result;
   std::string out = fmt::format("{}: {} rows in {}, {:.3g} periods of {} ({})", visible(m.name), r.rows,
-                                quantity_text(r.seconds, "s", 4), r.periods, shown(r.frequency_Hz, "Hz"),
-                                bounds_text(r.frequency_Hz));
+                                quantity_text(r.seconds, "s", 4), r.periods,
+                                shown_constant(r.frequency_Hz, "Hz"), bounds_text(r.frequency_Hz));
   if (std::fabs(r.change_Hz_s) * r.seconds > 1e-3 * r.frequency_Hz.value)
     out += fmt::format(", changing by {:.3g} Hz/s", r.change_Hz_s);
   out += "\n";

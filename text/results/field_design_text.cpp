@@ -24,7 +24,7 @@ std::string winding(const sixstep::design::FieldMachine& m) {
                      sixstep::base::six_digits(1e3 * m.L_d_H), sixstep::base::six_digits(1e3 * m.L_q_H));
 }
 
-std::string motor_line(const FieldStudy& f) {
+std::string field_motor_line(const FieldStudy& f) {
   const sixstep::plant::Shaft& shaft = f.design.motor.shaft;
   const study::Scenario& s = f.scenario;
   return fmt::format(
@@ -67,7 +67,7 @@ std::string field_design_text(const FieldStudy& f, bool colour) {
   std::string verdict = field_design_verdict(f);
   if (colour) verdict = fmt::format("\x1b[{}m{}\x1b[0m", f.usable() ? "32" : "31;1", verdict);
   const sixstep::base::Motion motion = sixstep::design::motion_of(f.design.motor);
-  std::string text = verdict + "\n\n" + motor_line(f);
+  std::string text = verdict + "\n\n" + field_motor_line(f);
   for (const sixstep::design::LoopDesign& loop : f.design.loops) text += loop_text(loop, motion);
   text += table("Along the magnet and across it", f.axes) + figures_text(f.design) + sensing(f) +
           table("What the bus lets through", f.limits);

@@ -168,7 +168,7 @@ std::string as_remarks(const std::string& text) {
   return out;
 }
 
-std::string motor_line(const HallIdentity& f, const std::string& name) {
+std::string identified_motor_line(const HallIdentity& f, const std::string& name) {
   const Interval mWb = analysis::scaled(f.place->flux_linkage_Vs, 1e3);
   return fmt::format("flux_linkage_mWb = {{ value = {}, source = {}, kind = \"measured\" }}  # 95 %: {}\n",
                      measured_text(mWb), toml_text(name), bounds_text(mWb));
@@ -181,7 +181,7 @@ std::string identify_text(const std::string& name, const HallIdentity& f) {
       heading(name, f) + "\n" + wires_section(f) + "\n" + numbers_section(f) + "\n" + edges_section(f);
   if (f.place) out += "\n" + table_section(*f.place);
   out += "\nFor a scenario\n" + sensor_lines(f);
-  if (f.place) out += "For the motor's file\n" + motor_line(f, name);
+  if (f.place) out += "For the motor's file\n" + identified_motor_line(f, name);
   return out;
 }
 
@@ -189,7 +189,8 @@ std::string identify_toml(const std::string& name, const HallIdentity& f) {
   std::string out = as_remarks(heading(name, f)) + sensor_lines(f);
   if (f.place)
     out += "\n# For a firmware of one's own: the legs to connect where the pins show a code.\n" +
-           as_remarks(table_section(*f.place)) + "\n# For the motor's file:\n# " + motor_line(f, name);
+           as_remarks(table_section(*f.place)) + "\n# For the motor's file:\n# " +
+           identified_motor_line(f, name);
   return out;
 }
 

@@ -11,8 +11,8 @@
 namespace text {
 namespace {
 
-std::string bounds_text(const std::optional<double>& min, const std::optional<double>& max,
-                        const std::string& unit) {
+std::string junit_bounds(const std::optional<double>& min, const std::optional<double>& max,
+                         const std::string& unit) {
   std::string text;
   if (min) text += fmt::format(" at least {}", quantity_text(*min, unit));
   if (max) text += fmt::format("{} at most {}", min ? " and" : "", quantity_text(*max, unit));
@@ -45,7 +45,7 @@ JunitSuite junit_suite(const std::string& name, const study::Outcome& outcome) {
     suite.cases.push_back(
         {v.figure,
          v.ok ? std::string()
-              : quantity_text(v.measured, v.unit) + ", required" + bounds_text(v.min, v.max, v.unit),
+              : quantity_text(v.measured, v.unit) + ", required" + junit_bounds(v.min, v.max, v.unit),
          false});
   return suite;
 }
@@ -66,7 +66,7 @@ JunitSuite junit_suite(const std::string& name, const analysis::Series& series) 
                            f.holds == series.runs
                                ? std::string()
                                : fmt::format("holds in {} of {}, required{}", f.holds, series.runs,
-                                             bounds_text(f.column.min, f.column.max, f.column.unit)),
+                                             junit_bounds(f.column.min, f.column.max, f.column.unit)),
                            false});
   }
   return suite;

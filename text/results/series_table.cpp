@@ -69,7 +69,7 @@ std::string casualties(const std::vector<analysis::Casualty>& which, const char*
                      which[0].number, visible(which[0].problem));
 }
 
-/// A run that a fault stopped holds nothing, whatever its figures were until then.
+/// What it missed may be for the fault.
 bool stopped(std::size_t number, const analysis::Series& series) {
   return std::any_of(series.faults.begin(), series.faults.end(),
                      [number](const analysis::Casualty& c) { return c.number == number; });

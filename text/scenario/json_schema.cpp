@@ -25,12 +25,12 @@ struct Place {
   bool partial = false;  ///< inside a table that only changes values: nothing is required, frames are kept
 };
 
-bool finite(double x) { return x - x == 0.0; }
+bool is_bounded(double x) { return x - x == 0.0; }
 
-Json number_alone(const base::Range& range) {
+Json schema_number(const base::Range& range) {
   Json schema = {{"type", "number"}};
-  if (finite(range.low)) schema[range.low_included ? "minimum" : "exclusiveMinimum"] = range.low;
-  if (finite(range.high)) schema[range.high_included ? "maximum" : "exclusiveMaximum"] = range.high;
+  if (is_bounded(range.low)) schema[range.low_included ? "minimum" : "exclusiveMinimum"] = range.low;
+  if (is_bounded(range.high)) schema[range.high_included ? "maximum" : "exclusiveMaximum"] = range.high;
   return schema;
 }
 
@@ -38,12 +38,12 @@ Json number_alone(const base::Range& range) {
 /// checks.
 Json range_schema(const base::Range& range) {
   const Json with_unit = {{"type", "string"}, {"pattern", "^\\s*[-+]?[.0-9]"}};
-  return {{"anyOf", {number_alone(range), with_unit}}};
+  return {{"anyOf", {schema_number(range), with_unit}}};
 }
 
 /// An int: what the reader of files takes.
 Json whole_number(const base::Range& range) {
-  Json schema = number_alone(range);
+  Json schema = schema_number(range);
   schema["type"] = "integer";
   const auto bound = [&](const char* key, const char* excluding, double limit) {
     if (!schema.contains(key) && !schema.contains(excluding)) schema[key] = static_cast<int>(limit);
@@ -89,7 +89,7 @@ Json list_of(Json items) { return {{"type", "array"}, {"items", std::move(items)
 /// A list of words, or the word alone where it has only one.
 Json words_or_one(const Json& word) { return {{"anyOf", {list_of(word), word}}}; }
 
-Json column_names() {
+Json known_columns() {
   std::vector<std::pair<std::string, std::string>> names;
   const auto& linear = study::all_columns(design::MotorKind::linear);
   for (const study::Column& column : study::all_columns()) names.emplace_back(column.name, column.meaning);
@@ -125,7 +125,7 @@ Json value_of(const KeyEntry& entry, const Place& place) {
       return list_of(range_schema(base::allowed(entry.about)));
     case KeyType::texts:
       if (entry.path == "vary.values") return list_of({{"type", {"number", "string", "boolean"}}});
-      return words_or_one(entry.path == "record.columns" ? column_names() : Json{{"type", "string"}});
+      return words_or_one(entry.path == "record.columns" ? known_columns() : Json{{"type", "string"}});
     case KeyType::word:
       return one_of(all_words(entry));
     case KeyType::quantity:

@@ -30,7 +30,7 @@ bool has_unknown_key(const std::string& table, const Document& document) {
 }
 
 /// The keys of a sheet that a text speaks of.
-std::vector<std::string> keys_in(const std::string& text) {
+std::vector<std::string> keys_in_table(const std::string& text) {
   const std::vector<KeyEntry>& keys = sheet_keys();
   std::vector<std::string> found;
   std::string word;
@@ -163,7 +163,7 @@ bool follows(const base::Problem& problem, const std::string& table, const Compl
   const auto told = [&](const std::string& key) { return complaints.about(table + key); };
   if (told(problem.where)) return true;
   const bool misspelt = has_unknown_key(table, complaints.document());
-  const std::vector<std::string> others = keys_in(problem.limit + " " + problem.cure);
+  const std::vector<std::string> others = keys_in_table(problem.limit + " " + problem.cure);
   return std::any_of(others.begin(), others.end(), [&](const std::string& key) {
     const bool sure =
         key.find('_') != std::string::npos;  // "poles" and "winding" are words of every sentence

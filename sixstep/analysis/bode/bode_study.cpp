@@ -72,8 +72,7 @@ double i_q_of(const study::FullRow& row, double pole_pairs) {
   const auto at = [&](ColumnId id) { return row[static_cast<std::size_t>(id)]; };
   const double a = at(ColumnId::i_a), b = at(ColumnId::i_b), c = at(ColumnId::i_c);
   const base::SinCos magnet = base::sin_cos(at(ColumnId::angle) * pole_pairs - rig::magnet_behind_rad);
-  constexpr double root_3 = 1.73205080756887729353;
-  return -(2 * a - b - c) / 3 * magnet.sin + (b - c) / root_3 * magnet.cos;
+  return -(2 * a - b - c) / 3 * magnet.sin + (b - c) / base::root_3 * magnet.cos;
 }
 
 bool carries_no_current(const study::FullRow& row) {

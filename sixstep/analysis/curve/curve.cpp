@@ -13,7 +13,7 @@ namespace {
 
 constexpr double rad_s_per_rpm = base::pi / 30;
 
-std::optional<double> scaled(const std::optional<base::Quantity>& q, double factor) {
+std::optional<double> scaled_point(const std::optional<base::Quantity>& q, double factor) {
   return q ? std::optional(q->value * factor) : std::nullopt;
 }
 
@@ -61,7 +61,7 @@ base::Result<CurvePlan> plan_curve(const CurveRequest& r) {
   for (int n = 0; n + 1 < r.points; ++n) plan.speeds_rad_s.push_back(n * highest / (r.points - 1));
   const std::vector<double> sweep = sweep_speeds(highest);
   plan.speeds_rad_s.insert(plan.speeds_rad_s.end(), sweep.begin(), sweep.end() - 1);
-  if (const auto nominal = scaled(r.sheet.nominal_speed_rpm, rad_s_per_rpm))
+  if (const auto nominal = scaled_point(r.sheet.nominal_speed_rpm, rad_s_per_rpm))
     plan.speeds_rad_s.push_back(*nominal);
   return plan;
 }
@@ -116,8 +116,8 @@ std::string rated_in(const design::Sheet& sheet) {
 
 std::optional<NominalPoint> nominal_point(const CurveRequest& r, const Marks& marks,
                                           const OperatingPoint& last) {
-  NominalPoint out{.speed_rad_s = scaled(r.sheet.nominal_speed_rpm, rad_s_per_rpm),
-                   .torque_Nm = scaled(r.sheet.nominal_torque_mNm, 1e-3),
+  NominalPoint out{.speed_rad_s = scaled_point(r.sheet.nominal_speed_rpm, rad_s_per_rpm),
+                   .torque_Nm = scaled_point(r.sheet.nominal_torque_mNm, 1e-3),
                    .current_A = printed_current(r.bench.motor),
                    .from = rated_in(r.sheet),
                    .at_torque = marks.nominal,
@@ -140,10 +140,10 @@ base::Result<Curve> curve_of(const CurveRequest& r, const CurvePlan& plan,
   else
     out.thermal_missing = model.problems();
   out.worse_ends = design::at_worse_ends(r.sheet);
-  base::Result<Marks> marks = find_marks(
-      r.bench,
-      {out.thermal, r.ambient_degC, design::on_R(r.motor_degC), scaled(r.sheet.nominal_torque_mNm, 1e-3)},
-      sweep, for_each);
+  base::Result<Marks> marks = find_marks(r.bench,
+                                         {out.thermal, r.ambient_degC, design::on_R(r.motor_degC),
+                                          scaled_point(r.sheet.nominal_torque_mNm, 1e-3)},
+                                         sweep, for_each);
   if (!marks) return marks.problems();
   out.marks = *marks;
   out.nominal = nominal_point(r, out.marks, found.back());
@@ -158,7 +158,7 @@ base::Result<Curve> curve_of(const CurveRequest& r, const CurvePlan& plan,
 SpeedDrop speed_drop(const CurveRequest& r, const Curve& curve) {
   const double K_t = r.bench.motor.K_t_Nm_A;
   SpeedDrop out{.ideal = 2 * r.bench.motor.machine.R_ohm / (K_t * K_t),
-                .printed = scaled(r.sheet.speed_torque_gradient_rpm_mNm, 1e3 * rad_s_per_rpm)};
+                .printed = scaled_point(r.sheet.speed_torque_gradient_rpm_mNm, 1e3 * rad_s_per_rpm)};
   if (!curve.nominal || !curve.nominal->torque_Nm) return out;
   const double torque = *curve.nominal->torque_Nm;
   if (r.sheet.no_load_speed_rpm && curve.nominal->speed_rad_s)

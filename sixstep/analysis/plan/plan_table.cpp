@@ -10,7 +10,7 @@
 namespace sixstep::analysis {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 FigureColumn column_of(const study::Scenario& scenario, const study::Measure& measure) {
   const base::LinearUnit unit = study::unit_in(scenario, study::figure_unit(measure));
@@ -103,8 +103,8 @@ RunRecord RunRecord::without_figures(TableColumns columns, std::size_t number, s
   values.number = number;
   values.point = std::move(point);
   values.point.resize(columns->keys.size());
-  values.strayed.assign(columns->strayed.size(), none);
-  values.figures.assign(columns->figures.size(), none);
+  values.strayed.assign(columns->strayed.size(), no_value);
+  values.figures.assign(columns->figures.size(), no_value);
   values.end = end;
   values.problem = std::move(problem);
   return RunRecord(std::move(columns), std::move(values));

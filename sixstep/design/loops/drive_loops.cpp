@@ -13,7 +13,7 @@ const Polynomial difference{0.0, 1.0};  // z - 1
 
 /// d1 z + d0 = d1 (z - 1) + K_i
 Polynomial of(const PiGains& g) { return {g.d1 + g.d0, g.d1}; }
-Polynomial scaled(Polynomial p, double factor) {
+Polynomial scaled_gains(Polynomial p, double factor) {
   for (double& x : p) x *= factor;
   return p;
 }
@@ -44,7 +44,7 @@ struct Cascade {
 
 Cascade cascade_of(const DriveLoops& d, const Plant& p) {
   Cascade c;
-  c.controllers = scaled(product(of(d.speed), of(d.current)), d.current_at_full_torque_A);
+  c.controllers = scaled_gains(product(of(d.speed), of(d.current)), d.current_at_full_torque_A);
   const Polynomial held = product(p.den, delay(d.delay_periods).den);
   c.current_closed = sum(product(difference, held), product(of(d.current), p.i));
   c.speed_closed = sum(product(difference, c.current_closed), product(c.controllers, p.w));
@@ -96,14 +96,14 @@ Transfer open_speed_loop(const DriveLoops& d) {
 
 Transfer speed_loop_by_setpoint(const DriveLoops& d, const LinearLaw& law) {
   const Plant p = plant_of(d);
-  const Polynomial acts = product(scaled(of(d.current), d.current_at_full_torque_A), p.w);
-  const Polynomial apart = sum(law.y, scaled(law.r, -1.0));
+  const Polynomial acts = product(scaled_gains(of(d.current), d.current_at_full_torque_A), p.w);
+  const Polynomial apart = sum(law.y, scaled_gains(law.r, -1.0));
   return {product(acts, law.r), sum(product(cascade_of(d, p).current_closed, law.q), product(acts, apart))};
 }
 
 Transfer open_speed_loop(const DriveLoops& d, const LinearLaw& law) {
   const Plant p = plant_of(d);
-  const Polynomial acts = product(scaled(of(d.current), d.current_at_full_torque_A), p.w);
+  const Polynomial acts = product(scaled_gains(of(d.current), d.current_at_full_torque_A), p.w);
   return {product(acts, law.y), product(cascade_of(d, p).current_closed, law.q)};
 }
 
@@ -111,7 +111,7 @@ Transfer open_position_loop(const DriveLoops& d) {
   const Plant p = plant_of(d);
   const Cascade c = cascade_of(d, p);
   const double gain = d.position_gain_rad_s_per_deg * 180.0 / base::pi;
-  return {scaled(product(c.controllers, p.theta), gain), product(difference, c.speed_closed)};
+  return {scaled_gains(product(c.controllers, p.theta), gain), product(difference, c.speed_closed)};
 }
 
 }  // namespace sixstep::design

@@ -11,7 +11,7 @@ namespace sixstep::design {
 
 namespace {
 
-constexpr double ln_2 = 0.69314718055994531, root_3 = 1.7320508075688773;
+constexpr double ln_2 = 0.69314718055994531;
 
 /// How many times slower the weakening is than the currents.
 constexpr double weakening_is_slower = 10.0;
@@ -61,7 +61,7 @@ base::Result<FieldAxis> field_axis(double R_ohm, double L_H, const FieldLoopSpec
 }
 
 double weakening_gain(const FieldMachine& machine, double bus_V, const FieldLoopSpec& spec) {
-  const double w_0 = bus_V / (root_3 * machine.magnet_V_s);
+  const double w_0 = bus_V / (base::root_3 * machine.magnet_V_s);
   const double V_per_A = w_0 * machine.pole_pairs * machine.L_d_H;
   return (1 - base::exp(-spec.bandwidth_rad_s * spec.period_s / weakening_is_slower)) / V_per_A;
 }

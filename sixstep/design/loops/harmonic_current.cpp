@@ -16,7 +16,7 @@ namespace {
 using control::shape_points;
 
 /// The magnet is 150 degrees behind the electrical angle: half a sector, and two whole ones.
-constexpr double behind_rad = 5 * base::pi / 6;
+constexpr double sector_middle_rad = 5 * base::pi / 6;
 
 /// Back-EMF over speed of the three phases, x behind the start of a sector.
 control::Abc<double> back_emf(const plant::general::ShapeTable<double>& table, std::size_t sector, double x) {
@@ -36,7 +36,7 @@ control::Abc<double> back_emf(const plant::general::ShapeTable<double>& table, s
 control::Dq<double> in_magnets_frame(const plant::general::ShapeTable<double>& table, double x) {
   control::Dq<double> mean;
   for (std::size_t s = 0; s < 6; ++s) {
-    const base::SinCos at = base::sin_cos(static_cast<double>(s) * base::sector_rad + x - behind_rad);
+    const base::SinCos at = base::sin_cos(static_cast<double>(s) * base::sector_rad + x - sector_middle_rad);
     const control::Dq<double> v =
         park(clarke(back_emf(table, s, x)), control::Direction<double>{at.cos, at.sin});
     mean.d += v.d / 6;

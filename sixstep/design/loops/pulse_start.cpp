@@ -12,7 +12,6 @@
 namespace sixstep::design {
 namespace {
 
-constexpr double root_3 = 1.7320508075688772;
 constexpr double clear = 2.0;     // times what is certain
 constexpr double of_range = 0.9;  // noise and rounding stay within it
 constexpr double most_turned =
@@ -41,9 +40,9 @@ Basis basis_of(const MotorModel& motor, const PulseSpec& spec) {
   b.lsb_A = 2 * spec.current_range_A / static_cast<double>(1 << spec.adc_bits);
   b.limit_A = std::min(spec.most_A, of_range * (spec.current_range_A - std::fabs(spec.offset_A)));
   const bool saturates = spec.saturation_A > 0.0;
-  if (saturates) b.limit_A = std::min(b.limit_A, root_3 / 2 * spec.saturation_A / 2);
+  if (saturates) b.limit_A = std::min(b.limit_A, base::root_3 / 2 * spec.saturation_A / 2);
   // With and against the magnet: of no current up to the limit is it less, or more.
-  const double bent = saturates ? 2 / root_3 * b.limit_A / (2 * spec.saturation_A) : 0.0;
+  const double bent = saturates ? 2 / base::root_3 * b.limit_A / (2 * spec.saturation_A) : 0.0;
   b.L_least = std::min(spec.L_d_H * (1 - bent), spec.L_q_H);
   b.L_most = std::max(spec.L_d_H * (1 + bent), spec.L_q_H);
   return b;
@@ -58,7 +57,7 @@ double current_A(const Basis& b, double t_s, double L_H) {
 
 /// L_d i/(2 I_sat L_S) of the pair's current along the magnet.
 double depth(const Basis& b, double i_A) {
-  return b.spec.saturation_A > 0.0 ? 2 / root_3 * b.spec.L_d_H * i_A / (2 * b.spec.saturation_A * b.L_S)
+  return b.spec.saturation_A > 0.0 ? 2 / base::root_3 * b.spec.L_d_H * i_A / (2 * b.spec.saturation_A * b.L_S)
                                    : 0.0;
 }
 
@@ -75,7 +74,8 @@ double turned_deg(const Basis& b, const PulseStart& s, double t_s) {
   const double pairs = b.motor.machine.pole_pairs;
   const double P = base::pi / 3 * b.motor.K_t_Nm_A * I * t_s;
   // p |L_d - L_q| i^2 over two ramps of i; 2 m P cos^3 sin, which is 3 sqrt 3/16 at most.
-  const double P_e = pairs * std::fabs(2 * b.L_D) * I * I * 2 / 3 * t_s + 6 * root_3 / 16 * depth(b, I) * P;
+  const double P_e =
+      pairs * std::fabs(2 * b.L_D) * I * I * 2 / 3 * t_s + 6 * base::root_3 / 16 * depth(b, I) * P;
   const double turned_rad = s.pulses.rounds * D / b.motor.shaft.J_kg_m2 * (2 * P + 12 * P_e);
   return turned_rad * pairs * 180 / base::pi;
 }
@@ -102,7 +102,7 @@ PulseStart of_length(const Basis& b, int ticks) {
   s.greatest_A = current_A(b, t_s, b.L_least);
   const double k = x / (base::exp(x) - 1);
   const double read_A = std::max(0.0, s.current_A * (1 - b.spec.late_s / t_s));
-  const double of_noise = root_3 * k * (2 * read_A / b.lsb_A * 8) / noise_8(b, s.pulses);
+  const double of_noise = base::root_3 * k * (2 * read_A / b.lsb_A * 8) / noise_8(b, s.pulses);
   s.north = 0.75 * depth(b, s.current_A) * of_noise;
   s.axis = std::fabs(b.L_D) / b.L_S * of_noise;
   s.off_deg = off_deg(b, s);
@@ -139,7 +139,7 @@ base::Problem too_strong(const Basis& b, const PulseStart& s) {
     return {"overload", "",
             "starts with " + base::rounded(b.limit_A, 3) + " A, and one control period " + makes,
             "raise it, sample more often, or start by alignment"};
-  if (spec.saturation_A > 0.0 && b.limit_A == root_3 / 2 * spec.saturation_A / 2)
+  if (spec.saturation_A > 0.0 && b.limit_A == base::root_3 / 2 * spec.saturation_A / 2)
     return {"period_s", base::rounded(spec.period_s, 4),
             makes + ", and above " + base::rounded(b.limit_A, 3) + " A the model of saturation ends",
             "sample more often, or start by alignment"};

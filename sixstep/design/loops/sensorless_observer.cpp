@@ -13,7 +13,7 @@ namespace {
 
 constexpr double lag_part = 0.2;      // of a sector at no-load speed
 constexpr double level_scale = 0.25;  // of psi: what a format ends at is four levels
-constexpr double periods_a_sector = 4.0;
+constexpr double observed_periods_a_sector = 4.0;
 
 /// The back-EMF of a phase `deg` behind its rising zero, of its peak.
 double shape(const plant::Machine& machine, double deg) {
@@ -67,7 +67,7 @@ base::Result<SensorlessObserver> sensorless_observer(const MotorModel& motor, co
   out.pole = p;
   out.level_V_s = flux_level_V_s(machine);
   out.lag_s = (follow == control::Follow::flux ? 0.5 : m + 0.5) * T;
-  out.highest_rad_s = sector_rad / (periods_a_sector * T);
+  out.highest_rad_s = sector_rad / (observed_periods_a_sector * T);
   control::ObserverConfig<double>& c = out.chip;
   c.follow = follow;
   c.voltage = {lsb_V / 3.0, static_cast<std::uint16_t>(std::floor(0.03 * spec.bus_V / lsb_V + 0.5)), false};

@@ -25,7 +25,7 @@ double sector_mean(BackEmfShape shape, double flat_deg) {
 }
 
 /// The trapezoid at x degrees from the middle of its positive top.
-double trapezoid(double x_deg, double flat_deg) {
+double trapezoid_wave(double x_deg, double flat_deg) {
   const double turns = std::floor(x_deg / 360.0 + 0.5);
   const double x = std::abs(x_deg - 360.0 * turns), h = 90.0 - flat_deg / 2.0;
   return std::clamp((90.0 - x) / h, -1.0, 1.0);
@@ -42,7 +42,9 @@ void line_to_line(double flat_deg, ShapeFactors& out) {
       corners[count++] = x - 180.0 * std::floor(x / 180.0);
     }
   std::sort(corners.begin(), corners.end());
-  const auto line = [&](double x) { return trapezoid(x, flat_deg) - trapezoid(x - 120.0, flat_deg); };
+  const auto line = [&](double x) {
+    return trapezoid_wave(x, flat_deg) - trapezoid_wave(x - 120.0, flat_deg);
+  };
   double square = 0.0;
   for (std::size_t n = 0; n + 1 < corners.size(); ++n) {
     const double a = line(corners[n]), b = line(corners[n + 1]), middle = (a + b) / 2.0;

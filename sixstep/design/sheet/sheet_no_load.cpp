@@ -12,8 +12,6 @@ namespace {
 
 using base::Quantity;
 
-constexpr double rpm_per_rad_s = 30.0 / base::pi;
-
 /// Where sources differ, or a maker prints a tolerance, the file says so in the value's range: it is known no better than that.
 std::optional<Term> ranged(const std::optional<Quantity>& q, double unit = 1.0) {
   std::optional<Term> t = term(q, unit);
@@ -27,7 +25,7 @@ bool of_another_motor(const std::optional<Quantity>& q) {
   return q && !q->range && (q->kind == base::Trust::measured || q->kind == base::Trust::derived);
 }
 
-struct Point {
+struct SheetLine {
   std::string name;  ///< "" or "second "
   std::optional<Term> U_V, speed_rpm, current_A;
   bool current_is_nothing = false;  ///< printed as 0
@@ -47,7 +45,7 @@ class NoLoad {
 
   std::vector<NoLoadSides> all() {
     if (!K_t_) return {};
-    for (const Point* at : {&first_, &second_}) {
+    for (const SheetLine* at : {&first_, &second_}) {
       speed(*at);
       current(*at);
     }
@@ -55,10 +53,10 @@ class NoLoad {
   }
 
  private:
-  static Point point(std::string name, const std::optional<Quantity>& voltage,
-                     const std::optional<Quantity>& speed, const std::optional<Quantity>& current) {
-    Point p{std::move(name), std::nullopt, ranged(speed), ranged(current, 1e-3),
-            current && current->value == 0.0};
+  static SheetLine point(std::string name, const std::optional<Quantity>& voltage,
+                         const std::optional<Quantity>& speed, const std::optional<Quantity>& current) {
+    SheetLine p{std::move(name), std::nullopt, ranged(speed), ranged(current, 1e-3),
+                current && current->value == 0.0};
     if (voltage && voltage->value > 0.0) p.U_V = exact(voltage->value);
     return p;
   }
@@ -80,8 +78,8 @@ class NoLoad {
   }
 
   /// The printed speed, else that of the ideal line.
-  std::optional<Term> rad_s(const Point& at) const {
-    if (at.speed_rpm) return *at.speed_rpm * (1.0 / rpm_per_rad_s);
+  std::optional<Term> rad_s(const SheetLine& at) const {
+    if (at.speed_rpm) return *at.speed_rpm * (1.0 / base::rpm_per_rad_s);
     if (!at.U_V || !R_ || !at.current_A) return {};
     const Term drop = *R_ * *at.current_A;
     if (!(drop.value < at.U_V->value)) return {};
@@ -109,14 +107,14 @@ class NoLoad {
     return current;
   }
 
-  void speed(const Point& at) {
+  void speed(const SheetLine& at) {
     if (!at.speed_rpm || !at.U_V || !R_) return;
     const bool printed = at.current_A || at.current_is_nothing;
     const Term I = printed ? at.current_A.value_or(Term{}) : current_of_friction(*at.U_V), drop = *R_ * I;
     const bool turns = drop.value < at.U_V->value;
     const std::optional<Quantity>& k_n = s_.speed_constant_rpm_V;
     const bool by_k_n = k_n && k_n->frame == "six-step" && k_n->value > 0.0;
-    const Term rpm_V = by_k_n ? Term{k_n->value, relative_doubt(*k_n)} : exact(rpm_per_rad_s) / *K_t_;
+    const Term rpm_V = by_k_n ? Term{k_n->value, relative_doubt(*k_n)} : exact(base::rpm_per_rad_s) / *K_t_;
     NoLoadSides sides{at.name + "no-load speed",
                       by_k_n ? "k_n (U - R I_0)" : "(U - R I_0) / k_M",
                       at.name + "no-load speed",
@@ -144,7 +142,7 @@ class NoLoad {
   }
 
   /// Where friction was read from the very current there is nothing to hold.
-  void current(const Point& at) {
+  void current(const SheetLine& at) {
     const bool of_points = f_.split_viscous_Nm_s && !s_.coulomb_friction_mNm;
     const bool given =
         s_.viscous_friction_Nm_s || (&at == &second_ && !of_points && f_.no_load_speed_rad_s > 0.0);
@@ -164,7 +162,7 @@ class NoLoad {
   const Sheet& s_;
   const Friction& f_;
   std::optional<Term> R_, K_t_;
-  Point first_, second_;
+  SheetLine first_, second_;
   std::vector<NoLoadSides> found_;
 };
 

@@ -15,8 +15,6 @@ namespace {
 
 using base::Quantity;
 
-constexpr double rpm_per_rad_s = 30.0 / base::pi;
-
 struct Factor {
   double ratio;
   std::string_view words;
@@ -116,7 +114,7 @@ class Relations {
       const std::optional<Quantity>& k_n = s_.speed_constant_rpm_V;
       if (other.key == "speed_constant_rpm_V" && k_n->frame == "six-step" && K_t_)
         add("speed constant", "k_M k_n", "30000 / pi", *K_t_ * 1e3 * Term{k_n->value, other.relative_doubt},
-            exact(1000.0 * rpm_per_rad_s), "rpm/V mNm/A");
+            exact(1000.0 * base::rpm_per_rad_s), "rpm/V mNm/A");
       else
         add("K_e by " + other.key, "K_e used", "K_e by " + other.key,
             Term{c_.K_e_V_s->value * 1e3, c_.K_e_relative_doubt},
@@ -175,8 +173,8 @@ class Relations {
       add("mechanical time constant", "R J / k_M^2", "mechanical time constant", steepness * *J_ * 1e3,
           *printed, "ms");
     if (const std::optional<Term> printed = term(s_.speed_torque_gradient_rpm_mNm))
-      add("speed/torque gradient", "R / k_M^2", "speed/torque gradient", steepness * (rpm_per_rad_s * 1e-3),
-          *printed, "rpm/mNm");
+      add("speed/torque gradient", "R / k_M^2", "speed/torque gradient",
+          steepness * (base::rpm_per_rad_s * 1e-3), *printed, "rpm/mNm");
   }
 
   /// Of the rotor's measures, as r^4 - r_i^4 has them.

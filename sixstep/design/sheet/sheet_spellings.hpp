@@ -12,7 +12,6 @@ using base::Spelling;
 constexpr Spelling linear(std::string_view key, std::string_view unit, int ten = 0, double factor = 1.0) {
   return {.key = key, .ten = ten, .unit = unit, .factor = factor, .linear = true};
 }
-constexpr double rpm_per_rad_s = 30.0 / base::pi;
 
 /// A line of maxon's sheets, whose numbers and frames have stayed the same over the years.
 constexpr Spelling line(std::string_view key, std::string_view source, std::string_view frame = "") {
@@ -21,14 +20,14 @@ constexpr Spelling line(std::string_view key, std::string_view source, std::stri
 
 inline constexpr Spelling nominal_voltage[] = {line("line_1_nominal_voltage_V", "data sheet, line 1")};
 inline constexpr Spelling no_load_speed[] = {line("line_2_no_load_speed_rpm", "data sheet, line 2"),
-                                             linear("no_load_speed_m_s", "m/s", 0, rpm_per_rad_s)};
+                                             linear("no_load_speed_m_s", "m/s", 0, base::rpm_per_rad_s)};
 inline constexpr Spelling no_load_current[] = {
     line("line_3_no_load_current_mA", "data sheet, line 3"),
     {.key = "idle_current_A", .ten = 3, .unit = "A"},
 };
 inline constexpr Spelling no_load_voltage[] = {{.key = "idle_voltage_V"}};
 inline constexpr Spelling nominal_speed[] = {line("line_4_nominal_speed_rpm", "data sheet, line 4"),
-                                             linear("nominal_speed_m_s", "m/s", 0, rpm_per_rad_s)};
+                                             linear("nominal_speed_m_s", "m/s", 0, base::rpm_per_rad_s)};
 inline constexpr Spelling nominal_torque[] = {line("line_5_nominal_torque_mNm", "data sheet, line 5"),
                                               {.key = "nominal_torque_Nm", .ten = 3, .unit = "Nm"},
                                               linear("nominal_force_N", "N", 3)};
@@ -77,12 +76,13 @@ inline constexpr Spelling motor_time[] = {
 inline constexpr Spelling winding_temperature[] = {
     line("line_22_max_winding_temperature_degC", "data sheet, line 22")};
 inline constexpr Spelling max_speed[] = {line("line_23_max_speed_rpm", "data sheet, line 23"),
-                                         linear("max_speed_m_s", "m/s", 0, rpm_per_rad_s)};
+                                         linear("max_speed_m_s", "m/s", 0, base::rpm_per_rad_s)};
 
 inline constexpr Spelling second_no_load_speed[] = {
-    linear("second_no_load_speed_m_s", "m/s", 0, rpm_per_rad_s)};
+    linear("second_no_load_speed_m_s", "m/s", 0, base::rpm_per_rad_s)};
 inline constexpr Spelling torque_per_A[] = {linear("force_constant_N_A", "N/A")};
-inline constexpr Spelling back_emf_per_speed[] = {linear("back_emf_V_s_m", "V s/m", 0, 1e3 / rpm_per_rad_s)};
+inline constexpr Spelling back_emf_per_speed[] = {
+    linear("back_emf_V_s_m", "V s/m", 0, 1e3 / base::rpm_per_rad_s)};
 inline constexpr Spelling viscous[] = {linear("viscous_friction_N_s_m", "N s/m")};
 inline constexpr Spelling coulomb[] = {linear("coulomb_friction_N", "N", 3)};
 inline constexpr Spelling iron_viscous[] = {linear("iron_viscous_N_s_m", "N s/m")};

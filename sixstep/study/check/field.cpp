@@ -31,7 +31,7 @@ void check_pwm(const Scenario& s, base::Problems& out) {
         {"pwm.commutation", "\"sample\"", "is six-step's: three legs commutate nothing", other_drive});
 }
 
-void check_loops(const Scenario& s, base::Problems& out) {
+void check_field_loops(const Scenario& s, base::Problems& out) {
   const Control& c = s.control;
   const auto refuse = [&out](bool given, const char* key, const char* limit, const char* cure) {
     if (given) out.push_back({key, "", limit, cure});
@@ -166,7 +166,7 @@ void check_field(const Scenario& s, base::Problems& out) {
     return;
   }
   check_pwm(s, out);
-  check_loops(s, out);
+  check_field_loops(s, out);
   check_sensing(s, out);
   check_keys(s, out);
   check_finite_set(s, out);

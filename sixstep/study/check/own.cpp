@@ -38,7 +38,7 @@ const sixstep_parameter* parameter(const sixstep_controller& is, const std::stri
   return nullptr;
 }
 
-void check_numbers(const Own& own, base::Problems& out) {
+void check_own_numbers(const Own& own, base::Problems& out) {
   for (std::size_t n = 0; n < own.number.size(); ++n) {
     const OwnNumber& given = own.number[n];
     const std::string where = "control.own.number[" + std::to_string(n) + "]";
@@ -142,7 +142,7 @@ void check_own(const Scenario& s, base::Problems& out) {
     out.push_back(
         {"control.own.controller", '"' + own.controller + '"', "is not loaded", "run it from a file"});
   else
-    check_numbers(own, out);
+    check_own_numbers(own, out);
   check_around(s, out);
   if (answers_legs(own)) check_pair_figures(s, out);
 }

@@ -139,7 +139,7 @@ void check_torque(const Scenario& s, const design::MotorModel& motor, base::Prob
       look("at[" + std::to_string(n) + "].load.torque_Nm", *torque_Nm);
 }
 
-void check_field(const Scenario& s, const plant::Machine& m, base::Problems& out) {
+void check_field_pace(const Scenario& s, const plant::Machine& m, base::Problems& out) {
   const auto look = [&](const std::string& key, double value, double field_rad_s, const char* cure) {
     if (std::fabs(field_rad_s) > fastest_field_rad_s)
       out.push_back({key, written(value),
@@ -196,7 +196,7 @@ void check_pace(const Scenario& s, const design::MotorModel& motor, base::Proble
   check_friction(s, motor, out);
   check_coupling(s, motor, out);
   check_torque(s, motor, out);
-  check_field(s, motor.machine, out);
+  check_field_pace(s, motor.machine, out);
   check_band(s, motor.machine, out);
   check_timer(s, out);
   check_minimum_pulse(s, out);

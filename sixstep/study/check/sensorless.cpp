@@ -21,7 +21,7 @@ void check_sample(const Scenario& s, base::Problems& out) {
     out.push_back({"pwm.sample", "\"start\"", why, "set sample = \"middle\""});
 }
 
-void check_loops(const Scenario& s, base::Problems& out) {
+void check_sensorless_loops(const Scenario& s, base::Problems& out) {
   if (s.control.mode == control::Mode::position)
     out.push_back({"control.mode", "\"position\"",
                    "needs a rotor that is seen where it stands, and a back-EMF is not",
@@ -119,7 +119,7 @@ void check_sensorless(const Scenario& s, base::Problems& out) {
   }
   check_terminals(s, out);
   check_sample(s, out);
-  check_loops(s, out);
+  check_sensorless_loops(s, out);
   check_source(s, out);
   check_start(s, out);
   check_others(s, out);

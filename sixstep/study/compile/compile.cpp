@@ -143,7 +143,7 @@ base::Problems add_own(const Scenario& s, const Basis& basis, Tuned& tuned) {
 }
 
 /// What [[at]] makes of it. Sensors stay as they were laid out for the start.
-base::Problems add_later(const Scenario& s, const Basis& basis, Compiled& out) {
+base::Problems add_later_actions(const Scenario& s, const Basis& basis, Compiled& out) {
   const std::vector<const At*> order = in_order(s);
   out.later.reserve(order.size());
   for (const At* at : order) {
@@ -227,7 +227,7 @@ base::Result<Compiled> compile(const Scenario& s) {
           add_sensorless(alone ? *alone : s, basis, out.drive, out.sensorless, &out.sensorless_steps);
       !problems.empty())
     return problems;
-  if (base::Problems problems = add_later(s, basis, out); !problems.empty()) return problems;
+  if (base::Problems problems = add_later_actions(s, basis, out); !problems.empty()) return problems;
   return out;
 }
 

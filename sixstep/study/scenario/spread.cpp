@@ -189,7 +189,7 @@ Scenario with_its_designer(const Scenario& scenario) {
 }
 
 /// The key whose spread is the same thing: of the two constants each means the other.
-std::string_view fact_of(std::string_view key) { return key == back_emf_key ? torque_key : key; }
+std::string_view spread_fact(std::string_view key) { return key == back_emf_key ? torque_key : key; }
 
 }  // namespace
 
@@ -235,7 +235,7 @@ base::Problems check_spread(const Scenario& scenario) {
   for (std::size_t n = 0; n < scenario.spread.size(); ++n) {
     const std::string where = "spread[" + std::to_string(n) + "]";
     const auto same = [&](const Spread& other) {
-      return fact_of(other.key) == fact_of(scenario.spread[n].key);
+      return spread_fact(other.key) == spread_fact(scenario.spread[n].key);
     };
     const auto end = scenario.spread.begin() + static_cast<std::ptrdiff_t>(n);
     if (std::any_of(scenario.spread.begin(), end, same))

@@ -13,7 +13,7 @@
 #include "tests/analysis/bench/drawn_emf.hpp"
 #include "tests/analysis/bench/drilled.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -143,4 +143,4 @@ TEST(BuiltMachines, ALogOfHallLinesInAWrongUnitIsRefused) {
                     HasSubstr("voltage is taken too great")));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

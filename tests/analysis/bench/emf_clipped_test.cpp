@@ -8,7 +8,7 @@
 #include "sixstep/analysis/bench/emf/emf.hpp"
 #include "tests/analysis/bench/drawn_emf.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -92,4 +92,4 @@ TEST(EmfClipped, TheTopsOfATrapezoidAreItsOwn) {
       }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

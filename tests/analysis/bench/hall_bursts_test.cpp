@@ -6,7 +6,7 @@
 #include "sixstep/analysis/bench/hall/hall_edges.hpp"
 #include "tests/analysis/bench/drilled.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -64,4 +64,4 @@ TEST(HallBursts, LinesThatNeverChangeAreToldHoweverOftenTheThirdDoes) {
   EXPECT_THAT(to_string(found.problems()[1]), ::testing::HasSubstr("hall3 = 0 in every row"));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -6,7 +6,7 @@
 #include "sixstep/analysis/bench/hall/identify.hpp"
 #include "tests/analysis/bench/drilled.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -61,4 +61,4 @@ TEST(IdentifyAlike, AProbeTheWrongWayRoundIsRefused) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

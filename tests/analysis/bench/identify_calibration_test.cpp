@@ -5,7 +5,7 @@
 #include "tests/analysis/bench/counted.hpp"
 #include "tests/analysis/bench/drawn_hall_log.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -180,4 +180,4 @@ TEST(IdentifyCalibration, AnOffsetOfHalfASectorIsAsDoubtfulAsItSays) {
   EXPECT_NEAR(right, expected, 4.0 * std::sqrt(variance));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

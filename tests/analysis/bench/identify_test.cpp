@@ -12,7 +12,7 @@
 #include "sixstep/control/commutation.hpp"
 #include "tests/analysis/bench/drilled.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -300,4 +300,4 @@ TEST(Identify, WhatIsNoLogIsToldWhy) {
   EXPECT_THAT(told(broken), HasSubstr("u_ab, u_bc, u_ca do not turn with the Hall lines"));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

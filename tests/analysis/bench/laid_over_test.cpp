@@ -8,7 +8,7 @@
 #include <cmath>
 
 namespace sixstep::analysis {
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 study::Trace trace(std::vector<std::pair<std::string, std::vector<double>>> columns) {
   study::Trace out;
@@ -120,12 +120,12 @@ TEST(LaidOver, AHandfulOfRowsAtTheLeast) {
 TEST(LaidOver, AtInstantsIsTheLogThere) {
   const study::Trace log = trace({{"t_s", {0, 1, 2}}, {"duty", {0, 1, 0}}});
   const study::Trace there = at_instants(log, 0.5, {0, 0.5, 1, 1.5, 2.5, 3});
-  EXPECT_THAT(there.values[0], testing::ElementsAre(0, 0.5, 1, 1.5, 2.5, 3));
+  EXPECT_THAT(there.values[0], ::testing::ElementsAre(0, 0.5, 1, 1.5, 2.5, 3));
   EXPECT_TRUE(std::isnan(there.values[1][0]));
   EXPECT_TRUE(std::isnan(there.values[1][5]));
   EXPECT_THAT(std::vector<double>(there.values[1].begin() + 1, there.values[1].end() - 1),
-              testing::ElementsAre(0, 0.5, 1, 0));
+              ::testing::ElementsAre(0, 0.5, 1, 0));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE
 }  // namespace sixstep::analysis

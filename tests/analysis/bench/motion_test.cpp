@@ -10,7 +10,7 @@
 #include "sixstep/analysis/bench/hall/smooth_motion.hpp"
 #include "tests/analysis/bench/normal.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::analysis;
 using sixstep::testing::Draw;
@@ -271,4 +271,4 @@ TEST(Distributions, ALengthIsHeldAsOftenAsItSays) {
   EXPECT_NEAR(below(4.0, x.high), 0.025, 1e-7);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

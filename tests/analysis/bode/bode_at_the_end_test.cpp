@@ -9,7 +9,7 @@
 #include "sixstep/analysis/bode/bode_study.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -158,4 +158,4 @@ TEST(BodeAtTheEnd, ADriveOnItsWayIsRefused) {
   EXPECT_EQ(problem_of(s), "measured");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

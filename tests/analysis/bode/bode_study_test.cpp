@@ -9,7 +9,7 @@
 
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -242,4 +242,4 @@ TEST(Bode, WhatCannotBeMeasuredIsToldWithAWayOut) {
   EXPECT_EQ(problem_of(interrupted, {.keep_going = [](double) { return false; }}), "duration_s");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -12,7 +12,7 @@
 #include "sixstep/base/angle.hpp"
 #include "sixstep/design/loops/loop_figures.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using analysis::Multisine;
@@ -129,4 +129,4 @@ TEST(MeasuredLoop, MarginsAreTheLoops) {
     EXPECT_NEAR(points[k].gain, loop.at(points[k].w_rad_s * period_s).size(), 1e-9 * points[k].gain);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

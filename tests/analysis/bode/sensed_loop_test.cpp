@@ -9,7 +9,7 @@
 #include "sixstep/base/angle.hpp"
 #include "tests/support/scenarios.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::testing;
@@ -132,4 +132,4 @@ TEST(SensedLoop, MarginsAreTheSameATurnFurther) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

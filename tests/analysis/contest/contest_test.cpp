@@ -14,7 +14,7 @@
 #include "tests/support/scenarios.hpp"
 #include "text/scenario/scenario_file.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using namespace sixstep::analysis;
@@ -194,4 +194,4 @@ TEST(Contest, ALinearMotorAndABusTooLowAreRefused) {
       contest_bench({.motor = "maxon-251601", .sheet = *sheet, .voltage_V = 2.0}));  // 2.33 A need 2.4 V
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

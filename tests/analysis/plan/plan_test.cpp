@@ -9,7 +9,7 @@
 
 #include "sixstep/analysis/plan/permuted.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using analysis::Axis;
@@ -114,4 +114,4 @@ TEST(Plan, EveryMistakeIsToldAtItsKey) {
   EXPECT_EQ(where(wide), "vary");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

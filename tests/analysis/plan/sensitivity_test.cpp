@@ -12,7 +12,7 @@
 #include "sixstep/analysis/plan/plan.hpp"
 #include "sixstep/base/angle.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using analysis::SensitivityIndex;
@@ -127,4 +127,4 @@ TEST(Sensitivity, WhatDoesNotVaryHangsOnNothing) {
   EXPECT_FALSE(analysis::sensitivity({}, 3, 1));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

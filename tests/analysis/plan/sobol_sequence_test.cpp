@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 
@@ -79,4 +79,4 @@ TEST(SobolSequence, IntegratesBetterThanChance) {
   EXPECT_LT(std::fabs(sum / count - 1.0), deviation / 10);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

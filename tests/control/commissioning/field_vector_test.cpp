@@ -8,7 +8,7 @@
 #include "sixstep/control/commissioning/vector_angle.hpp"
 #include "tests/control/sensing/drawn.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -85,4 +85,4 @@ TEST(VectorAngle, IsTheArcTangent) {
   EXPECT_EQ(vector_angle(0, 0), 0u);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -10,7 +10,7 @@
 
 #include "tests/control/sensing/drawn.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -130,4 +130,4 @@ TEST(HallSurvey, NamesWhatIsWrong) {
   EXPECT_EQ(hall_survey_reading({.turns = 4}, half).verdict, HallSurvey::not_steady);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

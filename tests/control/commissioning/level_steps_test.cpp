@@ -9,7 +9,7 @@
 #include "sixstep/control/commissioning/flux_turn.hpp"
 #include "tests/control/sensing/drawn.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -112,4 +112,4 @@ TEST(FluxTurn, SolvesTheVoltageEquation) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -9,7 +9,7 @@
 
 #include "tests/control/sensing/drawn.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -133,4 +133,4 @@ TEST(PulsePosition, NoiseIsNotTakenForARotor) {
   EXPECT_NEAR(2.0 * above / draws, 0.0465, 0.019);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

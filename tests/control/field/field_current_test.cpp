@@ -10,7 +10,7 @@
 #include "sixstep/control/field/torque_per_ampere.hpp"
 #include "tests/control/scalars.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -23,7 +23,7 @@ double number(Scalar x) {
 }
 
 template <class Scalar>
-class FieldBlocks : public testing::Test {};
+class FieldBlocks : public ::testing::Test {};
 TYPED_TEST_SUITE(FieldBlocks, SensingScalars);
 
 /// Gains of order 1 in parts of the bases, as a scaled drive has them.
@@ -170,4 +170,4 @@ TYPED_TEST(FieldBlocks, TheMagnetPoints150DegreesBehindAndTurnsOnWithTheSpeed) {
     }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -16,7 +16,7 @@
 
 #include "sixstep/control/field/field_drive.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -119,8 +119,8 @@ double model_A(const Machine& m, const Case& x, bool foretells) {
 }
 
 template <class Scalar>
-class FiniteSet : public testing::Test {};
-using Floats = testing::Types<double, float>;
+class FiniteSet : public ::testing::Test {};
+using Floats = ::testing::Types<double, float>;
 TYPED_TEST_SUITE(FiniteSet, Floats);
 
 TYPED_TEST(FiniteSet, ForetellsTheCurrentOfTheWindingsEquation) {
@@ -294,4 +294,4 @@ TEST(FiniteSets, DoubleAndFloatAgree) {
   EXPECT_LE(other, 1);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -12,7 +12,7 @@
 #include "sixstep/control/field/field_drive.hpp"
 #include "sixstep/control/frames.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -48,8 +48,8 @@ HarmonicCurrentConfig<Scalar> of_the_trapezoid() {
 }
 
 template <class Scalar>
-class HarmonicCurrent : public testing::Test {};
-using Floats = testing::Types<double, float>;
+class HarmonicCurrent : public ::testing::Test {};
+using Floats = ::testing::Types<double, float>;
 TYPED_TEST_SUITE(HarmonicCurrent, Floats);
 
 /// Of straight lines between points D apart that lie on g to D^2/8 times the largest |g''|, which is 1.6 here.
@@ -190,4 +190,4 @@ TYPED_TEST(HarmonicCurrent, TheDriveFeedsTheShapeForward) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

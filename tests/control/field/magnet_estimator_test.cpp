@@ -9,13 +9,13 @@
 #include <limits>
 #include <numbers>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
 template <class Scalar>
-class MagnetEstimator : public testing::Test {};
-using Floating = testing::Types<double, float>;
+class MagnetEstimator : public ::testing::Test {};
+using Floating = ::testing::Types<double, float>;
 TYPED_TEST_SUITE(MagnetEstimator, Floating);
 
 template <class Scalar>
@@ -204,4 +204,4 @@ TYPED_TEST(MagnetEstimator, SpeedSaysWhichOneIsFollowed) {
   EXPECT_EQ(detail::flux_weight(c, TypeParam(0)), TypeParam(1));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

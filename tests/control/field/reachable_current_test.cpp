@@ -9,7 +9,7 @@
 
 #include "tests/control/scalars.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -19,7 +19,7 @@ double number(Scalar x) {
 }
 
 template <class Scalar>
-class ReachableCurrent : public testing::Test {};
+class ReachableCurrent : public ::testing::Test {};
 TYPED_TEST_SUITE(ReachableCurrent, SensingScalars);
 
 /// Parts of the bases; R and w p L below 1.
@@ -135,4 +135,4 @@ TEST(ReachableCurrentLaw, ABrakedRotorGetsTheNearestCurrent) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

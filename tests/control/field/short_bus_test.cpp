@@ -17,7 +17,7 @@
 
 #include "sixstep/control/field/field_drive.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 using Complex = std::complex<double>;
@@ -231,4 +231,4 @@ TEST(ShortBus, BegunBeyondTheBusItSwingsOnce) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -12,7 +12,7 @@
 #include "tests/control/scalars.hpp"
 #include "tests/control/sensing/drawn.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -105,7 +105,7 @@ TEST(BinaryAngle, QuantisingRoundsDown) {
 }
 
 template <class Scalar>
-class BinaryAngleIn : public testing::Test {};
+class BinaryAngleIn : public ::testing::Test {};
 TYPED_TEST_SUITE(BinaryAngleIn, SensingScalars);
 
 TYPED_TEST(BinaryAngleIn, HalfTurnsAndWholeNumbersAreRoundedOnce) {
@@ -181,4 +181,4 @@ TEST(Sine, TheTablesEntriesAreTheSinesTo2To30) {
     EXPECT_NEAR(detail::sine_entry(n), std::sin(n * std::numbers::pi / 128) * 0x1p30, 1.0) << int{n};
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -11,7 +11,7 @@
 #include "tests/control/scalars.hpp"
 #include "tests/control/sensing/drawn.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -53,7 +53,7 @@ std::uint32_t code_at(double turns, std::uint8_t bits) {
 }
 
 template <class Scalar>
-class GrayIn : public testing::Test {};
+class GrayIn : public ::testing::Test {};
 TYPED_TEST_SUITE(GrayIn, SensingScalars);
 
 /// At constant speed: turns and angle below the code's own step, speed to that step over the span.
@@ -156,4 +156,4 @@ TEST(Gray, AJumpThatStaysIsBelieved) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

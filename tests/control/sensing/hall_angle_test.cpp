@@ -14,7 +14,7 @@
 #include "tests/control/sensing/drawn.hpp"
 #include "tests/control/sensing/hall_rotor.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -64,7 +64,7 @@ void turning(const HallAngleConfig<S>& c, const HallProbes& probes, double deg_p
 }
 
 template <class Scalar>
-class HallAngleIn : public testing::Test {};
+class HallAngleIn : public ::testing::Test {};
 TYPED_TEST_SUITE(HallAngleIn, SensingScalars);
 
 /// Probes misplaced, with hysteresis and delay, all of it known: angle and speed to ticks of the timer.
@@ -201,4 +201,4 @@ TEST(HallAngle, ReversalFaultAndTimeOutBeginAnew) {
   EXPECT_EQ(pass(hall_of_sector(1)).speed, 0.0) << "one edge alone says nothing about speed";
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -12,7 +12,7 @@
 #include "tests/control/sensing/drawn.hpp"
 #include "tests/control/sensing/hall_rotor.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -176,4 +176,4 @@ TEST(HallCalibration, LongRunsDoNotOverflow) {
   for (int n = 0; n < 6; ++n) EXPECT_NEAR(degrees_of(found.at[n]), n == 3 ? 5 : -1, 4 * 360 / 4294967296.0);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -13,7 +13,7 @@
 #include "tests/control/scalars.hpp"
 #include "tests/control/sensing/drawn.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -63,7 +63,7 @@ class Encoder {
 };
 
 template <class Scalar>
-class PulseSpeed : public testing::Test {};
+class PulseSpeed : public ::testing::Test {};
 TYPED_TEST_SUITE(PulseSpeed, SensingScalars);
 
 /// From 1 to 10000 rad/s, both ways: the speed to a tick in T, where T spans the period less a count, or a count.
@@ -215,4 +215,4 @@ TEST(PulseSpeedLaw, MissedEdgesLowerTheMeanByTheirShareAndByTheBound) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

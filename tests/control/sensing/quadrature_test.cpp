@@ -8,7 +8,7 @@
 
 #include "tests/control/sensing/drawn.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -167,4 +167,4 @@ TEST(Quadrature, TheDefaultCountsNothing) {
   EXPECT_FALSE(state.referenced);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

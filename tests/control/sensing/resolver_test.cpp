@@ -13,7 +13,7 @@
 #include "tests/control/sensing/drawn.hpp"
 #include "tests/control/sensing/second_order.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -70,7 +70,7 @@ double static_bound(const Windings& w) {
 }
 
 template <class Scalar>
-class Resolver : public testing::Test {};
+class Resolver : public ::testing::Test {};
 TYPED_TEST_SUITE(Resolver, SensingScalars);
 
 /// Imbalance, skew and offsets that are known are gone, all around the turn; not known they are not.
@@ -270,4 +270,4 @@ TEST(ResolverLaw, ADeadResolverDoesNotTurn) {
     EXPECT_EQ(resolver_step(c, state, {2048, 2048}, n % 2 == 0).angle, n == 0 ? 0u : 12345u);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

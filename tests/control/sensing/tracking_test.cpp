@@ -12,7 +12,7 @@
 #include "tests/control/sensing/drawn.hpp"
 #include "tests/control/sensing/second_order.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -91,7 +91,7 @@ TEST(Tracking, TheDefaultStands) {
 }
 
 template <class Scalar>
-class TrackedSpeed : public testing::Test {};
+class TrackedSpeed : public ::testing::Test {};
 TYPED_TEST_SUITE(TrackedSpeed, SensingScalars);
 
 TYPED_TEST(TrackedSpeed, IsThatOfTheState) {
@@ -108,4 +108,4 @@ TYPED_TEST(TrackedSpeed, IsThatOfTheState) {
   }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

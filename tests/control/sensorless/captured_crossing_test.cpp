@@ -5,7 +5,7 @@
 
 #include "tests/control/sensorless/terminals.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 using namespace sixstep::testing;
@@ -144,4 +144,4 @@ TEST(CapturedCrossing, OnlyLinesThatChangeAreStamped) {
   EXPECT_EQ(lines.at[2], 100u);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

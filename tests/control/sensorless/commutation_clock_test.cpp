@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -57,4 +57,4 @@ TEST(CommutationClock, BeforeIsByLessThanHalfTheCounter) {
   EXPECT_FALSE(comes_before(5u, 5u));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

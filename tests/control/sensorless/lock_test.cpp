@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -72,4 +72,4 @@ TEST(Lock, GivesUpAfterTheRetries) {
   EXPECT_EQ(state.last, LockLoss::masked_crossing);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

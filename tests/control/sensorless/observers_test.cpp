@@ -12,7 +12,7 @@
 #include "tests/control/scalars.hpp"
 #include "tests/control/sensorless/terminals.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 using namespace sixstep::testing;
@@ -126,8 +126,8 @@ TEST(SlidingMode, OutsideTheLayerItIsDrivenInByTheWholeGain) {
 
 /// Either estimate in the scalar at hand, of a current and a voltage in SI that it is told rounded.
 template <class Scalar>
-class Observers : public testing::Test {};
-using ObserverScalars = testing::Types<float, Q15, Q14, Q31, Q30>;
+class Observers : public ::testing::Test {};
+using ObserverScalars = ::testing::Types<float, Q15, Q14, Q31, Q30>;
 TYPED_TEST_SUITE(Observers, ObserverScalars);
 
 TYPED_TEST(Observers, FollowTheOnesOfDoubleWithinTheirRounding) {
@@ -309,4 +309,4 @@ TEST(Observer, GoesOverFromLegToLeg) {
     }
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -10,7 +10,7 @@
 
 #include "tests/control/sensorless/terminals.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 using namespace sixstep::testing;
@@ -128,4 +128,4 @@ TEST(SensorlessDrive, ApproachesADutyFromWhereTheStartLeavesIt) {
   EXPECT_DOUBLE_EQ(detail::approached(config, state, 0.5), 0.01) << "caught: nothing flows yet";
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -7,7 +7,7 @@
 
 #include "tests/control/sensorless/terminals.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 using namespace sixstep::testing;
@@ -60,4 +60,4 @@ TEST(Spin, NoiseOfARotorThatStandsIsNone) {
   EXPECT_FALSE(spin_found(config, state));
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
@@ -103,4 +103,4 @@ TEST(StartUp, AlignsInTwoSteps) {
   EXPECT_EQ(state.step, 2);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

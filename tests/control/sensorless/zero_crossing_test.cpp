@@ -7,7 +7,7 @@
 
 #include "tests/control/sensorless/terminals.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 using namespace sixstep::testing;
@@ -165,4 +165,4 @@ TEST(ZeroCrossing, CountsSamplesThatContradictTheCommand) {
   EXPECT_EQ(state.unlike, 0);
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

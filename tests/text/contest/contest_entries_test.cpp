@@ -10,7 +10,7 @@
 
 #include "text/scenario/scenario_text.hpp"
 
-namespace {
+namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using analysis::Contestant;
@@ -137,4 +137,4 @@ TEST(Contest, APlantedDifferenceIsFound) {
   EXPECT_EQ(differences(bench.scenario, other).front(), "pwm.period_s");
 }
 
-}  // namespace
+}  // namespace SIXSTEP_TEST_FILE

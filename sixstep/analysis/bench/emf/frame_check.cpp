@@ -12,7 +12,7 @@ namespace {
 
 using base::Quantity;
 
-constexpr double rpm_per_rad_s = 30.0 / base::pi, rad_s_per_krpm = 1000.0 / rpm_per_rad_s;
+constexpr double rad_s_per_krpm = 1000.0 / base::rpm_per_rad_s;
 
 /// Constants in V s, or N m/A, per mechanical rad, by their frames.
 struct Frame {
@@ -90,7 +90,7 @@ std::vector<FrameCheck> check_frames(const EmfResult& m, const design::Sheet& sh
     checks.add("back_emf_constant_V_krpm", sheet.back_emf_constant_V_krpm, "V/krpm", both(voltage, six_step),
                "", per(rad_s_per_krpm));
     checks.add("speed_constant_rpm_V", sheet.speed_constant_rpm_V, "rpm/V", both(six_step, voltage), "",
-               [](Interval V_s) { return inverse(V_s, rpm_per_rad_s); });
+               [](Interval V_s) { return inverse(V_s, base::rpm_per_rad_s); });
   }
   const std::vector<Frame> flux{{"phase", m.constants.phase_fundamental},
                                 {"line", m.constants.line_fundamental}};

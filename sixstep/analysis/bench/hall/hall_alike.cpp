@@ -15,8 +15,6 @@
 namespace sixstep::analysis {
 namespace {
 
-constexpr double per_deg = base::pi / 180.0;
-
 /// Peak of a voltage's fundamental over the electrical speed, and one deviation of it.
 struct Size {
   double Vs = 0.0, deviation_Vs = 0.0;
@@ -46,8 +44,8 @@ std::optional<Size> size_of(const HallLog& log, const std::vector<double>& u_V, 
   for (std::size_t n = 0; n < u_V.size(); ++n) {
     const std::optional<MotionPath::At> at = path.at(log.t_s[n]);
     if (!at) continue;
-    const base::SinCos x = base::sin_cos(at->angle_deg * per_deg);
-    const double w = at->speed_deg_s * per_deg;
+    const base::SinCos x = base::sin_cos(at->angle_deg * base::rad_per_deg);
+    const double w = at->speed_deg_s * base::rad_per_deg;
     equations.add(std::array{w * x.cos, w * x.sin, 1.0}, u_V[n]);
     weight += 0.5 * w * w;
   }

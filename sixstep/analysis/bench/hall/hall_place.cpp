@@ -11,7 +11,7 @@
 namespace sixstep::analysis {
 namespace {
 
-std::string columns_of(const HallLog& log) {
+std::string parity_columns(const HallLog& log) {
   if (log.voltages == RecordedVoltages::terminals) return "u_a, u_b, u_c";
   return log.u_V[2].empty() ? "u_ab, u_bc" : "u_ab, u_bc, u_ca";
 }
@@ -118,7 +118,7 @@ base::Result<FoundPlace> which_way(const HallLog& log, const std::vector<Voltage
   for (const int m : {0, 1})
     models[m] = fit_voltages(vectors, turned(by_edges.points, m == 0 ? 1.0 : -1.0, 0.0));
   if (!models[0] || !models[1])
-    return base::Problem{.where = columns_of(log),
+    return base::Problem{.where = parity_columns(log),
                          .limit = "hold too few rows while the rotor turns",
                          .cure = "record voltages and Hall lines at the same time"};
   out.mirrored = models[1]->residual_V2 < models[0]->residual_V2;
@@ -130,7 +130,7 @@ base::Result<FoundPlace> which_way(const HallLog& log, const std::vector<Voltage
   };
   if (odds(out.voltages.still_V2) < (least < 0.5 * out.voltages.still_V2 ? likely : sure))
     return base::Problem{
-        .where = columns_of(log),
+        .where = parity_columns(log),
         .limit = "do not turn with the Hall lines: the best fit leaves " +
                  base::rounded(100.0 * least / std::max(out.voltages.still_V2, 1e-300), 3) +
                  " % of their power",
@@ -170,7 +170,7 @@ base::Result<FoundPlace> place_by_voltages(const HallLog& log, const HallEdges& 
     sightings.bring(now, place->voltages, MotionPath(now.points));
   });
   if (!found)
-    return base::Problem{.where = columns_of(log),
+    return base::Problem{.where = parity_columns(log),
                          .limit = "do not tell where the rotor is",
                          .cure = "turn it by more turns while voltages and Hall lines are recorded"};
   return place;

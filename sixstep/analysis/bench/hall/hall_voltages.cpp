@@ -11,7 +11,6 @@
 namespace sixstep::analysis {
 namespace {
 
-constexpr double per_deg = base::pi / 180.0;
 constexpr std::size_t orders = vector_orders.size();
 
 /// What the model is made of at one place: w exp(j h theta).
@@ -21,9 +20,9 @@ struct Basis {
 
 Basis basis_at(const MotionPath::At& at) {
   Basis b;
-  const double w = at.speed_deg_s * per_deg;
+  const double w = at.speed_deg_s * base::rad_per_deg;
   for (std::size_t n = 0; n < orders; ++n) {
-    const base::SinCos x = base::sin_cos(vector_orders[n] * at.angle_deg * per_deg);
+    const base::SinCos x = base::sin_cos(vector_orders[n] * at.angle_deg * base::rad_per_deg);
     b.re[n] = w * x.cos;
     b.im[n] = w * x.sin;
   }
@@ -207,7 +206,7 @@ double turned_into_place(VoltageModel& model) {
     model.re_Vs[n] = re * turn.cos - model.im_Vs[n] * turn.sin;
     model.im_Vs[n] = re * turn.sin + model.im_Vs[n] * turn.cos;
   }
-  return off / per_deg;
+  return off / base::rad_per_deg;
 }
 
 namespace {
@@ -233,8 +232,8 @@ class Window {
     s.t_s = t_s_ / weight_;
     const std::optional<MotionPath::At> at = path.at(s.t_s);
     if (!at) return {};
-    s.says_deg = at->angle_deg + product_ / weight_ / per_deg;
-    s.known_deg2 = variance_V2 / weight_ / (per_deg * per_deg);
+    s.says_deg = at->angle_deg + product_ / weight_ / base::rad_per_deg;
+    s.known_deg2 = variance_V2 / weight_ / (base::rad_per_deg * base::rad_per_deg);
     s.is_edge = false;
     const bool tells = s.known_deg2 < blurred_deg * blurred_deg && std::fabs(product_ / weight_) < 1.0;
     return tells ? std::optional(s) : std::nullopt;

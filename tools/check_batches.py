@@ -1,0 +1,48 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""check_batches.py [ROOT]: no source keeps a name in its unnamed namespace that a header of its room or below declares too.
+
+Sources of a room are compiled together (cmake/rooms.cmake), where the unnamed namespaces are one. A name that two of them keep stops the
+compiler; one that hides what a header declares does not: the other sources of the batch would call it in the header's place.
+"""
+import pathlib
+import re
+import subprocess
+import sys
+
+DECLARED = re.compile(r"^(?:inline |constexpr |static |\[\[nodiscard\]\] )*(?:[\w:]+(?:<[^;={}()]*>)?[ &*]+)+?(\w+)\(", re.M)
+KEPT = re.compile(r"^namespace \{$(.*?)^\}  // namespace$", re.M | re.S)
+NAMESPACE = re.compile(r"^namespace ([\w:]+) \{$", re.M)
+
+
+def functions(text):
+    return {name for name in DECLARED.findall(text) if name not in ("if", "for", "while", "return", "switch", "operator")}
+
+
+def main():
+    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parents[1])
+    files = subprocess.run(["git", "ls-files", "sixstep", "batch", "text", "files", "report", "faces/cli", "faces/loop/*.cpp", "faces/loop/*.hpp"],
+                           cwd=root, check=True, text=True, stdout=subprocess.PIPE).stdout.split()
+    declared = {}
+    for name in files:
+        if name.endswith(".hpp"):
+            text = (root / name).read_text(encoding="utf-8")
+            for namespace in set(NAMESPACE.findall(text)):
+                for function in functions(text):
+                    declared.setdefault((namespace, function), name)
+    found = 0
+    for name in files:
+        if not name.endswith(".cpp"):
+            continue
+        text = (root / name).read_text(encoding="utf-8")
+        for namespace in set(NAMESPACE.findall(text)):
+            for part in KEPT.findall(text):
+                for function in sorted(functions(part)):
+                    if header := declared.get((namespace, function)):
+                        print(f"{name}: {function}() in its unnamed namespace hides that of {header} in a batch; give it a name of its own")
+                        found += 1
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
