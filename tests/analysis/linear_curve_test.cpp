@@ -20,7 +20,7 @@ constexpr double r = unrolled_at_m;
 
 CurveRequest request(design::Sheet sheet, double duty) {
   sheet.nominal_current_A->frame = "terminal";
-  CurveRequest out{.sheet = std::move(sheet), .bench = maxon_bench(), .points = 5};
+  CurveRequest out{.sheet = std::move(sheet), .bench = maxon_bench(), .points = duty < 1.0 ? 2 : 5};
   out.bench.motor = *design::motor_model(out.sheet);
   out.bench.duty = duty;
   return out;
