@@ -93,7 +93,7 @@ std::string energy_section(const sixstep::study::EnergyBook& b, const sixstep::b
                   b.electrical_residual, largest);
   html += "</div><div><h3>Mechanical</h3>";
   std::vector<Entry> shaft{
-      {b.iron != 0.0 ? "Bearing friction" : "Friction", "viscous and Coulomb", b.friction - b.iron}};
+      {b.iron != 0.0 ? "Bearing friction" : "Friction", "viscous, Coulomb, in a gear", b.friction - b.iron}};
   if (b.iron != 0.0) shaft.push_back({"Iron drag", "eddy currents and hysteresis", b.iron});
   shaft.push_back({"Load", "∫ T<sub>load</sub> ω dt", b.load});
   const std::string stored = std::string(beside.twist ? ", twist" : "") + (beside.cogging ? ", cogging" : "");

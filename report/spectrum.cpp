@@ -165,8 +165,7 @@ Lines lines_of(const Values& time, const Values& values, const Interval& stretch
 std::string origin_of(double at, long long turns, double periods) {
   constexpr long long highest_side = 12;
   const double electrical = static_cast<double>(turns);
-  // Half the width of a tone in a Hann window; of few turns, whose multiples stand near each other, as near as a tone is placed.
-  const double near = turns > 6 ? 1.5 : 0.3;
+  constexpr double near = 0.3;  // lines: a tone is placed to less, unless another one is beside it
   const auto times = [](double n, const char* what) {
     return n == 1.0 ? std::string(what) : fmt::format("{} × {}", n, what);
   };

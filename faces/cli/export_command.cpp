@@ -147,7 +147,8 @@ Exit not_cleared(const ExportArguments& a, const study::Control& control, const 
             " --toml NEW.toml writes a scenario with gains and requirements for it, and says whether they are usable\n",
         stderr);
   print("no header was written; --despite REASON writes one that says all of this\n", stderr);
-  return graver(cli::exit_of(c.outcome), c.unmeasured.empty() ? Exit::ok : Exit::bad_input);
+  const Exit told = !c.unmeasured.empty() ? Exit::bad_input : c.unheld.empty() ? Exit::ok : Exit::failed;
+  return graver(cli::exit_of(c.outcome), told);
 }
 
 Exit export_header(const ExportArguments& a) {
@@ -199,7 +200,7 @@ void declare_options(CLI::App& header, ExportArguments& a) {
       .add_option(
           "--range", a.ranges,
           "fixed point: the most that is measured or asked for, as --range current_A=20; also speed_rad_s, "
-          "position_deg, bus_V, setpoint; without it what the scenario's motor and bus can reach")
+          "position_deg, bus_V, setpoint; without it twice the current that is asked for or limited, and the speed that the bus can reach")
       ->allow_extra_args(false);
   take_sets(header, a.sets);
   header.add_option("--namespace", a.name_space, "C++ namespace of what the header declares")

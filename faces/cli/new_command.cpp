@@ -13,6 +13,7 @@
 #include "faces/cli/spec_words.hpp"
 #include "faces/cli/terminal.hpp"
 #include "files/scenario_on_disk.hpp"
+#include "files/text_file.hpp"
 #include "sixstep/analysis/verify/first_scenario.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "text/escape/escape.hpp"
@@ -51,9 +52,17 @@ base::Result<study::Scenario> scenario_of(const NewArguments& a, const std::stri
   return scenario;
 }
 
-/// The schema lies beside the scenario, where its first line looks for it; one that is there already stays.
-base::Problems write_schema(const std::string& path) {
-  return taken(path).empty() ? write_new(path, text::scenario_schema()) : base::Problems{};
+/// The schema lies beside the scenario, where its first line looks for it; one that is there already stays, and is told if another.
+base::Result<std::string> write_schema(const std::string& path) {
+  if (taken(path).empty()) {
+    const base::Problems problems = write_new(path, text::scenario_schema());
+    if (!problems.empty()) return problems;
+  } else if (const base::Result<std::string> there = files::read_text(path);
+             !there || *there != text::scenario_schema()) {
+    return fmt::format("; {} beside it is another and stays: editors need that of sixstep schema scenario",
+                       text::visible(path));
+  }
+  return fmt::format(", and {}, with which editors complete and check it", text::visible(path));
 }
 
 Exit new_command(const NewArguments& a) {
@@ -70,12 +79,13 @@ Exit new_command(const NewArguments& a) {
   }
   const std::string schema = (fs::path(path).parent_path() / text::scenario_schema_file).string();
   base::Problems problems = write_new(path, text);
-  if (problems.empty()) problems = write_schema(schema);
   if (!problems.empty()) return refused(problems);
+  const base::Result<std::string> beside = write_schema(schema);
+  if (!beside) return refused(beside.problems());
   print(
-      fmt::format("wrote {}, and {}, with which editors complete and check it\n"
+      fmt::format("wrote {}{}\n"
                   "next: sixstep run {} --html {}\n",
-                  text::visible(path), text::visible(schema), text::shell_word(path),
+                  text::visible(path), *beside, text::shell_word(path),
                   text::shell_word(fs::path(path).replace_extension(".html").string())));
   if (scenario->pwm.period_s < text::stm32_least_period_s)
     print(fmt::format(

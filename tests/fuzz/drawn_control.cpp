@@ -176,6 +176,9 @@ void draw_protection(Draw& draw, Scenario& s, const Scales& of) {
   p.voltage_samples = 1 + draw.one_of(10);
   if (draw.chance(0.4)) {
     p.stall_current_A = draw.between(0.2, 0.7) * *p.over_current_A;
+    // Above what the speed loop may ask for it would never trip.
+    if (loop && s.control.mode != Mode::current)
+      p.stall_current_A = std::min(*p.stall_current_A, 0.5 * of.kept_A);
     p.stall_s = draw.between(5.0, 200.0) * s.pwm.period_s;
   }
   if (draw.chance(0.3)) p.offset_tolerance_A = draw.between(0.02, 0.1) * *s.sensors.current_range_A;

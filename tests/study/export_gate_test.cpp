@@ -188,6 +188,48 @@ TEST(ExportGate, WhatTheRunMissedStandsAgainstItInDigitsThatTellItFromTheLimit) 
   EXPECT_EQ(missed->outcome.digest, held->outcome.digest);
 }
 
+/// A converter that ends below what flows: the lean drive has no fault that would tell.
+TEST(ExportGate, WhatFlowsBeyondTheConverterStandsAgainstIt) {
+  Scenario s = on_a_board(Mode::current);
+  s.duration_s = 5e-3;
+  const auto held = study::clear_for_export(s);
+  ASSERT_TRUE(held && held->clear());
+  EXPECT_TRUE(held->outcome.comparisons.empty()) << "what the gate looks at is not the scenario's";
+  s.sensors.current_range_A = 3.02;  // 3 A are asked for
+  const auto blind = study::clear_for_export(s);
+  ASSERT_TRUE(blind);
+  ASSERT_THAT(wheres(blind->unheld), ElementsAre("sensors.current_range_A"));
+  EXPECT_THAT(blind->unheld[0].limit, ::testing::HasSubstr("beyond which the drive sees nothing"));
+}
+
+/// Its scenario never lets the drive go, the first bench does: 0.6 J of the rotor go back into 0.1 mF, which takes 0.03 J up to the
+/// threshold, unless the supply takes them.
+TEST(ExportGate, AStopThatEndsInAFaultStandsAgainstIt) {
+  Scenario s = product_scenario(Mode::speed, 300.0);
+  s.duration_s = 0.5;
+  s.pwm.chopping = control::Chopping::complementary;
+  s.pwm.delay_periods = 1;
+  s.bridge.dead_time_s = 500e-9;
+  s.supply.resistance_ohm = 0.1;
+  s.supply.capacitance_F = 1e-4;
+  s.protection.brake_current_A = 2.0;
+  s.require.push_back({measure(study::MetricKind::maximum, study::Signal::current), {}, 15.0});
+  for (const bool sinks : {true, false}) {
+    s.supply.sinks = sinks;
+    const auto run = study::clear_for_export(s);
+    ASSERT_TRUE(run) << to_string(run.problems()[0]);
+    EXPECT_TRUE(run->outcome.passed());
+    EXPECT_EQ(run->clear(), sinks);
+    if (sinks) continue;
+    ASSERT_THAT(wheres(run->unheld), ElementsAre("protection.brake_current_A"));
+    EXPECT_THAT(run->unheld[0].limit, ::testing::HasSubstr("is let go at 0.5 s: over-voltage"));
+  }
+  s.protection.off_at_s = 0.4;  // shown, and judged as the run that it is
+  const auto shown = study::clear_for_export(s);
+  ASSERT_TRUE(shown);
+  EXPECT_TRUE(shown->outcome.trip);
+}
+
 TEST(ExportGate, ATripStandsAgainstItToo) {
   Scenario s = product_scenario(Mode::current, 3.0);
   s.duration_s = 5e-3;

@@ -13,8 +13,9 @@ namespace {
 constexpr double whole = base::sector_rad, half = base::sector_rad / 2;
 constexpr double deg_per_rad = 180 / base::pi;
 
-/// Between the half of straight wires' torque that a shift by a sector leaves and all of it.
-constexpr double well_above_part = 0.75;
+/// Between the half of straight wires' torque that a shift by a sector leaves and all of it. Reluctance may add to that half; at one
+/// end of each sector it is nothing all the same.
+constexpr double well_above_part = 0.75, well_above_least = 0.2;
 
 struct Sums {
   double mean = 0.0, square = 0.0, first_half = 0.0, second_half = 0.0;
@@ -54,9 +55,10 @@ double rest_between(const PairTorque& torque, const WiringTheory& t, std::uint8_
 
 /// A pair that is driven before its turn has its torque still to come: on the rotor's way through a sector it rises from nothing.
 /// One that is kept behind its turn loses it.
-WiringDoes running(int direction, double part, const Sums& s) {
+WiringDoes running(int direction, double part, double least_part, const Sums& s) {
   const bool forward = direction > 0, falls = direction * (s.first_half - s.second_half) > 0;
-  if (part >= well_above_part) return forward ? WiringDoes::forward : WiringDoes::backward;
+  if (part >= well_above_part && least_part >= well_above_least)
+    return forward ? WiringDoes::forward : WiringDoes::backward;
   const bool early = falls != forward;  // backward, a sector's second half comes first
   if (forward) return early ? WiringDoes::forward_early : WiringDoes::forward_late;
   return early ? WiringDoes::backward_early : WiringDoes::backward_late;
@@ -92,10 +94,10 @@ WiringTheory wiring_theory(const PairTorque& torque, const rig::Wiring& wiring) 
     std::sort(t.rests_deg.begin(), t.rests_deg.end());
     return t;
   }
-  t.does = running(direction, std::fabs(t.part), own);
   t.least_part = std::numeric_limits<double>::infinity();
   for (const TorquePoint& p : torque_over_turn(torque, wiring, 60))
     t.least_part = std::min(t.least_part, direction * p.torque_Nm_A / best.mean);
+  t.does = running(direction, std::fabs(t.part), t.least_part, own);
   return t;
 }
 

@@ -110,9 +110,10 @@ void look_at_ripple(const DriveDesign& d, Collector& out) {
   std::string what = "the PWM ripple reaches " + base::three_digits(d.ripple.worst_A) + " A, " +
                      base::rounded(100.0 * d.ripple.worst_A / d.nominal_current_A, 4) + " % of " +
                      nominal_current_words(d);
-  // Two lines are in the loop, and the ripple goes with 1/L.
+  // The period in which the ripple is so great goes with L, whether L/R is long against it or not.
+  const double allowed_s = period_for_ripple_s(d.motor, d.bus_V, d.spec.chopping, allowed_A);
   if (grave)
-    what += ": " + milli((d.ripple.worst_A / allowed_A - 1) * d.motor.machine.L_H) +
+    what += ": " + milli((d.spec.period_s / allowed_s - 1) * d.motor.machine.L_H) +
             " mH of choke in each line leave " + base::three_digits(100 * greatest_ripple) + " %";
   out.add(Concern::ripple, std::move(what), grave);
 }

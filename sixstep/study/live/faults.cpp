@@ -172,13 +172,19 @@ base::Problem stopped_by(rig::Fault fault, const rig::Diagnosis& found, double t
 }
 
 base::Problem ran_away(const plant::State<double>& s, double t_s) {
-  const auto [name, value] = [&s]() -> std::pair<const char*, double> {
+  struct Quantity {
+    const char *name, *unit;
+    double value;
+  };
+  const Quantity found = [&s]() -> Quantity {
     for (const double i : s.i)
-      if (!(i - i == 0.0)) return {"a current", i};
-    if (!(s.bus - s.bus == 0.0)) return {"the bus voltage", s.bus};
-    return {"the speed", s.w};
+      if (!(i - i == 0.0)) return {"a current", " A", i};
+    if (!(s.bus - s.bus == 0.0)) return {"the bus voltage", " V", s.bus};
+    return {"the speed", " rad/s", s.w};
   }();
-  return {at(t_s), "", std::string("the run has run away: ") + name + " is " + base::rounded(value, 3),
+  return {at(t_s), "",
+          std::string("the run has run away: ") + found.name + " is " + base::rounded(found.value, 3) +
+              found.unit,
           "look at the load, the friction and the moment of inertia, then at the supply"};
 }
 

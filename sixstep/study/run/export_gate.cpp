@@ -10,6 +10,7 @@
 #include "sixstep/design/sheet/parameters.hpp"
 #include "sixstep/study/check/check.hpp"
 #include "sixstep/study/scenario/changes.hpp"
+#include "sixstep/study/scenario/reference_waveform.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
 
 namespace sixstep::study {
@@ -180,6 +181,86 @@ std::string measured(const Verdict& v) {
   return v.unit.empty() ? text : text + " " + v.unit;
 }
 
+/// Of a current that somebody sets. Under a speed loop a limit stands, and soft chopping lets a braking current pass it.
+bool converts_currents(const Scenario& s) {
+  return s.control.mode == Mode::current && reads_currents(s) &&
+         s.sensors.currents != rig::CurrentMeasurement::ideal && s.sensors.current_range_A;
+}
+
+/// The extremes of all phases, behind what the scenario compares.
+void watch_currents(Scenario& s) {
+  for (const Signal phase : {Signal::phase_a, Signal::phase_b, Signal::phase_c})
+    for (const MetricKind end : {MetricKind::minimum, MetricKind::maximum}) {
+      Measure m;
+      m.metric = end;
+      m.signal = phase;
+      s.compare.push_back({m, 0.0, ""});
+    }
+}
+
+/// The greatest of them; the outcome is then as of the scenario itself.
+double take_peak(const Scenario& s, Outcome& outcome) {
+  double peak = 0.0;
+  for (; outcome.comparisons.size() > s.compare.size(); outcome.comparisons.pop_back())
+    peak = std::fmax(peak, std::fabs(outcome.comparisons.back().measured));
+  return peak;
+}
+
+/// What flows above the converter's end, the drive neither sees nor limits.
+void look_at_range(const Scenario& s, double peak_A, base::Problems& out) {
+  if (!converts_currents(s)) return;
+  const double range = *s.sensors.current_range_A;
+  const double end =
+      range - 2 * range / std::ldexp(1.0, s.sensors.adc_bits) - std::fabs(s.sensors.current_offset_A);
+  if (peak_A < end) return;
+  out.push_back({"sensors.current_range_A", written(range),
+                 "was left by the run: " + base::three_digits(peak_A) +
+                     " A flowed, and the converter ends at " + base::three_digits(end) +
+                     " A, beyond which the drive sees nothing",
+                 "widen it, or lower what the drive asks for"});
+}
+
+/// How long it brakes at most: from no-load speed, with half as much again for friction that drives.
+double braking_s(const Scenario& s, const design::MotorModel& motor) {
+  constexpr double shortest = 20e-3, longest = 2.0;
+  const double w = s.supply.voltage_V / motor.K_t_Nm_A, J = motor.shaft.J_kg_m2 + s.load.inertia_kg_m2;
+  return std::clamp(1.5 * J * w / (motor.K_t_Nm_A * s.protection.brake_current_A), shortest, longest);
+}
+
+/// The end of the level at which most is asked for.
+double end_of_the_highest(const Scenario& s) {
+  const std::vector<Level> levels = reference_levels(s);
+  std::size_t highest = 0;
+  for (std::size_t n = 0; n < levels.size(); ++n)
+    if (levels[n].at_s < s.duration_s && std::fabs(levels[n].value) > std::fabs(levels[highest].value))
+      highest = n;
+  return highest + 1 < levels.size() ? std::min(levels[highest + 1].at_s, s.duration_s) : s.duration_s;
+}
+
+/// A drive that brakes when it is let go does so on the first bench: here at its highest setpoint, unless the scenario lets it go.
+void run_the_stop(const Scenario& s, const Listeners& listeners, Clearance& c) {
+  if (s.control.drive != FirmwareKind::product || !(s.protection.brake_current_A > 0) ||
+      s.protection.off_at_s)
+    return;
+  Scenario stop = s;
+  const double off_s = end_of_the_highest(s);
+  stop.protection.off_at_s = off_s;
+  stop.duration_s = std::max(s.duration_s, off_s + braking_s(s, c.outcome.motor));
+  if (stop.duration_s == off_s) return;
+  stop.require.clear();
+  stop.compare.clear();
+  const base::Result<Outcome> out =
+      run(stop, {.on_record = {}, .on_event = {}, .keep_going = listeners.keep_going, .keep_books = false});
+  if (!out) return append(c.unheld, out.problems());
+  if (!out->trip) return;
+  std::string reasons;
+  for (const std::string& reason : out->trip->reasons) reasons += (reasons.empty() ? "" : ", ") + reason;
+  c.unheld.push_back({"protection.brake_current_A", written(s.protection.brake_current_A),
+                      "ends in a fault where the drive is let go at " + base::rounded(off_s, 4) + " s: " +
+                          reasons + " after " + base::three_digits(1e3 * (out->trip->at_s - off_s)) + " ms",
+                      "lower it, or let the scenario show the stop: protection.off_at_s"});
+}
+
 }  // namespace
 
 base::Problems never_measured(const Scenario& s) {
@@ -210,10 +291,15 @@ base::Result<Clearance> clear_for_export(const Scenario& scenario, const Listene
     return base::Problem{"motor", "\"" + scenario.motor + "\"",
                          "is linear, and a header speaks of turning motors only",
                          "take the gains from the run's report"};
-  base::Result<Outcome> outcome = run(scenario, listeners);
+  Scenario watched = scenario;
+  if (converts_currents(scenario)) watch_currents(watched);
+  base::Result<Outcome> outcome = run(watched, listeners);
   if (!outcome) return outcome.problems();
   Clearance c{.outcome = std::move(*outcome), .unmeasured = never_measured(scenario), .unheld = {}};
+  const double peak_A = take_peak(scenario, c.outcome);
   c.unheld = not_held(c.outcome);
+  look_at_range(scenario, peak_A, c.unheld);
+  if (c.unheld.empty()) run_the_stop(scenario, listeners, c);
   return c;
 }
 
