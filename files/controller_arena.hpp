@@ -68,7 +68,7 @@ class ControllerArena {
   }
 
  private:
-  static constexpr std::size_t forbidden = 65536, room_bytes = 2 * 65536;
+  static constexpr std::size_t forbidden = 65536, room_bytes = 2 * forbidden;
   static constexpr std::size_t size = 3 * (forbidden + room_bytes) + forbidden;
 
   static std::byte* reserved() {

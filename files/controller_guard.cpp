@@ -10,6 +10,7 @@
 #include <cstring>
 #include <deque>
 #include <mutex>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -179,12 +180,24 @@ void in_controller(const std::string& path, const std::function<void()>& work) {
   inside(stays, ControllerPlace::loading, [&](const ControllerThread&) { work(); });
 }
 
+namespace {
+
+/// Member by member: what stands between two of them is nobody's.
+bool is_same(const sixstep_controller& a, const sixstep_controller& b) {
+  const auto all = [](const sixstep_controller& c) {
+    return std::tie(c.interface, c.answers, c.name, c.sentence, c.config_bytes, c.state_bytes, c.parameters,
+                    c.parameter, c.design, c.start, c.step, c.hall);
+  };
+  return all(a) == all(b);
+}
+
+}  // namespace
+
 base::Result<const sixstep_controller*> guarded_controller(const std::string& path,
                                                            const sixstep_controller& real) {
   const std::lock_guard lock(adding);
   for (std::size_t n = 0; n < loaded_controllers; ++n)
-    if (controllers[n].path == path && std::memcmp(&controllers[n].real, &real, sizeof real) == 0)
-      return &controllers[n].shown;
+    if (controllers[n].path == path && is_same(controllers[n].real, real)) return &controllers[n].shown;
   if (loaded_controllers == most_controllers)
     return base::Problem{.where = path,
                          .limit = fmt::format("is one more than the {} controllers that a program may load",
