@@ -188,6 +188,27 @@ TEST(ExportGate, WhatTheRunMissedStandsAgainstItInDigitsThatTellItFromTheLimit) 
   EXPECT_EQ(missed->outcome.digest, held->outcome.digest);
 }
 
+/// A rotor that is held takes what the speed loop may ask for, 0.195 N m / 33.5 mNm/A of this one, and no more.
+TEST(ExportGate, AStallThatTheLimitHidesStandsAgainstIt) {
+  Scenario s = product_scenario(Mode::speed, 100.0);
+  s.pwm.delay_periods = 1;
+  s.bridge.dead_time_s = 500e-9;
+  s.require.push_back({measure(study::MetricKind::maximum, study::Signal::current), {}, 15.0});
+  s.control.current.limit_A.reset();
+  s.control.speed.torque_limit_Nm = 0.195;
+  s.protection.stall_s = 0.1;
+  for (const double amps : {5.6, 5.75, 5.82, 12.0}) {
+    s.protection.stall_current_A = amps;
+    const base::Problems told = study::never_measured(s);
+    EXPECT_EQ(told.empty(), amps < 0.98 * 0.195 / 33.5e-3 - 0.02) << amps;
+    for (const base::Problem& p : told)
+      EXPECT_THAT(to_string(p), ::testing::HasSubstr("5.82 A, control.speed.torque_limit_Nm over K_t"));
+  }
+  s.control.mode = Mode::current;  // whoever sets the current may ask for any
+  s.protection.stall_current_A = 8.0;
+  EXPECT_THAT(unmeasured(s), IsEmpty());
+}
+
 /// A converter that ends below what flows: the lean drive has no fault that would tell.
 TEST(ExportGate, WhatFlowsBeyondTheConverterStandsAgainstIt) {
   Scenario s = on_a_board(Mode::current);

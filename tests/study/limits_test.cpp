@@ -147,32 +147,15 @@ TEST(Limits, OneShuntHidesWhatALimitOfCurrentMustSee) {
   EXPECT_THAT(refusal(s), HasSubstr("control.limits.current_A = 2 needs every phase's current"));
 }
 
-/// A rotor that is held takes what the speed loop may ask for, 0.195 N m / 33.5 mNm/A of this one, and no more.
-TEST(Product, AThresholdThatTheLimitHidesIsRefused) {
+TEST(Product, BrakingAboveOverCurrentIsRefused) {
   Scenario s = product_scenario(Mode::speed, 100.0);
-  s.control.current.limit_A.reset();
-  s.control.speed.torque_limit_Nm = 0.195;
-  s.protection.stall_s = 0.1;
-  for (const double amps : {5.6, 5.75, 5.82, 12.0}) {
-    s.protection.stall_current_A = amps;
-    const auto told = study::check(s);
-    EXPECT_EQ(told.empty(), amps < 0.98 * 0.195 / 33.5e-3 - 0.02) << amps;
-    for (const base::Problem& p : told)
-      EXPECT_THAT(to_string(p), HasSubstr("5.82 A, control.speed.torque_limit_Nm over K_t"));
-  }
-  s.protection.stall_current_A = 4.0;
   s.protection.brake_current_A = *s.protection.over_current_A;
   ASSERT_EQ(study::check(s).size(), 1u);
   EXPECT_THAT(to_string(study::check(s)[0]), HasSubstr("braking would be a fault"));
-  s.control.mode = Mode::current;  // whoever sets the current may ask for any
-  s.protection.brake_current_A = 0.0;
-  s.protection.stall_current_A = 8.0;
-  EXPECT_TRUE(study::check(s).empty());
 }
 
 TEST(Product, AThresholdBeyondTheConverterIsRefused) {
   Scenario s = product_scenario(Mode::speed, 100.0);
-  s.control.current.limit_A = 40.0;
   s.sensors.current_offset_A = 0.1;
   s.protection.stall_s = 0.1;
   s.protection.stall_current_A = 20.3;  // 20.47 less 0.1

@@ -134,19 +134,8 @@ void check_hall_filter(const Scenario& s, const design::MotorModel& motor, base:
                  : "set it to 1, shorten pwm.period_s, or lower over_speed_rad_s"});
 }
 
-/// A rotor that is held takes the current that the speed loop may ask for, and no more.
-void check_against_limit(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
-  const std::optional<double> most = current_limit_A(s, motor);
+void check_braking(const Scenario& s, base::Problems& out) {
   const Protection& p = s.protection;
-  // What is held at the limit is read a count and a little noise beside it.
-  const double count_A = s.sensors.current_range_A.value_or(0.0) * 2 / std::ldexp(1.0, s.sensors.adc_bits);
-  if (most && p.stall_current_A && *p.stall_current_A > 0.98 * *most - 2 * count_A)
-    out.push_back({"protection.stall_current_A", written(*p.stall_current_A),
-                   "may never be passed: the current is limited to " + base::three_digits(*most) + " A, " +
-                       (s.control.current.limit_A         ? "control.current.limit_A"
-                        : s.control.speed.torque_limit_Nm ? "control.speed.torque_limit_Nm over K_t"
-                                                          : "the usual torque limit over K_t"),
-                   "lower it, as to " + base::written(base::shortened(0.8 * *most, 2, base::Towards::down))});
   if (p.over_current_A && p.brake_current_A >= *p.over_current_A)
     out.push_back({"protection.brake_current_A", written(p.brake_current_A),
                    "is not below protection.over_current_A = " + written(*p.over_current_A) +
@@ -183,6 +172,20 @@ std::optional<double> current_limit_A(const Scenario& s, const design::MotorMode
   return torque / motor.K_t_Nm_A;
 }
 
+void look_at_stalling(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
+  const std::optional<double> most = current_limit_A(s, motor);
+  const Protection& p = s.protection;
+  // What is held at the limit is read a count and a little noise beside it.
+  const double count_A = s.sensors.current_range_A.value_or(0.0) * 2 / std::ldexp(1.0, s.sensors.adc_bits);
+  if (!most || !p.stall_current_A || *p.stall_current_A <= 0.98 * *most - 2 * count_A) return;
+  out.push_back({"protection.stall_current_A", written(*p.stall_current_A),
+                 "may never be passed: the current is limited to " + base::three_digits(*most) + " A, " +
+                     (s.control.current.limit_A         ? "control.current.limit_A"
+                      : s.control.speed.torque_limit_Nm ? "control.speed.torque_limit_Nm over K_t"
+                                                        : "the usual torque limit over K_t"),
+                 "lower it, as to " + base::written(base::shortened(0.8 * *most, 2, base::Towards::down))});
+}
+
 void check_product(const Scenario& s, const std::optional<design::MotorModel>& motor, base::Problems& out) {
   if (s.control.drive != FirmwareKind::product) return check_lean(s, out);
   check_registers(s, out);
@@ -191,7 +194,7 @@ void check_product(const Scenario& s, const std::optional<design::MotorModel>& m
   check_advance(s, out);
   if (!motor) return;
   check_hall_filter(s, *motor, out);
-  check_against_limit(s, *motor, out);
+  check_braking(s, out);
 }
 
 namespace {

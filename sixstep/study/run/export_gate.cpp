@@ -9,6 +9,7 @@
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/sheet/parameters.hpp"
 #include "sixstep/study/check/check.hpp"
+#include "sixstep/study/check/product.hpp"
 #include "sixstep/study/scenario/changes.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
@@ -270,6 +271,8 @@ base::Problems never_measured(const Scenario& s) {
   look_at_delay(s, out);
   look_at_dead_time(s, out);
   look_at_changes(s, out);
+  if (const auto motor = design::motor_model(s.sheet); motor && s.control.drive == FirmwareKind::product)
+    look_at_stalling(s, *motor, out);
   if (s.require.empty())
     out.push_back({"require", "", "is missing: where nothing is asked of a run, nothing has been shown",
                    "say in [[require]] what the drive must do; see the help on require"});

@@ -10,7 +10,7 @@
 namespace sixstep::study {
 
 /// What a run of this scenario leaves unmeasured, each with its cure: sensors that the drive reads and no
-/// board has, an answer that takes no time, switches that need none, constants that the run changed on its way,
+/// board has, an answer that takes no time, a stall that is never seen, switches that need none, constants that the run changed on its way,
 /// a run of which nothing is asked. What the drive does not read may stay ideal.
 base::Problems never_measured(const Scenario& scenario);
 
