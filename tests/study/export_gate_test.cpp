@@ -204,6 +204,9 @@ TEST(ExportGate, AStallThatTheLimitHidesStandsAgainstIt) {
     for (const base::Problem& p : told)
       EXPECT_THAT(to_string(p), ::testing::HasSubstr("5.82 A, control.speed.torque_limit_Nm over K_t"));
   }
+  s.control.current.limit_A = 10.0;  // the torque's limit is the lower one
+  s.protection.stall_current_A = 8.0;
+  EXPECT_THAT(unmeasured(s), ElementsAre("protection.stall_current_A"));
   s.control.mode = Mode::current;  // whoever sets the current may ask for any
   s.protection.stall_current_A = 8.0;
   EXPECT_THAT(unmeasured(s), IsEmpty());

@@ -180,7 +180,7 @@ WiringDoes seen_in(const WiringMeasured& m, double straight_Nm_A) {
   double least = std::numeric_limits<double>::infinity();
   for (const float torque : m.torque_over_turn)
     least = std::min(least, forward ? torque : -static_cast<double>(torque));
-  if (std::fabs(m.torque_Nm_A) > 0.75 * straight_Nm_A && least > 0.2 * straight_Nm_A)
+  if (std::fabs(m.torque_Nm_A) > well_above_part * straight_Nm_A && least > well_above_least * straight_Nm_A)
     return forward ? WiringDoes::forward : WiringDoes::backward;
   // In the rotor's own direction the torque of an early pair rises, that of a late one falls.
   const double rise = half_mean(m.torque_over_turn, true) - half_mean(m.torque_over_turn, false);

@@ -13,10 +13,6 @@ namespace {
 constexpr double whole = base::sector_rad, half = base::sector_rad / 2;
 constexpr double deg_per_rad = 180 / base::pi;
 
-/// Between the half of straight wires' torque that a shift by a sector leaves and all of it. Reluctance may add to that half; at one
-/// end of each sector it is nothing all the same.
-constexpr double well_above_part = 0.75, well_above_least = 0.2;
-
 struct Sums {
   double mean = 0.0, square = 0.0, first_half = 0.0, second_half = 0.0;
 };

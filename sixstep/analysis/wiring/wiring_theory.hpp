@@ -33,6 +33,10 @@ constexpr bool runs_well(WiringDoes does) {
   return does == WiringDoes::forward || does == WiringDoes::backward;
 }
 
+/// Between the half of straight wires' torque that a shift by a sector leaves and all of it. Reluctance may add to that half; at one
+/// end of each sector it is nothing all the same.
+inline constexpr double well_above_part = 0.75, well_above_least = 0.2;
+
 /// Each torque is per ampere through the driven pair.
 struct WiringTheory {
   WiringDoes does = WiringDoes::hums;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/study/check/product.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -165,11 +166,11 @@ void check_lean(const Scenario& s, base::Problems& out) {
 std::optional<double> current_limit_A(const Scenario& s, const design::MotorModel& motor) {
   const bool cascade = s.control.mode == Mode::speed || s.control.mode == Mode::position;
   if (!cascade || s.control.speed.output == SpeedOutput::duty) return std::nullopt;
-  if (s.control.current.limit_A) return s.control.current.limit_A;
+  const std::optional<double>& limit_A = s.control.current.limit_A;
   const double torque =
       s.control.speed.torque_limit_Nm.value_or(design::usual_torque_limit_Nm(motor, s.supply.voltage_V));
-  if (!(motor.K_t_Nm_A > 0.0) || !(torque > 0.0)) return std::nullopt;
-  return torque / motor.K_t_Nm_A;
+  if (!(motor.K_t_Nm_A > 0.0) || !(torque > 0.0)) return limit_A;
+  return std::min(torque / motor.K_t_Nm_A, limit_A.value_or(HUGE_VAL));
 }
 
 void look_at_stalling(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
@@ -180,7 +181,7 @@ void look_at_stalling(const Scenario& s, const design::MotorModel& motor, base::
   if (!most || !p.stall_current_A || *p.stall_current_A <= 0.98 * *most - 2 * count_A) return;
   out.push_back({"protection.stall_current_A", written(*p.stall_current_A),
                  "may never be passed: the current is limited to " + base::three_digits(*most) + " A, " +
-                     (s.control.current.limit_A         ? "control.current.limit_A"
+                     (s.control.current.limit_A == most ? "control.current.limit_A"
                       : s.control.speed.torque_limit_Nm ? "control.speed.torque_limit_Nm over K_t"
                                                         : "the usual torque limit over K_t"),
                  "lower it, as to " + base::written(base::shortened(0.8 * *most, 2, base::Towards::down))});

@@ -13,7 +13,8 @@ namespace sixstep::study {
 void check_product(const Scenario& scenario, const std::optional<design::MotorModel>& motor,
                    base::Problems& out);
 
-/// The most that a speed loop asks of the current loop, in A; empty where there is no such pair of loops.
+/// The most that a speed loop asks of the current loop, in A: its full torque over K_t, or control.current.limit_A if that is less. Empty
+/// where there is no such pair of loops.
 std::optional<double> current_limit_A(const Scenario& scenario, const design::MotorModel& motor);
 
 /// A rotor that is held takes the current that the speed loop may ask for and no more: a threshold above it never trips. That is told
