@@ -127,6 +127,15 @@ class Gate(ProgramTest):
         ran = self.run_program("run", self.scenario(BOARD), "--set", "control.arithmetic=q15", "--json", "-").stdout
         self.assertIn(f'in q15, digest {re.search(chr(34) + "digest" + chr(34) + ": .(.{16})", ran).group(1)}', text)
 
+    def test_a_move_that_brakes_stays_within_its_boards_range(self):
+        for motor in ("maxon-200142", "maxon-397172", "maxon-651607"):
+            self.run_program("design", motor, "--mode", "position", "--toml", "move.toml", "--force")
+            self.assertIn("cleared = true", self.run_program("export", "header", "move.toml").stdout)
+            scenario = (self.path / "move.toml").read_text()
+            range_A = float(re.search(r"current_range_A = (\S+)", scenario).group(1))
+            narrow = f"sensors.current_range_A={range_A / 2}"
+            self.assertIn("was left by the run", self.run_program("export", "header", "move.toml", "--set", narrow, code=1).stderr)
+
     def test_a_requirement_that_fails_is_refused(self):
         told = self.refused(1, BOARD, "--set", "supply.voltage_V=6")
         self.assertEqual(len(told), 1)

@@ -42,6 +42,19 @@ TEST(Remarks, AnOrdinaryDriveHasNone) {
   EXPECT_THAT(remarks_on(maxon_scenario(Mode::current, 2.0)), IsEmpty());
 }
 
+TEST(Remarks, ABusThatNobodyChose) {
+  Scenario s = held(1.0);
+  s.sheet.nominal_voltage_V = base::Quantity{.value = 36.0};
+  EXPECT_THAT(remarks_on(s), Contains(AllOf(HasSubstr("24 V, which is its default"), HasSubstr("36 V"))));
+  s.supply.voltage_V = 36.0;
+  EXPECT_THAT(remarks_on(s), IsEmpty());
+  s.supply.voltage_V = 30.0;
+  EXPECT_THAT(remarks_on(s), IsEmpty());
+  s.supply.voltage_V = 24.0;
+  s.sheet.nominal_voltage_V.reset();
+  EXPECT_THAT(remarks_on(s), IsEmpty());
+}
+
 TEST(Remarks, AShuntThatSeesNoPulse) {
   Scenario s = held(0.3);
   s.pwm.alignment = study::Alignment::centre;

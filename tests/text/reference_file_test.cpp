@@ -14,6 +14,7 @@
 namespace text {
 namespace SIXSTEP_TEST_FILE {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -28,7 +29,7 @@ std::vector<std::string> told(const std::string& text, const std::optional<std::
 TEST(ReferenceFile, IsReadWhateverPartsItsCells) {
   for (const char* text :
        {"0,1\n0.5,-2.5e1\n", "\xef\xbb\xbft;i\r\n0;1\r\n0,5;-25\r\n", "# remark\n0\t1\n\n0.5\t-25",
-        " 0  1\n 0.5   -25 \n", "\"t_s\",\"i_A\"\n0,1,9\n0.5,-25,9\n"}) {
+        " 0  1\n 0.5   -25 \n", "\"t_s\",\"i_A\"\n0,1\n0.5,-25\n"}) {
     const base::Result<ReferenceRows> rows = reference_rows("r.csv", text, {}, "A");
     ASSERT_TRUE(rows) << text;
     EXPECT_THAT(rows->times_s, ElementsAre(0.0, 0.5)) << text;
@@ -37,6 +38,16 @@ TEST(ReferenceFile, IsReadWhateverPartsItsCells) {
   const base::Result<ReferenceRows> named = reference_rows("r.csv", "t_s,a,b\n0,1,2\n1,3,4\n", "b", "A");
   ASSERT_TRUE(named);
   EXPECT_THAT(named->values, ElementsAre(2.0, 4.0));
+}
+
+TEST(ReferenceFile, WhichOfManyColumnsIsMeantIsNotGuessed) {
+  EXPECT_THAT(
+      told("t [s],x [A],i [A]\n0,0,0\n0.1,3,100\n"),
+      ElementsAre(AllOf(HasSubstr("r.csv:2: has 3 columns: \"x\", \"i\""), HasSubstr("say in column"))));
+  EXPECT_THAT(told("0,0,0\n0.1,3,100\n"), ElementsAre(HasSubstr("keep two columns")));
+  const base::Result<ShapeRows> shape = shape_rows("s.csv", "angle [deg],e,f\n0,0,0\n360,0,0\n");
+  ASSERT_FALSE(shape);
+  EXPECT_THAT(to_string(shape.problems()[0]), HasSubstr("keep two columns"));
 }
 
 TEST(ReferenceFile, AHeadingMayBringAUnit) {

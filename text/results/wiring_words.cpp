@@ -8,6 +8,7 @@
 
 #include "sixstep/base/angle.hpp"
 #include "sixstep/design/sheet/motion.hpp"
+#include "sixstep/design/sheet/parameters.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
 
@@ -168,9 +169,12 @@ std::string bench_text(const analysis::WiringStudy& s) {
   const char* const is = b.from == analysis::BenchCurrent::nominal          ? ", its nominal current"
                          : b.from == analysis::BenchCurrent::tenth_of_stall ? ", a tenth of full duty's"
                                                                             : "";
+  const base::Result<design::MotorModel> motor = design::motor_model(s.subject.sheet);
+  const bool rubs = !motor || motor->shaft.coulomb_Nm > 0 || motor->shaft.B_Nm_s > 0;
   return motion_of(s).words(fmt::format(
-      "{:.6g} V, duty {:.4g}, nothing on the shaft; stalled it draws {:.4g} A{}, at full duty {:.4g} A",
-      b.voltage_V, b.duty, b.current_A, is, b.current_A / b.duty));
+      "{:.6g} V, duty {:.4g}, nothing on the shaft{}; stalled it draws {:.4g} A{}, at full duty {:.4g} A",
+      b.voltage_V, b.duty, rubs ? "" : ", no friction (the motor file names none)", b.current_A, is,
+      b.current_A / b.duty));
 }
 
 }  // namespace text

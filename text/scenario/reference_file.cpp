@@ -22,9 +22,10 @@ constexpr std::size_t most_told = 5;
 /// What the first column is: its unit, and how messages speak of it.
 struct FirstColumn {
   const char *unit, *word, *row;
+  bool selects;  ///< a key says which of several columns of values is meant
 };
-constexpr FirstColumn first_is_time{"s", "time", "a time in s and a value"},
-    angle_column{"deg", "angle", "an angle in degrees and a value"};
+constexpr FirstColumn first_is_time{"s", "time", "a time in s and a value", true},
+    angle_column{"deg", "angle", "an angle in degrees and a value", false};
 
 class RowsOf {
  public:
@@ -61,6 +62,7 @@ class RowsOf {
     if (!column) {
       if (r_.columns.size() < 2)
         return at_line(r_.line_of(0), "has 1 column", fmt::format("each row is {}", first_.row));
+      if (r_.columns.size() > 2) return which_column();
       return Picked{&r_.columns[1], r_.columns[1].unit};
     }
     if (!r_.has_headings)
@@ -69,6 +71,16 @@ class RowsOf {
     const base::Result<std::vector<Picked>> found = columns_called(r_, {*column});
     if (!found) return found.problems();
     return found->front();
+  }
+
+  /// The second one may be anything in a table of many.
+  base::Problem which_column() const {
+    std::string names;
+    for (std::size_t n = 1; n < r_.columns.size(); ++n)
+      names += fmt::format("{}\"{}\"", n == 1 ? "" : ", ", r_.columns[n].name);
+    const std::string keep = fmt::format("keep two columns: {}", first_.row);
+    return at_line(r_.line_of(0), fmt::format("has {} columns: {}", r_.columns.size(), names),
+                   r_.has_headings && first_.selects ? "say in column which of them is meant" : keep);
   }
 
   /// A line is told of once.

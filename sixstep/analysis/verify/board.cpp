@@ -78,7 +78,8 @@ void sense_currents(const design::DriveDesign& d, rig::CurrentMeasurement curren
   if (currents == rig::CurrentMeasurement::ideal || s.current_range_A) return;
   const double most_A = d.spec.mode == control::Mode::current ? design::usual_overload * d.nominal_current_A
                                                               : d.current_at_full_torque_A;
-  s.current_range_A = range_from(1.25 * (most_A + d.ripple.worst_A));
+  const double headroom = d.spec.mode == control::Mode::position ? 2.0 : 1.25;
+  s.current_range_A = range_from(headroom * (most_A + d.ripple.worst_A));
 }
 
 study::Scenario with_ideal_sensors(study::Scenario scenario) {

@@ -7,7 +7,7 @@
 namespace sixstep::analysis {
 
 /// Sensors as boards have them, sized for the design: 12 bits for the phase currents (a quarter above what
-/// the drive may ask for) and for the bus (half as much again), and the spec's rotor sensor with what its keys say where
+/// the drive may ask for; twice that for moves, which brake: the back-EMF then drives the current with the bus) and for the bus (half as much again), and the spec's rotor sensor with what its keys say where
 /// nobody does. All ideal where the spec's rotor is.
 study::Sensors board_sensors(const design::DriveDesign& design);
 /// What sensors.rotor of a scenario is for it.

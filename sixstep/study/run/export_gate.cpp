@@ -182,10 +182,9 @@ std::string measured(const Verdict& v) {
   return v.unit.empty() ? text : text + " " + v.unit;
 }
 
-/// Of a current that somebody sets. Under a speed loop a limit stands, and soft chopping lets a braking current pass it.
 bool converts_currents(const Scenario& s) {
-  return s.control.mode == Mode::current && reads_currents(s) &&
-         s.sensors.currents != rig::CurrentMeasurement::ideal && s.sensors.current_range_A;
+  return reads_currents(s) && s.sensors.currents != rig::CurrentMeasurement::ideal &&
+         s.sensors.current_range_A;
 }
 
 /// The extremes of all phases, behind what the scenario compares.

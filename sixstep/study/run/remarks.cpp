@@ -37,6 +37,17 @@ std::string speed(const Scenario& s, double rad_s) {
 }
 std::string ms(double t_s) { return three_digits(1e3 * t_s) + " ms"; }
 
+/// A bus nobody has chosen, beside the voltage that the motor is made for.
+std::string on_supply(const Scenario& s) {
+  const auto& nominal = s.sheet.nominal_voltage_V;
+  const double usual_V = Supply{}.voltage_V;
+  if (s.supply.source != SourceKind::steady || s.supply.voltage_V != usual_V || !nominal ||
+      std::fabs(nominal->value - usual_V) < 0.1 * usual_V)
+    return {};
+  return "the bus is at supply.voltage_V = " + three_digits(usual_V) +
+         " V, which is its default; the motor's nominal voltage is " + three_digits(nominal->value) + " V";
+}
+
 /// Time from one sector edge to the next.
 double sector_s(const Compiled& c, double rad_s) {
   return base::pi / 3 / (c.motor.machine.pole_pairs * rad_s);
@@ -190,6 +201,7 @@ void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, Outcom
     if (!text.empty()) out.remarks.push_back(std::move(text));
   };
   if (const std::string unused = unused_keys(s); !unused.empty()) add("given without effect: " + unused);
+  add(on_supply(s));
   if (c.own.is) return;  // its gains and samples are its own
   add(on_shunt(s, c, w));
   add(on_hall_timeout(s, c));

@@ -29,7 +29,7 @@ struct Reference {
   double offset = 0.0, amplitude = 0.0;        // sine
   double frequency_Hz = 0.0, phase_deg = 0.0;  // sine
   std::string file{};                          // csv: read into times_s and values by text
-  std::optional<std::string> column{};         // csv: heading of the values; default: the second column
+  std::optional<std::string> column{};  // csv: heading of the values; without it the table has two columns
   Interpolation interpolation = Interpolation::linear;  // csv
   std::optional<std::string> unit{};                    // checked against the mode where given
 };

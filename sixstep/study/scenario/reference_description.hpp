@@ -61,8 +61,9 @@ void describe(Visitor& v, Reference& s) {
   v.value("file", s.file,
           {.meaning = "csv: a file beside this one, time in s first, then the reference; instead of times_s "
                       "and values"});
-  v.value("column", s.column,
-          {.meaning = "csv: heading of the column that holds the reference; without it the second one"});
+  v.value(
+      "column", s.column,
+      {.meaning = "csv: heading of the column that holds the reference; a table of two columns needs none"});
   v.choice("interpolation", s.interpolation, interpolation_choices,
            {.meaning = "csv: what the reference does from row to row"});
   v.value("unit", s.unit,
