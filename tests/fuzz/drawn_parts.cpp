@@ -30,6 +30,9 @@ void draw_bridge(Draw& draw, Scenario& s, double R_ohm) {
   if (draw.chance(0.5)) s.bridge.diode_drop_V = draw.between(0.2, 1.2);
   if (draw.chance(0.5)) s.bridge.diode_resistance_ohm = draw.decades(1e-3, 0.3) * R_ohm;
   if (draw.chance(0.6)) s.bridge.dead_time_s = draw.decades(1e-3, 0.3) * s.pwm.period_s;
+  // A timer whose counts shorten the dead time is refused.
+  if (s.pwm.timer_Hz > 0)
+    s.bridge.dead_time_s = std::ceil(s.bridge.dead_time_s * s.pwm.timer_Hz) / s.pwm.timer_Hz;
   s.bridge.dead_time_at_commutation = draw.chance(0.4);
 }
 

@@ -76,6 +76,8 @@ void draw_tuning(Draw& draw, const Scenario& s, At& at) {
       return;
     default:
       at.bridge.dead_time_s = period * draw.decades(1e-3, 0.1);
+      if (s.pwm.timer_Hz > 0)
+        at.bridge.dead_time_s = std::ceil(*at.bridge.dead_time_s * s.pwm.timer_Hz) / s.pwm.timer_Hz;
   }
 }
 

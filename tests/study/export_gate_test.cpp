@@ -4,8 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string>
+
+#include "sixstep/design/sheet/thermal.hpp"
 #include "sixstep/study/check/check.hpp"
 #include "sixstep/study/run/export_gate.hpp"
+#include "tests/support/bench.hpp"
 #include "tests/support/product_scenarios.hpp"
 
 namespace SIXSTEP_TEST_FILE {
@@ -207,9 +212,67 @@ TEST(ExportGate, AStallThatTheLimitHidesStandsAgainstIt) {
   s.control.current.limit_A = 10.0;  // the torque's limit is the lower one
   s.protection.stall_current_A = 8.0;
   EXPECT_THAT(unmeasured(s), ElementsAre("protection.stall_current_A"));
-  s.control.mode = Mode::current;  // whoever sets the current may ask for any
-  s.protection.stall_current_A = 8.0;
+  s.control.mode = Mode::current;  // the reference is the most that is asked for
+  s.reference.value = -7.0;
+  EXPECT_THAT(unmeasured(s), ElementsAre("protection.stall_current_A"));
+  s.reference.value = -9.0;
   EXPECT_THAT(unmeasured(s), IsEmpty());
+}
+
+/// The winding's time by the thermal model: at I it is heated by I^2 R, and stands that from cold to its limit for as long as the closed
+/// form says, which the sheet's own numbers bound: longer than without any cooling, shorter than for ever.
+TEST(ExportGate, AStallThatTheWindingDoesNotStandStandsAgainstIt) {
+  Scenario s = product_scenario(Mode::current, 15.0);
+  s.pwm.delay_periods = 1;
+  s.bridge.dead_time_s = 500e-9;
+  s.require.push_back({measure(study::MetricKind::maximum, study::Signal::current), {}, 25.0});
+  s.protection.over_current_A = 18.0;
+  s.protection.stall_current_A = 10.0;
+  s.sheet = curve_sheet();
+  s.sheet.nominal_current_A->frame = "terminal";
+  const auto thermal = design::thermal_model(s.sheet);
+  ASSERT_TRUE(thermal);
+  const double capacity = thermal->winding_s / thermal->winding_housing_K_W;
+  const double watts = 15.0 * 15.0 * 1.03;
+  const double uncooled_s = capacity * (thermal->max_winding_degC - 25) / watts;
+  // Warm copper takes more: up to 1.4 times at 125 degC.
+  for (const double stall_s : {uncooled_s / 1.5, uncooled_s * 1.5}) {
+    s.protection.stall_s = stall_s;
+    if (stall_s < uncooled_s)
+      EXPECT_THAT(unmeasured(s), IsEmpty()) << stall_s;
+    else
+      EXPECT_THAT(unmeasured(s), ElementsAre("protection.stall_s")) << stall_s;
+  }
+}
+
+TEST(ExportGate, AnOverSpeedThatNothingReachesStandsAgainstIt) {
+  Scenario s = product_scenario(Mode::current, 3.0);
+  s.pwm.delay_periods = 1;
+  s.bridge.dead_time_s = 500e-9;
+  s.require.push_back({measure(study::MetricKind::maximum, study::Signal::current), {}, 15.0});
+  const double no_load = 24.0 / 33.5e-3;
+  s.protection.over_speed_rad_s = 1.9 * no_load;
+  EXPECT_THAT(unmeasured(s), IsEmpty());
+  s.protection.over_speed_rad_s = 1e5;
+  EXPECT_THAT(unmeasured(s), ElementsAre("protection.over_speed_rad_s"));
+}
+
+/// 0.4 us on counts of 1 us is no dead time at all, 1.4 us is 1 us.
+TEST(ExportGate, ADeadTimeThatTheTimerShortensIsRefused) {
+  Scenario s = on_a_board(Mode::current);
+  s.pwm.timer_Hz = 1e6;
+  for (const double dead_s : {0.4e-6, 1.4e-6, 1e-6, 2e-6, 0.96e-6}) {
+    s.bridge.dead_time_s = dead_s;
+    const bool shortened = dead_s == 0.4e-6 || dead_s == 1.4e-6;
+    EXPECT_EQ(study::check(s).empty(), !shortened) << dead_s;
+    s.bridge.dead_time_s = 1e-6;
+    s.at = {{.time_s = 1e-3}};
+    s.at[0].bridge.dead_time_s = dead_s;
+    const base::Problems told = study::check(s);
+    EXPECT_EQ(told.empty(), !shortened) << dead_s;
+    for (const base::Problem& p : told) EXPECT_EQ(p.where, "at[0].bridge.dead_time_s");
+    s.at.clear();
+  }
 }
 
 /// A converter that ends below what flows: the lean drive has no fault that would tell.
@@ -224,6 +287,69 @@ TEST(ExportGate, WhatFlowsBeyondTheConverterStandsAgainstIt) {
   ASSERT_TRUE(blind);
   ASSERT_THAT(wheres(blind->unheld), ElementsAre("sensors.current_range_A"));
   EXPECT_THAT(blind->unheld[0].limit, ::testing::HasSubstr("beyond which the drive sees nothing"));
+}
+
+/// A drive that takes a bus of 24 V for the 12 V at which its converter ends.
+TEST(ExportGate, ABusBeyondItsConverterStandsAgainstIt) {
+  Scenario s = on_a_board(Mode::current);
+  s.duration_s = 5e-3;
+  s.sensors.bus = study::BusSensing::adc;
+  for (const bool reads : {false, true})
+    for (const double range_V : {12.0, 36.0}) {
+      s.sensors.bus_range_V = range_V;
+      if (reads) s.control.current.measured_bus_from_V = 10.0;
+      const auto run = study::clear_for_export(s);
+      ASSERT_TRUE(run) << to_string(run.problems()[0]);
+      EXPECT_EQ(run->clear(), !reads || range_V > 24.0) << reads << " " << range_V;
+      for (const base::Problem& p : run->unheld) EXPECT_EQ(p.where, "sensors.bus_range_V");
+    }
+}
+
+/// J/2 (600^2 - 100^2) goes into C/2 (U^2 - 24^2), less what the winding takes: a bus between 24 V and that.
+TEST(ExportGate, ABusThatBrakingRaisesStandsAgainstIt) {
+  Scenario s = on_a_board(Mode::speed);
+  s.reference = {};
+  s.reference.shape = study::Shape::steps;
+  s.reference.times_s = {0.0, 0.3};
+  s.reference.values = {500.0, 71.0};
+  s.duration_s = 0.6;
+  s.supply.resistance_ohm = 0.05;
+  s.supply.capacitance_F = 470e-6;
+  s.supply.sinks = false;
+  s.sensors.current_range_A = 60.0;
+  s.require[0].max = 60.0;
+  s.control.speed.settle_s = 40e-3;
+  s.control.speed.torque_limit_Nm = 0.195;
+  const double J = 1.35e-5, most_V = std::sqrt(24.0 * 24 + J * (500.0 * 500 - 71.0 * 71) / 470e-6);
+  const auto raised = study::clear_for_export(s);
+  ASSERT_TRUE(raised) << to_string(raised.problems()[0]);
+  ASSERT_THAT(wheres(raised->unheld), ElementsAre("the bus"));
+  const double bus_V = std::stod(raised->unheld[0].value);
+  EXPECT_GT(bus_V, 30.0);
+  EXPECT_LT(bus_V, most_V);
+  s.require.push_back({measure(study::MetricKind::maximum, study::Signal::bus_voltage), {}, most_V});
+  const auto bounded = study::clear_for_export(s);
+  ASSERT_TRUE(bounded);
+  EXPECT_TRUE(bounded->clear()) << to_string(bounded->unheld[0]);
+  s.require.pop_back();
+  s.supply.sinks = true;
+  const auto taken = study::clear_for_export(s);
+  ASSERT_TRUE(taken);
+  EXPECT_TRUE(taken->clear()) << to_string(taken->unheld[0]);
+}
+
+TEST(ExportGate, ALimitOfTheBusBeyondItsConverterIsRefused) {
+  Scenario s = on_a_board(Mode::current);
+  s.supply.resistance_ohm = 0.05;
+  s.supply.capacitance_F = 2e-3;
+  s.sensors.bus = study::BusSensing::adc;
+  s.control.regeneration.limit_V = 30.0;
+  for (const double range_V : {26.0, 30.0, 30.1}) {
+    s.sensors.bus_range_V = range_V;
+    const base::Problems told = study::check(s);
+    EXPECT_EQ(told.empty(), range_V > 30.05) << range_V;
+    for (const base::Problem& p : told) EXPECT_EQ(p.where, "control.regeneration.limit_V");
+  }
 }
 
 /// Its scenario never lets the drive go, the first bench does: 0.6 J of the rotor go back into 0.1 mF, which takes 0.03 J up to the

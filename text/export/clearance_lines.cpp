@@ -5,6 +5,7 @@
 
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/sheet/thermal.hpp"
+#include "sixstep/study/check/pace.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
 #include "text/escape/escape.hpp"
@@ -56,7 +57,7 @@ std::string bridge(const study::Scenario& s) {
                                : "switches of";
   return fmt::format("{} {:.6g} ohm, diodes of {:.6g} V and {:.6g} ohm, dead time {:.6g} s", drop,
                      s.bridge.on_resistance_ohm, s.bridge.diode_drop_V, s.bridge.diode_resistance_ohm,
-                     s.bridge.dead_time_s);
+                     study::dead_time_in_counts_s(s.bridge.dead_time_s, s.pwm));
 }
 
 std::string timing(const study::Pwm& p) {
@@ -106,9 +107,18 @@ std::string rotor(const study::Sensors& s) {
   const bool in_place = s.hall_offset_deg == 0 && s.hall_edges_deg.empty() && s.hall_hysteresis_deg == 0 &&
                         s.hall_delay_s == 0 && s.hall_glitches_Hz == 0;
   const bool runs_on = s.hall_angle != sixstep::rig::HallAngleFrom::sectors;
-  return fmt::format("Hall edges {}, captured at {:.6g} Hz, {}{}",
+  return fmt::format("Hall probes {} degrees apart, edges {}, captured at {:.6g} Hz, {}{}",
+                     sixstep::base::word(study::hall_spacing_choices, s.hall_spacing),
                      in_place ? "exactly at the sectors' ends" : "off their places as [sensors] says",
                      s.capture_Hz, over, runs_on ? ", angle that runs on between edges" : "");
+}
+
+/// Phases at legs a b c, probes at pins H1 H2 H3.
+std::string wires(const study::Scenario& s) {
+  std::string text = fmt::format("phases {} at legs a b c, Hall lines {} at H1 H2 H3",
+                                 sixstep::base::word(study::phase_order_choices, s.bridge.phases),
+                                 sixstep::base::word(study::hall_order_choices, s.sensors.hall_lines));
+  return text + (s.sensors.hall_inverted != study::HallLines::none ? ", some of them inverted" : "");
 }
 
 std::string load(const study::Load& l) {
@@ -138,7 +148,10 @@ std::string assumptions(const ClearanceText& t) {
   std::string text = "// That run took for granted:\n";
   text += entry("supply", supply(s.supply)) + entry("bridge", bridge(s)) + entry("timing", timing(s.pwm));
   text += entry("currents", currents(s.sensors)) + entry("bus", bus(s.sensors)) +
-          entry("rotor", rotor(s.sensors)) + entry("load", load(s.load)) + entry("heat", heat(s.heat));
+          entry("rotor", rotor(s.sensors)) + entry("wires", wires(s)) + entry("load", load(s.load)) +
+          entry("heat", heat(s.heat));
+  if (s.control.drive == study::FirmwareKind::product && !s.protection.stall_s)
+    text += entry("stall", "not watched: protection.stall_current_A and stall_s are not given");
   if (t.other_scale) text += entry("scale", "the scenario's own; that of --range below was proved, not run");
   return text;
 }

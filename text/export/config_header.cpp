@@ -34,7 +34,7 @@ std::string timing(const study::Compiled& c, bool cleared) {
   const sixstep::rig::ModulatorConfig& m = c.board.modulator;
   const auto flag = [](bool on) { return std::string(on ? "true" : "false"); };
   const auto us = [](double ps) { return fmt::format("{:.9g} us", ps / 1e6); };
-  const double dead = m.dead_ticks;
+  const double dead = m.in_counts(m.dead_ticks);
   return constant("bool", "cleared", flag(cleared),
                   cleared ? "for a bridge, by its run" : "NOT for a bridge: static_assert on it") +
          constant("std::uint8_t", "pole_pairs", std::to_string(static_cast<int>(c.motor.machine.pole_pairs)),

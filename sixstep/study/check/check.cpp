@@ -8,6 +8,7 @@
 
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/written.hpp"
+#include "sixstep/study/check/converter_ends.hpp"
 #include "sixstep/study/check/field.hpp"
 #include "sixstep/study/check/heat.hpp"
 #include "sixstep/study/check/measures.hpp"
@@ -39,10 +40,7 @@ void check_bridge(const Scenario& s, base::Problems& out) {
     out.push_back({"bridge.saturation_V", base::six_digits(s.bridge.saturation_V),
                    "is of an IGBT, and bridge.device is \"mosfet\"",
                    "write device = \"igbt\", or give on_resistance_ohm alone"});
-  if (!(s.bridge.dead_time_s < s.pwm.period_s))
-    out.push_back({"bridge.dead_time_s", base::six_digits(s.bridge.dead_time_s),
-                   "must be shorter than pwm.period_s = " + base::six_digits(s.pwm.period_s),
-                   "a leg would never turn on"});
+  check_dead_time("bridge.dead_time_s", s.bridge.dead_time_s, s.pwm, out);
 }
 
 void check_regeneration(const Scenario& s, base::Problems& out) {
@@ -52,6 +50,11 @@ void check_regeneration(const Scenario& s, base::Problems& out) {
     out.push_back({"control.regeneration.limit_V", base::six_digits(*r.limit_V),
                    "must be above supply.voltage_V = " + base::six_digits(s.supply.voltage_V),
                    "the drive could never brake"});
+  if (s.sensors.bus == BusSensing::adc && s.sensors.bus_range_V && !(*r.limit_V < bus_end_V(s.sensors)))
+    out.push_back({"control.regeneration.limit_V", base::six_digits(*r.limit_V),
+                   "is never passed: the converter ends at " + base::six_digits(bus_end_V(s.sensors)) +
+                       ", by sensors.bus_range_V = " + base::six_digits(*s.sensors.bus_range_V),
+                   "lower it or widen the range"});
   if (!r.gain_A_per_V && !(s.supply.capacitance_F > 0))
     out.push_back({"control.regeneration.gain_A_per_V", "", "is missing, and no capacitance to take it from",
                    "give it, or supply.capacitance_F"});

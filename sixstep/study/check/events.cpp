@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sixstep/base/written.hpp"
+#include "sixstep/study/check/pace.hpp"
 #include "sixstep/study/check/reference.hpp"
 #include "sixstep/study/scenario/changes.hpp"
 #include "sixstep/study/scenario/choices.hpp"
@@ -80,9 +81,8 @@ void check_chip(const Event& e) {
   if (e.at.pwm.chopping != AtChopping::same && e.s.control.smooth_chopping.on)
     e.say(".pwm.chopping", "", "is chosen by the current while control.smooth_chopping.on = true",
           "leave it away, or set on = false");
-  if (e.at.bridge.dead_time_s && !(*e.at.bridge.dead_time_s < e.s.pwm.period_s))
-    e.say(".bridge.dead_time_s", written(*e.at.bridge.dead_time_s),
-          "must be shorter than pwm.period_s = " + written(e.s.pwm.period_s), "a leg would never turn on");
+  if (e.at.bridge.dead_time_s)
+    check_dead_time(e.where + ".bridge.dead_time_s", *e.at.bridge.dead_time_s, e.s.pwm, e.out);
 }
 
 /// Amplifiers that drift are between the bridge and a converter.

@@ -188,6 +188,28 @@ void check_minimum_pulse(const Scenario& s, base::Problems& out) {
 
 }  // namespace
 
+double dead_time_in_counts_s(double dead_time_s, const Pwm& pwm) {
+  return pwm.timer_Hz > 0 ? std::floor(dead_time_s * pwm.timer_Hz + 0.5) / pwm.timer_Hz : dead_time_s;
+}
+
+void check_dead_time(const std::string& where, double dead_time_s, const Pwm& pwm, base::Problems& out) {
+  constexpr double worth_a_word = 0.9;
+  if (!(dead_time_s < pwm.period_s)) {
+    out.push_back({where, written(dead_time_s),
+                   "must be shorter than pwm.period_s = " + written(pwm.period_s),
+                   "a leg would never turn on"});
+    return;
+  }
+  const double counted_s = dead_time_in_counts_s(dead_time_s, pwm);
+  if (counted_s >= worth_a_word * dead_time_s) return;
+  out.push_back(
+      {where, written(dead_time_s),
+       (counted_s > 0 ? "becomes " + base::three_digits(1e6 * counted_s) + " us" : "is lost") +
+           " on a timer that counts " + base::three_digits(1e6 / pwm.timer_Hz) +
+           " us, pwm.timer_Hz = " + written(pwm.timer_Hz),
+       "give whole counts, as " + base::six_digits(std::ceil(dead_time_s * pwm.timer_Hz) / pwm.timer_Hz)});
+}
+
 void check_pace(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
   check_bridge(s, motor.machine, out);
   check_bus(s, motor.machine, out);

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "sixstep/base/angle.hpp"
-#include "sixstep/base/decimal.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/loops/operating_limits.hpp"
+#include "sixstep/study/check/converter_ends.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
 
@@ -39,17 +39,6 @@ void check_registers(const Scenario& s, base::Problems& out) {
                    "leaves the product drive with the duty of another period than its shunt's sample",
                    "set delay_periods = 0: with pwm.sample = \"middle\" the answer waits for the next start "
                    "anyway"});
-}
-
-/// The most that a converter reads, of either sign, in the unit of what it measures. A current's offset is
-/// taken off again, the bus's is not known.
-double current_end_A(const Sensors& s) {
-  const double range = s.current_range_A.value_or(0.0);
-  return range - 2 * range / std::ldexp(1.0, s.adc_bits) - std::fabs(s.current_offset_A);
-}
-double bus_end_V(const Sensors& s) {
-  const double range = s.bus_range_V.value_or(0.0);
-  return range - range / std::ldexp(1.0, s.adc_bits);
 }
 
 void check_missing(const char* key, const std::optional<double>& threshold, const char* cure,
@@ -171,20 +160,6 @@ std::optional<double> current_limit_A(const Scenario& s, const design::MotorMode
       s.control.speed.torque_limit_Nm.value_or(design::usual_torque_limit_Nm(motor, s.supply.voltage_V));
   if (!(motor.K_t_Nm_A > 0.0) || !(torque > 0.0)) return limit_A;
   return std::min(torque / motor.K_t_Nm_A, limit_A.value_or(HUGE_VAL));
-}
-
-void look_at_stalling(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
-  const std::optional<double> most = current_limit_A(s, motor);
-  const Protection& p = s.protection;
-  // What is held at the limit is read a count and a little noise beside it.
-  const double count_A = s.sensors.current_range_A.value_or(0.0) * 2 / std::ldexp(1.0, s.sensors.adc_bits);
-  if (!most || !p.stall_current_A || *p.stall_current_A <= 0.98 * *most - 2 * count_A) return;
-  out.push_back({"protection.stall_current_A", written(*p.stall_current_A),
-                 "may never be passed: the current is limited to " + base::three_digits(*most) + " A, " +
-                     (s.control.current.limit_A == most ? "control.current.limit_A"
-                      : s.control.speed.torque_limit_Nm ? "control.speed.torque_limit_Nm over K_t"
-                                                        : "the usual torque limit over K_t"),
-                 "lower it, as to " + base::written(base::shortened(0.8 * *most, 2, base::Towards::down))});
 }
 
 void check_product(const Scenario& s, const std::optional<design::MotorModel>& motor, base::Problems& out) {

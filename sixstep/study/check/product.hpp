@@ -17,10 +17,6 @@ void check_product(const Scenario& scenario, const std::optional<design::MotorMo
 /// where there is no such pair of loops.
 std::optional<double> current_limit_A(const Scenario& scenario, const design::MotorModel& motor);
 
-/// A rotor that is held takes the current that the speed loop may ask for and no more: a threshold above it never trips. That is told
-/// to whoever takes the drive to a bridge (run/export_gate.hpp).
-void look_at_stalling(const Scenario& scenario, const design::MotorModel& motor, base::Problems& out);
-
 /// Extras that contradict the loops they would be added to.
 void check_extras(const Scenario& scenario, base::Problems& out);
 

@@ -9,7 +9,9 @@
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/sheet/parameters.hpp"
 #include "sixstep/study/check/check.hpp"
-#include "sixstep/study/check/product.hpp"
+#include "sixstep/study/check/pace.hpp"
+#include "sixstep/study/run/export_protection.hpp"
+#include "sixstep/study/run/export_watch.hpp"
 #include "sixstep/study/scenario/changes.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
@@ -137,7 +139,8 @@ void look_at_delay(const Scenario& s, base::Problems& out) {
 /// Of every drive: where the torque reverses, a leg changes over from one switch to the other, whichever way it is chopped.
 void look_at_dead_time(const Scenario& s, base::Problems& out) {
   constexpr double shortest_s = 20e-9;  // two clocks of a fast timer; no switch turns off sooner
-  if (s.control.mode != Mode::off && s.bridge.dead_time_s > 0 && s.bridge.dead_time_s < shortest_s)
+  const double counted_s = dead_time_in_counts_s(s.bridge.dead_time_s, s.pwm);
+  if (s.control.mode != Mode::off && s.bridge.dead_time_s > 0 && counted_s < shortest_s)
     out.push_back({"bridge.dead_time_s", written(s.bridge.dead_time_s),
                    "is over before any switch is off: less than 20e-9",
                    "give what the gate drivers need, as 500e-9"});
@@ -170,7 +173,6 @@ std::string required(const Verdict& v) {
 
 /// In as many digits as tell it from the limit that it misses.
 std::string measured(const Verdict& v) {
-  if (!std::isfinite(v.measured)) return "never";
   std::string text;
   for (int digits = 5; digits <= 17; ++digits) {
     text = base::rounded(v.measured, digits);
@@ -180,85 +182,6 @@ std::string measured(const Verdict& v) {
     if (!looks_like(v.min) && !looks_like(v.max)) break;
   }
   return v.unit.empty() ? text : text + " " + v.unit;
-}
-
-bool converts_currents(const Scenario& s) {
-  return reads_currents(s) && s.sensors.currents != rig::CurrentMeasurement::ideal &&
-         s.sensors.current_range_A;
-}
-
-/// The extremes of all phases, behind what the scenario compares.
-void watch_currents(Scenario& s) {
-  for (const Signal phase : {Signal::phase_a, Signal::phase_b, Signal::phase_c})
-    for (const MetricKind end : {MetricKind::minimum, MetricKind::maximum}) {
-      Measure m;
-      m.metric = end;
-      m.signal = phase;
-      s.compare.push_back({m, 0.0, ""});
-    }
-}
-
-/// The greatest of them; the outcome is then as of the scenario itself.
-double take_peak(const Scenario& s, Outcome& outcome) {
-  double peak = 0.0;
-  for (; outcome.comparisons.size() > s.compare.size(); outcome.comparisons.pop_back())
-    peak = std::fmax(peak, std::fabs(outcome.comparisons.back().measured));
-  return peak;
-}
-
-/// What flows above the converter's end, the drive neither sees nor limits.
-void look_at_range(const Scenario& s, double peak_A, base::Problems& out) {
-  if (!converts_currents(s)) return;
-  const double range = *s.sensors.current_range_A;
-  const double end =
-      range - 2 * range / std::ldexp(1.0, s.sensors.adc_bits) - std::fabs(s.sensors.current_offset_A);
-  if (peak_A < end) return;
-  out.push_back({"sensors.current_range_A", written(range),
-                 "was left by the run: " + base::three_digits(peak_A) +
-                     " A flowed, and the converter ends at " + base::three_digits(end) +
-                     " A, beyond which the drive sees nothing",
-                 "widen it, or lower what the drive asks for"});
-}
-
-/// How long it brakes at most: from no-load speed, with half as much again for friction that drives.
-double braking_s(const Scenario& s, const design::MotorModel& motor) {
-  constexpr double shortest = 20e-3, longest = 2.0;
-  const double w = s.supply.voltage_V / motor.K_t_Nm_A, J = motor.shaft.J_kg_m2 + s.load.inertia_kg_m2;
-  return std::clamp(1.5 * J * w / (motor.K_t_Nm_A * s.protection.brake_current_A), shortest, longest);
-}
-
-/// The end of the level at which most is asked for.
-double end_of_the_highest(const Scenario& s) {
-  const std::vector<Level> levels = reference_levels(s);
-  std::size_t highest = 0;
-  for (std::size_t n = 0; n < levels.size(); ++n)
-    if (levels[n].at_s < s.duration_s && std::fabs(levels[n].value) > std::fabs(levels[highest].value))
-      highest = n;
-  return highest + 1 < levels.size() ? std::min(levels[highest + 1].at_s, s.duration_s) : s.duration_s;
-}
-
-/// A drive that brakes when it is let go does so on the first bench: here at its highest setpoint, unless the scenario lets it go.
-void run_the_stop(const Scenario& s, const Listeners& listeners, Clearance& c) {
-  if (s.control.drive != FirmwareKind::product || !(s.protection.brake_current_A > 0) ||
-      s.protection.off_at_s)
-    return;
-  Scenario stop = s;
-  const double off_s = end_of_the_highest(s);
-  stop.protection.off_at_s = off_s;
-  stop.duration_s = std::max(s.duration_s, off_s + braking_s(s, c.outcome.motor));
-  if (stop.duration_s == off_s) return;
-  stop.require.clear();
-  stop.compare.clear();
-  const base::Result<Outcome> out =
-      run(stop, {.on_record = {}, .on_event = {}, .keep_going = listeners.keep_going, .keep_books = false});
-  if (!out) return append(c.unheld, out.problems());
-  if (!out->trip) return;
-  std::string reasons;
-  for (const std::string& reason : out->trip->reasons) reasons += (reasons.empty() ? "" : ", ") + reason;
-  c.unheld.push_back({"protection.brake_current_A", written(s.protection.brake_current_A),
-                      "ends in a fault where the drive is let go at " + base::rounded(off_s, 4) + " s: " +
-                          reasons + " after " + base::three_digits(1e3 * (out->trip->at_s - off_s)) + " ms",
-                      "lower it, or let the scenario show the stop: protection.off_at_s"});
 }
 
 }  // namespace
@@ -271,7 +194,7 @@ base::Problems never_measured(const Scenario& s) {
   look_at_dead_time(s, out);
   look_at_changes(s, out);
   if (const auto motor = design::motor_model(s.sheet); motor && s.control.drive == FirmwareKind::product)
-    look_at_stalling(s, *motor, out);
+    look_at_protection(s, *motor, out);
   if (s.require.empty())
     out.push_back({"require", "", "is missing: where nothing is asked of a run, nothing has been shown",
                    "say in [[require]] what the drive must do; see the help on require"});
@@ -283,8 +206,11 @@ base::Problems not_held(const Outcome& outcome) {
   if (outcome.fault) out.push_back(*outcome.fault);
   for (const Verdict& v : outcome.verdicts)
     if (!v.ok)
-      out.push_back({v.figure, measured(v), "misses what is required, " + required(v),
-                     "look at its report, and change the drive"});
+      out.push_back(
+          {v.figure, std::isfinite(v.measured) ? measured(v) : "",
+           (std::isfinite(v.measured) ? "misses what is required, " : "never came to what is required, ") +
+               required(v),
+           "look at its report, and change the drive"});
   return out;
 }
 
@@ -293,15 +219,14 @@ base::Result<Clearance> clear_for_export(const Scenario& scenario, const Listene
     return base::Problem{"motor", "\"" + scenario.motor + "\"",
                          "is linear, and a header speaks of turning motors only",
                          "take the gains from the run's report"};
-  Scenario watched = scenario;
-  if (converts_currents(scenario)) watch_currents(watched);
-  base::Result<Outcome> outcome = run(watched, listeners);
+  base::Result<Outcome> outcome = run(watching_peaks(scenario), listeners);
   if (!outcome) return outcome.problems();
   Clearance c{.outcome = std::move(*outcome), .unmeasured = never_measured(scenario), .unheld = {}};
-  const double peak_A = take_peak(scenario, c.outcome);
+  const SeenPeaks peaks = take_peaks(scenario, c.outcome);
   c.unheld = not_held(c.outcome);
-  look_at_range(scenario, peak_A, c.unheld);
-  if (c.unheld.empty()) run_the_stop(scenario, listeners, c);
+  if (reads_currents(scenario)) look_at_current_range(scenario, peaks, c.unheld);
+  look_at_bus(scenario, peaks, reads_bus(scenario), c.unheld);
+  if (c.unheld.empty()) look_at_stop(scenario, c.outcome.motor, listeners, c.unheld);
   return c;
 }
 

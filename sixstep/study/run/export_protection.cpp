@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/run/export_protection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "sixstep/base/decimal.hpp"
+#include "sixstep/base/written.hpp"
+#include "sixstep/design/sheet/thermal.hpp"
+#include "sixstep/study/check/product.hpp"
+#include "sixstep/study/scenario/reference_waveform.hpp"
+#include "sixstep/study/scenario/supply_voltages.hpp"
+
+namespace sixstep::study {
+namespace {
+
+using base::written;
+using control::Mode;
+
+/// Faster than this times the no-load speed of the bus no load drives a rotor that anybody meant to protect.
+constexpr double beyond_no_load = 2.0;
+
+std::string rounded_down(double x) { return written(base::shortened(x, 2, base::Towards::down)); }
+
+/// The most current that is asked for, and what says so.
+struct MostCurrent {
+  double ampere = 0.0;
+  std::string by;
+};
+
+std::optional<MostCurrent> most_current(const Scenario& s, const design::MotorModel& motor) {
+  if (s.control.mode == Mode::current) {
+    double most = 0.0;
+    for (const Level& level : reference_levels(s)) most = std::max(most, std::fabs(level.value));
+    if (most == 0.0) return std::nullopt;
+    return MostCurrent{most, "the reference"};
+  }
+  const std::optional<double> limit = current_limit_A(s, motor);
+  if (!limit) return std::nullopt;
+  return MostCurrent{*limit, s.control.current.limit_A == limit ? "control.current.limit_A"
+                             : s.control.speed.torque_limit_Nm  ? "control.speed.torque_limit_Nm over K_t"
+                                                                : "the usual torque limit over K_t"};
+}
+
+void look_at_stalling(const Scenario& s, const MostCurrent& most, base::Problems& out) {
+  const Protection& p = s.protection;
+  // What is held at the limit is read a count and a little noise beside it.
+  const double count_A = s.sensors.current_range_A.value_or(0.0) * 2 / std::ldexp(1.0, s.sensors.adc_bits);
+  if (!p.stall_current_A || *p.stall_current_A <= 0.98 * most.ampere - 2 * count_A) return;
+  out.push_back(
+      {"protection.stall_current_A", written(*p.stall_current_A),
+       "may never be passed: the current is limited to " + base::three_digits(most.ampere) + " A, " + most.by,
+       "lower it, as to " + rounded_down(0.8 * most.ampere)});
+}
+
+/// A rotor that is held has its current in two phases, and no friction.
+void look_at_stall_time(const Scenario& s, const design::MotorModel& motor, const MostCurrent& most,
+                        base::Problems& out) {
+  const auto thermal = design::thermal_model(s.sheet);
+  if (!s.protection.stall_s || !thermal) return;
+  const double copper_W = 2 * motor.machine.R_ohm * most.ampere * most.ampere;
+  const std::optional<double> stands_s = design::permissible_seconds(
+      *thermal, {.copper_W = copper_W, .housing_W = 0.0, .ambient_degC = s.heat.ambient_degC});
+  if (!stands_s || *s.protection.stall_s <= *stands_s) return;
+  out.push_back({"protection.stall_s", written(*s.protection.stall_s),
+                 "is longer than the winding stands it: " + base::three_digits(most.ampere) + " A, " +
+                     most.by + ", take it to " + base::three_digits(thermal->max_winding_degC) +
+                     " degC within " + base::three_digits(*stands_s) + " s",
+                 "shorten it, as to " + rounded_down(0.5 * *stands_s)});
+}
+
+void look_at_over_speed(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
+  const std::optional<double>& over = s.protection.over_speed_rad_s;
+  double fastest = beyond_no_load * highest_open_V(s.supply) / motor.K_t_Nm_A;
+  for (const Level& level : reference_levels(s))
+    if (s.control.mode == Mode::speed) fastest = std::max(fastest, beyond_no_load * std::fabs(level.value));
+  if (!over || *over <= fastest) return;
+  out.push_back({"protection.over_speed_rad_s", written(*over),
+                 "protects nothing: the bus turns the motor at " +
+                     base::three_digits(highest_open_V(s.supply) / motor.K_t_Nm_A) + " rad/s without a load",
+                 "lower it to what motor and machine stand"});
+}
+
+}  // namespace
+
+void look_at_protection(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
+  if (const std::optional<MostCurrent> most = most_current(s, motor)) {
+    look_at_stalling(s, *most, out);
+    look_at_stall_time(s, motor, *most, out);
+  }
+  look_at_over_speed(s, motor, out);
+}
+
+}  // namespace sixstep::study

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/run/export_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "sixstep/base/written.hpp"
+#include "sixstep/study/check/converter_ends.hpp"
+#include "sixstep/study/scenario/reference_waveform.hpp"
+#include "sixstep/study/scenario/supply_voltages.hpp"
+
+namespace sixstep::study {
+namespace {
+
+using base::written;
+
+constexpr Signal phases[] = {Signal::phase_a, Signal::phase_b, Signal::phase_c};
+
+/// A rise of the bus above its source that needs no word: ringing of a line, the ripple of the capacitor.
+constexpr double usual_rise = 1.25;
+
+void watch(MetricKind metric, Signal signal, Scenario& s) {
+  Measure m;
+  m.metric = metric;
+  m.signal = signal;
+  s.compare.push_back({m, 0.0, ""});
+}
+
+/// The highest bus that the scenario itself allows for.
+double allowed_bus_V(const Scenario& s) {
+  double allowed = usual_rise * highest_open_V(s.supply);
+  for (const At& at : s.at) allowed = std::fmax(allowed, usual_rise * at.supply.voltage_V.value_or(0.0));
+  allowed = std::fmax(allowed, s.protection.over_voltage_V.value_or(0.0));
+  allowed = std::fmax(allowed, usual_rise * s.control.regeneration.limit_V.value_or(0.0));
+  if (s.supply.brake_resistance_ohm > 0) allowed = std::fmax(allowed, usual_rise * s.supply.brake_on_V);
+  for (const Requirement& r : s.require)
+    if (r.measure.signal == Signal::bus_voltage && r.measure.metric == MetricKind::maximum && r.max)
+      allowed = std::fmax(allowed, *r.max);
+  return allowed;
+}
+
+/// How long it brakes at most: from no-load speed, with half as much again for friction that drives.
+double braking_s(const Scenario& s, const design::MotorModel& motor) {
+  constexpr double shortest = 20e-3, longest = 2.0;
+  const double w = s.supply.voltage_V / motor.K_t_Nm_A, J = motor.shaft.J_kg_m2 + s.load.inertia_kg_m2;
+  return std::clamp(1.5 * J * w / (motor.K_t_Nm_A * s.protection.brake_current_A), shortest, longest);
+}
+
+/// The end of the level at which most is asked for.
+double end_of_the_highest(const Scenario& s) {
+  const std::vector<Level> levels = reference_levels(s);
+  std::size_t highest = 0;
+  for (std::size_t n = 0; n < levels.size(); ++n)
+    if (levels[n].at_s < s.duration_s && std::fabs(levels[n].value) > std::fabs(levels[highest].value))
+      highest = n;
+  return highest + 1 < levels.size() ? std::min(levels[highest + 1].at_s, s.duration_s) : s.duration_s;
+}
+
+}  // namespace
+
+Scenario watching_peaks(const Scenario& scenario) {
+  Scenario s = scenario;
+  for (const Signal phase : phases)
+    for (const MetricKind end : {MetricKind::minimum, MetricKind::maximum}) watch(end, phase, s);
+  watch(MetricKind::maximum, Signal::bus_voltage, s);
+  return s;
+}
+
+SeenPeaks take_peaks(const Scenario& scenario, Outcome& outcome) {
+  SeenPeaks e;
+  const std::size_t own = scenario.compare.size();
+  for (std::size_t n = own; n < outcome.comparisons.size(); ++n) {
+    const double x = outcome.comparisons[n].measured;
+    if (n + 1 < outcome.comparisons.size())
+      e.phase_A = std::fmax(e.phase_A, std::fabs(x));
+    else
+      e.bus_V = x;
+  }
+  outcome.comparisons.resize(std::min(own, outcome.comparisons.size()));
+  return e;
+}
+
+void look_at_current_range(const Scenario& s, const SeenPeaks& peaks, base::Problems& out) {
+  if (s.sensors.currents == rig::CurrentMeasurement::ideal || !s.sensors.current_range_A) return;
+  const double end = current_end_A(s.sensors);
+  if (peaks.phase_A < end) return;
+  out.push_back({"sensors.current_range_A", written(*s.sensors.current_range_A),
+                 "was left by the run: " + base::three_digits(peaks.phase_A) +
+                     " A flowed, and the converter ends at " + base::three_digits(end) +
+                     " A, beyond which the drive sees nothing",
+                 "widen it, or lower what the drive asks for"});
+}
+
+void look_at_bus(const Scenario& s, const SeenPeaks& peaks, bool is_read, base::Problems& out) {
+  const std::string bus = base::three_digits(peaks.bus_V);
+  if (is_read && s.sensors.bus == BusSensing::adc && s.sensors.bus_range_V) {
+    const double end = bus_end_V(s.sensors);
+    if (!(peaks.bus_V < end))
+      out.push_back({"sensors.bus_range_V", written(*s.sensors.bus_range_V),
+                     "was left by the run: the bus reached " + bus + " V, and the converter ends at " +
+                         base::three_digits(end) + " V, beyond which the drive sees nothing",
+                     "widen it, or keep the bus lower"});
+  }
+  if (peaks.bus_V <= allowed_bus_V(s)) return;
+  out.push_back(
+      {"the bus", bus + " V",
+       "is what braking raised it to, from " + base::three_digits(highest_open_V(s.supply)) +
+           " V, and nothing bounds it",
+       "give supply.brake_resistance_ohm, control.regeneration.limit_V or more supply.capacitance_F, "
+       "or say in [[require]] how high the maximum of bus_voltage may be"});
+}
+
+void look_at_stop(const Scenario& s, const design::MotorModel& motor, const Listeners& listeners,
+                  base::Problems& out) {
+  if (s.control.drive != FirmwareKind::product || !(s.protection.brake_current_A > 0) ||
+      s.protection.off_at_s)
+    return;
+  Scenario stop = s;
+  const double off_s = end_of_the_highest(s);
+  stop.protection.off_at_s = off_s;
+  stop.duration_s = std::max(s.duration_s, off_s + braking_s(s, motor));
+  if (stop.duration_s == off_s) return;
+  stop.require.clear();
+  stop.compare.clear();
+  const base::Result<Outcome> outcome =
+      run(stop, {.on_record = {}, .on_event = {}, .keep_going = listeners.keep_going, .keep_books = false});
+  if (!outcome) return append(out, outcome.problems());
+  if (!outcome->trip) return;
+  std::string reasons;
+  for (const std::string& reason : outcome->trip->reasons) reasons += (reasons.empty() ? "" : ", ") + reason;
+  out.push_back({"protection.brake_current_A", written(s.protection.brake_current_A),
+                 "ends in a fault where the drive is let go at " + base::rounded(off_s, 4) + " s: " +
+                     reasons + " after " + base::three_digits(1e3 * (outcome->trip->at_s - off_s)) + " ms",
+                 "lower it, or let the scenario show the stop: protection.off_at_s"});
+}
+
+}  // namespace sixstep::study
