@@ -21,8 +21,6 @@ namespace {
 using sixstep::analysis::BodeStudy;
 using sixstep::analysis::LoopPoint;
 
-constexpr double degrees = 180 / sixstep::base::pi;
-
 /// Frequencies of the designed curve: those of the lines and enough between them for a smooth one.
 std::vector<double> frequencies(const BodeStudy& s) {
   constexpr int between = 8;
@@ -46,7 +44,7 @@ void add_designed(const BodeStudy& s, SvgChart& gain, SvgChart& phase) {
     g.x.push_back(w / sixstep::base::turn_rad);
     p.x.push_back(w / sixstep::base::turn_rad);
     g.y.push_back(20 * std::log10(L.size()));
-    p.y.push_back(last * degrees);
+    p.y.push_back(last / sixstep::base::rad_per_deg);
   }
   gain.curves.push_back(std::move(g));
   phase.curves.push_back(std::move(p));
@@ -61,7 +59,7 @@ std::string charts(const BodeStudy& s) {
   for (const LoopPoint& point : s.points) {
     for (SvgCurve* curve : {&g, &p, &t, &c}) curve->x.push_back(point.w_rad_s / sixstep::base::turn_rad);
     g.y.push_back(20 * std::log10(point.gain));
-    p.y.push_back(point.phase_rad * degrees);
+    p.y.push_back(point.phase_rad / sixstep::base::rad_per_deg);
     t.y.push_back(20 * std::log10(point.closed.size()));
     c.y.push_back(point.coherence);
   }

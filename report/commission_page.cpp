@@ -21,8 +21,6 @@ using sixstep::analysis::CommissionRow;
 using sixstep::analysis::CommissionStudy;
 using Phase = sixstep::control::CommissioningPhase;
 
-constexpr const char* styles[] = {"a", "b", "c"};
-
 std::string with_bound(double x, double bound, std::string_view unit) {
   return x > 0.0 ? fmt::format("{} ± {:.2g} %", computed(x, unit), 100 * bound) : "not found";
 }
@@ -80,8 +78,8 @@ std::string currents(const CommissionStudy& s, const char* title, Phase first, P
   SvgChart chart{.title = title, .x_label = "s", .y_label = "A", .levels = {0.0}};
   constexpr const char* legs[] = {"leg a", "leg b", "leg c"};
   for (std::size_t leg = 0; leg < 3; ++leg)
-    chart.curves.push_back(
-        curve_of(s, span, legs[leg], styles[leg], [leg](const CommissionRow& row) { return row.i_A[leg]; }));
+    chart.curves.push_back(curve_of(s, span, legs[leg], curve_styles[leg],
+                                    [leg](const CommissionRow& row) { return row.i_A[leg]; }));
   return svg_chart(chart);
 }
 

@@ -20,14 +20,14 @@ namespace analysis = sixstep::analysis;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// One place on the axis.
-struct Place {
+struct OnCurve {
   const analysis::OperatingPoint* point;
   const analysis::NominalPoint* nominal = nullptr;
 };
 
-using Of = std::function<double(const Place&)>;
+using Of = std::function<double(const OnCurve&)>;
 
-struct Line {
+struct CurveLine {
   const char *label, *style, *meaning;
   Of of;
   enum class Drawn { line, points, region } drawn = Drawn::line;  ///< a region is filled down to zero
@@ -35,7 +35,7 @@ struct Line {
 
 template <double analysis::OperatingPoint::*member>
 Of of(double factor) {
-  return [factor](const Place& place) { return factor * (place.point->*member); };
+  return [factor](const OnCurve& place) { return factor * (place.point->*member); };
 }
 
 class Charts {
@@ -48,25 +48,26 @@ class Charts {
     if (curve.marks.nominal) places_.push_back({&*curve.marks.nominal});
     if (curve.nominal && curve.nominal->at_speed)
       places_.push_back({&*curve.nominal->at_speed, &*curve.nominal});
-    std::stable_sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
+    std::stable_sort(places_.begin(), places_.end(), [](const OnCurve& a, const OnCurve& b) {
       return a.point->speed_rad_s < b.point->speed_rad_s;
     });
     std::vector<double> speeds;
-    for (const Place& place : places_) speeds.push_back(place.point->speed_rad_s * units_.per_rad_s);
+    for (const OnCurve& place : places_) speeds.push_back(place.point->speed_rad_s * units_.per_rad_s);
     out_["axis"] = base64(std::span<const double>(speeds));
     if (units_.motion.linear) out_["speed"] = units_.speed;
     out_["charts"] = json::array();
     corner_Nm_ = corner_Nm();
   }
 
-  void add(const char* id, const char* title, const char* unit, int height, const std::vector<Line>& lines) {
+  void add(const char* id, const char* title, const char* unit, int height,
+           const std::vector<CurveLine>& lines) {
     const auto& motion = units_.motion;
     json chart = {
         {"id", motion.words(id)}, {"title", motion.words(title)}, {"unit", unit}, {"height", height}};
     double corner = 0.0;
-    for (const Line& line : lines) {
+    for (const CurveLine& line : lines) {
       std::vector<float> values;
-      for (const Place& place : places_) {
+      for (const OnCurve& place : places_) {
         const double v = line.of(place);
         values.push_back(static_cast<float>(v));
         if (place.point->shaft_torque_Nm <= corner_Nm_) corner = std::fmax(corner, v);
@@ -74,8 +75,8 @@ class Charts {
       chart["curves"].push_back({{"label", motion.words(line.label)},
                                  {"style", line.style},
                                  {"meaning", motion.words(line.meaning)},
-                                 {"points", line.drawn == Line::Drawn::points},
-                                 {"region", line.drawn == Line::Drawn::region},
+                                 {"points", line.drawn == CurveLine::Drawn::points},
+                                 {"region", line.drawn == CurveLine::Drawn::region},
                                  {"data", base64(std::span<const float>(values))}});
     }
     if (corner_Nm_ > 0.0) chart["corner"] = corner;
@@ -83,67 +84,69 @@ class Charts {
   }
 
   void torque() {
-    std::vector<Line> lines = regions();
+    std::vector<CurveLine> lines = regions();
     const double per_Nm = units_.per_Nm;
     lines.insert(lines.end(), {{"shaft", "main", "mean torque on the shaft",
                                 of<&analysis::OperatingPoint::shaft_torque_Nm>(per_Nm)},
                                {"ideal", "reference", "straight line without commutation time and friction",
-                                [this, per_Nm](const Place& p) {
+                                [this, per_Nm](const OnCurve& p) {
                                   return per_Nm *
                                          analysis::ideal_torque_Nm(request_.bench, p.point->speed_rad_s);
                                 }}});
     if (curve_.thermal) {
       const auto limit = limits();
       lines.push_back({"winding, continuous", "c", "what the winding stands continuously",
-                       [limit, per_Nm](const Place& p) { return per_Nm * limit(p).continuous_Nm; }});
+                       [limit, per_Nm](const OnCurve& p) { return per_Nm * limit(p).continuous_Nm; }});
       lines.push_back({"60 s", "a", "what it stands for 60 s from ambient temperature",
-                       [limit, per_Nm](const Place& p) { return per_Nm * limit(p).short_Nm[1]; }});
+                       [limit, per_Nm](const OnCurve& p) { return per_Nm * limit(p).short_Nm[1]; }});
       lines.push_back({"10 s", "b", "what it stands for 10 s from ambient temperature",
-                       [limit, per_Nm](const Place& p) { return per_Nm * limit(p).short_Nm[0]; }});
+                       [limit, per_Nm](const OnCurve& p) { return per_Nm * limit(p).short_Nm[0]; }});
     }
     if (curve_.nominal && curve_.nominal->torque_Nm)
-      lines.push_back({"nominal point", "b", "as printed",
-                       [per_Nm](const Place& p) { return p.nominal ? per_Nm * *p.nominal->torque_Nm : none; },
-                       Line::Drawn::points});
+      lines.push_back(
+          {"nominal point", "b", "as printed",
+           [per_Nm](const OnCurve& p) { return p.nominal ? per_Nm * *p.nominal->torque_Nm : none; },
+           CurveLine::Drawn::points});
     add("torque", "Torque", units_.torque, 320, lines);
     if (corner_Nm_ > 0.0) out_["charts"].back()["corner"] = per_Nm * corner_Nm_;
   }
 
   void currents() {
     using P = analysis::OperatingPoint;
-    std::vector<Line> lines = {{"winding", "main", "mean of half the sum of the phase currents' magnitudes",
-                                of<&P::winding_current_A>(1)},
-                               {"peak", "b", "greatest phase current", of<&P::phase_peak_A>(1)},
-                               {"rms", "a", "rms of a phase current", of<&P::phase_rms_A>(1)},
-                               {"supply", "c", "mean current from the supply", of<&P::bus_current_A>(1)}};
+    std::vector<CurveLine> lines = {
+        {"winding", "main", "mean of half the sum of the phase currents' magnitudes",
+         of<&P::winding_current_A>(1)},
+        {"peak", "b", "greatest phase current", of<&P::phase_peak_A>(1)},
+        {"rms", "a", "rms of a phase current", of<&P::phase_rms_A>(1)},
+        {"supply", "c", "mean current from the supply", of<&P::bus_current_A>(1)}};
     if (curve_.nominal && curve_.nominal->current_A)
       lines.push_back({"nominal point", "b", "as printed",
-                       [](const Place& p) { return p.nominal ? *p.nominal->current_A : none; },
-                       Line::Drawn::points});
+                       [](const OnCurve& p) { return p.nominal ? *p.nominal->current_A : none; },
+                       CurveLine::Drawn::points});
     add("current", "Current", "A", 220, lines);
   }
 
   std::string text() const { return out_.dump(); }
 
  private:
-  std::function<analysis::ThermalLimits(const Place&)> limits() const {
-    return [this](const Place& p) {
+  std::function<analysis::ThermalLimits(const OnCurve&)> limits() const {
+    return [this](const OnCurve& p) {
       return analysis::thermal_limits(*curve_.thermal, request_, p.point->speed_rad_s);
     };
   }
 
   /// What bus and winding allow together: continuously, and for ten seconds.
-  std::vector<Line> regions() const {
+  std::vector<CurveLine> regions() const {
     if (!curve_.thermal) return {};
-    const auto below = [per_Nm = units_.per_Nm](double allowed_Nm, const Place& p) {
+    const auto below = [per_Nm = units_.per_Nm](double allowed_Nm, const OnCurve& p) {
       if (std::isnan(allowed_Nm)) return 0.0;
       return per_Nm * std::fmax(0.0, std::fmin(allowed_Nm, p.point->shaft_torque_Nm));
     };
     const auto limit = limits();
     return {{"short-time", "b", "what bus and winding allow together for 10 s from ambient temperature",
-             [=](const Place& p) { return below(limit(p).short_Nm[0], p); }, Line::Drawn::region},
+             [=](const OnCurve& p) { return below(limit(p).short_Nm[0], p); }, CurveLine::Drawn::region},
             {"continuous", "c", "what bus and winding allow together continuously",
-             [=](const Place& p) { return below(limit(p).continuous_Nm, p); }, Line::Drawn::region}};
+             [=](const OnCurve& p) { return below(limit(p).continuous_Nm, p); }, CurveLine::Drawn::region}};
   }
 
   /// Up to which torque the motor is used: a stalled one shows ten times that, and would squeeze the rest
@@ -161,7 +164,7 @@ class Charts {
   const analysis::CurveRequest& request_;
   const analysis::Curve& curve_;
   CurveUnits units_;
-  std::vector<Place> places_;
+  std::vector<OnCurve> places_;
   json out_;
   double corner_Nm_ = 0.0;
 };
@@ -175,11 +178,11 @@ std::string curve_charts(const analysis::CurveRequest& request, const analysis::
   charts.currents();
   charts.add("efficiency", "Efficiency", "%", 180,
              {{"efficiency", "main", "shaft over supply",
-               [](const Place& p) { return 100 * p.point->efficiency.value_or(0.0); }}});
-  std::vector<Line> power = {{"in", "main", "taken from the supply", of<&P::supplied_W>(1)},
-                             {"out", "c", "given by the shaft", of<&P::shaft_W>(1)},
-                             {"copper", "b", "loss in the winding", of<&P::copper_W>(1)},
-                             {"friction", "a", "loss by friction", of<&P::friction_W>(1)}};
+               [](const OnCurve& p) { return 100 * p.point->efficiency.value_or(0.0); }}});
+  std::vector<CurveLine> power = {{"in", "main", "taken from the supply", of<&P::supplied_W>(1)},
+                                  {"out", "c", "given by the shaft", of<&P::shaft_W>(1)},
+                                  {"copper", "b", "loss in the winding", of<&P::copper_W>(1)},
+                                  {"friction", "a", "loss by friction", of<&P::friction_W>(1)}};
   const auto& devices = request.bench.devices;
   if (devices.R_on_ohm > 0 || devices.V_f_V > 0 || devices.r_d_ohm > 0)
     power.push_back({"devices", "reference", "loss in switches and diodes", of<&P::devices_W>(1)});

@@ -14,9 +14,6 @@ using sixstep::analysis::DesignStudy;
 using sixstep::control::Mode;
 using sixstep::design::DriveDesign;
 
-constexpr const char* styles[] = {"a", "b", "c"};
-constexpr double degrees = 180 / sixstep::base::pi;
-
 const std::vector<double>* column(const DesignStudy& s, std::string_view name) {
   for (std::size_t n = 0; n < s.trace.columns.size(); ++n)
     if (s.trace.columns[n].name == name) return &s.trace.values[n];
@@ -78,7 +75,8 @@ std::string step_charts(const DesignStudy& s) {
     const double height = r.value * deg.factor;
     chart.y_label = deg.linear;
     chart.title = "Move";
-    chart.curves = {motion.linear ? simulated(s, "position_mm", 0, 1) : simulated(s, "angle_rad", 0, degrees),
+    chart.curves = {motion.linear ? simulated(s, "position_mm", 0, 1)
+                                  : simulated(s, "angle_rad", 0, 1 / sixstep::base::rad_per_deg),
                     designed(s, 0, 0, height)};
     chart.curves[1].label = "were there no limits";
     chart.levels = {height};
@@ -97,10 +95,10 @@ std::string loop_charts(const DesignStudy& s) {
   std::size_t n = 0;
   for (const auto& loop : s.design.loops) {
     const double from = loop.figures.crossover_rad_s.value_or(0.1 / s.design.spec.period_s) / 30;
-    SvgCurve& g = gain.curves.emplace_back(SvgCurve{loop.name, styles[n % 3], {}, {}});
-    SvgCurve& p = phase.curves.emplace_back(SvgCurve{loop.name, styles[n % 3], {}, {}});
+    SvgCurve& g = gain.curves.emplace_back(SvgCurve{loop.name, curve_styles[n % 3], {}, {}});
+    SvgCurve& p = phase.curves.emplace_back(SvgCurve{loop.name, curve_styles[n % 3], {}, {}});
     for (const auto& point : sixstep::design::bode(loop.loop, s.design.spec.period_s, from, 240)) {
-      const double deg = point.phase_rad * degrees;
+      const double deg = point.phase_rad / sixstep::base::rad_per_deg;
       // Beyond that neither tells anything.
       const bool shown = point.gain > 1e-3 && deg > -400;
       g.x.push_back(point.w_rad_s / sixstep::base::turn_rad);
@@ -123,7 +121,7 @@ std::string limit_charts(const DesignStudy& s) {
   std::size_t n = 0;
   const char* const loaded = d.nominal_printed ? "nominal current" : "a tenth of stall";
   for (const double part : {0.0, 1.0}) {
-    SvgCurve curve{part == 0 ? "no current" : loaded, styles[n++], {0, top}, {}};
+    SvgCurve curve{part == 0 ? "no current" : loaded, curve_styles[n++], {0, top}, {}};
     for (const double w : curve.x)
       curve.y.push_back(sixstep::design::headroom_V(d.motor, d.bus_V, part * d.nominal_current_A, w));
     headroom.curves.push_back(std::move(curve));

@@ -17,24 +17,18 @@ namespace {
 
 using sixstep::analysis::EmfHarmonic;
 using sixstep::analysis::EmfResult;
-using sixstep::analysis::Interval;
 
-constexpr const char* styles[] = {"a", "b", "c"};
 constexpr double per_cent = 100.0;
-
-std::string with_bounds(const Interval& x, const char* unit) {
-  return fmt::format("{} {} ({})", text::measured_text(x), unit, text::bounds_text(x));
-}
 
 std::string facts(const text::MeasuredEmf& m) {
   const EmfResult& r = m.result;
   const double p = r.pole_pairs > 0 ? r.pole_pairs : 1.0;
   const char* const unit = r.pole_pairs > 0 ? "mV s/rad" : "mWb";
-  std::string out = bench_fact("Frequency", with_bounds(r.frequency_Hz, "Hz"));
-  out +=
-      bench_fact("Line, peak", with_bounds(sixstep::analysis::scaled(r.constants.line_peak, 1e3 * p), unit));
+  std::string out = bench_fact("Frequency", text::with_bounds(r.frequency_Hz, "Hz"));
+  out += bench_fact("Line, peak",
+                    text::with_bounds(sixstep::analysis::scaled(r.constants.line_peak, 1e3 * p), unit));
   out += bench_fact("Phase, peak",
-                    with_bounds(sixstep::analysis::scaled(r.constants.phase_peak, 1e3 * p), unit));
+                    text::with_bounds(sixstep::analysis::scaled(r.constants.phase_peak, 1e3 * p), unit));
   out += bench_fact("Crest factor", fmt::format("{:.4g}; a sine has 1.414", r.crest));
   for (const sixstep::analysis::FrameCheck& c : m.checks)
     out += bench_fact(escaped(text::visible(c.key)),
@@ -50,7 +44,7 @@ SvgChart recording(const EmfPage& page) {
   const double middle = 0.5 * (t.front() + t.back()),
                half = std::min(1.5 / r.frequency_Hz.value, 0.5 * r.seconds);
   for (std::size_t c = 0; c < page.record.channels.size(); ++c) {
-    SvgCurve seen{text::visible(page.record.channels[c].name), styles[c], {}, {}},
+    SvgCurve seen{text::visible(page.record.channels[c].name), curve_styles[c], {}, {}},
         fit{c == 0 ? "fit" : "", "reference", {}, {}};
     const auto inside = static_cast<std::size_t>(static_cast<double>(t.size()) * 2.0 * half / r.seconds);
     const std::size_t stride = thinned_stride(inside);
@@ -71,7 +65,7 @@ SvgChart residual(const EmfPage& page) {
   const auto& t = page.record.t_s;
   SvgChart chart{.title = "What the fit leaves over", .x_label = "ms", .y_label = "V", .levels = {0.0}};
   for (std::size_t c = 0; c < page.record.channels.size(); ++c) {
-    SvgCurve curve{text::visible(page.record.channels[c].name), styles[c], {}, {}};
+    SvgCurve curve{text::visible(page.record.channels[c].name), curve_styles[c], {}, {}};
     for (std::size_t n = 0; n < t.size(); n += thinned_stride(t.size())) {
       curve.x.push_back(1e3 * (t[n] - t.front()));
       curve.y.push_back(page.record.channels[c].u_V[n] -

@@ -26,19 +26,12 @@ namespace {
 using sixstep::analysis::EdgePassage;
 using sixstep::analysis::HallIdentity;
 using sixstep::analysis::IdentifiedEdge;
-using sixstep::analysis::Interval;
-
-constexpr const char* styles[] = {"a", "b", "c"};
 
 /// 0, 1, 2: the pin that changes.
 std::size_t pin_of(const IdentifiedEdge& e) {
   return 2 - static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(e.before ^ e.after)));
 }
 bool rises(const IdentifiedEdge& e) { return e.after > e.before; }
-
-std::string with_bounds(const Interval& x, const char* unit) {
-  return fmt::format("{} {} ({})", text::measured_text(x), unit, text::bounds_text(x));
-}
 
 std::string facts(const HallIdentity& f) {
   std::string out;
@@ -47,15 +40,16 @@ std::string facts(const HallIdentity& f) {
     out += bench_fact(
         "Lines", text::wires_words(p.wires.front()) + ", sure to " + text::certainty_text(p.probability));
     out += bench_fact("Turned", p.forward ? "forward" : "backward");
-    out += bench_fact("Offset", with_bounds(p.offset_deg, "°"));
-    if (p.hysteresis_deg) out += bench_fact("Hysteresis", with_bounds(*p.hysteresis_deg, "°"));
-    out += bench_fact("Flux linkage", with_bounds(sixstep::analysis::scaled(p.flux_linkage_Vs, 1e3), "mWb"));
+    out += bench_fact("Offset", text::with_bounds(p.offset_deg, "°"));
+    if (p.hysteresis_deg) out += bench_fact("Hysteresis", text::with_bounds(*p.hysteresis_deg, "°"));
+    out += bench_fact("Flux linkage",
+                      text::with_bounds(sixstep::analysis::scaled(p.flux_linkage_Vs, 1e3), "mWb"));
   } else {
     out += bench_fact("Codes never seen", text::code_word(f.mask) + " and " +
                                               text::code_word(static_cast<std::uint8_t>(f.mask ^ 7)));
     out += bench_fact("Order and offset", "not told by codes alone");
   }
-  out += bench_fact("Jitter", f.jitter_deg.low > 0.0 ? with_bounds(f.jitter_deg, "° rms")
+  out += bench_fact("Jitter", f.jitter_deg.low > 0.0 ? text::with_bounds(f.jitter_deg, "° rms")
                                                      : fmt::format("≤ {:.2g}° rms", f.jitter_deg.high));
   return out;
 }
@@ -73,7 +67,7 @@ SvgChart passages(const HallIdentity& f, bool rising) {
   level /= std::max(count, 1.0);
   const std::size_t stride = thinned_stride(f.passages.size() / 6) * f.edges.size() / 6;
   for (std::size_t pin = 0; pin < 3; ++pin) {
-    SvgCurve curve{fmt::format("H{}", pin + 1), styles[pin], {}, {}};
+    SvgCurve curve{fmt::format("H{}", pin + 1), curve_styles[pin], {}, {}};
     std::size_t seen = 0;
     for (const EdgePassage& p : f.passages) {
       const IdentifiedEdge& e = f.edges[p.edge];
@@ -109,7 +103,7 @@ SvgChart own_places(const HallIdentity& f) {
       .levels = {0.0}};
   const double step = 360.0 / 6.0, half = 0.15 * step;
   for (std::size_t pin = 0; pin < 3; ++pin) {
-    SvgCurve curve{fmt::format("H{}", pin + 1), styles[pin], {}, {}};
+    SvgCurve curve{fmt::format("H{}", pin + 1), curve_styles[pin], {}, {}};
     for (std::size_t n = 0; n < f.edges.size(); ++n) {
       const IdentifiedEdge& e = f.edges[n];
       if (pin_of(e) != pin) continue;

@@ -29,7 +29,7 @@ std::string linked(const IndexEntry& entry) {
 std::string anchor(std::size_t place) { return fmt::format("e{}", place + 1); }
 
 /// The requirement that has least room left, and how much.
-std::string closest(const sixstep::study::Outcome& outcome) {
+std::string closest_cell(const sixstep::study::Outcome& outcome) {
   const sixstep::study::Verdict* tightest = nullptr;
   for (const auto& v : outcome.verdicts)
     if (room(v) && (!tightest || *room(v) < *room(*tightest))) tightest = &v;
@@ -65,7 +65,7 @@ std::string overview(const std::vector<IndexEntry>& entries) {
         "<td class=\"num\">{}</td><td>{}</td><td class=\"num\">{}</td></tr>\n",
         verdict.css, verdict.word, anchor(n), escaped(entries[n].title),
         outcome.verdicts.empty() ? "" : fmt::format("{} of {}", held, outcome.verdicts.size()),
-        closest(outcome), furthest(outcome));
+        closest_cell(outcome), furthest(outcome));
   }
   return table("overview",
                "<th></th><th>Experiment</th><th class=\"num\">Requirements</th><th>Closest requirement</th>"

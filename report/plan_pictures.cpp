@@ -15,12 +15,15 @@ namespace {
 
 namespace analysis = sixstep::analysis;
 
-constexpr double width = 360, height = 150, left = 12, right = 12, top = 18, bottom = 24;
+constexpr double plot_width = 360, plot_height = 150, plot_left = 12, plot_right = 12, plot_top = 18,
+                 plot_bottom = 24;
 
 /// The histogram's own axis: the span, and a limit that lies not far from it.
 struct Reach {
   double low, high;
-  double at(double v) const { return left + (v - low) / (high - low) * (width - left - right); }
+  double at(double v) const {
+    return plot_left + (v - low) / (high - low) * (plot_width - plot_left - plot_right);
+  }
 };
 
 std::vector<double> limits_of(const analysis::FigureColumn& f) {
@@ -57,9 +60,11 @@ std::string bars(const Reach& reach, const Span& span, const DrawnHistogram& dra
   for (std::size_t n = 0; n < histogram_bins; ++n) {
     const std::size_t count = drawn.histogram.counts[n];
     if (count == 0) continue;
-    const double tall = std::max(1.0, share(drawn.histogram, count) / most * (height - top - bottom));
+    const double tall =
+        std::max(1.0, share(drawn.histogram, count) / most * (plot_height - plot_top - plot_bottom));
     const double x = to > from ? from + static_cast<double>(n) * each : from - each / 2;
-    path += fmt::format("M{:.1f} {:.1f}v{:.1f}h{:.1f}v{:.1f}z", x, height - bottom, -tall, each, tall);
+    path +=
+        fmt::format("M{:.1f} {:.1f}v{:.1f}h{:.1f}v{:.1f}z", x, plot_height - plot_bottom, -tall, each, tall);
   }
   return fmt::format("<path d=\"{}\" style=\"fill: var(--{})\"/>", path, drawn.colour);
 }
@@ -76,9 +81,9 @@ std::string ticks(const Reach& reach, const Scale& scale) {
   for (auto n = static_cast<long>(std::ceil(reach.low * scale.factor / step)); n <= last; ++n) {
     const double x = reach.at(static_cast<double>(n) * step / scale.factor);
     const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
-    if (x > left + 8 && x < width - right - 8)
+    if (x > plot_left + 8 && x < plot_width - plot_right - 8)
       svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{:.{}f}</text>", x,
-                         height - bottom + 16, static_cast<double>(n) * step, decimals);
+                         plot_height - plot_bottom + 16, static_cast<double>(n) * step, decimals);
   }
   return svg;
 }
@@ -86,20 +91,20 @@ std::string ticks(const Reach& reach, const Scale& scale) {
 std::string limit_lines(const analysis::FigureColumn& f, const Reach& reach) {
   std::string svg;
   constexpr double as_wide_as_a_label = 140.0;
-  double last = -width;
+  double last = -plot_width;
   int row = 0;
   for (const double limit : limits_of(f)) {
     if (limit < reach.low || limit > reach.high) continue;
     const double x = reach.at(limit);
-    const bool flip = x > 0.6 * width;
+    const bool flip = x > 0.6 * plot_width;
     row = std::fabs(x - last) < as_wide_as_a_label ? row + 1
                                                    : 0;  // labels that would overlap stand below each other
     last = x;
     svg += fmt::format(
         "<line class=\"limit\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"4\" y2=\"{1}\"/><text x=\"{2:.1f}\" y=\"{5}\" "
         "text-anchor=\"{3}\">{4}</text>",
-        x, height - bottom, flip ? x - 4 : x + 4, flip ? "end" : "start", escaped(given(limit, f.unit)),
-        13 + 14 * row);
+        x, plot_height - plot_bottom, flip ? x - 4 : x + 4, flip ? "end" : "start",
+        escaped(given(limit, f.unit)), 13 + 14 * row);
   }
   return svg;
 }
@@ -161,8 +166,8 @@ std::string histogram_picture(const analysis::FigureColumn& f, const Span& span,
   return fmt::format(
       "<figure class=\"chart drawn histogram\">{}<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">"
       "<line class=\"grid\" x1=\"{}\" x2=\"{}\" y1=\"{}\" y2=\"{}\"/>{}{}{}</svg></figure>\n",
-      caption, width, height, escaped(told), left, width - right, height - bottom, height - bottom, svg,
-      limit_lines(f, reach), ticks(reach, scale));
+      caption, plot_width, plot_height, escaped(told), plot_left, plot_width - plot_right,
+      plot_height - plot_bottom, plot_height - plot_bottom, svg, limit_lines(f, reach), ticks(reach, scale));
 }
 
 std::string index_section(const PagePlan& plan) {

@@ -17,7 +17,8 @@ using sixstep::study::EnergyBook;
 
 // Of the drawing, in its own pixels. A label has two lines, and no two may touch. Above all there is room for
 // the nodes' names.
-constexpr double width = 940, full = 130, label_height = 36, gap = 10, margin = 20, bar = 10;
+constexpr double sankey_width = 940, full = 130, label_height = 36, sankey_gap = 10, sankey_margin = 20,
+                 sankey_bar = 10;
 constexpr double source_x = 190, first_x = 340, second_x = 560, sink_x = 750;
 constexpr double text_height = 18;
 constexpr double thinnest = 1.0;  // what is there is seen
@@ -83,22 +84,22 @@ double place(std::vector<Flow>& flows, const Drawing& d, double top) {
   for (Flow& flow : flows) {
     const double room = std::max(d.wide(flow.joule), label_height);
     flow.y = top + room / 2;
-    top += room + gap;
+    top += room + sankey_gap;
   }
   return top;
 }
 
 /// Sources on the left, sinks on the right, of the second node above those of the first: so nothing crosses.
 void arrange(Drawing& d) {
-  d.second.y = margin;
-  d.first.y = place(d.second.in, d, margin);
+  d.second.y = sankey_margin;
+  d.first.y = place(d.second.in, d, sankey_margin);
   if (!d.second.in.empty()) d.first.y += text_height;  // its name stands below those bands
   const double left = place(d.first.in, d, d.first.y);
   // What leaves the first node passes below the second one's bar.
-  const double below =
-      std::max(place(d.second.out, d, margin), margin + d.wide(sum(d.second.in) + d.between) + gap);
+  const double below = std::max(place(d.second.out, d, sankey_margin),
+                                sankey_margin + d.wide(sum(d.second.in) + d.between) + sankey_gap);
   const double right = place(d.first.out, d, below);
-  d.height = std::max(left, right) - gap + margin;
+  d.height = std::max(left, right) - sankey_gap + sankey_margin;
 }
 
 std::string band(const Flow& flow, double x0, double y0, double x1, double y1, double wide) {
@@ -131,7 +132,8 @@ std::string bands(const Node& node, const Drawing& d, double x, double outgoing,
   y = node.y + (outgoing > 0.0 ? d.wide(outgoing) : 0.0);
   for (const Flow& flow : node.out) {
     const double wide = d.wide(flow.joule);
-    html += band(flow, x + bar, y + wide / 2, sink_x, flow.y, wide) + label(flow, sink_x + 8, "start", scale);
+    html += band(flow, x + sankey_bar, y + wide / 2, sink_x, flow.y, wide) +
+            label(flow, sink_x + 8, "start", scale);
     y += wide;
   }
   end = std::max(end, y);
@@ -139,8 +141,8 @@ std::string bands(const Node& node, const Drawing& d, double x, double outgoing,
     html += fmt::format(
         "<rect x=\"{0:.1f}\" y=\"{1:.2f}\" width=\"{2}\" height=\"{3:.2f}\"/><text class=\"value\" "
         "x=\"{4:.1f}\" y=\"{5:.2f}\" text-anchor=\"{6}\">{7}</text>\n",
-        x, node.y, bar, end - node.y, x < second_x ? x + bar : x, node.y - 6, x < second_x ? "end" : "start",
-        node.name);
+        x, node.y, sankey_bar, end - node.y, x < second_x ? x + sankey_bar : x, node.y - 6,
+        x < second_x ? "end" : "start", node.name);
   return html;
 }
 
@@ -153,9 +155,9 @@ std::string across(const Drawing& d, const Scale& scale) {
   const double left = d.first.y + wide / 2, right = y + wide / 2;
   // On the band, above one that is too thin for it, and where that climbs to the right of it, below.
   const bool thin = wide < text_height, climbs = thin && left - right > text_height;
-  const double x = (first_x + bar + second_x) / 2, middle = (left + right) / 2;
+  const double x = (first_x + sankey_bar + second_x) / 2, middle = (left + right) / 2;
   const double base = !thin ? middle + 4 : climbs ? middle + wide / 2 + text_height : middle - wide / 2 - 5;
-  return band(flow, first_x + bar, left, second_x, right, wide) +
+  return band(flow, first_x + sankey_bar, left, second_x, right, wide) +
          fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">across the air gap {} {}</text>\n",
                      x, base, climbs ? "start" : "middle", plain(d.between * scale.factor, 4), scale.unit);
 }
@@ -197,7 +199,7 @@ std::string energy_sankey(const EnergyBook& b) {
   const Scale scale = scale_for(largest, "J");
   std::string html =
       fmt::format("<figure class=\"sankey\"><svg viewBox=\"0 0 {} {:.0f}\" role=\"img\" aria-label=\"{}\">\n",
-                  width, d.height, escaped(spoken(d, scale)));
+                  sankey_width, d.height, escaped(spoken(d, scale)));
   html +=
       bands(d.first, d, first_x, d.between, 0.0, scale) + bands(d.second, d, second_x, 0.0, d.between, scale);
   return html + across(d, scale) + "</svg></figure>\n";

@@ -12,7 +12,7 @@
 namespace report {
 namespace {
 
-constexpr double left = 62, right = 12, top = 10, bottom = 40;
+constexpr double chart_left = 62, chart_right = 12, chart_top = 10, chart_bottom = 40;
 struct Size {
   double width, height;
 };
@@ -76,17 +76,17 @@ std::string grid(const Axis& x, const Axis& y, const SvgChart& chart) {
     out += fmt::format(
         "<line class=\"grid\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\"/><text x=\"{0:.1f}\" "
         "y=\"{3}\" text-anchor=\"middle\">{4}</text>\n",
-        x.at(v), top, height - bottom, height - bottom + 16, label(v));
+        x.at(v), chart_top, height - chart_bottom, height - chart_bottom + 16, label(v));
   for (const double v : y.ticks(chart.y_tick))
     out += fmt::format(
         "<line class=\"grid\" x1=\"{1}\" x2=\"{2}\" y1=\"{0:.1f}\" y2=\"{0:.1f}\"/><text x=\"{3}\" "
         "y=\"{4:.1f}\" text-anchor=\"end\">{5}</text>\n",
-        y.at(v), left, width - right, left - 6, y.at(v) + 4, label(v));
+        y.at(v), chart_left, width - chart_right, chart_left - 6, y.at(v) + 4, label(v));
   for (const double v : chart.levels)
     out += fmt::format("<line class=\"level\" x1=\"{1}\" x2=\"{2}\" y1=\"{0:.1f}\" y2=\"{0:.1f}\"/>\n",
-                       y.at(v), left, width - right);
-  out += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", (left + width - right) / 2,
-                     height - 6, escaped(chart.x_label));
+                       y.at(v), chart_left, width - chart_right);
+  out += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n",
+                     (chart_left + width - chart_right) / 2, height - 6, escaped(chart.x_label));
   return out;
 }
 
@@ -137,7 +137,7 @@ std::string caption(const SvgChart& chart) {
 
 std::string svg_chart(const SvgChart& chart) {
   const auto [width, height] = size_of(chart);
-  Axis x(chart.log_x, left, width - right), y(chart.log_y, height - bottom, top);
+  Axis x(chart.log_x, chart_left, width - chart_right), y(chart.log_y, height - chart_bottom, chart_top);
   for (const SvgCurve& c : chart.curves)
     for (std::size_t n = 0; n < std::min(c.x.size(), c.y.size()); ++n)
       if (x.shows(c.x[n]) && y.shows(c.y[n])) {

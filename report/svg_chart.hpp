@@ -6,6 +6,9 @@
 
 namespace report {
 
+/// Of the style sheet, for curves that belong together.
+inline constexpr const char* curve_styles[] = {"a", "b", "c"};
+
 struct SvgCurve {
   std::string label;
   std::string style;  ///< a colour of the style sheet: "a", "b", "c", "main", "reference" (dashed)

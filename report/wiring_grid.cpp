@@ -19,12 +19,13 @@ namespace rig = sixstep::rig;
 using analysis::WiringCase;
 using analysis::WiringStudy;
 
-constexpr double left = 102, top = 92, cell_width = 122, cell_height = 106, gap = 6, group_gap = 10;
+constexpr double grid_left = 102, grid_top = 92, cell_width = 122, cell_height = 106, grid_gap = 6,
+                 group_gap = 10;
 constexpr double torque_middle = 43, torque_half = 18, run_middle = 83, run_half = 17, side = 8;
 constexpr double most_torque = 1.15;  // of straight wires' mean
 
 double at(std::size_t n, double begin, double size) {
-  return begin + static_cast<double>(n) * (size + gap) + (n >= 3 ? group_gap : 0);
+  return begin + static_cast<double>(n) * (size + grid_gap) + (n >= 3 ? group_gap : 0);
 }
 
 /// Three wires from the motor's ends, in their order, to the board's places.
@@ -59,13 +60,13 @@ std::string headers(const WiringStudy& s) {
   for (std::size_t n = 0; n < 6; ++n) {
     const rig::Wiring &column = s.cases[n].wiring, &row = s.cases[6 * n].wiring;
     out += fmt::format("<text class=\"m b\" x=\"{:.1f}\" y=\"14\">{}</text>\n",
-                       at(n, left, cell_width) + cell_width / 2, text::hall_lines_word(column));
-    out +=
-        wires(rig::ends_of(column.probes), probes, pins, at(n, left, cell_width) + cell_width / 2, 30, true);
+                       at(n, grid_left, cell_width) + cell_width / 2, text::hall_lines_word(column));
+    out += wires(rig::ends_of(column.probes), probes, pins, at(n, grid_left, cell_width) + cell_width / 2, 30,
+                 true);
     out += fmt::format("<text class=\"b\" x=\"2\" y=\"{:.1f}\">{}</text>\n",
-                       at(n, top, cell_height) + cell_height / 2 + 4, text::phases_word(row));
-    out +=
-        wires(rig::ends_of(row.phases), phases, phases, 43, at(n, top, cell_height) + cell_height / 2, false);
+                       at(n, grid_top, cell_height) + cell_height / 2 + 4, text::phases_word(row));
+    out += wires(rig::ends_of(row.phases), phases, phases, 43, at(n, grid_top, cell_height) + cell_height / 2,
+                 false);
   }
   return out;
 }
@@ -119,7 +120,7 @@ Panel wiring_grid(const WiringStudy& s) {
   for (std::size_t n = 0; n < s.cases.size(); ++n) {
     const WiringCase& c = s.cases[n];
     const double times = s.symptom(c).phase_rms_A / straight_A;
-    const double x = at(n % 6, left, cell_width), y = at(n / 6, top, cell_height);
+    const double x = at(n % 6, grid_left, cell_width), y = at(n / 6, grid_top, cell_height);
     svg += fmt::format(
         "<g class=\"{}\" transform=\"translate({:.0f} {:.0f})\"><title>phases {}, Hall lines {}: {}</title>\n"
         "<rect class=\"w-cell\" width=\"{:.0f}\" height=\"{:.0f}\" rx=\"6\"/><rect class=\"w-bar\" width=\"{:.0f}\" height=\"3\" "
@@ -135,7 +136,7 @@ Panel wiring_grid(const WiringStudy& s) {
            torque(of, straight.theory.mean_Nm_A, c, straight.measured.torque_Nm_A) +
            runs(c, std::ceil(most)) + "</g></g>\n";
   }
-  const double bottom = at(5, top, cell_height) + cell_height + 18;
+  const double bottom = at(5, grid_top, cell_height) + cell_height + 18;
   const sixstep::base::Motion motion = sixstep::design::motion_of(s.subject.sheet);
   const std::string key[] = {
       "Upper: torque over one electrical turn at the same current, filled as theory has it, the line as measured; up is forward.",
@@ -143,9 +144,9 @@ Panel wiring_grid(const WiringStudy& s) {
                   computed(s.bench.free_s, "s"), plain(std::ceil(most), 2, true), plain(humming_turns, 1)),
       "×: phase current without load, of that with straight wires."};
   for (std::size_t n = 0; n < 3; ++n)
-    svg += fmt::format("<text class=\"q s\" x=\"{:.0f}\" y=\"{:.0f}\">{}</text>\n", left,
+    svg += fmt::format("<text class=\"q s\" x=\"{:.0f}\" y=\"{:.0f}\">{}</text>\n", grid_left,
                        bottom + 15.0 * static_cast<double>(n), escaped(motion.words(key[n])));
-  return {at(5, left, cell_width) + cell_width, bottom + 35, std::move(svg)};
+  return {at(5, grid_left, cell_width) + cell_width, bottom + 35, std::move(svg)};
 }
 
 }  // namespace report

@@ -16,7 +16,7 @@ namespace {
 
 using sixstep::analysis::WiringStudy;
 
-constexpr double margin = 20, gap = 22, head = 60;
+constexpr double sheet_margin = 20, sheet_gap = 22, head = 60;
 
 /// The page's colours (web/report.css), for a picture that stands alone.
 constexpr std::string_view colours =
@@ -53,9 +53,9 @@ std::string wiring_picture(const WiringStudy& s, std::string_view version) {
   const Panel grid = wiring_grid(s), cards = wiring_cards(s, grid.height),
               commutation = commutation_picture(s);
   const Panel recipe = steps(cards.width);
-  const double right = margin + grid.width + gap, below = head + grid.height + gap;
-  const double width = right + cards.width + margin;
-  const double height = below + std::max(commutation.height, recipe.height) + margin;
+  const double right = sheet_margin + grid.width + sheet_gap, below = head + grid.height + sheet_gap;
+  const double width = right + cards.width + sheet_margin;
+  const double height = below + std::max(commutation.height, recipe.height) + sheet_margin;
   const std::string title = fmt::format("The 36 ways to plug in the {}", s.subject.sheet.name);
   const sixstep::base::Motion motion = sixstep::design::motion_of(s.subject.sheet);
   return fmt::format(
@@ -64,10 +64,10 @@ std::string wiring_picture(const WiringStudy& s, std::string_view version) {
              "<rect width=\"{0:.0f}\" height=\"{1:.0f}\" style=\"fill:var(--page)\"/>\n"
              "<text class=\"b\" style=\"font-size:19px\" x=\"{6:.0f}\" y=\"30\">{3}</text>\n"
              "<text class=\"q\" x=\"{6:.0f}\" y=\"48\">{7}</text>\n",
-             width, height, escaped(version), escaped(motion.words(title)), colours, wiring_style(), margin,
-             escaped(text::bench_text(s))) +
-         placed(grid, margin, head) + placed(cards, right, head) + placed(commutation, margin, below) +
-         placed(recipe, right, below) + "</svg>\n";
+             width, height, escaped(version), escaped(motion.words(title)), colours, wiring_style(),
+             sheet_margin, escaped(text::bench_text(s))) +
+         placed(grid, sheet_margin, head) + placed(cards, right, head) +
+         placed(commutation, sheet_margin, below) + placed(recipe, right, below) + "</svg>\n";
 }
 
 }  // namespace report

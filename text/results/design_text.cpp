@@ -101,10 +101,6 @@ std::string robust_text(const analysis::Robustness& r) {
          rows.text();
 }
 
-std::string counted(std::size_t n, const char* what) {
-  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
-}
-
 std::string position_text(const analysis::PositionGain& p, const Motion& motion) {
   const sixstep::base::LinearUnit gain = motion.unit("rad/s/deg");
   // A drive with little speed to lose brakes faster than its linear loop is: the smaller one first, each with its own words.

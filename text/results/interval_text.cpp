@@ -30,6 +30,10 @@ std::string bounds_text(const analysis::Interval& x) {
   return decimals_text(x.low, decimals) + " .. " + decimals_text(x.high, decimals);
 }
 
+std::string with_bounds(const analysis::Interval& x, const char* unit) {
+  return fmt::format("{} {} ({})", measured_text(x), unit, bounds_text(x));
+}
+
 std::string as_good_as(double value, const analysis::Interval& x) {
   return decimals_text(value, decimals_of(x));
 }

@@ -12,6 +12,8 @@ namespace text {
 std::string measured_text(const analysis::Interval& x);
 /// "3.15 .. 3.27", to the same digits.
 std::string bounds_text(const analysis::Interval& x);
+/// "3.21 V (3.15 .. 3.27)", where `unit` is "V".
+std::string with_bounds(const analysis::Interval& x, const char* unit);
 /// A number to the digits that the interval has: for a file.
 std::string as_good_as(double value, const analysis::Interval& x);
 

@@ -69,6 +69,10 @@ std::string quantity_text(double x, const std::string& unit, int digits) {
   return joined(prefixed(x, prefix, digits), unit_text(prefix, unit));
 }
 
+std::string counted(std::size_t n, const char* what) {
+  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+}
+
 std::string fixed_text(double x, int digits) {
   return std::isfinite(x) ? fmt::format("{:.{}f}", x, digits) : "-";
 }

@@ -2,6 +2,7 @@
 // Numbers for people: engineering prefixes and few digits, but never so few that a miss looks like a hit.
 // Files for programs (CSV, JSON) hold full precision and do not come here.
 #pragma once
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,6 +18,9 @@ std::string quantity_text(double x, const std::string& unit, int digits = 5);
 std::string fixed_text(double x, int digits);
 /// In full, for programs; empty for what has no value, "never" for what does not come.
 std::string csv_cell(double x);
+
+/// "1 run", "2 runs".
+std::string counted(std::size_t n, const char* what);
 
 /// Numbers that are compared with each other: all in the prefix of the largest of `yardsticks`, and with as
 /// many digits as tell apart whatever differs. First the texts of the yardsticks, without unit, then that of

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t columns = 10;
 constexpr int spread_digits = 4;  // a thousand drives do not tell more
-using Row = std::array<std::string, columns>;
+using SeriesRow = std::array<std::string, columns>;
 
 std::string cell(const std::optional<double>& x, const std::string& unit) {
   return x ? quantity_text(*x, unit, spread_digits) : "-";
@@ -27,7 +27,7 @@ std::string required(const analysis::FigureColumn& f) {
   return f.max ? "<= " + quantity_text(*f.max, f.unit) : "";
 }
 
-Row row_of(const analysis::SpreadFigure& f, std::size_t runs) {
+SeriesRow row_of(const analysis::SpreadFigure& f, std::size_t runs) {
   const analysis::Statistics& s = f.statistics;
   const std::string& unit = f.column.unit;
   return {"  " + f.column.name,
@@ -42,14 +42,14 @@ Row row_of(const analysis::SpreadFigure& f, std::size_t runs) {
           f.column.required ? fmt::format("{} of {}", f.holds, runs) : ""};
 }
 
-std::string aligned(std::vector<Row> rows) {
-  for (Row& row : rows)
+std::string aligned(std::vector<SeriesRow> rows) {
+  for (SeriesRow& row : rows)
     for (std::string& cell : row) cell = visible(cell);
   std::array<std::size_t, columns> widths{};
-  for (const Row& row : rows)
+  for (const SeriesRow& row : rows)
     for (std::size_t c = 0; c < columns; ++c) widths[c] = std::max(widths[c], row[c].size());
   std::string text;
-  for (const Row& row : rows) {
+  for (const SeriesRow& row : rows) {
     std::string line;
     for (std::size_t c = 0; c < columns; ++c)
       line += c < 2 ? fmt::format("{:<{}}  ", row[c], widths[c]) : fmt::format("{:>{}}  ", row[c], widths[c]);
@@ -122,7 +122,7 @@ std::string casualties_text(const analysis::Series& series, const analysis::Plan
 std::string series_table(const std::string& name, const analysis::Series& series,
                          const analysis::Plan& plan) {
   if (series.runs == 0) return series_sum(series, plan);
-  std::vector<Row> rows = {
+  std::vector<SeriesRow> rows = {
       {name, "required", "min", "5 %", "median", "95 %", "max", "mean", "deviation", "holds"}};
   for (const analysis::SpreadFigure& figure : series.figures) rows.push_back(row_of(figure, series.runs));
   return aligned(std::move(rows)) + casualties_text(series, plan) + series_sum(series, plan);

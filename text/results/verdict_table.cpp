@@ -87,10 +87,6 @@ void add_entry(std::vector<Line>& lines, const TableEntry& entry) {
   if (lines.size() == before) lines.push_back({Kind::note, {"  requires nothing"}});
 }
 
-std::string counted(std::size_t n, const char* what) {
-  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
-}
-
 }  // namespace
 
 std::string deviation_text(const study::ComparisonResult& c) {
