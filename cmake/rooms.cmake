@@ -37,6 +37,24 @@ function(sixstep_in_batches target)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
+# Folders of a library's room that are compiled for size, in batches of their own.
+function(sixstep_for_size target)
+  set(sources)
+  foreach(folder ${ARGN})
+    file(GLOB found CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
+    list(APPEND sources ${found})
+  endforeach()
+  get_target_property(kept ${target} SOURCES)
+  list(REMOVE_ITEM kept ${sources})
+  set_target_properties(${target} PROPERTIES SOURCES "${kept}")
+  add_library(${target}_small OBJECT ${sources})
+  target_link_libraries(${target}_small PRIVATE $<TARGET_PROPERTY:${target},LINK_LIBRARIES>)
+  target_compile_options(${target}_small PRIVATE -Wmissing-field-initializers -fno-exceptions -fno-rtti
+    $<$<CONFIG:Release>:-Os>)
+  sixstep_in_batches(${target}_small)
+  target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_small>)
+endfunction()
+
 # The text files of a folder as C++ constants, so that the program needs nothing beside itself.
 #   sixstep_embed(TARGET report NAMESPACE report::assets FILES a.html b.js)
 # makes report_assets.hpp-style code: for each file a std::string_view named after it, dots and dashes as underscores.
