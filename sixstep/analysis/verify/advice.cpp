@@ -122,10 +122,25 @@ std::string rescue(const DesignOrder& order, const DriveDesign& d) {
   return "";
 }
 
+/// A target out of reach stays there whatever the loops are: a smaller step, a tenth below what was reached.
+std::string smaller_step(const DesignOrder& order, const DesignStudy& s) {
+  const double first = s.scenario.reference.values.front(), held = s.outcome.verdicts.front().measured;
+  DesignOrder next = order;
+  next.subject.step = base::shortened(0.9 * (held - first), 2, base::Towards::down);
+  TrialBudget budget{rescue_periods};
+  if (!holds(next, order.spec, budget))
+    return "nothing but a smaller step, a higher voltage or less load makes it usable";
+  return "usable with step = " + base::written(*next.subject.step);
+}
+
 /// Of another: what makes it usable.
 void advise_unusable(const DesignOrder& order, DesignStudy& s) {
   const auto grave =
       std::find_if(s.warnings.begin(), s.warnings.end(), [](const Warning& w) { return w.grave; });
+  if (grave->of == Concern::reach) {
+    grave->cure = smaller_step(order, s);
+    return;
+  }
   const std::string words = rescue(order, s.design);
   grave->cure =
       words.empty()
