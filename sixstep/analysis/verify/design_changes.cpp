@@ -104,6 +104,18 @@ void add_slower(const DesignSpec& w, const DriveDesign& d, std::vector<DesignSpe
     with([&](DesignSpec& n) { n.lowest_speed_rad_s = plain(2 * d.lowest_speed_rad_s, base::Towards::up); });
 }
 
+/// A current loop made slower alone comes too close to the speed loop around it.
+void add_slower_together(const DesignSpec& w, const DriveDesign& d, std::vector<DesignSpec>& out) {
+  const auto& inner = d.loops.front().placed;
+  if (!has_speed_loop(w) || !inner) return;
+  for (const double times : {2.0, 4.0}) {
+    DesignSpec next = w;
+    slow_down(next, d, times);
+    next.current_settle_s = plain(times * inner->settle_s, base::Towards::up);
+    out.push_back(next);
+  }
+}
+
 void add_torque(const DriveDesign& d, const DesignSpec& w, std::vector<DesignSpec>& out) {
   if (!has_speed_loop(w)) return;
   for (const double amperes : {3.0 * d.nominal_current_A, d.nominal_current_A})
@@ -163,6 +175,7 @@ std::vector<DesignSpec> single_changes(const DesignOrder& order, const DriveDesi
     with([](DesignSpec& n) { n.method = design::GainMethod::cancellation; });
   add_slower(w, d, out);
   add_torque(d, w, out);
+  add_slower_together(w, d, out);
   add_voltage(d, w, out);
   return out;
 }
