@@ -14,7 +14,7 @@ struct DesignArguments {
   std::optional<std::string> mode, chopping, rotor, currents;
   std::string method = "pole-placement";
   std::optional<double> settle_s, current_settle_s, damping, bandwidth_rad_s, period_s, voltage_V,
-      torque_limit_Nm, load_inertia_kg_m2, lowest_speed_rad_s, step;
+      torque_limit_Nm, load_inertia_kg_m2, lowest_speed_rad_s, capture_Hz, step;
   std::optional<double> force_limit_N, load_mass_kg;  ///< of a linear motor, for torque limit and inertia
   std::optional<int> delay_periods, edges;
   bool quick = false;  ///< without the tolerances

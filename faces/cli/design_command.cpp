@@ -54,6 +54,9 @@ design::RotorSensing rotor_of(const DesignArguments& a, const study::Scenario* s
     rotor = analysis::rotor_sensing_of(board);
   }
   rotor.edges = a.edges.value_or(rotor.edges);
+  rotor.capture_Hz = a.capture_Hz.value_or(rotor.capture_Hz);
+  if (rotor.shaft.kind == design::ShaftSensorKind::encoder)
+    rotor.shaft.capture_Hz = a.capture_Hz.value_or(rotor.shaft.capture_Hz);
   return rotor;
 }
 
@@ -253,6 +256,9 @@ void declare_options(CLI::App& design, DesignArguments& a) {
   design.add_option("--rotor", a.rotor, "hall, encoder, absolute, resolver, or ideal; hall");
   design.add_option("--edges", a.edges,
                     "speed, position: Hall edges that a speed is taken over, 1 to 6; else 6 or 1, adaptive");
+  design.add_option("--capture", a.capture_Hz,
+                    "speed, position: clock of the timer that captures the edges of Hall probes or an "
+                    "encoder, in Hz; 1e6");
   design.add_option("--lowest-speed", a.lowest_speed_rad_s,
                     "speed, position: that is to be held, in rad/s or m/s; a tenth of what the bus reaches");
   design.add_option("--currents", a.currents, "phases, dc-link or ideal; phases");

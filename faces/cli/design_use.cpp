@@ -37,6 +37,7 @@ constexpr Use uses[] = {
     {"--chopping", [](const A& a) { return a.chopping.has_value(); }, "chopping", in_scenario, false},
     {"--rotor", [](const A& a) { return a.rotor.has_value(); }, "rotor", in_scenario, false},
     {"--edges", [](const A& a) { return a.edges.has_value(); }, "edges", in_scenario, false},
+    {"--capture", [](const A& a) { return a.capture_Hz.has_value(); }, "capture_Hz", in_scenario, false},
     {"--currents", [](const A& a) { return a.currents.has_value(); }, "", in_scenario, false},
     {"--settle", [](const A& a) { return a.settle_s.has_value(); }, "settle_s", in_scenario, false},
     {"--current-settle", [](const A& a) { return a.current_settle_s.has_value(); }, "current_settle_s",

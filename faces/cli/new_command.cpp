@@ -87,6 +87,8 @@ Exit new_command(const NewArguments& a) {
                   "next: sixstep run {} --html {}\n",
                   text::visible(path), *beside, text::shell_word(path),
                   text::shell_word(fs::path(path).replace_extension(".html").string())));
+  if (const std::string note = text::starter_note(*scenario); !note.empty())
+    print(fmt::format("note: {}\n", note));
   if (scenario->pwm.period_s < text::stm32_least_period_s)
     print(fmt::format(
         "note: {}; this winding's ripple asks for it, and a choke in each line, counted into the sheet's inductance, allows a longer one\n",

@@ -11,6 +11,7 @@ struct Word {
   std::string_view member, option;
 };
 constexpr Word words[] = {{"bandwidth_rad_s", "--bandwidth"},
+                          {"capture_Hz", "--capture"},
                           {"chopping", "--chopping"},
                           {"current_settle_s", "--current-settle"},
                           {"damping", "--damping"},

@@ -31,6 +31,8 @@ study::Scenario board_with(RotorSensing rotor, Mode mode = Mode::speed) {
   s.supply.voltage_V = 24;
   s.pwm.commutation = study::CommutationAt::sample;
   s.control.mode = mode;
+  s.sensors.capture_Hz =
+      16e6;  // by 1 MHz an encoder's steps of the speed reach the limits (high_speed_test.cpp)
   s.sensors = with_rotor(s.sensors, rotor, s.pwm.period_s);
   return s;
 }

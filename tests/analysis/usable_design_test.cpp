@@ -112,6 +112,28 @@ TEST(DesignedSpeed, BeyondTheBusIsRefusedByName) {
   EXPECT_EQ(study.problems().front().where, "lowest_speed_rad_s");
 }
 
+/// A first command above the bus: a slower current loop needs no other bus, and is what is offered, with a slower loop around it where it
+/// would come too close to that.
+TEST(Advice, OffersABusAboveTheSheetsOnlyWhereNothingElseHelps) {
+  int slower = 0;
+  for (const double times : {3.0, 4.0, 6.0}) {
+    DesignOrder order = on_a_board(Mode::speed);
+    order.advises = true;
+    order.spec.rotor.hall = false;
+    order.spec.chopping = control::Chopping::complementary;
+    order.spec.settle_s = 5e-3;
+    order.subject.sheet.inductance_mH->value *= times;
+    const auto study = study_design(order);
+    ASSERT_TRUE(study);
+    const auto asks = std::find_if(study->warnings.begin(), study->warnings.end(),
+                                   [](const design::Warning& w) { return w.of == design::Concern::voltage; });
+    ASSERT_NE(asks, study->warnings.end()) << times;
+    EXPECT_EQ(asks->cure.find("voltage_V"), std::string::npos) << asks->cure;
+    slower += asks->cure.find("settle_s") != std::string::npos ? 1 : 0;
+  }
+  EXPECT_GE(slower, 1);
+}
+
 /// Of a placed pair d1 is positive while 2 x 4.6/T_reg is above R/L.
 TEST(UsualCurrentLoop, OfAnyWindingGainsPositively) {
   for (const double times : {1.0, 0.3, 0.1, 0.03}) {

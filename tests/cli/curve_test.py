@@ -33,6 +33,13 @@ class Curve(ProgramTest):
         (self.path / "plain.toml").write_text(plain)
         self.assertIn("\nNominal point of the sheet: 83.40 mNm", self.run_program("curve", "plain.toml", "--points", "3").stdout)
 
+    def test_speeds_that_the_sheet_does_not_allow_are_told(self):
+        told = " ".join(self.run_program("curve", "maxon-251601", "--voltage", "48", "--points", "3").stdout.split())
+        allowed, no_load = map(float, re.search(r"The sheet allows (\d+) rpm, and no load lies at (\d+) rpm", told).groups())
+        self.assertEqual(allowed, 10000)
+        self.assertGreater(no_load, 1.8 * 6710)  # twice the voltage, about twice the speed
+        self.assertNotIn("The sheet allows", self.run_program("curve", "maxon-251601", "--points", "3").stdout)
+
     def test_a_linear_motors_curve_is_in_newtons(self):
         self.run_program("curve", "example-linear", "--points", "5", "--csv", "a.csv", "--json", "a.json", "--html", "a.html", "--quiet")
         rows = [row for row in (self.path / "a.csv").read_text().splitlines() if not row.startswith("#")]

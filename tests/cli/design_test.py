@@ -153,7 +153,7 @@ class Design(ProgramTest):
     def test_an_option_that_enters_nothing_is_refused_by_name(self):
         """Each option of the help, in each kind of design: it changes the numbers, or is refused by its name."""
         values = {"--settle": "2e-3", "--damping": "0.8", "--current-settle": "2e-3", "--method": "cancellation", "--bandwidth": "500", "--period": "25e-6",
-                  "--voltage": "20", "--torque-limit": "0.3", "--force-limit": "3", "--rotor": "encoder", "--edges": "3", "--lowest-speed": "55", "--currents": "dc-link",
+                  "--voltage": "20", "--torque-limit": "0.3", "--force-limit": "3", "--rotor": "encoder", "--edges": "3", "--capture": "2e6", "--lowest-speed": "55", "--currents": "dc-link",
                   "--load-inertia": "1e-6", "--load-mass": "0.1", "--delay": "0", "--chopping": "complementary", "--step": "1.5", "--mode": "speed", "--angle": "10",
                   "--html": "o.html", "--models": "o.json", "--quick": None}
         helped = set(re.findall(r"^ +(?:-\w,)?(--[a-z-]+)", self.run_program("design", "--help").stdout, re.M))
@@ -167,7 +167,7 @@ class Design(ProgramTest):
                     self.assertIn(option, told)
         self.assertIn("MOTOR is of a design's own", self.run_program("design", "maxon-251601", "--optimise", plan, code=2).stderr)
         changes = ["--settle", "--damping", "--method", "--period", "--voltage", "--rotor", "--currents", "--delay", "--chopping", "--step"]
-        idle = ["--current-settle", "--torque-limit", "--edges", "--lowest-speed", "--load-inertia", "--load-mass", "--force-limit", "--bandwidth", "--angle"]
+        idle = ["--current-settle", "--torque-limit", "--edges", "--capture", "--lowest-speed", "--load-inertia", "--load-mass", "--force-limit", "--bandwidth", "--angle"]
         quick = ["design", "maxon-251601", "--quick", "--quiet", "--json", "-"]
         plain = self.run_program(*quick).stdout
         for option in changes:

@@ -84,6 +84,17 @@ class Starter(ProgramTest):
             lines = self.run_program("new", *words).stdout.splitlines()
             self.assertLessEqual(max(map(len, lines)), 110)
 
+    def test_a_torque_limit_that_no_sheet_prints_says_where_it_comes_from(self):
+        """A quarter of what the bus drives through the held winding, where no nominal current is printed; beside one that is, nothing."""
+        told = self.run_program("new", "a", "--motor", "qs138-70h", "--voltage", "36").stdout
+        amperes = float(re.search(r"a quarter of the stall current, (\S+) A", told)[1])
+        checked = self.run_program("motor", "check", "qs138-70h").stdout
+        phase = float(re.search(r"^ +R_s +(\S+) (m?)ohm", checked, re.M)[1]) * (1e-3 if re.search(r"^ +R_s +\S+ mohm", checked, re.M) else 1)
+        self.assertAlmostEqual(amperes / (36 / (2 * phase) / 4), 1, delta=2e-3)
+        text = (self.path / "a.toml").read_text()
+        self.assertLess(text.index("a quarter of the stall"), text.index("torque_limit_Nm = "))
+        self.assertNotIn("nominal current:", self.run_program("new", "b").stdout + (self.path / "b.toml").read_text())
+
     def test_a_motor_of_ones_own_is_named_as_the_scenario_sees_it(self):
         for folder in ("motors", "drives"):
             (self.path / folder).mkdir()

@@ -58,6 +58,20 @@ TEST(SheetCheck, TheReferenceMotorsRelationsByTheNumbers) {
   EXPECT_NEAR(*check.electrical_time_constant_s, 0.286e-3 / 0.515, 1e-18);
 }
 
+/// 55000 rpm without load beside mechanics that stand 15000 is a misread line; a winding for half as much again is none.
+TEST(SheetCheck, ANoLoadSpeedFarAboveTheMechanicsIsADoubt) {
+  Sheet sheet = printed_251601();
+  sheet.max_speed_rpm = Quantity{.value = 6710 / 1.5};
+  for (const Relation& r : checked(sheet).relations) EXPECT_NE(r.name, "maximum speed");
+  sheet.max_speed_rpm->value = 6710 / 3.7;
+  const SheetCheck check = checked(sheet);
+  EXPECT_EQ(relation(check, "maximum speed").verdict, RelationVerdict::broken);
+  EXPECT_NEAR(relation(check, "maximum speed").deviation, 2.7, 0.01);
+  sheet.no_load_speed_rpm.reset();  // then by U and k_M
+  EXPECT_NEAR(relation(checked(sheet), "maximum speed").deviation,
+              24 / 33.5e-3 * 30 / base::pi / 6710 * 3.7 - 1, 0.02);
+}
+
 TEST(SheetCheck, ToleranceIsTheRoundingOfWhatIsPrinted) {
   // 1.03 is 1.025 to 1.035 and 23.3 is 23.25 to 23.35; the voltage is exact.
   const Relation r = relation(checked(printed_251601()), "stall current");

@@ -267,6 +267,23 @@ std::string stands(const std::string& when, const design::ThermalModel& model,
       analysis::short_times_s[0]);
 }
 
+/// Speeds that the motor's constants allow and its mechanics do not.
+std::string too_fast(const analysis::CurveRequest& r, const analysis::Curve& curve, const Units& u) {
+  if (!r.sheet.max_speed_rpm) return "";
+  const double allowed = r.sheet.max_speed_rpm->value / base::rpm_per_rad_s;
+  const auto past = [&](const std::optional<analysis::OperatingPoint>& p) {
+    return p && p->speed_rad_s > allowed;
+  };
+  const double fastest = curve.no_load.point.speed_rad_s;
+  if (!(fastest > allowed)) return "";
+  std::string text = fmt::format("The sheet allows {}, and no load lies at {}", speed_text(allowed, u),
+                                 speed_text(fastest, u));
+  if (past(curve.marks.best_efficiency))
+    text +=
+        fmt::format(", the best efficiency at {}", speed_text(curve.marks.best_efficiency->speed_rad_s, u));
+  return text + ": what is faster than the sheet allows is no operating point.\n";
+}
+
 std::string thermal(const analysis::CurveRequest& r, const analysis::Curve& curve, const Units& u) {
   if (!curve.thermal) return fmt::format("No thermal limits: {}.\n", to_string(curve.thermal_missing[0]));
   std::string text = stands(fmt::format("At {:g} degC ambient", r.ambient_degC), *curve.thermal, r, u);
@@ -309,7 +326,7 @@ std::string curve_table(const analysis::CurveRequest& r, const analysis::Curve& 
   const Units u = units_of(r, curve);
   std::string words = locked(curve.points.front(), u) + ideal(b, u) + no_load(curve.no_load, u);
   if (curve.nominal) words += nominal(r, curve, u);
-  words += thermal(r, curve, u) + certainty(curve, u) + left_out(b);
+  words += thermal(r, curve, u) + too_fast(r, curve, u) + certainty(curve, u) + left_out(b);
   return text + points(r, curve) + u.motion.words(words);
 }
 

@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <set>
 #include <string_view>
 
+#include "sixstep/base/written.hpp"
+#include "sixstep/design/loops/operating_limits.hpp"
 #include "text/escape/escape.hpp"
 #include "text/keys/key_catalog.hpp"
 #include "text/keys/key_tree.hpp"
@@ -110,10 +113,25 @@ std::vector<Wanted> wanted_for(const study::Scenario& scenario) {
   return wanted;
 }
 
+/// Where a torque limit comes from whose sheet names no nominal current: its key's meaning speaks of one.
+std::string torque_limit_origin(const study::Scenario& s) {
+  const base::Result<design::MotorModel> motor = design::motor_model(s.sheet);
+  const std::optional<double>& limit = s.control.speed.torque_limit_Nm;
+  if (!motor || !limit || motor->nominal_current_A > 0.0) return "";
+  const double usual = design::usual_torque_limit_Nm(*motor, s.supply.voltage_V);
+  if (!(std::fabs(*limit - usual) < 0.01 * usual)) return "";
+  return fmt::format(
+      "The sheet names no nominal current: control.speed.torque_limit_Nm is that of a quarter of the stall "
+      "current, {} A, and nobody has said that bridge and winding bear it. Give nominal_current_A in the motor "
+      "file, or the torque that they bear.",
+      base::rounded(usual / motor->K_t_Nm_A, 4));
+}
+
 class Starter {
  public:
   Starter(const study::Scenario& scenario, bool full)
-      : keys_(keys_for(scenario)),
+      : origin_(torque_limit_origin(scenario)),
+        keys_(keys_for(scenario)),
         values_(scenario_values(alone(scenario))),
         wanted_(wanted_for(scenario)),
         full_(full) {}
@@ -196,12 +214,15 @@ class Starter {
     const bool open = given && (!value->usual || (wanted != wanted_.end() && wanted->open));
     if (!open && !full_ && wanted == wanted_.end()) return "";
     // Lists repeat their keys, loops their gains: each is explained once.
-    return template_line(entry, {.key = name_of(entry),
-                                 .value = given ? with_plain_exponent(value->text) : placeholder(entry),
-                                 .open = open,
-                                 .explained = explained_.insert(entry.about.meaning).second});
+    const bool limit = path == "control.speed.torque_limit_Nm" || path == "control.speed.force_limit_N";
+    const std::string why = limit && open && !origin_.empty() ? wrapped_comment(origin_) : "";
+    return why + template_line(entry, {.key = name_of(entry),
+                                       .value = given ? with_plain_exponent(value->text) : placeholder(entry),
+                                       .open = open,
+                                       .explained = explained_.insert(entry.about.meaning).second});
   }
 
+  std::string origin_;  ///< of the torque limit
   std::vector<KeyEntry> keys_;
   std::vector<WrittenValue> values_;
   std::vector<Wanted> wanted_;
@@ -210,6 +231,8 @@ class Starter {
 };
 
 }  // namespace
+
+std::string starter_note(const study::Scenario& scenario) { return torque_limit_origin(scenario); }
 
 std::string starter_text(const study::Scenario& scenario, const StarterOptions& options) {
   return fmt::format("#:schema {}\n", scenario_schema_file) +

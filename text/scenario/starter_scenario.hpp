@@ -19,4 +19,7 @@ struct StarterOptions {
 /// back as the scenario that it was made from, to the bit.
 std::string starter_text(const study::Scenario& scenario, const StarterOptions& options);
 
+/// What a reader of that file must know of where its numbers come from; empty: nothing.
+std::string starter_note(const study::Scenario& scenario);
+
 }  // namespace text

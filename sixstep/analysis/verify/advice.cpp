@@ -78,6 +78,12 @@ bool holds(const DesignOrder& order, const DesignSpec& spec, TrialBudget& budget
   return study && study->usable();
 }
 
+/// A bus above what the sheet belongs to is another drive: it is offered where nothing else helps.
+bool above_nominal(const DesignSpec& spec, const DriveDesign& d) {
+  return spec.voltage_V && d.motor.nominal_voltage_V > 0.0 && *spec.voltage_V > d.bus_V &&
+         *spec.voltage_V > d.motor.nominal_voltage_V;
+}
+
 /// What may make it usable, the likeliest first.
 std::vector<DesignSpec> rescues(const DesignOrder& order, const DriveDesign& d) {
   std::vector<DesignSpec> all = single_changes(order, d);
@@ -90,6 +96,12 @@ std::vector<DesignSpec> rescues(const DesignOrder& order, const DriveDesign& d) 
   } else {
     for (const DesignSpec& spec : on_encoders(order, d)) all.push_back(spec);
   }
+  return all;
+}
+
+std::vector<DesignSpec> on_this_bus_or_others(const DesignOrder& order, const DriveDesign& d) {
+  std::vector<DesignSpec> all = rescues(order, d);
+  std::stable_partition(all.begin(), all.end(), [&d](const DesignSpec& s) { return !above_nominal(s, d); });
   return all;
 }
 
@@ -107,7 +119,7 @@ std::string rescue(const DesignOrder& order, const DriveDesign& d) {
     return holds(order, spec, position ? whole_searches : budget);
   };
   std::vector<DesignSpec> dear;
-  for (const DesignSpec& spec : rescues(order, d)) {
+  for (const DesignSpec& spec : on_this_bus_or_others(order, d)) {
     const std::optional<DriveDesign> next = in_closed_form(order, spec);
     if (!next) continue;
     // One that would take most of the budget waits until the cheap ones have been tried.
@@ -122,10 +134,25 @@ std::string rescue(const DesignOrder& order, const DriveDesign& d) {
   return "";
 }
 
+/// A target out of reach stays there whatever the loops are: a smaller step, a tenth below what was reached.
+std::string smaller_step(const DesignOrder& order, const DesignStudy& s) {
+  const double first = s.scenario.reference.values.front(), held = s.outcome.verdicts.front().measured;
+  DesignOrder next = order;
+  next.subject.step = base::shortened(0.9 * (held - first), 2, base::Towards::down);
+  TrialBudget budget{rescue_periods};
+  if (!holds(next, order.spec, budget))
+    return "nothing but a smaller step, a higher voltage or less load makes it usable";
+  return "usable with step = " + base::written(*next.subject.step);
+}
+
 /// Of another: what makes it usable.
 void advise_unusable(const DesignOrder& order, DesignStudy& s) {
   const auto grave =
       std::find_if(s.warnings.begin(), s.warnings.end(), [](const Warning& w) { return w.grave; });
+  if (grave->of == Concern::reach) {
+    grave->cure = smaller_step(order, s);
+    return;
+  }
   const std::string words = rescue(order, s.design);
   grave->cure =
       words.empty()

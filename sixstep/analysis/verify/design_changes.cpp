@@ -53,6 +53,25 @@ design::RotorSensing encoder(const DesignOrder& order, double period_s) {
   return rotor_sensing_of(board);
 }
 
+/// Timers of the chips that drives are built on run at some tens of MHz.
+constexpr double fast_capture_Hz = 16e6;
+
+/// Clock of the timer that the sensor's edges are captured by; null where it has none.
+double* capture_of(design::RotorSensing& rotor) {
+  if (rotor.shaft.kind == design::ShaftSensorKind::encoder) return &rotor.shaft.capture_Hz;
+  return rotor.hall ? &rotor.capture_Hz : nullptr;
+}
+
+/// What makes the steps of the measured speed smaller.
+void add_finer(const DesignSpec& w, const DriveDesign& d, std::vector<DesignSpec>& out) {
+  if (!design::is_grainy(d)) return;
+  DesignSpec next = w;
+  if (double* capture = capture_of(next.rotor); capture && *capture > 0.0 && *capture < fast_capture_Hz) {
+    *capture = fast_capture_Hz;
+    out.push_back(next);
+  }
+}
+
 void slow_down(DesignSpec& w, const DriveDesign& d, double times) {
   if (w.bandwidth_rad_s) {
     w.bandwidth_rad_s = plain(*w.bandwidth_rad_s / times, base::Towards::down);
@@ -83,6 +102,18 @@ void add_slower(const DesignSpec& w, const DriveDesign& d, std::vector<DesignSpe
       with([&](DesignSpec& n) { n.current_settle_s = plain(times * inner->settle_s, base::Towards::up); });
   if (w.rotor.lags() && w.mode == Mode::speed)
     with([&](DesignSpec& n) { n.lowest_speed_rad_s = plain(2 * d.lowest_speed_rad_s, base::Towards::up); });
+}
+
+/// A current loop made slower alone comes too close to the speed loop around it.
+void add_slower_together(const DesignSpec& w, const DriveDesign& d, std::vector<DesignSpec>& out) {
+  const auto& inner = d.loops.front().placed;
+  if (!has_speed_loop(w) || !inner) return;
+  for (const double times : {2.0, 4.0}) {
+    DesignSpec next = w;
+    slow_down(next, d, times);
+    next.current_settle_s = plain(times * inner->settle_s, base::Towards::up);
+    out.push_back(next);
+  }
 }
 
 void add_torque(const DriveDesign& d, const DesignSpec& w, std::vector<DesignSpec>& out) {
@@ -131,6 +162,7 @@ std::vector<DesignSpec> single_changes(const DesignOrder& order, const DriveDesi
     change(next);
     out.push_back(next);
   };
+  add_finer(w, d, out);
   if (w.chopping != Chopping::complementary)
     with([](DesignSpec& n) { n.chopping = Chopping::complementary; });
   for (const double period : shorter_periods(w, d)) with([&](DesignSpec& n) { take_period(n, period); });
@@ -143,6 +175,7 @@ std::vector<DesignSpec> single_changes(const DesignOrder& order, const DriveDesi
     with([](DesignSpec& n) { n.method = design::GainMethod::cancellation; });
   add_slower(w, d, out);
   add_torque(d, w, out);
+  add_slower_together(w, d, out);
   add_voltage(d, w, out);
   return out;
 }
@@ -175,6 +208,11 @@ std::vector<DesignSpec> joint_changes(const DesignOrder& order, const DriveDesig
   if (base.rotor.hall && base.mode != Mode::current) {
     base.rotor = encoder(order, base.period_s);
     out.push_back(base);
+    DesignSpec finer = base;
+    if (double* capture = capture_of(finer.rotor)) {
+      *capture = std::max(*capture, fast_capture_Hz);
+      out.push_back(finer);
+    }
     slow_down(base, d, 2.0);
     out.push_back(base);
   }
@@ -192,6 +230,11 @@ std::string words_of_change(const DesignSpec& before, const DesignSpec& after) {
   };
   if (after.rotor.shaft.kind != before.rotor.shaft.kind)
     say("rotor", before.rotor.hall && before.rotor.edges > 0 ? "encoder without edges" : "encoder");
+  const DesignSpec& b = before;
+  const double was_Hz = b.rotor.hall ? b.rotor.capture_Hz : b.rotor.shaft.capture_Hz;
+  const double is_Hz = after.rotor.hall ? after.rotor.capture_Hz : after.rotor.shaft.capture_Hz;
+  if (is_Hz > 0.0 && is_Hz != was_Hz && is_Hz != design::usual_capture_Hz)
+    say("capture_Hz", base::written(is_Hz));
   if (after.method != before.method) say("method", "cancellation");
   number("period_s", before.period_s, after.period_s);
   if (after.chopping != before.chopping)

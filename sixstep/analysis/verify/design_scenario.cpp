@@ -85,6 +85,8 @@ study::Scenario common(const DriveDesign& d, const DesignSubject& subject) {
     s.pwm.alignment = study::Alignment::centre;
     s.pwm.sample = study::SampleAt::middle;
   }
+  if (d.spec.rotor.shaft.capture_Hz > 0.0) s.sensors.capture_Hz = d.spec.rotor.shaft.capture_Hz;
+  if (d.spec.rotor.hall && d.spec.rotor.capture_Hz > 0.0) s.sensors.capture_Hz = d.spec.rotor.capture_Hz;
   s.supply.voltage_V = d.bus_V;
   s.pwm.period_s = d.spec.period_s;
   s.pwm.chopping = d.spec.chopping;
@@ -144,6 +146,31 @@ double start_time(const DriveDesign& d, double to_rad_s, double load_Nm) {
   return torque > 0.0 ? d.motor.shaft.J_kg_m2 * to_rad_s / torque : 0.0;
 }
 
+/// What the bus leaves of the torque limit at that speed, or what brakes beside the load: soft chopping through the lower switches.
+double torque_towards(const DriveDesign& d, double rad_s, bool faster) {
+  const double K = d.motor.K_t_Nm_A, R = 2 * d.motor.machine.R_ohm;
+  if (faster) return std::min(d.torque_limit_Nm, K * (d.bus_V - K * rad_s) / R);
+  const double shorted = d.spec.chopping == control::Chopping::soft ? K * K * rad_s / R : d.torque_limit_Nm;
+  return std::min(d.torque_limit_Nm, shorted);
+}
+
+/// The time from one speed to another at the limits of torque and bus, by a hundred parts. Where the bus allows no more, five of the
+/// times in which the speed creeps up to what it does allow.
+double travel_time(const DriveDesign& d, double from_rad_s, double to_rad_s, double load_Nm) {
+  constexpr int parts = 100;
+  const double K = d.motor.K_t_Nm_A, R = 2 * d.motor.machine.R_ohm, J = d.motor.shaft.J_kg_m2;
+  const double part = std::fabs(to_rad_s - from_rad_s) / parts, creep = J * R / (K * K);
+  const bool faster = std::fabs(to_rad_s) > std::fabs(from_rad_s);
+  double time = 0.0;
+  for (int n = 0; n < parts; ++n) {
+    const double speed = std::fabs(from_rad_s + (n + 0.5) / parts * (to_rad_s - from_rad_s));
+    const double torque = torque_towards(d, speed, faster) + (faster ? -load_Nm : load_Nm);
+    if (!(torque > 0.01 * d.torque_limit_Nm)) return time + 5 * creep;
+    time += J * part / torque;
+  }
+  return time;
+}
+
 /// Start from rest, then a small step.
 struct SpeedTest {
   double load_A = 0.0, first = 0.0, step = 0.0;  // A, rad/s
@@ -166,7 +193,9 @@ SpeedTest speed_test(const DriveDesign& d, const DesignSubject& subject) {
                                                          std::max(current.gains.d1, R)))));
   const double settle = std::max(settling_of(speed, 1000 * d.spec.period_s), 8 * d.lag.delay_s());
   t.begin = plain_time(5 * settle + 2 * start_time(d, t.first, K * t.load_A));
-  t.end = plain_time(t.begin + 5 * settle);
+  // A step that somebody chose may be one that the limits hold up.
+  const double held_up = subject.step ? 2 * travel_time(d, t.first, t.first + t.step, K * t.load_A) : 0.0;
+  t.end = plain_time(t.begin + 5 * settle + held_up);
   t.calm = t.end - settle;
   return t;
 }

@@ -6,6 +6,7 @@
 
 #include "sixstep/analysis/verify/advice.hpp"
 #include "sixstep/analysis/verify/board.hpp"
+#include "sixstep/analysis/verify/high_speed.hpp"
 #include "sixstep/analysis/verify/linear_study.hpp"
 #include "sixstep/analysis/verify/run_warnings.hpp"
 #include "sixstep/base/written.hpp"
@@ -119,7 +120,8 @@ base::Result<DesignStudy> studied(const DesignOrder& order) {
   if (s.ideal_swing_rad_s && s.scenario.reference.values.size() > 1)
     s.allowed_swing_rad_s = allowed_swing_rad_s(*s.ideal_swing_rad_s, s.scenario.reference.values[1]);
   s.warnings = s.design.warnings;
-  add_run_warnings(s);
+  look_at_high_speed(order, s);
+  add_run_warnings(s, order.subject.step.has_value());
   return s;
 }
 

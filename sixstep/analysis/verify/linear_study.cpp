@@ -55,7 +55,8 @@ void tell_sensing(std::vector<design::DerivationStep>& steps) {
       s.formula = "d1 F_max/m, where the speed loop crosses over by d1 alone";
       s.unit = "1/s";
     }
-    if (s.symbol != "w_low" && s.symbol != "q") continue;  // the phase of a loop stays in degrees
+    const bool speed = s.unit == "rad/s" && s.symbol != "w_n";
+    if (!speed && s.symbol != "q") continue;  // the phase of a loop stays in degrees
     const base::LinearUnit unit = base::in_linear(s.unit);
     s.value *= unit.factor;
     s.unit = std::string(unit.linear);

@@ -24,6 +24,34 @@ bool drowned(const DesignStudy& s) {
   return *s.ideal_swing_rad_s > 2 * design::settling_band(s.design) * std::fabs(levels[1] - levels[0]);
 }
 
+/// Of a step that somebody asked for: an integral leaves no error behind, unless a limit holds it up.
+constexpr double missed_part = 0.02;
+
+/// A target that bus and load do not allow, or a run that ends on the way to it.
+void look_at_reach(DesignStudy& s) {
+  const std::vector<double>& levels = s.scenario.reference.values;
+  const study::ComparisonResult* swing = figure_of(s.outcome, "speed ripple");
+  if (s.design.spec.mode != control::Mode::speed || s.outcome.verdicts.empty() || levels.size() < 2 || !swing)
+    return;
+  const double held = s.outcome.verdicts.front().measured, missed = std::fabs(levels[1] - held);
+  if (!(missed > missed_part * std::fabs(levels[1] - levels[0])) || missed < swing->measured / 2) return;
+  const std::string target = "the step's target of " + base::rounded(levels[1], 4) + " rad/s";
+  const bool stands = swing->measured < missed;
+  warn(s, design::Concern::reach,
+       stands ? target + " is out of reach: against " + base::three_digits(s.scenario.load.torque_Nm) +
+                    " N m on a bus of " + base::three_digits(s.design.bus_V) + " V the speed stands at " +
+                    base::rounded(held, 4) + " rad/s"
+              : target + " is not reached by the end of the run: there the speed is about " +
+                    base::rounded(held, 4) + " rad/s and still moves by " +
+                    base::three_digits(swing->measured) + " rad/s",
+       true);
+}
+
+bool out_of_reach(const DesignStudy& s) {
+  return std::any_of(s.warnings.begin(), s.warnings.end(),
+                     [](const design::Warning& w) { return w.of == design::Concern::reach; });
+}
+
 /// Where to look out of tolerance.
 std::string chiefly(const RobustFigure& f) { return f.culprit.empty() ? "" : ", chiefly for " + f.culprit; }
 
@@ -35,7 +63,7 @@ bool from_half_the_bus(const DesignStudy& s) {
 /// A loop at whose limits the run was not to come must settle as designed; a quarter more is told.
 void look_at_settling(DesignStudy& s) {
   const study::ComparisonResult* c = figure_of(s.outcome, "settling time");
-  if (!c || s.design.spec.mode == control::Mode::position) return;
+  if (!c || s.design.spec.mode == control::Mode::position || out_of_reach(s)) return;
   if (drowned(s))
     warn(
         s, design::Concern::settling,
@@ -91,10 +119,11 @@ void look_at_rest(DesignStudy& s, double swing, const std::string& when, const s
        true);
 }
 
-void look_at_run(DesignStudy& s) {
+void look_at_run(DesignStudy& s, bool asked_step) {
   if (s.outcome.fault)
     warn(s, design::Concern::fault, "a fault stopped the simulation: " + base::to_string(*s.outcome.fault),
          true);
+  if (asked_step) look_at_reach(s);
   look_at_swing(s);
   look_at_settling(s);
   if (const study::ComparisonResult* start = figure_of(s.outcome, settling_of_start);
@@ -159,8 +188,8 @@ const study::ComparisonResult* figure_of(const study::Outcome& outcome, const st
   return nullptr;
 }
 
-void add_run_warnings(DesignStudy& s) {
-  look_at_run(s);
+void add_run_warnings(DesignStudy& s, bool asked_step) {
+  look_at_run(s, asked_step);
   look_at_tolerances(s);
   std::stable_partition(s.warnings.begin(), s.warnings.end(),
                         [](const design::Warning& w) { return w.grave; });

@@ -108,6 +108,7 @@ design::RotorSensing rotor_sensing_of(const study::Scenario& s) {
   if (s.sensors.rotor != study::RotorSensing::hall) return to;
   to.late_s = s.sensors.hall_delay_s;
   to.timeout_s = s.sensors.timeout_s;
+  to.capture_Hz = s.sensors.capture_Hz;
   if (s.sensors.hall_angle != rig::HallAngleFrom::learned_edges)
     to.stray_rad = stray_of(s.sensors.hall_edges_deg, static_cast<std::size_t>(std::max(to.edges, 1)));
   return to;

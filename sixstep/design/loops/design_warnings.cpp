@@ -63,6 +63,17 @@ void look_at_sensing(const DriveDesign& d, Collector& out) {
             "the speed loop keeps " + base::three_digits(phase_deg) + " degrees of phase" + at);
 }
 
+/// A move's speed is a matter of its own run.
+void look_at_grain(const DriveDesign& d, Collector& out) {
+  if (!is_grainy(d)) return;
+  out.add(Concern::grain,
+          "at " + base::three_digits(d.high_speed_rad_s) + " rad/s the measured speed jumps by " +
+              base::three_digits(d.speed_step_rad_s) + " rad/s at a time, of which the speed loop makes " +
+              base::rounded(100.0 * d.speed_step_part, 3) + " % of the torque limit and the current loop " +
+              base::three_digits(d.speed_step_V) + " V at once, where the bus has " +
+              base::three_digits(std::fmax(d.high_speed_left_V, 0.0)) + " V left");
+}
+
 /// A P loop on counted edges: one step away it asks for K_p steps per second, so the next edge is 1/K_p away
 /// and the speed as old.
 void look_at_steps(const DriveDesign& d, Collector& out) {
@@ -173,6 +184,11 @@ void look_at_heat(const DriveDesign& d, Collector& out) {
 
 }  // namespace
 
+bool is_grainy(const DriveDesign& d) {
+  return d.spec.mode == control::Mode::speed && d.speed_step_rad_s > 0.0 &&
+         (d.speed_step_part > greatest_speed_step || d.speed_step_V > d.high_speed_left_V);
+}
+
 std::vector<Warning> warnings_of(const DriveDesign& d) {
   Collector out;
   for (const LoopDesign& loop : d.loops) {
@@ -184,6 +200,7 @@ std::vector<Warning> warnings_of(const DriveDesign& d) {
   // A position gain is bounded by the overshoot itself.
   if (d.loops.size() > 1) look_at_separation(d.loops[0], d.loops[1], out);
   look_at_sensing(d, out);
+  look_at_grain(d, out);
   look_at_steps(d, out);
   look_at_voltage(d, out);
   look_at_ripple(d, out);

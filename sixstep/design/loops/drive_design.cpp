@@ -23,6 +23,9 @@ constexpr double inner_faster = 10.0;
 /// A pair placed slower than 2 time_constants_to_settle L/R wants a negative proportional gain.
 constexpr double winding_times = 8.0;
 
+/// Of the speed up to which the bus drives the nominal current: what is left above it is for control.
+constexpr double high_speed_part = 0.9;
+
 /// No placed pair settles within fewer control periods.
 constexpr double fewest_periods = 4.0;
 
@@ -208,11 +211,34 @@ void choose_settling(DriveDesign& d) {
   if (least && *least > usual_speed_settle_s) d.spec.settle_s = base::shortened(*least, 2, base::Towards::up);
 }
 
+/// A jump of the told speed is one of the torque asked for: d1 of it at once. What is coarse at the lowest speed says nothing of the
+/// highest, where a tick of the timer is more of a speed that is more itself.
+void add_speed_step(DriveDesign& d, double crossover) {
+  d.high_speed_rad_s =
+      base::shortened(high_speed_part * std::fmax(d.headroom_end_rad_s, 0.0), 2, base::Towards::down);
+  d.speed_step_rad_s =
+      speed_step_rad_s(d.spec.rotor, d.motor.machine.pole_pairs, d.high_speed_rad_s, crossover);
+  d.speed_step_part = std::fabs(d.loops[1].gains.d1) * d.speed_step_rad_s;
+  d.speed_step_V = d.speed_step_part * d.current_at_full_torque_A * std::fabs(d.loops[0].gains.d1);
+  d.high_speed_left_V = headroom_V(d.motor, d.bus_V, d.nominal_current_A / 2, d.high_speed_rad_s);
+  if (!(d.speed_step_rad_s > 0.0)) return;
+  d.sensing.push_back(
+      {"w_high", "a tenth below where the bus drives the nominal current", d.high_speed_rad_s, "rad/s"});
+  d.sensing.push_back({"dw_high", "the same step there", d.speed_step_rad_s, "rad/s"});
+  d.sensing.push_back({"d1 dw", "of the torque limit, what the speed loop makes of that step at once",
+                       d.speed_step_part, ""});
+  d.sensing.push_back(
+      {"du", "d1 d1 dw T_max/K_t, what the current loop makes of that at once", d.speed_step_V, "V"});
+  d.sensing.push_back(
+      {"u_left", "of the bus at w_high and half the nominal current", d.high_speed_left_V, "V"});
+}
+
 void add_sensing(DriveDesign& d) {
   if (!d.spec.rotor.lags() || d.loops.size() < 2) return;
   const double pole_pairs = d.motor.machine.pole_pairs, crossover = crossover_of(d);
   d.lag = speed_lag(d.spec.rotor, pole_pairs, d.lowest_speed_rad_s, crossover);
   d.sensing = lag_steps(d.spec.rotor, pole_pairs, d.lowest_speed_rad_s, crossover);
+  add_speed_step(d, crossover);
   d.limits = settling_limits(settling_question(d), d.spec.rotor, d.lowest_speed_rad_s);
 }
 

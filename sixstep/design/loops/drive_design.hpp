@@ -46,10 +46,14 @@ struct DesignSpec {
 /// Settling time of a current loop that nobody gives one: 1 ms, or 8 L/R where that is shorter. In s.
 double usual_current_settle_s_of(const MotorModel& motor);
 
+/// Clock of the timer that captures a sensor's edges, as a scenario's sensors have it where nobody says.
+inline constexpr double usual_capture_Hz = 1e6;
+
 /// A spec as for a board that is built: Hall probes, and a command that counts one period late.
 inline DesignSpec on_a_board() {
   DesignSpec spec;
   spec.rotor.hall = true;
+  spec.rotor.capture_Hz = usual_capture_Hz;
   spec.delay_periods = 1;
   return spec;
 }
@@ -77,11 +81,13 @@ enum class Concern : std::uint8_t {
   overshoot,
   separation,
   sensing,
+  grain,
   rest,
   voltage,
   ripple,
   braking,
   heat,
+  reach,
   settling,
   swing,
   fault,
@@ -111,7 +117,12 @@ struct DriveDesign {
   std::vector<LoopDesign> loops;        ///< from the inside out
   Ripple ripple;
   double longest_period_s = 0.0;  ///< up to which the current loop keeps 45 degrees with one period of delay
-  double headroom_end_rad_s = 0.0;   ///< up to which the nominal current can be driven
+  double headroom_end_rad_s = 0.0;  ///< up to which the nominal current can be driven
+  double high_speed_rad_s = 0.0;    ///< of drives with a speed loop: a tenth below that
+  double speed_step_rad_s = 0.0;    ///< by which the measured speed jumps there while the speed stands
+  double speed_step_part = 0.0;     ///< of the torque limit, that the speed loop makes of such a step at once
+  double speed_step_V = 0.0;        ///< that the current loop makes of that at once
+  double high_speed_left_V = 0.0;   ///< of the bus there, at half the nominal current
   double braking_limit_rad_s = 0.0;  ///< up to which soft chopping holds the nominal current while braking
   std::vector<Warning> warnings;
 

@@ -55,6 +55,19 @@ SpeedLag speed_lag(const RotorSensing& sensing, double pole_pairs, double speed_
   return six.delay_s() > one.delay_s() || one_turn * T <= window ? six : one;
 }
 
+double speed_step_rad_s(const RotorSensing& sensing, double pole_pairs, double speed_rad_s,
+                        double crossover_rad_s) {
+  if (sensing.shaft.kind != ShaftSensorKind::none) return speed_jitter_rad_s(sensing.shaft, speed_rad_s);
+  if (!sensing.hall || !(speed_rad_s > 0.0)) return 0.0;
+  const double T = sector_s(pole_pairs, speed_rad_s);
+  const bool turn = sensing.edges == 0 && one_turn * T <= hall_window_s(crossover_rad_s);
+  const double edges = turn ? one_turn : std::max(sensing.edges, 1);
+  const double tick = sensing.capture_Hz > 0.0 ? 1.0 / (sensing.capture_Hz * edges * T) : 0.0;
+  // Over a turn the probes' places cancel.
+  const double stray = turn ? 0.0 : sensing.stray_rad / (edges * base::pi / 3);
+  return speed_rad_s * (tick + stray);
+}
+
 namespace {
 
 /// Of the loop as its gains alone have it: by it the chip's window is laid out too. The loop with its integral and its lags crosses

@@ -28,7 +28,8 @@ struct RotorSensing {
   double late_s = 0.0;   ///< from a probe's edge to the pin of the chip
   double stray_rad =
       0.0;  ///< electrical: the most by which k sectors together are longer or shorter than k pi/3
-  double timeout_s = 0.0;  ///< a speed whose edge does not come for so long reads as 0; 0: nobody said
+  double timeout_s = 0.0;   ///< a speed whose edge does not come for so long reads as 0; 0: nobody said
+  double capture_Hz = 0.0;  ///< of the timer that the probes' edges are captured by; 0: nobody said
 
   /// Whether the speed is any older than the sample.
   bool lags() const { return hall || shaft.kind != ShaftSensorKind::none; }
@@ -64,6 +65,11 @@ struct SpeedLag {
 /// edges.
 SpeedLag speed_lag(const RotorSensing& sensing, double pole_pairs, double speed_rad_s,
                    double crossover_rad_s);
+
+/// By how much the told speed may jump from one reading to the next while the speed stands: a tick of the timer, a count, probes beside
+/// their places; of a resolver the root mean square of its noise. Mechanical, rad/s.
+double speed_step_rad_s(const RotorSensing& sensing, double pole_pairs, double speed_rad_s,
+                        double crossover_rad_s);
 
 /// The same for a reader, with the phase it costs at the crossover.
 std::vector<DerivationStep> lag_steps(const RotorSensing& sensing, double pole_pairs, double speed_rad_s,

@@ -53,6 +53,10 @@ base::Problems check_spec(const MotorModel& motor, const DesignSpec& w) {
                      "lower it, or give a higher voltage_V"});
   if (w.rotor.edges < 0 || w.rotor.edges > 6)
     add("edges", std::to_string(w.rotor.edges), "must lie in 1 to 6", "leave it out to have them adaptive");
+  const bool encoder = w.rotor.shaft.kind == ShaftSensorKind::encoder;
+  const double capture_Hz = encoder ? w.rotor.shaft.capture_Hz : w.rotor.capture_Hz;
+  if (encoder || capture_Hz != 0.0)
+    hold("capture_Hz", capture_Hz, base::between(1, 1e9), "Hz", "give the timer's clock in Hz");
   hold("load_inertia_kg_m2", w.load_inertia_kg_m2, base::from(0), "kg m2", "give it in kg m2");
   return found;
 }

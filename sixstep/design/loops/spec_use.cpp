@@ -10,6 +10,7 @@ using control::Mode;
 
 bool current_alone(const DesignSpec& w) { return w.mode == Mode::current; }
 bool no_probes(const DesignSpec& w) { return !w.rotor.hall; }
+bool no_edges(const DesignSpec& w) { return !w.rotor.hall && w.rotor.shaft.kind != ShaftSensorKind::encoder; }
 bool never_late(const DesignSpec& w) { return !w.rotor.lags(); }
 bool cancels(const DesignSpec& w) { return w.method == GainMethod::cancellation; }
 bool cancels_alone(const DesignSpec& w) { return cancels(w) && current_alone(w); }
@@ -43,6 +44,9 @@ constexpr Idle idles[] = {
      "is moved by a speed loop, and mode = current has none: its rotor is held", with_speed},
     {"edges", current_alone, "is of a speed that a loop holds, and mode = current has none", with_speed},
     {"edges", no_probes, "is of Hall probes, and the rotor has none", "take rotor = hall, or leave it out"},
+    {"capture_Hz", current_alone, "is of a speed that a loop holds, and mode = current has none", with_speed},
+    {"capture_Hz", no_edges, "is of a timer that captures edges, and this sensor of the rotor has none",
+     "take rotor = hall or rotor = encoder, or leave it out"},
     {"damping", cancels_alone, "is of poles that are placed, and cancellation places none",
      "take method = pole-placement, or leave it out"},
     {"settle_s", by_bandwidth_alone, "says what bandwidth_rad_s says already", one_of_two},

@@ -68,6 +68,10 @@ inline constexpr double friction_margin = 0.5;
 /// for turning, and a factor sqrt 2 in a constant shows.
 inline constexpr double most_unknown_drop = 0.25;
 
+/// By how much a no-load speed may lie above the largest speed of the mechanics: makers wind the same rotor for more volts than it may
+/// turn at without load.
+inline constexpr double max_speed_margin = 1.0;
+
 /// What a rotor is beside the cylinder or ring of its measures: shaft, magnets, hub, bores. A radius taken for a diameter is a
 /// factor of 16.
 inline constexpr double body_margin = 0.3;

@@ -51,6 +51,7 @@ class Relations {
     dynamics();
     winding();
     body();
+    mechanics();
     if (s_.kind == MotorKind::linear)
       for (Relation& r : found_) in_metres(r);
     return std::move(found_);
@@ -198,6 +199,18 @@ class Relations {
                       body_margin, body_margin, false);
     if (r.verdict == RelationVerdict::broken && std::abs(r.left / r.right / 16.0 - 1.0) < 0.3)
       r.remark = "a factor 16: a diameter for the radius?";
+  }
+
+  /// No relation of a motor: a bus may be lower than its nominal voltage. What turns far faster than it may is a misread line.
+  void mechanics() {
+    const std::optional<Term> allowed = term(s_.max_speed_rpm), printed = term(s_.no_load_speed_rpm);
+    if (!allowed || !(printed || (U_ && K_t_))) return;
+    const Term ideal = printed ? *printed : *U_ / *K_t_ * base::rpm_per_rad_s;
+    if (!(ideal.value > (1.0 + max_speed_margin) * allowed->value)) return;
+    Relation& r = add("maximum speed", printed ? "no-load speed" : "U / k_M", "maximum speed", ideal,
+                      *allowed, "rpm", 1.0, max_speed_margin, false);
+    if (r.remark.empty())
+      r.remark = "at its nominal voltage it would turn far faster than its mechanics allow";
   }
 
   /// A contradiction is a Problem long before; that both agree is worth a line.

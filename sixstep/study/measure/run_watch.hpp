@@ -3,6 +3,7 @@
 #pragma once
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include "sixstep/study/measure/signals.hpp"
 
@@ -11,6 +12,9 @@ namespace sixstep::study {
 struct RunWatch {
   double fastest_rad_s = 0.0;
   double emf_rad_s = 0.0, emf_bus_V = 1.0;  ///< speed and bus where the back-EMF was greatest beside the bus
+  double highest_bus_V = 0.0;
+  double lowest_charge = 1.0, highest_charge = 0.0;  ///< of a battery
+  std::optional<double> empty_s{}, full_s{};       ///< when it first had nothing left, and more than it holds
   double winding_degC = 0.0, junction_degC = 0.0;  ///< the hottest; of kernels that warm up
   double shunt_least_duty = -1.0;                ///< a shunt shows a current above this duty; negative: none
   std::int64_t samples = 0, hidden_samples = 0;  ///< of the shunt
@@ -24,10 +28,25 @@ struct RunWatch {
       emf_rad_s = speed;
       emf_bus_V = state.bus;
     }
+    if (state.bus > highest_bus_V) highest_bus_V = state.bus;
+    if constexpr (requires { rig.plant().more(); }) look_at_charge(rig.plant().more().charge.value, rig);
     if (shunt_least_duty >= 0.0 && rig.ticked()) {
       ++samples;
       const double duty = signed_duty(ModulatorView(rig.modulator()), rig.board_sector());
       hidden_samples += std::fabs(duty) <= shunt_least_duty ? 1 : 0;
+    }
+  }
+
+  /// Rounding, and a part in a thousand of what a full one may be given back, is no news.
+  template <class Rig>
+  void look_at_charge(double charge, const Rig& rig) {
+    if (charge < lowest_charge) {
+      lowest_charge = charge;
+      if (charge < 0.0 && !empty_s) empty_s = rig.now().seconds();
+    }
+    if (charge > highest_charge) {
+      highest_charge = charge;
+      if (charge > 1.001 && !full_s) full_s = rig.now().seconds();
     }
   }
 

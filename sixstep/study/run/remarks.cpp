@@ -14,6 +14,7 @@
 #include "sixstep/design/sheet/thermal_ranges.hpp"
 #include "sixstep/study/check/unused_keys.hpp"
 #include "sixstep/study/compile/field_parts.hpp"
+#include "sixstep/study/run/limit_remarks.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
 
 namespace sixstep::study {
@@ -202,6 +203,7 @@ void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, Outcom
   };
   if (const std::string unused = unused_keys(s); !unused.empty()) add("given without effect: " + unused);
   add(on_supply(s));
+  for (std::string& text : passed_limits(s, w, out)) add(std::move(text));
   if (c.own.is) return;  // its gains and samples are its own
   add(on_shunt(s, c, w));
   add(on_hall_timeout(s, c));

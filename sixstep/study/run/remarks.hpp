@@ -13,6 +13,7 @@ namespace sixstep::study {
 ///   - a current loop that is unstable with its gains, a placed gain that is negative, gains that look like another tool's,
 ///   - a back-EMF above the bus,
 ///   - a winding or a junction above its limit,
+///   - what passed_limits() tells (limit_remarks.hpp),
 ///   - fewer than five control periods in a commutation step.
 /// `compiled`: the scenario's, its timeline is not looked at. `watch`: of the whole run.
 void add_remarks(const Scenario& scenario, const Compiled& compiled, const RunWatch& watch, Outcome& outcome);

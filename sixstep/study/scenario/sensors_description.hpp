@@ -256,10 +256,13 @@ void describe(Visitor& v, Sensors& s) {
            .range = base::between(-0.5, 0.5)});
   v.choice("rotor", s.rotor, rotor_sensing_choices,
            {.meaning = "how the controller gets speed and position"});
-  v.value("capture_Hz", s.capture_Hz,
-          {.meaning = "clock of the timer that captures the Hall edges",
-           .unit = "Hz",
-           .range = base::between(1, 1e9)});
+  v.value(
+      "capture_Hz", s.capture_Hz,
+      {.meaning = "clock of the timer that captures edges: of the Hall probes, of an incremental encoder, "
+                  "of the comparators at the terminals; one tick in the time that a speed is taken "
+                  "over is a step of that speed",
+       .unit = "Hz",
+       .range = base::between(1, 1e9)});
   v.value("speed_edges", s.speed_edges,
           {.meaning = "Hall edges that a speed is taken over; 6 are an electrical turn, over which faults of "
                       "the probes cancel, and 3.5 sectors old; 0: 6 where they cost the speed loop at most "

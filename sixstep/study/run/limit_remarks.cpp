@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/run/limit_remarks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sixstep/base/angle.hpp"
+#include "sixstep/base/linear.hpp"
+#include "sixstep/base/written.hpp"
+#include "sixstep/design/sheet/thermal.hpp"
+#include "sixstep/study/scenario/supply_voltages.hpp"
+
+namespace sixstep::study {
+namespace {
+
+std::string few(double x) {
+  return std::fabs(x) < 1000.0 ? base::three_digits(x) : std::to_string(std::llround(x));
+}
+
+std::string on_battery(const Scenario& s, const RunWatch& w) {
+  if (s.supply.source != SourceKind::battery) return {};
+  if (w.empty_s)
+    return "the battery was empty at t = " + few(*w.empty_s) + " s, and its charge went down to " +
+           few(w.lowest_charge) +
+           ": what flowed after that it does not have; give a larger supply.battery_capacity_Ah or "
+           "battery_charge, or a shorter run";
+  if (w.full_s)
+    return "the battery was full at t = " + few(*w.full_s) + " s, and its charge went up to " +
+           few(w.highest_charge) +
+           ": it cannot take what flowed back after that; begin with a lower supply.battery_charge, or give it "
+           "a chopper";
+  return {};
+}
+
+/// A part in a thousand is what a rotor may pass its print by.
+constexpr double past = 1.001;
+
+std::string on_fastest(const Scenario& s, const RunWatch& w) {
+  const auto& limit = s.sheet.max_speed_rpm;
+  if (!limit) return {};
+  const double allowed = limit->value / base::rpm_per_rad_s;
+  if (!(w.fastest_rad_s > past * allowed)) return {};
+  const bool linear = s.sheet.kind == design::MotorKind::linear;
+  const auto in_rpm = [&](double rad_s) {
+    return linear ? few(rad_s) + " m/s"
+                  : few(rad_s) + " rad/s (" + few(rad_s * base::rpm_per_rad_s) + " rpm)";
+  };
+  return std::string(linear ? "the slide" : "the rotor") + " reached " + in_rpm(w.fastest_rad_s) +
+         ", and the sheet allows " + in_rpm(allowed);
+}
+
+/// Without current drawn; the highest of the run.
+double open_V(const Scenario& s) {
+  if (s.supply.source == SourceKind::battery) return open_circuit_V(s.supply, s.supply.battery_charge);
+  if (s.supply.source != SourceKind::steady) return highest_open_V(s.supply);
+  double highest = s.supply.voltage_V;
+  for (const At& at : s.at) highest = std::max(highest, at.supply.voltage_V.value_or(0.0));
+  return std::max(highest, s.initial.bus_V.value_or(0.0));
+}
+
+std::string on_bus(const Scenario& s, const RunWatch& w) {
+  const bool rectifier =
+      s.supply.source == SourceKind::single_phase || s.supply.source == SourceKind::three_phase;
+  const bool sinks = s.supply.sinks && !rectifier && std::none_of(s.at.begin(), s.at.end(), [](const At& at) {
+                       return at.supply.sinks == false;
+                     });
+  const bool caught = s.supply.brake_resistance_ohm > 0.0 || s.control.regeneration.limit_V;
+  const double open = open_V(s);
+  if (sinks || caught || !(w.highest_bus_V > risen_part * open)) return {};
+  return "the bus rose to " + few(w.highest_bus_V) + " V, " + few(w.highest_bus_V / open) +
+         " times what its source has: the source takes nothing back" +
+         (rectifier ? "" : " (supply.sinks = false)") +
+         "; give it a chopper (supply.brake_resistance_ohm), a larger supply.capacitance_F or "
+         "control.regeneration.limit_V";
+}
+
+/// The mean copper loss of the books, put into the sheet's thermal model from ambient temperature.
+std::string on_cold_winding(const Scenario& s, const Outcome& out) {
+  if (s.heat.motor || !out.energy || !(out.simulated_s > 0.0)) return {};
+  const auto model = design::thermal_model(s.sheet);
+  if (!model) return {};
+  const double mean_W = out.energy->copper / out.simulated_s;
+  const auto stands_s =
+      design::permissible_seconds(*model, {.copper_W = mean_W, .ambient_degC = s.heat.ambient_degC});
+  if (!stands_s || !(*stands_s < out.simulated_s)) return {};
+  return "the copper loss of " + few(mean_W) + " W in the mean takes the winding past its limit of " +
+         few(model->max_winding_degC) + " degC within " + few(*stands_s) +
+         " s by the sheet's thermal values, and the run lasts " + few(out.simulated_s) +
+         " s; here nothing warms up: heat.motor = true computes it";
+}
+
+}  // namespace
+
+std::vector<std::string> passed_limits(const Scenario& s, const RunWatch& w, const Outcome& out) {
+  std::vector<std::string> all;
+  for (std::string text : {on_battery(s, w), on_fastest(s, w), on_bus(s, w), on_cold_winding(s, out)})
+    if (!text.empty()) all.push_back(std::move(text));
+  return all;
+}
+
+}  // namespace sixstep::study

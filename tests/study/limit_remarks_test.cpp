@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a run passes that the model does not hold is told with its numbers, and nothing is told of what stays within.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sixstep/base/angle.hpp"
+#include "sixstep/study/run/run.hpp"
+#include "tests/support/bench.hpp"
+
+namespace SIXSTEP_TEST_FILE {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using control::Mode;
+using study::Scenario;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+study::Outcome outcome_of(const Scenario& s) {
+  const auto out = study::run(s);
+  if (!out) {
+    ADD_FAILURE() << to_string(out.problems()[0]);
+    return {};
+  }
+  return *out;
+}
+
+/// The number behind a word of the first remark that has it.
+double number_behind(const std::vector<std::string>& remarks, const std::string& word) {
+  for (const std::string& text : remarks)
+    if (const std::size_t at = text.find(word); at != std::string::npos)
+      return std::stod(text.substr(at + word.size()));
+  ADD_FAILURE() << "no remark has: " << word;
+  return NAN;
+}
+
+study::Measure measure_of(study::MetricKind kind, study::Signal signal) {
+  study::Measure m;
+  m.metric = kind;
+  m.signal = signal;
+  return m;
+}
+
+/// Held still at 20 A, by a battery of so many ampere hours.
+Scenario on_battery(double Ah, double charge) {
+  Scenario s = maxon_scenario(Mode::current, 20.0);
+  s.load.locked = true;
+  s.duration_s = 0.5;
+  s.supply.source = study::SourceKind::battery;
+  s.supply.battery_charges = {0, 1};
+  s.supply.battery_voltages_V = {22, 25};
+  s.supply.battery_capacity_Ah = Ah;
+  s.supply.battery_charge = charge;
+  s.supply.resistance_ohm = 0.02;
+  s.supply.capacitance_F = 1e-3;
+  return s;
+}
+
+/// The instant is where the integral of the source's current is what the battery had, whatever flows in between.
+TEST(LimitRemarks, ABatteryIsEmptyWhenWhatItHadHasFlowed) {
+  Scenario s = on_battery(1e-3, 0.5);
+  const auto remarks = outcome_of(s).remarks;
+  const double empty_s = number_behind(remarks, "empty at t = ");
+  s.duration_s = empty_s;
+  s.compare = {{measure_of(study::MetricKind::mean, study::Signal::source_current), 0.0, ""}};
+  const double flowed_As = outcome_of(s).comparisons.at(0).measured * empty_s;
+  EXPECT_NEAR(flowed_As, 0.5 * 1e-3 * 3600, 0.01 * flowed_As);
+  EXPECT_THAT(outcome_of(on_battery(1.0, 0.5)).remarks, Not(Contains(HasSubstr("battery was"))));
+}
+
+/// A spinning rotor braked into a small battery.
+TEST(LimitRemarks, ABatteryIsFullWhereItIsGivenMore) {
+  Scenario s = on_battery(1e-5, 0.9);
+  s.load.locked = false;
+  s.initial.speed_rad_s = 600;
+  s.reference.value = -5.0;
+  s.pwm.chopping = control::Chopping::complementary;
+  s.duration_s = 10e-3;
+  EXPECT_GT(number_behind(outcome_of(s).remarks, "its charge went up to "), 1.0);
+  s.supply.battery_charge = 0.1;
+  EXPECT_THAT(outcome_of(s).remarks, Not(Contains(HasSubstr("battery was"))));
+}
+
+TEST(LimitRemarks, ARotorFasterThanItsSheetAllows) {
+  Scenario s = maxon_scenario(Mode::duty, 1.0);
+  s.initial.speed_rad_s = 650;
+  s.duration_s = 20e-3;
+  s.compare = {{measure_of(study::MetricKind::maximum, study::Signal::speed), 0.0, ""}};
+  s.sheet.max_speed_rpm = base::Quantity{.value = 6000.0};
+  const study::Outcome out = outcome_of(s);
+  EXPECT_NEAR(number_behind(out.remarks, "the rotor reached "), out.comparisons.at(0).measured, 1.0);
+  EXPECT_THAT(out.remarks, Contains(HasSubstr("(6000 rpm)")));
+  s.sheet.max_speed_rpm->value = 10000;
+  EXPECT_THAT(outcome_of(s).remarks, Not(Contains(HasSubstr("the sheet allows"))));
+}
+
+/// Braked into a capacitor alone: all of the kinetic energy cannot make more of it than C U^2/2 + J w^2/2.
+TEST(LimitRemarks, ABusThatIsPumpedUp) {
+  Scenario s = maxon_scenario(Mode::current, -5.0);
+  s.pwm.chopping = control::Chopping::complementary;
+  s.initial.speed_rad_s = 600;
+  s.duration_s = 20e-3;
+  s.supply.resistance_ohm = 0.05;
+  s.supply.capacitance_F = 1e-3;
+  s.supply.sinks = false;
+  s.compare = {{measure_of(study::MetricKind::maximum, study::Signal::bus_voltage), 0.0, ""}};
+  const study::Outcome out = outcome_of(s);
+  const double rose_V = number_behind(out.remarks, "the bus rose to ");
+  const double J = out.motor.shaft.J_kg_m2, most_V = std::sqrt(24.0 * 24.0 + J * 600 * 600 / 1e-3);
+  EXPECT_NEAR(rose_V, out.comparisons.at(0).measured, 0.2);
+  EXPECT_GT(rose_V, 1.2 * 24);
+  EXPECT_LT(rose_V, most_V);
+  const auto silent = [](const Scenario& with) {
+    EXPECT_THAT(outcome_of(with).remarks, Not(Contains(HasSubstr("the bus rose"))));
+  };
+  Scenario sinks = s, large = s, chopper = s;
+  sinks.supply.sinks = true;
+  silent(sinks);
+  large.supply.capacitance_F = 0.1;
+  silent(large);
+  chopper.supply.brake_resistance_ohm = 5;
+  chopper.supply.brake_on_V = 40;
+  chopper.supply.brake_off_V = 38;
+  silent(chopper);
+}
+
+/// The same run with its motor warming up says when its winding passes the limit, current held: with R at the sheet's temperature a
+/// little later than the remark's, whose copper grows warm.
+TEST(LimitRemarks, AWindingThatWouldNotStandIt) {
+  Scenario s = maxon_scenario(Mode::current, 20.0);
+  s.sheet = curve_sheet();
+  s.sheet.nominal_current_A->frame = "terminal";
+  s.supply.voltage_V = 48;  // holds 20 A through a warm winding, too
+  s.load.locked = true;
+  s.duration_s = 2.0;
+  const auto remarks = outcome_of(s).remarks;
+  const double within_s = number_behind(remarks, "degC within ");
+  EXPECT_NEAR(number_behind(remarks, "the copper loss of "), 20.0 * 20.0 * 1.03, 0.05 * 412);
+  Scenario warm = s;
+  warm.heat.motor = true;
+  warm.duration_s = 1.1 * within_s;
+  EXPECT_THAT(outcome_of(warm).remarks, Contains(HasSubstr("and its sheet allows 125 degC")));
+  warm.duration_s = 0.8 * within_s;
+  EXPECT_THAT(outcome_of(warm).remarks, Not(Contains(HasSubstr("and its sheet allows"))));
+  s.reference.value = 2.33;
+  EXPECT_THAT(outcome_of(s).remarks, Not(Contains(HasSubstr("copper loss"))));
+  s.reference.value = 20.0;
+  const auto no_books = study::run(s, {.keep_books = false});
+  ASSERT_TRUE(no_books);
+  EXPECT_THAT(no_books->remarks, Not(Contains(HasSubstr("copper loss"))));
+}
+
+}  // namespace SIXSTEP_TEST_FILE
