@@ -109,6 +109,7 @@ bool RowReader::row_beside(std::string_view text) {
   }
   if (!is_row || (has_more && beside_->cells == 1)) {  // a line above the rows
     out_.columns.clear();
+    marks_ = {};
     out_.lines.clear();
     separator_ = 0;
     wide_line_ = 0;
@@ -148,6 +149,8 @@ void RowReader::row(const std::vector<std::string_view>& cells) {
     if (!x) {
       if (column.bad.size() < most_quoted) column.bad.push_back({number_, std::string(cell.substr(0, 200))});
       ++column.bad_cells;
+    } else {
+      marks_.see(number_, n, cell);
     }
     column.filled |= !cell.empty();
     column.values.push_back(x.value_or(std::numeric_limits<double>::quiet_NaN()));
@@ -203,6 +206,7 @@ base::Result<Recording> RowReader::result() {
     }
   }
   if (std::optional<base::Problem> wrong = wrong_cells()) return *wrong;
+  if (std::optional<base::Problem> doubt = marks_.doubt(out_.name)) return *doubt;
   return std::move(out_);
 }
 
