@@ -120,7 +120,16 @@ class Bench(Started):
         (self.path / "log.csv").write_text(renamed)
         named = ("--hall", "D0,D1,D2", "--voltages", "CH1,CH2,CH3", "--between", "lines")
         self.assertEqual(self.told("identify", "log.csv", *named)["place"]["wires"][0]["hall_lines"], "123")
-        self.assertEqual(self.told("identify", "log.csv", *named, "--interval", "1e-4")["seconds"], 1e-4 * (12 * 180 - 1))
+        rows = "".join(line.split(",", 1)[1] for line in renamed.splitlines(True))
+        (self.path / "log.csv").write_text(rows)
+        self.assertAlmostEqual(self.told("identify", "log.csv", *named, "--interval", "1e-4")["seconds"], 1e-4 * (12 * 180 - 1))
+
+    def test_an_interval_does_not_overrule_a_column_of_time(self):
+        of_file = self.told("emf", "scope.csv")
+        self.assertEqual(self.told("emf", "scope.csv", "--interval", "2e-5"), of_file)
+        self.assertIn("scope.csv: contradicts the interval that is given, 4e-05 s: time steps by 2e-05 s",
+                      self.refused("emf", "scope.csv", "--interval", "4e-5"))
+        self.assertIn("contradicts the interval that is given", self.refused("identify", "log.csv", "--interval", "1e-4"))
 
     def test_hostile_logs_get_one_line_with_place_and_cure(self):
         whole = log()

@@ -153,6 +153,14 @@ class LogsOfOthers(LogTest):
         self.assertIn("where none has a heading", self.compared(code=2)[1])
         self.expect_right("--interval", "0.003", "--columns", "speed=column 6,i_m=column 4/1000")
 
+    def test_an_interval_beside_a_time_must_agree(self):
+        self.log("t [ms],speed [rpm],i_m [mA]\n", lambda n, r: f"{1e3 * r['t_s']:.1f},{r['speed_rad_s'] * RPM:.1f},{1e3 * r['i_m_A']:.2f}\n")
+        self.expect_right("--interval", "0.003")
+        named = ("--columns", "time=t/1000,speed=speed,i_m=i_m")
+        self.expect_right("--interval", "0.003", *named)
+        for words in ((), named):
+            self.assertIn("contradicts the interval that is given, 0.006 s", self.compared("--interval", "0.006", *words, code=2)[1])
+
     def test_a_scopes_record_of_terminals(self):
         self.log("Time (s),CH1 (V),CH2 (V)\n", lambda n, r: f"{r['t_s']:.6f},{r['u_a_V']:.3f},{r['u_ab_V']:.3f}\n")
         found, text = self.compared("--shift", "0", "--columns", "u_a=CH1,u_ab=CH2")

@@ -147,11 +147,13 @@ class LogReader {
   }
 
   base::Result<Times> read_times() {
-    if (!time_ || wanted_.interval_s) return times_of(r_, wanted_.interval_s, out_.notes);
+    if (!time_) return times_of(r_, wanted_.interval_s, out_.notes);
     const RecordedColumn* column = nullptr;
     Values values = formula_values(r_, *time_, "s", column);
     if (!values) return values.problems();
     used_.push_back(column);
+    if (wanted_.interval_s)
+      return times_at_interval(r_, std::move(*values), *column, *wanted_.interval_s, out_.notes);
     return rising_times(r_, std::move(*values), *column, out_.notes);
   }
 
