@@ -77,7 +77,7 @@ RowReader::RowReader(std::string name, std::size_t line, std::optional<RowsBesid
 bool RowReader::line(std::string_view text) {
   ++number_;
   if (is_remark(text)) {
-    if (separator_ == 0 && remarks_.size() < most_lines_above) remarks_.emplace_back(text);
+    remark(text);
     return true;
   }
   if (beside_) return row_beside(text);
@@ -87,6 +87,23 @@ bool RowReader::line(std::string_view text) {
   }
   row(cells_of_line(text, separator_));
   return values_ <= most_values;
+}
+
+void RowReader::remark(std::string_view text) {
+  if (separator_ == 0) {
+    if (remarks_.size() < most_lines_above) remarks_.emplace_back(text);
+    return;
+  }
+  constexpr std::size_t longest_remark = 100;
+  const std::size_t first = text.find_first_not_of(" \t#%");
+  if (first == std::string_view::npos) return;
+  const std::string said = bounded(std::string(bare_cell(text.substr(first))), longest_remark);
+  std::vector<Remark>& all = out_.remarks;
+  const auto same = std::find_if(all.begin(), all.end(), [&](const Remark& r) { return r.text == said; });
+  if (same != all.end())
+    ++same->times;
+  else if (all.size() < most_remarks)
+    all.push_back({said, number_});
 }
 
 bool RowReader::begins_rows(std::string_view text) {

@@ -33,6 +33,7 @@ class RowReader {
   bool begins_rows(std::string_view text);
   bool row_beside(std::string_view text);
   void begin(std::size_t cells);
+  void remark(std::string_view text);
   void row(const std::vector<std::string_view>& cells);
   std::optional<base::Problem> wrong_cells() const;
 

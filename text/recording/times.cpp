@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "text/keys/units.hpp"
+#include "text/recording/known_names.hpp"
 
 namespace text {
 namespace {
@@ -170,11 +171,7 @@ base::Result<std::vector<double>> by_clock(const Recording& r, const RecordedCol
 }  // namespace
 
 const RecordedColumn* time_column(const Recording& recording) {
-  constexpr std::string_view names[] = {"t", "time", "times", "ts",     "timestamp", "seconds", "xaxis",
-                                        "x", "zeit", "temps", "tiempo", "tempo",     "xvalue"};
-  const auto named = [&](const RecordedColumn& column) {
-    return std::find(std::begin(names), std::end(names), column.bare) != std::end(names);
-  };
+  const auto named = [](const RecordedColumn& column) { return names_a_time(column.bare); };
   const auto found = std::find_if(recording.columns.begin(), recording.columns.end(), named);
   if (found != recording.columns.end()) return &*found;
   const auto timed = std::find_if(recording.columns.begin(), recording.columns.end(), is_in_seconds);
