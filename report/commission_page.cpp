@@ -98,8 +98,8 @@ std::string render_commission(const CommissionPage& page) {
   const std::string body = filled(
       assets::bench_html,
       {{"title", title},
-       {"subtitle", escaped(fmt::format("{} of test current, {}", computed(s.bench.wish.test_A, "A"),
-                                        computed(s.seconds, "s")))},
+       {"subtitle", escaped(fmt::format("{} of test current{}, {}", computed(s.bench.wish.test_A, "A"),
+                                        text::stand_in_words(s.bench), computed(s.seconds, "s")))},
        {"facts", facts(s)},
        {"pictured", "The test"},
        {"charts",

@@ -149,12 +149,17 @@ Exit identify_command(const BenchArguments& arguments) {
   return problems.empty() ? Exit::ok : Exit::bad_input;
 }
 
-/// A sheet's pole pairs, where nobody has given others.
+/// A sheet's pole pairs; those that were given beside it must be the same.
 base::Result<std::optional<design::Sheet>> sheet_of(EmfArguments& a) {
   if (a.motor.empty()) return std::optional<design::Sheet>();
   const base::Result<design::Sheet> sheet = files::read_sheet(a.motor, a.data_dir);
   if (!sheet) return sheet.problems();
-  if (!a.pole_pairs) a.pole_pairs = design::sheet_constants(*sheet).pole_pairs;
+  const std::optional<int> of_sheet = design::sheet_constants(*sheet).pole_pairs;
+  if (a.pole_pairs && of_sheet && *a.pole_pairs != *of_sheet)
+    return base::Problem{"--pole-pairs", std::to_string(*a.pole_pairs),
+                         fmt::format("contradicts the {} of {}", *of_sheet, text::visible(sheet->name)),
+                         "leave out the one that is less sure: --pole-pairs or --motor"};
+  if (of_sheet) a.pole_pairs = of_sheet;
   return std::optional(*sheet);
 }
 

@@ -11,6 +11,7 @@
 #include "sixstep/analysis/commission/commission_truth.hpp"
 #include "sixstep/base/angle.hpp"
 #include "tests/support/in_part.hpp"
+#include "text/results/commission_text.hpp"
 #include "text/scenario/scenario_file.hpp"
 
 namespace SIXSTEP_TEST_FILE {
@@ -30,13 +31,14 @@ CommissionSubject subject_of(const char* motor) {
 
 struct OnBench {
   const char* motor;
-  double voltage_V;  ///< 0: nominal
+  double voltage_V;        ///< 0: nominal
+  double current_A = 0.0;  ///< 0: the usual one
 };
 constexpr OnBench benches[] = {
-    {"anaheim-bly172s", 0}, {"baldor-bsm90n-175", 0}, {"dji-2212-920kv", 0}, {"maxon-200142", 0},
-    {"maxon-251601", 0},    {"maxon-339285", 0},      {"maxon-339286", 0},   {"maxon-397172", 0},
-    {"maxon-488607", 0},    {"maxon-651607", 0},      {"maxon-651609", 0},   {"maxon-651614", 0},
-    {"teknic-m2310p", 0},   {"hoverboard-hub", 36},   {"mjbots-mj5208", 24}, {"gmcc-ksk89d53u", 100}};
+    {"anaheim-bly172s", 0}, {"baldor-bsm90n-175", 0}, {"dji-2212-920kv", 0, 19}, {"maxon-200142", 0},
+    {"maxon-251601", 0},    {"maxon-339285", 0},      {"maxon-339286", 0},       {"maxon-397172", 0},
+    {"maxon-488607", 0},    {"maxon-651607", 0},      {"maxon-651609", 0},       {"maxon-651614", 0},
+    {"teknic-m2310p", 0},   {"hoverboard-hub", 36},   {"mjbots-mj5208", 24},     {"gmcc-ksk89d53u", 100}};
 
 /// All of them where the environment says so (ctest --preset long), else one in four.
 bool in_full() { return std::getenv("SIXSTEP_ALL_MOTORS") != nullptr; }
@@ -48,6 +50,7 @@ TEST(Commission, FindsTheMotorsOfTheLibraryWithinItsBounds) {
   for (const OnBench& on : benches) {
     CommissionSubject subject = subject_of(on.motor);
     if (on.voltage_V > 0) subject.voltage_V = on.voltage_V;
+    if (on.current_A > 0) subject.current_A = on.current_A;
     subject.hall_offset_deg = offset_deg;
     subject.seed = ++seed;
     offset_deg += 3.5;
@@ -70,6 +73,24 @@ TEST(Commission, FindsTheMotorsOfTheLibraryWithinItsBounds) {
     EXPECT_LT(s->bounds.flux_part, 0.08) << on.motor;
     EXPECT_LT(s->bounds.edge_deg, 10.0) << on.motor;
   }
+}
+
+/// What a motor stands that nobody has rated is guessed low: twice a tenth of what full duty drives through two phases.
+TEST(Commission, ASheetWithoutNominalCurrentIsTestedWithTheStandIn) {
+  CommissionSubject drone = subject_of("dji-2212-920kv");
+  const auto usual = analysis::commission_bench(drone);
+  ASSERT_TRUE(usual);
+  EXPECT_EQ(usual->from, analysis::TestCurrent::twice_tenth_of_stall);
+  EXPECT_FALSE(usual->nominal_printed);
+  EXPECT_EQ(usual->wish.test_A, 10);  // 12 V/(2 0.1153 ohm)/5 = 10.4 A, to two digits
+  EXPECT_EQ(text::stand_in_words(*usual),
+            ", twice a tenth of what full duty drives: the sheet names no nominal current");
+  drone.current_A = 19;
+  EXPECT_EQ(text::stand_in_words(*analysis::commission_bench(drone)), "");
+  const auto printed = analysis::commission_bench(subject_of("maxon-251601"));
+  ASSERT_TRUE(printed);
+  EXPECT_EQ(printed->from, analysis::TestCurrent::twice_nominal);
+  EXPECT_EQ(text::stand_in_words(*printed), "");
 }
 
 /// The board's forward is the motor's where an even number of phases is crossed, and its backward where an odd number is: the

@@ -73,6 +73,22 @@ TEST(WiringRuns, OfATrapezoidDoWhatTheorySays) {
             s.symptom(WiringDoes::forward_late).speed_rad_s);
 }
 
+/// A drone's winding forgets its current within a PWM period of 50 us; torque per ampere is the motor's all the same.
+TEST(WiringRuns, OfAShortTimeConstantHaveTheTorqueOfTheory) {
+  design::Sheet sheet = nominal_sheet();
+  sheet.inductance_mH->value = 0.02;
+  sheet.inertia_gcm2->value = 20;  // soon at speed
+  const base::Result<analysis::WiringBench> bench = analysis::wiring_bench({.motor = "m", .sheet = sheet});
+  ASSERT_TRUE(bench);
+  EXPECT_LT(bench->turned_pwm_s, bench->motor.machine.L_H / bench->motor.machine.R_ohm / 2.9);
+  const WiringStudy s = studied(sheet);
+  for (const WiringCase& c : s.cases) {
+    EXPECT_TRUE(c.agrees());
+    EXPECT_NEAR(c.measured.part, c.theory.part, 0.015)
+        << static_cast<int>(c.wiring.phases) << static_cast<int>(c.wiring.probes);
+  }
+}
+
 TEST(WiringRuns, OfADeltaWithHarmonicsDoWhatTheorySays) {
   design::Sheet sheet = nominal_sheet();
   sheet.connection = design::WindingConnection::delta;

@@ -5,6 +5,7 @@ is no recording gets one line and exit code 2."""
 import json
 import math
 import re
+import tomllib
 import unittest
 
 from program import SOURCE, Started
@@ -92,6 +93,17 @@ class Bench(Started):
         self.run_program("motor", "check", "mine.toml")
         self.assertEqual(self.names(), ["a.toml", "e.html", "lines.toml", "log.csv", "mine.toml", "scope.csv", "sensors.toml", "shape.csv"])
 
+    def test_codes_alone_write_nothing_whose_sign_they_do_not_know(self):
+        (self.path / "log.csv").write_text(log(volts=False))
+        text = self.run_program("motor", "identify", "log.csv", "--write", "a.toml").stdout
+        written = tomllib.loads((self.path / "a.toml").read_text())
+        self.assertEqual(written, {"sensors": {}})
+        for told in (text, (self.path / "a.toml").read_text()):
+            self.assertIn("# hall_edges_deg is left out: codes alone tell neither which edge is the first", told)
+        (self.path / "log.csv").write_text(log())
+        self.run_program("motor", "identify", "log.csv", "--write", "b.toml")
+        self.assertEqual(len(tomllib.loads((self.path / "b.toml").read_text())["sensors"]["hall_edges_deg"]), 6)
+
     def test_files_are_the_same_each_time(self):
         for words, names in ((("identify", "log.csv", "--write", "a.toml", "--html", "a.html"), ("a.toml", "a.html")),
                              (("emf", "scope.csv", "--pole-pairs", "4", "--write", "b.toml", "--html", "b.html", "--shape", "b.csv"),
@@ -110,6 +122,10 @@ class Bench(Started):
             told = self.told("emf", "scope.csv", "--motor", "s.toml", code=code)
             self.assertEqual(told["pole_pairs"], 4)
             self.assertEqual(told["sheet"]["checks"][0]["holds"], code == 0)
+        self.assertEqual(self.told("emf", "scope.csv", "--motor", "s.toml", "--pole-pairs", "4", code=1)["pole_pairs"], 4)
+        line = self.refused("emf", "scope.csv", "--motor", "s.toml", "--pole-pairs", "3", "--write", "w.toml")
+        self.assertIn("--pole-pairs = 3 contradicts the 4 of s", line)
+        self.assertFalse((self.path / "w.toml").exists())
         self.run_program("motor", "emf", "scope.csv", "--motor", "s.toml", "--tolerance", "50")
 
     def test_tables_of_every_make(self):
@@ -120,7 +136,16 @@ class Bench(Started):
         (self.path / "log.csv").write_text(renamed)
         named = ("--hall", "D0,D1,D2", "--voltages", "CH1,CH2,CH3", "--between", "lines")
         self.assertEqual(self.told("identify", "log.csv", *named)["place"]["wires"][0]["hall_lines"], "123")
-        self.assertEqual(self.told("identify", "log.csv", *named, "--interval", "1e-4")["seconds"], 1e-4 * (12 * 180 - 1))
+        rows = "".join(line.split(",", 1)[1] for line in renamed.splitlines(True))
+        (self.path / "log.csv").write_text(rows)
+        self.assertAlmostEqual(self.told("identify", "log.csv", *named, "--interval", "1e-4")["seconds"], 1e-4 * (12 * 180 - 1))
+
+    def test_an_interval_does_not_overrule_a_column_of_time(self):
+        of_file = self.told("emf", "scope.csv")
+        self.assertEqual(self.told("emf", "scope.csv", "--interval", "2e-5"), of_file)
+        self.assertIn("scope.csv: contradicts the interval that is given, 4e-05 s: time steps by 2e-05 s",
+                      self.refused("emf", "scope.csv", "--interval", "4e-5"))
+        self.assertIn("contradicts the interval that is given", self.refused("identify", "log.csv", "--interval", "1e-4"))
 
     def test_hostile_logs_get_one_line_with_place_and_cure(self):
         whole = log()

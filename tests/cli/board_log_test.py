@@ -153,6 +153,28 @@ class LogsOfOthers(LogTest):
         self.assertIn("where none has a heading", self.compared(code=2)[1])
         self.expect_right("--interval", "0.003", "--columns", "speed=column 6,i_m=column 4/1000")
 
+    def test_what_the_board_said_between_the_rows_is_told(self):
+        self.log("t [ms],speed [rpm],i_m [mA],missed\n", lambda n, r: "# fault: over-current\n" * (n == 20) +
+                 f"{1e3 * r['t_s']:.1f},{r['speed_rad_s'] * RPM:.1f},{1e3 * r['i_m_A']:.2f},{int(n == 3)}\n")
+        text = self.expect_right()
+        self.assertIn('line 22 says "fault: over-current"', text)
+        self.assertIn("1 row says that the board missed control periods, up to 1", text)
+        self.assertNotIn("not used", text)
+
+    def test_a_broken_formula_is_no_other_one(self):
+        self.log("t [ms],erpm,i_m [mA]\n", lambda n, r: f"{1e3 * r['t_s']:.1f},{r['speed_rad_s'] * RPM * PAIRS:.1f},{1e3 * r['i_m_A']:.2f}\n")
+        for formula, place in (("speed=erpm*", 11), ("speed=*erpm", 7), ("speed=erpm**2", 11), ("speed=erpm*2*pi/60/8*", 21)):
+            self.assertIn(f"--columns = {formula} lacks a constant or a column beside the * at place {place}",
+                          self.compared("--columns", formula, code=2)[1])
+
+    def test_an_interval_beside_a_time_must_agree(self):
+        self.log("t [ms],speed [rpm],i_m [mA]\n", lambda n, r: f"{1e3 * r['t_s']:.1f},{r['speed_rad_s'] * RPM:.1f},{1e3 * r['i_m_A']:.2f}\n")
+        self.expect_right("--interval", "0.003")
+        named = ("--columns", "time=t/1000,speed=speed,i_m=i_m")
+        self.expect_right("--interval", "0.003", *named)
+        for words in ((), named):
+            self.assertIn("contradicts the interval that is given, 0.006 s", self.compared("--interval", "0.006", *words, code=2)[1])
+
     def test_a_scopes_record_of_terminals(self):
         self.log("Time (s),CH1 (V),CH2 (V)\n", lambda n, r: f"{r['t_s']:.6f},{r['u_a_V']:.3f},{r['u_ab_V']:.3f}\n")
         found, text = self.compared("--shift", "0", "--columns", "u_a=CH1,u_ab=CH2")
@@ -189,7 +211,7 @@ class LogsOfOthers(LogTest):
 
     def test_missed_periods_are_told(self):
         self.log("t [ms],speed [rpm],missed\n", lambda n, r: f"{1e3 * r['t_s']:.1f},{r['speed_rad_s'] * RPM:.1f},{2 if n == 7 else 0}\n")
-        self.assertIn("1 rows say that the board missed control periods, up to 2", self.compared()[1])
+        self.assertIn("1 row says that the board missed control periods, up to 2", self.compared()[1])
 
 
 if __name__ == "__main__":

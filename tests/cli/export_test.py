@@ -75,7 +75,8 @@ class Export(ProgramTest):
         square = self.scenario("current-square-board")
         for stated, least in (("current_A=4.9", "5 A"), ("setpoint=4.9", "5 of its unit"), ("bus_V=23", "24 V")):
             self.assertIn(f"is less than the {least} that this scenario reaches", told(square, "--range", stated, "--arithmetic", "q15"))
-        self.assertIn("is no name of a C++ namespace", told(position, "--namespace", "7up"))
+        for name in ("7up", "int", "left::class", "std"):
+            self.assertIn(f"--namespace = {name} is no name of a C++ namespace", told(position, "--namespace", name))
         self.assertIn("does not name a key and a value", told(position, "--set", "novalue"))
         small = told(position, "--arithmetic", "q15", "--set", "control.speed.d1=1e-9", "--set", "control.speed.d0=-0.9e-9")
         self.assertIn(f"{position}: control.arithmetic = \"q15\" cannot hold this drive: speed.K_i = ", small)

@@ -200,6 +200,53 @@ TEST(SheetCheck, AKnownDeviationMustBeOneAndIsOne) {
             "known_deviation = \"stall\" names no relation of this sheet; it has: stall");
 }
 
+/// Units that are off by a thousand towards the slow side break no relation of a sheet that prints little.
+TEST(SheetCheck, ASlowWindingOrRotorIsDoubted) {
+  const auto doubts = [](const Sheet& sheet) {
+    std::vector<std::string> out;
+    for (const base::Problem& p : checked(sheet).doubts) out.push_back(to_string(p));
+    return out;
+  };
+  const Sheet good = printed_251601();
+  EXPECT_TRUE(doubts(good).empty());
+  Sheet s = good;
+  s.inductance_mH->value = 205;  // L/R = 199 ms
+  EXPECT_TRUE(doubts(s).empty());
+  s.inductance_mH->value = 1200;
+  ASSERT_EQ(doubts(s).size(), 1u);
+  EXPECT_EQ(
+      doubts(s)[0],
+      "inductance_mH = 1200 makes the winding's time constant L/R 1.17 s, and next to no motor is above "
+      "0.2 s; look at the unit of inductance and resistance");
+  s = good;
+  s.inertia_gcm2->value = 4.8e8;
+  s.inertia_gcm2->key = "inertia_kgm2";  // the file says 48
+  ASSERT_EQ(doubts(s).size(), 1u);
+  EXPECT_EQ(doubts(s)[0].substr(0, 64), "inertia_kgm2 = 48 makes R J/K_t^2 4.41e+04 s, and next to no mot");
+}
+
+/// A value beside a key of the file is in that key's unit.
+TEST(SheetCheck, MessagesNameValuesAsTheFileWritesThem) {
+  Sheet s = printed_251601();
+  s.with_brake = true;
+  s.inertia_with_brake_gcm2 = Quantity{100, "", ""};
+  s.inertia_with_brake_gcm2->key = "inertia_with_brake_kgm2";
+  s.inertia_gcm2->key = "inertia_kgcm2";
+  const auto told = check_sheet(s);
+  ASSERT_FALSE(told);
+  EXPECT_EQ(to_string(told.problems()[0]).substr(0, 88),
+            "inertia_with_brake_kgm2 = 1e-05 is less than the rotor's own, inertia_kgcm2 = 0.135; the");
+  s = printed_251601();
+  s.torque_constant_mNm_A->value = 41e3;
+  s.inertia_gcm2->value = 48;
+  s.inertia_gcm2->key = "inertia_kgm2";
+  const auto model = motor_model(s);
+  ASSERT_FALSE(model);
+  bool named = false;
+  for (const base::Problem& p : model.problems()) named |= p.where == "inertia_kgm2" && p.value == "4.8e-06";
+  EXPECT_TRUE(named);
+}
+
 TEST(SheetCheck, EveryLineIsUsedOrSaysWhyNot) {
   Sheet s = printed_251601();
   s.viscous_friction_Nm_s = Quantity{7.3e-6, "", ""};

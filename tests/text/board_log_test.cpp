@@ -63,4 +63,69 @@ TEST(BoardLog, SaysWhatIsWrong) {
   EXPECT_EQ(limit("t [us],i_m [mA]\n1,2\n3,4\n"), "nothing");
 }
 
+std::string limit_with(const std::string& formula) {
+  text::LogColumns wanted;
+  wanted.formulas = {formula};
+  const auto log = text::read_board_log("b.csv", "t [ms],erpm,i_m [mA]\n1,60,2\n3,60,4\n", wanted);
+  return log ? "nothing" : to_string(log.problems()[0]);
+}
+
+TEST(BoardLog, ABrokenFormulaIsRefusedWithItsPlace) {
+  for (const auto& [formula, place] :
+       {std::pair{"speed=erpm*", "* at place 11"}, std::pair{"speed=*erpm", "* at place 7"},
+        std::pair{"speed=erpm**2", "* at place 11"}, std::pair{"speed=erpm/*2", "/ at place 11"},
+        std::pair{"speed=2**erpm", "* at place 9"}, std::pair{"speed=-*erpm", "* at place 8"},
+        std::pair{"speed=erpm*2*pi/60/8*", "* at place 21"}, std::pair{"time=t/", "/ at place 7"}})
+    EXPECT_THAT(limit_with(formula), testing::AllOf(testing::StartsWith("columns = "), HasSubstr(place)))
+        << formula;
+  for (const char* formula : {"speed=e*rpm", "speed=erpm+", "speed=erpm^", "speed=e/rpm*2", "speed=erpm*two"})
+    EXPECT_THAT(limit_with(formula), HasSubstr("has no column")) << formula;
+  for (const char* formula :
+       {"speed=erpm", "speed=erpm*2*pi/60/8", "speed=-2*erpm", "speed= e rpm * pi / 30 "})
+    EXPECT_EQ(limit_with(formula), "nothing") << formula;
+  text::LogColumns wanted;
+  wanted.formulas = {"speed=2*erpm/4*3"};
+  const auto log = text::read_board_log("b.csv", "t [ms],erpm\n1,60\n3,60\n", wanted);
+  ASSERT_TRUE(log);
+  EXPECT_THAT(log->trace.values[1], ElementsAre(DoubleEq(90.0), DoubleEq(90.0)));
+}
+
+/// What a board says beside its numbers is no less a result than they are.
+TEST(BoardLog, RemarksBetweenRowsAndFaultsAreTold) {
+  const char* const rows =
+      "# sixstep on an ATmega2560\nt [us],i_m [mA],missed,faults\n100,1,0,0\n# fault: over-current\n200,2,3,0\n"
+      "# fault: over-current\n300,3,0,4\n\n# stop\n";
+  text::LogColumns wanted;
+  for (const bool named : {false, true}) {
+    if (named) wanted.formulas = {"i_m=i_m"};
+    const auto log = text::read_board_log("b.csv", rows, wanted);
+    ASSERT_TRUE(log);
+    EXPECT_THAT(
+        log->notes,
+        ElementsAre("line 4 says \"fault: over-current\", and 1 more does", "line 9 says \"stop\"",
+                    "1 row says that the board missed control periods, up to 3: what it sent there is late",
+                    "1 row says that the board had a fault, faults 4 first in line 7"));
+    EXPECT_THAT(log->not_used, testing::IsEmpty());
+  }
+  const auto calm = text::read_board_log("b.csv", "t [us],i_m [mA],missed,faults\n100,1,0,0\n200,2,0,0\n");
+  ASSERT_TRUE(calm);
+  EXPECT_THAT(calm->notes, testing::IsEmpty());
+}
+
+TEST(BoardLog, ALineOfUnitsWithAStrangeOneIsNoLineOfHeadings) {
+  const auto limit = [](const char* text) {
+    const auto log = text::read_board_log("b.csv", text);
+    return log ? "nothing" : to_string(log.problems()[0]);
+  };
+  EXPECT_THAT(
+      limit("t,i_m,u_a\ns,foo,V\n0,1,2\n1,2,3\n"),
+      testing::AllOf(HasSubstr("heads i_m in \"foo\", which is no unit"), HasSubstr("units that fit: A")));
+  EXPECT_THAT(limit("t,i_m\nfoo,mA\n0,1\n1,2\n"), HasSubstr("heads t in \"foo\", which is no unit"));
+  EXPECT_THAT(limit("t,foo,bar\ns,V,mA\n0,1,2\n1,2,3\n"), HasSubstr("it has t, foo, bar"));
+  const auto log = text::read_board_log("b.csv", "t,duty,i_m\nms,-,mA\n0,0.5,2\n1,0.25,3\n");
+  ASSERT_TRUE(log);
+  EXPECT_THAT(names_of(log->trace), ElementsAre("t_s", "duty", "i_m_A"));
+  EXPECT_THAT(log->trace.values[2], ElementsAre(DoubleEq(2e-3), DoubleEq(3e-3)));
+}
+
 }  // namespace SIXSTEP_TEST_FILE

@@ -78,7 +78,7 @@ inline void expect_right(const std::string& bytes, double step_V = 1e-5,
                          const BenchColumns& columns = between_lines, std::size_t channels = 2) {
   const Seen found = seen(bytes, columns);
   ASSERT_EQ(found.problem, "") << bytes.substr(0, 300);
-  EXPECT_THAT(found.channels, testing::SizeIs(channels));
+  EXPECT_THAT(found.channels, ::testing::SizeIs(channels));
   const double deviation = std::max(step_V, 1e-6) / std::sqrt(12.0) * std::sqrt(2.0 / rows) / peak_V;
   EXPECT_NEAR(found.line_peak_mV_s / right_mV_s, 1.0, 6.0 * deviation) << bytes.substr(0, 300);
   EXPECT_NEAR(found.seconds, dt * (rows - 1), 1e-9);

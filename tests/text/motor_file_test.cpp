@@ -120,7 +120,7 @@ TEST_F(MotorFile, AValueInAnotherSpellingIsToldAsItStands) {
   ASSERT_FALSE(scenario);
   EXPECT_EQ(to_string(scenario.problems().front()),
             "x.toml:7:27: motor_override.inertia_with_brake_kgm2 = 6e-7 is less than the rotor's own, "
-            "inertia_gcm2 = 60; the brake only adds: swap the two");
+            "inertia_kgm2 = 6e-06; the brake only adds: swap the two");
 }
 
 /// Visits a sheet and finds one quantity.

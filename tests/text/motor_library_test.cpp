@@ -62,6 +62,7 @@ TEST_P(MotorLibrary, AgreesWithItselfOrSaysWhereNot) {
   const auto check = design::check_sheet(sheet_);
   if (!check) FAIL() << to_string(check.problems().front());
   EXPECT_TRUE(check->consistent);
+  EXPECT_EQ(check->doubts, base::Problems{});
   for (const design::Relation& r : check->relations)
     EXPECT_NE(r.verdict, design::RelationVerdict::broken) << r.name << " " << r.deviation;
 }

@@ -17,7 +17,8 @@ TEST(RecordedDoubts, WordsThatAreNoUnitsAreRefused) {
         "time (us),u_ab [counts],u_bc [V]\n", "time (us),u_ab_counts,u_bc_counts\n",
         "time (us),CH1 raw,CH2 raw\n", "time (us),CH1 in LSB,CH2 in LSB\n",
         "time (us),u_ab / div,u_bc / div\n", "Time (foo),u_ab [V],u_bc [V]\n", "time [ticks],u_ab,u_bc\n",
-        "time samples,u_ab,u_bc\n", "t,u_ab,u_bc\n(foo),(V),(V)\n"}) {
+        "time samples,u_ab,u_bc\n", "t,u_ab,u_bc\n(foo),(V),(V)\n", "t,u_ab,u_bc\ns,foo,V\n",
+        "t,u_ab,u_bc\nfoo,V,V\n", "t,CH1,CH2\ns,V,foo\n"}) {
     const Seen found = seen(plain(head, "{:.0f},{:.5f},{:.5f}\n", 1e6), between_lines);
     EXPECT_THAT(found.problem, AllOf(HasSubstr("which is no unit"), HasSubstr("units that fit: "))) << head;
   }
@@ -81,6 +82,15 @@ TEST(RecordedDoubts, ColumnsThatAreNotUsedAreNamed) {
     return fmt::format("{:.6f},{:.5f},{:.5f},{:.5f},{:.5f}\n", t, a, b, -a - b, a);
   });
   EXPECT_THAT(seen(four, between_lines).notes, ElementsAre("not used: CH4 (more than 3 voltages)"));
+}
+
+TEST(RecordedDoubts, VoltagesThatAreNamedSayWhatTheyAreByTheirHeadings) {
+  const auto named = [](std::vector<std::string> voltages) {
+    return BenchColumns{.hall = {}, .voltages = std::move(voltages), .between = {}, .interval_s = {}};
+  };
+  const std::string file = plain("time [s],u_ab [V],CH2 [V]\n");
+  expect_right(file, 1e-5, named({"u_ab"}), 1);
+  EXPECT_THAT(seen(file, named({"u_ab", "CH2"})).problem, HasSubstr("the headings do not say"));
 }
 
 /// A column that the reader knows is not called unknown: the reason says what it is and what was taken in its place.

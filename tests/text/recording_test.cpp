@@ -170,6 +170,36 @@ TEST(Recording, TimesThatDoNotTell) {
               StartsWith("r.csv: heads time as V, where s belongs; name another column"));
 }
 
+/// An interval fills a gap; it does not overrule what the file says.
+TEST(Recording, AnIntervalBesideATime) {
+  const auto times = [](const char* csv, double interval_s) {
+    Notes notes;
+    const auto found = times_of(read(csv), interval_s, notes);
+    return found ? found->t_s : std::vector<double>{};
+  };
+  using ::testing::DoubleEq;
+  EXPECT_THAT(times("time [ms],u\n2,1\n4,2\n6.1,3\n", 2e-3),
+              ElementsAre(DoubleEq(2e-3), DoubleEq(4e-3), DoubleEq(6.1e-3)));
+  EXPECT_THAT(times("time,u\n0,1\n1,2\n2,3\n", 0.5), ElementsAre(0.0, 0.5, 1.0));
+  EXPECT_THAT(times("time,u\n10,1\n20,2\n30,3\n", 1e-2), ElementsAre(0.01, 0.02, 0.03));  // in ms
+  // Too few digits: 0.4 ms from row to row.
+  EXPECT_THAT(
+      times("time [ms],u\n5,1\n5,2\n5,3\n6,4\n6,5\n", 4e-4),
+      ElementsAre(DoubleEq(5e-3), DoubleEq(5.4e-3), DoubleEq(5.8e-3), DoubleEq(6.2e-3), DoubleEq(6.6e-3)));
+  EXPECT_THAT(times("time [ms],u\n2,1\n4,2\n6,3\n", 1e-3), ElementsAre());
+  EXPECT_THAT(times("time [ms],u\n2,1\n4,2\n8,3\n", 2e-3), ElementsAre());  // a row is lost
+  EXPECT_THAT(times("Samplerate: 1 kHz\nu,v\n2,1\n4,2\n", 1e-3), ElementsAre(0.0, 1e-3));
+  EXPECT_THAT(times("Samplerate: 1 kHz\nu,v\n2,1\n4,2\n", 1e-2), ElementsAre());
+  // The first of columns without headings is a voltage where it cannot be the time.
+  EXPECT_THAT(times("3,1\n1,2\n2,3\n", 0.5), ElementsAre(0.0, 0.5, 1.0));
+  Notes notes;
+  const auto record = emf_record_of(
+      read("3,1\n1,2\n2,3\n"),
+      {.hall = {}, .voltages = {}, .between = analysis::EmfBetween::lines, .interval_s = 0.5}, notes);
+  ASSERT_TRUE(record);
+  EXPECT_THAT(record->channels, SizeIs(2));
+}
+
 TEST(Recording, WrongColumns) {
   EXPECT_EQ(told_of_hall(scope(3)),
             "r.csv: has no columns of Hall lines: it has time, u_ab; head them hall1, hall2, hall3, "

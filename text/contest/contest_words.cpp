@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <map>
 #include <optional>
+#include <utility>
 
 #include "text/contest/contest_text.hpp"
 
@@ -19,9 +22,9 @@ using analysis::contest_figures;
 /// Within this part two figures count as alike.
 constexpr double alike = 0.05;
 
-/// "3.2 times", "12 % more": how much larger b is.
-std::string larger(double a, double b) {
-  if (!(a > 0.0)) return "against none";
+/// "3.2 times", "12 % more": how much larger b is; "3.2 ms against 0 s" where no factor says it.
+std::string larger(double a, double b, const analysis::ContestFigure& figure) {
+  if (!(a > 0.0)) return fmt::format("{} against {}", contest_value(b, figure), contest_value(a, figure));
   return b / a >= 2.0 ? fmt::format("{:.1f} times", b / a) : fmt::format("{:.0f} % more", 100 * (b / a - 1));
 }
 
@@ -48,26 +51,43 @@ bool are_alike(double a, double b) {
   return std::fabs(b - a) <= alike * std::fmax(std::fabs(a), std::fabs(b));
 }
 
+/// One alone of several that hold the course has the figure: the rest never settle.
+bool is_alone(const Contest& c, std::size_t figure) {
+  std::size_t have = 0, never = 0;
+  for (const analysis::ContestRow& row : c.rows) {
+    if (!row.nominal_held) continue;
+    have += std::isfinite(row.values[figure]) ? 1U : 0U;
+    never += std::isinf(row.values[figure]) ? 1U : 0U;
+  }
+  return have == 1 && never > 0;
+}
+
 /// "NAME has the least rms torque ripple (1.2 mN m; next NAME, 2.3 times)": what it leads in clearly, and why.
 std::vector<std::string> winners(const Contest& c) {
   std::vector<std::vector<std::string>> wins(c.rows.size());
-  std::vector<std::string> even;
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::string>> even;  // by who shares them
   for (std::size_t f = 0; f < std::size(contest_figures); ++f) {
     const Ranked r = ranked(c, f, [](std::size_t) { return true; });
+    if (r.first && is_alone(c, f))
+      wins[*r.first].push_back(fmt::format("{} ({}, the others never)", contest_figures[f].phrase,
+                                           contest_value(c.rows[*r.first].values[f], contest_figures[f])));
     if (!r.first || !r.second) continue;
     const double least = c.rows[*r.first].values[f], next = c.rows[*r.second].values[f];
     if (are_alike(least, next))
-      even.emplace_back(contest_figures[f].phrase);
+      even[std::minmax(*r.first, *r.second)].emplace_back(contest_figures[f].phrase);
     else
-      wins[*r.first].push_back(fmt::format("{} ({}, the next {})", contest_figures[f].phrase,
-                                           contest_value(least, contest_figures[f]), larger(least, next)));
+      wins[*r.first].push_back(fmt::format(
+          "{} ({}, the next {})", contest_figures[f].phrase, contest_value(least, contest_figures[f]),
+          least > 0.0 ? larger(least, next, contest_figures[f]) : contest_value(next, contest_figures[f])));
   }
   std::vector<std::string> out;
   for (std::size_t n = 0; n < wins.size(); ++n)
     if (!wins[n].empty())
       out.push_back(fmt::format("{} has the least {}. It {}.", c.entries[n].who->name,
                                 fmt::join(wins[n], ", "), c.entries[n].who->sentence));
-  if (!even.empty()) out.push_back(fmt::format("The first two are alike in {}.", fmt::join(even, ", ")));
+  for (const auto& [who, figures] : even)
+    out.push_back(fmt::format("{} and {} share the least {}.", c.entries[who.first].who->name,
+                              c.entries[who.second].who->name, fmt::join(figures, ", ")));
   return out;
 }
 
@@ -109,9 +129,9 @@ std::vector<std::string> six_step_or_field(const Contest& c) {
     if (order == 0)
       same.emplace_back(phrase);
     else if (order < 0)
-      less.push_back(fmt::format("{} ({})", phrase, larger(own, other)));
+      less.push_back(fmt::format("{} ({})", phrase, larger(own, other, contest_figures[f])));
     else
-      more.push_back(fmt::format("{} ({})", phrase, larger(other, own)));
+      more.push_back(fmt::format("{} ({})", phrase, larger(other, own, contest_figures[f])));
   }
   std::vector<std::string> out{fmt::format("Six-step or field-oriented? Here {}.", answer(ripple, loss))};
   if (!less.empty())

@@ -10,6 +10,7 @@
 #include "text/export/config_text.hpp"
 #include "text/export/core_costs.hpp"
 #include "text/export/header_comment.hpp"
+#include "text/export/name_space.hpp"
 
 namespace text {
 namespace {
@@ -259,29 +260,14 @@ base::Result<std::string> fixed_header(const ConfigHeader& w, const study::Compi
   return header<Scalar>(w, c, type, kept, scaled->bases, scaled->proof);
 }
 
-bool is_name_space(std::string_view text) {
-  bool begins = true;
-  for (std::size_t n = 0; n < text.size(); ++n) {
-    const char x = text[n];
-    const bool letter = (x >= 'a' && x <= 'z') || (x >= 'A' && x <= 'Z') || x == '_';
-    if (x == ':' && !begins && text.substr(n, 2) == "::") {
-      begins = true;
-      ++n;
-    } else if (letter || (x >= '0' && x <= '9' && !begins)) {
-      begins = false;
-    } else {
-      return false;
-    }
-  }
-  return !begins;
-}
-
 }  // namespace
 
 base::Result<std::string> config_header(const ConfigHeader& w) {
   if (!is_name_space(w.name_space))
-    return base::Problem{"--namespace", w.name_space, "is no name of a C++ namespace",
-                         "take letters, digits and _, as in product or product::left_wheel"};
+    return base::Problem{
+        "--namespace", w.name_space, "is no name of a C++ namespace",
+        "take letters, digits and _, as in product or product::left_wheel; words of C++, std and sixstep "
+        "are taken"};
   if (w.scenario.control.mode == control::Mode::off)
     return base::Problem{"control.mode", "off", "leaves no drive to export",
                          "set it to duty, current, speed or position"};

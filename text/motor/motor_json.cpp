@@ -110,16 +110,22 @@ Json lines(const design::SheetCheck& check) {
   return list;
 }
 
+Json doubts(const design::SheetCheck& check) {
+  Json list = Json::array();
+  for (const base::Problem& doubt : check.doubts) list.push_back(base::to_string(doubt));
+  return list;
+}
+
 }  // namespace
 
 std::string motor_json(const design::Sheet& sheet, const design::SheetCheck& check) {
   SheetJson printed;
   design::Sheet copy = sheet;
   describe(printed, copy);
-  const Json all = {{"sixstep", SIXSTEP_VERSION},        {"name", sheet.name},
-                    {"consistent", check.consistent},    {"relations", relations(check)},
-                    {"model", model(sheet, check)},      {"lines", lines(check)},
-                    {"sheet", std::move(printed.object)}};
+  const Json all = {{"sixstep", SIXSTEP_VERSION},     {"name", sheet.name},
+                    {"consistent", check.consistent}, {"relations", relations(check)},
+                    {"doubts", doubts(check)},        {"model", model(sheet, check)},
+                    {"lines", lines(check)},          {"sheet", std::move(printed.object)}};
   return visible(all.dump(2, ' ', false, Json::error_handler_t::replace), Lines::kept) + "\n";
 }
 

@@ -233,7 +233,9 @@ std::string check_report(const design::Sheet& sheet, const SheetCheck& check) {
   for (const design::LineUse& line : check.lines)
     if (!line.used) unused += trimmed(fmt::format("  {}: {}", line.key, line.why));
   if (!unused.empty()) text += "\nLines that the model is not made of\n" + unused;
-  return text + "\n" + trimmed(verdict_line(check) + not_simulatable(sheet, check));
+  std::string doubts;
+  for (const base::Problem& doubt : check.doubts) doubts += "; in doubt: " + base::to_string(doubt);
+  return text + "\n" + trimmed(verdict_line(check) + not_simulatable(sheet, check) + doubts);
 }
 
 std::string motor_line_heading(std::size_t width) {

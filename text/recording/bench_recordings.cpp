@@ -15,13 +15,28 @@
 namespace text {
 namespace {
 
+Meaning meaning_of_first(const Columns& columns) {
+  return columns.empty() ? Meaning::unknown : meaning_of(*columns.front().column);
+}
+
+/// What the probes hung between, by what each heading says.
+std::optional<analysis::EmfBetween> between_in(const Columns& columns) {
+  const Meaning meaning = meaning_of_first(columns);
+  const bool alike = std::all_of(columns.begin(), columns.end(),
+                                 [&](const Picked& p) { return meaning_of(*p.column) == meaning; });
+  if (alike && meaning == Meaning::between_terminals) return analysis::EmfBetween::lines;
+  if (alike && meaning == Meaning::of_terminal) return analysis::EmfBetween::star;
+  return {};
+}
+
 /// By the options, else by the headings. A log of Hall lines needs the first two of three voltages, a back-EMF any.
 base::Result<Voltages> voltages_of(const Recording& r, const BenchColumns& wanted,
                                    Columns (*taken)(const Three&)) {
   if (!wanted.voltages.empty()) {
     base::Result<Columns> named = columns_called(r, wanted.voltages);
     if (!named) return named.problems();
-    return Voltages{std::move(*named), wanted.between};
+    const std::optional<analysis::EmfBetween> between = wanted.between ? wanted.between : between_in(*named);
+    return Voltages{std::move(*named), between};
   }
   const base::Result<Three> lines = three_of(r, names_between_terminals());
   if (!lines) return lines.problems();
@@ -70,10 +85,6 @@ void note_rest(const Recording& r, const Columns& used, const RecordedColumn* ti
     rest.push_back({column.name, column.has_numbers() ? why_not_used(column, use) : "holds no numbers"});
   }
   note_not_used(rest, notes);
-}
-
-Meaning meaning_of_first(const Columns& columns) {
-  return columns.empty() ? Meaning::unknown : meaning_of(*columns.front().column);
 }
 
 /// "CH1" or no heading at all: whatever holds numbers and is neither a time, a Hall line nor in the unit of another thing.
@@ -185,11 +196,7 @@ base::Result<Codes> hall_codes(const Recording& r, const Columns& columns) {
 /// What the probes of a log hung between: what was asked for, else what each heading says, and a number of columns says nothing.
 base::Result<analysis::EmfBetween> between_of(const Voltages& voltages) {
   if (voltages.between) return *voltages.between;
-  const Meaning meaning = meaning_of_first(voltages.columns);
-  const bool alike = std::all_of(voltages.columns.begin(), voltages.columns.end(),
-                                 [&](const Picked& p) { return meaning_of(*p.column) == meaning; });
-  if (alike && meaning == Meaning::between_terminals) return analysis::EmfBetween::lines;
-  if (alike && meaning == Meaning::of_terminal) return analysis::EmfBetween::star;
+  if (const std::optional<analysis::EmfBetween> said = between_in(voltages.columns)) return *said;
   return base::Problem{.where = "between",
                        .value = "",
                        .limit = "is missing: the headings do not say what the probes hung between",

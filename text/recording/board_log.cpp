@@ -9,23 +9,16 @@
 #include "text/keys/bounded.hpp"
 #include "text/keys/key_advice.hpp"
 #include "text/keys/units.hpp"
+#include "text/recording/board_words.hpp"
 #include "text/recording/column_formula.hpp"
 #include "text/recording/heading.hpp"
+#include "text/recording/known_names.hpp"
 #include "text/recording/times.hpp"
 
 namespace text {
 namespace {
 
 using Values = base::Result<std::vector<double>>;
-
-/// "i_m" of i_m_A, as a log's heading has it.
-std::string bare_column(const study::Column& column) {
-  std::string unit = "_" + column.unit;
-  std::replace(unit.begin(), unit.end(), '/', '_');
-  std::string_view name = column.name;
-  if (name.ends_with(unit)) name.remove_suffix(unit.size());
-  return bare_name(name);
-}
 
 std::string unit_of_trace(const study::Column& column) { return column.unit == "1" ? "" : column.unit; }
 
@@ -82,6 +75,11 @@ Values formula_values(const Recording& r, const ColumnFormula& formula, const Wa
   const base::Result<std::vector<Picked>> found = columns_called(r, {formula.column});
   if (!found) return found.problems();
   column = found->front().column;
+  // Letters alone decide which column is meant, and would let "e*rpm" and "erpm+" pass for erpm.
+  const bool as_headed = formula.column == column->name || formula.column == column->heading;
+  if (!as_headed && formula.column.find_first_of("*/+^=") != std::string::npos)
+    return of_recording(r, fmt::format("has no column \"{}\"", bounded(formula.column, 200)),
+                        "constants are numbers and pi, before the column with *, behind it with * or /");
   if (!formula.scaled) {
     Values values = values_of(r, found->front(), wanted);
     if (values && formula.factor != 1.0)
@@ -113,7 +111,7 @@ class LogReader {
     out_.trace = {.columns = {study::all_columns().front()}, .values = {std::move(times->t_s)}};
     add_named(times->left_out);
     if (wanted_.formulas.empty()) add_by_headings(*times);
-    note_missed();
+    for (std::string& note : what_the_board_says(r_)) out_.notes.push_back(std::move(note));
     if (!problems_.empty()) return problems_;
     if (out_.trace.columns.size() < 2)
       return of_recording(
@@ -147,11 +145,13 @@ class LogReader {
   }
 
   base::Result<Times> read_times() {
-    if (!time_ || wanted_.interval_s) return times_of(r_, wanted_.interval_s, out_.notes);
+    if (!time_) return times_of(r_, wanted_.interval_s, out_.notes);
     const RecordedColumn* column = nullptr;
     Values values = formula_values(r_, *time_, "s", column);
     if (!values) return values.problems();
     used_.push_back(column);
+    if (wanted_.interval_s)
+      return times_at_interval(r_, std::move(*values), *column, *wanted_.interval_s, out_.notes);
     return rising_times(r_, std::move(*values), *column, out_.notes);
   }
 
@@ -172,13 +172,13 @@ class LogReader {
     if (named_.empty()) return;
     for (const RecordedColumn& recorded : r_.columns)
       if (recorded.filled && std::find(used_.begin(), used_.end(), &recorded) == used_.end() &&
-          &recorded != time_column(r_))
+          &recorded != time_column(r_) && !is_the_boards_word(recorded))
         out_.not_used.push_back({recorded.name, "not named"});
   }
 
   void add_by_headings(const Times& times) {
     for (const RecordedColumn& recorded : r_.columns) {
-      if (&recorded == times.column || !recorded.filled) continue;
+      if (&recorded == times.column || !recorded.filled || is_the_boards_word(recorded)) continue;
       const Found found = column_of(recorded);
       if (!found.column || found.column->name == "t_s") {
         out_.not_used.push_back({recorded.name, !recorded.has_numbers() ? "holds no numbers"
@@ -194,23 +194,6 @@ class LogReader {
       else
         add(*found.column, values_of(r_, found.picked, wanted(*found.column)), times.left_out);
     }
-  }
-
-  /// A board that lost control periods counted none of them.
-  void note_missed() {
-    const base::Result<Picked> missed = find_column(r_, {"missed", "missedperiods", "periodsmissed"});
-    if (!missed || !missed->column || !missed->column->has_numbers()) return;
-    double most = 0.0;
-    std::size_t rows = 0;
-    for (const double x : missed->column->values)
-      if (x > 0.0) {
-        most = std::max(most, x);
-        ++rows;
-      }
-    if (rows > 0)
-      out_.notes.push_back(fmt::format(
-          "{} rows say that the board missed control periods, up to {:g}: what it sent there is late", rows,
-          most));
   }
 
   const Recording& r_;

@@ -34,6 +34,16 @@ std::optional<double> moved(std::string_view number, int ten) {
   return x.kind == DecimalNumber::Kind::number ? std::optional(x.value) : std::nullopt;
 }
 
+/// Where to look for the end of the cell that begins at `at`: behind its quotes, where they hold the whole cell.
+std::size_t behind_quotes(std::string_view line, std::size_t at, char separator) {
+  const std::size_t open = line.find_first_not_of(' ', at);
+  if (open == std::string_view::npos || line[open] != '"') return at;
+  const std::size_t close = line.find('"', open + 1);
+  if (close == std::string_view::npos) return at;
+  const std::size_t next = line.find_first_not_of(" \r", close + 1);
+  return next == std::string_view::npos || line[next] == separator || separator == ' ' ? close : at;
+}
+
 }  // namespace
 
 std::string_view bare_cell(std::string_view text) {
@@ -48,7 +58,7 @@ std::vector<std::string_view> cells_of_line(std::string_view line, char separato
   std::vector<std::string_view> cells;
   std::size_t at = 0;
   while (at <= line.size() && cells.size() < most_columns) {
-    const std::size_t cut = std::min(line.find(separator, at), line.size());
+    const std::size_t cut = std::min(line.find(separator, behind_quotes(line, at, separator)), line.size());
     const std::string_view cell = bare_cell(line.substr(at, cut - at));
     if (separator != ' ' || !cell.empty()) cells.push_back(cell);
     at = cut + 1;

@@ -10,7 +10,7 @@ namespace text {
 /// Without blanks and quotes around it.
 std::string_view bare_cell(std::string_view text);
 
-/// A line's cells, bare. Empty ones at the end are none.
+/// A line's cells, bare. Empty ones at the end are none. What stands between two quotes is one cell, with the commas in it.
 std::vector<std::string_view> cells_of_line(std::string_view line, char separator);
 
 /// The whole cell as a number times 10^ten, rounded once. With ';', tab or blanks between cells a comma is a decimal point.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "text/recording/column_formula.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <optional>
 
@@ -45,6 +47,24 @@ void take_before(std::string_view& rest, ColumnFormula& out) {
   }
 }
 
+/// "erpm*", "*erpm", and "erpm**2" once its 2 is taken: the place of a * or / at either end, where a constant is missing.
+std::optional<std::size_t> operator_without_constant(std::string_view text, std::string_view column) {
+  if (column.empty()) return {};
+  const auto place = static_cast<std::size_t>(column.data() - text.data());
+  const std::size_t last = column.size() - 1;
+  for (const std::size_t end : {last, std::size_t{0}})
+    if (column[end] == '*' || column[end] == '/') return place + end;
+  return {};
+}
+
+base::Problem broken_formula(std::string_view text, std::size_t place) {
+  return bounded(
+      {.where = "columns",
+       .value = std::string(text),
+       .limit = fmt::format("lacks a constant or a column beside the {} at place {}", text[place], place + 1),
+       .cure = "take it out, or write the constant, as in speed=erpm*2*pi/60/7"});
+}
+
 }  // namespace
 
 base::Result<ColumnFormula> column_formula(std::string_view text) {
@@ -55,7 +75,9 @@ base::Result<ColumnFormula> column_formula(std::string_view text) {
     std::string_view rest = bare_cell(text.substr(equals + 1));
     take_behind(rest, out);
     take_before(rest, out);
-    out.column = bare_cell(rest);
+    rest = bare_cell(rest);
+    if (const auto place = operator_without_constant(text, rest)) return broken_formula(text, *place);
+    out.column = rest;
   }
   const bool is_finite = std::isfinite(out.factor) && out.factor != 0.0;
   if (!out.name.empty() && !out.column.empty() && is_finite) return out;

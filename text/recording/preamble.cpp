@@ -9,6 +9,7 @@
 #include "text/keys/decimal_number.hpp"
 #include "text/keys/units.hpp"
 #include "text/recording/cells.hpp"
+#include "text/recording/decimal_marks.hpp"
 #include "text/recording/heading.hpp"
 
 namespace text {
@@ -34,6 +35,9 @@ std::optional<double> value_in(std::string_view text, char separator, bool rate)
   std::size_t end = size;
   if (separator == ';' || separator == '\t')  // "0,0001"
     end = std::min(text.find_first_not_of("0123456789.,eE+-"), text.size());
+  // "10,000 Hz" are ten hertz or ten thousand.
+  const std::size_t digits = std::min(text.find_first_not_of("0123456789,"), text.size());
+  if (may_part_thousands(text.substr(0, digits), ',')) return {};
   const std::optional<double> number = number_in(text.substr(0, end), separator);
   if (!number || !(*number > 0.0)) return {};
   std::string_view unit = text.substr(end);

@@ -39,12 +39,22 @@ struct RecordedColumn {
 /// What a reader has to say of a file that it took: what it did not use, and why; what it took for what.
 using Notes = std::vector<std::string>;
 
+/// A line of the file between its rows that begins with '#' or '%'.
+struct Remark {
+  std::string text;       ///< without that mark
+  std::size_t line = 0;   ///< of the first that says so
+  std::size_t times = 1;  ///< how many do
+};
+/// Of different ones.
+constexpr std::size_t most_remarks = 8;
+
 struct Recording {
   std::string name;  ///< of the file, for messages
   std::vector<RecordedColumn> columns;
   std::optional<RowClock> clock;  ///< what the preamble says
   bool has_headings = false;
   std::vector<std::pair<std::size_t, std::size_t>> lines{};  ///< row and line, wherever lines are skipped
+  std::vector<Remark> remarks{};                             ///< below the first row
   Notes notes;
 
   std::size_t rows() const { return columns.front().values.size(); }

@@ -77,7 +77,7 @@ RowReader::RowReader(std::string name, std::size_t line, std::optional<RowsBesid
 bool RowReader::line(std::string_view text) {
   ++number_;
   if (is_remark(text)) {
-    if (separator_ == 0 && remarks_.size() < most_lines_above) remarks_.emplace_back(text);
+    remark(text);
     return true;
   }
   if (beside_) return row_beside(text);
@@ -87,6 +87,23 @@ bool RowReader::line(std::string_view text) {
   }
   row(cells_of_line(text, separator_));
   return values_ <= most_values;
+}
+
+void RowReader::remark(std::string_view text) {
+  if (separator_ == 0) {
+    if (remarks_.size() < most_lines_above) remarks_.emplace_back(text);
+    return;
+  }
+  constexpr std::size_t longest_remark = 100;
+  const std::size_t first = text.find_first_not_of(" \t#%");
+  if (first == std::string_view::npos) return;
+  const std::string said = bounded(std::string(bare_cell(text.substr(first))), longest_remark);
+  std::vector<Remark>& all = out_.remarks;
+  const auto same = std::find_if(all.begin(), all.end(), [&](const Remark& r) { return r.text == said; });
+  if (same != all.end())
+    ++same->times;
+  else if (all.size() < most_remarks)
+    all.push_back({said, number_});
 }
 
 bool RowReader::begins_rows(std::string_view text) {
@@ -109,6 +126,7 @@ bool RowReader::row_beside(std::string_view text) {
   }
   if (!is_row || (has_more && beside_->cells == 1)) {  // a line above the rows
     out_.columns.clear();
+    marks_ = {};
     out_.lines.clear();
     separator_ = 0;
     wide_line_ = 0;
@@ -148,6 +166,8 @@ void RowReader::row(const std::vector<std::string_view>& cells) {
     if (!x) {
       if (column.bad.size() < most_quoted) column.bad.push_back({number_, std::string(cell.substr(0, 200))});
       ++column.bad_cells;
+    } else {
+      marks_.see(number_, n, cell);
     }
     column.filled |= !cell.empty();
     column.values.push_back(x.value_or(std::numeric_limits<double>::quiet_NaN()));
@@ -203,6 +223,7 @@ base::Result<Recording> RowReader::result() {
     }
   }
   if (std::optional<base::Problem> wrong = wrong_cells()) return *wrong;
+  if (std::optional<base::Problem> doubt = marks_.doubt(out_.name)) return *doubt;
   return std::move(out_);
 }
 

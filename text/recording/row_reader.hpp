@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "text/recording/decimal_marks.hpp"
 #include "text/recording/recording.hpp"
 
 namespace text {
@@ -32,6 +33,7 @@ class RowReader {
   bool begins_rows(std::string_view text);
   bool row_beside(std::string_view text);
   void begin(std::size_t cells);
+  void remark(std::string_view text);
   void row(const std::vector<std::string_view>& cells);
   std::optional<base::Problem> wrong_cells() const;
 
@@ -41,6 +43,7 @@ class RowReader {
   char separator_ = 0;
   std::size_t number_, values_ = 0, names_ = 0;
   std::vector<int> tens_;  ///< of each column's unit
+  DecimalMarks marks_;
   std::size_t wide_line_ = 0, wide_cells_ = 0, first_cells_ = 0, first_line_ = 0;
   bool has_point_ = false, has_leading_zero_ = false;
 };

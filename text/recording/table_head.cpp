@@ -12,6 +12,7 @@
 #include "text/keys/units.hpp"
 #include "text/recording/cells.hpp"
 #include "text/recording/heading.hpp"
+#include "text/recording/known_names.hpp"
 
 namespace text {
 namespace {
@@ -37,6 +38,15 @@ bool are_units(const Cells& cells) {
          std::all_of(cells.begin(), cells.end(), [&](std::string_view cell) {
            return is_unit(cell) || is_in_brackets(cell) || (cell.empty() && cells.size() > 1);
          });
+}
+
+/// "t,u_ab" above "s,foo": under a name that is known stands a unit, and none that is known, so that the rest are to be units.
+bool are_units_below(const Cells& names, const Cells& cells) {
+  const auto known = [](std::string_view cell) { return is_known_name(bare_name(heading_of(cell).name)); };
+  if (std::any_of(cells.begin(), cells.end(), known)) return false;
+  for (std::size_t n = 0; n < std::min(names.size(), cells.size()); ++n)
+    if (known(names[n]) && unit_in_words(names[n]).empty() && !unit_in_words(cells[n]).empty()) return true;
+  return false;
 }
 
 /// Blanks part names from their units too, "t [s] u_ab [V]".
@@ -108,7 +118,8 @@ class HeadReader {
     for (std::size_t n = lines.size(); n-- > 0 && head.names.empty();) {
       Cells cells = cells_of(lines[n]);
       if (above_.separator == ' ' && cells.size() > cells_) cells = with_units_joined(cells);
-      if (head.units.empty() && are_units(cells))
+      const bool below = n > 0 && are_units_below(cells_of(lines[n - 1]), cells);
+      if (head.units.empty() && (are_units(cells) || below))
         head.units = std::move(cells);
       else if (cells.size() > 1 || (cells_ == 1 && !cells.empty()))
         head.names = std::move(cells);
@@ -130,7 +141,7 @@ class HeadReader {
       out.odd_unit = bounded(std::move(heading.odd_unit), longest_name);
       out.letter = heading.letter;
     }
-    if (n < head.units.size() && !head.units[n].empty()) {
+    if (n < head.units.size() && !head.units[n].empty() && head.units[n] != "-") {
       out.unit = unit_in_words(head.units[n]);
       if (out.unit.empty())
         out.odd_unit = bounded(std::string(without_brackets(head.units[n])), longest_name);

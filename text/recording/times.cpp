@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "text/keys/units.hpp"
+#include "text/recording/known_names.hpp"
 
 namespace text {
 namespace {
@@ -67,6 +68,69 @@ const TimeUnit* unit_by_clock(const std::vector<double>& t, const Steps& steps, 
   return nullptr;
 }
 
+/// An interval that was given is rounded, to three digits perhaps, and times are rounded or cut to their last digit.
+bool go_with(const std::vector<double>& t, double interval_s) {
+  const double digit = 0.99 * steps_of(t).least;
+  for (std::size_t n = 1; n < t.size(); ++n) {
+    const double way = static_cast<double>(n) * interval_s;
+    if (std::fabs(t[n] - t[0] - way) > digit + 1e-3 * way) return false;
+  }
+  return steps_of(t).middle > 0.0;
+}
+
+std::vector<double> rows_from(double start_s, double interval_s, std::size_t rows) {
+  std::vector<double> out(rows);
+  for (std::size_t n = 0; n < rows; ++n) out[n] = start_s + static_cast<double>(n) * interval_s;
+  return out;
+}
+
+/// Without headings the first column may be the time or anything.
+bool is_a_guess(const Recording& r, const RecordedColumn& column) {
+  return !r.has_headings && column.unit.empty();
+}
+
+/// The preamble's rate, or the interval that was given.
+base::Result<Times> without_column(const Recording& r, std::optional<double> interval_s, Notes& notes) {
+  if (interval_s && r.clock && !are_near(*interval_s, r.clock->interval_s))
+    return of_recording(
+        r, fmt::format("says \"{}\", and the interval is given as {:.6g} s", r.clock->said, *interval_s),
+        "leave the interval out, or give the one that the file says");
+  if (!interval_s)
+    notes.push_back(fmt::format("has no column of time: rows are {:.6g} s apart, as \"{}\" says",
+                                r.clock->interval_s, r.clock->said));
+  const double start_s = interval_s ? 0.0 : r.clock->start_s;
+  return Times{.t_s = rows_from(start_s, interval_s.value_or(r.clock ? r.clock->interval_s : 0.0), r.rows()),
+               .left_out = {},
+               .column = nullptr};
+}
+
+/// A column without a unit takes the one in which it goes with the interval; what cannot be a time is none, where that was a guess.
+base::Result<Times> column_at_interval(const Recording& r, const RecordedColumn& column, double interval_s,
+                                       Notes& notes) {
+  const bool guessed = is_a_guess(r, column);
+  if (!column.has_numbers() || (guessed && column.bad_cells > 0)) return without_column(r, interval_s, notes);
+  base::Result<std::vector<double>> t = values_of(r, {&column, column.unit}, "s");
+  if (!t) return t.problems();
+  if (column.unit.empty() && are_numbers_of_rows(*t))
+    return Times{.t_s = rows_from(0.0, interval_s, r.rows()), .left_out = {}, .column = &column};
+  for (const TimeUnit& unit : time_units) {
+    if (!column.unit.empty() || unit.per_s == 1.0) continue;
+    std::vector<double> in_s = *t;
+    for (double& x : in_s) x /= unit.per_s;
+    if (!go_with(in_s, interval_s)) continue;
+    notes.push_back(fmt::format("{} is in {}, as the interval says", column.name, unit.name));
+    return times_at_interval(r, std::move(in_s), column, interval_s, notes);
+  }
+  if (guessed && !go_with(*t, interval_s)) {
+    if (steps_of(*t).even() && std::is_sorted(t->begin(), t->end()))
+      notes.push_back(fmt::format(
+          "{} rises by {:.6g} from row to row and is not taken for the time: the interval is given",
+          column.name, steps_of(*t).middle));
+    return without_column(r, interval_s, notes);
+  }
+  return times_at_interval(r, std::move(*t), column, interval_s, notes);
+}
+
 /// What the preamble says contradicts the rows: finer than it was sampled, or off by a thousand and more.
 bool contradict(const Steps& steps, double interval_s) {
   return steps.least < 0.99 * interval_s || (steps.even() && steps.middle > 999.0 * interval_s);
@@ -107,11 +171,7 @@ base::Result<std::vector<double>> by_clock(const Recording& r, const RecordedCol
 }  // namespace
 
 const RecordedColumn* time_column(const Recording& recording) {
-  constexpr std::string_view names[] = {"t", "time", "times", "ts",     "timestamp", "seconds", "xaxis",
-                                        "x", "zeit", "temps", "tiempo", "tempo",     "xvalue"};
-  const auto named = [&](const RecordedColumn& column) {
-    return std::find(std::begin(names), std::end(names), column.bare) != std::end(names);
-  };
+  const auto named = [](const RecordedColumn& column) { return names_a_time(column.bare); };
   const auto found = std::find_if(recording.columns.begin(), recording.columns.end(), named);
   if (found != recording.columns.end()) return &*found;
   const auto timed = std::find_if(recording.columns.begin(), recording.columns.end(), is_in_seconds);
@@ -146,19 +206,23 @@ base::Result<Times> rising_times(const Recording& recording, std::vector<double>
   return out;
 }
 
+base::Result<Times> times_at_interval(const Recording& recording, std::vector<double> t,
+                                      const RecordedColumn& column, double interval_s, Notes& notes) {
+  if (!go_with(t, interval_s))
+    return of_recording(recording,
+                        fmt::format("contradicts the interval that is given, {:.6g} s: {} steps by {:.6g} s",
+                                    interval_s, column.name, steps_of(t).middle),
+                        "leave the interval out, or give the column its right unit, as in time [us]");
+  // Only a time with too few digits needs the interval.
+  if (steps_of(t).even() && std::adjacent_find(t.begin(), t.end()) == t.end())
+    return rising_times(recording, std::move(t), column, notes);
+  return Times{.t_s = rows_from(t[0], interval_s, t.size()), .left_out = {}, .column = &column};
+}
+
 base::Result<Times> times_of(const Recording& recording, std::optional<double> interval_s, Notes& notes) {
   const RecordedColumn* const column = time_column(recording);
-  const bool by_rows = !column && recording.clock;
-  if (interval_s || by_rows) {
-    const double step = interval_s ? *interval_s : recording.clock->interval_s;
-    if (by_rows && !interval_s)
-      notes.push_back(fmt::format("has no column of time: rows are {:.6g} s apart, as \"{}\" says", step,
-                                  recording.clock->said));
-    Times out{.t_s = std::vector<double>(recording.rows()), .left_out = {}, .column = column};
-    const double start_s = interval_s ? 0.0 : recording.clock->start_s;
-    for (std::size_t n = 0; n < out.t_s.size(); ++n) out.t_s[n] = start_s + static_cast<double>(n) * step;
-    return out;
-  }
+  if (column && interval_s) return column_at_interval(recording, *column, *interval_s, notes);
+  if (!column && (interval_s || recording.clock)) return without_column(recording, interval_s, notes);
   if (!column)
     return of_recording(recording, "has no column of time: it has " + headings_of(recording),
                         "head it time [s], or give the interval of the rows");

@@ -19,13 +19,17 @@ struct Times {
 };
 
 /// Of the column that says the time, whose unit the preamble's rate may say; or of the preamble's rate, where there is none; or so far apart
-/// as an interval that is given. Where an instant stands twice, as simulators write an event, the later row counts. `notes` gets what was
+/// as an interval that is given, which must not contradict a column of time or a preamble's rate. Where an instant stands twice, as simulators write an event, the later row counts. `notes` gets what was
 /// taken for what. Problems: no time, a time that does not rise, one that contradicts the preamble.
 base::Result<Times> times_of(const Recording& recording, std::optional<double> interval_s, Notes& notes);
 
 /// The same of values that are the times already.
 base::Result<Times> rising_times(const Recording& recording, std::vector<double> t_s,
                                  const RecordedColumn& column, Notes& notes);
+
+/// The same beside an interval that is given: it says what digits the values lack, and nothing else.
+base::Result<Times> times_at_interval(const Recording& recording, std::vector<double> t_s,
+                                      const RecordedColumn& column, double interval_s, Notes& notes);
 
 /// Of the rows that count.
 template <class Value>

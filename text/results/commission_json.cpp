@@ -44,6 +44,7 @@ std::string commission_json(const CommissionStudy& s) {
               {"motor", s.subject.sheet.name},
               {"voltage_V", b.voltage_V},
               {"test_A", b.wish.test_A},
+              {"nominal_current_printed", b.nominal_printed},
               {"period_s", b.board.period_s},
               {"phases", phases_word(s.subject.wires)},
               {"hall_lines", hall_lines_word(s.subject.wires)},

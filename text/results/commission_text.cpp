@@ -90,11 +90,11 @@ std::string bench(const CommissionStudy& s) {
   const analysis::CommissionBench& b = s.bench;
   const auto& sensors = b.compiled.board.sensors;
   return fmt::format(
-      "{}: {} V, legs at phases {}, pins at probes {}; {} A of test current\n"
+      "{}: {} V, legs at phases {}, pins at probes {}; {} A of test current{}\n"
       "{} bits over +-{}, one count of noise, 12 of offset; PWM and samples every {}, dead time 0.5 us, diodes\n",
       visible(s.subject.sheet.name), quantity_text(b.voltage_V, ""), phases_word(s.subject.wires),
-      hall_lines_word(s.subject.wires), quantity_text(b.wish.test_A, ""), sensors.current.bits,
-      quantity_text(sensors.current.range, "A"), quantity_text(b.board.period_s, "s"));
+      hall_lines_word(s.subject.wires), quantity_text(b.wish.test_A, ""), stand_in_words(b),
+      sensors.current.bits, quantity_text(sensors.current.range, "A"), quantity_text(b.board.period_s, "s"));
 }
 
 const char* fault_words(CommissioningFault fault) {
@@ -169,6 +169,14 @@ std::string commission_failure(const CommissionStudy& s) {
       s.state.fault == CommissioningFault::winding)
     return out;
   return out + (out.empty() ? "" : "; ") + survey_words(s);
+}
+
+std::string stand_in_words(const analysis::CommissionBench& bench) {
+  using analysis::TestCurrent;
+  if (bench.nominal_printed || bench.from == TestCurrent::asked_for) return "";
+  return std::string(bench.from == TestCurrent::half_of_most ? ", half of the most that this test can use"
+                                                             : ", twice a tenth of what full duty drives") +
+         ": the sheet names no nominal current";
 }
 
 std::string commission_text(const CommissionStudy& s) {

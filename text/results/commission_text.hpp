@@ -18,6 +18,10 @@ std::string commission_json(const analysis::CommissionStudy& study);
 /// Lines for the motor's file, and for a scenario's sensors; what was not found is left out.
 std::string commission_toml(const analysis::CommissionStudy& study);
 
+/// What stands in for a nominal current that the sheet does not name: ", twice a tenth of full duty's: ..". Empty where it does, and where
+/// the current was asked for.
+std::string stand_in_words(const analysis::CommissionBench& bench);
+
 /// "spinning"; as a name for programs, too.
 std::string_view phase_word(sixstep::control::CommissioningPhase phase);
 /// Why the chip gave up, or why it has no table of the Hall lines, and what to do; empty where it found all.

@@ -71,6 +71,11 @@ std::string sensor_lines(const analysis::HallIdentity& found) {
   } else if (found.mask == 0b010) {
     out += "hall_spacing = \"60\"\n";
   }
+  // A sign and a first edge that nobody saw would be a rotor's that turned the other way as well.
+  if (!place)
+    return out +
+           "# hall_edges_deg is left out: codes alone tell neither which edge is the first nor which way the rotor "
+           "turned, on which each\n# sign hangs; record u_ab and u_bc too\n";
   out += "hall_edges_deg = [";
   double width = 0.0;
   for (std::size_t n = 0; n < found.edges.size(); ++n) {
@@ -78,7 +83,7 @@ std::string sensor_lines(const analysis::HallIdentity& found) {
     width = std::fmax(width, found.edges[n].own_deg.half_width());
   }
   out += fmt::format("]  # each +- {:.2g} or less, 95 %\n", width);
-  if (place && place->hysteresis_deg)
+  if (place->hysteresis_deg)
     out += fmt::format("hall_hysteresis_deg = {}  # 95 %: {}\n",
                        as_good_as(std::fmax(0.0, place->hysteresis_deg->value), *place->hysteresis_deg),
                        bounds_text(*place->hysteresis_deg));

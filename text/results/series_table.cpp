@@ -13,9 +13,9 @@
 namespace text {
 namespace {
 
-constexpr std::size_t columns = 10;
+constexpr std::size_t series_columns = 10;
 constexpr int spread_digits = 4;  // a thousand drives do not tell more
-using SeriesRow = std::array<std::string, columns>;
+using SeriesRow = std::array<std::string, series_columns>;
 
 std::string cell(const std::optional<double>& x, const std::string& unit) {
   return x ? quantity_text(*x, unit, spread_digits) : "-";
@@ -45,13 +45,13 @@ SeriesRow row_of(const analysis::SpreadFigure& f, std::size_t runs) {
 std::string aligned(std::vector<SeriesRow> rows) {
   for (SeriesRow& row : rows)
     for (std::string& cell : row) cell = visible(cell);
-  std::array<std::size_t, columns> widths{};
+  std::array<std::size_t, series_columns> widths{};
   for (const SeriesRow& row : rows)
-    for (std::size_t c = 0; c < columns; ++c) widths[c] = std::max(widths[c], row[c].size());
+    for (std::size_t c = 0; c < series_columns; ++c) widths[c] = std::max(widths[c], row[c].size());
   std::string text;
   for (const SeriesRow& row : rows) {
     std::string line;
-    for (std::size_t c = 0; c < columns; ++c)
+    for (std::size_t c = 0; c < series_columns; ++c)
       line += c < 2 ? fmt::format("{:<{}}  ", row[c], widths[c]) : fmt::format("{:>{}}  ", row[c], widths[c]);
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + "\n";

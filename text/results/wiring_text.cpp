@@ -107,7 +107,7 @@ std::string recipe() {
 /// Theory has no part in what is measured: that both say the same is a result.
 std::string agreement(const WiringStudy& s) {
   if (s.agreeing() == s.cases.size())
-    return fmt::format("All {} do in simulation what theory says.\n", s.cases.size());
+    return fmt::format("All {} move in simulation as theory says.\n", s.cases.size());
   std::string text;
   for (const WiringCase& c : s.cases)
     if (!c.agrees())
@@ -115,7 +115,7 @@ std::string agreement(const WiringStudy& s) {
                           hall_lines_word(c.wiring), does_text(c.theory.does), does_text(c.measured.does));
   return text +
          fmt::format(
-             "{} of {} do in simulation what theory says; friction or cogging holds the others at this current: "
+             "{} of {} move in simulation as theory says; friction or cogging holds the others at this current: "
              "raise it.\n",
              s.agreeing(), s.cases.size());
 }

@@ -10,6 +10,7 @@
 #include "sixstep/base/plausible.hpp"
 #include "sixstep/base/range_text.hpp"
 #include "sixstep/base/written.hpp"
+#include "sixstep/design/loops/operating_limits.hpp"
 #include "sixstep/study/check/check.hpp"
 
 namespace sixstep::analysis {
@@ -132,25 +133,36 @@ double salient_most_A(const study::GeneralPlant& plant) {
   return t.beyond_L_H > 0.0 ? t.flux_linkage_Vs / t.beyond_L_H / 3 : HUGE_VAL;
 }
 
+struct TestCurrentFrom {
+  double A = 0.0;
+  TestCurrent from = TestCurrent::asked_for;
+};
+
 /// For seconds a motor stands more than it does for ever: twice the nominal current, or half of what the bus could drive.
 /// With less, what dead time and diodes take is no small part of the vector. Along a phase that reaches half of the bus
 /// (field_vector.hpp), of which a tenth stays for them.
-base::Result<double> current_of(const CommissionSubject& subject, const design::MotorModel& motor, double V) {
+base::Result<TestCurrentFrom> current_of(const CommissionSubject& subject, const design::MotorModel& motor,
+                                         double V) {
   const double R = motor.machine.R_ohm;
   const base::Result<study::Compiled> tried =
       study::compile(on_bench(subject, V, 1.0, R, motor.machine.L_H / R));
   if (!tried) return tried.problems();
-  const double most_A = std::min(0.45 * V / R / (1 + channel_part), salient_most_A(*tried->general)),
-               nominal_A = motor.nominal_current_A;
-  const double usual_A = nominal_A > 0.0 ? std::min(2 * nominal_A, most_A / 2) : most_A / 2;
-  const double I = subject.current_A.value_or(base::shortened(usual_A, 2, base::Towards::down));
+  const double most_A = std::min(0.45 * V / R / (1 + channel_part), salient_most_A(*tried->general));
+  const design::NominalCurrent nominal = design::nominal_current(motor, V);
+  const TestCurrent from = subject.current_A            ? TestCurrent::asked_for
+                           : 2 * nominal.A > most_A / 2 ? TestCurrent::half_of_most
+                           : nominal.printed            ? TestCurrent::twice_nominal
+                                                        : TestCurrent::twice_tenth_of_stall;
+  const double I = subject.current_A.value_or(
+      base::shortened(std::min(2 * nominal.A, most_A / 2), 2, base::Towards::down));
   if (!(I > 0.0 && I <= most_A))
     return base::Problem{
         "current_A", base::written(I),
         "must be above 0 and at most the " + base::rounded(most_A, 4) +
             " A that the bus drives through the resting motor and its rotor stays in the field with",
-        "leave it away for twice the sheet's nominal current"};
-  return I;
+        nominal.printed ? "leave it away for twice the sheet's nominal current"
+                        : "leave it away for a fifth of what full duty drives through the resting motor"};
+  return TestCurrentFrom{I, from};
 }
 
 /// What no wish cures: the test's own torque or time.
@@ -184,14 +196,21 @@ base::Result<CommissionBench> commission_bench(const CommissionSubject& subject)
   if (!wrong.empty()) return wrong;
   const base::Result<double> V = voltage_of(subject, *motor);
   if (!V) return V.problems();
-  const base::Result<double> I = current_of(subject, *motor, *V);
-  if (!I) return I.problems();
+  const base::Result<TestCurrentFrom> current = current_of(subject, *motor, *V);
+  if (!current) return current.problems();
+  const double I = current->A;
   const double R = motor->machine.R_ohm;
-  const study::Scenario scenario = on_bench(subject, *V, *I, R, motor->machine.L_H / R);
+  const study::Scenario scenario = on_bench(subject, *V, I, R, motor->machine.L_H / R);
   if (base::Problems found = study::check(scenario); !found.empty()) return found;
   base::Result<study::Compiled> compiled = study::compile(scenario);
   if (!compiled) return compiled.problems();
-  CommissionBench b{.compiled = std::move(*compiled), .board = {}, .wish = {}, .truth = {}, .voltage_V = *V};
+  CommissionBench b{.compiled = std::move(*compiled),
+                    .board = {},
+                    .wish = {},
+                    .truth = {},
+                    .voltage_V = *V,
+                    .from = current->from,
+                    .nominal_printed = motor->nominal_current_A > 0.0};
   const rig::SensorsConfig& sensors = b.compiled.board.sensors;
   b.noise_A = sensors.current.noise;
   b.board = {.V_per_count = sensors.bus.lsb(),
@@ -201,8 +220,8 @@ base::Result<CommissionBench> commission_bench(const CommissionSubject& subject)
              .timer_Hz = sensors.capture_Hz,
              .late_half_ticks = 1};
   b.truth = truth_of(*b.compiled.general, dead_s / b.board.period_s * 2);
-  const Paces paces = paces_of(*motor, b.truth.flux_linkage_Vs, R, *I);
-  b.wish = wish_of(paces, *I);
+  const Paces paces = paces_of(*motor, b.truth.flux_linkage_Vs, R, I);
+  b.wish = wish_of(paces, I);
   b.longest_s = longest_of(b.wish, paces);
   if (base::Problems found = too_weak(b, *motor); !found.empty()) return found;
   return b;

@@ -18,10 +18,19 @@ struct CommissionSubject {
   std::string motor{};                ///< name or path, as a scenario is to have it
   design::Sheet sheet{};              ///< of that motor
   std::optional<double> voltage_V{};  ///< of the bus; else the sheet's nominal voltage
-  std::optional<double> current_A{};  ///< of the test; else nominal, or a tenth of what the bus could drive
-  rig::Wiring wires{};                ///< how phases and Hall lines are plugged in
-  double hall_offset_deg = 0.0;       ///< electrical, of all edges
-  int seed = 0;                       ///< of the converters' noise
+  std::optional<double>
+      current_A{};      ///< of the test; else twice nominal, or twice a tenth of what full duty drives
+  rig::Wiring wires{};  ///< how phases and Hall lines are plugged in
+  double hall_offset_deg = 0.0;  ///< electrical, of all edges
+  int seed = 0;                  ///< of the converters' noise
+};
+
+/// Where the test's current comes from.
+enum class TestCurrent : std::uint8_t {
+  asked_for,
+  twice_nominal,
+  twice_tenth_of_stall,  ///< the sheet names no nominal current (design/loops/operating_limits.hpp)
+  half_of_most           ///< either of them is more than half of what the bus drives along a phase
 };
 
 /// What the motor is, as the board's terminals have it, with the winding at `degC`.
@@ -41,8 +50,10 @@ struct CommissionBench {
   control::CommissioningWish wish;
   CommissionTruth truth;
   double voltage_V = 0.0;
-  double noise_A = 0.0;    ///< of each current's sample, rms
-  double longest_s = 0.0;  ///< until when the chip should have ended
+  TestCurrent from = TestCurrent::asked_for;  ///< wish.test_A
+  bool nominal_printed = true;                ///< the sheet names a nominal current
+  double noise_A = 0.0;                       ///< of each current's sample, rms
+  double longest_s = 0.0;                     ///< until when the chip should have ended
 };
 
 /// Problems name `voltage_V`, `current_A` or `hall_offset_deg`, or are the sheet's; a motor that this test cannot be made

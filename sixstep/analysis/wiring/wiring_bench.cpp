@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sixstep/base/angle.hpp"
+#include "sixstep/base/decimal.hpp"
 #include "sixstep/base/range_text.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/measure/columns.hpp"
@@ -24,6 +25,10 @@ constexpr double watched_turns = 3;
 constexpr double most_back_emf = 0.05;
 /// L/R that a slow electrical turn takes at least: sixteen in each sector.
 constexpr double least_turn = 100;
+
+/// PWM periods in L/R at least, while the motor is turned slowly: what is left of the current at the end of one is a part that the slow
+/// back-EMF has no hold on.
+constexpr double periods_in_winding = 3;
 
 /// A whole number of PWM periods, so that rows stand at one place of a period.
 double on_grid(double s, double period_s) { return std::ceil(s / period_s - 1e-9) * period_s; }
@@ -55,7 +60,10 @@ void set_times(WiringBench& b) {
   b.watched_from_s = on_grid(b.watched_from_s, b.row_s);
   b.free_s = b.watched_from_s + on_grid(watched, b.row_s);
   const double slow = electrical_turn_rad / (m.pole_pairs * most_back_emf * b.ideal_rad_s);
-  const double row = on_grid(std::max(slow, least_turn * m.L_H / m.R_ohm) / turned_rows, period);
+  const double turn = std::max(slow, least_turn * m.L_H / m.R_ohm);
+  const double short_of = base::shortened(m.L_H / m.R_ohm / periods_in_winding, 2, base::Towards::down);
+  b.turned_pwm_s = std::min(period, std::max(short_of, turn / most_periods));
+  const double row = on_grid(turn / turned_rows, b.turned_pwm_s);
   b.turned_s = turned_rows * row;
   b.turned_from_s = b.turned_s / 6;
   b.turned_rad_s = electrical_turn_rad / (m.pole_pairs * b.turned_s);
@@ -139,6 +147,7 @@ study::Scenario turned_run(const WiringBench& b, const WiringSubject& subject, c
   s.duration_s = b.turned_from_s + b.turned_s;
   // A row stands in the middle of its two degrees: none on a sector's edge, where the torque has two values.
   constexpr double first_deg = -60 + 180.0 / turned_rows;
+  s.pwm.period_s = b.turned_pwm_s;
   s.initial.angle_rad = first_deg * base::pi / 180 / b.motor.machine.pole_pairs;
   s.load.dynamometer_times_s = {0};
   s.load.dynamometer_rad_s = {b.turned_rad_s};

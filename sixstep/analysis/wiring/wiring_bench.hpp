@@ -33,7 +33,9 @@ struct WiringBench {
   double ideal_rad_s = 0.0;  ///< duty voltage_V/K_t: no load, current without gaps
   double free_s = 0.0;       ///< a free run: ten mechanical time constants, then what is watched
   double watched_from_s = 0.0;
-  double row_s = 0.0;         ///< between two recorded rows of a free run
+  double row_s = 0.0;  ///< between two recorded rows of a free run
+  /// Of the slow turn: its rows stand where a period begins, and a current that has died away by then says nothing of torque.
+  double turned_pwm_s = 0.0;
   double turned_rad_s = 0.0;  ///< slow: the back-EMF takes a twentieth of the bench's current, or less
   double turned_from_s = 0.0,
          turned_s = 0.0;  ///< a sector to forget the start, then one electrical turn, 0 to 360 degrees

@@ -55,9 +55,6 @@ void check_pace(SheetReader& reader, const MotorModel& m) {
   const Sheet& sheet = reader.sheet;
   const double L = 2.0 * m.machine.L_H, winding = 2.0 * m.machine.R_ohm / L;
   const double swing = m.K_t_Nm_A / std::sqrt(L * m.shaft.J_kg_m2);
-  const auto written = [](const std::optional<base::Quantity>& q) {
-    return q ? base::written(q->value) : "";
-  };
   if (winding > fastest_winding_rad_s || winding < slowest_winding_rad_s) {
     const std::optional<base::Quantity>& q =
         sheet.inductance_mH ? sheet.inductance_mH : sheet.d_axis_inductance_mH;
@@ -65,16 +62,18 @@ void check_pace(SheetReader& reader, const MotorModel& m) {
     const std::string bound = winding > fastest_winding_rad_s
                                   ? rounded(1e9 / winding, 3) + " ns, and no motor is below 1000 ns"
                                   : rounded(1 / winding, 3) + " s, and no motor is above 100 s";
-    reader.problem(q ? SheetReader::key_of(key, *q) : key, written(q),
+    reader.problem(q ? SheetReader::key_of(key, *q) : key, q ? reader.value_of(key, *q) : "",
                    "makes the winding's time constant L/R " + bound,
                    "look at the unit of inductance and resistance");
   } else if (swing > fastest_swing_rad_s) {
     const std::optional<base::Quantity>& q =
         sheet.with_brake ? sheet.inertia_with_brake_gcm2 : sheet.inertia_gcm2;
-    reader.problem(m.from.J.substr(0, m.from.J.find(',')), written(q),
-                   "makes rotor and winding swing at K_t/sqrt(L J) = " + rounded(swing, 3) +
-                       " rad/s, and no motor is above 1e5",
-                   "look at the unit of the inertia, then at those of inductance and torque constant");
+    reader.problem(
+        m.from.J.substr(0, m.from.J.find(',')),
+        q ? reader.value_of(sheet.with_brake ? "inertia_with_brake_gcm2" : "inertia_gcm2", *q) : "",
+        "makes rotor and winding swing at K_t/sqrt(L J) = " + rounded(swing, 3) +
+            " rad/s, and no motor is above 1e5",
+        "look at the unit of the inertia, then at those of inductance and torque constant");
   }
 }
 

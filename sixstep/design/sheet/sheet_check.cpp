@@ -113,6 +113,46 @@ void judge_known(const Sheet& sheet, SheetCheck& check, base::Problems& problems
   }
 }
 
+/// "makes R J/K_t^2 440 s, and next to no motor is above 100 s"
+std::string slow_words(const char* what, double seconds, double usual_s) {
+  return std::string("makes ") + what + " " + rounded(seconds, 3) + " s, and next to no motor is above " +
+         rounded(usual_s, 3) + " s";
+}
+
+/// Slips towards the slow side, which a simulation bears and no relation of the sheet need show.
+void doubt_pace(const Sheet& sheet, SheetCheck& check) {
+  SheetConstants& c = check.constants;
+  const SheetReader reader{sheet, c};
+  const auto doubt = [&](std::string_view key, const std::optional<Quantity>& q, std::string limit,
+                         const char* cure) {
+    check.doubts.push_back({q ? SheetReader::key_of(key, *q) : std::string(key),
+                            q ? reader.value_of(key, *q) : "", std::move(limit), cure});
+  };
+  const std::optional<double>&winding = check.electrical_time_constant_s,
+        &rotor = check.mechanical_time_constant_s;
+  if (winding && *winding > slowest_usual_winding_s) {
+    const bool axes = !sheet.inductance_mH && sheet.d_axis_inductance_mH;
+    doubt(axes ? "d_axis_inductance_mH" : "inductance_mH",
+          axes ? sheet.d_axis_inductance_mH : sheet.inductance_mH,
+          slow_words("the winding's time constant L/R", *winding, slowest_usual_winding_s),
+          "look at the unit of inductance and resistance");
+  }
+  if (rotor && *rotor > slowest_usual_rotor_s) {
+    const bool braked = sheet.with_brake && sheet.inertia_with_brake_gcm2;
+    const std::string from = c.J_kg_m2->from.substr(0, c.J_kg_m2->from.find(','));
+    const std::optional<Quantity>& q = braked ? sheet.inertia_with_brake_gcm2 : sheet.inertia_gcm2;
+    const bool linear = sheet.kind == MotorKind::linear;
+    if (q)
+      doubt(braked ? "inertia_with_brake_gcm2" : "inertia_gcm2", q,
+            slow_words(linear ? "R m/K_f^2" : "R J/K_t^2", *rotor, slowest_usual_rotor_s),
+            linear ? "look at the unit of the mass, then at those of force constant and resistance"
+                   : "look at the unit of the inertia, then at those of torque constant and resistance");
+    else
+      doubt(from, {}, slow_words("R J/K_t^2", *rotor, slowest_usual_rotor_s),
+            "look at the units of the rotor's measures, then at those of torque constant and resistance");
+  }
+}
+
 }  // namespace
 
 base::Result<SheetCheck> check_sheet(const Sheet& sheet) {
@@ -136,6 +176,7 @@ base::Result<SheetCheck> check_sheet(const Sheet& sheet) {
   if (c.R_ohm && c.J_kg_m2 && c.K_t_Nm_A)
     check.mechanical_time_constant_s =
         2.0 * c.R_ohm->value * c.J_kg_m2->value / (c.K_t_Nm_A->value * c.K_t_Nm_A->value);
+  doubt_pace(sheet, check);
   if (c.R_ohm && c.nominal_voltage_V) check.stall_current_A = *c.nominal_voltage_V / (2.0 * c.R_ohm->value);
   return check;
 }

@@ -47,12 +47,17 @@ struct SheetCheck {
   std::optional<double> electrical_time_constant_s;  ///< L/R
   std::optional<double> mechanical_time_constant_s;  ///< R J/K_t^2
   std::optional<double> stall_current_A;             ///< U/R
+  base::Problems doubts;                             ///< slips of a unit that no relation shows
   bool consistent = true;                            ///< no relation is broken beyond what the file admits
 };
 
 /// Nothing but what the sheet says. Problems are those of what is written, of sheet_constants, and a
 /// known_deviation that names no relation or one that holds.
 base::Result<SheetCheck> check_sheet(const Sheet& sheet);
+
+/// Of the motors in data/motors the slowest winding has L/R = 11 ms and the slowest rotor R J/K_t^2 = 1.2 s. A thousand times a usual one
+/// is a slip of a unit; what lies between, a generator of megawatts or a rotor with its flywheel, is told and stays what it is.
+inline constexpr double slowest_usual_winding_s = 0.2, slowest_usual_rotor_s = 100.0;
 
 /// What commutation takes off the ideal no-load line, which the relation leaves out: the 251601 simulated to
 /// its steady state turns at 702.6 rad/s, 1.3 % below (U - R I)/K_t.

@@ -53,10 +53,9 @@ void read_resistance(SheetReader& reader) {
 void read_axes(SheetReader& reader) {
   const std::optional<Quantity>&d = reader.sheet.d_axis_inductance_mH, &q = reader.sheet.q_axis_inductance_mH;
   if (!d || !q)
-    return reader.problem(d ? "d_axis_inductance_mH" : "q_axis_inductance_mH",
-                          base::written(d ? d->value : q->value),
-                          std::string("needs ") + (d ? "q" : "d") + "_axis_inductance_mH beside it",
-                          "give both, or inductance_mH alone");
+    return reader.wrong(d ? "d_axis_inductance_mH" : "q_axis_inductance_mH", d ? *d : *q,
+                        std::string("needs ") + (d ? "q" : "d") + "_axis_inductance_mH beside it",
+                        "give both, or inductance_mH alone");
   const std::optional<double> L_d = SheetReader::positive(*d, -3), L_q = SheetReader::positive(*q, -3);
   if (!L_d || !L_q) return;
   if (*L_d != *L_q) {
@@ -72,8 +71,8 @@ void read_inductance(SheetReader& reader) {
   const Sheet& s = reader.sheet;
   const std::optional<Quantity>& q = s.inductance_mH;
   if (q && (s.d_axis_inductance_mH || s.q_axis_inductance_mH))
-    return reader.problem(SheetReader::key_of("inductance_mH", *q), base::written(q->value),
-                          "is given twice: L_d and L_q are there too", "keep one of the two ways");
+    return reader.wrong("inductance_mH", *q, "is given twice: L_d and L_q are there too",
+                        "keep one of the two ways");
   if (s.d_axis_inductance_mH || s.q_axis_inductance_mH) return read_axes(reader);
   if (!q)
     return reader.missing(

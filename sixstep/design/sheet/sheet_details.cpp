@@ -74,9 +74,8 @@ void read_delta(SheetReader& reader) {
   }
   const auto look = [&](const char* key, const std::optional<base::Quantity>& q, const char* cure) {
     if (q && q->frame == "phase")
-      reader.problem(SheetReader::key_of(key, *q), base::written(q->value),
-                     "is given for a phase, and of a delta only what lies between two terminals is read",
-                     cure);
+      reader.wrong(key, *q,
+                   "is given for a phase, and of a delta only what lies between two terminals is read", cure);
   };
   constexpr const char* winding_cure =
       "write frame = \"terminal\" and twice the value where a drive has identified it (VESC, ODrive: half of "
@@ -90,8 +89,8 @@ void read_delta(SheetReader& reader) {
     reader.problem("d_axis_inductance_mH", "", "is of a star's phases, and connection is \"delta\"",
                    "give inductance_mH between two terminals");
   if (s.saturation_current_A)
-    reader.problem("saturation_current_A", base::written(s.saturation_current_A->value),
-                   "is of a star's phases, and connection is \"delta\"", "leave it away");
+    reader.wrong("saturation_current_A", *s.saturation_current_A,
+                 "is of a star's phases, and connection is \"delta\"", "leave it away");
 }
 
 void read_cogging(SheetReader& reader, std::optional<int> pole_pairs) {

@@ -47,8 +47,8 @@ void read_split(SheetReader& reader, const Point& first) {
   const double B = (second->loss_Nm - first.loss_Nm) / (second->speed_rad_s - first.speed_rad_s);
   const double T_c = first.loss_Nm - B * first.speed_rad_s;
   if (B < 0.0 || T_c < 0.0)
-    return reader.problem(
-        "second_no_load_current_mA", base::written(s.second_no_load_current_mA->value),
+    return reader.wrong(
+        "second_no_load_current_mA", *s.second_no_load_current_mA,
         "would make friction negative with the first point: B = " + rounded(B) +
             " Nm s, T_c = " + rounded(T_c * 1e3) + " mNm",
         "measure both points again, each after the same time of running, or leave the second out");

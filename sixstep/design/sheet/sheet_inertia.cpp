@@ -16,9 +16,10 @@ std::optional<Constant> printed_inertia(SheetReader& reader) {
   if (rotor) J = SheetReader::positive(*rotor, -7);
   if (braked) J_b = SheetReader::positive(*braked, -7);
   if (J && J_b && *J_b < *J)
-    reader.problem(SheetReader::key_of("inertia_with_brake_gcm2", *braked), base::written(braked->value),
-                   "is less than the rotor's own, inertia_gcm2 = " + base::written(rotor->value),
-                   "the brake only adds: swap the two");
+    reader.wrong("inertia_with_brake_gcm2", *braked,
+                 "is less than the rotor's own, " + SheetReader::key_of("inertia_gcm2", *rotor) + " = " +
+                     reader.value_of("inertia_gcm2", *rotor),
+                 "the brake only adds: swap the two");
   if (s.with_brake ? !J_b : !J) return {};
   const std::string_view key = s.with_brake ? "inertia_with_brake_gcm2" : "inertia_gcm2";
   const Quantity& printed = s.with_brake ? *braked : *rotor;
@@ -45,9 +46,10 @@ bool has_body(SheetReader& reader) {
   if (s.rotor == RotorPlace::outer && !s.rotor_inner_radius_mm)
     return needs("rotor_radius_mm", "rotor_inner_radius_mm, for rotor is \"outer\",");
   if (s.rotor_inner_radius_mm && !(s.rotor_inner_radius_mm->value < s.rotor_radius_mm->value)) {
-    reader.problem("rotor_inner_radius_mm", base::written(s.rotor_inner_radius_mm->value),
-                   "must be below rotor_radius_mm = " + base::written(s.rotor_radius_mm->value),
-                   "swap the two");
+    reader.wrong("rotor_inner_radius_mm", *s.rotor_inner_radius_mm,
+                 "must be below " + SheetReader::key_of("rotor_radius_mm", *s.rotor_radius_mm) + " = " +
+                     reader.value_of("rotor_radius_mm", *s.rotor_radius_mm),
+                 "swap the two");
     return false;
   }
   return true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/design/sheet/sheet_reader.hpp"
 
+#include "sixstep/base/linear.hpp"
 #include "sixstep/base/plausible.hpp"
 #include "sixstep/base/range_text.hpp"
 #include "sixstep/design/sheet/sheet_description.hpp"
@@ -18,9 +19,8 @@ class Numbers {
     if (!q) return;
     const base::Range allowed = base::allowed(about);
     if (allowed.holds(q->value)) return;
-    reader_.problem(SheetReader::key_of(key, *q), base::written(q->value),
-                    limit_of(about.range, allowed, q->value),
-                    "give the value as the sheet prints it, or leave the key out");
+    reader_.wrong(key, *q, limit_of(about.range, allowed, q->value),
+                  "give the value as the sheet prints it, or leave the key out");
   }
   template <class Other>
   void value(std::string_view, const Other&, const base::About&) {}
@@ -31,7 +31,38 @@ class Numbers {
   SheetReader& reader_;
 };
 
+/// The visitor that finds what one key's other spelling is worth.
+class Spelled {
+ public:
+  Spelled(std::string_view key, std::string_view spelling) : key_(key), spelling_(spelling) {}
+
+  void quantity(std::string_view key, const std::optional<base::Quantity>&, const base::About& about) {
+    if (key != key_) return;
+    for (const base::Spelling& s : about.also)
+      if (s.key == spelling_) found = s;
+  }
+  template <class Other>
+  void value(std::string_view, const Other&, const base::About&) {}
+  template <class Enum, class Choices>
+  void choice(std::string_view, const Enum&, const Choices&, const base::About&) {}
+
+  std::optional<base::Spelling> found;
+
+ private:
+  std::string_view key_, spelling_;
+};
+
 }  // namespace
+
+std::string SheetReader::value_of(std::string_view key, const base::Quantity& q) const {
+  if (q.key.empty()) return base::written(q.value);
+  Spelled spelled(key, q.key);
+  Sheet described = sheet;
+  describe(spelled, described);
+  if (!spelled.found) return base::written(q.value);
+  const double x = base::as_spelled(q.value, *spelled.found);
+  return spelled.found->factor == 1.0 ? base::written(x) : base::rounded(x, 12);
+}
 
 void note_implausible(SheetReader& reader) {
   Sheet described = reader.sheet;  // descriptions are written for readers, which fill what they visit
@@ -50,7 +81,7 @@ void unknown_frame(SheetReader& reader, std::string_view key, const base::Quanti
     rule.append(n == 0 ? " \"" : "; \"").append(frame).append("\" means ").append(c.means);
     words.append(n == 0 ? "\"" : n + 1 == candidates.size() ? " or \"" : ", \"").append(frame).append("\"");
   }
-  reader.problem(SheetReader::key_of(key, q), base::written(q.value), rule, "write frame = " + words + hint);
+  reader.wrong(key, q, rule, "write frame = " + words + hint);
 }
 
 }  // namespace sixstep::design

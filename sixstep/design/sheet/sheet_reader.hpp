@@ -21,6 +21,10 @@ struct SheetReader {
   void problem(std::string_view where, std::string value, std::string limit, std::string cure) {
     out.problems.push_back({std::string(where), std::move(value), std::move(limit), std::move(cure)});
   }
+  /// Of a quantity: key and value as the file writes them.
+  void wrong(std::string_view key, const base::Quantity& q, std::string limit, std::string cure) {
+    problem(key_of(key, q), value_of(key, q), std::move(limit), std::move(cure));
+  }
   void missing(std::string_view where, std::string_view cure) {
     out.missing.push_back({std::string(where), "", "is missing", std::string(cure)});
   }
@@ -31,6 +35,8 @@ struct SheetReader {
   static std::string key_of(std::string_view key, const base::Quantity& q) {
     return q.key.empty() ? std::string(key) : q.key;
   }
+  /// The value in the unit of that key: 4.8e-06 beside inertia_kgm2, of a sheet whose own key would have 48.
+  std::string value_of(std::string_view key, const base::Quantity& q) const;
   /// The value times 10^ten; nothing where it is out of its range, which note_implausible() has told.
   static std::optional<double> positive(const base::Quantity& q, int ten = 0) {
     return base::above(0.0).holds(q.value) ? std::optional(base::times_ten_to(q.value, ten)) : std::nullopt;

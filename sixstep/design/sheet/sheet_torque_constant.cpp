@@ -191,9 +191,9 @@ void read_torque_constant(SheetReader& reader) {
     const double implied = c.K_e_V_s;
     c.K_e_V_s = reads[1].constants.K_e_V_s;
     if (std::abs(c.K_e_V_s - implied) > 1e-6 * implied)
-      reader.problem("back_emf_mV_s", base::written(reader.sheet.back_emf_mV_s->value),
-                     "contradicts torque_constant_mNm_A, which means " + base::six_digits(implied * 1e3),
-                     "give only one of the two");
+      reader.wrong("back_emf_mV_s", *reader.sheet.back_emf_mV_s,
+                   "contradicts torque_constant_mNm_A, which means " + base::six_digits(implied * 1e3),
+                   "give only one of the two");
     reader.use("back_emf_mV_s");
     used = 2;
   }

@@ -85,8 +85,8 @@ std::optional<double> read_pole_pitch(SheetReader& reader) {
   const Sheet& s = reader.sheet;
   if (s.kind == MotorKind::rotary) {
     if (s.pole_pitch_mm)
-      reader.problem("pole_pitch_mm", base::written(s.pole_pitch_mm->value),
-                     "is a linear motor's, and kind is \"rotary\"", "write kind = \"linear\", or pole_pairs");
+      reader.wrong("pole_pitch_mm", *s.pole_pitch_mm, "is a linear motor's, and kind is \"rotary\"",
+                   "write kind = \"linear\", or pole_pairs");
     return {};
   }
   for (const auto& [key, given] : {std::pair{"pole_pairs", s.pole_pairs.has_value()},

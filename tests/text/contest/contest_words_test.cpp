@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sentences below a comparison name who they are about, and a factor only where there is one.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+
+#include "text/contest/contest_text.hpp"
+
+namespace SIXSTEP_TEST_FILE {
+
+using namespace sixstep;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr std::size_t settle = 4, loss = analysis::loss_figure;
+
+/// Of each contestant its place in the list of all, a settling time and a loss.
+struct Of {
+  std::size_t who;
+  double settle_s, loss_W;
+};
+std::vector<std::string> words(const std::vector<Of>& all) {
+  analysis::Contest c;
+  for (const Of& of : all) {
+    c.entries.push_back({&analysis::contestants()[of.who], {}, base::Problem{}});
+    analysis::ContestRow row;
+    row.values[settle] = of.settle_s;
+    row.values[loss] = of.loss_W;
+    row.nominal_held = true;
+    c.rows.push_back(row);
+  }
+  return text::contest_words(c);
+}
+
+std::string name(std::size_t who) { return std::string(analysis::contestants()[who].name); }
+
+TEST(ContestWords, WhoSharesAFigureIsNamed) {
+  const auto told = words({{0, 1.0, 5.0}, {1, 2.0, 3.0}, {2, 3.0, 3.01}});
+  EXPECT_THAT(told, Contains(name(1) + " and " + name(2) + " share the least loss in all."));
+  EXPECT_THAT(told, Contains(HasSubstr(name(0) + " has the least ")));
+  EXPECT_THAT(told, Not(Contains(HasSubstr("first two"))));
+}
+
+TEST(ContestWords, AgainstNothingStandsAValue) {
+  const std::string phrase(analysis::contest_figures[settle].phrase);
+  EXPECT_THAT(phrase, HasSubstr("settling"));
+  EXPECT_THAT(words({{0, 0.0, 1.0}, {1, 0.005, 2.0}}), Contains(HasSubstr(phrase + " (0 s, the next 5 ms)")));
+  const double never = std::numeric_limits<double>::infinity();
+  EXPECT_THAT(words({{0, never, 1.0}, {1, 0.005, 2.0}}),
+              Contains(HasSubstr(name(1) + " has the least " + phrase + " (5 ms, the others never)")));
+}
+
+}  // namespace SIXSTEP_TEST_FILE
