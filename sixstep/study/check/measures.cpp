@@ -130,6 +130,15 @@ void check_level(const Asked& a) {
   if (wanted && !a.m.level && !is_controlled(a.m.signal, a.s.control))
     a.refuse("level", "", "is missing, and the reference is of another signal",
              "give the level that the signal is to reach, in its own unit");
+  const Measure usual;
+  const auto looks_not = [&a](const char* key, double value) {
+    a.refuse(key, base::written(value), "is nothing that " + quoted(a.m.metric) + " looks at", "remove it");
+  };
+  if (a.m.level && !wanted) looks_not("level", *a.m.level);
+  if (a.m.start && !is_of_a_step(a.m.metric)) looks_not("start", *a.m.start);
+  if (a.m.fraction != usual.fraction && a.m.metric != MetricKind::reach_time)
+    looks_not("fraction", a.m.fraction);
+  if (a.m.band != usual.band && a.m.metric != MetricKind::settling_time) looks_not("band", a.m.band);
   if (a.m.tail && !is_of_a_level(a.m.metric))
     a.refuse("tail", base::written(*a.m.tail), "is nothing that " + quoted(a.m.metric) + " looks at",
              "remove it, or set from_s and to_s");

@@ -1,55 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/study/check/unused_keys.hpp"
 
+#include <algorithm>
+#include <iterator>
+
+#include "sixstep/design/sheet/sheet_check.hpp"
+#include "sixstep/design/sheet/thermal.hpp"
+#include "sixstep/study/check/unused_list.hpp"
+#include "sixstep/study/measure/device_watch.hpp"
+#include "sixstep/study/scenario/changes.hpp"
+
 namespace sixstep::study {
 namespace {
 
-class Unused {
- public:
-  template <class Value>
-  void add(const char* key, const Value& given, const Value& usual, const char* reason) {
-    if (given == usual) return;
-    text_ += (text_.empty() ? "" : ", ") + std::string(key) + " (" + reason + ")";
-  }
-  std::string text() const { return text_; }
-
- private:
-  std::string text_;
-};
-
-void of_sensors(const Scenario& s, Unused& out) {
-  const Sensors usual, &x = s.sensors;
-  const bool no_terminals = s.control.drive != FirmwareKind::sensorless;
-  const bool no_bus = x.bus == BusSensing::ideal, no_hall = x.rotor != RotorSensing::hall;
-  if (x.currents == rig::CurrentMeasurement::ideal) {
-    constexpr char reason[] = "sensors.currents is ideal";
-    out.add("sensors.current_offset_A", x.current_offset_A, usual.current_offset_A, reason);
-    out.add("sensors.current_noise_A", x.current_noise_A, usual.current_noise_A, reason);
-    out.add("sensors.current_gain_error", x.current_gain_error, usual.current_gain_error, reason);
-    if (no_bus && no_terminals && x.rotor != RotorSensing::resolver)
-      out.add("sensors.adc_bits", x.adc_bits, usual.adc_bits, "nothing is converted");
-  }
-  if (no_bus && no_terminals) {  // a terminal's channel is as the bus's is
-    constexpr char reason[] = "sensors.bus is ideal";
-    out.add("sensors.bus_offset_V", x.bus_offset_V, usual.bus_offset_V, reason);
-    out.add("sensors.bus_noise_V", x.bus_noise_V, usual.bus_noise_V, reason);
-    out.add("sensors.bus_gain_error", x.bus_gain_error, usual.bus_gain_error, reason);
-  }
-  if (no_hall && no_terminals) {
-    constexpr char reason[] = "sensors.rotor is not hall";
-    out.add("sensors.speed_edges", x.speed_edges, usual.speed_edges, reason);
-    if (x.rotor == RotorSensing::ideal)
-      out.add("sensors.capture_Hz", x.capture_Hz, usual.capture_Hz, "sensors.rotor is ideal");
-  }
-  if (x.rotor != RotorSensing::encoder)
-    out.add("sensors.encoder.lines", x.encoder.lines, usual.encoder.lines, "sensors.rotor is not encoder");
-  if (!x.hall_break.at_s)
-    out.add("sensors.hall_break.line", x.hall_break.line, usual.hall_break.line, "no hall_break.at_s");
-}
-
 void of_power(const Scenario& s, Unused& out) {
   if (!s.heat.motor && !s.heat.devices)
+    out.add("heat.step_s", s.heat.step_s, Heat{}.step_s, "nothing warms up");
+  // By the sheet's thermal values a remark puts the copper loss into a motor that starts from there.
+  if (!s.heat.motor && !s.heat.devices && !design::thermal_model(s.sheet))
     out.add("heat.ambient_degC", s.heat.ambient_degC, Heat{}.ambient_degC, "nothing warms up");
+  const Bridge& b = s.bridge;
+  if (!(b.turn_on_J > 0 || b.turn_off_J > 0 || b.recovery_J > 0)) {
+    out.add("bridge.energies_at_V", b.energies_at_V, Bridge{}.energies_at_V, "no energies are given");
+    out.add("bridge.energies_at_A", b.energies_at_A, Bridge{}.energies_at_A, "no energies are given");
+  }
+  if (!(s.bridge.dead_time_s > 0))
+    out.add("bridge.dead_time_at_commutation", s.bridge.dead_time_at_commutation,
+            Bridge{}.dead_time_at_commutation, "bridge.dead_time_s is 0");
+  if (!s.heat.devices && !tells_losses(s.bridge)) {
+    constexpr char reason[] = "no junction warms up, and no losses are told";
+    out.add("bridge.junction_K_W", s.bridge.junction_K_W, Bridge{}.junction_K_W, reason);
+    out.add("bridge.sink_degC", s.bridge.sink_degC, Bridge{}.sink_degC, reason);
+  }
   if (s.supply.source != SourceKind::battery)
     out.add("supply.battery_charge", s.supply.battery_charge, Supply{}.battery_charge, "no battery");
   if (s.supply.source == SourceKind::steady || s.supply.source == SourceKind::battery)
@@ -57,6 +39,14 @@ void of_power(const Scenario& s, Unused& out) {
 }
 
 void of_protection(const Scenario& s, Unused& out) {
+  if (s.control.drive != FirmwareKind::product) {
+    constexpr char reason[] = "control.drive is not product";
+    const Protection none, &p = s.protection;
+    out.add("protection.voltage_samples", p.voltage_samples, none.voltage_samples, reason);
+    out.add("protection.offset_tolerance_A", p.offset_tolerance_A, none.offset_tolerance_A, reason);
+    out.add("protection.short_below_rad_s", p.short_below_rad_s, none.short_below_rad_s, reason);
+    out.add("protection.standing_rad_s", p.standing_rad_s, none.standing_rad_s, reason);
+  }
   const Align usual, &x = s.protection.align;
   if (x.current_A) return;
   constexpr char reason[] = "no protection.align.current_A";
@@ -72,6 +62,11 @@ void of_control(const Scenario& s, Unused& out) {
     out.add("control.current.band_A", x.current.band_A, usual.current.band_A, reason);
     out.add("control.current.comparator", x.current.comparator, usual.current.comparator, reason);
   }
+  if (!x.regeneration.limit_V)
+    out.add("control.regeneration.gain_A_per_V", x.regeneration.gain_A_per_V, usual.regeneration.gain_A_per_V,
+            "no control.regeneration.limit_V");
+  if (!advances(x.advance))
+    out.add("control.advance.limit_deg", x.advance.limit_deg, usual.advance.limit_deg, "nothing is advanced");
   if (!x.smooth_chopping.on) {
     constexpr char reason[] = "control.smooth_chopping.on is false";
     out.add("control.smooth_chopping.soft_above_A", x.smooth_chopping.soft_above_A, {}, reason);
@@ -80,14 +75,67 @@ void of_control(const Scenario& s, Unused& out) {
   }
 }
 
+/// A loop that is never closed: neither in the mode that the run begins in, nor by one that an event brings.
+void of_idle_loops(const Scenario& s, Unused& out) {
+  using control::Mode;
+  const bool position = comes_into(s, Mode::position), speed = position || comes_into(s, Mode::speed);
+  if (s.control.drive == FirmwareKind::own) return;
+  if (!position) {
+    constexpr char none[] = "control.mode has no position loop";
+    const PositionLoop usual, &x = s.control.position;
+    out.add("control.position.gain_rad_s_per_deg", x.gain_rad_s_per_deg, usual.gain_rad_s_per_deg, none);
+    out.add("control.position.speed_limit_rad_s", x.speed_limit_rad_s, usual.speed_limit_rad_s, none);
+    out.add("control.position.profile.on", x.profile.on, usual.profile.on, none);
+  }
+  if (speed) return;
+  const std::string reason = "control.mode has no speed loop";
+  const SpeedLoop usual, &x = s.control.speed;
+  const auto idle = [&](const char* key, const auto& given, const auto& unset) {
+    out.add(key, given, unset, reason);
+  };
+  idle("control.speed.settle_s", x.settle_s, usual.settle_s);
+  idle("control.speed.damping", x.damping, usual.damping);
+  idle("control.speed.d1", x.d1, usual.d1);
+  idle("control.speed.d0", x.d0, usual.d0);
+  idle("control.speed.kp", x.kp, usual.kp);
+  idle("control.speed.ki", x.ki, usual.ki);
+  idle("control.speed.ki_per_s", x.ki_per_s, usual.ki_per_s);
+  idle("control.speed.torque_limit_Nm", x.torque_limit_Nm, usual.torque_limit_Nm);
+  if (s.control.mode == Mode::current)  // of off and duty it is refused with its loop
+    idle("control.current.limit_A", s.control.current.limit_A, std::optional<double>());
+}
+
+/// Lines of the sheet that the scenario overrides, and that the model is not made of. Others stand for what a run shows or chooses: a
+/// nominal current the torque limit where none is given, a nominal voltage beside a bus that nobody chose, limits in its remarks.
+void of_sheet(const Scenario& s, Unused& out) {
+  if (!s.motor_sheet) return;
+  const base::Result<design::SheetCheck> now = design::check_sheet(s.sheet),
+                                         file = design::check_sheet(*s.motor_sheet);
+  if (!now || !file) return;
+  constexpr std::string_view lines[] = {"no_load_current_mA",       "no_load_speed_rpm",
+                                        "no_load_voltage_V",        "second_no_load_current_mA",
+                                        "second_no_load_speed_rpm", "second_no_load_voltage_V",
+                                        "stall_current_A",          "stall_torque_mNm",
+                                        "nominal_speed_rpm",        "nominal_torque_mNm"};
+  for (const design::LineUse& line : now->lines) {
+    if (line.used || std::find(std::begin(lines), std::end(lines), line.key) == std::end(lines)) continue;
+    const bool as_in_file = std::any_of(file->lines.begin(), file->lines.end(), [&line](const auto& printed) {
+      return printed.key == line.key && printed.value == line.value;
+    });
+    if (!as_in_file) out.add(("motor_override." + line.key), true, false, line.why);
+  }
+}
+
 }  // namespace
 
 std::string unused_keys(const Scenario& s) {
   Unused out;
-  of_sensors(s, out);
+  unused_of_sensors(s, out);
   of_power(s, out);
   of_protection(s, out);
   of_control(s, out);
+  of_idle_loops(s, out);
+  of_sheet(s, out);
   return out.text();
 }
 

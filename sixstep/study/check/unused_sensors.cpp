@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/check/unused_list.hpp"
+
+namespace sixstep::study {
+namespace {
+
+void of_ideal_rotor(const Scenario& s, Unused& out) {
+  constexpr char reason[] = "sensors.rotor is ideal";
+  const Sensors usual, &x = s.sensors;
+  out.add("sensors.capture_Hz", x.capture_Hz, usual.capture_Hz, reason);
+  out.add("sensors.timeout_s", x.timeout_s, usual.timeout_s, reason);
+  out.add("sensors.watched", x.watched, usual.watched, reason);
+}
+
+/// Noise of a converter is drawn, jumps of lines, and what a series' drives are.
+bool draws_nothing(const Scenario& s) {
+  const Sensors& x = s.sensors;
+  return x.currents == rig::CurrentMeasurement::ideal && x.bus == BusSensing::ideal &&
+         x.rotor == RotorSensing::ideal && !(x.hall_glitches_Hz > 0) &&
+         s.control.drive != FirmwareKind::sensorless && s.spread.empty();
+}
+
+void of_shaft_sensors(const Scenario& s, Unused& out) {
+  const Sensors usual, &x = s.sensors;
+  if (x.rotor != RotorSensing::encoder) {
+    constexpr char reason[] = "sensors.rotor is not encoder";
+    const Encoder &given = x.encoder, &none = usual.encoder;
+    out.add("sensors.encoder.lines", given.lines, none.lines, reason);
+    out.add("sensors.encoder.pitch_mm", given.pitch_mm, none.pitch_mm, reason);
+    out.add("sensors.encoder.referenced", given.referenced, none.referenced, reason);
+    out.add("sensors.encoder.missed_Hz", given.missed_Hz, none.missed_Hz, reason);
+  }
+  if (x.rotor != RotorSensing::absolute) {
+    constexpr char reason[] = "sensors.rotor is not absolute";
+    const AbsoluteEncoder &given = x.absolute, &none = usual.absolute;
+    out.add("sensors.absolute.bits", given.bits, none.bits, reason);
+    out.add("sensors.absolute.latency_s", given.latency_s, none.latency_s, reason);
+    out.add("sensors.absolute.speed_samples", given.speed_samples, none.speed_samples, reason);
+  }
+}
+
+void of_resolver(const Scenario& s, Unused& out) {
+  if (s.sensors.rotor == RotorSensing::resolver) return;
+  constexpr char reason[] = "sensors.rotor is not resolver";
+  const Resolver none, &x = s.sensors.resolver;
+  out.add("sensors.resolver.pole_pairs", x.pole_pairs, none.pole_pairs, reason);
+  out.add("sensors.resolver.amplitude_V", x.amplitude_V, none.amplitude_V, reason);
+  out.add("sensors.resolver.excitation_Hz", x.excitation_Hz, none.excitation_Hz, reason);
+  out.add("sensors.resolver.imbalance", x.imbalance, none.imbalance, reason);
+  out.add("sensors.resolver.quadrature_deg", x.quadrature_deg, none.quadrature_deg, reason);
+  out.add("sensors.resolver.phase_deg", x.phase_deg, none.phase_deg, reason);
+  out.add("sensors.resolver.sine_phase_deg", x.sine_phase_deg, none.sine_phase_deg, reason);
+  out.add("sensors.resolver.calibrated", x.calibrated, none.calibrated, reason);
+  out.add("sensors.resolver.noise_V", x.noise_V, none.noise_V, reason);
+  out.add("sensors.resolver.bandwidth_Hz", x.bandwidth_Hz, none.bandwidth_Hz, reason);
+  out.add("sensors.resolver.damping", x.damping, none.damping, reason);
+  out.add("sensors.resolver.bits", x.bits, none.bits, reason);
+  out.add("sensors.resolver.converter_Hz", x.converter_Hz, none.converter_Hz, reason);
+  out.add("sensors.resolver.latency_s", x.latency_s, none.latency_s, reason);
+}
+
+}  // namespace
+
+void unused_of_sensors(const Scenario& s, Unused& out) {
+  const Sensors usual, &x = s.sensors;
+  const bool no_terminals = s.control.drive != FirmwareKind::sensorless;
+  const bool no_bus = x.bus == BusSensing::ideal, no_hall = x.rotor != RotorSensing::hall;
+  if (x.currents == rig::CurrentMeasurement::ideal) {
+    constexpr char reason[] = "sensors.currents is ideal";
+    out.add("sensors.current_offset_A", x.current_offset_A, usual.current_offset_A, reason);
+    out.add("sensors.current_noise_A", x.current_noise_A, usual.current_noise_A, reason);
+    out.add("sensors.current_gain_error", x.current_gain_error, usual.current_gain_error, reason);
+    out.add("sensors.calibrated", x.calibrated, usual.calibrated, reason);
+    if (no_terminals)
+      out.add("sensors.current_bandwidth_Hz", x.current_bandwidth_Hz, usual.current_bandwidth_Hz, reason);
+    if (no_terminals && s.control.drive != FirmwareKind::field)  // else it scales what an estimator injects
+      out.add("sensors.current_range_A", x.current_range_A, usual.current_range_A, reason);
+    if (no_bus && no_terminals && x.rotor != RotorSensing::resolver)
+      out.add("sensors.adc_bits", x.adc_bits, usual.adc_bits, "nothing is converted");
+  }
+  if (no_bus && no_terminals) {  // a terminal's channel is as the bus's is
+    constexpr char reason[] = "sensors.bus is ideal";
+    out.add("sensors.bus_offset_V", x.bus_offset_V, usual.bus_offset_V, reason);
+    out.add("sensors.bus_noise_V", x.bus_noise_V, usual.bus_noise_V, reason);
+    out.add("sensors.bus_gain_error", x.bus_gain_error, usual.bus_gain_error, reason);
+    out.add("sensors.bus_bandwidth_Hz", x.bus_bandwidth_Hz, usual.bus_bandwidth_Hz, reason);
+    out.add("sensors.bus_range_V", x.bus_range_V, usual.bus_range_V, reason);
+  }
+  if (no_hall && no_terminals) {
+    constexpr char reason[] = "sensors.rotor is not hall";
+    out.add("sensors.speed_edges", x.speed_edges, usual.speed_edges, reason);
+    if (x.rotor == RotorSensing::ideal) of_ideal_rotor(s, out);
+  }
+  if (draws_nothing(s)) out.add("sensors.seed", x.seed, usual.seed, "nothing is drawn");
+  of_shaft_sensors(s, out);
+  of_resolver(s, out);
+  if (x.currents != rig::CurrentMeasurement::dc_link) {
+    constexpr char reason[] = "sensors.currents is not dc-link";
+    out.add("sensors.shunt_settle_s", x.shunt_settle_s, usual.shunt_settle_s, reason);
+    out.add("sensors.commutation_samples", x.commutation_samples, usual.commutation_samples, reason);
+  }
+  if (!(x.hall_glitches_Hz > 0))
+    out.add("sensors.hall_glitch_s", x.hall_glitch_s, usual.hall_glitch_s, "no sensors.hall_glitches_Hz");
+  if (!x.hall_break.at_s)
+    out.add("sensors.hall_break.line", x.hall_break.line, usual.hall_break.line, "no hall_break.at_s");
+}
+
+}  // namespace sixstep::study

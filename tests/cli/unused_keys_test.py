@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""No key is given in vain without a word: whatever number or switch of the schema changes nothing in a run is named by its remark, or is
+refused."""
+import json
+import subprocess
+import unittest
+
+from program import PROGRAM, Started
+
+BASE = """
+motor = "maxon-251601"
+duration_s = 2e-3
+[control]
+mode = "current"
+[control.current]
+settle_s = 1e-3
+damping = 0.9
+[reference]
+value = 2
+[[require]]
+metric = "mean"
+min = 0
+"""
+
+# Keys that act, but not on this run: what they say is out of its reach, or is of what is written of it.
+ELSEWHERE = {
+    "motor_override.flat_deg": "a wider top than the sector's: no difference while the rotor hardly turns",
+    "motor_override.magnet_loss_percent_K": "acts through [heat], and in designs out of tolerance",
+    "heat.ambient_degC": "from it a remark warms the motor by the sheet's thermal values",
+    "control.full_scale.current_A": "of fixed point, which a header may be exported in",
+    "control.full_scale.voltage_V": "of fixed point",
+    "control.full_scale.speed_rad_s": "of fixed point",
+    "control.full_scale.position_deg": "of fixed point",
+    "control.current.measured_bus_from_V": "the measured bus is the source's here, to the bit",
+    "control.limits.torque_Nm": "a bound that 2 A do not reach",
+    "control.smooth_chopping.on": "the current is above its borders",
+    "record.grid_s": "rows that nobody asked for here",
+    "record.events": "rows that nobody asked for here",
+    "sensors.hall_calibration_turns": "of learned edges, which another sensor may still learn",
+}
+
+
+class UnusedKeys(Started):
+    def setUp(self):
+        super().setUp()
+        (self.path / "base.toml").write_text(BASE)
+        self.schema = json.loads(self.run_program("schema", "scenario").stdout)
+
+    def keys(self, node=None, path=()):
+        for name, entry in (node or self.schema).get("properties", {}).items():
+            if "$ref" in entry:
+                there = self.schema
+                for step in entry["$ref"].removeprefix("#/").split("/"):
+                    there = there[step]
+                entry = there | entry
+            if "properties" in entry:
+                yield from self.keys(entry, (*path, name))
+            else:
+                yield ".".join((*path, name)), entry
+
+    @staticmethod
+    def another(entry):
+        """A value within the range that is not the usual one; None where it is no number and no switch."""
+        usual = entry.get("default")
+        entry = next((e for e in (entry, *entry.get("oneOf", []), *entry.get("anyOf", [])) if e.get("type") in ("number", "integer", "boolean")), entry)
+        kind = entry.get("type")
+        if kind == "boolean":
+            return "false" if usual is True else "true"
+        if kind not in ("number", "integer"):
+            return None
+        least, most = (entry.get(f"{end}imum", entry.get(f"exclusive{end.title()}imum")) for end in ("min", "max"))
+        tries = [usual * 1.3, usual * 0.7, usual + 1, usual - 1] if usual else [0.5, 1, 2, 0.01, 1e-3, 1e-6, 10, 100]
+        for value in (round(x) if kind == "integer" else x for x in tries):
+            if (least is None or value > least) and (most is None or value < most) and value != usual:
+                return repr(value)
+        return repr(least if most is None else most)
+
+    def outcome(self, *sets):
+        """All that came out but the remarks; None where it is refused."""
+        words = [word for text in sets for word in ("--set", text)]
+        ran = subprocess.run([PROGRAM, "run", "base.toml", "--json", "-", "--quiet", *words], cwd=self.path, capture_output=True, text=True, check=False)
+        if ran.returncode == 2:
+            return None, ran.stderr
+        result = json.loads(ran.stdout)
+        remarks = " ".join(result.pop("remarks", []))
+        return result, remarks
+
+    def test_every_number_and_switch_acts_or_is_named(self):
+        plain, _ = self.outcome()
+        seen, silent = 0, set()
+        for key, entry in self.keys():
+            value = self.another(entry)
+            if value is None:
+                continue
+            result, told = self.outcome(f"{key}={value}")
+            seen += 1
+            if result is None:
+                self.assertTrue(any(part in told for part in key.split(".")), f"{key}: {told}")
+            elif result == plain and key not in told:
+                silent.add(key)
+            elif result != plain:
+                self.assertNotIn(f"{key} (", told, "named, and it acts")
+        self.assertGreater(seen, 200)
+        self.assertEqual(silent - set(ELSEWHERE), set())
+        self.assertEqual(set(ELSEWHERE) - silent, set(), "an exception that none is any more")
+
+    def test_sheet_lines_that_the_model_is_not_made_of_are_named(self):
+        plain, _ = self.outcome()
+        for line in ("no_load_current_mA", "no_load_speed_rpm", "stall_current_A", "nominal_speed_rpm"):
+            result, told = self.outcome(f"motor_override.{line}=1234")
+            self.assertEqual(result["digest"], plain["digest"], line)
+            self.assertIn(f"motor_override.{line} (", told)
+        result, told = self.outcome("motor_override.viscous_friction_Nm_s=1e-3")
+        self.assertNotEqual(result["digest"], plain["digest"])
+        self.assertNotIn("without effect", told)
+
+    def test_gains_of_loops_that_are_not_closed_are_named(self):
+        for key, value in (("control.speed.settle_s", "0.01"), ("control.speed.torque_limit_Nm", "0.1"), ("control.current.limit_A", "5")):
+            self.assertIn(key + " (", self.outcome(f"{key}={value}")[1])
+            result, told = self.outcome('control.mode="speed"', "control.speed.damping=0.9", "control.speed.settle_s=0.01", f"{key}={value}")
+            self.assertIsNotNone(result, told)
+            self.assertNotIn("without effect", told)
+
+    def test_keys_of_another_metric_are_refused(self):
+        own = {"fraction": "reach_time_s", "band": "settling_time_s", "tail": "steady_error", "level": "overshoot", "start": "overshoot"}
+        for key, metric in own.items():
+            for other in ("mean", *own.values()):
+                asked = f'[[require]]\nmetric = "{other}"\n{key} = 0.5\nmax = 1e3\n'
+                (self.path / "b.toml").write_text(BASE[:BASE.index("[[require]]")] + asked)
+                result = subprocess.run([PROGRAM, "run", "b.toml", "--quiet"], cwd=self.path, capture_output=True, text=True, check=False)
+                takes = other == metric or (key == "level" and other != "mean") or (key == "start" and other in ("reach_time_s", "settling_time_s"))
+                if takes:
+                    self.assertNotEqual(result.returncode, 2, result.stderr)
+                else:
+                    self.assertEqual(result.returncode, 2, f"{key} of {other}")
+                    self.assertIn(f"require.{key}", result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
