@@ -20,7 +20,8 @@
 //   timing    sampled in the middle of a period, answered one period later; edges on no counter's steps
 //   currents  phases, 10 bits over +-10 A
 //   bus       as it is
-//   rotor     Hall edges exactly at the sectors' ends, captured at 1e+06 Hz, speed over six edges where the loop stands their delay, else one
+//   rotor     Hall probes 120 degrees apart, edges exactly at the sectors' ends, captured at 1e+06 Hz, speed over six edges where the loop stands their delay, else one
+//   wires     phases abc at legs a b c, Hall lines 123 at H1 H2 H3
 //   load      0 N m, 0.0001 kg m2 beside the rotor's; viscous friction 0.0004 N m s
 //   heat      winding and magnets at 25 degC all along
 //

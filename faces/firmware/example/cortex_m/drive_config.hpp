@@ -25,7 +25,8 @@
 //   timing    sampled at a period's start, answered one period later; edges on no counter's steps
 //   currents  phases, 12 bits over +-33 A
 //   bus       12 bits over 52.8 V
-//   rotor     Hall edges exactly at the sectors' ends, captured at 7.2e+07 Hz, speed over six edges where the loop stands their delay, else one
+//   rotor     Hall probes 120 degrees apart, edges exactly at the sectors' ends, captured at 7.2e+07 Hz, speed over six edges where the loop stands their delay, else one
+//   wires     phases abc at legs a b c, Hall lines 123 at H1 H2 H3
 //   load      0.02 N m, 0 kg m2 beside the rotor's
 //   heat      winding and magnets at 25 degC all along
 //
