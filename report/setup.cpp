@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <type_traits>
 
 #include "report/figures.hpp"
 #include "report/html.hpp"
@@ -12,6 +13,7 @@
 #include "sixstep/study/scenario/changes.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/field_description.hpp"
+#include "sixstep/study/scenario/in_arithmetic.hpp"
 #include "sixstep/study/scenario/sensorless_description.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
 #include "text/scenario/motion_words.hpp"
@@ -62,23 +64,17 @@ std::string speed_loop(const study::Control& c) {
   return law + " → " + (c.speed.output == study::SpeedOutput::duty ? "duty" : current_loop(c.current));
 }
 
-const char* arithmetic(study::Arithmetic a) {
-  using study::Arithmetic;
-  switch (a) {
-    case Arithmetic::float64:
-      return ", 64-bit float";
-    case Arithmetic::float32:
-      return ", 32-bit float";
-    case Arithmetic::q15:
-      return ", fixed point Q15";
-    case Arithmetic::q14:
-      return ", fixed point Q1.14";
-    case Arithmetic::q31:
-      return ", fixed point Q31";
-    case Arithmetic::q30:
-      return ", fixed point Q1.30";
-  }
-  return "";
+/// ", fixed point Q1.14": digits before and behind the point.
+std::string arithmetic(study::Arithmetic a) {
+  return study::in_arithmetic(a, []<class Scalar>() -> std::string {
+    if constexpr (std::is_floating_point_v<Scalar>) {
+      return fmt::format(", {}-bit float", 8 * sizeof(Scalar));
+    } else {
+      constexpr int whole = static_cast<int>(8 * sizeof(Scalar)) - 1 - Scalar::fraction_bits;
+      return fmt::format(", fixed point Q{}{}", whole > 0 ? fmt::format("{}.", whole) : "",
+                         Scalar::fraction_bits);
+    }
+  });
 }
 
 /// A controller of one's own: its name, what it holds, and the numbers that are not as preset.

@@ -194,8 +194,10 @@ void declare_options(CLI::App& header, ExportArguments& a) {
   header.add_option("SCENARIO", a.file, "scenario file")->required();
   header.add_option("--out", a.out, "the file to write; without it standard output");
   take_force(header, a.force);
-  header.add_option("--arithmetic", a.arithmetic,
-                    "double, float, q15, q14, q31 or q30; without it control.arithmetic");
+  std::string words;
+  for (const auto& choice : study::arithmetic_choices)
+    words += (words.empty() ? "" : ", ") + std::string(choice.word);
+  header.add_option("--arithmetic", a.arithmetic, words + "; without it control.arithmetic");
   header
       .add_option(
           "--range", a.ranges,

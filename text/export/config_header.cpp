@@ -2,11 +2,13 @@
 #include "text/export/config_header.hpp"
 
 #include <cmath>
+#include <type_traits>
 
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/scaling/sensorless_scaling.hpp"
 #include "sixstep/study/compile/arithmetic.hpp"
 #include "sixstep/study/compile/compile.hpp"
+#include "sixstep/study/scenario/in_arithmetic.hpp"
 #include "text/export/config_text.hpp"
 #include "text/export/core_costs.hpp"
 #include "text/export/header_comment.hpp"
@@ -273,21 +275,14 @@ base::Result<std::string> config_header(const ConfigHeader& w) {
                          "set it to duty, current, speed or position"};
   const base::Result<study::Compiled> c = study::compile(w.scenario);
   if (!c) return c.problems();
-  switch (w.arithmetic.value_or(w.scenario.control.arithmetic)) {
-    case study::Arithmetic::float64:
-      return floating_header<double>(w, *c, "double");
-    case study::Arithmetic::float32:
-      return floating_header<float>(w, *c, "float");
-    case study::Arithmetic::q15:
-      return fixed_header<control::Q15>(w, *c, "sixstep::control::Q15");
-    case study::Arithmetic::q14:
-      return fixed_header<control::Q14>(w, *c, "sixstep::control::Q14");
-    case study::Arithmetic::q30:
-      return fixed_header<control::Q30>(w, *c, "sixstep::control::Q30");
-    case study::Arithmetic::q31:
-      return fixed_header<control::Q31>(w, *c, "sixstep::control::Q31");
-  }
-  return base::Problems{};
+  const study::Arithmetic arithmetic = w.arithmetic.value_or(w.scenario.control.arithmetic);
+  const std::string_view word = base::word(study::arithmetic_choices, arithmetic);
+  return study::in_arithmetic(arithmetic, [&]<class Scalar>() -> base::Result<std::string> {
+    if constexpr (std::is_floating_point_v<Scalar>)
+      return floating_header<Scalar>(w, *c, word);
+    else  // "q15" is sixstep::control::Q15
+      return fixed_header<Scalar>(w, *c, fmt::format("sixstep::control::Q{}", word.substr(1)));
+  });
 }
 
 }  // namespace text

@@ -35,7 +35,8 @@ bool is_free_name(std::string_view name) {
   // Compilers and libraries keep these for themselves.
   const bool reserved = name.find("__") != std::string_view::npos ||
                         (name.size() > 1 && name[0] == '_' && name[1] >= 'A' && name[1] <= 'Z');
-  return !reserved && std::find(std::begin(taken_names), std::end(taken_names), name) == std::end(taken_names);
+  return !reserved &&
+         std::find(std::begin(taken_names), std::end(taken_names), name) == std::end(taken_names);
 }
 
 }  // namespace

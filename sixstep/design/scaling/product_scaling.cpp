@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/design/scaling/product_scaling.hpp"
 
+#include "sixstep/design/scaling/fixed_formats.hpp"
 #include "sixstep/design/scaling/scale.hpp"
 
 namespace sixstep::design {
@@ -33,18 +34,13 @@ base::Result<ScaledProduct<Scalar>> scaled_product(const ProtectedConfig<double>
 
 using Product = ProtectedConfig<double>;
 using Range = OperatingRange;
-template base::Result<ScaledProduct<control::Q15>> scaled_product(const Product&, const Range&, int);
-template base::Result<ScaledProduct<control::Q15>> scaled_product(const Product&, const Range&, const Bases&,
-                                                                  int);
-template base::Result<ScaledProduct<control::Q31>> scaled_product(const Product&, const Range&, int);
-template base::Result<ScaledProduct<control::Q31>> scaled_product(const Product&, const Range&, const Bases&,
-                                                                  int);
-template base::Result<ScaledProduct<control::Q14>> scaled_product(const Product&, const Range&, int);
-template base::Result<ScaledProduct<control::Q14>> scaled_product(const Product&, const Range&, const Bases&,
-                                                                  int);
-template base::Result<ScaledProduct<control::Q30>> scaled_product(const Product&, const Range&, int);
-template base::Result<ScaledProduct<control::Q30>> scaled_product(const Product&, const Range&, const Bases&,
-                                                                  int);
+#define SIXSTEP_SCALED_IN(Format)                                                                          \
+  template base::Result<ScaledProduct<control::Format>> scaled_product(const Product&, const Range&, int); \
+  template base::Result<ScaledProduct<control::Format>> scaled_product(const Product&, const Range&,       \
+                                                                       const Bases&, int);
+SIXSTEP_FIXED_FORMATS(SIXSTEP_SCALED_IN)
+#undef SIXSTEP_SCALED_IN
+// Formats that tests alone have.
 template base::Result<ScaledProduct<control::Fixed<std::int16_t, 13>>> scaled_product(const Product&,
                                                                                       const Range&, int);
 template base::Result<ScaledProduct<control::Fixed<std::int16_t, 13>>> scaled_product(const Product&,

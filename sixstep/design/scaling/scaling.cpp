@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "sixstep/design/scaling/fixed_formats.hpp"
 #include "sixstep/design/scaling/scale.hpp"
 
 namespace sixstep::design {
@@ -67,18 +68,16 @@ base::Result<Scaled<Scalar>> scaled(const DriveConfig<double>& d, const Operatin
 
 using Drive = DriveConfig<double>;
 using Range = OperatingRange;
-template base::Result<Scaled<control::Q15>> scaled(const Drive&, const Range&, const Bases&);
-template base::Result<Scaled<control::Q31>> scaled(const Drive&, const Range&, const Bases&);
-template base::Result<Scaled<control::Q14>> scaled(const Drive&, const Range&, const Bases&);
-template base::Result<Scaled<control::Q30>> scaled(const Drive&, const Range&, const Bases&);
+#define SIXSTEP_SCALED_IN(Format)                                                                  \
+  template base::Result<Scaled<control::Format>> scaled(const Drive&, const Range&, const Bases&); \
+  template base::Result<Scaled<control::Format>> scaled(const Drive&, const Range&);
+SIXSTEP_FIXED_FORMATS(SIXSTEP_SCALED_IN)
+#undef SIXSTEP_SCALED_IN
+// Formats that tests alone have.
 template base::Result<Scaled<control::Fixed<std::int16_t, 13>>> scaled(const Drive&, const Range&,
                                                                        const Bases&);
 template base::Result<Scaled<control::Fixed<std::int32_t, 29>>> scaled(const Drive&, const Range&,
                                                                        const Bases&);
-template base::Result<Scaled<control::Q15>> scaled(const Drive&, const Range&);
-template base::Result<Scaled<control::Q31>> scaled(const Drive&, const Range&);
-template base::Result<Scaled<control::Q14>> scaled(const Drive&, const Range&);
-template base::Result<Scaled<control::Q30>> scaled(const Drive&, const Range&);
 template base::Result<Scaled<control::Fixed<std::int16_t, 13>>> scaled(const Drive&, const Range&);
 template base::Result<Scaled<control::Fixed<std::int32_t, 29>>> scaled(const Drive&, const Range&);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "sixstep/design/fields/sensorless_fields.hpp"
+#include "sixstep/design/scaling/fixed_formats.hpp"
 #include "sixstep/design/scaling/observer_scaling.hpp"
 #include "sixstep/design/scaling/scale.hpp"
 
@@ -55,13 +56,10 @@ base::Result<ScaledSensorless<Scalar>> scaled_sensorless(const SensorlessDriveCo
 
 using Sensorless = SensorlessDriveConfig<double>;
 using Range = OperatingRange;
-template base::Result<ScaledSensorless<control::Q15>> scaled_sensorless(const Sensorless&, const Range&,
-                                                                        const Bases&);
-template base::Result<ScaledSensorless<control::Q31>> scaled_sensorless(const Sensorless&, const Range&,
-                                                                        const Bases&);
-template base::Result<ScaledSensorless<control::Q14>> scaled_sensorless(const Sensorless&, const Range&,
-                                                                        const Bases&);
-template base::Result<ScaledSensorless<control::Q30>> scaled_sensorless(const Sensorless&, const Range&,
-                                                                        const Bases&);
+#define SIXSTEP_SCALED_IN(Format)                                                               \
+  template base::Result<ScaledSensorless<control::Format>> scaled_sensorless(const Sensorless&, \
+                                                                             const Range&, const Bases&);
+SIXSTEP_FIXED_FORMATS(SIXSTEP_SCALED_IN)
+#undef SIXSTEP_SCALED_IN
 
 }  // namespace sixstep::design

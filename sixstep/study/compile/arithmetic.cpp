@@ -6,11 +6,11 @@
 
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/written.hpp"
-#include "sixstep/control/fixed.hpp"
 #include "sixstep/design/fields/estimator_fields.hpp"
 #include "sixstep/design/fields/product_fields.hpp"
 #include "sixstep/design/fields/sensorless_fields.hpp"
 #include "sixstep/design/loops/limit_bounds.hpp"
+#include "sixstep/design/scaling/fixed_formats.hpp"
 #include "sixstep/design/scaling/observer_scaling.hpp"
 #include "sixstep/design/scaling/sensorless_scaling.hpp"
 #include "sixstep/study/compile/basis.hpp"
@@ -203,23 +203,15 @@ base::Result<FieldIn<Scalar>> field_in(const Compiled& c) {
 
 template base::Result<FieldIn<double>> field_in(const Compiled&);
 template base::Result<FieldIn<float>> field_in(const Compiled&);
-template base::Result<SensorlessIn<double>> sensorless_in(const Scenario&, const Compiled&);
-template base::Result<SensorlessIn<float>> sensorless_in(const Scenario&, const Compiled&);
-template base::Result<SensorlessIn<control::Q15>> sensorless_in(const Scenario&, const Compiled&);
-template base::Result<SensorlessIn<control::Q31>> sensorless_in(const Scenario&, const Compiled&);
-template base::Result<SensorlessIn<control::Q14>> sensorless_in(const Scenario&, const Compiled&);
-template base::Result<SensorlessIn<control::Q30>> sensorless_in(const Scenario&, const Compiled&);
-template base::Result<ProductIn<double>> product_in(const Scenario&, const Compiled&);
-template base::Result<ProductIn<float>> product_in(const Scenario&, const Compiled&);
-template base::Result<ProductIn<control::Q15>> product_in(const Scenario&, const Compiled&);
-template base::Result<ProductIn<control::Q31>> product_in(const Scenario&, const Compiled&);
-template base::Result<ProductIn<control::Q14>> product_in(const Scenario&, const Compiled&);
-template base::Result<ProductIn<control::Q30>> product_in(const Scenario&, const Compiled&);
-template base::Result<DriveIn<double>> drive_in(const Scenario&, const Compiled&);
-template base::Result<DriveIn<float>> drive_in(const Scenario&, const Compiled&);
-template base::Result<DriveIn<control::Q15>> drive_in(const Scenario&, const Compiled&);
-template base::Result<DriveIn<control::Q31>> drive_in(const Scenario&, const Compiled&);
-template base::Result<DriveIn<control::Q14>> drive_in(const Scenario&, const Compiled&);
-template base::Result<DriveIn<control::Q30>> drive_in(const Scenario&, const Compiled&);
+#define SIXSTEP_DRIVES_IN(Scalar)                                                              \
+  template base::Result<SensorlessIn<Scalar>> sensorless_in(const Scenario&, const Compiled&); \
+  template base::Result<ProductIn<Scalar>> product_in(const Scenario&, const Compiled&);       \
+  template base::Result<DriveIn<Scalar>> drive_in(const Scenario&, const Compiled&);
+#define SIXSTEP_DRIVES_IN_FIXED(Format) SIXSTEP_DRIVES_IN(control::Format)
+SIXSTEP_DRIVES_IN(double)
+SIXSTEP_DRIVES_IN(float)
+SIXSTEP_FIXED_FORMATS(SIXSTEP_DRIVES_IN_FIXED)
+#undef SIXSTEP_DRIVES_IN_FIXED
+#undef SIXSTEP_DRIVES_IN
 
 }  // namespace sixstep::study

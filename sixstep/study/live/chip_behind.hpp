@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // A firmware's chip behind the interface of any_drive.hpp. Included only by the files named chip_*.
 #pragma once
-#include "sixstep/control/fixed.hpp"
 #include "sixstep/rig/drive_of.hpp"
 #include "sixstep/study/compile/chip.hpp"
 #include "sixstep/study/live/chips.hpp"
+#include "sixstep/study/scenario/in_arithmetic.hpp"
 
 namespace sixstep::study::detail {
 
@@ -25,21 +25,9 @@ base::Result<AnyChip<Firmware>> behind(const Scenario& s, const Compiled& c) {
 
 template <template <class> class Firmware>
 auto in_each_arithmetic(const Scenario& s, const Compiled& c) -> base::Result<AnyChip<Firmware<double>>> {
-  switch (s.control.arithmetic) {
-    case Arithmetic::float64:
-      return behind<Firmware<double>>(s, c);
-    case Arithmetic::float32:
-      return behind<Firmware<float>>(s, c);
-    case Arithmetic::q15:
-      return behind<Firmware<control::Q15>>(s, c);
-    case Arithmetic::q14:
-      return behind<Firmware<control::Q14>>(s, c);
-    case Arithmetic::q31:
-      return behind<Firmware<control::Q31>>(s, c);
-    case Arithmetic::q30:
-      return behind<Firmware<control::Q30>>(s, c);
-  }
-  return base::Problem{"control.arithmetic", "", "is none that there is", "see control.arithmetic"};
+  return in_arithmetic(s.control.arithmetic, [&]<class Scalar>() -> base::Result<AnyChip<Firmware<double>>> {
+    return behind<Firmware<Scalar>>(s, c);
+  });
 }
 
 }  // namespace sixstep::study::detail

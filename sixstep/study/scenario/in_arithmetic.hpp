@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// From control.arithmetic to the type that a controller computes with: the one switch over them.
+#pragma once
+#include <utility>
+
+#include "sixstep/control/fixed.hpp"
+#include "sixstep/study/scenario/control.hpp"
+
+namespace sixstep::study {
+
+/// `visit` called with the type as its template argument: `in_arithmetic(a, [&]<class Scalar>() { ... })`. All answers have one type.
+template <class Visit>
+auto in_arithmetic(Arithmetic arithmetic, Visit&& visit) {
+  switch (arithmetic) {
+    case Arithmetic::float64:
+      break;
+    case Arithmetic::float32:
+      return visit.template operator()<float>();
+    case Arithmetic::q15:
+      return visit.template operator()<control::Q15>();
+    case Arithmetic::q14:
+      return visit.template operator()<control::Q14>();
+    case Arithmetic::q31:
+      return visit.template operator()<control::Q31>();
+    case Arithmetic::q30:
+      return visit.template operator()<control::Q30>();
+  }
+  return visit.template operator()<double>();
+}
+
+}  // namespace sixstep::study
