@@ -18,6 +18,11 @@ struct LinearStep {
 /// What the words of base/linear.hpp do not make of it. An empty formula stays.
 constexpr LinearStep linear_steps[] = {
     {"w_low", "v_low", ""},
+    {"w_high", "v_high", ""},
+    {"dw_high", "dv_high", ""},
+    {"d1 dw", "d1 dv", ""},
+    {"du", "du", "that part of F_max/K_f times the current loop's d1"},
+    {"u_left", "u_left", "of the bus at v_high and half the nominal current"},
     {"T", "T", "(tau/3)/v_low, a sector at that speed"},
     {"delay", "delay", "(k + 1)/2 sectors, the most from v_low up"},
     {"q", "q", "tau/3, a Hall step"},

@@ -227,8 +227,7 @@ void add_speed_step(DriveDesign& d, double crossover) {
   d.sensing.push_back({"dw_high", "the same step there", d.speed_step_rad_s, "rad/s"});
   d.sensing.push_back({"d1 dw", "of the torque limit, what the speed loop makes of that step at once",
                        d.speed_step_part, ""});
-  d.sensing.push_back(
-      {"du", "d1 d1 dw T_max/K_t, what the current loop makes of that at once", d.speed_step_V, "V"});
+  d.sensing.push_back({"du", "that part of T_max/K_t times the current loop's d1", d.speed_step_V, "V"});
   d.sensing.push_back(
       {"u_left", "of the bus at w_high and half the nominal current", d.high_speed_left_V, "V"});
 }

@@ -117,6 +117,19 @@ def sensors(test, spot):
         close(test, spot, "2 D/w_n", s["2 D/w_n"], 2e6 / s["w_n"], 1e-4)
         close(test, spot, "delay", s["delay"], s["2 D/w_n"] + s["t_l"], 1e-4)
         close(test, spot, "t_l", s["t_l"], T * 1e6, 1e-6)
+    if "dw_high" in s:  # far above the lowest speed: the same step, and what both loops make of it at once
+        w, dw, I_N, full = s["w_high"], s["dw_high"], 2.33, 2.5 * 2.33
+        test.assertTrue(0.89 * (U - R * I_N) / K_T < w < 0.9 * (U - R * I_N) / K_T * 1.001, f"{spot}: w_high")
+        if "(2 pi/4N)/w_low" in text:
+            close(test, spot, "dw_high", dw, w / s["w_low"] * s["dw"], 1e-4)
+        elif "Speed from the absolute" in text:
+            close(test, spot, "dw_high", dw, s["dw"], 1e-6)
+        else:  # six Hall edges, one tick of 1 MHz
+            close(test, spot, "dw_high", dw, w / (6e6 * pi / 3 / 8 / w), 1e-4)
+        # The crossover by d1 alone is d1 T_max/J, with T_max = K_t 2.5 I_N; the current loop's placed pair gives its d1.
+        close(test, spot, "d1 dw", s["d1 dw"], s["w_c"] * 135e-7 / (K_T * full) * dw, 2e-3)
+        close(test, spot, "u_left", s["u_left"], U - K_T * w - R * I_N / 2, 1e-3)
+        close(test, spot, "du", s["du"] * (1e-3 if re.search(r"du +\S+ mV", text) else 1), s["d1 dw"] * full * 4.09559, 1e-3)
     if "I_start" in s:
         I_N, J = 2.33, 135e-7
         for name, value in {"w_low": max(4e-3 * s["y_0"] / K_T, 0.05 * U / K_T), "w_high": pi / 3 / 8 / 4 / T, "I_start": 1.5 * I_N,
