@@ -49,6 +49,14 @@ std::string closest(const Outcome& outcome) {
                             percent(*room(*tightest))));
 }
 
+/// Where two samples that follow each other never had the whole of it.
+std::string least_of_bus(double largest_duty, bool legs) {
+  constexpr double whole = 1.0 - 1e-6;
+  if (largest_duty >= whole) return "all of it in use at single samples only";
+  return fmt::format("never all in use: {} {} at most", legs ? "vector over its circle" : "duty",
+                     plain(largest_duty, 3));
+}
+
 std::string limits(const Scenario& scenario, const Outcome& outcome, const Trace& trace) {
   std::string text = closest(outcome);
   if (const auto held = held_back(trace, scenario, outcome)) {
@@ -59,9 +67,7 @@ std::string limits(const Scenario& scenario, const Outcome& outcome, const Trace
     };
     const bool legs = scenario.control.drive == sixstep::study::FirmwareKind::field;
     text += answer("Bus voltage", held->bus_s > 0.0 ? "all of it in use for " + lasted(held->bus_s)
-                                                    : fmt::format("never all in use: {} {} at most",
-                                                                  legs ? "vector over its circle" : "duty",
-                                                                  plain(held->largest_duty, 3)));
+                                                    : least_of_bus(held->largest_duty, legs));
     if (held->limit_A)
       text += answer("Current limit", held->limit_s > 0.0
                                           ? fmt::format("{} asked for during {}",
@@ -89,6 +95,15 @@ std::string loop(const LoopGains& g, bool linear) {
   return text;
 }
 
+/// Of a drive that has no loop with gains.
+std::string without_gains(const Scenario& scenario) {
+  using sixstep::control::Mode;
+  if (scenario.control.mode == Mode::off) return "off";
+  if (scenario.control.drive == sixstep::study::FirmwareKind::own) return "your own";
+  if (scenario.control.mode == Mode::duty) return "none: the duty is given";
+  return "no gains: the next state of the legs is chosen of all that there are";
+}
+
 std::string gains(const Scenario& scenario, const Outcome& outcome) {
   using sixstep::control::Mode;
   const auto& inner = scenario.control.current;
@@ -98,8 +113,7 @@ std::string gains(const Scenario& scenario, const Outcome& outcome) {
   for (const LoopGains& g : outcome.gains)
     text +=
         answer(escaped(g.loop + " loop"), loop(g, outcome.motor.kind == sixstep::design::MotorKind::linear));
-  if (text.empty())
-    text = answer("Controller", scenario.control.mode == Mode::off ? "off" : "none: the duty is given");
+  if (text.empty()) text = answer("Controller", without_gains(scenario));
   if (!outcome.gains.empty()) text += "<div class=\"more\"><a href=\"#gains\">Derivation</a></div>";
   return card("tuned", "Gains", list(text));
 }

@@ -101,6 +101,10 @@ std::optional<Step> largest_step(const Trace& trace, const Scenario& scenario) {
   for (std::size_t n = largest->row; n <= next; ++n)
     if (std::abs((*signal)[n] * loop->factor - largest->to) > near * largest->size()) outside = n;
   const double at = (*time)[largest->row], end = (*time)[next];
+  // A reference that moves all the time has no step that anything could be seen in.
+  constexpr double least_periods = 3.0;
+  if (end - at < least_periods * scenario.pwm.period_s && largest + 1 != changes.end())
+    return from_start(*time, scenario);
   const double shown = std::max(1.5 * ((*time)[outside] - at), 20.0 * scenario.pwm.period_s);
   return Step{.of = loop->of,
               .unit = loop->unit,

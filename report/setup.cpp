@@ -56,12 +56,19 @@ std::string current_loop(const study::CurrentLoop& c) {
                     ", overlapping at commutation"}[static_cast<std::size_t>(c.commutation)];
 }
 
+bool chooses_legs(const study::Control& c) {
+  return c.drive == study::FirmwareKind::field && c.field.law == study::FieldLaw::finite_set;
+}
+
 /// The speed loop and what it sets.
 std::string speed_loop(const study::Control& c) {
   static constexpr const char* laws[] = {"speed PI", "speed by state feedback",
                                          "speed by disturbance rejection", "speed by sliding mode"};
   const std::string law = laws[static_cast<int>(c.speed.law)];
-  return law + " → " + (c.speed.output == study::SpeedOutput::duty ? "duty" : current_loop(c.current));
+  return law + " → " +
+         (c.speed.output == study::SpeedOutput::duty ? "duty"
+          : chooses_legs(c)                          ? "current by a finite set of states"
+                                                     : current_loop(c.current));
 }
 
 /// ", fixed point Q1.14": digits before and behind the point.
@@ -97,7 +104,7 @@ std::string control(const study::Scenario& s) {
       text = "duty";
       break;
     case control::Mode::current:
-      text = current_loop(s.control.current);
+      text = chooses_legs(s.control) ? "current by a finite set of states" : current_loop(s.control.current);
       break;
     case control::Mode::speed:
       text = speed_loop(s.control);
@@ -233,7 +240,10 @@ std::string setup_section(const study::Scenario& scenario) {
   if (s.control.drive == study::FirmwareKind::field) add("Field-oriented drive", field(s.control.field));
   if (s.control.mode != control::Mode::off) add("Reference", reference(s));
   if (s.control.drive != study::FirmwareKind::field)
-    add("Commutation", at_edge ? "at the Hall edge" : "at the next sample");
+    add("Commutation", s.control.drive == study::FirmwareKind::sensorless
+                           ? "by the crossings or the angle that the drive finds"
+                       : at_edge ? "at the Hall edge"
+                                 : "at the next sample");
   const bool linear = s.sheet.kind == sixstep::design::MotorKind::linear;
   add(linear ? "Slide" : "Shaft", shaft(s.load, linear));
   if (const std::string text = heat(s.heat); !text.empty()) add("Heat", text);

@@ -149,8 +149,8 @@ std::string_view recipe_note() {
 
 std::string way_text(const analysis::WiringStudy& s, double electrical_deg) {
   const base::LinearUnit unit = motion_of(s).unit("deg");
-  return fmt::format("{:.2g} {}", electrical_deg / s.bench.motor.machine.pole_pairs * unit.factor,
-                     unit.linear);
+  return fmt::format("{:.2g} {}{}", electrical_deg / s.bench.motor.machine.pole_pairs * unit.factor,
+                     unit.linear, motion_of(s).linear ? "" : " of the shaft");
 }
 
 std::string wiring_speed_text(const analysis::WiringStudy& s, double rad_s) {

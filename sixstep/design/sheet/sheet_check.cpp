@@ -27,7 +27,7 @@ constexpr Reason reasons[] = {
     {"nominal_torque_mNm",
      "a rating; makers disagree whether friction is taken off, so K_t is not read from it"},
     {"nominal_current_A", "a rating"},
-    {"stall_torque_mNm", "no part of the motor; a speed loop's torque limit where the scenario gives none"},
+    {"stall_torque_mNm", "no part of the motor: the relations hold it against the others"},
     {"stall_current_A", "follows from U / R"},
     {"max_efficiency_percent", "follows from the other lines"},
     {"speed_torque_gradient_rpm_mNm", "follows from R and K_t"},

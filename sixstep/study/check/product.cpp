@@ -7,6 +7,7 @@
 
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/written.hpp"
+#include "sixstep/design/loops/field_current.hpp"
 #include "sixstep/design/loops/operating_limits.hpp"
 #include "sixstep/study/check/converter_ends.hpp"
 #include "sixstep/study/scenario/choices.hpp"
@@ -158,8 +159,14 @@ std::optional<double> current_limit_A(const Scenario& s, const design::MotorMode
   const std::optional<double>& limit_A = s.control.current.limit_A;
   const double torque =
       s.control.speed.torque_limit_Nm.value_or(design::usual_torque_limit_Nm(motor, s.supply.voltage_V));
-  if (!(motor.K_t_Nm_A > 0.0) || !(torque > 0.0)) return limit_A;
-  return std::min(torque / motor.K_t_Nm_A, limit_A.value_or(HUGE_VAL));
+  double per_A = motor.K_t_Nm_A;
+  if (s.control.drive == FirmwareKind::field) {
+    const design::FieldMachine machine = design::field_machine(motor, s.sheet);
+    if (machine.L_d_H != machine.L_q_H) return std::nullopt;  // its torque is no multiple of its current
+    per_A = design::torque_per_q_A(machine);
+  }
+  if (!(per_A > 0.0) || !(torque > 0.0)) return limit_A;
+  return std::min(torque / per_A, limit_A.value_or(HUGE_VAL));
 }
 
 void check_product(const Scenario& s, const std::optional<design::MotorModel>& motor, base::Problems& out) {
