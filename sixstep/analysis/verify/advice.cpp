@@ -120,6 +120,7 @@ std::string rescue(const DesignOrder& order, const DriveDesign& d) {
   };
   std::vector<DesignSpec> dear;
   for (const DesignSpec& spec : on_this_bus_or_others(order, d)) {
+    if (order.keep_going && !order.keep_going()) return "";
     const std::optional<DriveDesign> next = in_closed_form(order, spec);
     if (!next) continue;
     // One that would take most of the budget waits until the cheap ones have been tried.
@@ -195,6 +196,7 @@ void advise(const DesignOrder& order, base::Problems& problems) {
 }
 
 void advise(const DesignOrder& order, DesignStudy& study) {
+  if (order.keep_going && !order.keep_going()) return;
   if (study.usable())
     advise_usable(order, study);
   else
