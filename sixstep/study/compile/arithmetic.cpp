@@ -203,10 +203,12 @@ base::Result<FieldIn<Scalar>> field_in(const Compiled& c) {
 
 template base::Result<FieldIn<double>> field_in(const Compiled&);
 template base::Result<FieldIn<float>> field_in(const Compiled&);
+// NOLINTBEGIN(bugprone-macro-parentheses): a type in parentheses is none
 #define SIXSTEP_DRIVES_IN(Scalar)                                                              \
   template base::Result<SensorlessIn<Scalar>> sensorless_in(const Scenario&, const Compiled&); \
   template base::Result<ProductIn<Scalar>> product_in(const Scenario&, const Compiled&);       \
   template base::Result<DriveIn<Scalar>> drive_in(const Scenario&, const Compiled&);
+// NOLINTEND(bugprone-macro-parentheses)
 #define SIXSTEP_DRIVES_IN_FIXED(Format) SIXSTEP_DRIVES_IN(control::Format)
 SIXSTEP_DRIVES_IN(double)
 SIXSTEP_DRIVES_IN(float)
