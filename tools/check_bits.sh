@@ -36,7 +36,7 @@ table=(tests/digest/main.cpp tests/digest/cases.cpp tests/digest/sessions.cpp)
 sources=("${library[@]}" "${table[@]}")
 # What reads a scenario, and what of text/ has only to compile.
 mapfile -t reader < <(find text/sources.cpp text/keys text/toml text/motor/motor_library.cpp \
-  text/recording/{cells,column_formula,columns,decimal_marks,encoding,heading,known_names,preamble,recording,row_reader,table_head,times}.cpp \
+  text/recording/{bench_columns,cells,column_formula,columns,decimal_marks,encoding,heading,known_names,preamble,recording,row_reader,table_head,times}.cpp \
   text/scenario/{scenario_file,scenario_family,sheet_source,reference_file,motion_words}.cpp -name '*.cpp' | LC_ALL=C sort)
 mapfile -t rest < <(find text -name '*.cpp' | LC_ALL=C sort | grep -vxF "$(printf '%s\n' "${reader[@]}")")
 # What decides about bits is what CMakeLists.txt gives the product. The rest shows that no exception is needed.
