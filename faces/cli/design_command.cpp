@@ -56,7 +56,8 @@ design::RotorSensing rotor_of(const DesignArguments& a, const study::Scenario* s
   rotor.edges = a.edges.value_or(rotor.edges);
   rotor.capture_Hz = a.capture_Hz.value_or(rotor.capture_Hz);
   if (rotor.shaft.kind == design::ShaftSensorKind::encoder)
-    rotor.shaft.capture_Hz = a.capture_Hz.value_or(rotor.shaft.capture_Hz);
+    rotor.shaft.capture_Hz =
+        a.capture_Hz.value_or(scenario ? rotor.shaft.capture_Hz : design::usual_encoder_capture_Hz);
   return rotor;
 }
 
@@ -258,7 +259,7 @@ void declare_options(CLI::App& design, DesignArguments& a) {
                     "speed, position: Hall edges that a speed is taken over, 1 to 6; else 6 or 1, adaptive");
   design.add_option("--capture", a.capture_Hz,
                     "speed, position: clock of the timer that captures the edges of Hall probes or an "
-                    "encoder, in Hz; 1e6");
+                    "encoder, in Hz; 1e6, of an encoder 16e6");
   design.add_option("--lowest-speed", a.lowest_speed_rad_s,
                     "speed, position: that is to be held, in rad/s or m/s; a tenth of what the bus reaches");
   design.add_option("--currents", a.currents, "phases, dc-link or ideal; phases");

@@ -44,17 +44,16 @@ void take_period(DesignSpec& w, double period_s) {
 
 bool has_speed_loop(const DesignSpec& w) { return w.mode != Mode::current; }
 
-/// As the command line's option makes it, on the board at hand.
+/// On the board at hand, or on a usual one.
 design::RotorSensing encoder(const DesignOrder& order, double period_s) {
   study::Scenario board = order.subject.board.value_or(study::Scenario{});
   board.pwm.period_s = period_s;
   board.sensors = with_rotor(board.sensors, study::RotorSensing::encoder, period_s);
   board.control.drive = study::FirmwareKind::lean;
-  return rotor_sensing_of(board);
+  design::RotorSensing rotor = rotor_sensing_of(board);
+  if (!order.subject.board) rotor.shaft.capture_Hz = design::usual_encoder_capture_Hz;
+  return rotor;
 }
-
-/// Timers of the chips that drives are built on run at some tens of MHz.
-constexpr double fast_capture_Hz = 16e6;
 
 /// Clock of the timer that the sensor's edges are captured by; null where it has none.
 double* capture_of(design::RotorSensing& rotor) {
@@ -66,10 +65,10 @@ double* capture_of(design::RotorSensing& rotor) {
 void add_finer(const DesignSpec& w, const DriveDesign& d, std::vector<DesignSpec>& out) {
   if (!design::is_grainy(d)) return;
   DesignSpec next = w;
-  if (double* capture = capture_of(next.rotor); capture && *capture > 0.0 && *capture < fast_capture_Hz) {
-    *capture = fast_capture_Hz;
-    out.push_back(next);
-  }
+  double* const capture = capture_of(next.rotor);
+  if (!capture || !(*capture > 0.0 && *capture < design::usual_encoder_capture_Hz)) return;
+  *capture = design::usual_encoder_capture_Hz;
+  out.push_back(next);
 }
 
 void slow_down(DesignSpec& w, const DriveDesign& d, double times) {
@@ -208,9 +207,9 @@ std::vector<DesignSpec> joint_changes(const DesignOrder& order, const DriveDesig
   if (base.rotor.hall && base.mode != Mode::current) {
     base.rotor = encoder(order, base.period_s);
     out.push_back(base);
-    DesignSpec finer = base;
-    if (double* capture = capture_of(finer.rotor)) {
-      *capture = std::max(*capture, fast_capture_Hz);
+    if (base.rotor.shaft.capture_Hz < design::usual_encoder_capture_Hz) {
+      DesignSpec finer = base;
+      finer.rotor.shaft.capture_Hz = design::usual_encoder_capture_Hz;
       out.push_back(finer);
     }
     slow_down(base, d, 2.0);
@@ -228,13 +227,15 @@ std::string words_of_change(const DesignSpec& before, const DesignSpec& after) {
                           const std::optional<double>& is) {
     if (is && was != is) say(name, base::written(*is));
   };
-  if (after.rotor.shaft.kind != before.rotor.shaft.kind)
+  const bool to_encoder = after.rotor.shaft.kind != before.rotor.shaft.kind;
+  if (to_encoder)
     say("rotor", before.rotor.hall && before.rotor.edges > 0 ? "encoder without edges" : "encoder");
-  const DesignSpec& b = before;
-  const double was_Hz = b.rotor.hall ? b.rotor.capture_Hz : b.rotor.shaft.capture_Hz;
-  const double is_Hz = after.rotor.hall ? after.rotor.capture_Hz : after.rotor.shaft.capture_Hz;
-  if (is_Hz > 0.0 && is_Hz != was_Hz && is_Hz != design::usual_capture_Hz)
-    say("capture_Hz", base::written(is_Hz));
+  const auto clock_of = [](const design::RotorSensing& r) {
+    return r.hall ? r.capture_Hz : r.shaft.capture_Hz;
+  };
+  const double is_Hz = clock_of(after.rotor);
+  const double was_Hz = to_encoder ? design::usual_encoder_capture_Hz : clock_of(before.rotor);
+  if (is_Hz > 0.0 && is_Hz != was_Hz) say("capture_Hz", base::written(is_Hz));
   if (after.method != before.method) say("method", "cancellation");
   number("period_s", before.period_s, after.period_s);
   if (after.chopping != before.chopping)

@@ -46,8 +46,9 @@ struct DesignSpec {
 /// Settling time of a current loop that nobody gives one: 1 ms, or 8 L/R where that is shorter. In s.
 double usual_current_settle_s_of(const MotorModel& motor);
 
-/// Clock of the timer that captures a sensor's edges, as a scenario's sensors have it where nobody says.
-inline constexpr double usual_capture_Hz = 1e6;
+/// Clock of the timer that captures a sensor's edges where nobody says: of Hall probes as a scenario's sensors have it, of an encoder's
+/// many more edges that of an ordinary chip, of which a tick is small beside a control period.
+inline constexpr double usual_capture_Hz = 1e6, usual_encoder_capture_Hz = 16e6;
 
 /// A spec as for a board that is built: Hall probes, and a command that counts one period late.
 inline DesignSpec on_a_board() {
