@@ -8,6 +8,7 @@
 #include "sixstep/base/angle.hpp"
 #include "sixstep/study/run/run.hpp"
 #include "tests/support/bench.hpp"
+#include "tests/support/figures.hpp"
 
 namespace SIXSTEP_TEST_FILE {
 
@@ -20,15 +21,6 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-study::Outcome outcome_of(const Scenario& s) {
-  const auto out = study::run(s);
-  if (!out) {
-    ADD_FAILURE() << to_string(out.problems()[0]);
-    return {};
-  }
-  return *out;
-}
-
 /// The number behind a word of the first remark that has it.
 double number_behind(const std::vector<std::string>& remarks, const std::string& word) {
   for (const std::string& text : remarks)
@@ -36,13 +28,6 @@ double number_behind(const std::vector<std::string>& remarks, const std::string&
       return std::stod(text.substr(at + word.size()));
   ADD_FAILURE() << "no remark has: " << word;
   return NAN;
-}
-
-study::Measure measure_of(study::MetricKind kind, study::Signal signal) {
-  study::Measure m;
-  m.metric = kind;
-  m.signal = signal;
-  return m;
 }
 
 /// Held still at 20 A, by a battery of so many ampere hours.
@@ -66,7 +51,7 @@ TEST(LimitRemarks, ABatteryIsEmptyWhenWhatItHadHasFlowed) {
   const auto remarks = outcome_of(s).remarks;
   const double empty_s = number_behind(remarks, "empty at t = ");
   s.duration_s = empty_s;
-  s.compare = {{measure_of(study::MetricKind::mean, study::Signal::source_current), 0.0, ""}};
+  s.compare = {{measure(study::MetricKind::mean, study::Signal::source_current), 0.0, ""}};
   const double flowed_As = outcome_of(s).comparisons.at(0).measured * empty_s;
   EXPECT_NEAR(flowed_As, 0.5 * 1e-3 * 3600, 0.01 * flowed_As);
   EXPECT_THAT(outcome_of(on_battery(1.0, 0.5)).remarks, Not(Contains(HasSubstr("battery was"))));
@@ -89,7 +74,7 @@ TEST(LimitRemarks, ARotorFasterThanItsSheetAllows) {
   Scenario s = maxon_scenario(Mode::duty, 1.0);
   s.initial.speed_rad_s = 650;
   s.duration_s = 20e-3;
-  s.compare = {{measure_of(study::MetricKind::maximum, study::Signal::speed), 0.0, ""}};
+  s.compare = {{measure(study::MetricKind::maximum, study::Signal::speed), 0.0, ""}};
   s.sheet.max_speed_rpm = base::Quantity{.value = 6000.0};
   const study::Outcome out = outcome_of(s);
   EXPECT_NEAR(number_behind(out.remarks, "the rotor reached "), out.comparisons.at(0).measured, 1.0);
@@ -107,7 +92,7 @@ TEST(LimitRemarks, ABusThatIsPumpedUp) {
   s.supply.resistance_ohm = 0.05;
   s.supply.capacitance_F = 1e-3;
   s.supply.sinks = false;
-  s.compare = {{measure_of(study::MetricKind::maximum, study::Signal::bus_voltage), 0.0, ""}};
+  s.compare = {{measure(study::MetricKind::maximum, study::Signal::bus_voltage), 0.0, ""}};
   const study::Outcome out = outcome_of(s);
   const double rose_V = number_behind(out.remarks, "the bus rose to ");
   const double J = out.motor.shaft.J_kg_m2, most_V = std::sqrt(24.0 * 24.0 + J * 600 * 600 / 1e-3);

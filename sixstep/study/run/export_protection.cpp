@@ -73,13 +73,13 @@ void look_at_stall_time(const Scenario& s, const design::MotorModel& motor, cons
 
 void look_at_over_speed(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
   const std::optional<double>& over = s.protection.over_speed_rad_s;
-  double fastest = beyond_no_load * highest_open_V(s.supply) / motor.K_t_Nm_A;
+  double fastest = beyond_no_load * highest_open_V(s) / motor.K_t_Nm_A;
   for (const Level& level : reference_levels(s))
     if (s.control.mode == Mode::speed) fastest = std::max(fastest, beyond_no_load * std::fabs(level.value));
   if (!over || *over <= fastest) return;
   out.push_back({"protection.over_speed_rad_s", written(*over),
                  "protects nothing: the bus turns the motor at " +
-                     base::three_digits(highest_open_V(s.supply) / motor.K_t_Nm_A) + " rad/s without a load",
+                     base::three_digits(highest_open_V(s) / motor.K_t_Nm_A) + " rad/s without a load",
                  "lower it to what motor and machine stand"});
 }
 

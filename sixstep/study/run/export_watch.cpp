@@ -18,9 +18,6 @@ using base::written;
 
 constexpr Signal phases[] = {Signal::phase_a, Signal::phase_b, Signal::phase_c};
 
-/// A rise of the bus above its source that needs no word: ringing of a line, the ripple of the capacitor.
-constexpr double usual_rise = 1.25;
-
 void watch(MetricKind metric, Signal signal, Scenario& s) {
   Measure m;
   m.metric = metric;
@@ -30,11 +27,10 @@ void watch(MetricKind metric, Signal signal, Scenario& s) {
 
 /// The highest bus that the scenario itself allows for.
 double allowed_bus_V(const Scenario& s) {
-  double allowed = usual_rise * highest_open_V(s.supply);
-  for (const At& at : s.at) allowed = std::fmax(allowed, usual_rise * at.supply.voltage_V.value_or(0.0));
+  double allowed = risen_part * highest_open_V(s);
   allowed = std::fmax(allowed, s.protection.over_voltage_V.value_or(0.0));
-  allowed = std::fmax(allowed, usual_rise * s.control.regeneration.limit_V.value_or(0.0));
-  if (s.supply.brake_resistance_ohm > 0) allowed = std::fmax(allowed, usual_rise * s.supply.brake_on_V);
+  allowed = std::fmax(allowed, risen_part * s.control.regeneration.limit_V.value_or(0.0));
+  if (s.supply.brake_resistance_ohm > 0) allowed = std::fmax(allowed, risen_part * s.supply.brake_on_V);
   for (const Requirement& r : s.require)
     if (r.measure.signal == Signal::bus_voltage && r.measure.metric == MetricKind::maximum && r.max)
       allowed = std::fmax(allowed, *r.max);
@@ -106,7 +102,7 @@ void look_at_bus(const Scenario& s, const SeenPeaks& peaks, bool is_read, base::
   if (peaks.bus_V <= allowed_bus_V(s)) return;
   out.push_back(
       {"the bus", bus + " V",
-       "is what braking raised it to, from " + base::three_digits(highest_open_V(s.supply)) +
+       "is what braking raised it to, from " + base::three_digits(highest_open_V(s)) +
            " V, and nothing bounds it",
        "give supply.brake_resistance_ohm, control.regeneration.limit_V or more supply.capacitance_F, "
        "or say in [[require]] how high the maximum of bus_voltage may be"});

@@ -13,20 +13,16 @@
 namespace sixstep::study {
 namespace {
 
-std::string few(double x) {
-  return std::fabs(x) < 1000.0 ? base::three_digits(x) : std::to_string(std::llround(x));
-}
-
 std::string on_battery(const Scenario& s, const RunWatch& w) {
   if (s.supply.source != SourceKind::battery) return {};
   if (w.empty_s)
-    return "the battery was empty at t = " + few(*w.empty_s) + " s, and its charge went down to " +
-           few(w.lowest_charge) +
+    return "the battery was empty at t = " + few_digits(*w.empty_s) + " s, and its charge went down to " +
+           few_digits(w.lowest_charge) +
            ": what flowed after that it does not have; give a larger supply.battery_capacity_Ah or "
            "battery_charge, or a shorter run";
   if (w.full_s)
-    return "the battery was full at t = " + few(*w.full_s) + " s, and its charge went up to " +
-           few(w.highest_charge) +
+    return "the battery was full at t = " + few_digits(*w.full_s) + " s, and its charge went up to " +
+           few_digits(w.highest_charge) +
            ": it cannot take what flowed back after that; begin with a lower supply.battery_charge, or give it "
            "a chopper";
   return {};
@@ -42,20 +38,11 @@ std::string on_fastest(const Scenario& s, const RunWatch& w) {
   if (!(w.fastest_rad_s > past * allowed)) return {};
   const bool linear = s.sheet.kind == design::MotorKind::linear;
   const auto in_rpm = [&](double rad_s) {
-    return linear ? few(rad_s) + " m/s"
-                  : few(rad_s) + " rad/s (" + few(rad_s * base::rpm_per_rad_s) + " rpm)";
+    return linear ? few_digits(rad_s) + " m/s"
+                  : few_digits(rad_s) + " rad/s (" + few_digits(rad_s * base::rpm_per_rad_s) + " rpm)";
   };
   return std::string(linear ? "the slide" : "the rotor") + " reached " + in_rpm(w.fastest_rad_s) +
          ", and the sheet allows " + in_rpm(allowed);
-}
-
-/// Without current drawn; the highest of the run.
-double open_V(const Scenario& s) {
-  if (s.supply.source == SourceKind::battery) return open_circuit_V(s.supply, s.supply.battery_charge);
-  if (s.supply.source != SourceKind::steady) return highest_open_V(s.supply);
-  double highest = s.supply.voltage_V;
-  for (const At& at : s.at) highest = std::max(highest, at.supply.voltage_V.value_or(0.0));
-  return std::max(highest, s.initial.bus_V.value_or(0.0));
 }
 
 std::string on_bus(const Scenario& s, const RunWatch& w) {
@@ -65,9 +52,9 @@ std::string on_bus(const Scenario& s, const RunWatch& w) {
                        return at.supply.sinks == false;
                      });
   const bool caught = s.supply.brake_resistance_ohm > 0.0 || s.control.regeneration.limit_V;
-  const double open = open_V(s);
+  const double open = highest_open_V(s);
   if (sinks || caught || !(w.highest_bus_V > risen_part * open)) return {};
-  return "the bus rose to " + few(w.highest_bus_V) + " V, " + few(w.highest_bus_V / open) +
+  return "the bus rose to " + few_digits(w.highest_bus_V) + " V, " + few_digits(w.highest_bus_V / open) +
          " times what its source has: the source takes nothing back" +
          (rectifier ? "" : " (supply.sinks = false)") +
          "; give it a chopper (supply.brake_resistance_ohm), a larger supply.capacitance_F or "
@@ -83,13 +70,17 @@ std::string on_cold_winding(const Scenario& s, const Outcome& out) {
   const auto stands_s =
       design::permissible_seconds(*model, {.copper_W = mean_W, .ambient_degC = s.heat.ambient_degC});
   if (!stands_s || !(*stands_s < out.simulated_s)) return {};
-  return "the copper loss of " + few(mean_W) + " W in the mean takes the winding past its limit of " +
-         few(model->max_winding_degC) + " degC within " + few(*stands_s) +
-         " s by the sheet's thermal values, and the run lasts " + few(out.simulated_s) +
+  return "the copper loss of " + few_digits(mean_W) + " W in the mean takes the winding past its limit of " +
+         few_digits(model->max_winding_degC) + " degC within " + few_digits(*stands_s) +
+         " s by the sheet's thermal values, and the run lasts " + few_digits(out.simulated_s) +
          " s; here nothing warms up: heat.motor = true computes it";
 }
 
 }  // namespace
+
+std::string few_digits(double x) {
+  return std::fabs(x) < 1000.0 ? base::three_digits(x) : std::to_string(std::llround(x));
+}
 
 std::vector<std::string> passed_limits(const Scenario& s, const RunWatch& w, const Outcome& out) {
   std::vector<std::string> all;

@@ -11,8 +11,8 @@
 
 namespace sixstep::study {
 
-/// The part of the source's open voltage above which a bus is told to have risen.
-inline constexpr double risen_part = 1.2;
+/// Three digits; of what is larger, whole numbers.
+std::string few_digits(double x);
 
 /// A sentence each, with the numbers and what helps. `outcome` holds the energy books where somebody kept them, and the motor.
 std::vector<std::string> passed_limits(const Scenario& scenario, const RunWatch& watch,

@@ -21,11 +21,6 @@ namespace sixstep::study {
 
 namespace {
 
-/// Three digits, of what is larger whole numbers.
-std::string three_digits(double x) {
-  return std::fabs(x) < 1000.0 ? base::three_digits(x) : std::to_string(std::llround(x));
-}
-
 /// What silicon switches stand by their data sheets: 150 or 175 degC.
 constexpr double usual_junction_limit_degC = 150.0;
 /// A commutation step of fewer control periods is a coarse one: its current is controlled a handful of times.
@@ -34,9 +29,9 @@ constexpr double least_periods_per_step = 5.0;
 constexpr double hidden_part = 0.01;
 
 std::string speed(const Scenario& s, double rad_s) {
-  return three_digits(rad_s) + (s.sheet.kind == design::MotorKind::linear ? " m/s" : " rad/s");
+  return few_digits(rad_s) + (s.sheet.kind == design::MotorKind::linear ? " m/s" : " rad/s");
 }
-std::string ms(double t_s) { return three_digits(1e3 * t_s) + " ms"; }
+std::string ms(double t_s) { return few_digits(1e3 * t_s) + " ms"; }
 
 /// A bus nobody has chosen, beside the voltage that the motor is made for.
 std::string on_supply(const Scenario& s) {
@@ -45,8 +40,8 @@ std::string on_supply(const Scenario& s) {
   if (s.supply.source != SourceKind::steady || s.supply.voltage_V != usual_V || !nominal ||
       std::fabs(nominal->value - usual_V) < 0.1 * usual_V)
     return {};
-  return "the bus is at supply.voltage_V = " + three_digits(usual_V) +
-         " V, which is its default; the motor's nominal voltage is " + three_digits(nominal->value) + " V";
+  return "the bus is at supply.voltage_V = " + few_digits(usual_V) +
+         " V, which is its default; the motor's nominal voltage is " + few_digits(nominal->value) + " V";
 }
 
 /// Time from one sector edge to the next.
@@ -59,11 +54,11 @@ std::string on_shunt(const Scenario& s, const Compiled& c, const RunWatch& w) {
   std::string text =
       std::to_string(w.hidden_samples) + " of " + std::to_string(w.samples) +
       " current samples fell outside of the pulse: the shunt shows a current only above a duty of " +
-      three_digits(w.shunt_least_duty) +
-      " (sensors.shunt_settle_s = " + three_digits(1e6 * s.sensors.shunt_settle_s) + " us)";
+      few_digits(w.shunt_least_duty) +
+      " (sensors.shunt_settle_s = " + few_digits(1e6 * s.sensors.shunt_settle_s) + " us)";
   if (s.pwm.chopping == control::Chopping::soft && w.shunt_least_duty < 1.0)
     text += "; with the rotor at rest that is " +
-            three_digits(w.shunt_least_duty * s.supply.voltage_V / (2 * c.motor.machine.R_ohm)) +
+            few_digits(w.shunt_least_duty * s.supply.voltage_V / (2 * c.motor.machine.R_ohm)) +
             " A, and what is below it is not measured";
   return text;
 }
@@ -122,7 +117,7 @@ bool is_stable_current(const Scenario& s, const Compiled& c, const LoopGains& g)
 std::string on_gains(const LoopGains& g, const std::string& key, double period_s) {
   const double ki = g.d1 + g.d0;
   if (g.origin != "given as kp, ki" || !(ki > g.d1 && g.d1 > 0.0)) return {};
-  return key + ".ki = " + base::six_digits(ki) + " adds " + three_digits(ki / g.d1) +
+  return key + ".ki = " + base::six_digits(ki) + " adds " + few_digits(ki / g.d1) +
          " times kp in each sample; if it comes from a tool whose gains are per second, give ki_per_s = " +
          base::six_digits(ki) + ", which is ki = " + base::six_digits(ki * period_s);
 }
@@ -130,7 +125,7 @@ std::string on_gains(const LoopGains& g, const std::string& key, double period_s
 /// Poles that are slower than the plant's own ask the loop to hold it back.
 std::string on_sign(const LoopGains& g, const std::string& key) {
   if (!(g.d1 < 0.0) || g.origin.starts_with("given")) return {};
-  return "the " + g.loop + " loop's gain on its error is negative, d1 = " + three_digits(g.d1) +
+  return "the " + g.loop + " loop's gain on its error is negative, d1 = " + few_digits(g.d1) +
          ": at a change it first goes the other way; " + key +
          ".settle_s asks for a loop that is slower than what it controls: give a shorter one";
 }
@@ -139,7 +134,7 @@ std::string on_stability(const Scenario& s, const Compiled& c, const LoopGains& 
   const bool pi = s.control.current.type == CurrentLoopType::pi && !(c.field && c.field->finite_set.on);
   if (!g.loop.starts_with("current") || !pi || is_stable_current(s, c, g)) return {};
   return "the " + g.loop + " loop is unstable with its gains (" + g.origin +
-         ") on this motor's R and L at a control period of " + three_digits(1e6 * s.pwm.period_s) +
+         ") on this motor's R and L at a control period of " + few_digits(1e6 * s.pwm.period_s) +
          " us: its current swings between its limits; give smaller gains, or leave them to the design";
 }
 
@@ -152,8 +147,8 @@ double line_peak_V_s(const Compiled& c) {
 std::string on_back_emf(const Scenario& s, const Compiled& c, const RunWatch& w) {
   const double emf_V = line_peak_V_s(c) * w.emf_rad_s;
   if (!(emf_V > 1.01 * w.emf_bus_V)) return {};
-  return "at " + speed(s, w.emf_rad_s) + " the back-EMF of " + three_digits(emf_V) +
-         " V between two terminals is above the bus of " + three_digits(w.emf_bus_V) +
+  return "at " + speed(s, w.emf_rad_s) + " the back-EMF of " + few_digits(emf_V) +
+         " V between two terminals is above the bus of " + few_digits(w.emf_bus_V) +
          " V: without a current against the magnet the diodes feed the bus, whatever the bridge is told";
 }
 
@@ -165,7 +160,7 @@ std::string on_worse_ends(const Scenario& s, const RunWatch& w) {
   const double start = s.heat.winding_degC.value_or(s.heat.ambient_degC);
   const double rise = design::greater_rise(*model, worse->model) * (w.winding_degC - start);
   if (!(start + rise > worse->model.max_winding_degC)) return {};
-  return "the winding stayed below " + three_digits(model->max_winding_degC) +
+  return "the winding stayed below " + few_digits(model->max_winding_degC) +
          " degC by the thermal values of the motor file; by the worse ends of their ranges it may not: repeat it "
          "with [motor_override] " +
          worse->values;
@@ -175,14 +170,14 @@ std::string on_heat(const Scenario& s, const RunWatch& w, const Outcome& out) {
   std::string text;
   const auto& limit = s.sheet.max_winding_temperature_degC;
   if (s.heat.motor && limit && w.winding_degC > limit->value)
-    text = "the winding reached " + three_digits(w.winding_degC) + " degC, and its sheet allows " +
-           three_digits(limit->value) + " degC";
+    text = "the winding reached " + few_digits(w.winding_degC) + " degC, and its sheet allows " +
+           few_digits(limit->value) + " degC";
   else if (s.heat.motor && limit)
     text = on_worse_ends(s, w);
   double junction = s.heat.devices ? w.junction_degC : 0.0;
   for (const DeviceLoss& device : out.devices) junction = std::fmax(junction, device.junction_degC);
   if (junction > usual_junction_limit_degC)
-    text += (text.empty() ? "" : "; ") + ("a switch's junction reached " + three_digits(junction)) +
+    text += (text.empty() ? "" : "; ") + ("a switch's junction reached " + few_digits(junction)) +
             " degC, and most are rated for 150 or 175 degC";
   return text;
 }
@@ -191,7 +186,7 @@ std::string on_steps(const Scenario& s, const Compiled& c, const RunWatch& w) {
   if (s.control.mode == control::Mode::off || w.fastest_rad_s == 0.0) return {};
   const double periods = sector_s(c, w.fastest_rad_s) / s.pwm.period_s;
   if (periods >= least_periods_per_step) return {};
-  return "at " + speed(s, w.fastest_rad_s) + " a commutation step lasts " + three_digits(periods) +
+  return "at " + speed(s, w.fastest_rad_s) + " a commutation step lasts " + few_digits(periods) +
          " control periods: fewer than five samples see it; a shorter pwm.period_s gives more";
 }
 

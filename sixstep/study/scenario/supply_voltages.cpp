@@ -22,4 +22,11 @@ double highest_open_V(const Supply& s) {
              : *std::max_element(s.battery_voltages_V.begin(), s.battery_voltages_V.end());
 }
 
+double highest_open_V(const Scenario& s) {
+  double highest = s.supply.source == SourceKind::battery ? open_circuit_V(s.supply, s.supply.battery_charge)
+                                                          : highest_open_V(s.supply);
+  for (const At& at : s.at) highest = std::max(highest, at.supply.voltage_V.value_or(0.0));
+  return std::max(highest, s.initial.bus_V.value_or(0.0));
+}
+
 }  // namespace sixstep::study
