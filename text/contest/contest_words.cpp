@@ -9,7 +9,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
-#include <utility>
+#include <string_view>
 
 #include "text/contest/contest_text.hpp"
 
@@ -51,6 +51,25 @@ bool are_alike(double a, double b) {
   return std::fabs(b - a) <= alike * std::fmax(std::fabs(a), std::fabs(b));
 }
 
+/// All that hold the course and count as alike with the least.
+std::vector<std::size_t> sharing(const Contest& c, std::size_t figure, double least) {
+  std::vector<std::size_t> who;
+  for (std::size_t n = 0; n < c.rows.size(); ++n)
+    if (c.rows[n].nominal_held && std::isfinite(c.rows[n].values[figure]) &&
+        are_alike(least, c.rows[n].values[figure]))
+      who.push_back(n);
+  return who;
+}
+
+/// "a, b and c share", or of many "7 controllers share".
+std::string who_share(const Contest& c, const std::vector<std::size_t>& who) {
+  constexpr std::size_t most_named = 4;
+  if (who.size() > most_named) return fmt::format("{} controllers share", who.size());
+  std::vector<std::string_view> names;
+  for (std::size_t n = 0; n + 1 < who.size(); ++n) names.push_back(c.entries[who[n]].who->name);
+  return fmt::format("{} and {} share", fmt::join(names, ", "), c.entries[who.back()].who->name);
+}
+
 /// One alone of several that hold the course has the figure: the rest never settle.
 bool is_alone(const Contest& c, std::size_t figure) {
   std::size_t have = 0, never = 0;
@@ -65,7 +84,7 @@ bool is_alone(const Contest& c, std::size_t figure) {
 /// "NAME has the least rms torque ripple (1.2 mN m; next NAME, 2.3 times)": what it leads in clearly, and why.
 std::vector<std::string> winners(const Contest& c) {
   std::vector<std::vector<std::string>> wins(c.rows.size());
-  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::string>> even;  // by who shares them
+  std::map<std::vector<std::size_t>, std::vector<std::string>> even;  // by who shares them
   for (std::size_t f = 0; f < std::size(contest_figures); ++f) {
     const Ranked r = ranked(c, f, [](std::size_t) { return true; });
     if (r.first && is_alone(c, f))
@@ -74,7 +93,7 @@ std::vector<std::string> winners(const Contest& c) {
     if (!r.first || !r.second) continue;
     const double least = c.rows[*r.first].values[f], next = c.rows[*r.second].values[f];
     if (are_alike(least, next))
-      even[std::minmax(*r.first, *r.second)].emplace_back(contest_figures[f].phrase);
+      even[sharing(c, f, least)].emplace_back(contest_figures[f].phrase);
     else
       wins[*r.first].push_back(fmt::format(
           "{} ({}, the next {})", contest_figures[f].phrase, contest_value(least, contest_figures[f]),
@@ -86,8 +105,7 @@ std::vector<std::string> winners(const Contest& c) {
       out.push_back(fmt::format("{} has the least {}. It {}.", c.entries[n].who->name,
                                 fmt::join(wins[n], ", "), c.entries[n].who->sentence));
   for (const auto& [who, figures] : even)
-    out.push_back(fmt::format("{} and {} share the least {}.", c.entries[who.first].who->name,
-                              c.entries[who.second].who->name, fmt::join(figures, ", ")));
+    out.push_back(fmt::format("{} the least {}, within 5 %.", who_share(c, who), fmt::join(figures, ", ")));
   return out;
 }
 

@@ -38,9 +38,19 @@ std::string name(std::size_t who) { return std::string(analysis::contestants()[w
 
 TEST(ContestWords, WhoSharesAFigureIsNamed) {
   const auto told = words({{0, 1.0, 5.0}, {1, 2.0, 3.0}, {2, 3.0, 3.01}});
-  EXPECT_THAT(told, Contains(name(1) + " and " + name(2) + " share the least loss in all."));
+  EXPECT_THAT(told, Contains(name(1) + " and " + name(2) + " share the least loss in all, within 5 %."));
   EXPECT_THAT(told, Contains(HasSubstr(name(0) + " has the least ")));
   EXPECT_THAT(told, Not(Contains(HasSubstr("first two"))));
+}
+
+/// Whoever is within a twentieth of the least is named, not the best two alone; of more than four their number stands.
+TEST(ContestWords, AllWhoShareAFigureAreNamed) {
+  EXPECT_THAT(
+      words({{0, 1.0, 3.1}, {1, 2.0, 3.0}, {2, 3.0, 3.01}, {3, 4.0, 3.2}}),
+      Contains(name(0) + ", " + name(1) + " and " + name(2) + " share the least loss in all, within 5 %."));
+  EXPECT_THAT(
+      words({{0, 1.0, 3.1}, {1, 2.0, 3.0}, {2, 3.0, 3.01}, {3, 4.0, 3.1}, {4, 5.0, 3.05}, {5, 6.0, 9.0}}),
+      Contains("5 controllers share the least loss in all, within 5 %."));
 }
 
 TEST(ContestWords, AgainstNothingStandsAValue) {
