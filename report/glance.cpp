@@ -45,8 +45,7 @@ std::string closest(const Outcome& outcome) {
     if (room(v) && (!tightest || *room(v) < *room(*tightest))) tightest = &v;
   if (!tightest) return "";
   return answer("Closest requirement",
-                fmt::format("{}: {} of its room is left", with_subscripts(tightest->figure),
-                            percent(*room(*tightest))));
+                fmt::format("{}: {}", with_subscripts(tightest->figure), escaped(room_words(*tightest))));
 }
 
 /// Where two samples that follow each other never had the whole of it.

@@ -28,16 +28,14 @@ std::string linked(const IndexEntry& entry) {
 
 std::string anchor(std::size_t place) { return fmt::format("e{}", place + 1); }
 
-/// The requirement that has least room left, and how much.
+/// The requirement that is nearest to its limit, and how near.
 std::string closest_cell(const sixstep::study::Outcome& outcome) {
   const sixstep::study::Verdict* tightest = nullptr;
   for (const auto& v : outcome.verdicts)
     if (room(v) && (!tightest || *room(v) < *room(*tightest))) tightest = &v;
   if (!tightest) return "";
   return fmt::format("{}<small class=\"aside\">{}</small>", with_subscripts(tightest->figure),
-                     *room(*tightest) < 0.0
-                         ? "not met"
-                         : plain(100.0 * *room(*tightest), 2, true) + "\u00a0% of its room left");
+                     *room(*tightest) < 0.0 ? "not met" : escaped(room_words(*tightest)));
 }
 
 /// The comparison that is furthest off, in parts of what the other says.

@@ -78,7 +78,8 @@ double leakage(double lines) { return lines > 1.2 ? 1 / (pi * lines * (lines * l
 std::vector<Tone> tones_of(const Values& a) {
   const double floor = a.empty() ? 0.0 : 1e-3 * std::ranges::max(a);
   std::vector<Tone> peaks, tones;
-  for (std::size_t k = 1; k + 1 < a.size(); ++k)
+  // Not the first line: a drift over the stretch shows there, too.
+  for (std::size_t k = 2; k + 1 < a.size(); ++k)
     if (a[k] > floor && a[k] > a[k - 1] && a[k] >= a[k + 1]) peaks.push_back(tone_at(a, k));
   std::ranges::stable_sort(peaks, [](const Tone& p, const Tone& q) { return p.amplitude > q.amplitude; });
   for (const Tone& p : peaks) {

@@ -34,7 +34,8 @@ struct Lines {
   double spacing_Hz = 0.0, cell_s = 0.0;
   std::vector<double> amplitude{};  ///< up to an eighth of the cells' frequency; [0], the mean, is 0
   std::vector<Tone>
-      tones{};  ///< the strongest first, none below a thousandth of it or in the leakage of a stronger one
+      tones{};  ///< the strongest first, none below a thousandth of it, in the leakage of a stronger one, or on
+                ///< the first line, where a drift shows, too
 };
 /// Of the straight lines between the rows, averaged exactly over equal cells no longer than `cell_s` (which
 /// damps what lies above their frequency instead of folding it down; the damping below is divided out again).

@@ -69,6 +69,13 @@ std::optional<double> room(const Verdict& v) {
   return (v.max ? limit - v.measured : v.measured - limit) / std::abs(limit);
 }
 
+std::string room_words(const Verdict& v) {
+  if (v.min && v.max)
+    return computed(std::min(*v.max - v.measured, v.measured - *v.min), v.unit) +
+           " from the nearer of its limits";
+  return plain(100.0 * *room(v), 2, true) + "\u00a0% " + (v.max ? "below" : "above") + " its limit";
+}
+
 std::string requirement_rows(const Outcome& outcome) {
   std::string html;
   for (const Verdict& v : outcome.verdicts) {

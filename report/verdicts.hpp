@@ -19,6 +19,8 @@ Standing standing(const sixstep::study::Outcome& outcome);
 /// How much of the way from the middle of the limits to the nearer one is left, or from nothing to a single
 /// limit; below zero where it is not met. Empty where that says nothing.
 std::optional<double> room(const sixstep::study::Verdict& verdict);
+/// "1.5 % below its limit", "0.2 A from the nearer of its limits"; of a verdict that has room, met.
+std::string room_words(const sixstep::study::Verdict& verdict);
 
 /// Rows of the requirement table: mark, figure, required, measured, place within the limits.
 std::string requirement_rows(const sixstep::study::Outcome& outcome);

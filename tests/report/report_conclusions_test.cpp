@@ -180,7 +180,7 @@ TEST(Conduction, a_leg_carries_the_current_of_the_phase_that_hangs_at_it) {
 TEST(Glance, answers_what_a_reader_asks_first) {
   SyntheticRun run = synthetic_run(0.02);
   std::string html = page(run);
-  EXPECT_THAT(html, HasSubstr("Closest requirement</dt><dd>largest current: 1.5\u00a0% of its room is left"));
+  EXPECT_THAT(html, HasSubstr("Closest requirement</dt><dd>largest current: 1.5\u00a0% below its limit"));
   EXPECT_THAT(html, HasSubstr("Current in its step from 5\u00a0A to −5\u00a0A"));
   EXPECT_THAT(html, HasSubstr("given as d1, d0; pole placement says 4.0956, −3.694"));
   EXPECT_THAT(html, HasSubstr("<h2>What it cost</h2>"));
@@ -277,6 +277,18 @@ TEST(Spectrum, a_weak_tone_near_a_strong_one_is_found_and_leakage_is_none) {
   ASSERT_EQ(both.size(), 2u);
   EXPECT_NEAR(both[1].line, 23.9, 0.2);
   EXPECT_NEAR(both[1].amplitude, 0.2, 0.03);
+}
+
+TEST(Spectrum, a_drift_is_no_tone) {
+  std::vector<double> time, values;
+  for (int n = 0; n <= 4096; ++n) {
+    const double t = n / 4096.0;
+    time.push_back(t);
+    values.push_back(std::exp(-3 * t) + 0.05 * std::sin(2 * M_PI * 30 * t));
+  }
+  const std::vector<Tone> tones = lines_of(time, values, {0, 1}, 1.0 / 4096).tones;
+  ASSERT_EQ(tones.size(), 1u);
+  EXPECT_NEAR(tones[0].line, 30, 0.05);
 }
 
 TEST(Spectrum, is_taken_over_whole_electrical_turns_of_the_last_setpoint) {
