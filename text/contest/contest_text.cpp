@@ -9,6 +9,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "sixstep/base/written.hpp"
 #include "text/escape/csv_cell.hpp"
 #include "text/escape/escape.hpp"
 #include "text/escape/json_number.hpp"
@@ -172,8 +173,11 @@ std::string contest_text(const Contest& c) {
                         c.plan.drives) +
             tables(c, worst_of);
   text += fmt::format(
-      "\n  * least of those that hold the course; lowest: speed still held against the rated torque, by halves; tick, flash: {} {}, instructions at worst and bytes\n\n",
-      contest_core, arithmetic);
+      "\n  * least of those that hold the course\n"
+      "  lowest: speed still held against the rated torque, by halves\n"
+      "  ripple to turn-ons: at the rated speed against half of the rated torque; slow swing, slow ripple: at {} rad/s against all of it\n"
+      "  tick, flash: {} {}, instructions at worst and bytes\n\n",
+      base::rounded(c.bench.course.slow_rad_s, 4), contest_core, arithmetic);
   for (const std::string& note : contest_notes(c)) text += paragraph(note);
   for (const std::string& line : contest_words(c)) text += paragraph(line);
   return text;

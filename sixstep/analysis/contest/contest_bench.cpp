@@ -178,6 +178,8 @@ std::vector<std::string> rules_of(const ContestBench& b) {
           "one speed loop asked for, settled in " + n(b.design.spec.settle_s.value_or(0) * 1e3) +
               " ms, and one current loop, in " + n(s.control.current.settle_s.value_or(0) * 1e3) +
               " ms, by pole placement with damping " + n(b.design.spec.damping),
+          "one rated torque, " + n(b.course.rated_Nm * 1e3) + " mN m, that of " +
+              design::nominal_current_words(b.design) + ", " + n(b.design.nominal_current_A) + " A",
           "one course: to " + n(b.course.rated_rad_s) + " rad/s against " + n(b.course.rated_Nm * 500) +
               " mN m, at " + n(b.course.load_at_s * 1e3) + " ms " + n(b.course.rated_Nm * 1e3) +
               " mN m, at " + n(b.course.slow_at_s * 1e3) + " ms down to " + n(b.course.slow_rad_s) +
