@@ -70,7 +70,11 @@ TEST(Commission, FindsTheMotorsOfTheLibraryWithinItsBounds) {
     // A bound that says nothing would hold, too.
     EXPECT_LT(s->bounds.R_part, 0.01) << on.motor;
     EXPECT_LT(s->bounds.L_part, 0.05) << on.motor;
-    EXPECT_LT(s->bounds.flux_part, 0.08) << on.motor;
+    // A salient rotor's current along and across the magnet is not told apart: its bound is wide, what is found is not.
+    EXPECT_LT(is.beyond_L_H > 0 ? std::fabs(s->found.flux_linkage_Vs / is.flux_linkage_Vs - 1)
+                                : s->bounds.flux_part,
+              is.beyond_L_H > 0 ? 0.02 : 0.08)
+        << on.motor;
     EXPECT_LT(s->bounds.edge_deg, 10.0) << on.motor;
   }
 }

@@ -53,7 +53,7 @@ std::string numbers(const CommissionStudy& s) {
     }
   }
   return rows.text() +
-         "Resistance is that of a phase and a switch, inductance a phase's along the magnet, angles are electrical.\n";
+         "Resistance is that of a phase and its leg: a switch, and a diode in dead time. Inductance is a phase's along the magnet. Angles are electrical.\n";
 }
 
 std::string lines(const CommissionStudy& s) {
