@@ -101,8 +101,14 @@ void of_idle_loops(const Scenario& s, Unused& out) {
   idle("control.speed.ki", x.ki, usual.ki);
   idle("control.speed.ki_per_s", x.ki_per_s, usual.ki_per_s);
   idle("control.speed.torque_limit_Nm", x.torque_limit_Nm, usual.torque_limit_Nm);
-  if (s.control.mode == Mode::current)  // of off and duty it is refused with its loop
-    idle("control.current.limit_A", s.control.current.limit_A, std::optional<double>());
+  idle("control.current.limit_A", s.control.current.limit_A, std::optional<double>());
+  if (comes_into(s, Mode::current)) return;
+  constexpr char open[] = "control.mode has no current loop";
+  const CurrentLoop none, &y = s.control.current;
+  out.add("control.current.settle_s", y.settle_s, none.settle_s, open);
+  out.add("control.current.damping", y.damping, none.damping, open);
+  out.add("control.current.back_emf_feed_forward", y.back_emf_feed_forward, none.back_emf_feed_forward, open);
+  out.add("control.current.measured_bus_from_V", y.measured_bus_from_V, none.measured_bus_from_V, open);
 }
 
 /// Lines of the sheet that the scenario overrides, and that the model is not made of. Others stand for what a run shows or chooses: a

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "sixstep/study/check/unused_list.hpp"
+#include "sixstep/study/scenario/changes.hpp"
 
 namespace sixstep::study {
 namespace {
@@ -18,6 +21,13 @@ bool draws_nothing(const Scenario& s) {
   return x.currents == rig::CurrentMeasurement::ideal && x.bus == BusSensing::ideal &&
          x.rotor == RotorSensing::ideal && !(x.hall_glitches_Hz > 0) &&
          s.control.drive != FirmwareKind::sensorless && s.spread.empty();
+}
+
+/// Of the lean drive: others watch it, or go by it.
+bool is_bus_unread(const Scenario& s) {
+  const auto reads = [](const Control& c) { return c.current.measured_bus_from_V || c.regeneration.limit_V; };
+  return s.control.drive == FirmwareKind::lean && !reads(s.control) &&
+         std::none_of(s.at.begin(), s.at.end(), [&](const At& at) { return retunes(at); });
 }
 
 void of_shaft_sensors(const Scenario& s, Unused& out) {
@@ -78,8 +88,8 @@ void unused_of_sensors(const Scenario& s, Unused& out) {
     if (no_bus && no_terminals && x.rotor != RotorSensing::resolver)
       out.add("sensors.adc_bits", x.adc_bits, usual.adc_bits, "nothing is converted");
   }
-  if (no_bus && no_terminals) {  // a terminal's channel is as the bus's is
-    constexpr char reason[] = "sensors.bus is ideal";
+  if ((no_bus && no_terminals) || is_bus_unread(s)) {  // a terminal's channel is as the bus's is
+    const char* const reason = no_bus ? "sensors.bus is ideal" : "the drive does not read the bus";
     out.add("sensors.bus_offset_V", x.bus_offset_V, usual.bus_offset_V, reason);
     out.add("sensors.bus_noise_V", x.bus_noise_V, usual.bus_noise_V, reason);
     out.add("sensors.bus_gain_error", x.bus_gain_error, usual.bus_gain_error, reason);
