@@ -128,6 +128,7 @@ base::Problems write(const analysis::DesignStudy& s, const DesignArguments& a, D
   study::Scenario scenario = s.scenario;
   scenario.motor = motor_beside(scenario.motor, a.toml);
   analysis::require_swing(s, scenario);
+  scenario.not_usable = analysis::found_against(s);
   const std::string text =
       files::with_own_mark(a.command, text::scenario_text(scenario, text::design_lines(s)));
   append(found, put(out.toml, text));

@@ -247,6 +247,17 @@ class Design(ProgramTest):
         self.assertRegex(text.splitlines()[0], "^NOT USABLE: in the simulation it never settles$")
         self.assertIn("usable with --chopping complementary", text)
 
+    def test_no_header_is_exported_of_a_design_that_is_not_usable(self):
+        bad = ("design", "maxon-251601", "--mode", "speed", "--edges", "1", "--capture", "5e4", "--quick", "--quiet", "--toml", "d.toml")
+        self.run_program(*bad, code=1)
+        export = ("export", "header", "d.toml", "--arithmetic", "float", "--out", "d.hpp")
+        self.assertIn("not_usable is what its design found", self.run_program(*export, code=2).stderr)
+        self.assertIn("NOT USABLE", self.run_program("run", "d.toml").stdout)
+        self.assertEqual(self.names(), ["d.toml"])
+        # Designed anew on the same board, but with what was advised: the line is gone.
+        self.run_program("design", "--scenario", "d.toml", "--mode", "speed", "--capture", "1e6", "--quick", "--quiet", "--toml", "e.toml")
+        self.assertNotIn("not_usable", (self.path / "e.toml").read_text())
+
 
 if __name__ == "__main__":
     unittest.main()

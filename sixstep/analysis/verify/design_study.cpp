@@ -127,6 +127,12 @@ base::Result<DesignStudy> studied(const DesignOrder& order) {
 
 }  // namespace
 
+std::string found_against(const DesignStudy& s) {
+  for (const design::Warning& w : s.warnings)
+    if (w.grave) return w.what;
+  return {};
+}
+
 bool DesignStudy::usable() const {
   return std::none_of(warnings.begin(), warnings.end(), [](const design::Warning& w) { return w.grave; });
 }

@@ -46,6 +46,9 @@ struct DesignOrder {
 /// scenario has it.
 void require_swing(const DesignStudy& study, study::Scenario& scenario);
 
+/// What the first grave warning says; empty where the design is usable.
+std::string found_against(const DesignStudy& study);
+
 /// Problems are those of sheet, spec and scenario.
 base::Result<DesignStudy> study_design(const DesignOrder& order);
 

@@ -12,6 +12,7 @@
 #include "sixstep/study/check/pace.hpp"
 #include "sixstep/study/run/export_protection.hpp"
 #include "sixstep/study/run/export_watch.hpp"
+#include "sixstep/study/run/loop_stability.hpp"
 #include "sixstep/study/scenario/changes.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
@@ -120,6 +121,12 @@ void look_at_sensors(const Scenario& s, base::Problems& out) {
           "set bus = \"adc\" and bus_range_V");
 }
 
+void look_at_design(const Scenario& s, base::Problems& out) {
+  if (!s.not_usable.empty())
+    out.push_back({"not_usable", "", "is what its design found: " + s.not_usable,
+                   "design it anew until it is usable, or delete the line where you know better"});
+}
+
 /// A controller of one's own has its constants at home.
 void look_at_drive(const Scenario& s, base::Problems& out) {
   if (s.control.drive == FirmwareKind::own)
@@ -188,6 +195,7 @@ std::string measured(const Verdict& v) {
 
 base::Problems never_measured(const Scenario& s) {
   base::Problems out;
+  look_at_design(s, out);
   look_at_drive(s, out);
   look_at_sensors(s, out);
   look_at_delay(s, out);
@@ -224,6 +232,10 @@ base::Result<Clearance> clear_for_export(const Scenario& scenario, const Listene
   Clearance c{.outcome = std::move(*outcome), .unmeasured = never_measured(scenario), .unheld = {}};
   const SeenPeaks peaks = take_peaks(scenario, c.outcome);
   c.unheld = not_held(c.outcome);
+  // Inertia hides it from requirements of the speed.
+  for (const LoopGains& gains : c.outcome.gains)
+    if (auto unstable = unstable_current_loop(scenario, c.outcome.motor, gains))
+      c.unheld.push_back(std::move(*unstable));
   if (reads_currents(scenario)) look_at_current_range(scenario, peaks, c.unheld);
   look_at_bus(scenario, peaks, reads_bus(scenario), c.unheld);
   if (c.unheld.empty()) look_at_stop(scenario, c.outcome.motor, listeners, c.unheld);

@@ -48,11 +48,17 @@ void look_at_stalling(const Scenario& s, const MostCurrent& most, base::Problems
   const Protection& p = s.protection;
   // What is held at the limit is read a count and a little noise beside it.
   const double count_A = s.sensors.current_range_A.value_or(0.0) * 2 / std::ldexp(1.0, s.sensors.adc_bits);
-  if (!p.stall_current_A || *p.stall_current_A <= 0.98 * most.ampere - 2 * count_A) return;
+  const double surely_A = 0.98 * most.ampere - 2 * count_A;
+  if (!p.stall_current_A || *p.stall_current_A <= surely_A) return;
+  const bool coarse = 2 * count_A > 0.1 * most.ampere;
+  const std::string limited =
+      "may never be passed: the current is limited to " + base::three_digits(most.ampere) + " A, " + most.by;
+  const std::string counted = ", and is read to two counts of " + base::three_digits(count_A) + " A";
+  const std::string finer = "give the converter more bits or a narrower current_range_A";
+  const double lower_A = std::min(0.8 * most.ampere, surely_A);
   out.push_back(
-      {"protection.stall_current_A", written(*p.stall_current_A),
-       "may never be passed: the current is limited to " + base::three_digits(most.ampere) + " A, " + most.by,
-       "lower it, as to " + rounded_down(0.8 * most.ampere)});
+      {"protection.stall_current_A", written(*p.stall_current_A), coarse ? limited + counted : limited,
+       lower_A > 0 ? "lower it, as to " + rounded_down(lower_A) + (coarse ? ", or " + finer : "") : finer});
 }
 
 /// A rotor that is held has its current in two phases, and no friction.

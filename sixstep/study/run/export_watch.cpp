@@ -54,6 +54,14 @@ double end_of_the_highest(const Scenario& s) {
   return highest + 1 < levels.size() ? std::min(levels[highest + 1].at_s, s.duration_s) : s.duration_s;
 }
 
+/// A weaker brake feeds the bus less at once, and for longer.
+std::string cure_of_stop(const std::vector<std::string>& reasons) {
+  if (std::find(reasons.begin(), reasons.end(), "over-voltage") == reasons.end())
+    return "lower it, or let the scenario show the stop: protection.off_at_s";
+  return "give supply.brake_resistance_ohm with brake_on_V below protection.over_voltage_V, "
+         "control.regeneration.limit_V or more supply.capacitance_F";
+}
+
 }  // namespace
 
 Scenario watching_peaks(const Scenario& scenario) {
@@ -123,13 +131,14 @@ void look_at_stop(const Scenario& s, const design::MotorModel& motor, const List
   const base::Result<Outcome> outcome =
       run(stop, {.on_record = {}, .on_event = {}, .keep_going = listeners.keep_going, .keep_books = false});
   if (!outcome) return append(out, outcome.problems());
-  if (!outcome->trip) return;
+  // Braking raises no speed: a load that drives the rotor once the bridge has let go does.
+  if (!outcome->trip || outcome->trip->reasons == std::vector<std::string>{"over-speed"}) return;
   std::string reasons;
   for (const std::string& reason : outcome->trip->reasons) reasons += (reasons.empty() ? "" : ", ") + reason;
   out.push_back({"protection.brake_current_A", written(s.protection.brake_current_A),
                  "ends in a fault where the drive is let go at " + base::rounded(off_s, 4) + " s: " +
                      reasons + " after " + base::three_digits(1e3 * (outcome->trip->at_s - off_s)) + " ms",
-                 "lower it, or let the scenario show the stop: protection.off_at_s"});
+                 cure_of_stop(outcome->trip->reasons)});
 }
 
 }  // namespace sixstep::study

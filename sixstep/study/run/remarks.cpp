@@ -5,16 +5,12 @@
 #include <string>
 
 #include "sixstep/base/angle.hpp"
-#include "sixstep/base/elementary.hpp"
 #include "sixstep/base/linear.hpp"
 #include "sixstep/base/written.hpp"
-#include "sixstep/design/loops/drive_loops.hpp"
-#include "sixstep/design/loops/field_current.hpp"
-#include "sixstep/design/loops/transfer.hpp"
 #include "sixstep/design/sheet/thermal_ranges.hpp"
 #include "sixstep/study/check/unused_keys.hpp"
-#include "sixstep/study/compile/field_parts.hpp"
 #include "sixstep/study/run/limit_remarks.hpp"
+#include "sixstep/study/run/loop_stability.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
 
 namespace sixstep::study {
@@ -83,37 +79,6 @@ std::string on_hall_timeout(const Scenario& s, const Compiled& c) {
          speed(s, sector_s(c, 1.0) / s.sensors.timeout_s);
 }
 
-/// Periods from a sample to its answer.
-double wait_periods(const Pwm& pwm) {
-  return pwm.delay_periods + (pwm.sample == SampleAt::middle ? 0.5 : 0.0);
-}
-
-/// A PI on R and L with a held voltage that comes `wait` periods late: stable, as long as no limit acts?
-bool is_stable_loop(const LoopGains& g, double R, double L, double period_s, double wait) {
-  const int whole = static_cast<int>(wait);
-  const double late_s = (wait - whole) * period_s;
-  const double decay = base::exp(-R * period_s / L), behind = base::exp(-R * (period_s - late_s) / L);
-  // In z - 1: the voltage before acts for late_s, the new one for the rest of the period.
-  design::Transfer loop{{(1 - decay) / R, (1 - behind) / R}, {1 - decay, 1.0}};
-  if (late_s > 0.0)
-    loop.den = design::product(loop.den, {1.0, 1.0});
-  else
-    loop.num = {(1 - decay) / R};
-  loop = design::series(design::series({{g.d1 + g.d0, g.d1}, {0.0, 1.0}}, loop), design::delay(whole));
-  return design::is_stable(closed(loop).den);
-}
-
-/// Of the driven pair, or of an axis of the field-oriented drive.
-bool is_stable_current(const Scenario& s, const Compiled& c, const LoopGains& g) {
-  if (c.field) {
-    const design::FieldMachine machine = design::field_machine(c.motor, designed_sheet(s));
-    const double L = g.loop == "current q" ? machine.L_q_H : machine.L_d_H;
-    return is_stable_loop(g, machine.R_ohm, L, s.pwm.period_s, wait_periods(s.pwm));
-  }
-  const design::LoopWinding pair = design::driven_pair(c.motor, s.pwm.chopping);
-  return is_stable_loop(g, pair.R_ohm, pair.L_H, s.pwm.period_s, wait_periods(s.pwm));
-}
-
 std::string on_gains(const LoopGains& g, const std::string& key, double period_s) {
   const double ki = g.d1 + g.d0;
   if (g.origin != "given as kp, ki" || !(ki > g.d1 && g.d1 > 0.0)) return {};
@@ -131,11 +96,8 @@ std::string on_sign(const LoopGains& g, const std::string& key) {
 }
 
 std::string on_stability(const Scenario& s, const Compiled& c, const LoopGains& g) {
-  const bool pi = s.control.current.type == CurrentLoopType::pi && !(c.field && c.field->finite_set.on);
-  if (!g.loop.starts_with("current") || !pi || is_stable_current(s, c, g)) return {};
-  return "the " + g.loop + " loop is unstable with its gains (" + g.origin +
-         ") on this motor's R and L at a control period of " + few_digits(1e6 * s.pwm.period_s) +
-         " us: its current swings between its limits; give smaller gains, or leave them to the design";
+  const std::optional<base::Problem> p = unstable_current_loop(s, c.motor, g);
+  return p ? p->where + " " + p->limit + "; " + p->cure : "";
 }
 
 /// The largest voltage between two terminals per rad/s.
@@ -197,6 +159,7 @@ void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, Outcom
     if (!text.empty()) out.remarks.push_back(std::move(text));
   };
   if (const std::string unused = unused_keys(s); !unused.empty()) add("given without effect: " + unused);
+  if (!s.not_usable.empty()) add("its design calls it NOT USABLE: " + s.not_usable);
   add(on_supply(s));
   for (std::string& text : passed_limits(s, w, out)) add(std::move(text));
   if (c.own.is) return;  // its gains and samples are its own

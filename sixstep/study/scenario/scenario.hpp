@@ -157,8 +157,9 @@ struct Scenario {
       extends;        // files it is laid over, as written; their keys are in it (filled by text)
   std::string motor;  // name or path as written
   double duration_s = 0.0;
-  std::string notes;    // what the run teaches, shown in the report
-  design::Sheet sheet;  // the motor's sheet with overrides applied (filled by text)
+  std::string notes;       // what the run teaches, shown in the report
+  std::string not_usable;  // what its design found against it; empty where nothing was found
+  design::Sheet sheet;     // the motor's sheet with overrides applied (filled by text)
   std::optional<design::Sheet>
       motor_sheet;  // the same without overrides (filled by text); not given: it has none
   Supply supply;

@@ -109,6 +109,9 @@ void describe(Visitor& v, Scenario& s) {
            .range = base::Range{0, longest_s, false, true},
            .required = true});
   v.value("notes", s.notes, {.meaning = "what the run teaches, shown in the report"});
+  v.value("not_usable", s.not_usable,
+          {.meaning = "what its design found against it: written by design, told by each run, and no header "
+                      "is exported while it stands"});
   v.table("motor_override", s.sheet,
           {.meaning = "single values that replace those of the motor file", .partial = true});
   v.table("supply", s.supply, {.meaning = "what feeds the bus"});

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// What stands against a header although every requirement of the run holds: its design's verdict, a loop that is unstable behind
+// a great inertia; and cures that cure.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "sixstep/study/run/export_gate.hpp"
+#include "sixstep/study/run/loop_stability.hpp"
+#include "tests/support/bench.hpp"
+#include "tests/support/product_scenarios.hpp"
+
+namespace SIXSTEP_TEST_FILE {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using control::Mode;
+using study::Scenario;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+TEST(ExportVerdict, WhatItsDesignFoundStandsAgainstIt) {
+  Scenario s = maxon_scenario(Mode::current, 3.0);
+  s.not_usable = "it never settles";
+  const base::Problems found = study::never_measured(s);
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found[0].where, "not_usable");
+  EXPECT_THAT(found[0].limit, HasSubstr("it never settles"));
+  s.duration_s = 1e-3;
+  EXPECT_THAT(study::run(s)->remarks, Contains(HasSubstr("NOT USABLE: it never settles")));
+}
+
+/// The loop as a recurrence, sample by sample: i' = a i + (1 - a)/R u, u' = u + d1 e + d0 e_before, `late` periods behind.
+bool grows(double d1, double d0, double R, double L, double T, int late) {
+  const double a = std::exp(-R * T / L), b = (1 - a) / R;
+  double i = 1.0, u = 0.0, e_before = 0.0, waits = 0.0, first = 0.0, last = 0.0;
+  for (int n = 0; n < 4000; ++n) {
+    const double e = -i;
+    u += d1 * e + d0 * e_before;
+    e_before = e;
+    i = a * i + b * (late ? waits : u);
+    waits = u;
+    (n < 2000 ? first : last) = std::max(n < 2000 ? first : last, std::fabs(i));
+    if (!(last < 1e6 && first < 1e6)) return true;
+  }
+  return last > first;
+}
+
+TEST(ExportVerdict, ALoopIsUnstableWhereItsRecurrenceGrows) {
+  const auto motor = design::motor_model(maxon_scenario(Mode::current, 1.0).sheet);
+  ASSERT_TRUE(motor);
+  const double R = 2 * motor->machine.R_ohm, L = 2 * motor->machine.L_H;
+  int unstable = 0;
+  for (const int late : {0, 1})
+    for (const double d1 : {2.0, 8.0, 14.0, 17.0, 21.0, 30.0, 34.0, 42.0}) {
+      Scenario s = maxon_scenario(Mode::current, 1.0);
+      s.pwm.delay_periods = late;
+      const study::LoopGains gains{"current", d1, -0.95 * d1, "given as d1, d0", {}};
+      const bool told = study::unstable_current_loop(s, *motor, gains).has_value();
+      EXPECT_EQ(told, grows(d1, -0.95 * d1, R, L, s.pwm.period_s, late)) << d1 << ", late " << late;
+      unstable += told;
+    }
+  EXPECT_GT(unstable, 3);
+  EXPECT_LT(unstable, 13);
+}
+
+/// A speed that holds hides a current that swings.
+TEST(ExportVerdict, AnUnstableCurrentLoopStandsAgainstIt) {
+  Scenario s = product_scenario(Mode::speed, 100.0);
+  s.duration_s = 0.1;
+  s.pwm.delay_periods = 1;
+  s.bridge.dead_time_s = 500e-9;
+  s.sensors.current_range_A = 60.0;
+  s.require.push_back({measure(study::MetricKind::maximum, study::Signal::speed), {}, 150.0});
+  for (const double settle_s : {1e-3, 0.1e-3}) {
+    s.control.current.settle_s = settle_s;
+    s.control.current.damping = 0.9;
+    const auto run = study::clear_for_export(s);
+    ASSERT_TRUE(run) << to_string(run.problems()[0]);
+    EXPECT_TRUE(run->outcome.passed());
+    std::string all;
+    for (const base::Problem& p : run->unheld) all += to_string(p) + "\n";
+    if (settle_s < 1e-3)
+      EXPECT_THAT(all, HasSubstr("the current loop is unstable"));
+    else
+      EXPECT_THAT(all, IsEmpty());
+  }
+}
+
+/// Braking from 300 rad/s onto a bus that takes nothing: what is advised helps, and what is not would not.
+TEST(ExportVerdict, TheCureOfAStopThatRaisesTheBusHolds) {
+  Scenario s = product_scenario(Mode::speed, 300.0);
+  s.duration_s = 0.5;
+  s.pwm.chopping = control::Chopping::complementary;
+  s.pwm.delay_periods = 1;
+  s.bridge.dead_time_s = 500e-9;
+  s.supply.resistance_ohm = 0.1;
+  s.supply.capacitance_F = 1e-4;
+  s.supply.sinks = false;
+  s.protection.brake_current_A = 2.0;
+  s.require.push_back({measure(study::MetricKind::maximum, study::Signal::current), {}, 15.0});
+  const auto unheld = [](const Scenario& x) {
+    const auto run = study::clear_for_export(x);
+    EXPECT_TRUE(run) << to_string(run.problems()[0]);
+    return run ? run->unheld : base::Problems{};
+  };
+  const base::Problems before = unheld(s);
+  ASSERT_EQ(before.size(), 1u);
+  EXPECT_THAT(before[0].cure,
+              ::testing::AllOf(HasSubstr("capacitance_F"), HasSubstr("brake_resistance_ohm")));
+  s.protection.brake_current_A = 1.0;
+  EXPECT_EQ(unheld(s).size(), 1u) << "a weaker brake feeds it longer";
+  s.protection.brake_current_A = 2.0;
+  s.supply.capacitance_F = 20e-3;
+  EXPECT_THAT(unheld(s), IsEmpty());
+}
+
+/// Of a coarse converter what is advised is what the check itself asks for.
+TEST(ExportVerdict, TheCureOfAStallThatIsNeverPassedHolds) {
+  for (const int bits : {12, 6, 5, 4}) {
+    Scenario s = product_scenario(Mode::speed, 100.0);
+    s.pwm.delay_periods = 1;
+    s.bridge.dead_time_s = 500e-9;
+    s.sensors.adc_bits = bits;
+    s.sensors.current_range_A = 33.0;
+    s.control.current.limit_A = 6.0;
+    s.protection.stall_current_A = 5.9;
+    s.protection.stall_s = 0.05;
+    s.require.push_back({measure(study::MetricKind::maximum, study::Signal::speed), {}, 150.0});
+    const auto of_stall = [](const base::Problems& all) {
+      for (const base::Problem& p : all)
+        if (p.where == "protection.stall_current_A") return p.cure;
+      return std::string();
+    };
+    const std::string cure = of_stall(study::never_measured(s));
+    ASSERT_NE(cure, "") << bits;
+    constexpr std::string_view lower = "lower it, as to ";
+    if (!cure.starts_with(lower)) {
+      EXPECT_THAT(cure, HasSubstr("more bits")) << bits;
+      continue;
+    }
+    s.protection.stall_current_A = std::stod(cure.substr(lower.size()));
+    EXPECT_EQ(of_stall(study::never_measured(s)), "") << bits << ": " << cure;
+  }
+}
+
+}  // namespace SIXSTEP_TEST_FILE
