@@ -29,7 +29,7 @@ void LegTimer::start_pulse(unsigned pulse, const Instant& t, double duty) {
 void LegTimer::switch_pulse(unsigned pulse, bool on) {
   Pulse& p = pulses_[pulse];
   // mutant: on && !p.on => on
-  turn_ons_ += on && !p.on;
+  turn_ons_ += pulse == 0 && on && !p.on;
   p.on = on;
 }
 

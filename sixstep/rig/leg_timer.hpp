@@ -53,7 +53,7 @@ class LegTimer {
   bool pulse_on(unsigned pulse) const { return pulses_[pulse].on; }
   /// No edge will come before the next command.
   bool steady() const { return next_edge_ == sim::Instant::never(); }
-  /// Of all pulses.
+  /// Of the first pulse, so that a PWM reads its own frequency however many legs follow other pulses.
   std::int64_t turn_ons() const { return turn_ons_; }
   /// Without those of a period that begins at this instant.
   std::int64_t turn_ons_before(const sim::Instant& t) const {

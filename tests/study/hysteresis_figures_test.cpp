@@ -3,6 +3,8 @@
 // in the controller.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/support/scenarios.hpp"
 
 namespace SIXSTEP_TEST_FILE {
@@ -40,6 +42,32 @@ TEST(HysteresisFigures, SampledComparatorsHoldNoBand) {
   const auto out = run(s);
   ASSERT_FALSE(out);
   EXPECT_EQ(out.problems().front().where, "compare[0].metric");
+}
+
+/// Held still between 4.8 and 5.2 A: up at U - R i, down at -R i, hard at -U - R i. One comparator or two switch as often.
+TEST(HysteresisFigures, TheFrequencyIsThatOfTheWindingInTheBand) {
+  constexpr double U = 24, R = 1.03, L = 0.572e-3, low = 4.8, high = 5.2, from_s = 5e-3, to_s = 25e-3;
+  for (const auto chopping : {control::Chopping::soft, control::Chopping::hard})
+    for (const auto on : {HysteresisOn::motor, HysteresisOn::phase}) {
+      Scenario s = current_square();
+      s.reference = {.value = 5.0};
+      s.duration_s = to_s;
+      s.load.inertia_kg_m2 = 10.0;
+      s.initial.angle_rad = 0.5 / 8;
+      s.pwm.chopping = chopping;
+      s.control.current = {
+          .type = CurrentLoopType::hysteresis, .band_A = 0.2, .on = on, .comparator = Comparator::event};
+      Measure frequency = measure(MetricKind::switching_frequency, Signal::current);
+      frequency.from_s = from_s;
+      frequency.to_s = to_s;
+      ask(s, frequency);
+      const auto out = run(s);
+      ASSERT_TRUE(out) << to_string(out.problems()[0]);
+      const double down = chopping == control::Chopping::hard ? -U / R : 0.0;
+      const double cycle_s = L / R * std::log((U / R - low) / (U / R - high) * (high - down) / (low - down));
+      EXPECT_NEAR(out->comparisons.back().measured, 1 / cycle_s, 1 / (to_s - from_s))
+          << "one turn-on more or less in the window";
+    }
 }
 
 }  // namespace SIXSTEP_TEST_FILE

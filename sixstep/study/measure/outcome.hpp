@@ -97,7 +97,7 @@ struct Outcome {
   double simulated_s = 0.0;
   std::int64_t segments = 0;
   std::int64_t turn_ons =
-      0;  // of the role that is chopped, wherever commutation puts it, or of three upper switches
+      0;  // of the role that the duty or the first comparator chops, wherever commutation puts it, or of three upper switches
   int chopped_switches = 1;  // that turn_ons are of
   std::uint64_t digest = 0;  // of every bit of the trajectory (study/measure/digest.hpp)
 
