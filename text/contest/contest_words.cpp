@@ -48,7 +48,7 @@ Ranked ranked(const Contest& c, std::size_t figure, const std::function<bool(std
 }
 
 bool are_alike(double a, double b) {
-  return std::fabs(b - a) <= alike * std::fmax(std::fabs(a), std::fabs(b));
+  return std::fabs(b - a) <= alike * std::fmin(std::fabs(a), std::fabs(b));
 }
 
 /// All that hold the course and count as alike with the least.
