@@ -93,6 +93,25 @@ TEST(DesignedMove, IsExpectedAsFastAsTorqueAndBusAllow) {
 }
 
 /// A position's run is required to rest as well as not to overshoot: who exports a design that does not is refused.
+/// Two turns take the rotor to 167 rad/s: of a motor that may turn at 130 the loop asks for less, and less it is.
+TEST(DesignedMove, IsNoFasterThanTheSheetAllows) {
+  for (const double most_rad_s : {0.0, 130.0}) {
+    DesignOrder order = on_a_board(Mode::position);
+    if (most_rad_s > 0.0)
+      order.subject.sheet.max_speed_rpm = base::Quantity{.value = most_rad_s * base::rpm_per_rad_s};
+    order.subject.step = 720;
+    const auto study = study_design(order);
+    ASSERT_TRUE(study) << to_string(study.problems().front());
+    double fastest = 0.0;
+    for (const study::ComparisonResult& c : study->outcome.comparisons)
+      if (c.figure == "peak speed") fastest = c.measured;
+    if (most_rad_s > 0.0)
+      EXPECT_LT(fastest, most_rad_s);
+    else
+      EXPECT_GT(fastest, 130.0);
+  }
+}
+
 TEST(DesignedMove, IsRequiredToRest) {
   DesignOrder order = on_a_board(Mode::position);
   const auto d = design::design_drive(*design::motor_model(order.subject.sheet), order.spec);

@@ -248,15 +248,30 @@ void add_speed(const DriveDesign& d, const DesignSubject& subject, study::Scenar
   add_speed_figures(d, t, s);
 }
 
+/// What the loop may ask for is what the bus can reach, or the sheet's greatest speed where that is less: a fifth below it, for a
+/// speed from Hall edges passes its reference by as much.
+double bounded_speed(const DriveDesign& d, const DesignSubject& subject, study::Scenario& s) {
+  constexpr double below = 0.8;
+  const double reached = d.bus_V / d.motor.K_t_Nm_A;
+  std::optional<double>& bound = s.control.position.speed_limit_rad_s;
+  if (const auto& most = subject.sheet.max_speed_rpm;
+      most && !bound && most->value / base::rpm_per_rad_s < reached)
+    bound = base::shortened(below * most->value / base::rpm_per_rad_s, 3, base::Towards::down);
+  return std::min(reached, bound.value_or(reached));
+}
+
 void add_position(const DriveDesign& d, const DesignSubject& subject, study::Scenario& s) {
   const LoopDesign& loop = d.loop("position");
   const base::LinearUnit unit = design::motion_of(d.motor).unit("deg");
   const double step = subject.step.value_or(usual_move(d)) / unit.factor;
   const double height = std::fabs(step) * base::pi / 180;
-  const double J = d.motor.shaft.J_kg_m2, K = d.motor.K_t_Nm_A;
+  const double J = d.motor.shaft.J_kg_m2;
   // Full torque half of the way forth, half of it back; the bus ends the acceleration at U/K_t, and a third
   // of that is what a bus-limited start reaches soon. Then the P loop's exponential down to 1e-9 of the step.
-  const double forth_and_back = 2 * std::sqrt(height * J / d.torque_limit_Nm), top = d.bus_V / K;
+  const double forth_and_back = 2 * std::sqrt(height * J / d.torque_limit_Nm),
+               top = bounded_speed(d, subject, s);
+  const std::string of_top =
+      top < d.bus_V / d.motor.K_t_Nm_A ? "control.position.speed_limit_rad_s" : "bus/K_t";
   // The bus may end the acceleration before half of the way: a trapezoid of the speed then.
   const double to_top = top * J / d.torque_limit_Nm;
   const double fastest = forth_and_back / 2 > to_top ? height / top + to_top : forth_and_back;
@@ -276,14 +291,13 @@ void add_position(const DriveDesign& d, const DesignSubject& subject, study::Sce
       step_measure(study::MetricKind::overshoot, study::Signal::position, 0, end, 0, step, "overshoot");
   s.compare = {
       {settling, fastest,
-       (forth_and_back / 2 > to_top ? "full torque up to bus/K_t and down again"
-                                    : "full torque, half the way on and half off") +
+       (forth_and_back / 2 > to_top ? "full torque up to " + of_top + " and down again"
+                                    : std::string("full torque, half the way on and half off")) +
            std::string(hall     ? "; simulated: to within three Hall steps"
                        : counts ? "; simulated: to within 1 %, or three steps of the sensor"
                                 : "; simulated: to within 0.05 %")},
       {overshoot, 0.0, "none wanted"},
-      {window_measure(study::MetricKind::maximum, study::Signal::speed, 0, end, "peak speed"), top,
-       "bus/K_t"},
+      {window_measure(study::MetricKind::maximum, study::Signal::speed, 0, end, "peak speed"), top, of_top},
       {window_measure(study::MetricKind::maximum, study::Signal::current, 0, end, "peak current"),
        d.current_at_full_torque_A, "at full torque"},
   };
