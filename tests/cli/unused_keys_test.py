@@ -73,6 +73,7 @@ SMOOTH = {"control.smooth_chopping.on": "the current is above its borders"}
 TORQUE = {"control.limits.torque_Nm": "a bound that is not reached"}
 BUS = {"control.current.measured_bus_from_V": "the measured bus is the source's here, to the bit"}
 HALL = {
+    "sensors.bus_range_V": "what the board has, whoever reads it",
     "sensors.calibrated": "an amplifier without an offset",
     "sensors.seed": "no noise is drawn",
     "sensors.speed_edges": "as many as the settling allows anyway",

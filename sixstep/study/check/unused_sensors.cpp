@@ -94,7 +94,8 @@ void unused_of_sensors(const Scenario& s, Unused& out) {
     out.add("sensors.bus_noise_V", x.bus_noise_V, usual.bus_noise_V, reason);
     out.add("sensors.bus_gain_error", x.bus_gain_error, usual.bus_gain_error, reason);
     out.add("sensors.bus_bandwidth_Hz", x.bus_bandwidth_Hz, usual.bus_bandwidth_Hz, reason);
-    out.add("sensors.bus_range_V", x.bus_range_V, usual.bus_range_V, reason);
+    if (no_bus)
+      out.add("sensors.bus_range_V", x.bus_range_V, usual.bus_range_V, reason);  // else the board has it
   }
   if (no_hall && no_terminals) {
     constexpr char reason[] = "sensors.rotor is not hall";
