@@ -221,26 +221,4 @@ std::optional<Held> held_back(const Trace& trace, const Scenario& scenario,
   return out;
 }
 
-double switching_frequency_Hz(const sixstep::study::Outcome& outcome) {
-  return static_cast<double>(outcome.turn_ons) / outcome.chopped_switches / outcome.simulated_s;
-}
-
-std::optional<std::array<long long, 6>> turn_on_counts(const Trace& trace) {
-  static constexpr const char* names[] = {"gate_T1", "gate_T2", "gate_T3", "gate_T4", "gate_T5", "gate_T6"};
-  std::array<long long, 6> counts{};
-  const auto* time = find_column(trace, "t_s");
-  if (!time) return std::nullopt;
-  const auto first =
-      static_cast<std::size_t>(std::ranges::lower_bound(*time, whole_from_s(trace)) - time->begin());
-  bool any = false;
-  for (std::size_t k = 0; k < 6; ++k) {
-    const auto* gate = find_column(trace, names[k]);
-    if (!gate) continue;
-    any = true;
-    for (std::size_t n = first + 1; n < gate->size(); ++n)
-      counts[k] += (*gate)[n] > 0.5 && (*gate)[n - 1] < 0.5;
-  }
-  return any ? std::optional(counts) : std::nullopt;
-}
-
 }  // namespace report

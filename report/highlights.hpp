@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the rows of a run say at first reading: its largest step, the current during it, how long the bus or a
-// limit held it back, how often it switched. Between two rows the trace is the straight line a chart draws.
+// limit held it back. Between two rows the trace is the straight line a chart draws.
 #pragma once
-#include <array>
 #include <optional>
 #include <string>
 
@@ -57,13 +56,5 @@ struct Held {
 /// Empty where the bridge is switched by comparators: their duty is the state of a switch.
 std::optional<Held> held_back(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario,
                               const sixstep::study::Outcome& outcome);
-
-/// Turn-ons per second of what is chopped, as the figure of that name: the PWM's frequency where a PWM chops.
-/// All six switches together turn on more often: commutation turns on too, and the other switch of a leg that
-/// is chopped complementarily.
-double switching_frequency_Hz(const sixstep::study::Outcome& outcome);
-
-/// Turn-ons of T1 to T6, from whole_from_s() on.
-std::optional<std::array<long long, 6>> turn_on_counts(const sixstep::study::Trace& trace);
 
 }  // namespace report
