@@ -121,8 +121,7 @@ std::string step_chart(const Trace& trace, const Step& step) {
   constexpr std::size_t rows_drawn = 600;
   const auto* time = find_column(trace, "t_s");
   const HeldCurrent& held = step.held;
-  const auto* current = find_column(trace, held.column);
-  const auto* reference = find_column(trace, held.reference);
+  const auto current = held_values(trace, held), reference = asked_values(trace, held);
   if (!time || !current) return "";
   const auto begin = std::ranges::lower_bound(*time, step.window.from) - time->begin();
   const auto end = std::ranges::upper_bound(*time, step.window.to) - time->begin();
@@ -158,10 +157,11 @@ std::string step(const Scenario& scenario, const Trace& trace) {
   std::string text = fmt::format("peak <b>{}</b> after {}", computed(current->peak_A, "A"),
                                  computed(current->peak_after_s, "s"));
   if (current->asked_A && found->of != "current")
-    text += fmt::format(" ({} asked for)", computed(*current->asked_A, "A"));
+    text += fmt::format(" ({} asked for then)", computed(*current->asked_A, "A"));
   text += fmt::format(", {} rms", computed(current->rms_A, "A"));
   if (current->then_mean_A)
-    text += fmt::format("; then {} on average, {} peak to peak", computed(*current->then_mean_A, "A"),
+    text += fmt::format("; from {} after the step on {} on average, {} peak to peak",
+                        computed(found->window.to - found->at_s, "s"), computed(*current->then_mean_A, "A"),
                         computed(*current->then_span_A, "A"));
   const bool linear = scenario.sheet.kind == sixstep::design::MotorKind::linear;
   const sixstep::base::LinearUnit unit =

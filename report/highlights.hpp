@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "report/held_current.hpp"
 #include "report/thinning.hpp"
 #include "sixstep/study/measure/outcome.hpp"
 #include "sixstep/study/measure/trace.hpp"
@@ -12,12 +13,9 @@
 
 namespace report {
 
-/// The current that a drive holds: of a field-oriented one that across the magnet, else of the driven pair. By the drive and not by the
-/// columns: a trace of every event has those of all drives.
-struct HeldCurrent {
-  const char *title, *column, *reference, *label, *reference_label;
-};
-/// The greatest change of what the controller is asked for. The first setpoint counts from the start's value.
+/// The greatest change of what the controller is asked for. The first setpoint counts from the start's value. Of a drive that starts
+/// without seeing its rotor, a speed's reference comes and goes with the loop, while the shaft turns: of a six-step drive that is no
+/// step, of a field-oriented one a step from the speed that it takes over.
 struct Step {
   std::string of;  ///< "speed", "current", "position"; "start" where nothing is controlled
   std::string unit;
@@ -38,8 +36,8 @@ std::optional<double> last_setpoint_s(const sixstep::study::Trace& trace,
 /// The held current during a step; empty where an envelope stands for it.
 struct StepCurrent {
   double peak_A = 0.0, peak_after_s = 0.0;
-  std::optional<double> asked_A{};                     ///< largest reference, where there is a current loop
-  double rms_A = 0.0;                                  ///< over the window
+  std::optional<double> asked_A{};  ///< the reference at the peak, where there is a current loop
+  double rms_A = 0.0;               ///< over the window
   std::optional<double> then_mean_A{}, then_span_A{};  ///< from the window's end to the next change
 };
 std::optional<StepCurrent> step_current(const sixstep::study::Trace& trace, const Step& step);
