@@ -223,6 +223,8 @@ inline sixstep::study::Outcome synthetic_outcome() {
                                         .friction = 0.0101,
                                         .load = 0.0,
                                         .kinetic = 0.5130,
+                                        .moved = 1.5543,
+                                        .scale = 1.5543,
                                         .electrical_residual = 3.1e-15,
                                         .mechanical_residual = 8.8e-16};
   o.events = {{"PWM edge", 1334}, {"Hall edge", 21}, {"diode current zero", 42}, {"control tick", 667}};
