@@ -69,11 +69,8 @@ std::string account(const Entry& total, const std::vector<Entry>& entries, doubl
       "<table class=\"ledger\"><thead><tr><th></th><th class=\"num\">{}</th><th></th></tr></thead><tbody>\n",
       scale.unit);
   html += row(total, "total");
-  double missing = total.joule;
-  for (const Entry& e : entries) {
-    html += row(e, "part");
-    missing -= e.joule;
-  }
+  for (const Entry& e : entries) html += row(e, "part");
+  const double missing = residual * y.scale;  // as the book has summed it up, to the last bit
   html += fmt::format(
       "<tr class=\"residual\"><th scope=\"row\">Residual<small>what does not add up</small></th><td "
       "class=\"num\">{}</td><td class=\"share\"></td></tr>\n",

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "report/figures.hpp"
 #include "tests/support/scenarios.hpp"
 #include "text/results/json_summary.hpp"
 
@@ -47,6 +48,9 @@ TEST(Ledger, residuals_are_parts_of_the_scale_and_the_page_says_what_that_is) {
     EXPECT_GE(of("scale"), stored * (1 - 1e-12));
     EXPECT_EQ(of("scale") > of("moved"), inertia > 0.0);
     const std::string html = page(*outcome->energy);
+    for (const char* residual : {"electrical_residual", "mechanical_residual"})
+      EXPECT_THAT(html, HasSubstr("what does not add up</small></th><td class=\"num\">" +
+                                  report::computed(e[residual].get<double>() * of("scale"), "J") + "<"));
     EXPECT_THAT(html, HasSubstr(inertia > 0.0 ? "of the energy stored" : "of the energy moved"));
     EXPECT_THAT(html, Not(HasSubstr(inertia > 0.0 ? "of the energy moved" : "of the energy stored")));
   }
