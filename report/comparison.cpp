@@ -10,6 +10,7 @@
 
 #include "report/chip_section.hpp"
 #include "report/comparison_data.hpp"
+#include "report/cost_card.hpp"
 #include "report/figures.hpp"
 #include "report/highlights.hpp"
 #include "report/html.hpp"

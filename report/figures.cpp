@@ -125,6 +125,8 @@ std::string deviation(double measured, double reference, std::string_view unit) 
   return fmt::format("{}{}\u00a0%", percent > 0.0 ? "+" : "", fixed(percent, decimals, false));
 }
 
+std::string in_percent(double part) { return plain(100.0 * part, 2, true) + "\u00a0%"; }
+
 Judged judged(double measured, std::optional<double> min, std::optional<double> max, std::string_view unit) {
   const double limit = max && *max != 0.0 ? *max : min && *min != 0.0 ? *min : measured;
   const Scale scale = scale_for(limit, unit);

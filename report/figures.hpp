@@ -34,6 +34,9 @@ std::string computed(double value, std::string_view unit);
 /// number.
 std::string deviation(double measured, double reference, std::string_view unit);
 
+/// "97 %" of 0.97, with two digits.
+std::string in_percent(double part);
+
 /// A figure beside its limits, all in one unit and with the digits that tell them apart.
 struct Judged {
   std::string measured;

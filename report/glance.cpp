@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/cost_card.hpp"
 #include "report/figures.hpp"
 #include "report/highlights.hpp"
 #include "report/html.hpp"
@@ -18,7 +19,6 @@
 namespace report {
 namespace {
 
-using sixstep::study::EnergyBook;
 using sixstep::study::LoopGains;
 using sixstep::study::Outcome;
 using sixstep::study::Scenario;
@@ -34,8 +34,6 @@ std::string card(std::string_view css, std::string_view title, const std::string
 }
 
 std::string list(const std::string& answers) { return "<dl>" + answers + "</dl>\n"; }
-
-std::string percent(double part) { return plain(100.0 * part, 2, true) + "\u00a0%"; }
 
 std::string closest(const Outcome& outcome) {
   const auto failed = std::ranges::find_if(outcome.verdicts, [](const Verdict& v) { return !v.ok; });
@@ -62,7 +60,8 @@ std::string limits(const Scenario& scenario, const Outcome& outcome, const Trace
     const auto lasted = [&](double seconds) {
       const std::string seen = trace.whole.empty() ? "the run" : "its last " + computed(held->seen_s, "s");
       return fmt::format("<b>{}</b>, {} of {}", computed(seconds, "s"),
-                         percent(seconds / (trace.whole.empty() ? outcome.simulated_s : held->seen_s)), seen);
+                         in_percent(seconds / (trace.whole.empty() ? outcome.simulated_s : held->seen_s)),
+                         seen);
     };
     const bool legs = scenario.control.drive == sixstep::study::FirmwareKind::field;
     text += answer("Bus voltage", held->bus_s > 0.0 ? "all of it in use for " + lasted(held->bus_s)
@@ -122,8 +121,7 @@ std::string step_chart(const Trace& trace, const Step& step) {
   constexpr std::size_t rows_drawn = 600;
   const auto* time = find_column(trace, "t_s");
   const HeldCurrent& held = step.held;
-  const auto* current = find_column(trace, held.column);
-  const auto* reference = find_column(trace, held.reference);
+  const auto current = held_values(trace, held), reference = asked_values(trace, held);
   if (!time || !current) return "";
   const auto begin = std::ranges::lower_bound(*time, step.window.from) - time->begin();
   const auto end = std::ranges::upper_bound(*time, step.window.to) - time->begin();
@@ -159,10 +157,11 @@ std::string step(const Scenario& scenario, const Trace& trace) {
   std::string text = fmt::format("peak <b>{}</b> after {}", computed(current->peak_A, "A"),
                                  computed(current->peak_after_s, "s"));
   if (current->asked_A && found->of != "current")
-    text += fmt::format(" ({} asked for)", computed(*current->asked_A, "A"));
+    text += fmt::format(" ({} asked for then)", computed(*current->asked_A, "A"));
   text += fmt::format(", {} rms", computed(current->rms_A, "A"));
   if (current->then_mean_A)
-    text += fmt::format("; then {} on average, {} peak to peak", computed(*current->then_mean_A, "A"),
+    text += fmt::format("; from {} after the step on {} on average, {} peak to peak",
+                        computed(found->window.to - found->at_s, "s"), computed(*current->then_mean_A, "A"),
                         computed(*current->then_span_A, "A"));
   const bool linear = scenario.sheet.kind == sixstep::design::MotorKind::linear;
   const sixstep::base::LinearUnit unit =
@@ -177,43 +176,9 @@ std::string step(const Scenario& scenario, const Trace& trace) {
   return card("step", title, "<p>" + text + "</p>" + step_chart(trace, *found));
 }
 
-/// What became of the supplied energy; a part may be negative where the motor gave back.
-std::string energy(const EnergyBook& b) {
-  const auto row = [&](const char* name, double joule) {
-    // What went in and came out again leaves a rounding.
-    if (std::abs(joule) <= 1e-12 * b.moved) return std::string();
-    const double share = b.supplied > 0.0 ? joule / b.supplied : 0.0;
-    return fmt::format(
-        "<tr><th scope=\"row\">{}</th><td class=\"num\">{}</td><td class=\"num\">{}</td></tr>\n", name,
-        computed(joule, "J"), b.supplied > 0.0 ? percent(share) : "");
-  };
-  return "<table class=\"plain\"><tbody>" + row("<b>Supplied</b>", b.supplied) + row("Copper", b.copper) +
-         row("Switches, diodes", b.devices) +
-         row(b.iron != 0.0 ? "Bearing friction" : "Friction", b.friction - b.iron) +
-         row("Iron drag", b.iron) + row("Load", b.load) + row("Stored", b.kinetic + b.magnetic) +
-         "</tbody></table>\n";
-}
-
 std::string cost(const Outcome& outcome, const Trace& trace) {
-  std::string text = outcome.energy ? energy(*outcome.energy) : "";
-  const double seen_s = trace.whole.empty() ? outcome.simulated_s : outcome.simulated_s - whole_from_s(trace);
-  if (const auto counts = turn_on_counts(trace); counts && seen_s > 0.0) {
-    long long all = 0;
-    std::size_t busiest = 0;
-    for (std::size_t k = 0; k < 6; ++k) {
-      all += (*counts)[k];
-      if ((*counts)[k] > (*counts)[busiest]) busiest = k;
-    }
-    const std::string told =
-        all == 0 ? std::string("none: no switch is turned on after the start")
-                 : fmt::format(
-                       "chopped at <b>{}</b> on average; {} turn-ons of all six{}, T{} most often, {} times",
-                       computed(switching_frequency_Hz(outcome), "Hz"), grouped(all),
-                       trace.whole.empty() ? "" : " in the last " + computed(seen_s, "s"), busiest + 1,
-                       grouped((*counts)[busiest]));
-    text += list(answer("Switching", told));
-  }
-  return text.empty() ? "" : card("cost", "What it cost", text);
+  const std::string content = cost_content(outcome, trace);
+  return content.empty() ? "" : card("cost", "What it cost", content);
 }
 
 }  // namespace

@@ -55,10 +55,22 @@ std::vector<Change> changes_of(const Values& reference, double start) {
   return out;
 }
 
-HeldCurrent held_by(const Scenario& s) {
-  if (s.control.drive == sixstep::study::FirmwareKind::field)
-    return {"Current across the magnet", "i_q_A", "i_q_ref_A", "i_q", "i_q*"};
-  return {"Motor current", "i_m_A", "i_ref_A", "i_m", "i_ref"};
+/// Whether a six-step drive turns its rotor by a current alone until it sees it: its speed's reference is 0 up to the hand-over, and again
+/// where it has lost the rotor.
+bool starts_blindly(const Scenario& s) {
+  return s.control.mode == Mode::speed && s.control.drive == sixstep::study::FirmwareKind::sensorless &&
+         s.control.sensorless.commutates != sixstep::study::Commutates::hall;
+}
+
+/// A field-oriented drive with an observer does so, too. There the loop has much to do from the speed on that it takes over.
+bool takes_over_turning(const Scenario& s) {
+  return s.control.mode == Mode::speed && s.control.drive == sixstep::study::FirmwareKind::field &&
+         s.control.field.angle == sixstep::study::FieldAngle::observer;
+}
+
+/// How large a step a change is to who looks for one.
+double step_size(const Change& change, bool blind_start) {
+  return blind_start && (change.from == 0.0 || change.to == 0.0) ? 0.0 : change.size();
 }
 
 /// The whole run, where nothing is asked for.
@@ -92,10 +104,14 @@ std::optional<Step> largest_step(const Trace& trace, const Scenario& scenario) {
   const Values* reference = loop ? find_column(trace, loop->reference) : nullptr;
   const Values* signal = loop ? find_column(trace, loop->signal) : nullptr;
   if (!reference || !signal) return from_start(*time, scenario);
-  const std::vector<Change> changes = changes_of(*reference, signal->front() * loop->factor);
-  const auto largest =
-      std::ranges::max_element(changes, [](const Change& a, const Change& b) { return a.size() < b.size(); });
-  if (largest == changes.end() || largest->size() == 0.0) return from_start(*time, scenario);
+  std::vector<Change> changes = changes_of(*reference, signal->front() * loop->factor);
+  for (Change& change : changes)
+    if (takes_over_turning(scenario) && change.from == 0.0)
+      change.from = (*signal)[change.row] * loop->factor;
+  const bool blind = starts_blindly(scenario);
+  const auto largest = std::ranges::max_element(
+      changes, {}, [blind](const Change& change) { return step_size(change, blind); });
+  if (largest == changes.end() || step_size(*largest, blind) == 0.0) return from_start(*time, scenario);
   const std::size_t next = largest + 1 == changes.end() ? time->size() - 1 : (largest + 1)->row;
   std::size_t outside = largest->row;  // last row away from the goal
   for (std::size_t n = largest->row; n <= next; ++n)
@@ -153,7 +169,7 @@ std::size_t peak_row(const Values& time, const Values& y, const Interval& window
 
 std::optional<StepCurrent> step_current(const Trace& trace, const Step& step) {
   const auto* time = find_column(trace, "t_s");
-  const auto* current = find_column(trace, step.held.column);
+  const std::optional<Values> current = held_values(trace, step.held);
   if (!time || !current) return std::nullopt;
   const double shown = step.window.to - step.window.from, rest = step.next_s - step.window.to;
   if (!(shown > 0.0) || !is_whole(trace, step.window)) return std::nullopt;
@@ -166,8 +182,8 @@ std::optional<StepCurrent> step_current(const Trace& trace, const Step& step) {
     out.then_mean_A = then.integral / rest;
     out.then_span_A = then.high - then.low;
   }
-  if (const auto* reference = find_column(trace, step.held.reference))
-    out.asked_A = (*reference)[peak_row(*time, *reference, step.window)];
+  const std::optional<Values> asked = asked_values(trace, step.held);
+  if (asked && std::isfinite((*asked)[peak])) out.asked_A = (*asked)[peak];
   return out;
 }
 
@@ -219,28 +235,6 @@ std::optional<Held> held_back(const Trace& trace, const Scenario& scenario,
   if (reference && out.limit_A)
     out.limit_s = seconds_at(*time, *reference, *out.limit_A * (1.0 - 1.0 / 8192), from_s);
   return out;
-}
-
-double switching_frequency_Hz(const sixstep::study::Outcome& outcome) {
-  return static_cast<double>(outcome.turn_ons) / outcome.chopped_switches / outcome.simulated_s;
-}
-
-std::optional<std::array<long long, 6>> turn_on_counts(const Trace& trace) {
-  static constexpr const char* names[] = {"gate_T1", "gate_T2", "gate_T3", "gate_T4", "gate_T5", "gate_T6"};
-  std::array<long long, 6> counts{};
-  const auto* time = find_column(trace, "t_s");
-  if (!time) return std::nullopt;
-  const auto first =
-      static_cast<std::size_t>(std::ranges::lower_bound(*time, whole_from_s(trace)) - time->begin());
-  bool any = false;
-  for (std::size_t k = 0; k < 6; ++k) {
-    const auto* gate = find_column(trace, names[k]);
-    if (!gate) continue;
-    any = true;
-    for (std::size_t n = first + 1; n < gate->size(); ++n)
-      counts[k] += (*gate)[n] > 0.5 && (*gate)[n - 1] < 0.5;
-  }
-  return any ? std::optional(counts) : std::nullopt;
 }
 
 }  // namespace report

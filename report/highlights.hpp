@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the rows of a run say at first reading: its largest step, the current during it, how long the bus or a
-// limit held it back, how often it switched. Between two rows the trace is the straight line a chart draws.
+// limit held it back. Between two rows the trace is the straight line a chart draws.
 #pragma once
-#include <array>
 #include <optional>
 #include <string>
 
+#include "report/held_current.hpp"
 #include "report/thinning.hpp"
 #include "sixstep/study/measure/outcome.hpp"
 #include "sixstep/study/measure/trace.hpp"
@@ -13,12 +13,9 @@
 
 namespace report {
 
-/// The current that a drive holds: of a field-oriented one that across the magnet, else of the driven pair. By the drive and not by the
-/// columns: a trace of every event has those of all drives.
-struct HeldCurrent {
-  const char *title, *column, *reference, *label, *reference_label;
-};
-/// The greatest change of what the controller is asked for. The first setpoint counts from the start's value.
+/// The greatest change of what the controller is asked for. The first setpoint counts from the start's value. Of a drive that starts
+/// without seeing its rotor, a speed's reference comes and goes with the loop, while the shaft turns: of a six-step drive that is no
+/// step, of a field-oriented one a step from the speed that it takes over.
 struct Step {
   std::string of;  ///< "speed", "current", "position"; "start" where nothing is controlled
   std::string unit;
@@ -39,8 +36,8 @@ std::optional<double> last_setpoint_s(const sixstep::study::Trace& trace,
 /// The held current during a step; empty where an envelope stands for it.
 struct StepCurrent {
   double peak_A = 0.0, peak_after_s = 0.0;
-  std::optional<double> asked_A{};                     ///< largest reference, where there is a current loop
-  double rms_A = 0.0;                                  ///< over the window
+  std::optional<double> asked_A{};  ///< the reference at the peak, where there is a current loop
+  double rms_A = 0.0;               ///< over the window
   std::optional<double> then_mean_A{}, then_span_A{};  ///< from the window's end to the next change
 };
 std::optional<StepCurrent> step_current(const sixstep::study::Trace& trace, const Step& step);
@@ -57,13 +54,5 @@ struct Held {
 /// Empty where the bridge is switched by comparators: their duty is the state of a switch.
 std::optional<Held> held_back(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario,
                               const sixstep::study::Outcome& outcome);
-
-/// Turn-ons per second of what is chopped, as the figure of that name: the PWM's frequency where a PWM chops.
-/// All six switches together turn on more often: commutation turns on too, and the other switch of a leg that
-/// is chopped complementarily.
-double switching_frequency_Hz(const sixstep::study::Outcome& outcome);
-
-/// Turn-ons of T1 to T6, from whole_from_s() on.
-std::optional<std::array<long long, 6>> turn_on_counts(const sixstep::study::Trace& trace);
 
 }  // namespace report

@@ -34,8 +34,28 @@ std::string bar(double joule, double largest) {
                      100.0 * std::abs(joule) / largest);
 }
 
+/// What both accounts are shown with.
+struct Yardsticks {
+  double largest;     ///< entry of both
+  double scale;       ///< what the residuals are parts of
+  const char* parts;  ///< of what that is
+};
+
+/// Far below any rounding of the entries there is nothing.
+double unless_nothing(double joule, double largest) {
+  return std::abs(joule) < 1e-20 * largest ? 0.0 : joule;
+}
+
+std::string closing(double residual, const Yardsticks& y) {
+  const bool nothing = unless_nothing(residual * y.scale, y.largest) == 0.0;
+  return fmt::format("</tbody></table><p class=\"closing\">closes to <b>{}</b> of the energy {}</p>\n",
+                     plain(nothing ? 0.0 : std::abs(residual), 2, true), y.parts);
+}
+
 /// One equation as an account: the entries must add up to the total; what they miss is the residual.
-std::string account(const Entry& total, const std::vector<Entry>& entries, double residual, double largest) {
+std::string account(const Entry& total, const std::vector<Entry>& entries, double residual,
+                    const Yardsticks& y) {
+  const double largest = y.largest;
   const Scale scale = scale_for(largest, "J");
   constexpr int decimals = 4;  // the same in both accounts, so that they add up under the reader's eye
   const auto row = [&](const Entry& e, const char* css) {
@@ -49,18 +69,13 @@ std::string account(const Entry& total, const std::vector<Entry>& entries, doubl
       "<table class=\"ledger\"><thead><tr><th></th><th class=\"num\">{}</th><th></th></tr></thead><tbody>\n",
       scale.unit);
   html += row(total, "total");
-  double missing = total.joule;
-  for (const Entry& e : entries) {
-    html += row(e, "part");
-    missing -= e.joule;
-  }
+  for (const Entry& e : entries) html += row(e, "part");
+  const double missing = residual * y.scale;  // as the book has summed it up, to the last bit
   html += fmt::format(
       "<tr class=\"residual\"><th scope=\"row\">Residual<small>what does not add up</small></th><td "
       "class=\"num\">{}</td><td class=\"share\"></td></tr>\n",
-      computed(missing, "J"));
-  html += fmt::format("</tbody></table><p class=\"closing\">closes to <b>{}</b> of the energy moved</p>\n",
-                      plain(std::abs(residual), 2, true));
-  return html;
+      computed(unless_nothing(missing, largest), "J"));
+  return html + closing(residual, y);
 }
 
 /// Symbols of a linear motor in the accounts.
@@ -84,13 +99,14 @@ std::string energy_section(const sixstep::study::EnergyBook& b, const sixstep::b
   for (const double joule :
        {b.supplied, b.copper, b.devices, b.magnetic, b.air_gap, b.friction, b.load, b.kinetic})
     largest = std::max(largest, std::abs(joule));
+  const Yardsticks yardsticks{largest, b.scale, b.scale > b.moved ? "stored" : "moved"};
   std::string html = energy_sankey(b) + "<div class=\"columns\"><div><h3>Electrical</h3>";
   html += account({"Supplied by the bus", "∫ U<sub>s</sub> i dt", b.supplied},
                   {{"Copper", "∫ R<sub>s</sub> Σi² dt", b.copper},
                    {"Switches and diodes", "conduction", b.devices},
                    {"Magnetic field", "Δ ½ L<sub>s</sub> Σi²", b.magnetic},
                    {"Across the air gap", "∫ T<sub>e</sub> ω dt", b.air_gap}},
-                  b.electrical_residual, largest);
+                  b.electrical_residual, yardsticks);
   html += "</div><div><h3>Mechanical</h3>";
   std::vector<Entry> shaft{
       {b.iron != 0.0 ? "Bearing friction" : "Friction", "viscous, Coulomb, in a gear", b.friction - b.iron}};
@@ -102,7 +118,7 @@ std::string energy_section(const sixstep::study::EnergyBook& b, const sixstep::b
                        (beside.cogging ? ", −∫ T<sub>cog</sub> ω dt" : ""),
                    b.kinetic});
   html += account({"Across the air gap", "∫ T<sub>e</sub> ω dt", b.air_gap}, shaft, b.mechanical_residual,
-                  largest);
+                  yardsticks);
   return told_in(motion, html + "</div></div>\n");
 }
 

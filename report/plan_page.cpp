@@ -15,6 +15,7 @@
 #include "report/shell.hpp"
 #include "sixstep/analysis/plan/plan_description.hpp"
 #include "sixstep/base/written.hpp"
+#include "text/keys/decimal_number.hpp"
 
 namespace report {
 namespace {
@@ -72,19 +73,22 @@ std::string plan_fact(std::string_view name, const std::string& html) {
   return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, html);
 }
 
-std::string words_of(const analysis::Axis& axis) {
-  std::string text;
-  for (const std::string& value : axis.values)
-    text += (text.empty() ? "" : ", ") + std::string(analysis::bare(value));
-  return text;
+/// Numbers with prefix and unit, as the terminal has them; words as they are.
+std::string words_of(const analysis::Axis& axis, const std::string& unit) {
+  std::string words;
+  for (const std::string& value : axis.values) {
+    const std::optional<double> number = text::number_alone(value);
+    words +=
+        (words.empty() ? "" : ", ") + (number ? given(*number, unit) : std::string(analysis::bare(value)));
+  }
+  return words;
 }
 
 std::string range_text(const PagePlan& plan, std::size_t k) {
   const analysis::Axis& axis = plan.story.plan.axes[k];
   const std::string& unit = plan.story.columns.keys[k].unit;
-  std::string text = axis.values.empty() ? given(axis.from, unit) + " … " + given(axis.to, unit)
-                                         : fmt::format("{}{}{}", words_of(axis), unit.empty() ? "" : "\u00a0",
-                                                       scale_for(0.0, unit).unit);
+  std::string text =
+      axis.values.empty() ? given(axis.from, unit) + " … " + given(axis.to, unit) : words_of(axis, unit);
   if (axis.values.empty() && plan.story.plan.sampling == analysis::Sampling::grid)
     text += fmt::format(", {} values", axis.points);
   if (axis.values.empty() && axis.spacing == analysis::Spacing::logarithmic) text += ", equal factors";

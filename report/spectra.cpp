@@ -26,6 +26,8 @@ std::string how(const Spectra& s) {
 }
 
 std::string table(const Spectra& s, const DrawnSpectrum& d) {
+  if (d.lines.tones.empty())
+    return fmt::format("<div><h3>{}</h3><p class=\"quiet\">No line stands out.</p></div>\n", d.title);
   constexpr std::size_t most = 6;
   const double periods = s.period_s > 0.0 ? (s.stretch.time.to - s.stretch.time.from) / s.period_s : 0.0;
   std::string rows;
@@ -69,7 +71,7 @@ std::optional<Spectra> spectra(const sixstep::study::Trace& trace, const sixstep
     // 64 cells a period: an eighth of their frequency is eight times the PWM's. What would be folded into the
     // lines lies above 56 times it, where the cells' means leave an eighth.
     Lines lines = lines_of(time, *values, stretch->time, scenario.pwm.period_s / 64);
-    if (std::ranges::max(lines.amplitude) > 0.0)
+    if (std::ranges::max(lines.amplitude) >= least_tone)
       out.all.push_back({w.id, w.title, w.quantity, w.unit, w.label, w.style, std::move(lines)});
   }
   if (out.all.empty()) return std::nullopt;

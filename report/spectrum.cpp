@@ -76,7 +76,7 @@ Tone tone_at(const Values& a, std::size_t k) {
 double leakage(double lines) { return lines > 1.2 ? 1 / (pi * lines * (lines * lines - 1)) : 1.0; }
 
 std::vector<Tone> tones_of(const Values& a) {
-  const double floor = a.empty() ? 0.0 : 1e-3 * std::ranges::max(a);
+  const double floor = a.empty() ? 0.0 : std::max(1e-3 * std::ranges::max(a), least_tone);
   std::vector<Tone> peaks, tones;
   // Not the first line: a drift over the stretch shows there, too.
   for (std::size_t k = 2; k + 1 < a.size(); ++k)

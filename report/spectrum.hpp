@@ -28,14 +28,17 @@ struct Tone {
   double line = 0.0, amplitude = 0.0;
 };
 
+/// In the column's unit: below it there is none, but what roundings leave.
+inline constexpr double least_tone = 1e-9;
+
 /// Amplitude (peak value) of the line k at k/duration. A Hann window widens a pure tone to three lines. Between two lines its highest
 /// one would be up to 15 % too low: from the two highest the tone's own place and amplitude are computed, and its highest line has that.
 struct Lines {
   double spacing_Hz = 0.0, cell_s = 0.0;
   std::vector<double> amplitude{};  ///< up to an eighth of the cells' frequency; [0], the mean, is 0
   std::vector<Tone>
-      tones{};  ///< the strongest first, none below a thousandth of it, in the leakage of a stronger one, or on
-                ///< the first line, where a drift shows, too
+      tones{};  ///< the strongest first, none below a thousandth of it or least_tone, in the leakage of a stronger one, or on
+  ///< the first line, where a drift shows, too
 };
 /// Of the straight lines between the rows, averaged exactly over equal cells no longer than `cell_s` (which
 /// damps what lies above their frequency instead of folding it down; the damping below is divided out again).

@@ -22,13 +22,13 @@ using analysis::WiringStudy;
 constexpr double card_width = 384, card_gap = 6, card_chart_left = 12, chart_width = 112, text_left = 138;
 constexpr std::size_t card_characters = 40;
 /// Of a run: later it goes on as it is.
-constexpr double shown = 0.4;
+constexpr double shown_part = 0.4;
 
 /// The current of one start, up to half above what a stalled motor draws.
 std::string current(const WiringStudy& s, const analysis::FreeRun& run, double top, double bottom) {
   const double most = 1.3 * s.bench.current_A;
   std::vector<Place> line;
-  const auto rows = static_cast<std::size_t>(shown * static_cast<double>(run.current_A.size()));
+  const auto rows = static_cast<std::size_t>(shown_part * static_cast<double>(run.current_A.size()));
   for (std::size_t n = 0; n < rows; ++n)
     line.push_back({card_chart_left + chart_width * static_cast<double>(n) / static_cast<double>(rows - 1),
                     bottom - (bottom - top) * std::min(run.current_A[n] / most, 1.0)});
@@ -78,7 +78,8 @@ Panel wiring_cards(const WiringStudy& s, double height) {
   std::string svg = fmt::format(
       "<text class=\"b\" x=\"0\" y=\"12\">What you see</text><text class=\"e q s\" x=\"{:.0f}\" y=\"12\">current "
       "from rest on, {}; dashed: {}</text>\n",
-      card_width, escaped(computed(shown * s.bench.free_s, "s")), escaped(computed(s.bench.current_A, "A")));
+      card_width, escaped(computed(shown_part * s.bench.free_s, "s")),
+      escaped(computed(s.bench.current_A, "A")));
   double y = head;
   for (const WiringDoes does : seen) {
     svg += fmt::format("<g class=\"{}\" transform=\"translate(0 {:.1f})\">{}</g>\n", style_of(does), y,

@@ -8,7 +8,7 @@
 
 namespace sixstep::plant {
 
-/// Energy over a run, J. The residuals are what does not close, relative to the energy that moved.
+/// Energy over a run, J. The residuals are what does not close, as parts of `scale`.
 struct EnergyBook {
   double supplied = 0.0;  ///< integral U_s i_dc dt, into the bridge
   double copper = 0.0;

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "report/cost_card.hpp"
 #include "report/highlights.hpp"
 #include "report/kept_rows.hpp"
 #include "report/windows.hpp"

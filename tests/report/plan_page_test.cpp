@@ -13,6 +13,8 @@
 #include "report/plan_rows.hpp"
 #include "report/plan_worst.hpp"
 #include "tests/report/synthetic_plan.hpp"
+#include "text/keys/decimal_number.hpp"
+#include "text/results/quantity_text.hpp"
 
 namespace report {
 namespace SIXSTEP_TEST_FILE {
@@ -204,6 +206,25 @@ TEST(PlanPage, HoldsNamesAsText) {
   EXPECT_EQ(count(page, "<script"), 2u) << "the data and the page's own";
   EXPECT_THAT(page, Not(HasSubstr("alert(1)</script>")));
   EXPECT_EQ(data_of(page)["plans"][0]["columns"][3]["name"], bad);
+}
+
+/// The card's values are the terminal's: its words have u for µ, and a space that breaks.
+TEST(PlanPage, values_of_an_axis_are_told_as_the_terminal_tells_them) {
+  const std::vector<std::string> written{"2e-07", "1e-06", "0.0035", "12", "\"ideal\""};
+  SyntheticPlan made =
+      synthetic_plan({.axes = {{.key = "control.speed.settle_s", .values = {"0.002", "0.004"}},
+                               {.key = "supply.voltage_V", .values = {"12", "24"}}}});
+  made.plan.axes[0].values = written;
+  std::string words;
+  for (const std::string& value : written) {
+    const auto number = text::number_alone(value);
+    std::string one = number ? text::quantity_text(*number, "s", 4) : "ideal";
+    if (const auto at = one.find(" u"); at != one.npos) one.replace(at, 2, " µ");
+    if (const auto at = one.find(' '); at != one.npos) one.replace(at, 1, "\u00a0");
+    words += (words.empty() ? "" : ", ") + one;
+  }
+  EXPECT_THAT(words, HasSubstr("200\u00a0ns, 1\u00a0µs"));
+  EXPECT_THAT(page_of(made), HasSubstr("<dt>control.speed.settle_s</dt><dd>" + words + "</dd>"));
 }
 
 }  // namespace SIXSTEP_TEST_FILE

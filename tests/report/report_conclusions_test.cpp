@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "report/conduction.hpp"
+#include "report/cost_card.hpp"
 #include "report/glance.hpp"
 #include "report/groups.hpp"
 #include "report/highlights.hpp"

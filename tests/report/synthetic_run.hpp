@@ -223,10 +223,13 @@ inline sixstep::study::Outcome synthetic_outcome() {
                                         .friction = 0.0101,
                                         .load = 0.0,
                                         .kinetic = 0.5130,
+                                        .moved = 1.5543,
+                                        .scale = 1.5543,
                                         .electrical_residual = 3.1e-15,
                                         .mechanical_residual = 8.8e-16};
   o.events = {{"PWM edge", 1334}, {"Hall edge", 21}, {"diode current zero", 42}, {"control tick", 667}};
   o.segments = 2087;
+  o.turn_ons = 667;
   o.motor = {.machine = {.R_ohm = 0.515, .L_H = 0.286e-3, .K_e_V_s = 0.01675, .pole_pairs = 8},
              .shaft = {.J_kg_m2 = 1.35e-5, .B_Nm_s = 7.3e-6},
              .K_t_Nm_A = 0.0335,

@@ -70,6 +70,7 @@ Json energy(const sixstep::plant::EnergyBook& e) {
           {"load_J", e.load},
           {"kinetic_J", e.kinetic},
           {"moved_J", e.moved},
+          {"scale_J", e.scale},
           {"electrical_residual", e.electrical_residual},
           {"mechanical_residual", e.mechanical_residual}};
 }

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a spectrum says where nothing oscillates.
+#include "report/spectra.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+namespace SIXSTEP_TEST_FILE {
+
+using namespace report;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// One second of both curves, rows a period of 1/1024 s apart.
+sixstep::study::Trace trace_of(double (*current)(double), double (*torque)(double)) {
+  sixstep::study::Trace trace;
+  for (const char* name : {"t_s", "i_a_A", "torque_Nm"}) trace.columns.push_back({name, "", "", ""});
+  trace.values.resize(3);
+  for (int n = 0; n <= 1024; ++n) {
+    const double t = n / 1024.0;
+    trace.values[0].push_back(t);
+    trace.values[1].push_back(current(t));
+    trace.values[2].push_back(torque(t));
+  }
+  return trace;
+}
+sixstep::study::Scenario scenario() {
+  sixstep::study::Scenario s;
+  s.pwm.period_s = 1.0 / 1024;
+  return s;
+}
+double rounding(double t) { return 2.7e-42 * std::sin(2 * M_PI * 100 * t); }
+double drift(double t) { return 1e-3 * t; }
+double tone(double t) { return 2e-9 * std::sin(2 * M_PI * 100 * t); }
+
+TEST(Spectra, of_what_is_not_there_there_is_none) {
+  EXPECT_FALSE(spectra(trace_of(rounding, rounding), scenario(), 2));
+  const auto one = spectra(trace_of(rounding, tone), scenario(), 2);
+  ASSERT_TRUE(one);
+  ASSERT_EQ(one->all.size(), 1u);
+  EXPECT_EQ(one->all[0].id, "torque-spectrum");
+  EXPECT_THAT(spectra_section(one), HasSubstr("100.0\u00a0Hz"));
+  EXPECT_THAT(spectra_section(one), Not(HasSubstr("phase current")));
+}
+
+TEST(Spectra, of_a_drift_alone_no_line_stands_out) {
+  const std::string html = spectra_section(spectra(trace_of(rounding, drift), scenario(), 2));
+  EXPECT_THAT(html, HasSubstr("<h3>Spectrum of the torque</h3><p class=\"quiet\">No line stands out.</p>"));
+  EXPECT_THAT(html, Not(HasSubstr("<table")));
+}
+
+TEST(Spectra, a_tone_is_one_from_a_billionth_of_its_unit_on) {
+  for (const double amplitude : {0.9e-9, 1.1e-9, 1e-3}) {
+    std::vector<double> time, values;
+    for (int n = 0; n <= 4096; ++n) {
+      time.push_back(n / 4096.0);
+      values.push_back(amplitude * std::sin(2 * M_PI * 20 * time.back()));
+    }
+    const std::vector<Tone> tones = lines_of(time, values, {0, 1}, 1.0 / 4096).tones;
+    EXPECT_EQ(tones.size(), amplitude < 1e-9 ? 0u : 1u) << amplitude;
+  }
+}
+
+}  // namespace SIXSTEP_TEST_FILE
