@@ -62,6 +62,17 @@ TEST(Remarks, ABusThatNobodyChose) {
   EXPECT_THAT(remarks_on(s), IsEmpty());
 }
 
+TEST(Remarks, ValuesOfTheReferenceBehindTheEnd) {
+  Scenario s = held(1.0);
+  s.duration_s = 4e-3;
+  s.reference = {.shape = study::Shape::csv, .times_s = {0, 1e-3, 3e-3, 5e-3}, .values = {0, 1, 2, 1}};
+  EXPECT_THAT(remarks_on(s), IsEmpty()) << "the run is on the line to the last one";
+  s.reference.interpolation = study::Interpolation::hold;
+  EXPECT_THAT(remarks_on(s), Contains(HasSubstr("1 of the 4 values of the reference are behind the end")));
+  s.duration_s = 2e-3;
+  EXPECT_THAT(remarks_on(s), Contains(HasSubstr("2 of the 4 values")));
+}
+
 TEST(Remarks, AShuntThatSeesNoPulse) {
   Scenario s = held(0.3);
   s.pwm.alignment = study::Alignment::centre;

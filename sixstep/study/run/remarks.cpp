@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/study/run/remarks.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -38,6 +39,19 @@ std::string on_supply(const Scenario& s) {
     return {};
   return "the bus is at supply.voltage_V = " + few_digits(usual_V) +
          " V, which is its default; the motor's nominal voltage is " + few_digits(nominal->value) + " V";
+}
+
+/// Values whose times are behind the run's end. The first of them may end a straight line that the run is on.
+std::string on_late_values(const Scenario& s) {
+  const Reference& r = s.reference;
+  if (r.shape != Shape::csv || s.control.mode == control::Mode::off) return {};  // steps there are refused
+  const auto behind =
+      std::count_if(r.times_s.begin(), r.times_s.end(), [&s](double t) { return t > s.duration_s; });
+  const auto unreached = behind - (r.interpolation == Interpolation::linear ? 1 : 0);
+  if (unreached < 1) return {};
+  return std::to_string(unreached) + " of the " + std::to_string(r.times_s.size()) +
+         " values of the reference are behind the end of the run, duration_s = " + few_digits(s.duration_s) +
+         ": it never comes to them" + (r.file.empty() ? "" : "; a time without a unit is in s");
 }
 
 /// Time from one sector edge to the next.
@@ -161,6 +175,7 @@ void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, Outcom
   if (const std::string unused = unused_keys(s); !unused.empty()) add("given without effect: " + unused);
   if (!s.not_usable.empty()) add("its design calls it NOT USABLE: " + s.not_usable);
   add(on_supply(s));
+  add(on_late_values(s));
   for (std::string& text : passed_limits(s, w, out)) add(std::move(text));
   if (c.own.is) return;  // its gains and samples are its own
   add(on_shunt(s, c, w));

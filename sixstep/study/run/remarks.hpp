@@ -9,6 +9,7 @@ namespace sixstep::study {
 
 /// Adds to outcome.remarks:
 ///   - what the design of the scenario found against it,
+///   - values of the reference that the run is over before,
 ///   - samples of a shunt that fell outside of the pulse,
 ///   - a speed reference whose Hall edges come later than sensors.timeout_s,
 ///   - a current loop that is unstable with its gains, a placed gain that is negative, gains that look like another tool's,
