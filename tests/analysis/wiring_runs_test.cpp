@@ -64,10 +64,12 @@ TEST(WiringRuns, OfATrapezoidDoWhatTheorySays) {
   EXPECT_NEAR(s.symptom(WiringDoes::forward_late).phase_rms_A, std::sqrt(2.0 / 3) * 0.5 * 2.33, 0.05 * 2.33);
   EXPECT_LT(s.symptom(WiringDoes::forward).phase_rms_A, 0.05 * 2.33);
   // A motor that has settled takes from its supply what friction and copper lose: nothing speeds it up.
-  for (const analysis::Symptom& well : {s.symptom(WiringDoes::forward), s.symptom(WiringDoes::backward)}) {
-    const double friction_W = s.bench.motor.shaft.B_Nm_s * well.speed_rad_s * well.speed_rad_s;
-    const double copper_W = 3 * 0.515 * well.phase_rms_A * well.phase_rms_A;
-    EXPECT_NEAR(24 * well.supply_A, friction_W + copper_W, 0.01 * friction_W);
+  for (const WiringDoes does : {WiringDoes::forward, WiringDoes::backward, WiringDoes::forward_early,
+                                WiringDoes::forward_late, WiringDoes::backward_early}) {
+    const analysis::Symptom told = s.symptom(does);
+    const double friction_W = s.bench.motor.shaft.B_Nm_s * told.speed_rad_s * told.speed_rad_s;
+    const double copper_W = 3 * 0.515 * told.phase_rms_A * told.phase_rms_A;
+    EXPECT_NEAR(24 * told.supply_A, friction_W + copper_W, 0.01 * (friction_W + copper_W)) << int(does);
   }
   EXPECT_GT(s.symptom(WiringDoes::forward_early).speed_rad_s,
             s.symptom(WiringDoes::forward_late).speed_rad_s);

@@ -17,10 +17,10 @@ namespace {
 constexpr double most_periods = 3e5;
 constexpr double rows = 1500;
 
-/// Time constants of the run-up. With half the torque it takes three times as long (wiring_theory.hpp, mean(g^2)): three of them.
-constexpr double run_up = 10;
+/// Time constants of the run-up. With half the torque it takes three times as long (wiring_theory.hpp, mean(g^2)): six of them.
+constexpr double run_up = 18;
 /// Electrical turns of an ideal motor during which a run is watched: one that runs makes more than one.
-constexpr double watched_turns = 3;
+constexpr double watched_turns = 6;
 
 constexpr double most_back_emf = 0.05;
 /// L/R that a slow electrical turn takes at least: sixteen in each sector.
