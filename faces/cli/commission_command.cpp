@@ -125,7 +125,7 @@ Verb declare_commission(CLI::App& motor) {
   verb.add_option(
       "--current", a->current_A,
       "of the test, A, that the motor stands for seconds; without it twice the nominal one, or twice a tenth "
-      "of what full duty drives where the sheet names none; at most half of what the bus drives along a phase");
+      "of what full duty drives where the sheet names none; never more than half of what the bus drives through the resting motor");
   verb.add_option("--phases", a->phases, "of the motor at legs a, b, c: abc, bca, cab, acb, cba or bac")
       ->capture_default_str();
   verb.add_option("--wires", a->wires, "Hall probes at pins H1, H2, H3: 123, 231, 312, 132, 321 or 213")

@@ -175,7 +175,7 @@ base::Problems too_small(const ConfigHeader& w, const study::Compiled& c) {
       problems.push_back(
           {fmt::format("--range {}", key), sixstep::base::six_digits(stated),
            fmt::format(
-               "is less than the {} {} that this scenario reaches: by its reference, a limit, its source or its start",
+               "is less than {} {}, the largest of this scenario's reference, limits, source and start",
                sixstep::base::six_digits(asked), unit),
            "give the most that may be measured or asked for, or leave it out"});
   };

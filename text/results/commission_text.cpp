@@ -71,8 +71,9 @@ std::string lines(const CommissionStudy& s) {
   const std::string probes = fmt::format("{} {} {}", found.probe[0], found.probe[1], found.probe[2]);
   const std::string inverted = inverted_word(found.inverted);
   return fmt::format(
-             "Hall lines as the board sees them: probes {} at H1 H2 H3{}; the rotor lags {:.1f} deg each way\n",
-             probes, inverted == "none" ? "" : ", inverted: " + inverted, s.found.hall_lag_deg) +
+             "Hall lines as the board sees them: probes {} at H1 H2 H3{}; the rotor {} {:.1f} deg each way\n",
+             probes, inverted == "none" ? "" : ", inverted: " + inverted,
+             s.found.hall_lag_deg < 0 ? "leads" : "lags", std::fabs(s.found.hall_lag_deg)) +
          rows.text();
 }
 
