@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 
@@ -60,7 +61,8 @@ TEST(DriveDesign, PlacesTheThesissPoles) {
 /// an exponential; here Runge and Kutta with 50 steps a period, whose error is far below what is asked.
 std::vector<double> simulated(const DriveDesign& d, double position_gain, std::size_t count) {
   const double R = 1.03, L = 0.572e-3, K = 0.0335, J = 1.35e-5, B = 7.3e-6, T = d.spec.period_s;
-  double i = 0, w = 0, theta = 0, u = 0, e1 = 0, y = 0, e2 = 0, next_u = 0;
+  double i = 0, w = 0, theta = 0, e1 = 0, y = 0, e2 = 0;
+  double asked[3] = {0, 0, 0};  // volts: of this sample, of the one before and of the one before that
   std::vector<double> out;
   for (std::size_t k = 0; k < count; ++k) {
     out.push_back(position_gain > 0 ? theta * 180 / 3.14159265358979324 : w);
@@ -69,14 +71,16 @@ std::vector<double> simulated(const DriveDesign& d, double position_gain, std::s
     y += d.loop("speed").gains.d1 * speed_error + d.loop("speed").gains.d0 * e1;
     e1 = speed_error;
     const double current_error = y * d.current_at_full_torque_A - i;
-    const double fresh = (d.spec.delay_periods == 1 ? next_u : u) +
-                         d.loop("current").gains.d1 * current_error + d.loop("current").gains.d0 * e2;
+    asked[2] = asked[1];
+    asked[1] = asked[0];
+    asked[0] += d.loop("current").gains.d1 * current_error + d.loop("current").gains.d0 * e2;
     e2 = current_error;
-    u = d.spec.delay_periods == 1 ? next_u : fresh;
-    next_u = fresh;
     constexpr int steps = 50;
     for (int n = 0; n < steps; ++n) {
       const double h = T / steps;
+      // A sample in the middle of a period: until that ends, what was asked for before acts on.
+      const bool before = d.spec.sampled_in_middle && n < steps / 2;
+      const double u = asked[d.spec.delay_periods + (before ? 1 : 0)];
       const auto di = [&](double ii, double ww) { return (u - R * ii - K * ww) / L; };
       const auto dw = [&](double ii, double ww) { return (K * ii - B * ww) / J; };
       const double i1 = di(i, w), w1 = dw(i, w), i2 = di(i + h / 2 * i1, w + h / 2 * w1),
@@ -92,8 +96,9 @@ std::vector<double> simulated(const DriveDesign& d, double position_gain, std::s
 }
 
 TEST(DriveDesign, TheClosedLoopsAreTheCascadeWrittenOut) {
-  for (const int late : {0, 1}) {
-    const DriveDesign d = designed({.mode = Mode::position, .delay_periods = late});
+  for (const int late : {0, 1, 2, 3}) {
+    const DriveDesign d =
+        designed({.mode = Mode::position, .delay_periods = late / 2, .sampled_in_middle = late % 2 == 1});
     const double gain = d.loop("position").gains.d1;
     const std::vector<double> speed = simulated(d, 0.0, 300), position = simulated(d, gain, 300);
     const StepResponse w = step_response(closed(d.loop("speed").loop), d.spec.period_s,
@@ -106,6 +111,59 @@ TEST(DriveDesign, TheClosedLoopsAreTheCascadeWrittenOut) {
       ASSERT_NEAR(theta.samples[k], position[k], 1e-9) << k;
     }
   }
+}
+
+/// A locked rotor of 1.03 ohm and 0.572 mH, 30 us, a step of 2 A: i' = a_h (a_h i + b_h u_first) + b_h u_then, with a_h over half a
+/// period. From the middle of a period on the volts of a sample act in the second half of what lies between it and the next.
+double overshoot_of_recurrence_A(const PiGains& g, int delay_periods, bool middle) {
+  const double a = std::exp(-1.03 * 15e-6 / 0.572e-3), b = (1 - a) / 1.03;
+  double i = 0, before = 0, highest = 0, volts[3] = {0, 0, 0};
+  for (int k = 0; k < 200; ++k) {
+    highest = std::max(highest, i);
+    volts[2] = volts[1];
+    volts[1] = volts[0];
+    volts[0] += g.d1 * (2 - i) + g.d0 * before;
+    before = 2 - i;
+    const double then = volts[delay_periods], first = volts[delay_periods + (middle ? 1 : 0)];
+    i = a * (a * i + b * first) + b * then;
+  }
+  return highest - 2;
+}
+
+TEST(DriveDesign, ASampleInTheMiddleMakesTheLoopHalfAPeriodLater) {
+  struct Told {
+    int delay_periods;
+    bool middle;
+    double overshoot_A, settling_s;
+  };
+  for (const Told& told :
+       {Told{1, false, 0.22394, 900e-6}, Told{0, true, 0.18295, 960e-6}, Told{1, true, 0.30846, 870e-6}}) {
+    const DriveDesign d = designed(
+        {.mode = Mode::current, .delay_periods = told.delay_periods, .sampled_in_middle = told.middle});
+    EXPECT_NEAR(2 * d.loops[0].step.overshoot, told.overshoot_A, 1e-5);
+    EXPECT_NEAR(2 * d.loops[0].step.overshoot,
+                overshoot_of_recurrence_A(d.loops[0].gains, told.delay_periods, told.middle), 1e-12);
+    EXPECT_NEAR(d.loops[0].step.settling_s, told.settling_s, 1e-9);
+  }
+}
+
+/// A delay takes w times it of the phase at the crossover, and the crossover hardly moves: half a period lies between none and one.
+TEST(DriveDesign, HalfAPeriodCostsHalfThePhaseOfOne) {
+  const DriveDesign start = designed({.mode = Mode::current, .delay_periods = 1});
+  const DriveDesign middle = designed({.mode = Mode::current, .delay_periods = 1, .sampled_in_middle = true});
+  const LoopDesign &s = start.loops[0], &m = middle.loops[0];
+  const double half = *s.figures.crossover_rad_s * start.spec.period_s / 2;
+  EXPECT_NEAR(*start.later(s).phase_rad - *middle.later(m).phase_rad, half, 0.04 * half);
+  EXPECT_NEAR(*start.sooner(s).phase_rad - *middle.sooner(m).phase_rad, half, 0.04 * half);
+  EXPECT_EQ(late_words(middle.spec.late_periods()), "1.5 periods late");
+  EXPECT_EQ(late_words(middle.spec.sooner_periods()), "half a period late");
+  // The longest period, as it is told of a sample at the start too: 45 degrees are left there.
+  const DriveDesign longest = designed({.mode = Mode::current,
+                                        .period_s = middle.longest_period_s,
+                                        .delay_periods = 1,
+                                        .sampled_in_middle = true});
+  EXPECT_NEAR(*longest.loops[0].figures.phase_rad, base::pi / 4, 1e-3);
+  EXPECT_LT(middle.longest_period_s, start.longest_period_s);
 }
 
 /// A duty of hard chopping moves the voltage twice as far: half the gains make the same loops, whatever the rule.

@@ -61,7 +61,7 @@ struct RobustFigure {
 
 struct Robustness {
   std::vector<RobustFigure> figures;  ///< of the scenario's comparisons, in their order
-  /// Of each loop with one period of delay and the sensor of the speed, in degrees: worst is least.
+  /// Of each loop with the later of the delays and the sensor of the speed, in degrees: worst is least.
   std::vector<RobustFigure> phases;
   std::size_t runs = 0;
 };

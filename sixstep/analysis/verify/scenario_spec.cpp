@@ -130,6 +130,7 @@ design::DesignSpec spec_of(const study::Scenario& s) {
   w.load_inertia_kg_m2 =
       s.load.inertia_kg_m2 / (s.load.gear * s.load.gear);  // the loops are of the motor's shaft
   w.delay_periods = s.pwm.delay_periods;
+  w.sampled_in_middle = s.pwm.sample == study::SampleAt::middle;
   // By the current that flows: on the pair both are the same.
   w.chopping = s.control.smooth_chopping.on ? control::Chopping::complementary : s.pwm.chopping;
   w.rotor = rotor_sensing_of(s);

@@ -36,11 +36,11 @@ double settle_of_current(const DesignSpec& w, const MotorModel& m) {
       std::fmin(usual, w.settle_s.value_or(usual_speed_settle_s) / inner_faster));
 }
 
-DriveLoops loops_of(const DriveDesign& d, const MotorModel& motor, int delay_periods) {
+DriveLoops loops_of(const DriveDesign& d, const MotorModel& motor, double late_periods) {
   DriveLoops to{.motor = motor,
                 .winding = driven_pair(motor, d.spec.chopping),
                 .period_s = d.spec.period_s,
-                .delay_periods = delay_periods};
+                .late_periods = late_periods};
   for (const LoopDesign& loop : d.loops) {
     if (loop.name == "current") to.current = loop.gains;
     if (loop.name == "speed") to.speed = loop.gains;
@@ -58,10 +58,10 @@ double watched_s(const Transfer& whole, double period_s) {
 }
 
 void judge(DriveDesign& d, LoopDesign& loop, std::size_t index) {
-  const int delay_periods = d.spec.delay_periods;
-  judge_loop(loop, open_loops(d, d.motor, delay_periods)[index],
-             open_loops(d, d.motor, 1 - delay_periods)[index], sensed_loops(d, d.motor, delay_periods)[index],
-             d.spec.period_s, settling_band(d));
+  const DesignSpec& w = d.spec;
+  const double late = w.late_periods(), other = w.delay_periods > 0 ? w.sooner_periods() : w.later_periods();
+  judge_loop(loop, open_loops(d, d.motor, late)[index], open_loops(d, d.motor, other)[index],
+             sensed_loops(d, d.motor, late)[index], w.period_s, settling_band(d));
 }
 
 base::Result<LoopDesign> by_placement(const char* name, const ZohPlant& plant, double settle_s,
@@ -138,7 +138,7 @@ bool overshoots(const Transfer& open, double gain, double period_s) {
 
 /// The largest gain with which the linear loop does not overshoot: an overshoot grows with the gain.
 double largest_position_gain(const DriveDesign& d) {
-  DriveLoops loops = loops_of(d, d.motor, d.spec.delay_periods);
+  DriveLoops loops = loops_of(d, d.motor, d.spec.late_periods());
   loops.position_gain_rad_s_per_deg = 1.0;
   const Transfer open = open_position_loop(loops);
   double low = 0.0, high = 1e-3;
@@ -167,7 +167,23 @@ LoopDesign position_loop(double gain, const char* method, const char* meaning) {
           .step = {}};
 }
 
-/// The longest period at which the same rule keeps 45 degrees with one period of delay: the phase falls with
+/// What a current loop keeps of its phase with the later of the delays, in rad; empty where it never crosses over.
+std::optional<double> phase_left_rad(const DriveDesign& d, const PiGains& gains, double period_s) {
+  const LoopWinding winding = driven_pair(d.motor, d.spec.chopping);
+  if (!d.spec.sampled_in_middle) {
+    const std::optional<Margins> m = margins(current_plant(winding, period_s), gains, period_s, true);
+    return m ? std::optional(m->phase_rad) : std::nullopt;
+  }
+  const DriveLoops loops{.motor = d.motor,
+                         .winding = winding,
+                         .period_s = period_s,
+                         .late_periods = d.spec.later_periods(),
+                         .current = gains};
+  constexpr int points = 256;  // a PI loop's phase has no narrow features
+  return loop_figures(open_current_loop(loops), period_s, points).phase_rad;
+}
+
+/// The longest period at which the same rule keeps 45 degrees with the later of the delays: the phase falls with
 /// the period.
 double longest_period(const DriveDesign& d) {
   const auto holds = [&](double period_s) {
@@ -175,9 +191,8 @@ double longest_period(const DriveDesign& d) {
     at.spec.period_s = period_s;
     const base::Result<LoopDesign> loop = current_loop(at);
     if (!loop) return false;
-    const ZohPlant plant = current_plant(driven_pair(d.motor, d.spec.chopping), period_s);
-    const std::optional<Margins> m = margins(plant, loop->gains, period_s, true);
-    return m && m->phase_rad >= base::pi / 4.0;
+    const std::optional<double> phase_rad = phase_left_rad(d, loop->gains, period_s);
+    return phase_rad && *phase_rad >= base::pi / 4.0;
   };
   double low = 1e-9, high = 2e-9;
   while (holds(high) && high < 1.0) {
@@ -198,7 +213,7 @@ double crossover_of(const DriveDesign& d) {
 }
 
 SettlingQuestion settling_question(const DriveDesign& d) {
-  return {loops_of(d, d.motor, d.spec.delay_periods), d.torque_limit_Nm, d.spec.damping};
+  return {loops_of(d, d.motor, d.spec.late_periods()), d.torque_limit_Nm, d.spec.damping};
 }
 
 /// Nobody said how fast: the thesis's settling time, or what the sensor stands where that is longer.
@@ -334,16 +349,17 @@ DriveDesign with_position_gain(const DriveDesign& design, double gain_rad_s_per_
   return d;
 }
 
-std::vector<Transfer> open_loops(const DriveDesign& design, const MotorModel& motor, int delay_periods) {
-  const DriveLoops loops = loops_of(design, motor, delay_periods);
+std::vector<Transfer> open_loops(const DriveDesign& design, const MotorModel& motor, double late_periods) {
+  const DriveLoops loops = loops_of(design, motor, late_periods);
   std::vector<Transfer> out{open_current_loop(loops)};
   if (design.loops.size() > 1) out.push_back(open_speed_loop(loops));
   if (design.loops.size() > 2) out.push_back(open_position_loop(loops));
   return out;
 }
 
-std::vector<SensedLoop> sensed_loops(const DriveDesign& design, const MotorModel& motor, int delay_periods) {
-  const std::vector<Transfer> open = open_loops(design, motor, delay_periods);
+std::vector<SensedLoop> sensed_loops(const DriveDesign& design, const MotorModel& motor,
+                                     double late_periods) {
+  const std::vector<Transfer> open = open_loops(design, motor, late_periods);
   std::vector<SensedLoop> out{{open[0], {}, {}}};
   if (open.size() > 1) out.push_back({open[1], design.lag, {}});
   if (open.size() > 2) out.push_back({open[2], design.lag, open[1]});
