@@ -123,8 +123,11 @@ std::string margins(const DesignStudy& s) {
   if (s.design.lag.delay_s() > 0)
     row("phase margin with the speed’s sensor",
         [&](const LoopDesign& l) { return in(l.built.phase_rad, degrees, "deg"); });
-  row(s.design.lag.delay_s() > 0 ? "step: settling" : "step: settling to 2 %",
-      [&](const LoopDesign& l) { return shown(l.step.settling_s, "s"); });
+  const bool two = sixstep::design::settling_band(s.design) != 0.02;
+  row(two ? "step: settling" : "step: settling to 2 %", [&](const LoopDesign& l) {
+    return shown(l.step.settling_s, "s") +
+           (two ? " to " + plain(100 * settling_band(s.design, l), 3) + " %" : "");
+  });
   row("step: overshoot", [&](const LoopDesign& l) {
     return std::isfinite(l.step.overshoot) ? plain(100 * l.step.overshoot, 3) + " %" : "without bound";
   });

@@ -302,6 +302,17 @@ TEST(DriveDesign, TakesNoFasterSpeedLoopThanItsSensorStands) {
   EXPECT_FALSE(warns(designed({.mode = Mode::speed}), "Hall"));
 }
 
+/// Of a loop that its sensor makes unstable no overshoot is told, which would be infinite.
+TEST(DriveDesign, AnUnstableLoopIsCalledSo) {
+  DesignSpec spec = on_hall_probes(1, 10e-3);
+  spec.settle_s.reset();
+  spec.method = GainMethod::symmetrical_optimum;
+  const DriveDesign d = designed(spec);
+  ASSERT_FALSE(d.loop("speed").built.stable);
+  EXPECT_TRUE(warns(d, "the speed loop is unstable at 100 rad/s"));
+  for (const Warning& w : d.warnings) EXPECT_EQ(w.what.find("inf"), std::string::npos) << w.what;
+}
+
 TEST(DriveDesign, TellsWhatEachWayOfSensingAllows) {
   const DriveDesign d = designed(on_hall_probes(0, 0.1));
   ASSERT_EQ(d.limits.size(), 9u);

@@ -28,6 +28,12 @@ std::string or_none(const std::optional<double>& x, std::string (*shown)(double)
   return x ? shown(*x) : "-";
 }
 
+bool bands_differ(const DriveDesign& d) { return sixstep::design::settling_band(d) != 0.02; }
+
+std::string band_words(const DriveDesign& d, const LoopDesign& loop) {
+  return fmt::format(" to {:g} %", 100 * settling_band(d, loop));
+}
+
 }  // namespace
 
 std::string gain_unit(const LoopDesign& loop, const Motion& motion) {
@@ -98,8 +104,10 @@ std::string figures_text(const DriveDesign& d) {
   if (d.lag.delay_s() > 0)
     line("phase margin with the speed's sensor",
          [&](const LoopDesign& l) { return or_none(l.built.phase_rad, degrees_text); });
-  line(d.lag.delay_s() > 0 ? "step: settling" : "step: settling to 2 %",
-       [&](const LoopDesign& l) { return quantity_text(l.step.settling_s, "s", 4); });
+  const bool two = bands_differ(d);
+  line(two ? "step: settling" : "step: settling to 2 %", [&](const LoopDesign& l) {
+    return quantity_text(l.step.settling_s, "s", 4) + (two ? band_words(d, l) : "");
+  });
   line("step: overshoot", [&](const LoopDesign& l) {
     return std::isfinite(l.step.overshoot) ? fmt::format("{:.1f} %", 100 * l.step.overshoot)
                                            : "without bound";

@@ -23,11 +23,11 @@ void sense_currents(const design::DriveDesign& design, rig::CurrentMeasurement c
 study::Scenario with_ideal_sensors(study::Scenario scenario);
 
 /// How far the speed may swing in steady state, peak to peak, before the loop oscillates: three times what
-/// the commutations alone make of it (out of tolerance they make up to twice as much), or a twentieth of the
+/// the commutations alone make of it (within the tolerances they make up to twice as much), or a twentieth of the
 /// speed where that is more.
 double allowed_swing_rad_s(double with_ideal_sensors_rad_s, double speed_rad_s);
 
-/// A move may overshoot by so much out of tolerance: a hundredth of it; where the position is counted three steps of that.
+/// A move may overshoot by so much, within the tolerances too: a hundredth of it; where the position is counted three steps of that.
 double allowed_overshoot_deg(const design::DriveDesign& design, double move_deg);
 
 }  // namespace sixstep::analysis

@@ -122,7 +122,7 @@ std::vector<Tolerance> chief(std::vector<Tolerance> tolerances) {
   return tolerances;
 }
 
-/// Makes a trial take so many periods at most: a higher lowest speed, whose loop is faster, fewer motors out of tolerance, a shorter
+/// Makes a trial take so many periods at most: a higher lowest speed, whose loop is faster, fewer motors of the tolerances, a shorter
 /// move, a longer period. A design in closed form takes a tenth of a second: one for each specification.
 bool shorten_trial(DesignOrder& order, const design::MotorModel& motor, double longest) {
   base::Result<design::DriveDesign> d = design::design_drive(motor, order.spec);

@@ -35,7 +35,7 @@ std::vector<Tolerance> sheet_tolerances(const design::Sheet& sheet, control::Mod
 /// promise. Temperatures and loads are no tolerance of the motor, and two inductances have no key that could stray.
 std::vector<study::Spread> tolerance_spread(const design::Sheet& sheet, control::Mode mode);
 
-/// A motor out of tolerance.
+/// A motor that strays within the tolerances.
 struct Variation {
   std::string words;            ///< "R at 125 degC, L -20 %"; empty: nominal
   std::vector<double> factors;  ///< one per tolerance

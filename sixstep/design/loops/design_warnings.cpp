@@ -93,7 +93,8 @@ void look_at_sign(const DriveDesign& d, const LoopDesign& loop, Collector& out) 
 }
 
 void look_at_overshoot(const LoopDesign& loop, Collector& out) {
-  if (loop.name != "position" && loop.figures.stable && loop.step.overshoot > 0.1)
+  // Of a loop that its sensor makes unstable there is no step to tell of.
+  if (loop.name != "position" && loop.figures.stable && loop.built.stable && loop.step.overshoot > 0.1)
     out.add(Concern::overshoot,
             "the " + loop.name + " loop overshoots a step by " +
                 base::three_digits(100.0 * loop.step.overshoot) + " %, for the PI's zero" +

@@ -303,6 +303,10 @@ void judge_loop(LoopDesign& loop, const Transfer& open, const Transfer& other, c
 
 double settling_band(const DriveDesign& d) { return d.spec.rotor.hall && d.lag.delay_s() > 0.0 ? 0.1 : 0.02; }
 
+double settling_band(const DriveDesign& d, const LoopDesign& loop) {
+  return loop.name == "speed" ? settling_band(d) : 0.02;
+}
+
 const LoopDesign& DriveDesign::loop(std::string_view name) const {
   for (const LoopDesign& l : loops)
     if (l.name == name) return l;

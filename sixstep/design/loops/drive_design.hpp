@@ -153,6 +153,9 @@ inline const char* nominal_current_words(const DriveDesign& d) {
                            : "a tenth of the stall current (the sheet names no nominal one)";
 }
 
+/// Part of its step within which a loop's settling time is told, in the linear step as in the run.
+double settling_band(const DriveDesign& design, const LoopDesign& loop);
+
 /// Part of a step of the speed within which it counts as settled: 2 %, on Hall probes 10 %, the twentieth of
 /// the lowest speed that a step of half of it is judged by.
 double settling_band(const DriveDesign& design);
