@@ -114,6 +114,20 @@ TEST(DesignedSpeed, BeyondTheBusIsRefusedByName) {
 
 /// A first command above the bus: a slower current loop needs no other bus, and is what is offered, with a slower loop around it where it
 /// would come too close to that.
+/// Whatever step is asked for, the converter reads what it overshoots to.
+TEST(DesignedCurrent, HasAConverterAsWideAsItsStep) {
+  for (const double step_A : {1.0, 8.0, -8.0, 15.0}) {
+    DesignOrder order = on_a_board(Mode::current);
+    order.subject.step = step_A;
+    const auto study = study_design(order);
+    ASSERT_TRUE(study) << to_string(study.problems().front());
+    double overshoot_A = 0;
+    for (const study::ComparisonResult& c : study->outcome.comparisons)
+      if (c.figure == "overshoot") overshoot_A = c.measured;
+    EXPECT_GE(*study->scenario.sensors.current_range_A, std::fabs(step_A) + overshoot_A);
+  }
+}
+
 TEST(Advice, OffersABusAboveTheSheetsOnlyWhereNothingElseHelps) {
   int slower = 0;
   for (const double times : {3.0, 4.0, 6.0}) {

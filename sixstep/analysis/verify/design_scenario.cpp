@@ -74,9 +74,9 @@ study::Scenario common(const DriveDesign& d, const DesignSubject& subject) {
     s.load.gear = subject.board->load.gear;
   } else {
     s.bridge.dead_time_s = subject.dead_time_s;
-    s.sensors = board_sensors(d);
+    s.sensors = board_sensors(d, subject.step);
   }
-  if (subject.currents) sense_currents(d, *subject.currents, s.sensors);
+  if (subject.currents) sense_currents(d, *subject.currents, subject.step, s.sensors);
   if (d.spec.rotor.shaft.kind != design::ShaftSensorKind::none &&
       s.sensors.shaft == study::SensorShaft::motor)
     s.pwm.commutation = study::CommutationAt::sample;
