@@ -313,6 +313,40 @@ TEST(DriveDesign, AnUnstableLoopIsCalledSo) {
   for (const Warning& w : d.warnings) EXPECT_EQ(w.what.find("inf"), std::string::npos) << w.what;
 }
 
+/// T_max turns J by half the lowest speed in J w_low/(2 T_max) and no sooner: a loop that nobody gives a settling time has as long and
+/// half as long again. A small inertia leaves the thesis's 10 ms.
+TEST(DriveDesign, IsNoFasterThanTorqueAndInertiaAllow) {
+  for (const double load_kg_m2 : {0.0, 1e-4, 1e-3, 1e-2}) {
+    const DriveDesign d = designed({.mode = Mode::speed, .load_inertia_kg_m2 = load_kg_m2});
+    const double soonest = (1.35e-5 + load_kg_m2) * d.lowest_speed_rad_s / 2 / d.torque_limit_Nm;
+    EXPECT_NEAR(d.settle_by_torque_s / soonest, 1.5, 1e-12);
+    EXPECT_GE(*d.spec.settle_s, 1.5 * soonest);
+    EXPECT_LE(*d.spec.settle_s, std::max(10e-3, 1.6 * soonest)) << "two digits, upwards";
+  }
+  EXPECT_EQ(*designed({.mode = Mode::speed, .settle_s = 5e-3, .load_inertia_kg_m2 = 1e-3}).spec.settle_s,
+            5e-3)
+      << "what somebody asks for stays";
+}
+
+/// A fifth of the lowest speed must be left between it and 0.9 (U - R I/2)/K_t, I what the torque limit asks for or the nominal current.
+TEST(DriveDesign, RefusesALowestSpeedWithoutRoomAboveIt) {
+  MotorModel motor = thesis_motor();
+  motor.nominal_current_A = 2.33;
+  const double top = 0.9 * (24 - 1.03 * 2.33 / 2) / 0.0335;
+  DesignSpec spec = on_hall_probes(0, 20e-3);
+  spec.lowest_speed_rad_s = std::floor(top / 1.2 / 10) * 10;  // two digits
+  EXPECT_TRUE(design_drive(motor, spec));
+  *spec.lowest_speed_rad_s += 1;
+  const auto refused = design_drive(motor, spec);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(
+      to_string(refused.problems()[0]),
+      "lowest_speed_rad_s = 511 leaves no room for a step down to it: on this bus at most 510 rad/s may be the "
+      "lowest, with a fifth of it above against half the nominal torque; lower it, or give a higher voltage_V");
+  spec.voltage_V = 30;
+  EXPECT_TRUE(design_drive(motor, spec)) << "the cure";
+}
+
 TEST(DriveDesign, TellsWhatEachWayOfSensingAllows) {
   const DriveDesign d = designed(on_hall_probes(0, 0.1));
   ASSERT_EQ(d.limits.size(), 9u);

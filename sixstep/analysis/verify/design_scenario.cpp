@@ -6,6 +6,7 @@
 
 #include "sixstep/analysis/verify/board.hpp"
 #include "sixstep/analysis/verify/linear_study.hpp"
+#include "sixstep/analysis/verify/travel.hpp"
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/decimal.hpp"
 #include "sixstep/design/sheet/motion.hpp"
@@ -137,39 +138,6 @@ void add_current(const DriveDesign& d, const DesignSubject& subject, study::Scen
   s.require = {{mean, step - band, step + band}};
 }
 
-/// What a start at the limits takes at most: torque that the bus leaves at the end of it.
-double start_time(const DriveDesign& d, double to_rad_s, double load_Nm) {
-  const double K = d.motor.K_t_Nm_A, R = 2 * d.motor.machine.R_ohm;
-  const double by_bus = K * (d.bus_V - K * to_rad_s) / R,
-               torque = std::min(d.torque_limit_Nm, by_bus) - load_Nm;
-  return torque > 0.0 ? d.motor.shaft.J_kg_m2 * to_rad_s / torque : 0.0;
-}
-
-/// What the bus leaves of the torque limit at that speed, or what brakes beside the load: soft chopping through the lower switches.
-double torque_towards(const DriveDesign& d, double rad_s, bool faster) {
-  const double K = d.motor.K_t_Nm_A, R = 2 * d.motor.machine.R_ohm;
-  if (faster) return std::min(d.torque_limit_Nm, K * (d.bus_V - K * rad_s) / R);
-  const double shorted = d.spec.chopping == control::Chopping::soft ? K * K * rad_s / R : d.torque_limit_Nm;
-  return std::min(d.torque_limit_Nm, shorted);
-}
-
-/// The time from one speed to another at the limits of torque and bus, by a hundred parts. Where the bus allows no more, five of the
-/// times in which the speed creeps up to what it does allow.
-double travel_time(const DriveDesign& d, double from_rad_s, double to_rad_s, double load_Nm) {
-  constexpr int parts = 100;
-  const double K = d.motor.K_t_Nm_A, R = 2 * d.motor.machine.R_ohm, J = d.motor.shaft.J_kg_m2;
-  const double part = std::fabs(to_rad_s - from_rad_s) / parts, creep = J * R / (K * K);
-  const bool faster = std::fabs(to_rad_s) > std::fabs(from_rad_s);
-  double time = 0.0;
-  for (int n = 0; n < parts; ++n) {
-    const double speed = std::fabs(from_rad_s + (n + 0.5) / parts * (to_rad_s - from_rad_s));
-    const double torque = torque_towards(d, speed, faster) + (faster ? -load_Nm : load_Nm);
-    if (!(torque > 0.01 * d.torque_limit_Nm)) return time + 5 * creep;
-    time += J * part / torque;
-  }
-  return time;
-}
-
 /// Start from rest, then a small step.
 struct SpeedTest {
   double load_A = 0.0, first = 0.0, step = 0.0;  // A, rad/s
@@ -179,21 +147,23 @@ struct SpeedTest {
 SpeedTest speed_test(const DriveDesign& d, const DesignSubject& subject) {
   const LoopDesign &speed = d.loop("speed"), &current = d.loop("current");
   const double K = d.motor.K_t_Nm_A, R = 2 * d.motor.machine.R_ohm;
-  const double load_A = std::min(d.nominal_current_A, d.current_at_full_torque_A) / 2;
+  const design::TestSpeeds speeds = test_speeds(d.motor, d.bus_V, d.torque_limit_Nm);
+  const double load_A = speeds.load_A;
   SpeedTest t{.load_A = load_A, .first = plain_number(0.15 * d.bus_V / K)};
   const bool lags = d.lag.delay_s() > 0;
-  if (lags) t.first = std::min(1.5 * d.lowest_speed_rad_s, 0.9 * (d.bus_V - R * load_A) / K);
+  if (lags) t.first = std::min(1.5 * d.lowest_speed_rad_s, speeds.top_rad_s);
   // The current that a step asks for at first is d1 (speed) times the current at full torque. In volts that
   // is d1 (current) at once, and R when it flows.
   const double volts = part_of_bus * (d.bus_V - K * t.first - R * t.load_A);
   t.step = subject.step.value_or(
-      lags ? -d.lowest_speed_rad_s / 2
+      lags ? d.lowest_speed_rad_s - t.first
            : plain_number(std::min(t.first / 2, volts / (speed.gains.d1 * d.current_at_full_torque_A *
                                                          std::max(current.gains.d1, R)))));
   const double settle = std::max(settling_of(speed, 1000 * d.spec.period_s), 8 * d.lag.delay_s());
   t.begin = plain_time(5 * settle + 2 * start_time(d, t.first, K * t.load_A));
-  // A step that somebody chose may be one that the limits hold up.
-  const double held_up = subject.step ? 2 * travel_time(d, t.first, t.first + t.step, K * t.load_A) : 0.0;
+  // A step that somebody chose may be one that the limits hold up, and so may any of a loop that is faster than the torque.
+  const double travel = travel_time(d, t.first, t.first + t.step, K * t.load_A);
+  const double held_up = subject.step || travel > settle ? 2 * travel : 0.0;
   t.end = plain_time(t.begin + 5 * settle + held_up);
   t.calm = t.end - settle;
   return t;

@@ -23,9 +23,6 @@ constexpr double inner_faster = 10.0;
 /// A pair placed slower than 2 time_constants_to_settle L/R wants a negative proportional gain.
 constexpr double winding_times = 8.0;
 
-/// Of the speed up to which the bus drives the nominal current: what is left above it is for control.
-constexpr double high_speed_part = 0.9;
-
 /// No placed pair settles within fewer control periods.
 constexpr double fewest_periods = 4.0;
 
@@ -216,14 +213,21 @@ SettlingQuestion settling_question(const DriveDesign& d) {
   return {loops_of(d, d.motor, d.spec.late_periods()), d.torque_limit_Nm, d.spec.damping};
 }
 
-/// Nobody said how fast: the thesis's settling time, or what the sensor stands where that is longer.
+/// Half as long again as the torque limit alone takes for the step: so the loop's own way to its end has time behind the limit.
+constexpr double times_of_torque = 1.5;
+
+/// Nobody said how fast: the thesis's settling time, or what sensor or torque limit stand where that is longer.
 void choose_settling(DriveDesign& d) {
-  if (d.spec.settle_s || d.spec.mode == Mode::current) return;
-  d.spec.settle_s = usual_speed_settle_s;
-  if (!d.spec.rotor.lags()) return;
-  const std::optional<double> least =
-      fastest_settling_s(settling_question(d), d.spec.rotor, d.lowest_speed_rad_s);
-  if (least && *least > usual_speed_settle_s) d.spec.settle_s = base::shortened(*least, 2, base::Towards::up);
+  if (d.spec.mode == Mode::speed)  // a move is at its limits most of the way, however slow the loop is
+    d.settle_by_torque_s =
+        times_of_torque * d.motor.shaft.J_kg_m2 * d.lowest_speed_rad_s / 2 / d.torque_limit_Nm;
+  if (d.spec.settle_s) return;
+  double least = d.settle_by_torque_s;
+  if (d.spec.rotor.lags())
+    least = std::fmax(
+        least, fastest_settling_s(settling_question(d), d.spec.rotor, d.lowest_speed_rad_s).value_or(least));
+  d.spec.settle_s =
+      least > usual_speed_settle_s ? base::shortened(least, 2, base::Towards::up) : usual_speed_settle_s;
 }
 
 /// A jump of the told speed is one of the torque asked for: d1 of it at once. What is coarse at the lowest speed says nothing of the

@@ -26,8 +26,8 @@ enum class GainMethod : std::uint8_t { pole_placement, cancellation, symmetrical
 struct DesignSpec {
   control::Mode mode = control::Mode::current;  ///< current, speed or position
   GainMethod method = GainMethod::pole_placement;
-  /// Of the PI of the mode; for current 1 ms, or 8 L/R where that is shorter; for speed 10 ms, or what the sensor allows where that is
-  /// more.
+  /// Of the PI of the mode; for current 1 ms, or 8 L/R where that is shorter; for speed 10 ms, or what the sensor allows, or what torque
+  /// limit and inertia ask for (settle_by_torque_s), where one of those is more.
   std::optional<double> settle_s;
   /// Of the inner loop; as above, or a tenth of the speed loop's where that is shorter.
   std::optional<double> current_settle_s;
@@ -124,7 +124,9 @@ struct DriveDesign {
   SpeedLag lag;                         ///< of the speed at the lowest speed
   std::vector<DerivationStep> sensing;  ///< how that lag comes about
   std::vector<SettlingLimit> limits;    ///< what each way of sensing allows; speed and position
-  std::vector<LoopDesign> loops;        ///< from the inside out
+  double settle_by_torque_s =
+      0.0;  ///< speed: one and a half times what the torque limit takes for half the lowest one, J w_low/(2 T_max)
+  std::vector<LoopDesign> loops;  ///< from the inside out
   Ripple ripple;
   double longest_period_s =
       0.0;  ///< up to which the current loop keeps 45 degrees with the later of the delays
