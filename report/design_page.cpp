@@ -22,7 +22,6 @@ namespace {
 using sixstep::analysis::DesignStudy;
 using sixstep::analysis::RobustFigure;
 using sixstep::design::LoopDesign;
-using sixstep::design::LoopFigures;
 
 std::string shown(double x, const std::string& unit) {
   if (std::isfinite(x)) return escaped(computed(x, unit));
@@ -96,37 +95,39 @@ std::string margins(const DesignStudy& s) {
   std::string out = "<table><thead><tr><th>Loop</th>";
   for (const LoopDesign& loop : s.design.loops) out += "<th class=\"num\">" + escaped(loop.name) + "</th>";
   out += "</tr></thead><tbody>\n";
-  const bool late = s.design.spec.delay_periods == 1;
-  const auto row = [&](const char* name, auto value) {
+  const sixstep::design::DesignSpec& spec = s.design.spec;
+  const std::string later = sixstep::design::late_words(spec.later_periods());
+  const auto row = [&](const std::string& name, auto value) {
     out += fmt::format("<tr><th scope=\"row\">{}</th>", name);
     for (const LoopDesign& loop : s.design.loops) out += number_cell(value(loop));
     out += "</tr>\n";
   };
-  const auto delayed = [&](const LoopDesign& l) -> const LoopFigures& { return late ? l.figures : l.other; };
-  const auto at_once = [&](const LoopDesign& l) -> const LoopFigures& { return late ? l.other : l.figures; };
   const auto in = [](const std::optional<double>& x, double factor, const char* unit) {
     return x ? escaped(computed(*x * factor, unit)) : std::string("–");
   };
   constexpr double degrees = 180 / sixstep::base::pi, hertz = 1 / (2 * sixstep::base::pi);
   row("crossover", [&](const LoopDesign& l) { return in(l.figures.crossover_rad_s, hertz, "Hz"); });
   row("bandwidth, −3 dB", [&](const LoopDesign& l) { return in(l.figures.bandwidth_rad_s, hertz, "Hz"); });
-  row("phase margin, command at once",
-      [&](const LoopDesign& l) { return in(at_once(l).phase_rad, degrees, "deg"); });
-  row("phase margin, one period late",
-      [&](const LoopDesign& l) { return in(delayed(l).phase_rad, degrees, "deg"); });
-  row("gain margin, one period late", [&](const LoopDesign& l) {
-    const auto& gain = delayed(l).gain;
+  row("phase margin, command " + sixstep::design::late_words(spec.sooner_periods()),
+      [&](const LoopDesign& l) { return in(s.design.sooner(l).phase_rad, degrees, "deg"); });
+  row("phase margin, " + later,
+      [&](const LoopDesign& l) { return in(s.design.later(l).phase_rad, degrees, "deg"); });
+  row("gain margin, " + later, [&](const LoopDesign& l) {
+    const auto& gain = s.design.later(l).gain;
     return gain ? plain(20 * std::log10(*gain), 3) + "\u00a0dB" : std::string("–");
   });
-  row("delay margin, one period late", [&](const LoopDesign& l) { return in(delayed(l).delay_s, 1, "s"); });
-  row("peak of sensitivity, one period late", [&](const LoopDesign& l) {
-    return delayed(l).stable ? plain(delayed(l).sensitivity_peak, 3) : std::string("unstable");
+  row("delay margin, " + later, [&](const LoopDesign& l) { return in(s.design.later(l).delay_s, 1, "s"); });
+  row("peak of sensitivity, " + later, [&](const LoopDesign& l) {
+    return s.design.later(l).stable ? plain(s.design.later(l).sensitivity_peak, 3) : std::string("unstable");
   });
   if (s.design.lag.delay_s() > 0)
     row("phase margin with the speed’s sensor",
         [&](const LoopDesign& l) { return in(l.built.phase_rad, degrees, "deg"); });
-  row(s.design.lag.delay_s() > 0 ? "step: settling" : "step: settling to 2 %",
-      [&](const LoopDesign& l) { return shown(l.step.settling_s, "s"); });
+  const bool two = sixstep::design::settling_band(s.design) != 0.02;
+  row(two ? "step: settling" : "step: settling to 2 %", [&](const LoopDesign& l) {
+    return shown(l.step.settling_s, "s") +
+           (two ? " to " + plain(100 * settling_band(s.design, l), 3) + " %" : "");
+  });
   row("step: overshoot", [&](const LoopDesign& l) {
     return std::isfinite(l.step.overshoot) ? plain(100 * l.step.overshoot, 3) + " %" : "without bound";
   });
@@ -183,10 +184,10 @@ std::string robust_row(const RobustFigure& f) {
 std::string tolerances(const DesignStudy& s) {
   if (!s.robustness) return "";
   std::string out = fmt::format(
-      "<h2>Tolerances</h2><p class=\"origin\">{} motors, the controller as designed; phase margins one "
-      "period late</p>\n"
+      "<h2>Tolerances</h2><p class=\"origin\">{} motors, the controller as designed; phase margins {}</p>\n"
       "<table>{}<tbody>\n",
-      s.robustness->runs, table_head({"Figure", "#Nominal", "#Worst", "Where", "Chiefly, alone"}));
+      s.robustness->runs, sixstep::design::late_words(s.design.spec.later_periods()),
+      table_head({"Figure", "#Nominal", "#Worst", "Where", "Chiefly, alone"}));
   for (const RobustFigure& f : s.robustness->figures) out += robust_row(f);
   for (const RobustFigure& f : s.robustness->phases) out += robust_row(f);
   return out + "</tbody></table>\n";

@@ -241,7 +241,7 @@ void declare_options(CLI::App& design, DesignArguments& a) {
   design.add_option("--mode", a.mode, "current, speed or position; current");
   design.add_option(
       "--settle", a.settle_s,
-      "settling time of the mode's PI loop in s; 1e-3 or 8 L/R if shorter, speed 10e-3 or what the sensor allows");
+      "settling time of the mode's PI loop in s; 1e-3 or 8 L/R if shorter, speed 10e-3 or what sensor and torque allow");
   design.add_option("--damping", a.damping, "of the placed poles, above 0 to 1; 0.9");
   design.add_option(
       "--current-settle", a.current_settle_s,

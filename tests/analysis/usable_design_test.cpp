@@ -133,6 +133,58 @@ TEST(DesignedSpeed, BeyondTheBusIsRefusedByName) {
 
 /// A first command above the bus: a slower current loop needs no other bus, and is what is offered, with a slower loop around it where it
 /// would come too close to that.
+/// Torque takes J w/T_max for the step: a flywheel's loop that nobody gives a settling time waits for it, and so does its run.
+TEST(DesignedSpeed, OfAFlywheelIsUsableAndHeldUpByItsTorque) {
+  DesignOrder order = on_a_board(Mode::speed);
+  order.spec.load_inertia_kg_m2 = 1e-3;
+  const auto usual = study_design(order);
+  ASSERT_TRUE(usual) << to_string(usual.problems().front());
+  EXPECT_TRUE(usual->usable()) << usual->warnings.front().what;
+  const double soonest = 1.0135e-3 * 35.5 / 0.195;
+  EXPECT_GT(*usual->design.spec.settle_s, soonest);
+  for (const design::Warning& w : usual->warnings) EXPECT_NE(w.of, design::Concern::settling) << w.what;
+  // One that asks for more: the run is long enough to show what it takes, and slower is offered.
+  order.spec.settle_s = 0.037;
+  order.advises = true;
+  const auto hasty = study_design(order);
+  ASSERT_TRUE(hasty) << to_string(hasty.problems().front());
+  EXPECT_TRUE(hasty->usable()) << hasty->warnings.front().what;
+  const auto late = std::find_if(hasty->warnings.begin(), hasty->warnings.end(),
+                                 [](const auto& w) { return w.of == design::Concern::settling; });
+  ASSERT_NE(late, hasty->warnings.end());
+  EXPECT_EQ(late->what.rfind("in the simulation it settles in ", 0), 0u) << late->what;
+  EXPECT_NE(late->cure.find("settle_s = 0.28"), std::string::npos) << late->cure;
+}
+
+/// On its way it comes to the lowest speed and to none below, wherever that lies under the top.
+TEST(DesignedSpeed, IsTriedDownToTheLowestSpeedAndNoFurther) {
+  for (const double lowest_rad_s : {71.0, 300.0, 480.0, 510.0}) {
+    DesignOrder order = on_a_board(Mode::speed);
+    order.spec.lowest_speed_rad_s = lowest_rad_s;
+    const auto study = study_design(order);
+    ASSERT_TRUE(study) << to_string(study.problems().front());
+    const std::vector<double>& levels = study->scenario.reference.values;
+    EXPECT_DOUBLE_EQ(levels.back(), lowest_rad_s);
+    EXPECT_GE(levels.front(), 1.2 * lowest_rad_s);
+    EXPECT_LE(levels.front(), 0.9 * (24 - 1.03 * 2.33 / 2) / 0.0335 * (1 + 1e-12));
+    EXPECT_TRUE(study->usable()) << study->warnings.front().what;
+  }
+}
+
+/// Whatever step is asked for, the converter reads what it overshoots to.
+TEST(DesignedCurrent, HasAConverterAsWideAsItsStep) {
+  for (const double step_A : {1.0, 8.0, -8.0, 15.0}) {
+    DesignOrder order = on_a_board(Mode::current);
+    order.subject.step = step_A;
+    const auto study = study_design(order);
+    ASSERT_TRUE(study) << to_string(study.problems().front());
+    double overshoot_A = 0;
+    for (const study::ComparisonResult& c : study->outcome.comparisons)
+      if (c.figure == "overshoot") overshoot_A = c.measured;
+    EXPECT_GE(*study->scenario.sensors.current_range_A, std::fabs(step_A) + overshoot_A);
+  }
+}
+
 TEST(Advice, OffersABusAboveTheSheetsOnlyWhereNothingElseHelps) {
   int slower = 0;
   for (const double times : {3.0, 4.0, 6.0}) {

@@ -51,6 +51,41 @@ class Design(ProgramTest):
         self.assertRegex(told, r"overshoot +0 A +0 A +designed")
         self.assertNotRegex(told, r"e\+\d+ %|e-1\d")
 
+    def test_a_table_names_the_band_of_each_settling_time(self):
+        told = self.run_program("design", "maxon-251601", "--mode", "speed", "--quick").stdout
+        self.assertRegex(told, r"step: settling +900 us to 2 % +[\d.]+ ms to 10 %\n")
+        told = self.run_program("design", "maxon-251601", "--mode", "speed", "--quick", "--rotor", "ideal").stdout
+        self.assertRegex(told, r"step: settling to 2 % +900 us +[\d.]+ ms\n")
+
+    def test_what_fails_at_a_corner_is_within_the_tolerances(self):
+        told = self.run_program("design", "maxon-251601", "--step", "20", code=1).stdout
+        self.assertRegex(told, r"^NOT USABLE: within the tolerances it never settles: with R ")
+        self.assertNotIn("out of tolerance", told)
+
+    def test_a_sample_in_the_middle_makes_the_loop_half_a_period_later(self):
+        """30 us of delay cost 360 f 30 us of phase at the crossover f; half of it is what the middle costs beside the start."""
+        margins = {}
+        for way in ("phases", "dc-link"):
+            told = self.run_program("design", "maxon-251601", "--quick", "--currents", way).stdout
+            for when, angle in re.findall(r"phase margin, (.*?) {2,}([\d.]+) deg", told):
+                margins[when] = float(angle)
+            crossover = float(re.search(r"crossover +([\d.]+) kHz", told).group(1)) * 1e3
+        self.assertIn("a command counts 1.5 periods late, sampled in the middle of a period", told)
+        half = 360 * crossover * 15e-6
+        for sooner, later in (("command at once", "command half a period late"), ("command half a period late", "one period late"),
+                              ("one period late", "1.5 periods late")):
+            self.assertAlmostEqual(margins[sooner] - margins[later], half, delta=0.3)
+
+    def test_a_new_current_scenario_foretells_its_own_run(self):
+        """Its samples lie in the middle and its answers a period later: 1.5 periods, which the expected overshoot counts."""
+        for motor in ("maxon-251601", "dji-2212-920kv"):
+            self.run_program("new", f"{motor}-held", "--mode", "current", "--motor", motor)
+            rows = self.run_program("run", f"{motor}-held.toml").stdout
+            expected, measured, percent = re.search(r"overshoot +([\d.]+ m?A) +([\d.]+ m?A) +([-+]?[\d.]+) %", rows).groups()
+            self.assertLess(abs(float(percent)), 3, f"{motor}: {expected}, {measured}")
+            settling = re.search(r"settling time +([\d.]+) us +([\d.]+) us", rows)
+            self.assertLessEqual(abs(float(settling.group(1)) - float(settling.group(2))), 30.1, motor)
+
     def test_design_prints_verdict_first_then_every_step(self):
         text = self.run_program("design", "maxon-251601").stdout
         self.assertRegex(text.splitlines()[0], r"^usable, 2 warnings: the current loop settles to 2 % in 930 us \(1 ms to 1 % asked for\), 1\.02 ms at worst, .*; with Hall probes, over 10 motors$")

@@ -58,7 +58,7 @@ min = 0
 
 # Keys that act, but not on this run: what they say is out of its reach, or is of what is written of it.
 ELSEWHERE = {
-    "motor_override.magnet_loss_percent_K": "acts through [heat], and in designs out of tolerance",
+    "motor_override.magnet_loss_percent_K": "acts through [heat], and in the tolerances of designs",
     "heat.ambient_degC": "from it a remark warms the motor by the sheet's thermal values",
     "control.full_scale.current_A": "of fixed point, which a header may be exported in",
     "control.full_scale.voltage_V": "of fixed point",

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 
@@ -60,7 +61,8 @@ TEST(DriveDesign, PlacesTheThesissPoles) {
 /// an exponential; here Runge and Kutta with 50 steps a period, whose error is far below what is asked.
 std::vector<double> simulated(const DriveDesign& d, double position_gain, std::size_t count) {
   const double R = 1.03, L = 0.572e-3, K = 0.0335, J = 1.35e-5, B = 7.3e-6, T = d.spec.period_s;
-  double i = 0, w = 0, theta = 0, u = 0, e1 = 0, y = 0, e2 = 0, next_u = 0;
+  double i = 0, w = 0, theta = 0, e1 = 0, y = 0, e2 = 0;
+  double asked[3] = {0, 0, 0};  // volts: of this sample, of the one before and of the one before that
   std::vector<double> out;
   for (std::size_t k = 0; k < count; ++k) {
     out.push_back(position_gain > 0 ? theta * 180 / 3.14159265358979324 : w);
@@ -69,14 +71,16 @@ std::vector<double> simulated(const DriveDesign& d, double position_gain, std::s
     y += d.loop("speed").gains.d1 * speed_error + d.loop("speed").gains.d0 * e1;
     e1 = speed_error;
     const double current_error = y * d.current_at_full_torque_A - i;
-    const double fresh = (d.spec.delay_periods == 1 ? next_u : u) +
-                         d.loop("current").gains.d1 * current_error + d.loop("current").gains.d0 * e2;
+    asked[2] = asked[1];
+    asked[1] = asked[0];
+    asked[0] += d.loop("current").gains.d1 * current_error + d.loop("current").gains.d0 * e2;
     e2 = current_error;
-    u = d.spec.delay_periods == 1 ? next_u : fresh;
-    next_u = fresh;
     constexpr int steps = 50;
     for (int n = 0; n < steps; ++n) {
       const double h = T / steps;
+      // A sample in the middle of a period: until that ends, what was asked for before acts on.
+      const bool before = d.spec.sampled_in_middle && n < steps / 2;
+      const double u = asked[d.spec.delay_periods + (before ? 1 : 0)];
       const auto di = [&](double ii, double ww) { return (u - R * ii - K * ww) / L; };
       const auto dw = [&](double ii, double ww) { return (K * ii - B * ww) / J; };
       const double i1 = di(i, w), w1 = dw(i, w), i2 = di(i + h / 2 * i1, w + h / 2 * w1),
@@ -92,8 +96,9 @@ std::vector<double> simulated(const DriveDesign& d, double position_gain, std::s
 }
 
 TEST(DriveDesign, TheClosedLoopsAreTheCascadeWrittenOut) {
-  for (const int late : {0, 1}) {
-    const DriveDesign d = designed({.mode = Mode::position, .delay_periods = late});
+  for (const int late : {0, 1, 2, 3}) {
+    const DriveDesign d =
+        designed({.mode = Mode::position, .delay_periods = late / 2, .sampled_in_middle = late % 2 == 1});
     const double gain = d.loop("position").gains.d1;
     const std::vector<double> speed = simulated(d, 0.0, 300), position = simulated(d, gain, 300);
     const StepResponse w = step_response(closed(d.loop("speed").loop), d.spec.period_s,
@@ -106,6 +111,59 @@ TEST(DriveDesign, TheClosedLoopsAreTheCascadeWrittenOut) {
       ASSERT_NEAR(theta.samples[k], position[k], 1e-9) << k;
     }
   }
+}
+
+/// A locked rotor of 1.03 ohm and 0.572 mH, 30 us, a step of 2 A: i' = a_h (a_h i + b_h u_first) + b_h u_then, with a_h over half a
+/// period. From the middle of a period on the volts of a sample act in the second half of what lies between it and the next.
+double overshoot_of_recurrence_A(const PiGains& g, int delay_periods, bool middle) {
+  const double a = std::exp(-1.03 * 15e-6 / 0.572e-3), b = (1 - a) / 1.03;
+  double i = 0, before = 0, highest = 0, volts[3] = {0, 0, 0};
+  for (int k = 0; k < 200; ++k) {
+    highest = std::max(highest, i);
+    volts[2] = volts[1];
+    volts[1] = volts[0];
+    volts[0] += g.d1 * (2 - i) + g.d0 * before;
+    before = 2 - i;
+    const double then = volts[delay_periods], first = volts[delay_periods + (middle ? 1 : 0)];
+    i = a * (a * i + b * first) + b * then;
+  }
+  return highest - 2;
+}
+
+TEST(DriveDesign, ASampleInTheMiddleMakesTheLoopHalfAPeriodLater) {
+  struct Told {
+    int delay_periods;
+    bool middle;
+    double overshoot_A, settling_s;
+  };
+  for (const Told& told :
+       {Told{1, false, 0.22394, 900e-6}, Told{0, true, 0.18295, 960e-6}, Told{1, true, 0.30846, 870e-6}}) {
+    const DriveDesign d = designed(
+        {.mode = Mode::current, .delay_periods = told.delay_periods, .sampled_in_middle = told.middle});
+    EXPECT_NEAR(2 * d.loops[0].step.overshoot, told.overshoot_A, 1e-5);
+    EXPECT_NEAR(2 * d.loops[0].step.overshoot,
+                overshoot_of_recurrence_A(d.loops[0].gains, told.delay_periods, told.middle), 1e-12);
+    EXPECT_NEAR(d.loops[0].step.settling_s, told.settling_s, 1e-9);
+  }
+}
+
+/// A delay takes w times it of the phase at the crossover, and the crossover hardly moves: half a period lies between none and one.
+TEST(DriveDesign, HalfAPeriodCostsHalfThePhaseOfOne) {
+  const DriveDesign start = designed({.mode = Mode::current, .delay_periods = 1});
+  const DriveDesign middle = designed({.mode = Mode::current, .delay_periods = 1, .sampled_in_middle = true});
+  const LoopDesign &s = start.loops[0], &m = middle.loops[0];
+  const double half = *s.figures.crossover_rad_s * start.spec.period_s / 2;
+  EXPECT_NEAR(*start.later(s).phase_rad - *middle.later(m).phase_rad, half, 0.04 * half);
+  EXPECT_NEAR(*start.sooner(s).phase_rad - *middle.sooner(m).phase_rad, half, 0.04 * half);
+  EXPECT_EQ(late_words(middle.spec.late_periods()), "1.5 periods late");
+  EXPECT_EQ(late_words(middle.spec.sooner_periods()), "half a period late");
+  // The longest period, as it is told of a sample at the start too: 45 degrees are left there.
+  const DriveDesign longest = designed({.mode = Mode::current,
+                                        .period_s = middle.longest_period_s,
+                                        .delay_periods = 1,
+                                        .sampled_in_middle = true});
+  EXPECT_NEAR(*longest.loops[0].figures.phase_rad, base::pi / 4, 1e-3);
+  EXPECT_LT(middle.longest_period_s, start.longest_period_s);
 }
 
 /// A duty of hard chopping moves the voltage twice as far: half the gains make the same loops, whatever the rule.
@@ -242,6 +300,51 @@ TEST(DriveDesign, TakesNoFasterSpeedLoopThanItsSensorStands) {
   EXPECT_TRUE(warns(designed(on_hall_probes(6, 60e-3)), "degrees of phase at 100 rad/s"));
   EXPECT_TRUE(warns(designed(on_hall_probes(6, 10e-3)), "the speed loop is unstable at 100 rad/s"));
   EXPECT_FALSE(warns(designed({.mode = Mode::speed}), "Hall"));
+}
+
+/// Of a loop that its sensor makes unstable no overshoot is told, which would be infinite.
+TEST(DriveDesign, AnUnstableLoopIsCalledSo) {
+  DesignSpec spec = on_hall_probes(1, 10e-3);
+  spec.settle_s.reset();
+  spec.method = GainMethod::symmetrical_optimum;
+  const DriveDesign d = designed(spec);
+  ASSERT_FALSE(d.loop("speed").built.stable);
+  EXPECT_TRUE(warns(d, "the speed loop is unstable at 100 rad/s"));
+  for (const Warning& w : d.warnings) EXPECT_EQ(w.what.find("inf"), std::string::npos) << w.what;
+}
+
+/// T_max turns J by half the lowest speed in J w_low/(2 T_max) and no sooner: a loop that nobody gives a settling time has as long and
+/// half as long again. A small inertia leaves the thesis's 10 ms.
+TEST(DriveDesign, IsNoFasterThanTorqueAndInertiaAllow) {
+  for (const double load_kg_m2 : {0.0, 1e-4, 1e-3, 1e-2}) {
+    const DriveDesign d = designed({.mode = Mode::speed, .load_inertia_kg_m2 = load_kg_m2});
+    const double soonest = (1.35e-5 + load_kg_m2) * d.lowest_speed_rad_s / 2 / d.torque_limit_Nm;
+    EXPECT_NEAR(d.settle_by_torque_s / soonest, 1.5, 1e-12);
+    EXPECT_GE(*d.spec.settle_s, 1.5 * soonest);
+    EXPECT_LE(*d.spec.settle_s, std::max(10e-3, 1.6 * soonest)) << "two digits, upwards";
+  }
+  EXPECT_EQ(*designed({.mode = Mode::speed, .settle_s = 5e-3, .load_inertia_kg_m2 = 1e-3}).spec.settle_s,
+            5e-3)
+      << "what somebody asks for stays";
+}
+
+/// A fifth of the lowest speed must be left between it and 0.9 (U - R I/2)/K_t, I what the torque limit asks for or the nominal current.
+TEST(DriveDesign, RefusesALowestSpeedWithoutRoomAboveIt) {
+  MotorModel motor = thesis_motor();
+  motor.nominal_current_A = 2.33;
+  const double top = 0.9 * (24 - 1.03 * 2.33 / 2) / 0.0335;
+  DesignSpec spec = on_hall_probes(0, 20e-3);
+  spec.lowest_speed_rad_s = std::floor(top / 1.2 / 10) * 10;  // two digits
+  EXPECT_TRUE(design_drive(motor, spec));
+  *spec.lowest_speed_rad_s += 1;
+  const auto refused = design_drive(motor, spec);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(
+      to_string(refused.problems()[0]),
+      "lowest_speed_rad_s = 511 leaves no room for a step down to it: on this bus at most 510 rad/s may be the "
+      "lowest, with a fifth of it above against half the nominal torque; lower it, or give a higher voltage_V");
+  spec.voltage_V = 30;
+  EXPECT_TRUE(design_drive(motor, spec)) << "the cure";
 }
 
 TEST(DriveDesign, TellsWhatEachWayOfSensingAllows) {

@@ -184,7 +184,7 @@ TEST(SpeedLawDesign, APiAsALinearLawIsItsLoop) {
   loops.motor.shaft.J_kg_m2 = 1.35e-5;
   loops.winding = design::driven_pair(loops.motor, control::Chopping::soft);
   loops.period_s = 30e-6;
-  loops.delay_periods = 1;
+  loops.late_periods = 1;
   loops.current = {4.1, -3.7};
   loops.speed = {0.016, -0.0157};
   loops.current_at_full_torque_A = 23;

@@ -41,7 +41,7 @@ double figure(const Outcome& o, const std::string& name) {
   return NAN;
 }
 
-/// Whether one of the motors out of tolerance fails a design: swings, or has not settled after twice the time
+/// Whether one of the motors within the tolerances fails a design: swings, or has not settled after twice the time
 /// (the doubled inertia takes so long with ideal sensors too).
 struct Field {
   int motors = 0, swing = 0, late = 0;

@@ -137,6 +137,7 @@ std::vector<std::string> bode_notes(const BodeStudy& s) {
   if (!s.not_linear.empty()) notes.push_back("no linear loop to compare with: " + s.not_linear);
   const auto few = std::count_if(s.points.begin(), s.points.end(),
                                  [](const LoopPoint& p) { return p.coherence < analysis::little_coherence; });
+  const bool sensorless = s.at_end.control.drive == study::FirmwareKind::sensorless;
   if (!analysis::answered(s.points))
     notes.push_back(
         "NOTHING WAS MEASURED: the loop did not answer at any of these lines; look at its run without --bode, or name a larger "
@@ -147,9 +148,10 @@ std::vector<std::string> bode_notes(const BodeStudy& s) {
         "a larger amplitude helps",
         few, s.points.size(), analysis::little_coherence));
   if (s.lag)
-    notes.push_back(fmt::format(
-        "the loop goes round what the sensor tells: the speed {} late at this one; sensors.rotor = \"ideal\" shows the loop without it",
-        quantity_text(s.lag->delay_s(), "s", 3)));
+    notes.push_back(fmt::format("the loop goes round what {} tell{}: the speed {} late at this one{}",
+                                sensorless ? "the crossings of the back-EMF" : "the sensor",
+                                sensorless ? "" : "s", quantity_text(s.lag->delay_s(), "s", 3),
+                                sensorless ? "" : "; sensors.rotor = \"ideal\" shows the loop without it"));
   if (std::string told = beside_the_designed(s); !told.empty()) notes.push_back(std::move(told));
   if (std::isfinite(s.beside))
     notes.push_back(fmt::format("{:.2g} % of the answer's rms stands at no line", 100 * s.beside));

@@ -95,6 +95,7 @@ std::string design_json(const analysis::DesignStudy& s) {
            {"bus_V", d.bus_V},
            {"period_s", d.spec.period_s},
            {"delay_periods", d.spec.delay_periods},
+           {"sample", d.spec.sampled_in_middle ? "middle" : "start"},
            {"chopping", sixstep::base::word(sixstep::study::chopping_choices, d.spec.chopping)}};
   const auto& m = d.motor;
   const Motion motion = sixstep::design::motion_of(m);
@@ -121,7 +122,9 @@ std::string design_json(const analysis::DesignStudy& s) {
   if (s.robustness)
     out["tolerances"] = {{"motors", s.robustness->runs},
                          {"figures", robust(s.robustness->figures)},
-                         {"phase_margins_one_period_late", robust(s.robustness->phases)}};
+                         {d.spec.sampled_in_middle ? "phase_margins_one_and_a_half_periods_late"
+                                                   : "phase_margins_one_period_late",
+                          robust(s.robustness->phases)}};
   out["warnings"] = Json::array();
   for (const auto& w : s.warnings)
     out["warnings"].push_back({{"what", w.what}, {"cure", w.cure}, {"grave", w.grave}});

@@ -28,6 +28,12 @@ std::string or_none(const std::optional<double>& x, std::string (*shown)(double)
   return x ? shown(*x) : "-";
 }
 
+bool bands_differ(const DriveDesign& d) { return sixstep::design::settling_band(d) != 0.02; }
+
+std::string band_words(const DriveDesign& d, const LoopDesign& loop) {
+  return fmt::format(" to {:g} %", 100 * settling_band(d, loop));
+}
+
 }  // namespace
 
 std::string gain_unit(const LoopDesign& loop, const Motion& motion) {
@@ -66,14 +72,13 @@ std::string figures_text(const DriveDesign& d) {
   std::vector<std::string> head{"loop"};
   for (const LoopDesign& loop : d.loops) head.push_back(loop.name);
   rows.add(head);
-  const auto line = [&](const char* name, auto cell) {
+  const auto line = [&](const std::string& name, auto cell) {
     std::vector<std::string> cells{name};
     for (const LoopDesign& loop : d.loops) cells.push_back(cell(loop));
     rows.add(std::move(cells));
   };
-  const bool late = d.spec.delay_periods == 1;
-  const auto at_once = [&](const LoopDesign& l) -> const LoopFigures& { return late ? l.other : l.figures; };
-  const auto delayed = [&](const LoopDesign& l) -> const LoopFigures& { return late ? l.figures : l.other; };
+  const std::string sooner = "command " + sixstep::design::late_words(d.spec.sooner_periods()),
+                    later = sixstep::design::late_words(d.spec.later_periods());
   const auto factor = +[](double x) { return fmt::format("{:.2f}", x); };
   const auto decibels = +[](double x) { return fmt::format("{:.1f} dB", 20 * std::log10(x)); };
   const auto seconds = +[](double s) { return quantity_text(s, "s", 3); };
@@ -87,22 +92,22 @@ std::string figures_text(const DriveDesign& d) {
     rows.add(std::move(cells));
   }
   line("bandwidth, -3 dB", [&](const LoopDesign& l) { return or_none(l.figures.bandwidth_rad_s, hertz); });
-  line("phase margin, command at once",
-       [&](const LoopDesign& l) { return or_none(at_once(l).phase_rad, degrees_text); });
-  line("phase margin, one period late",
-       [&](const LoopDesign& l) { return or_none(delayed(l).phase_rad, degrees_text); });
-  line("gain margin, one period late",
-       [&](const LoopDesign& l) { return or_none(delayed(l).gain, decibels); });
-  line("delay margin, one period late",
-       [&](const LoopDesign& l) { return or_none(delayed(l).delay_s, seconds); });
-  line("peak of sensitivity, one period late", [&](const LoopDesign& l) {
-    return delayed(l).stable ? factor(delayed(l).sensitivity_peak) : "unstable";
+  line("phase margin, " + sooner,
+       [&](const LoopDesign& l) { return or_none(d.sooner(l).phase_rad, degrees_text); });
+  line("phase margin, " + later,
+       [&](const LoopDesign& l) { return or_none(d.later(l).phase_rad, degrees_text); });
+  line("gain margin, " + later, [&](const LoopDesign& l) { return or_none(d.later(l).gain, decibels); });
+  line("delay margin, " + later, [&](const LoopDesign& l) { return or_none(d.later(l).delay_s, seconds); });
+  line("peak of sensitivity, " + later, [&](const LoopDesign& l) {
+    return d.later(l).stable ? factor(d.later(l).sensitivity_peak) : "unstable";
   });
   if (d.lag.delay_s() > 0)
     line("phase margin with the speed's sensor",
          [&](const LoopDesign& l) { return or_none(l.built.phase_rad, degrees_text); });
-  line(d.lag.delay_s() > 0 ? "step: settling" : "step: settling to 2 %",
-       [&](const LoopDesign& l) { return quantity_text(l.step.settling_s, "s", 4); });
+  const bool two = bands_differ(d);
+  line(two ? "step: settling" : "step: settling to 2 %", [&](const LoopDesign& l) {
+    return quantity_text(l.step.settling_s, "s", 4) + (two ? band_words(d, l) : "");
+  });
   line("step: overshoot", [&](const LoopDesign& l) {
     return std::isfinite(l.step.overshoot) ? fmt::format("{:.1f} %", 100 * l.step.overshoot)
                                            : "without bound";
@@ -164,8 +169,9 @@ std::string limits_text(const DriveDesign& d) {
   text += motion.words(fmt::format(" rad/s; none above {} rad/s\n", speed(d.headroom_end_rad_s, 0)));
   text += motion.words(
       fmt::format("  braking, soft       held up to {} rad/s, (i/K_t) R\n", speed(d.braking_limit_rad_s, 1)));
-  text += fmt::format("  control period      up to {} for 45 degrees with one period of delay\n",
-                      quantity_text(d.longest_period_s, "s", 3));
+  text += fmt::format("  control period      up to {} for 45 degrees with {} of delay\n",
+                      quantity_text(d.longest_period_s, "s", 3),
+                      sixstep::design::periods_words(d.spec.later_periods()));
   return text;
 }
 

@@ -53,7 +53,8 @@ std::string designed_motor_line(const DriveDesign& d, const study::Scenario& s) 
       "control and PWM period {}, {} chopping, a command counts {}\n",
       visible(s.sheet.name.empty() ? s.motor : s.sheet.name), sixstep::base::six_digits(d.bus_V),
       motor_words(d.motor), quantity_text(d.spec.period_s, "s"), chopping,
-      d.spec.delay_periods == 1 ? "one period late" : "at once");
+      sixstep::design::late_words(d.spec.late_periods()) +
+          (d.spec.sampled_in_middle ? ", sampled in the middle of a period" : ""));
 }
 
 std::string simulated_text(const analysis::DesignStudy& s) {
@@ -91,13 +92,13 @@ void add_robust(Rows& rows, const RobustFigure& f, int digits) {
                 : fmt::format("{} alone: {}", f.culprit, quantity_text(f.alone, f.unit, digits))});
 }
 
-std::string robust_text(const analysis::Robustness& r) {
+std::string robust_text(const analysis::Robustness& r, const DriveDesign& d) {
   Rows rows;
   rows.add({"figure", "nominal", "worst", "where", "chiefly"});
   for (const RobustFigure& f : r.figures) add_robust(rows, f, 4);
   for (const RobustFigure& f : r.phases) add_robust(rows, f, 3);
-  return fmt::format("\nTolerances, the controller as designed, {} motors (phase margins one period late)\n",
-                     r.runs) +
+  return fmt::format("\nTolerances, the controller as designed, {} motors (phase margins {})\n", r.runs,
+                     sixstep::design::late_words(d.spec.later_periods())) +
          rows.text();
 }
 
@@ -200,7 +201,7 @@ std::string design_text(const analysis::DesignStudy& s, bool colour) {
   if (s.position) text += position_text(*s.position, motion);
   text += figures_text(s.design) + sensing_text(s.design) + sensorless_text(s.sensorless) +
           limits_text(s.design) + simulated_text(s);
-  if (s.robustness) text += robust_text(*s.robustness);
+  if (s.robustness) text += robust_text(*s.robustness, s.design);
   if (!s.warnings.empty()) text += "\nWarnings\n";
   for (const auto& w : s.warnings)
     text += fmt::format("  - {}{}\n{}", w.grave ? "GRAVE: " : "", visible(w.what),

@@ -19,7 +19,8 @@ std::string field_design_json(const sixstep::analysis::FieldStudy& f) {
            {"mode", sixstep::base::word(sixstep::study::mode_choices, d.spec.mode)},
            {"bus_V", d.bus_V},
            {"period_s", d.spec.period_s},
-           {"delay_periods", d.spec.delay_periods}};
+           {"delay_periods", d.spec.delay_periods},
+           {"sample", d.spec.sampled_in_middle ? "middle" : "start"}};
   out["model"] = {{"phase_resistance_ohm", m.R_ohm},
                   {"d_axis_inductance_H", m.L_d_H},
                   {"q_axis_inductance_H", m.L_q_H},

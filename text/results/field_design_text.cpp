@@ -35,7 +35,8 @@ std::string field_motor_line(const FieldStudy& f) {
       sixstep::base::six_digits(f.machine.magnet_V_s / f.machine.pole_pairs),
       sixstep::base::six_digits(1e7 * shaft.J_kg_m2), sixstep::base::six_digits(shaft.B_Nm_s),
       quantity_text(f.design.spec.period_s, "s"),
-      f.design.spec.delay_periods == 1 ? "one period late" : "at once");
+      sixstep::design::late_words(f.design.spec.late_periods()) +
+          (f.design.spec.sampled_in_middle ? ", sampled in the middle of a period" : ""));
 }
 
 std::string table(const char* head, const std::vector<DerivationStep>& steps) {

@@ -82,9 +82,9 @@ Json loop_json(const LoopDesign& loop, const DriveDesign& d) {
     out["steps"].push_back(row);
   }
   out["open_loop_in_z_minus_1"] = {{"num", loop.loop.num}, {"den", loop.loop.den}};
-  const bool late = d.spec.delay_periods == 1;
-  out["margins"] = {{"at_once", figures(late ? loop.other : loop.figures)},
-                    {"one_period_late", figures(late ? loop.figures : loop.other)}};
+  const bool half = d.spec.sampled_in_middle;
+  out["margins"] = {{half ? "half_a_period_late" : "at_once", figures(d.sooner(loop))},
+                    {half ? "one_and_a_half_periods_late" : "one_period_late", figures(d.later(loop))}};
   out["bode"] = bode(loop, d.spec.period_s);
   out["step"] = step(loop, d.spec.period_s);
   return out;

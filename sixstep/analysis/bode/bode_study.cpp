@@ -199,6 +199,7 @@ base::Problems prepare(BodeStudy& b, const study::Scenario& s, const BodeOrder& 
   b.mode = last.control.mode;
   b.period_s = s.pwm.period_s;
   b.begin_s = std::ceil(s.duration_s / b.period_s * (1 - 1e-12)) * b.period_s;
+  if (s.pwm.sample == study::SampleAt::middle) b.begin_s += b.period_s / 2;  // it begins with a sample
   b.stands_at = waveform.back().at(s.duration_s);
   b.amplitude = amplitude_of(order, b.stands_at);
   if (!(b.amplitude > 0.0))

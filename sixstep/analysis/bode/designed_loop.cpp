@@ -30,6 +30,14 @@ std::string nonlinear_block(const study::Scenario& s, const study::Compiled& c,
   return "";
 }
 
+/// Why a loop with samples in the middle of a period is not the linear one that is half a period later.
+std::string beside_middle(const study::Scenario& s, const study::Compiled& c, bool predicts) {
+  if (predicts) return "a current that is predicted from the middle of a period is not in the linear model";
+  if (s.pwm.alignment == study::Alignment::edge && !c.field)
+    return "of pulses that begin with the period, whether a sample in its middle sees their end is the duty's to say";
+  return "";
+}
+
 /// What the measured answer to the setpoint makes of a speed controller.
 design::Transfer speed_loop(const design::DriveLoops& loops, const control::DriveConfig<double>& drive) {
   const control::DriveExtras<double>& x = drive.extras;
@@ -65,10 +73,10 @@ DesignedLoop designed_loop(const study::Scenario& s, const study::Compiled& c, d
   DesignedLoop out;
   out.not_linear =
       c.own.is ? "a controller of one's own has no linear model here" : nonlinear_block(s, c, drive);
-  if (out.not_linear.empty() && c.board.sampled_in_middle)
-    out.not_linear = "samples in the middle of a period are not in the linear model";
+  const bool predicts = drive.extras.on && drive.extras.predicts_current;
+  if (out.not_linear.empty() && c.board.sampled_in_middle) out.not_linear = beside_middle(s, c, predicts);
   if (!out.not_linear.empty()) return out;
-  if (drive.extras.on && drive.extras.predicts_current) {
+  if (predicts) {
     out.loop = design::open_deadbeat_loop(c.board.delayed ? 1 : 0);
     return out;
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sixstep/analysis/verify/board.hpp"
 #include "sixstep/analysis/verify/design_changes.hpp"
@@ -105,34 +106,50 @@ std::vector<DesignSpec> on_this_bus_or_others(const DesignOrder& order, const Dr
   return all;
 }
 
-/// The first change that makes it usable, in words; empty where none does. Whether the sheet's motor alone holds with it is soon known,
+/// Slower loops take longer to simulate than an advice may.
+struct Rescue {
+  std::string words;      ///< the first change that makes it usable; empty where none does
+  bool too_long = false;  ///< some change, or its tolerances, could not be tried for its length
+};
+
+/// Whether the sheet's motor alone holds with it is soon known,
 /// and most changes fail there. A position is then designed as whoever takes the advice will have it.
-std::string rescue(const DesignOrder& order, const DriveDesign& d) {
+Rescue rescue(const DesignOrder& order, const DriveDesign& d) {
   const bool position = order.spec.mode == Mode::position;
   TrialBudget budget{rescue_periods}, whole_searches{4 * GainSearch{}.periods};
   DesignOrder alone = order;
   alone.tolerances.clear();
   if (position) alone.gain = {.quick = true, .longest_periods = 6e5, .periods = 1.5e6};
-  const auto rescued = [&](const DesignSpec& spec) {
+  Rescue out;
+  std::string nominal;  // holds for the sheet's motor
+  const auto rescued = [&](const DesignSpec& spec, const DriveDesign& next) {
+    if (!position && !(periods_of(alone, next) <= budget.periods)) out.too_long = true;
     if (!holds(alone, spec, budget)) return false;
     if (!position && order.tolerances.empty()) return true;
+    if (!position && !(periods_of(order, next) <= budget.periods)) {
+      if (nominal.empty()) nominal = words_of_change(order.spec, spec);
+      return false;
+    }
     return holds(order, spec, position ? whole_searches : budget);
   };
-  std::vector<DesignSpec> dear;
+  std::vector<std::pair<DesignSpec, DriveDesign>> dear;
   for (const DesignSpec& spec : on_this_bus_or_others(order, d)) {
-    if (order.keep_going && !order.keep_going()) return "";
+    if (order.keep_going && !order.keep_going()) return out;
     const std::optional<DriveDesign> next = in_closed_form(order, spec);
     if (!next) continue;
     // One that would take most of the budget waits until the cheap ones have been tried.
     if (periods_of(order, *next) > rescue_periods / 4 && !position) {
-      dear.push_back(spec);
+      dear.emplace_back(spec, *next);
       continue;
     }
-    if (rescued(spec)) return words_of_change(order.spec, spec);
+    if (rescued(spec, *next)) return {words_of_change(order.spec, spec), false};
   }
-  for (const DesignSpec& spec : dear)
-    if (rescued(spec)) return words_of_change(order.spec, spec);
-  return "";
+  for (const auto& [spec, next] : dear)
+    if (rescued(spec, next)) return {words_of_change(order.spec, spec), false};
+  if (!nominal.empty())
+    return {nominal + ", as far as the sheet's motor alone shows: its tolerances take longer to simulate",
+            true};
+  return out;
 }
 
 /// A target out of reach stays there whatever the loops are: a smaller step, a tenth below what was reached.
@@ -146,6 +163,17 @@ std::string smaller_step(const DesignOrder& order, const DesignStudy& s) {
   return "usable with step = " + base::written(*next.subject.step);
 }
 
+/// What was tried in vain.
+std::string nothing_tried(const DriveDesign& d, bool too_long) {
+  std::string text =
+      "nothing that was tried makes it usable: another chopping, period, sensor, slower loops, less torque";
+  if (too_long) text += "; what would take longer to simulate was left out";
+  if (d.spec.settle_s && d.settle_by_torque_s > *d.spec.settle_s)
+    text += "; torque limit and inertia ask for settle_s = " +
+            base::written(base::shortened(d.settle_by_torque_s, 2, base::Towards::up));
+  return text;
+}
+
 /// Of another: what makes it usable.
 void advise_unusable(const DesignOrder& order, DesignStudy& s) {
   const auto grave =
@@ -154,11 +182,8 @@ void advise_unusable(const DesignOrder& order, DesignStudy& s) {
     grave->cure = smaller_step(order, s);
     return;
   }
-  const std::string words = rescue(order, s.design);
-  grave->cure =
-      words.empty()
-          ? "nothing that was tried makes it usable: another chopping, period, sensor, slower loops, less torque"
-          : "usable with " + words;
+  const Rescue found = rescue(order, s.design);
+  grave->cure = found.words.empty() ? nothing_tried(s.design, found.too_long) : "usable with " + found.words;
 }
 
 }  // namespace
@@ -192,7 +217,8 @@ void advise(const DesignOrder& order, base::Problems& problems) {
   if (!motor) return;
   const base::Result<DriveDesign> d = design::design_drive(*motor, order.spec);
   if (!d) return;
-  if (const std::string words = rescue(order, *d); !words.empty()) problems.front().cure = "take " + words;
+  if (const std::string words = rescue(order, *d).words; !words.empty())
+    problems.front().cure = "take " + words;
 }
 
 void advise(const DesignOrder& order, DesignStudy& study) {

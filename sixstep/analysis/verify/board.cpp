@@ -59,10 +59,10 @@ study::Sensors with_rotor(study::Sensors s, study::RotorSensing rotor, double pe
   return s;
 }
 
-study::Sensors board_sensors(const design::DriveDesign& d) {
+study::Sensors board_sensors(const design::DriveDesign& d, std::optional<double> step) {
   study::Sensors s;
   if (!d.spec.rotor.lags()) return s;
-  sense_currents(d, rig::CurrentMeasurement::phases, s);
+  sense_currents(d, rig::CurrentMeasurement::phases, step, s);
   s.bus = study::BusSensing::adc;
   s.bus_range_V = std::min(range_from(1.5 * d.bus_V), base::plausible("V").most);
   s = with_rotor(s, rotor_key(d.spec.rotor), d.spec.period_s);
@@ -73,13 +73,25 @@ study::Sensors board_sensors(const design::DriveDesign& d) {
   return s;
 }
 
-void sense_currents(const design::DriveDesign& d, rig::CurrentMeasurement currents, study::Sensors& s) {
+namespace {
+
+/// The most that a drive asks for: of a current loop also what the step that is asked for overshoots to.
+double most_current_A(const design::DriveDesign& d, std::optional<double> step) {
+  if (d.spec.mode != control::Mode::current) return d.current_at_full_torque_A;
+  const double usual = design::usual_overload * d.nominal_current_A;
+  const double overshoot = d.loop("current").step.overshoot;
+  return step ? std::max(usual, std::fabs(*step) * (1 + (std::isfinite(overshoot) ? overshoot : 0.0)))
+              : usual;
+}
+
+}  // namespace
+
+void sense_currents(const design::DriveDesign& d, rig::CurrentMeasurement currents,
+                    std::optional<double> step, study::Sensors& s) {
   s.currents = currents;
   if (currents == rig::CurrentMeasurement::ideal || s.current_range_A) return;
-  const double most_A = d.spec.mode == control::Mode::current ? design::usual_overload * d.nominal_current_A
-                                                              : d.current_at_full_torque_A;
   const double headroom = d.spec.mode == control::Mode::position ? 2.0 : 1.25;
-  s.current_range_A = range_from(headroom * (most_A + d.ripple.worst_A));
+  s.current_range_A = range_from(headroom * (most_current_A(d, step) + d.ripple.worst_A));
 }
 
 study::Scenario with_ideal_sensors(study::Scenario scenario) {

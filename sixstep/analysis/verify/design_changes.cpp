@@ -82,6 +82,14 @@ void slow_down(DesignSpec& w, const DriveDesign& d, double times) {
   w.settle_s = plain(times * d.spec.settle_s.value_or(usual), base::Towards::up);
 }
 
+/// Faster than torque limit and inertia allow, a loop only runs into the limit.
+void add_what_torque_allows(const DesignSpec& w, const DriveDesign& d, std::vector<DesignSpec>& out) {
+  if (!has_speed_loop(w) || !d.spec.settle_s || !(d.settle_by_torque_s > *d.spec.settle_s)) return;
+  DesignSpec next = w;
+  next.settle_s = plain(d.settle_by_torque_s, base::Towards::up);
+  out.push_back(next);
+}
+
 void add_slower(const DesignSpec& w, const DriveDesign& d, std::vector<DesignSpec>& out) {
   const auto with = [&](auto change) {
     DesignSpec next = w;
@@ -161,6 +169,7 @@ std::vector<DesignSpec> single_changes(const DesignOrder& order, const DriveDesi
     change(next);
     out.push_back(next);
   };
+  add_what_torque_allows(w, d, out);
   add_finer(w, d, out);
   if (w.chopping != Chopping::complementary)
     with([](DesignSpec& n) { n.chopping = Chopping::complementary; });
@@ -194,6 +203,7 @@ std::vector<DesignSpec> joint_changes(const DesignOrder& order, const DriveDesig
     slow_down(longer, d, 2.0);
     out.push_back(longer);
   }
+  add_what_torque_allows(base, d, out);
   for (const double times : {2.0, 5.0, 10.0, 20.0}) {
     DesignSpec slower = base;
     slow_down(slower, d, times);

@@ -6,6 +6,7 @@
 
 #include "sixstep/analysis/verify/board.hpp"
 #include "sixstep/analysis/verify/linear_study.hpp"
+#include "sixstep/analysis/verify/travel.hpp"
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/decimal.hpp"
 #include "sixstep/design/sheet/motion.hpp"
@@ -74,17 +75,15 @@ study::Scenario common(const DriveDesign& d, const DesignSubject& subject) {
     s.load.gear = subject.board->load.gear;
   } else {
     s.bridge.dead_time_s = subject.dead_time_s;
-    s.sensors = board_sensors(d);
+    s.sensors = board_sensors(d, subject.step);
   }
-  if (subject.currents) sense_currents(d, *subject.currents, s.sensors);
+  if (subject.currents) sense_currents(d, *subject.currents, subject.step, s.sensors);
   if (d.spec.rotor.shaft.kind != design::ShaftSensorKind::none &&
       s.sensors.shaft == study::SensorShaft::motor)
     s.pwm.commutation = study::CommutationAt::sample;
-  if (s.sensors.currents ==
-      rig::CurrentMeasurement::dc_link) {  // it sees nothing before the on-time has begun
+  if (s.sensors.currents == rig::CurrentMeasurement::dc_link || (!subject.board && d.spec.sampled_in_middle))
     s.pwm.alignment = study::Alignment::centre;
-    s.pwm.sample = study::SampleAt::middle;
-  }
+  if (d.spec.sampled_in_middle || samples_in_middle(subject)) s.pwm.sample = study::SampleAt::middle;
   if (d.spec.rotor.shaft.capture_Hz > 0.0) s.sensors.capture_Hz = d.spec.rotor.shaft.capture_Hz;
   if (d.spec.rotor.hall && d.spec.rotor.capture_Hz > 0.0) s.sensors.capture_Hz = d.spec.rotor.capture_Hz;
   s.supply.voltage_V = d.bus_V;
@@ -124,51 +123,19 @@ void add_current(const DriveDesign& d, const DesignSubject& subject, study::Scen
       step_measure(study::MetricKind::overshoot, study::Signal::current, 0, end, 0, step, "overshoot");
   settling.sampled = overshoot.sampled = true;
   s.compare = {
-      {settling, loop.step.settling_s, "designed, at the samples, 2 %"},
-      {overshoot, loop.step.overshoot * std::fabs(step), "designed, at the samples"},
+      {settling, 0.0, "designed, at the samples, 2 %"},
+      {overshoot, 0.0, "designed, at the samples"},
       {window_measure(study::MetricKind::peak_to_peak, study::Signal::current, last, end, "current ripple"),
        design::current_ripple_A(d.motor, d.bus_V, d.spec.period_s, d.spec.chopping,
                                 design::duty_for_voltage(d.spec.chopping, std::fabs(step) * R / d.bus_V)),
        "PWM at this duty"},
   };
+  expect_step(d, s);
   const double band = 0.02 * std::fabs(step);  // the band of settling
   study::Measure mean = window_measure(study::MetricKind::mean, study::Signal::current, last, end,
                                        "mean of the last ten samples");
   mean.sampled = true;  // the controller samples the lowest point of the ripple and holds that
   s.require = {{mean, step - band, step + band}};
-}
-
-/// What a start at the limits takes at most: torque that the bus leaves at the end of it.
-double start_time(const DriveDesign& d, double to_rad_s, double load_Nm) {
-  const double K = d.motor.K_t_Nm_A, R = 2 * d.motor.machine.R_ohm;
-  const double by_bus = K * (d.bus_V - K * to_rad_s) / R,
-               torque = std::min(d.torque_limit_Nm, by_bus) - load_Nm;
-  return torque > 0.0 ? d.motor.shaft.J_kg_m2 * to_rad_s / torque : 0.0;
-}
-
-/// What the bus leaves of the torque limit at that speed, or what brakes beside the load: soft chopping through the lower switches.
-double torque_towards(const DriveDesign& d, double rad_s, bool faster) {
-  const double K = d.motor.K_t_Nm_A, R = 2 * d.motor.machine.R_ohm;
-  if (faster) return std::min(d.torque_limit_Nm, K * (d.bus_V - K * rad_s) / R);
-  const double shorted = d.spec.chopping == control::Chopping::soft ? K * K * rad_s / R : d.torque_limit_Nm;
-  return std::min(d.torque_limit_Nm, shorted);
-}
-
-/// The time from one speed to another at the limits of torque and bus, by a hundred parts. Where the bus allows no more, five of the
-/// times in which the speed creeps up to what it does allow.
-double travel_time(const DriveDesign& d, double from_rad_s, double to_rad_s, double load_Nm) {
-  constexpr int parts = 100;
-  const double K = d.motor.K_t_Nm_A, R = 2 * d.motor.machine.R_ohm, J = d.motor.shaft.J_kg_m2;
-  const double part = std::fabs(to_rad_s - from_rad_s) / parts, creep = J * R / (K * K);
-  const bool faster = std::fabs(to_rad_s) > std::fabs(from_rad_s);
-  double time = 0.0;
-  for (int n = 0; n < parts; ++n) {
-    const double speed = std::fabs(from_rad_s + (n + 0.5) / parts * (to_rad_s - from_rad_s));
-    const double torque = torque_towards(d, speed, faster) + (faster ? -load_Nm : load_Nm);
-    if (!(torque > 0.01 * d.torque_limit_Nm)) return time + 5 * creep;
-    time += J * part / torque;
-  }
-  return time;
 }
 
 /// Start from rest, then a small step.
@@ -180,21 +147,23 @@ struct SpeedTest {
 SpeedTest speed_test(const DriveDesign& d, const DesignSubject& subject) {
   const LoopDesign &speed = d.loop("speed"), &current = d.loop("current");
   const double K = d.motor.K_t_Nm_A, R = 2 * d.motor.machine.R_ohm;
-  const double load_A = std::min(d.nominal_current_A, d.current_at_full_torque_A) / 2;
+  const design::TestSpeeds speeds = test_speeds(d.motor, d.bus_V, d.torque_limit_Nm);
+  const double load_A = speeds.load_A;
   SpeedTest t{.load_A = load_A, .first = plain_number(0.15 * d.bus_V / K)};
   const bool lags = d.lag.delay_s() > 0;
-  if (lags) t.first = std::min(1.5 * d.lowest_speed_rad_s, 0.9 * (d.bus_V - R * load_A) / K);
+  if (lags) t.first = std::min(1.5 * d.lowest_speed_rad_s, speeds.top_rad_s);
   // The current that a step asks for at first is d1 (speed) times the current at full torque. In volts that
   // is d1 (current) at once, and R when it flows.
   const double volts = part_of_bus * (d.bus_V - K * t.first - R * t.load_A);
   t.step = subject.step.value_or(
-      lags ? -d.lowest_speed_rad_s / 2
+      lags ? d.lowest_speed_rad_s - t.first
            : plain_number(std::min(t.first / 2, volts / (speed.gains.d1 * d.current_at_full_torque_A *
                                                          std::max(current.gains.d1, R)))));
   const double settle = std::max(settling_of(speed, 1000 * d.spec.period_s), 8 * d.lag.delay_s());
   t.begin = plain_time(5 * settle + 2 * start_time(d, t.first, K * t.load_A));
-  // A step that somebody chose may be one that the limits hold up.
-  const double held_up = subject.step ? 2 * travel_time(d, t.first, t.first + t.step, K * t.load_A) : 0.0;
+  // A step that somebody chose may be one that the limits hold up, and so may any of a loop that is faster than the torque.
+  const double travel = travel_time(d, t.first, t.first + t.step, K * t.load_A);
+  const double held_up = subject.step || travel > settle ? 2 * travel : 0.0;
   t.end = plain_time(t.begin + 5 * settle + held_up);
   t.calm = t.end - settle;
   return t;
@@ -314,6 +283,23 @@ void add_position(const DriveDesign& d, const DesignSubject& subject, study::Sce
 double usual_move(const DriveDesign& d) {
   if (!design::motion_of(d.motor).linear) return 1000.0;
   return plain_number(20 * 1e3 * base::pi / d.motor.machine.pole_pairs);
+}
+
+bool samples_in_middle(const DesignSubject& subject) {
+  if (subject.board && subject.board->pwm.sample == study::SampleAt::middle) return true;
+  if (subject.currents) return *subject.currents == rig::CurrentMeasurement::dc_link;
+  return subject.board && subject.board->sensors.currents == rig::CurrentMeasurement::dc_link;
+}
+
+void expect_step(const DriveDesign& design, study::Scenario& s) {
+  const design::StepResponse& step = design.loop("current").step;
+  // The step of the setpoint comes at a period's start, and the first sample that sees it in that one's middle.
+  const double first_s = design.spec.sampled_in_middle ? design.spec.period_s / 2 : 0.0;
+  for (study::Comparison& c : s.compare) {
+    if (c.measure.metric == study::MetricKind::settling_time) c.value = first_s + step.settling_s;
+    if (c.measure.metric == study::MetricKind::overshoot)
+      c.value = step.overshoot * std::fabs(s.reference.value);
+  }
 }
 
 study::Scenario design_scenario(const DriveDesign& design, const DesignSubject& subject) {

@@ -45,6 +45,13 @@ double usual_move(const design::DriveDesign& design);
 /// Each comparison's value is what the design says, its source in words how.
 study::Scenario design_scenario(const design::DriveDesign& design, const DesignSubject& subject);
 
+/// Whether the subject's board samples in the middle of a period: where it says so, or where its one shunt would see nothing before
+/// the on-time has begun.
+bool samples_in_middle(const DesignSubject& subject);
+
+/// Sets what a current loop's design foretells of settling time and overshoot in its scenario.
+void expect_step(const design::DriveDesign& design, study::Scenario& scenario);
+
 /// What a reader is shown of a figure: 0 where the design expects 0 and rounding alone is left of the step.
 double as_read(const study::ComparisonResult& figure, const study::Scenario& scenario);
 

@@ -75,6 +75,20 @@ base::Result<std::vector<design::DerivationStep>> sensorless_steps(const DesignS
   return compiled->sensorless_steps;
 }
 
+/// The linear loop holds its voltage over a period, of which a sample in the middle sees one half. A pulse that begins with the period
+/// is seen whole, or its end is not.
+void look_at_pulses(DesignStudy& s) {
+  if (!s.design.spec.sampled_in_middle || s.scenario.pwm.alignment != study::Alignment::edge) return;
+  const double sooner = s.design.spec.late_periods() - 0.5;
+  s.warnings.push_back(
+      {.what =
+           "of pulses that begin with the period a sample in its middle sees the end or not: the loop is " +
+           design::late_words(sooner) + " at duties below a half, and " + design::late_words(sooner + 1) +
+           " above",
+       .cure = "set pwm.alignment = \"centre\", for which the loop is laid out",
+       .of = design::Concern::delay});
+}
+
 /// As of a turning motor, but for the numbers of the outcome: those are told in the units of its kind.
 base::Result<DesignStudy> studied(const DesignOrder& order) {
   const std::optional<double>& step = order.subject.step;
@@ -120,6 +134,7 @@ base::Result<DesignStudy> studied(const DesignOrder& order) {
   if (s.ideal_swing_rad_s && s.scenario.reference.values.size() > 1)
     s.allowed_swing_rad_s = allowed_swing_rad_s(*s.ideal_swing_rad_s, s.scenario.reference.values[1]);
   s.warnings = s.design.warnings;
+  look_at_pulses(s);
   look_at_high_speed(order, s);
   add_run_warnings(s, order.subject.step.has_value());
   return s;
@@ -145,7 +160,9 @@ void require_swing(const DesignStudy& study, study::Scenario& s) {
   s.require.push_back({swing, std::nullopt, *study.allowed_swing_rad_s});
 }
 
-base::Result<DesignStudy> study_design(const DesignOrder& order) {
+base::Result<DesignStudy> study_design(const DesignOrder& asked) {
+  DesignOrder order = asked;
+  order.spec.sampled_in_middle |= samples_in_middle(order.subject);
   base::Result<DesignStudy> s = studied(order);
   const bool linear = order.subject.sheet.kind == design::MotorKind::linear;
   if (!s) {

@@ -81,13 +81,14 @@ void add_loops(const study::Compiled& c, const design::DriveLoops& loops, FieldS
   const design::Transfer speed = open_speed_loop(loops);
   for (const study::LoopGains& g : c.gains) {
     design::DriveLoops own = loops;
-    own.delay_periods = f.design.spec.delay_periods;
+    own.late_periods = f.design.spec.late_periods();
     if (g.loop == "current d") {
       own.winding.L_H = f.machine.L_d_H;
       own.current = {g.d1, g.d0};
     }
     design::DriveLoops other = own;
-    other.delay_periods = 1 - own.delay_periods;
+    other.late_periods =
+        f.design.spec.delay_periods > 0 ? f.design.spec.sooner_periods() : f.design.spec.later_periods();
     LoopDesign loop =
         named(g.loop, g.origin, {g.d1, g.d0}, is_current(g) ? steps_of(c, axis++) : outer_steps(g));
     design::SensedLoop sensed{open_loop(g.loop, own), {}, {}};
@@ -248,7 +249,6 @@ base::Result<FieldStudy> study_field(const study::Scenario& s) {
   f.machine = design::field_machine(c->motor, s.sheet);
   design::DriveDesign& d = f.design;
   d.spec = spec_of(s);
-  d.spec.delay_periods = c->board.delayed || c->board.sampled_in_middle ? 1 : 0;
   d.motor = loops.motor;
   d.bus_V = s.supply.voltage_V;
   d.current_at_full_torque_A = c->drive.current_at_full_torque_A;

@@ -122,7 +122,7 @@ std::vector<Tolerance> chief(std::vector<Tolerance> tolerances) {
   return tolerances;
 }
 
-/// Makes a trial take so many periods at most: a higher lowest speed, whose loop is faster, fewer motors out of tolerance, a shorter
+/// Makes a trial take so many periods at most: a higher lowest speed, whose loop is faster, fewer motors of the tolerances, a shorter
 /// move, a longer period. A design in closed form takes a tenth of a second: one for each specification.
 bool shorten_trial(DesignOrder& order, const design::MotorModel& motor, double longest) {
   base::Result<design::DriveDesign> d = design::design_drive(motor, order.spec);
@@ -178,17 +178,31 @@ std::string way_out(const FirstScenarioSpec& spec, const design::MotorModel& mot
   return more;
 }
 
+/// The same gains sampled in the middle of a period: what the linear loop, half a period later, makes of the step. False where that
+/// loop is not to be put on a motor.
+bool foretell_in_middle(design::DesignSpec spec, study::Scenario& s) {
+  spec.sampled_in_middle = true;
+  const base::Result<design::MotorModel> motor = design::motor_model(s.sheet);
+  if (!motor) return false;
+  const base::Result<design::DriveDesign> late = design::design_drive(*motor, spec);
+  if (!late) return false;
+  expect_step(*late, s);
+  return std::none_of(late->warnings.begin(), late->warnings.end(),
+                      [](const design::Warning& w) { return w.grave; });
+}
+
 /// The controller's samples stand in the trough of the ripple, and so would the mean that it holds: in the middle of a centred pulse
 /// they meet the mean. An answer then comes half a period later, so that this is kept where it passes. A pulse that begins a dead
 /// time late has its middle half of that later: the sample is below the mean by what the current rises in it, and of a winding of
 /// little inductance that is more than the requirement's band.
 void judge_the_mean(study::Scenario& s, const DesignStudy& study) {
   study::Scenario middle = s;
+  const bool stands = foretell_in_middle(study.design.spec, middle);
   middle.pwm.alignment = study::Alignment::centre;
   middle.pwm.sample = study::SampleAt::middle;
   middle.require.front().measure.sampled = false;
   middle.require.front().measure.label = "mean of the last ten periods";
-  if (runs_and_passes(middle)) {
+  if (stands && runs_and_passes(middle)) {
     s = middle;
     return;
   }
@@ -196,7 +210,7 @@ void judge_the_mean(study::Scenario& s, const DesignStudy& study) {
   mean.measure.label = "mean of the last ten periods, dead time in it";
   if (mean.max)
     *mean.max += s.bridge.dead_time_s / 2 * s.supply.voltage_V / (2 * study.design.motor.machine.L_H);
-  if (runs_and_passes(middle)) {
+  if (stands && runs_and_passes(middle)) {
     s = middle;
     return;
   }

@@ -127,7 +127,7 @@ std::vector<RobustFigure> phases_of(const design::DriveDesign& design,
   std::vector<std::vector<double>> lost(design.loops.size());
   for (const Variation& v : all) {
     const std::vector<design::SensedLoop> loops =
-        design::sensed_loops(design, varied_motor(design.motor, tolerances, v), 1);
+        design::sensed_loops(design, varied_motor(design.motor, tolerances, v), design.spec.later_periods());
     for (std::size_t n = 0; n < loops.size(); ++n) {
       const design::LoopFigures f = design::sensed_figures(loops[n], design.spec.period_s, 1024);
       lost[n].push_back(f.stable && f.phase_rad ? -*f.phase_rad * 180 / base::pi : f.stable ? -180.0 : 0.0);

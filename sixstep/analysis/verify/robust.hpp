@@ -35,7 +35,7 @@ std::vector<Tolerance> sheet_tolerances(const design::Sheet& sheet, control::Mod
 /// promise. Temperatures and loads are no tolerance of the motor, and two inductances have no key that could stray.
 std::vector<study::Spread> tolerance_spread(const design::Sheet& sheet, control::Mode mode);
 
-/// A motor out of tolerance.
+/// A motor that strays within the tolerances.
 struct Variation {
   std::string words;            ///< "R at 125 degC, L -20 %"; empty: nominal
   std::vector<double> factors;  ///< one per tolerance
@@ -61,7 +61,7 @@ struct RobustFigure {
 
 struct Robustness {
   std::vector<RobustFigure> figures;  ///< of the scenario's comparisons, in their order
-  /// Of each loop with one period of delay and the sensor of the speed, in degrees: worst is least.
+  /// Of each loop with the later of the delays and the sensor of the speed, in degrees: worst is least.
   std::vector<RobustFigure> phases;
   std::size_t runs = 0;
 };

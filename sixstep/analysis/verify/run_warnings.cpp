@@ -52,8 +52,13 @@ bool out_of_reach(const DesignStudy& s) {
                      [](const design::Warning& w) { return w.of == design::Concern::reach; });
 }
 
-/// Where to look out of tolerance.
-std::string chiefly(const RobustFigure& f) { return f.culprit.empty() ? "" : ", chiefly for " + f.culprit; }
+constexpr const char* within = "within the tolerances";
+
+/// With which motor of the tolerances, and the one tolerance that makes most of it.
+std::string with_which(const RobustFigure& f) {
+  const bool one = f.culprit.empty() || f.culprit == f.at;
+  return ": with " + f.at + (one ? "" : ", chiefly for " + f.culprit);
+}
 
 /// At a duty below a half hard chopping has no mean voltage that drives.
 bool from_half_the_bus(const DesignStudy& s) {
@@ -140,32 +145,33 @@ void look_at_run(DesignStudy& s, bool asked_step) {
            true);
 }
 
-/// A move out of tolerance.
+/// A move of the motor worst off.
 void look_at_worst_move(DesignStudy& s, const RobustFigure& f, const std::string& where) {
   if (s.design.spec.mode != control::Mode::position) return;
   const base::LinearUnit unit = design::motion_of(s.scenario.sheet).unit("deg");
   const double allowed = unit.factor * allowed_overshoot_deg(s.design, s.scenario.reference.value);
   if (f.figure == "overshoot" && f.worst > allowed)
     warn(s, design::Concern::requirement,
-         "out of tolerance it overshoots by " + base::three_digits(f.worst) + " " + std::string(unit.linear) +
-             where,
+         std::string(within) + " it overshoots by " + base::three_digits(f.worst) + " " +
+             std::string(unit.linear) + where,
          true);
-  if (f.figure == swing_at_target && s.usable()) look_at_rest(s, f.worst, "out of tolerance", where);
+  if (f.figure == swing_at_target && s.usable()) look_at_rest(s, f.worst, within, where);
 }
 
 void look_at_worst(DesignStudy& s, const RobustFigure& f) {
-  const std::string where = ": " + f.at + chiefly(f);
+  const std::string where = with_which(f);
   const std::optional<double> swing = s.allowed_swing_rad_s;
   const bool lost = std::isfinite(f.nominal) && !std::isfinite(f.worst);
   if (f.figure == "speed ripple" && swing && f.nominal <= *swing && f.worst > *swing)
     warn(s, design::Concern::swing,
-         "out of tolerance the speed swings by " + base::three_digits(f.worst) + " rad/s without end" + where,
+         std::string(within) + " the speed swings by " + base::three_digits(f.worst) + " rad/s without end" +
+             where,
          true);
   if (f.figure == "settling time" && !drowned(s) && lost)
-    warn(s, design::Concern::settling, "out of tolerance it never settles" + where, true);
+    warn(s, design::Concern::settling, within + (" it never settles" + where), true);
   if (f.figure == settling_of_start && lost && s.usable())
-    warn(s, design::Concern::settling, "out of tolerance the start from rest never settles" + where, true);
-  if (f.figure == "overshoot" && s.usable()) look_at_overshoot(s, f.worst, "out of tolerance", where);
+    warn(s, design::Concern::settling, within + (" the start from rest never settles" + where), true);
+  if (f.figure == "overshoot" && s.usable()) look_at_overshoot(s, f.worst, within, where);
   look_at_worst_move(s, f, where);
 }
 
@@ -175,8 +181,9 @@ void look_at_tolerances(DesignStudy& s) {
   for (const RobustFigure& f : s.robustness->phases)
     if (f.worst < 30.0 && f.nominal >= 30.0)
       warn(s, design::Concern::settling,
-           "out of tolerance the " + f.figure + " falls to " + base::three_digits(std::max(f.worst, 0.0)) +
-               " degrees with one period of delay: " + f.at + chiefly(f),
+           std::string(within) + " the " + f.figure + " falls to " +
+               base::three_digits(std::max(f.worst, 0.0)) + " degrees with " +
+               design::periods_words(s.design.spec.later_periods()) + " of delay" + with_which(f),
            false);
 }
 

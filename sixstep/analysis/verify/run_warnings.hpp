@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What only the runs of a design can show, as warnings: a fault, a loop that never settles or swings without end, a position that does
-// not rest, a step whose target bus and load do not allow, and the same out of tolerance. A grave one makes a design not usable.
+// not rest, a step whose target bus and load do not allow, and the same within the tolerances. A grave one makes a design not usable.
 #pragma once
 #include <string>
 

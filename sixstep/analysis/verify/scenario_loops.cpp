@@ -10,7 +10,7 @@ design::DriveLoops loops_of(const study::Scenario& s, const study::Compiled& c) 
       .motor = c.motor,
       .winding = driven_pair(c.motor, smooth ? control::Chopping::complementary : drive.chopping),
       .period_s = s.pwm.period_s,
-      .delay_periods = c.board.delayed ? 1 : 0,
+      .late_periods = (c.board.delayed ? 1.0 : 0.0) + (c.board.sampled_in_middle ? 0.5 : 0.0),
       .current = {drive.current.d1, drive.current.d0},
       .speed = {drive.speed.d1, drive.speed.d0},
       .current_at_full_torque_A = drive.current_at_full_torque_A,

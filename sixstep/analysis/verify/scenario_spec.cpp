@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sixstep/base/angle.hpp"
+#include "sixstep/design/loops/spec_check.hpp"
 #include "sixstep/design/loops/tracking_loop.hpp"
 #include "sixstep/study/compile/shaft_sensor.hpp"
 #include "sixstep/study/scenario/choices.hpp"
@@ -130,10 +131,16 @@ design::DesignSpec spec_of(const study::Scenario& s) {
   w.load_inertia_kg_m2 =
       s.load.inertia_kg_m2 / (s.load.gear * s.load.gear);  // the loops are of the motor's shaft
   w.delay_periods = s.pwm.delay_periods;
+  w.sampled_in_middle = s.pwm.sample == study::SampleAt::middle;
   // By the current that flows: on the pair both are the same.
   w.chopping = s.control.smooth_chopping.on ? control::Chopping::complementary : s.pwm.chopping;
   w.rotor = rotor_sensing_of(s);
   w.lowest_speed_rad_s = lowest_speed(s);
+  // A reference near the top of what the bus drives leaves no room for a step down to it.
+  if (const base::Result<design::MotorModel> motor = design::motor_model(s.sheet);
+      motor && w.lowest_speed_rad_s)
+    if (const double most = most_lowest_speed_rad_s(*motor, w); most > 0.0)
+      w.lowest_speed_rad_s = std::min(*w.lowest_speed_rad_s, most);
   return w;
 }
 

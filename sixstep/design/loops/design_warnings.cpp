@@ -23,25 +23,21 @@ struct Collector {
   }
 };
 
-/// The figures with a delay of one period, whichever of the two that is.
-const LoopFigures& delayed(const DriveDesign& d, const LoopDesign& loop) {
-  return d.spec.delay_periods == 1 ? loop.figures : loop.other;
-}
-
 void look_at_stability(const DriveDesign& d, const LoopDesign& loop, Collector& out) {
   if (!loop.figures.stable)
     return out.add(Concern::stability, "the " + loop.name + " loop is unstable", true);
-  const LoopFigures& late = delayed(d, loop);
+  const LoopFigures& late = d.later(loop);
+  const std::string periods = periods_words(d.spec.later_periods());
   if (!late.stable)
     return out.add(Concern::delay,
-                   "the " + loop.name + " loop is unstable where its command counts one period late");
+                   "the " + loop.name + " loop is unstable where its command counts " + periods + " late");
   const double phase_deg = late.phase_rad.value_or(base::pi) * 180.0 / base::pi;
   if (phase_deg < least_phase_deg)
-    out.add(Concern::delay, "with one period of delay the " + loop.name + " loop keeps " +
+    out.add(Concern::delay, "with " + periods + " of delay the " + loop.name + " loop keeps " +
                                 base::three_digits(phase_deg) + " degrees of phase, less than " +
                                 base::three_digits(least_phase_deg));
   else if (late.sensitivity_peak > greatest_sensitivity)
-    out.add(Concern::delay, "with one period of delay the " + loop.name +
+    out.add(Concern::delay, "with " + periods + " of delay the " + loop.name +
                                 " loop amplifies disturbances up to " +
                                 base::three_digits(late.sensitivity_peak) + " times");
 }
@@ -97,7 +93,8 @@ void look_at_sign(const DriveDesign& d, const LoopDesign& loop, Collector& out) 
 }
 
 void look_at_overshoot(const LoopDesign& loop, Collector& out) {
-  if (loop.name != "position" && loop.figures.stable && loop.step.overshoot > 0.1)
+  // Of a loop that its sensor makes unstable there is no step to tell of.
+  if (loop.name != "position" && loop.figures.stable && loop.built.stable && loop.step.overshoot > 0.1)
     out.add(Concern::overshoot,
             "the " + loop.name + " loop overshoots a step by " +
                 base::three_digits(100.0 * loop.step.overshoot) + " %, for the PI's zero" +

@@ -23,9 +23,6 @@ constexpr double inner_faster = 10.0;
 /// A pair placed slower than 2 time_constants_to_settle L/R wants a negative proportional gain.
 constexpr double winding_times = 8.0;
 
-/// Of the speed up to which the bus drives the nominal current: what is left above it is for control.
-constexpr double high_speed_part = 0.9;
-
 /// No placed pair settles within fewer control periods.
 constexpr double fewest_periods = 4.0;
 
@@ -36,11 +33,11 @@ double settle_of_current(const DesignSpec& w, const MotorModel& m) {
       std::fmin(usual, w.settle_s.value_or(usual_speed_settle_s) / inner_faster));
 }
 
-DriveLoops loops_of(const DriveDesign& d, const MotorModel& motor, int delay_periods) {
+DriveLoops loops_of(const DriveDesign& d, const MotorModel& motor, double late_periods) {
   DriveLoops to{.motor = motor,
                 .winding = driven_pair(motor, d.spec.chopping),
                 .period_s = d.spec.period_s,
-                .delay_periods = delay_periods};
+                .late_periods = late_periods};
   for (const LoopDesign& loop : d.loops) {
     if (loop.name == "current") to.current = loop.gains;
     if (loop.name == "speed") to.speed = loop.gains;
@@ -58,10 +55,10 @@ double watched_s(const Transfer& whole, double period_s) {
 }
 
 void judge(DriveDesign& d, LoopDesign& loop, std::size_t index) {
-  const int delay_periods = d.spec.delay_periods;
-  judge_loop(loop, open_loops(d, d.motor, delay_periods)[index],
-             open_loops(d, d.motor, 1 - delay_periods)[index], sensed_loops(d, d.motor, delay_periods)[index],
-             d.spec.period_s, settling_band(d));
+  const DesignSpec& w = d.spec;
+  const double late = w.late_periods(), other = w.delay_periods > 0 ? w.sooner_periods() : w.later_periods();
+  judge_loop(loop, open_loops(d, d.motor, late)[index], open_loops(d, d.motor, other)[index],
+             sensed_loops(d, d.motor, late)[index], w.period_s, settling_band(d));
 }
 
 base::Result<LoopDesign> by_placement(const char* name, const ZohPlant& plant, double settle_s,
@@ -138,7 +135,7 @@ bool overshoots(const Transfer& open, double gain, double period_s) {
 
 /// The largest gain with which the linear loop does not overshoot: an overshoot grows with the gain.
 double largest_position_gain(const DriveDesign& d) {
-  DriveLoops loops = loops_of(d, d.motor, d.spec.delay_periods);
+  DriveLoops loops = loops_of(d, d.motor, d.spec.late_periods());
   loops.position_gain_rad_s_per_deg = 1.0;
   const Transfer open = open_position_loop(loops);
   double low = 0.0, high = 1e-3;
@@ -167,7 +164,23 @@ LoopDesign position_loop(double gain, const char* method, const char* meaning) {
           .step = {}};
 }
 
-/// The longest period at which the same rule keeps 45 degrees with one period of delay: the phase falls with
+/// What a current loop keeps of its phase with the later of the delays, in rad; empty where it never crosses over.
+std::optional<double> phase_left_rad(const DriveDesign& d, const PiGains& gains, double period_s) {
+  const LoopWinding winding = driven_pair(d.motor, d.spec.chopping);
+  if (!d.spec.sampled_in_middle) {
+    const std::optional<Margins> m = margins(current_plant(winding, period_s), gains, period_s, true);
+    return m ? std::optional(m->phase_rad) : std::nullopt;
+  }
+  const DriveLoops loops{.motor = d.motor,
+                         .winding = winding,
+                         .period_s = period_s,
+                         .late_periods = d.spec.later_periods(),
+                         .current = gains};
+  constexpr int points = 256;  // a PI loop's phase has no narrow features
+  return loop_figures(open_current_loop(loops), period_s, points).phase_rad;
+}
+
+/// The longest period at which the same rule keeps 45 degrees with the later of the delays: the phase falls with
 /// the period.
 double longest_period(const DriveDesign& d) {
   const auto holds = [&](double period_s) {
@@ -175,9 +188,8 @@ double longest_period(const DriveDesign& d) {
     at.spec.period_s = period_s;
     const base::Result<LoopDesign> loop = current_loop(at);
     if (!loop) return false;
-    const ZohPlant plant = current_plant(driven_pair(d.motor, d.spec.chopping), period_s);
-    const std::optional<Margins> m = margins(plant, loop->gains, period_s, true);
-    return m && m->phase_rad >= base::pi / 4.0;
+    const std::optional<double> phase_rad = phase_left_rad(d, loop->gains, period_s);
+    return phase_rad && *phase_rad >= base::pi / 4.0;
   };
   double low = 1e-9, high = 2e-9;
   while (holds(high) && high < 1.0) {
@@ -198,17 +210,24 @@ double crossover_of(const DriveDesign& d) {
 }
 
 SettlingQuestion settling_question(const DriveDesign& d) {
-  return {loops_of(d, d.motor, d.spec.delay_periods), d.torque_limit_Nm, d.spec.damping};
+  return {loops_of(d, d.motor, d.spec.late_periods()), d.torque_limit_Nm, d.spec.damping};
 }
 
-/// Nobody said how fast: the thesis's settling time, or what the sensor stands where that is longer.
+/// Half as long again as the torque limit alone takes for the step: so the loop's own way to its end has time behind the limit.
+constexpr double times_of_torque = 1.5;
+
+/// Nobody said how fast: the thesis's settling time, or what sensor or torque limit stand where that is longer.
 void choose_settling(DriveDesign& d) {
-  if (d.spec.settle_s || d.spec.mode == Mode::current) return;
-  d.spec.settle_s = usual_speed_settle_s;
-  if (!d.spec.rotor.lags()) return;
-  const std::optional<double> least =
-      fastest_settling_s(settling_question(d), d.spec.rotor, d.lowest_speed_rad_s);
-  if (least && *least > usual_speed_settle_s) d.spec.settle_s = base::shortened(*least, 2, base::Towards::up);
+  if (d.spec.mode == Mode::speed)  // a move is at its limits most of the way, however slow the loop is
+    d.settle_by_torque_s =
+        times_of_torque * d.motor.shaft.J_kg_m2 * d.lowest_speed_rad_s / 2 / d.torque_limit_Nm;
+  if (d.spec.settle_s) return;
+  double least = d.settle_by_torque_s;
+  if (d.spec.rotor.lags())
+    least = std::fmax(
+        least, fastest_settling_s(settling_question(d), d.spec.rotor, d.lowest_speed_rad_s).value_or(least));
+  d.spec.settle_s =
+      least > usual_speed_settle_s ? base::shortened(least, 2, base::Towards::up) : usual_speed_settle_s;
 }
 
 /// A jump of the told speed is one of the torque asked for: d1 of it at once. What is coarse at the lowest speed says nothing of the
@@ -288,6 +307,10 @@ void judge_loop(LoopDesign& loop, const Transfer& open, const Transfer& other, c
 
 double settling_band(const DriveDesign& d) { return d.spec.rotor.hall && d.lag.delay_s() > 0.0 ? 0.1 : 0.02; }
 
+double settling_band(const DriveDesign& d, const LoopDesign& loop) {
+  return loop.name == "speed" ? settling_band(d) : 0.02;
+}
+
 const LoopDesign& DriveDesign::loop(std::string_view name) const {
   for (const LoopDesign& l : loops)
     if (l.name == name) return l;
@@ -334,16 +357,17 @@ DriveDesign with_position_gain(const DriveDesign& design, double gain_rad_s_per_
   return d;
 }
 
-std::vector<Transfer> open_loops(const DriveDesign& design, const MotorModel& motor, int delay_periods) {
-  const DriveLoops loops = loops_of(design, motor, delay_periods);
+std::vector<Transfer> open_loops(const DriveDesign& design, const MotorModel& motor, double late_periods) {
+  const DriveLoops loops = loops_of(design, motor, late_periods);
   std::vector<Transfer> out{open_current_loop(loops)};
   if (design.loops.size() > 1) out.push_back(open_speed_loop(loops));
   if (design.loops.size() > 2) out.push_back(open_position_loop(loops));
   return out;
 }
 
-std::vector<SensedLoop> sensed_loops(const DriveDesign& design, const MotorModel& motor, int delay_periods) {
-  const std::vector<Transfer> open = open_loops(design, motor, delay_periods);
+std::vector<SensedLoop> sensed_loops(const DriveDesign& design, const MotorModel& motor,
+                                     double late_periods) {
+  const std::vector<Transfer> open = open_loops(design, motor, late_periods);
   std::vector<SensedLoop> out{{open[0], {}, {}}};
   if (open.size() > 1) out.push_back({open[1], design.lag, {}});
   if (open.size() > 2) out.push_back({open[2], design.lag, open[1]});

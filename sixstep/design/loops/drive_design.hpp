@@ -10,6 +10,7 @@
 
 #include "sixstep/base/result.hpp"
 #include "sixstep/control/bridge_command.hpp"
+#include "sixstep/design/loops/late_words.hpp"
 #include "sixstep/design/loops/loop_figures.hpp"
 #include "sixstep/design/loops/operating_limits.hpp"
 #include "sixstep/design/loops/pole_placement.hpp"
@@ -25,8 +26,8 @@ enum class GainMethod : std::uint8_t { pole_placement, cancellation, symmetrical
 struct DesignSpec {
   control::Mode mode = control::Mode::current;  ///< current, speed or position
   GainMethod method = GainMethod::pole_placement;
-  /// Of the PI of the mode; for current 1 ms, or 8 L/R where that is shorter; for speed 10 ms, or what the sensor allows where that is
-  /// more.
+  /// Of the PI of the mode; for current 1 ms, or 8 L/R where that is shorter; for speed 10 ms, or what the sensor allows, or what torque
+  /// limit and inertia ask for (settle_by_torque_s), where one of those is more.
   std::optional<double> settle_s;
   /// Of the inner loop; as above, or a tenth of the speed loop's where that is shorter.
   std::optional<double> current_settle_s;
@@ -36,11 +37,19 @@ struct DesignSpec {
   std::optional<double> voltage_V;        ///< of the bus; else the sheet's
   std::optional<double> torque_limit_Nm;  ///< full output of the speed loop; else usual_torque_limit_Nm
   double load_inertia_kg_m2 = 0.0;        ///< on the shaft, beside the rotor's
-  int delay_periods = 0;                  ///< from a sample until its result takes effect, 0 or 1
+  int delay_periods = 0;                  ///< whole ones from a sample until its result takes effect, 0 or 1
+  bool sampled_in_middle =
+      false;  ///< of a period, whose next start is the soonest that a result takes effect
   control::Chopping chopping = control::Chopping::soft;
   RotorSensing rotor{.hall = false};
   /// That the drive is to hold; else a tenth of the speed that the bus reaches, bus/K_t.
   std::optional<double> lowest_speed_rad_s;
+
+  /// Control periods from a sample until its result takes effect: 0, 1/2, 1 or 3/2.
+  double late_periods() const { return delay_periods + (sampled_in_middle ? 0.5 : 0.0); }
+  /// The two that such a board may have, whichever the spec's is.
+  double sooner_periods() const { return sampled_in_middle ? 0.5 : 0.0; }
+  double later_periods() const { return sooner_periods() + 1.0; }
 };
 
 /// Settling time of a current loop that nobody gives one: 1 ms, or 8 L/R where that is shorter. In s.
@@ -67,7 +76,7 @@ struct LoopDesign {
   std::optional<PolePlacement> placed;
   Transfer loop;        ///< open, with the wished delay, the inner loops counted in
   LoopFigures figures;  ///< of `loop`
-  LoopFigures other;    ///< with the other delay: 1 where the spec is 0, and 0 where it is 1
+  LoopFigures other;    ///< with the other delay: a period more where the spec's is the sooner, else one less
   LoopFigures built;    ///< of `loop` with what the spec's sensor of the speed adds at the lowest speed
   StepResponse step;    ///< of the closed loop, sensor included
 };
@@ -115,9 +124,12 @@ struct DriveDesign {
   SpeedLag lag;                         ///< of the speed at the lowest speed
   std::vector<DerivationStep> sensing;  ///< how that lag comes about
   std::vector<SettlingLimit> limits;    ///< what each way of sensing allows; speed and position
-  std::vector<LoopDesign> loops;        ///< from the inside out
+  double settle_by_torque_s =
+      0.0;  ///< speed: one and a half times what the torque limit takes for half the lowest one, J w_low/(2 T_max)
+  std::vector<LoopDesign> loops;  ///< from the inside out
   Ripple ripple;
-  double longest_period_s = 0.0;  ///< up to which the current loop keeps 45 degrees with one period of delay
+  double longest_period_s =
+      0.0;  ///< up to which the current loop keeps 45 degrees with the later of the delays
   double headroom_end_rad_s = 0.0;  ///< up to which the nominal current can be driven
   double high_speed_rad_s = 0.0;    ///< of drives with a speed loop: a tenth below that
   double speed_step_rad_s = 0.0;    ///< by which the measured speed jumps there while the speed stands
@@ -128,6 +140,13 @@ struct DriveDesign {
   std::vector<Warning> warnings;
 
   const LoopDesign& loop(std::string_view name) const;
+  /// A loop's figures with the sooner and with the later of the two delays, whichever the spec has.
+  const LoopFigures& sooner(const LoopDesign& loop) const {
+    return spec.delay_periods > 0 ? loop.other : loop.figures;
+  }
+  const LoopFigures& later(const LoopDesign& loop) const {
+    return spec.delay_periods > 0 ? loop.figures : loop.other;
+  }
 };
 
 /// What nominal_current_A is called: nothing that was made up passes for the sheet's.
@@ -135,6 +154,9 @@ inline const char* nominal_current_words(const DriveDesign& d) {
   return d.nominal_printed ? "the nominal current"
                            : "a tenth of the stall current (the sheet names no nominal one)";
 }
+
+/// Part of its step within which a loop's settling time is told, in the linear step as in the run.
+double settling_band(const DriveDesign& design, const LoopDesign& loop);
 
 /// Part of a step of the speed within which it counts as settled: 2 %, on Hall probes 10 %, the twentieth of
 /// the lowest speed that a step of half of it is judged by.
@@ -154,9 +176,9 @@ void judge_loop(LoopDesign& loop, const Transfer& open, const Transfer& other, c
 
 /// The loops of the same controller on another motor: what a tolerance does to the margins. From the inside
 /// out, open.
-std::vector<Transfer> open_loops(const DriveDesign& design, const MotorModel& motor, int delay_periods);
+std::vector<Transfer> open_loops(const DriveDesign& design, const MotorModel& motor, double late_periods);
 
 /// The same with what the spec's sensor of the speed adds at the lowest speed.
-std::vector<SensedLoop> sensed_loops(const DriveDesign& design, const MotorModel& motor, int delay_periods);
+std::vector<SensedLoop> sensed_loops(const DriveDesign& design, const MotorModel& motor, double late_periods);
 
 }  // namespace sixstep::design

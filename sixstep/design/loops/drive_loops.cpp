@@ -2,6 +2,7 @@
 #include "sixstep/design/loops/drive_loops.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "sixstep/base/angle.hpp"
 #include "sixstep/design/loops/operating_limits.hpp"
@@ -18,7 +19,12 @@ Polynomial scaled_gains(Polynomial p, double factor) {
   return p;
 }
 
-/// Motor sampled with held voltage: u -> i = i/den, u -> w = w/den, u -> theta = theta/(den (z - 1)).
+int whole_periods(const DriveLoops& d) { return static_cast<int>(std::floor(d.late_periods)); }
+/// The rest of the wait, a part of a period.
+double late_s_of(const DriveLoops& d) { return (d.late_periods - std::floor(d.late_periods)) * d.period_s; }
+
+/// Motor sampled with held voltage: u -> i = i/den, u -> w = w/den, u -> theta = theta/(den (z - 1)). What is late by a part of a
+/// period is in it, whole periods are not.
 struct Plant {
   Polynomial den, i, w, theta;
 };
@@ -31,9 +37,10 @@ Plant plant_of(const DriveLoops& d) {
   motor.A[1] = {K_t / J, -B / J, 0.0, 0.0};
   motor.A[2] = {0.0, 1.0, 0.0, 0.0};
   motor.B[0] = 1.0 / L;
-  const Transfer i = sampled(motor, 0, d.period_s), w = sampled(motor, 1, d.period_s);
+  const double late = late_s_of(d);
+  const Transfer i = sampled(motor, 0, d.period_s, late), w = sampled(motor, 1, d.period_s, late);
   motor.states = 3;
-  return {i.den, i.num, w.num, sampled(motor, 2, d.period_s).num};
+  return {i.den, i.num, w.num, sampled(motor, 2, d.period_s, late).num};
 }
 
 /// (z - 1)^2 den z^m + (z - 1) c_i i + c_w K c_i w: the poles of the speed loop closed around the current
@@ -45,7 +52,7 @@ struct Cascade {
 Cascade cascade_of(const DriveLoops& d, const Plant& p) {
   Cascade c;
   c.controllers = scaled_gains(product(of(d.speed), of(d.current)), d.current_at_full_torque_A);
-  const Polynomial held = product(p.den, delay(d.delay_periods).den);
+  const Polynomial held = product(p.den, delay(whole_periods(d)).den);
   c.current_closed = sum(product(difference, held), product(of(d.current), p.i));
   c.speed_closed = sum(product(difference, c.current_closed), product(c.controllers, p.w));
   return c;
@@ -79,13 +86,18 @@ LoopWinding quadrature_axis(const FieldMachine& machine, bool decoupled) {
 
 Transfer open_current_loop(const DriveLoops& d) {
   const ZohPlant plant = current_plant(d.winding, d.period_s);
-  const Transfer pi{of(d.current), difference}, held{{plant.b0}, {1.0 + plant.a0, 1.0}};
-  return series(series(pi, held), delay(d.delay_periods));
+  const Transfer pi{of(d.current), difference};
+  Transfer held{{plant.b0}, {1.0 + plant.a0, 1.0}};
+  if (const double late = late_s_of(d); late > 0.0) {
+    held.num.push_back(current_plant(d.winding, d.period_s - late).b0);
+    held.den = product(held.den, {1.0, 1.0});
+  }
+  return series(series(pi, held), delay(whole_periods(d)));
 }
 
 Transfer open_current_loop_turning(const DriveLoops& d) {
   const Plant p = plant_of(d);
-  return {product(of(d.current), p.i), product(difference, product(p.den, delay(d.delay_periods).den))};
+  return {product(of(d.current), p.i), product(difference, product(p.den, delay(whole_periods(d)).den))};
 }
 
 Transfer open_speed_loop(const DriveLoops& d) {

@@ -32,7 +32,8 @@ struct DriveLoops {
   MotorModel motor;
   LoopWinding winding;
   double period_s = 0.0;
-  int delay_periods = 0;
+  double late_periods =
+      0.0;  ///< from a sample until its answer acts: a sample in the middle of a period adds a half
   PiGains current{};
   PiGains speed{};
   double current_at_full_torque_A = 0.0;
@@ -44,7 +45,7 @@ struct LinearLaw {
   Polynomial r, y, q;
 };
 
-/// Rotor held, as it is designed.
+/// Rotor held, as it is designed. The voltage that is asked for acts late_periods after its sample, for one period.
 Transfer open_current_loop(const DriveLoops& drive);
 /// Rotor free: its back-EMF gives way to a slow change of the current.
 Transfer open_current_loop_turning(const DriveLoops& drive);

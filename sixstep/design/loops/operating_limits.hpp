@@ -51,6 +51,18 @@ double headroom_V(const MotorModel& motor, double bus_V, double current_A, doubl
 /// Where the headroom for that current ends.
 double speed_for_current_rad_s(const MotorModel& motor, double bus_V, double current_A);
 
+/// Of the speed up to which the bus drives the nominal current: what is left above it is for control.
+inline constexpr double high_speed_part = 0.9;
+
+/// Where a speed loop is tried: against half the nominal torque, from a tenth below the speed that the bus drives so.
+struct TestSpeeds {
+  double load_A = 0.0, top_rad_s = 0.0;
+  /// The most that may be the lowest speed: a fifth of it is left above for a step down to it, and the bus drives the nominal current
+  /// there. 0 where it drives none at any speed.
+  double most_lowest_rad_s = 0.0;
+};
+TestSpeeds test_speeds(const MotorModel& motor, double bus_V, double torque_limit_Nm);
+
 /// Soft chopping brakes through the lower switches: at speed w the current cannot be less than the short
 /// circuit's K_t w/R_tt. The speed above which a braking current i can no longer be held: (i/K_t) R_tt.
 double soft_braking_limit_rad_s(const MotorModel& motor, double current_A);

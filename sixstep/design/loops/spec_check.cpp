@@ -12,6 +12,12 @@ namespace sixstep::design {
 
 using control::Mode;
 
+double most_lowest_speed_rad_s(const MotorModel& motor, const DesignSpec& w) {
+  const double bus_V = w.voltage_V.value_or(motor.nominal_voltage_V);
+  return test_speeds(motor, bus_V, w.torque_limit_Nm.value_or(usual_torque_limit_Nm(motor, bus_V)))
+      .most_lowest_rad_s;
+}
+
 base::Problems check_spec(const MotorModel& motor, const DesignSpec& w) {
   base::Problems found;
   const auto add = [&](const char* where, const std::string& value, const char* limit, const char* cure) {
@@ -50,6 +56,13 @@ base::Problems check_spec(const MotorModel& motor, const DesignSpec& w) {
       w.lowest_speed_rad_s && *w.lowest_speed_rad_s >= top && top > 0.0)
     found.push_back({"lowest_speed_rad_s", base::written(*w.lowest_speed_rad_s),
                      "is above what the bus reaches without load, " + base::three_digits(top) + " rad/s",
+                     "lower it, or give a higher voltage_V"});
+  else if (const double most = most_lowest_speed_rad_s(motor, w); w.mode == Mode::speed && w.rotor.lags() &&
+                                                                  w.lowest_speed_rad_s && most > 0.0 &&
+                                                                  *w.lowest_speed_rad_s > most)
+    found.push_back({"lowest_speed_rad_s", base::written(*w.lowest_speed_rad_s),
+                     "leaves no room for a step down to it: on this bus at most " + base::three_digits(most) +
+                         " rad/s may be the lowest, with a fifth of it above against half the nominal torque",
                      "lower it, or give a higher voltage_V"});
   if (w.rotor.edges < 0 || w.rotor.edges > 6)
     add("edges", std::to_string(w.rotor.edges), "must lie in 1 to 6", "leave it out to have them adaptive");

@@ -6,6 +6,9 @@
 
 namespace sixstep::design {
 
+/// The most that may be a drive's lowest speed (operating_limits.hpp); 0 where that is not known.
+double most_lowest_speed_rad_s(const MotorModel& motor, const DesignSpec& spec);
+
 base::Problems check_spec(const MotorModel& motor, const DesignSpec& spec);
 
 }  // namespace sixstep::design

@@ -165,28 +165,50 @@ double slowest_decay(const Polynomial& denominator) {
   return low;
 }
 
-// C (delta - E)^-1 Gamma = sum C E^(k-1) Gamma delta^-k, times den: the numerator has the powers from 0 on.
-Transfer sampled(const Linear& system, int output, double period_s) {
-  const auto n = static_cast<std::size_t>(system.states), held = n;
+namespace {
+
+/// exp([A B; 0 0] t) - 1: how the states move in a time t with the input held.
+Square step_of(const Linear& system, double time_s) {
+  const auto n = static_cast<std::size_t>(system.states);
   Square m{};
   for (std::size_t row = 0; row < n; ++row) {
-    for (std::size_t k = 0; k < n; ++k) m[row][k] = system.A[row][k] * period_s;
-    m[row][held] = system.B[row] * period_s;
+    for (std::size_t k = 0; k < n; ++k) m[row][k] = system.A[row][k] * time_s;
+    m[row][n] = system.B[row] * time_s;
   }
-  const Square step = exponential_minus_one(m);
-  Transfer t;
-  t.den = characteristic(step, system.states);
+  return exponential_minus_one(m);
+}
+
+/// C (delta - E)^-1 x = sum C E^(k-1) x delta^-k, times den: the numerator has the powers from 0 on. E + 1 = `step` + 1, x the last
+/// column of `held`.
+Polynomial numerator(const Square& step, const Square& held, const Polynomial& den, int output) {
+  const std::size_t n = den.size() - 1;
   std::array<double, 5> x{};
-  for (std::size_t row = 0; row < n; ++row) x[row] = step[row][held];
-  t.num.assign(n, 0.0);
+  for (std::size_t row = 0; row < n; ++row) x[row] = held[row][n];
+  Polynomial num(n, 0.0);
   for (std::size_t k = 1; k <= n; ++k) {
     const double g = x[static_cast<std::size_t>(output)];
-    for (std::size_t power = k; power <= n; ++power) t.num[power - k] += g * t.den[power];
+    for (std::size_t power = k; power <= n; ++power) num[power - k] += g * den[power];
     std::array<double, 5> next{};
     for (std::size_t row = 0; row < n; ++row)
       for (std::size_t c = 0; c < n; ++c) next[row] += step[row][c] * x[c];
     x = next;
   }
+  return num;
+}
+
+}  // namespace
+
+// With G(t) what an input adds to the states in a time t, x' = E x + (G(T) - G(T - late)) u/z + G(T - late) u: the numerator over
+// z den is that of G(T), and z - 1 times that of G(T - late).
+Transfer sampled(const Linear& system, int output, double period_s, double late_s) {
+  const Square step = step_of(system, period_s);
+  Transfer t;
+  t.den = characteristic(step, system.states);
+  t.num = numerator(step, step, t.den, output);
+  if (!(late_s > 0.0)) return t;
+  const Polynomial fresh = numerator(step, step_of(system, period_s - late_s), t.den, output);
+  t.num = sum(t.num, product(fresh, {0.0, 1.0}));
+  t.den = product(t.den, {1.0, 1.0});
   return t;
 }
 

@@ -54,12 +54,13 @@ bool is_stable(const Polynomial& denominator);
 /// away. Negative for an unstable system.
 double slowest_decay(const Polynomial& denominator);
 
-/// x' = A x + B u with at most four states, sampled with zero-order hold: transfer from u to state `output`.
+/// x' = A x + B u with at most four states, sampled with zero-order hold: transfer from u to state `output`. With late_s, a part of a
+/// period, an input acts from so long after its sample on, and until then the one before it.
 struct Linear {
   int states = 0;
   std::array<std::array<double, 4>, 4> A{};
   std::array<double, 4> B{};
 };
-Transfer sampled(const Linear& system, int output, double period_s);
+Transfer sampled(const Linear& system, int output, double period_s, double late_s = 0.0);
 
 }  // namespace sixstep::design

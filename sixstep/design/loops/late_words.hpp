@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// How late a command counts behind its sample, in words.
+#pragma once
+#include <string>
+
+namespace sixstep::design {
+
+/// "at once", "half a period late", "one period late", "1.5 periods late"
+std::string late_words(double periods);
+/// "half a period", "one period", "1.5 periods"
+std::string periods_words(double periods);
+
+}  // namespace sixstep::design
