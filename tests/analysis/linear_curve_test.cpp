@@ -64,7 +64,9 @@ TEST(LinearCurve, IsTheTurningOnesUnrolled) {
     ASSERT_EQ(b.nominal->at_torque.has_value(), a.nominal->at_torque.has_value());
     if (a.nominal->at_torque) expect_unrolled(*b.nominal->at_torque, *a.nominal->at_torque);
     expect_part(b.limits[2].continuous_Nm, a.limits[2].continuous_Nm / r, "for ever");
-    expect_part(*b.warming[4].winding_degC, *a.warming[4].winding_degC, "temperature");
+    ASSERT_EQ(b.warming[4].winding_degC.has_value(), a.warming[4].winding_degC.has_value());
+    if (a.warming[4].winding_degC)
+      expect_part(*b.warming[4].winding_degC, *a.warming[4].winding_degC, "temperature");
     if (!a.nominal->at_torque) continue;
     expect_part(*analysis::speed_drop(moves, b).curve, *analysis::speed_drop(turns, a).curve * r * r, "drop");
   }
