@@ -178,6 +178,7 @@ std::string nothing_tried(const DriveDesign& d, bool too_long) {
 void advise_unusable(const DesignOrder& order, DesignStudy& s) {
   const auto grave =
       std::find_if(s.warnings.begin(), s.warnings.end(), [](const Warning& w) { return w.grave; });
+  if (grave->of == Concern::shunt) return;  // no loop sees what its sensor does not
   if (grave->of == Concern::reach) {
     grave->cure = smaller_step(order, s);
     return;

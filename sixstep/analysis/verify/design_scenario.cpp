@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sixstep/analysis/verify/blind_shunt.hpp"
 #include "sixstep/analysis/verify/board.hpp"
 #include "sixstep/analysis/verify/linear_study.hpp"
 #include "sixstep/analysis/verify/travel.hpp"
@@ -107,8 +108,9 @@ double settling_of(const LoopDesign& loop, double otherwise) {
 
 void add_current(const DriveDesign& d, const DesignSubject& subject, study::Scenario& s) {
   const LoopDesign& loop = d.loop("current");
+  const double unlimited_A = part_of_bus * d.bus_V / std::fabs(loop.gains.d1);
   const double step = subject.step.value_or(
-      plain_number(std::min(d.nominal_current_A, part_of_bus * d.bus_V / std::fabs(loop.gains.d1))));
+      plain_number(std::min(d.nominal_current_A, std::max(unlimited_A, 1.5 * unseen_current_A(d, s)))));
   const double settle = settling_of(loop, 100 * d.spec.period_s), end = plain_time(5 * settle);
   const double last = end - 10 * d.spec.period_s, R = 2 * d.motor.machine.R_ohm;
   s.title = "Current loop as designed, rotor held";
@@ -267,8 +269,8 @@ void add_position(const DriveDesign& d, const DesignSubject& subject, study::Sce
                                 : "; simulated: to within 0.05 %")},
       {overshoot, 0.0, "none wanted"},
       {window_measure(study::MetricKind::maximum, study::Signal::speed, 0, end, "peak speed"), top, of_top},
-      {window_measure(study::MetricKind::maximum, study::Signal::current, 0, end, "peak current"),
-       d.current_at_full_torque_A, "at full torque"},
+      {window_measure(study::MetricKind::maximum, study::Signal::current_magnitude, 0, end, "peak current"),
+       d.current_at_full_torque_A, "at full torque; simulated: the largest of the phases, braking too"},
   };
   s.require = {{overshoot, std::nullopt, counts ? steps : 1e-9 * std::fabs(step)}};
   if (!counts) return;

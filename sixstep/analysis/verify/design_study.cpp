@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sixstep/analysis/verify/advice.hpp"
+#include "sixstep/analysis/verify/blind_shunt.hpp"
 #include "sixstep/analysis/verify/board.hpp"
 #include "sixstep/analysis/verify/high_speed.hpp"
 #include "sixstep/analysis/verify/linear_study.hpp"
@@ -136,6 +137,7 @@ base::Result<DesignStudy> studied(const DesignOrder& order) {
   s.warnings = s.design.warnings;
   look_at_pulses(s);
   look_at_high_speed(order, s);
+  look_at_blind_shunt(order, s);
   add_run_warnings(s, order.subject.step.has_value());
   return s;
 }

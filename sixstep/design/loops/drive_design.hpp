@@ -100,6 +100,7 @@ enum class Concern : std::uint8_t {
   reach,
   settling,
   swing,
+  shunt,
   fault,
   requirement
 };

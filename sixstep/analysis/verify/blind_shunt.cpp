@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/analysis/verify/blind_shunt.hpp"
+
+#include <cmath>
+
+#include "sixstep/analysis/verify/run_warnings.hpp"
+#include "sixstep/base/written.hpp"
+#include "sixstep/study/compile/compile.hpp"
+#include "sixstep/study/run/keep_going.hpp"
+#include "sixstep/study/run/run.hpp"
+
+namespace sixstep::analysis {
+namespace {
+
+/// Peak to peak of the speed at the end of the test without its load; none where that was ended early.
+std::optional<double> idle_swing(const DesignOrder& order, const DesignStudy& s) {
+  study::Scenario idle = s.scenario;
+  idle.load.torque_Nm = 0.0;
+  const base::Result<study::Outcome> outcome =
+      study::run(idle, {.on_record = {},
+                        .on_event = {},
+                        .keep_going = study::listening(order.keep_going),
+                        .keep_books = false});
+  if (order.budget != nullptr) order.budget->takes(idle, 1);
+  if (!outcome) return std::nullopt;
+  const study::ComparisonResult* swing = figure_of(*outcome, "speed ripple");
+  return swing ? std::optional(swing->measured) : std::nullopt;
+}
+
+}  // namespace
+
+double unseen_current_A(const design::DriveDesign& d, const study::Scenario& s) {
+  if (s.sensors.currents != rig::CurrentMeasurement::dc_link) return 0.0;
+  return study::least_visible_duty(s) * d.bus_V / (2 * d.motor.machine.R_ohm);
+}
+
+void look_at_blind_shunt(const DesignOrder& order, DesignStudy& s) {
+  if (s.scenario.sensors.currents != rig::CurrentMeasurement::dc_link) return;
+  const double unseen_A = unseen_current_A(s.design, s.scenario);
+  const std::string blind = "with the rotor at rest one shunt sees no current below " +
+                            base::three_digits(unseen_A) + " A: its pulse is too short";
+  design::Warning w{
+      .what = blind + ", and what is not seen is not controlled",
+      .cure = "measure the phases' currents, or let the sample settle sooner: sensors.shunt_settle_s",
+      .of = design::Concern::shunt};
+  if (s.design.spec.mode == control::Mode::current && std::fabs(s.scenario.reference.value) < unseen_A) {
+    w.what =
+        blind + ", and the step asks for " + base::three_digits(std::fabs(s.scenario.reference.value)) + " A";
+    w.grave = true;
+  }
+  if (s.design.spec.mode == control::Mode::speed && s.allowed_swing_rad_s)
+    if (const std::optional<double> swing = idle_swing(order, s); swing && *swing > *s.allowed_swing_rad_s) {
+      w.what = "without a load the speed swings by " + base::three_digits(*swing) + " rad/s, and may by " +
+               base::three_digits(*s.allowed_swing_rad_s) + ": " + blind;
+      w.grave = true;
+    }
+  s.warnings.push_back(w);
+}
+
+}  // namespace sixstep::analysis
