@@ -24,6 +24,7 @@
 #include "files/trace/model_export.hpp"
 #include "report/design_page.hpp"
 #include "sixstep/analysis/verify/board.hpp"
+#include "sixstep/analysis/verify/carried_over.hpp"
 #include "sixstep/analysis/verify/design_study.hpp"
 #include "sixstep/analysis/verify/scenario_spec.hpp"
 #include "sixstep/base/range_text.hpp"
@@ -63,11 +64,13 @@ design::RotorSensing rotor_of(const DesignArguments& a, const study::Scenario* s
 
 /// Options over what a scenario says, or over what a board has.
 design::DesignSpec spec_of(const DesignArguments& a, const study::Scenario* scenario, base::Problems& found) {
-  design::DesignSpec w = scenario ? analysis::spec_of(*scenario) : design::on_a_board();
   // Only what a design is for: off and duty need none.
   constexpr base::Choice<sixstep::control::Mode> modes[] = {study::mode_choices[2], study::mode_choices[3],
                                                             study::mode_choices[4]};
-  if (a.mode) choose("--mode", *a.mode, modes, w.mode, found);
+  std::optional<sixstep::control::Mode> mode;
+  if (a.mode) choose("--mode", *a.mode, modes, mode.emplace(), found);
+  design::DesignSpec w = scenario ? analysis::spec_of(*scenario, mode) : design::on_a_board();
+  w.mode = mode.value_or(w.mode);
   choose("--method", a.method, method_choices, w.method, found);
   if (a.chopping) choose("--chopping", *a.chopping, study::chopping_choices, w.chopping, found);
   const auto take = [](std::optional<double>& into, const std::optional<double>& option) {
@@ -123,14 +126,26 @@ base::Problems put(std::optional<files::AtomicFile>& file, const std::string& te
   return file->commit();
 }
 
-base::Problems write(const analysis::DesignStudy& s, const DesignArguments& a, DesignFiles& out) {
-  base::Problems found = put(out.json, text::design_json(s));
+/// The scenario that was simulated, with what its board's says of the drive beside the loops.
+std::string designed_text(const analysis::DesignStudy& s, const study::Scenario* board,
+                          const DesignArguments& a) {
   study::Scenario scenario = s.scenario;
-  scenario.motor = motor_beside(scenario.motor, a.toml);
   analysis::require_swing(s, scenario);
   scenario.not_usable = analysis::found_against(s);
-  const std::string text =
-      files::with_own_mark(a.command, text::scenario_text(scenario, text::design_lines(s)));
+  std::vector<std::string> lines = text::design_lines(s);
+  if (board) {
+    analysis::CarriedOver carried = analysis::carry_over(scenario, *board);
+    if (!carried.kept.empty()) lines.push_back("Of the board's scenario it has " + carried.kept + ".");
+    scenario = std::move(carried.scenario);
+  }
+  scenario.motor = motor_beside(scenario.motor, a.toml);
+  return files::with_own_mark(a.command, text::scenario_text(scenario, lines));
+}
+
+base::Problems write(const analysis::DesignStudy& s, const study::Scenario* board, const DesignArguments& a,
+                     DesignFiles& out) {
+  base::Problems found = put(out.json, text::design_json(s));
+  const std::string text = out.toml || out.html ? designed_text(s, board, a) : std::string();
   append(found, put(out.toml, text));
   if (out.html)
     append(found, put(out.html, report::render_design({.study = s,
@@ -228,7 +243,8 @@ Exit design_command(const DesignArguments& a) {
   if (interrupted()) return told_interrupted("design " + a.motor);
   if (!s) return refused(in_options(s.problems()));
   put_in_options(*s);
-  if (const base::Problems unwritten = write(*s, a, outputs); !unwritten.empty()) return refused(unwritten);
+  if (const base::Problems unwritten = write(*s, board ? &*board : nullptr, a, outputs); !unwritten.empty())
+    return refused(unwritten);
   if (a.json == "-") print(text::design_json(*s));
   std::FILE* to = a.json == "-" ? stderr : stdout;  // standard output is the JSON's alone
   if (!a.quiet) print(text::design_text(*s, may_colour(to)), to);

@@ -7,6 +7,7 @@ import signal
 import struct
 import subprocess
 import time
+import tomllib
 import unittest
 
 from program import PROGRAM, SOURCE, ProgramTest
@@ -281,6 +282,32 @@ class Design(ProgramTest):
         text = told("maxon-251601", "--settle", "0.5e-3", "--delay", "1", code=1)
         self.assertRegex(text.splitlines()[0], "^NOT USABLE: in the simulation it never settles$")
         self.assertIn("usable with --chopping complementary", text)
+
+    def test_another_mode_than_the_scenarios_keeps_each_loops_own_settling_time(self):
+        scenarios = SOURCE / "data" / "scenarios"
+        for name, mode, settle_s in (("firmware/cortex-m", "current", 1e-3), ("firmware/cortex-m", "speed", 1e-3), ("current-square-board", "speed", 1e-3)):
+            self.run_program("design", "--scenario", str(scenarios / f"{name}.toml"), "--mode", mode, "--quick", "--quiet", "--toml", "d.toml", "--force")
+            self.assertEqual(tomllib.loads((self.path / "d.toml").read_text())["control"]["current"]["settle_s"], settle_s, (name, mode))
+
+    def test_a_boards_protection_stays_in_the_file_or_stops_its_header(self):
+        scenarios = SOURCE / "data" / "scenarios"
+        self.run_program("design", "--scenario", str(scenarios / "firmware" / "cortex-m.toml"), "--mode", "speed", "--quick", "--quiet", "--toml", "kept.toml")
+        board, kept = (tomllib.loads(path.read_text()) for path in (scenarios / "firmware" / "cortex-m.toml", self.path / "kept.toml"))
+        for key in ("off_at_s", "voltage_samples"):  # of its own course; the default
+            board["protection"].pop(key, None)
+        self.assertEqual(kept["protection"], board["protection"])
+        self.assertEqual(kept["control"]["drive"], "product")
+        self.run_program("export", "header", "kept.toml", "--arithmetic", "q15", "--out", "kept.hpp")
+        self.assertIn("over_current_A", (self.path / "kept.hpp").read_text())
+        self.run_program("design", "--scenario", str(scenarios / "gallery" / "sensorless-start.toml"), "--quick", "--quiet", "--toml", "lost.toml")
+        self.assertIn("sensorless", tomllib.loads((self.path / "lost.toml").read_text())["not_usable"])
+        self.run_program("export", "header", "lost.toml", "--arithmetic", "float", "--out", "lost.hpp", code=2)
+
+    def test_a_loop_that_is_unstable_within_the_tolerances_is_not_usable(self):
+        board = str(SOURCE / "data" / "scenarios" / "firmware" / "cortex-m.toml")
+        text = self.run_program("design", "--scenario", board, "--mode", "speed", "--current-settle", "0.25e-3", code=1).stdout
+        self.assertRegex(text.splitlines()[0], "^NOT USABLE: within the tolerances the current loop is unstable: with L -20 %")
+        self.assertNotIn("-0 deg", text)
 
     def test_no_header_is_exported_of_a_design_that_is_not_usable(self):
         bad = ("design", "maxon-251601", "--mode", "speed", "--edges", "1", "--capture", "5e4", "--quick", "--quiet", "--toml", "d.toml")

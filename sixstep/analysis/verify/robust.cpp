@@ -137,9 +137,8 @@ std::vector<RobustFigure> phases_of(const design::DriveDesign& design,
   for (std::size_t n = 0; n < design.loops.size(); ++n) {
     RobustFigure figure{.figure = "phase margin of the " + design.loops[n].name + " loop", .unit = "deg"};
     find_worst(figure, all, lost[n]);
-    figure.nominal = -figure.nominal;
-    figure.worst = -figure.worst;
-    figure.alone = -figure.alone;
+    for (double* lost_deg : {&figure.nominal, &figure.worst, &figure.alone})
+      *lost_deg = 0.0 - *lost_deg;  // no -0
     out.push_back(figure);
   }
   return out;

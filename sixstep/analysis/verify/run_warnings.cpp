@@ -179,7 +179,12 @@ void look_at_tolerances(DesignStudy& s) {
   if (!s.robustness) return;
   for (const RobustFigure& f : s.robustness->figures) look_at_worst(s, f);
   for (const RobustFigure& f : s.robustness->phases)
-    if (f.worst < 30.0 && f.nominal >= 30.0)
+    if (f.worst <= 0.0 && s.design.spec.delay_periods > 0 && s.usable())
+      warn(s, design::Concern::settling,
+           std::string(within) + " the " + f.figure.substr(f.figure.find(" of the ") + 8) + " is unstable" +
+               with_which(f),
+           true);
+    else if (f.worst < 30.0 && f.nominal >= 30.0)
       warn(s, design::Concern::settling,
            std::string(within) + " the " + f.figure + " falls to " +
                base::three_digits(std::max(f.worst, 0.0)) + " degrees with " +

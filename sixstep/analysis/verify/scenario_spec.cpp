@@ -115,11 +115,12 @@ design::RotorSensing rotor_sensing_of(const study::Scenario& s) {
   return to;
 }
 
-design::DesignSpec spec_of(const study::Scenario& s) {
+design::DesignSpec spec_of(const study::Scenario& s, std::optional<Mode> mode) {
   design::DesignSpec w;
   const bool loops =
       s.control.mode == Mode::current || s.control.mode == Mode::speed || s.control.mode == Mode::position;
   if (loops) w.mode = s.control.mode;
+  if (mode) w.mode = *mode;
   w.settle_s = w.mode == Mode::current ? s.control.current.settle_s : s.control.speed.settle_s;
   if (w.mode != Mode::current) w.current_settle_s = s.control.current.settle_s;
   const std::optional<double>& damping =
