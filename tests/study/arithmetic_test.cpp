@@ -55,6 +55,19 @@ TEST(Arithmetic, BasesHoldTwiceTheReferenceAgainstIt) {
   EXPECT_NEAR((units<control::Q30>(current_square()).current_A), 7.5, 7.5 * 0x1p-30);
 }
 
+/// Whatever speed trips the drive, above what the bus reaches (716 rad/s) or below: its threshold has room in each format.
+TEST(Arithmetic, AnyOverSpeedFits) {
+  for (const double over : {400.0, 716.0, 717.0, 800.0, 900.0})
+    for (const auto arithmetic : {study::Arithmetic::q14, study::Arithmetic::q15, study::Arithmetic::q31}) {
+      Scenario s = product_scenario(control::Mode::current, 3.0);
+      s.duration_s = 2e-3;
+      s.control.arithmetic = arithmetic;
+      s.protection.over_speed_rad_s = over;
+      const auto run = study::run(s);
+      EXPECT_TRUE(run) << over << ": " << to_string(run.problems()[0]);
+    }
+}
+
 TEST(Arithmetic, SetpointHasTheUnitOfItsMode) {
   Scenario s = maxon_scenario(control::Mode::speed, 100.0);
   EXPECT_EQ(units<control::Q31>(s).setpoint, units<control::Q31>(s).speed_rad_s);

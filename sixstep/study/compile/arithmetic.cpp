@@ -31,6 +31,10 @@ design::Bases bases_of(const Scenario& s, const Compiled& c, const design::Opera
   const double greatest = static_cast<double>(Scalar::max());
   design::Bases bases = c.sensorless ? design::bases_for(c.sensorless->drive, range, greatest)
                                      : design::bases_for(c.drive, range, greatest);
+  constexpr double below_the_end = 1 + 1e-3;  // a threshold at full scale is never passed
+  if (c.product)
+    bases.speed_rad_s =
+        std::max(bases.speed_rad_s, c.product->faults.over_speed_rad_s * below_the_end / greatest);
   const FullScale& chosen = s.control.full_scale;
   const auto take = [](double& base, const std::optional<double>& full_scale) {
     if (full_scale) base = std::ldexp(*full_scale, -before_the_point);
