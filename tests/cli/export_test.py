@@ -74,7 +74,7 @@ class Export(ProgramTest):
         # What the scenario itself asks for, or its source gives, is within every range.
         square = self.scenario("current-square-board")
         for stated, least in (("current_A=4.9", "5 A"), ("setpoint=4.9", "5 of its unit"), ("bus_V=23", "24 V")):
-            self.assertIn(f"is less than the {least} that this scenario reaches", told(square, "--range", stated, "--arithmetic", "q15"))
+            self.assertIn(f"is less than {least}, the largest of this scenario's", told(square, "--range", stated, "--arithmetic", "q15"))
         for name in ("7up", "int", "left::class", "std"):
             self.assertIn(f"--namespace = {name} is no name of a C++ namespace", told(position, "--namespace", name))
         self.assertIn("does not name a key and a value", told(position, "--set", "novalue"))
