@@ -303,6 +303,11 @@ class Design(ProgramTest):
         self.assertIn("sensorless", tomllib.loads((self.path / "lost.toml").read_text())["not_usable"])
         self.run_program("export", "header", "lost.toml", "--arithmetic", "float", "--out", "lost.hpp", code=2)
 
+    def test_what_only_the_boards_drive_looks_at_is_no_obstacle(self):
+        for name in ("sensorless-comparators", "hall-glitch", "hall-glitches"):
+            scenario = str(SOURCE / "data" / "scenarios" / "gallery" / f"{name}.toml")
+            self.assertNotIn("set control.drive", self.run_any("design", "--scenario", scenario, "--quick").stderr)
+
     def test_a_loop_that_is_unstable_within_the_tolerances_is_not_usable(self):
         board = str(SOURCE / "data" / "scenarios" / "firmware" / "cortex-m.toml")
         text = self.run_program("design", "--scenario", board, "--mode", "speed", "--current-settle", "0.25e-3", code=1).stdout

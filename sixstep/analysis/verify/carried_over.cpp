@@ -33,6 +33,7 @@ CarriedOver carry_over(study::Scenario designed, const study::Scenario& board) {
   if (board.control.drive == study::FirmwareKind::product) {
     s.control.drive = study::FirmwareKind::product;
     s.protection = board.protection;
+    s.sensors.hall_stable_samples = board.sensors.hall_stable_samples;
     s.protection.off_at_s.reset();  // a moment of the board's own course
     keep("control.drive and [protection]");
   }

@@ -72,6 +72,10 @@ study::Scenario common(const DriveDesign& d, const DesignSubject& subject) {
     s.pwm = subject.board->pwm;
     s.sensors = with_rotor(subject.board->sensors, rotor_key(d.spec.rotor), d.spec.period_s);
     s.sensors.speed_edges = d.spec.rotor.edges;
+    // The design runs the lean drive: what other drives alone look at is theirs (carried_over.hpp).
+    s.sensors.hall_stable_samples = study::Sensors{}.hall_stable_samples;
+    s.sensors.terminal_gain_error.clear();
+    s.sensors.comparators = {};
     s.sensors.encoder.referenced = true;  // a move begins where the position is known
     s.load.gear = subject.board->load.gear;
   } else {
