@@ -31,18 +31,21 @@ std::string listed(const std::vector<double>& values, const char* unit) {
 
 namespace {
 
+/// "soft chopping", and by its word which switch is chopped where it is not always the upper one.
+std::string chopping_words(const study::Pwm& p) {
+  const std::string chopping =
+      std::string(sixstep::base::word(study::chopping_choices, p.chopping)) + " chopping";
+  if (p.pattern == sixstep::control::PwmPattern::upper) return chopping;
+  return chopping + ", pattern " + std::string(sixstep::base::word(study::pattern_choices, p.pattern));
+}
+
 std::string pwm(const study::Scenario& scenario) {
   const study::Pwm& p = scenario.pwm;
-  static constexpr const char* choppings[] = {"soft chopping", "hard chopping", "complementary chopping"};
-  static constexpr const char* patterns[] = {"", " of the lower switch", ", PWM-ON", ", ON-PWM",
-                                             ", PWM-ON-PWM"};
   const bool three_legs =
       scenario.control.drive == study::FirmwareKind::field || study::answers_legs(scenario.control.own);
   return fmt::format("{} ({}), {}-aligned, {}", given(p.period_s, "s"), computed(1.0 / p.period_s, "Hz"),
                      p.alignment == study::Alignment::edge ? "edge" : "centre",
-                     three_legs ? std::string("three legs, each complementary")
-                                : std::string(choppings[static_cast<int>(p.chopping)]) +
-                                      patterns[static_cast<int>(p.pattern)]);
+                     three_legs ? std::string("three legs, each complementary") : chopping_words(p));
 }
 
 std::string current_loop(const study::CurrentLoop& c) {

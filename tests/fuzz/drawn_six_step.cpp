@@ -3,7 +3,9 @@
 // of the speed loop; and the profile of any drive's position loop. Drawn behind all else, so that a seed that gets none of them
 // draws what it did.
 #include <algorithm>
+#include <iterator>
 
+#include "sixstep/study/scenario/choices.hpp"
 #include "tests/fuzz/drawn_parts.hpp"
 
 namespace sixstep::testing {
@@ -30,7 +32,8 @@ bool chops_both(const Scenario& s) {
 
 void draw_pattern(Draw& draw, Scenario& s) {
   if (s.control.current.type == CurrentLoopType::hysteresis || chops_both(s)) return;
-  s.pwm.pattern = static_cast<control::PwmPattern>(draw.one_of(5));
+  s.pwm.pattern =
+      static_cast<control::PwmPattern>(draw.one_of(static_cast<int>(std::size(study::pattern_choices))));
 }
 
 void draw_current(Draw& draw, Scenario& s) {
