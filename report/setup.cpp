@@ -33,10 +33,10 @@ namespace {
 
 /// "soft chopping", and by its word which switch is chopped where it is not always the upper one.
 std::string chopping_words(const study::Pwm& p) {
-  const std::string chopping =
-      std::string(sixstep::base::word(study::chopping_choices, p.chopping)) + " chopping";
-  if (p.pattern == sixstep::control::PwmPattern::upper) return chopping;
-  return chopping + ", pattern " + std::string(sixstep::base::word(study::pattern_choices, p.pattern));
+  std::string words = std::string(sixstep::base::word(study::chopping_choices, p.chopping)) + " chopping";
+  if (p.pattern != sixstep::control::PwmPattern::upper)
+    words += ", pattern " + std::string(sixstep::base::word(study::pattern_choices, p.pattern));
+  return words;
 }
 
 std::string pwm(const study::Scenario& scenario) {

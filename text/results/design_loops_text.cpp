@@ -19,7 +19,6 @@ using sixstep::base::Motion;
 using sixstep::design::DerivationStep;
 using sixstep::design::DriveDesign;
 using sixstep::design::LoopDesign;
-using sixstep::design::LoopFigures;
 
 std::string degrees_text(double rad) { return fmt::format("{:.1f} deg", rad * 180 / sixstep::base::pi); }
 std::string hertz(double rad_s) { return quantity_text(rad_s / (2 * sixstep::base::pi), "Hz", 4); }
