@@ -355,15 +355,7 @@ TEST(ExportGate, ALimitOfTheBusBeyondItsConverterIsRefused) {
 /// Its scenario never lets the drive go, the first bench does: 0.6 J of the rotor go back into 0.1 mF, which takes 0.03 J up to the
 /// threshold, unless the supply takes them.
 TEST(ExportGate, AStopThatEndsInAFaultStandsAgainstIt) {
-  Scenario s = product_scenario(Mode::speed, 300.0);
-  s.duration_s = 0.5;
-  s.pwm.chopping = control::Chopping::complementary;
-  s.pwm.delay_periods = 1;
-  s.bridge.dead_time_s = 500e-9;
-  s.supply.resistance_ohm = 0.1;
-  s.supply.capacitance_F = 1e-4;
-  s.protection.brake_current_A = 2.0;
-  s.require.push_back({measure(study::MetricKind::maximum, study::Signal::current), {}, 15.0});
+  Scenario s = braking_onto_a_small_bus();
   for (const bool sinks : {true, false}) {
     s.supply.sinks = sinks;
     const auto run = study::clear_for_export(s);

@@ -92,16 +92,8 @@ TEST(ExportVerdict, AnUnstableCurrentLoopStandsAgainstIt) {
 
 /// Braking from 300 rad/s onto a bus that takes nothing: what is advised helps, and what is not would not.
 TEST(ExportVerdict, TheCureOfAStopThatRaisesTheBusHolds) {
-  Scenario s = product_scenario(Mode::speed, 300.0);
-  s.duration_s = 0.5;
-  s.pwm.chopping = control::Chopping::complementary;
-  s.pwm.delay_periods = 1;
-  s.bridge.dead_time_s = 500e-9;
-  s.supply.resistance_ohm = 0.1;
-  s.supply.capacitance_F = 1e-4;
+  Scenario s = braking_onto_a_small_bus();
   s.supply.sinks = false;
-  s.protection.brake_current_A = 2.0;
-  s.require.push_back({measure(study::MetricKind::maximum, study::Signal::current), {}, 15.0});
   const auto unheld = [](const Scenario& x) {
     const auto run = study::clear_for_export(x);
     EXPECT_TRUE(run) << to_string(run.problems()[0]);

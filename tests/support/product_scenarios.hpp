@@ -88,4 +88,18 @@ struct Witness {
   }
 };
 
+/// On a board, at 300 rad/s with 0.6 J in its rotor, on a bus of 0.1 mF behind 0.1 ohm; let go it brakes with 2 A.
+inline study::Scenario braking_onto_a_small_bus() {
+  study::Scenario s = product_scenario(control::Mode::speed, 300.0);
+  s.duration_s = 0.5;
+  s.pwm.chopping = control::Chopping::complementary;
+  s.pwm.delay_periods = 1;
+  s.bridge.dead_time_s = 500e-9;
+  s.supply.resistance_ohm = 0.1;
+  s.supply.capacitance_F = 1e-4;
+  s.protection.brake_current_A = 2.0;
+  s.require.push_back({measure(study::MetricKind::maximum, study::Signal::current), {}, 15.0});
+  return s;
+}
+
 }  // namespace sixstep::testing
