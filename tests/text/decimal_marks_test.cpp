@@ -54,7 +54,7 @@ TEST(DecimalMarks, AMarkFromAThousandOnIsRefused) {
 TEST(DecimalMarks, ACommaWithinQuotesPartsNoCells) {
   for (const char* head : {"t (ms),u_ab (mV),u_bc (mV)\n", ""})
     EXPECT_THAT(seen(in_millivolts(head, "{:.1f},\"{}\",\"{}\"\n", ','), between_lines).problem,
-                HasSubstr("\"3,784\" is no number"));
+                HasSubstr("one mark is decimal"));
   const auto named = read_recording("r.csv", "\"time, of the shot [s]\",\"u_ab, mV\"\n0,\"1\"\n1,2\n3,4\n");
   ASSERT_TRUE(named);
   EXPECT_EQ(named->columns.size(), 2u);
@@ -72,7 +72,15 @@ TEST(DecimalMarks, DecimalCommasAreReadWhereOneCellCanBeNothingElse) {
   EXPECT_THAT(second("t;u\n0;1,025\n1;1,5\n"), ElementsAre(1.025, 1.5));
   EXPECT_THAT(second("t\tu\n0\t1,025E+00\n1\t2,000E+00\n"), ElementsAre(1.025, 2.0));
   EXPECT_THAT(second("t;u\n0;1,025\n1;1200\n"), ElementsAre(1.025, 1200.0));
+  EXPECT_THAT(second("t,u\n\"0,5\",\"1,025\"\n\"1,0\",\"2,5\"\n"), ElementsAre(1.025, 2.5));
   EXPECT_THAT(second("t;u\n0;1234,567\n1;1,025\n"), ElementsAre(1234.567, 1.025));
+}
+
+/// Where cells are parted by semicolons a decimal mark is a comma, and a point may part thousands with no smaller number beside it.
+TEST(DecimalMarks, PointsBetweenSemicolonsMayPartThousands) {
+  EXPECT_THAT(told("ms;rpm\n0;1.000\n1;1.500\n"), HasSubstr("holds 1.000, which may mean 1000 or 1.000"));
+  EXPECT_EQ(told("ms;rpm\n0.5;1.000\n1;1.500\n"), "");
+  EXPECT_EQ(told("ms,V\n0,1.000\n1,1.500\n"), "");
 }
 
 TEST(DecimalMarks, DecimalPointsAreRead) {

@@ -67,11 +67,11 @@ std::vector<std::string_view> cells_of_line(std::string_view line, char separato
   return cells;
 }
 
-std::optional<double> number_in(std::string_view cell, char separator, int ten) {
+std::optional<double> number_in(std::string_view cell, int ten) {
   if (cell.starts_with('+')) cell.remove_prefix(1);
   if (cell.find_first_of("0123456789") == std::string_view::npos) return {};
   std::string text;
-  const bool comma = separator != ',' && cell.find(',') != std::string_view::npos;
+  const bool comma = cell.find(',') != std::string_view::npos;
   if (comma || cell.starts_with('.') || cell.starts_with("-.")) {
     text = as_decimal(cell, comma);
     cell = text;
@@ -86,10 +86,10 @@ std::optional<char> separator_of_row(std::string_view line) {
   for (const char c : {';', '\t', ',', ' '}) {
     if (c != ' ' && line.find(c) == std::string_view::npos) continue;
     const std::vector<std::string_view> cells = cells_of_line(line, c);
-    if (cells.empty() || !number_in(cells[0], c)) continue;
+    if (cells.empty() || !number_in(cells[0])) continue;
     // "0,5 1,2" has a number before its first comma as well; but only blanks make numbers of all of it.
     if (std::all_of(cells.begin(), cells.end(),
-                    [c](std::string_view cell) { return cell.empty() || number_in(cell, c).has_value(); }))
+                    [](std::string_view cell) { return cell.empty() || number_in(cell).has_value(); }))
       return c;
     if (!found) found = c;
   }

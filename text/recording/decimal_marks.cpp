@@ -60,16 +60,16 @@ const DecimalMarks::Cell* DecimalMarks::first_of(Marked Column::*mark) const {
 }
 
 /// One cell that can be nothing but a decimal fraction settles it for the file. A column that goes on to 1000 without a mark settles itself.
-/// A point is a decimal point unless the column writes 942 beside 1.025.
-std::optional<base::Problem> DecimalMarks::thousands(const std::string& file, Marked Column::*mark,
-                                                     char c) const {
+/// `decimal_point`: the mark is one unless the column writes 942 beside 1.025.
+std::optional<base::Problem> DecimalMarks::thousands(const std::string& file, Marked Column::*mark, char c,
+                                                     bool decimal_point) const {
   const auto settles = [&](const Column& column) {
     return (column.*mark).first && !(column.*mark).in_thousands;
   };
   if (std::any_of(columns_.begin(), columns_.end(), settles)) return {};
   for (const Column& column : columns_) {
     const std::optional<Cell>& first = (column.*mark).first;
-    if (!first || column.bare_thousands || (c == '.' && !column.hundreds)) continue;
+    if (!first || column.bare_thousands || (decimal_point && !column.hundreds)) continue;
     std::string whole = first->text;
     std::erase(whole, c);
     std::string fraction = first->text;
@@ -83,7 +83,7 @@ std::optional<base::Problem> DecimalMarks::thousands(const std::string& file, Ma
   return {};
 }
 
-std::optional<base::Problem> DecimalMarks::doubt(const std::string& file) const {
+std::optional<base::Problem> DecimalMarks::doubt(const std::string& file, char separator) const {
   const Cell *const comma = first_of(&Column::comma), *const point = first_of(&Column::point);
   if (comma && point) {
     const Cell &late = comma->line < point->line ? *point : *comma,
@@ -93,8 +93,8 @@ std::optional<base::Problem> DecimalMarks::doubt(const std::string& file) const 
                                 "parts nobody can say",
                                 late.text, early.line, early.text));
   }
-  if (comma) return thousands(file, &Column::comma, ',');
-  return thousands(file, &Column::point, '.');
+  if (comma) return thousands(file, &Column::comma, ',', false);
+  return thousands(file, &Column::point, '.', separator != ';');
 }
 
 }  // namespace text

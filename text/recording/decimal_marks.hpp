@@ -19,8 +19,9 @@ bool may_part_thousands(std::string_view number, char mark);
 class DecimalMarks {
  public:
   void see(std::size_t line, std::size_t column, std::string_view cell);
-  /// Of the file that is called so.
-  std::optional<base::Problem> doubt(const std::string& file) const;
+  /// Of the file that is called so. Semicolons between its cells come from a country that writes a decimal comma, and may part thousands
+  /// by points.
+  std::optional<base::Problem> doubt(const std::string& file, char separator) const;
 
  private:
   struct Cell {
@@ -38,7 +39,8 @@ class DecimalMarks {
     bool bare_thousands = false;   ///< a number of 1000 and more without a mark
   };
   const Cell* first_of(Marked Column::*mark) const;
-  std::optional<base::Problem> thousands(const std::string& file, Marked Column::*mark, char c) const;
+  std::optional<base::Problem> thousands(const std::string& file, Marked Column::*mark, char c,
+                                         bool decimal_point) const;
 
   std::vector<Column> columns_;
 };

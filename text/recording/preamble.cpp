@@ -38,7 +38,7 @@ std::optional<double> value_in(std::string_view text, char separator, bool rate)
   // "10,000 Hz" are ten hertz or ten thousand.
   const std::size_t digits = std::min(text.find_first_not_of("0123456789,"), text.size());
   if (may_part_thousands(text.substr(0, digits), ',')) return {};
-  const std::optional<double> number = number_in(text.substr(0, end), separator);
+  const std::optional<double> number = number_in(text.substr(0, end));
   if (!number || !(*number > 0.0)) return {};
   std::string_view unit = text.substr(end);
   const std::size_t first = unit.find_first_not_of(" ,;\t\"()[]");
@@ -59,7 +59,7 @@ std::optional<RowClock> clock_among_headings(std::string_view line, char separat
     if (at == std::string_view::npos || equals == std::string_view::npos) return {};
     std::string_view rest = line.substr(equals + 1);
     rest = bare_cell(rest.substr(0, std::min(rest.find(separator), rest.size())));
-    return number_in(rest, separator);
+    return number_in(rest);
   };
   const std::optional<double> step = value_of("tInc"), start = value_of("t0");
   if (!step || !(*step > 0.0)) return {};
@@ -87,11 +87,11 @@ std::optional<RowClock> clock_in(std::string_view line, char separator) {
 }
 
 std::optional<RowClock> clock_below(const std::vector<std::string_view>& names,
-                                    const std::vector<std::string_view>& values, char separator) {
+                                    const std::vector<std::string_view>& values) {
   RowClock out;
   for (std::size_t n = 0; n < std::min(names.size(), values.size()); ++n) {
     const std::string name = bare_name(names[n]);
-    const std::optional<double> number = number_in(values[n], separator);
+    const std::optional<double> number = number_in(values[n]);
     if (!number) continue;
     if (name == "increment" && *number > 0.0) out.interval_s = *number;
     if (name == "start") out.start_s = *number;

@@ -19,7 +19,7 @@ std::optional<RowClock> clock_in(std::string_view line, char separator);
 
 /// Above Rigol's rows "X,CH1,Start,Increment" and "Sequence,VOLT,-2.5e-2,1e-4": start and increment stand below their names.
 std::optional<RowClock> clock_below(const std::vector<std::string_view>& names,
-                                    const std::vector<std::string_view>& values, char separator);
+                                    const std::vector<std::string_view>& values);
 
 /// D0, D1, D2 of "; Channels (3/8): D0, D1, D2", as sigrok names what it heads "logic"; empty for other lines.
 std::vector<std::string> channels_in(std::string_view line);

@@ -60,8 +60,8 @@ std::optional<RowsBeside> rows_beside(std::string_view text) {
       if (here.separator == 0 && line.starts_with(c)) here.separator = c;
     const std::vector<std::string_view> cells = cells_of_line(line, here.separator);
     here.cells = leading_empty(cells);
-    const bool is_row = here.separator != 0 && here.cells < cells.size() &&
-                        number_in(cells[here.cells], here.separator).has_value();
+    const bool is_row =
+        here.separator != 0 && here.cells < cells.size() && number_in(cells[here.cells]).has_value();
     if (!is_row || (found && (found->separator != here.separator || found->cells != here.cells))) break;
     found = here;
     text = text.substr(0, begin > 0 ? begin - 1 : 0);
@@ -117,8 +117,7 @@ bool RowReader::begins_rows(std::string_view text) {
 /// What stands beside the first rows is read as lines above them.
 bool RowReader::row_beside(std::string_view text) {
   std::vector<std::string_view> cells = cells_of_line(text, beside_->separator);
-  const bool is_row =
-      beside_->cells < cells.size() && number_in(cells[beside_->cells], beside_->separator).has_value();
+  const bool is_row = beside_->cells < cells.size() && number_in(cells[beside_->cells]).has_value();
   const bool has_more = !cells.empty() && !cells[0].empty();
   if (has_more || !is_row) {
     above_.emplace_back(text);
@@ -162,7 +161,7 @@ void RowReader::row(const std::vector<std::string_view>& cells) {
   for (std::size_t n = 0; n < out_.columns.size(); ++n) {
     RecordedColumn& column = out_.columns[n];
     const std::string_view cell = n < cells.size() ? cells[n] : std::string_view();
-    const std::optional<double> x = number_in(cell, separator_, tens_[n]);
+    const std::optional<double> x = number_in(cell, tens_[n]);
     if (!x) {
       if (column.bad.size() < most_quoted) column.bad.push_back({number_, std::string(cell.substr(0, 200))});
       ++column.bad_cells;
@@ -223,7 +222,7 @@ base::Result<Recording> RowReader::result() {
     }
   }
   if (std::optional<base::Problem> wrong = wrong_cells()) return *wrong;
-  if (std::optional<base::Problem> doubt = marks_.doubt(out_.name)) return *doubt;
+  if (std::optional<base::Problem> doubt = marks_.doubt(out_.name, separator_)) return *doubt;
   return std::move(out_);
 }
 

@@ -105,7 +105,7 @@ class HeadReader {
     if (above_.cells_before > 1) return head;  // rows stand in those lines too
     if (lines.size() > 1) {
       const Cells names = cells_of(lines[lines.size() - 2]), below = cells_of(lines.back());
-      if (const std::optional<RowClock> clock = clock_below(names, below, above_.separator)) {
+      if (const std::optional<RowClock> clock = clock_below(names, below)) {
         out_.clock = clock;
         head = {names, below};
         // Start and Increment have no column of their own.
