@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "report/figures.hpp"
@@ -119,7 +120,13 @@ std::string energy_section(const sixstep::study::EnergyBook& b, const sixstep::b
                    b.kinetic});
   html += account({"Across the air gap", "∫ T<sub>e</sub> ω dt", b.air_gap}, shaft, b.mechanical_residual,
                   yardsticks);
-  return told_in(motion, html + "</div></div>\n");
+  html += "</div></div>\n";
+  if (b.brake_resistor > 0.0)
+    html += fmt::format(
+        "<p class=\"closing\">the brake resistor took <b>{}</b> from the bus: beside the accounts, which begin at "
+        "the bridge</p>\n",
+        computed(b.brake_resistor, "J"));
+  return told_in(motion, std::move(html));
 }
 
 std::string device_section(const std::vector<sixstep::study::DeviceLoss>& devices) {

@@ -20,8 +20,10 @@ struct EnergyBook {
       0.0;  ///< what of friction is the motor's iron, where somebody tells it apart (study/measure/iron_gauge.hpp)
   double load = 0.0;
   double kinetic = 0.0;  ///< change of (1/2) J w^2
-  double moved = 0.0;    ///< sum of |U_s i_dc|, |T_e w|, |T_load w| and |T_cogging w|, integrated per segment
-  double scale = 0.0;    ///< what moved, or what was stored where that is more: the residuals' unit
+  double brake_resistor =
+      0.0;             ///< heat of the resistor across the bus: beside the books, which begin at the bridge
+  double moved = 0.0;  ///< sum of |U_s i_dc|, |T_e w|, |T_load w| and |T_cogging w|, integrated per segment
+  double scale = 0.0;  ///< what moved, or what was stored where that is more: the residuals' unit
   double electrical_residual = 0.0;
   double mechanical_residual = 0.0;
 };

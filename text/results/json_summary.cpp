@@ -69,6 +69,7 @@ Json energy(const sixstep::plant::EnergyBook& e) {
           {"iron_J", e.iron},
           {"load_J", e.load},
           {"kinetic_J", e.kinetic},
+          {"brake_resistor_J", e.brake_resistor},
           {"moved_J", e.moved},
           {"scale_J", e.scale},
           {"electrical_residual", e.electrical_residual},

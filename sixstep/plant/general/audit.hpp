@@ -26,7 +26,7 @@ class Audit {
   Real noise_ = 0, moved_ = 0;
   Stored start_, end_;
   Real end_w_ = 0;
-  series::CompensatedSum<Real> supplied_, copper_, devices_, air_gap_, friction_, load_, cogging_;
+  series::CompensatedSum<Real> supplied_, copper_, devices_, air_gap_, friction_, load_, cogging_, brake_;
   Laws laws_;
 };
 
@@ -70,6 +70,7 @@ void Audit<Real>::segment(const Plant<Real>& plant, Real s) {
   air_gap_.add(e.air_gap);
   friction_.add(e.viscous + e.dry);
   load_.add(e.load);
+  brake_.add(brake_energy(plant, s));
   const Real cogging = cogging_energy(plant, s);
   cogging_.add(cogging);
   moved_ += plant::detail::abs(e.supplied) + plant::detail::abs(e.air_gap) + plant::detail::abs(e.load) +
@@ -90,6 +91,7 @@ EnergyBook Audit<Real>::energy() const {
           .friction = d(friction_.value),
           .load = d(load_.value),
           .kinetic = d(kinetic),
+          .brake_resistor = d(brake_.value),
           .moved = d(moved_),
           .scale = d(scale),
           .electrical_residual =

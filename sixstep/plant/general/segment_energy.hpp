@@ -62,6 +62,19 @@ SegmentEnergy<Real> segment_energy(const Plant<Real>& plant, Real to) {
   return out;
 }
 
+/// Heat of the brake resistor over [0, to], J.
+template <class Real>
+Real brake_energy(const Plant<Real>& plant, Real to) {
+  if (!plant.mode().braking) return 0;
+  Real heat = 0;
+  series::with_points_for(plant.expansion().degree, [&]<int points>() {
+    const detail::AtNodes<points, Real> at{plant, series::nodes_up_to<points>(to), plant.expansion().h * to};
+    const auto bus = at.of(plant.expansion().bus);
+    heat = plant.constants().brake_conductance * at.integral(bus, bus);
+  });
+  return heat;
+}
+
 /// What cogging gave to the shaft over [0, to], J.
 template <class Real>
 Real cogging_energy(const Plant<Real>& plant, Real to) {
