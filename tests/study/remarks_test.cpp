@@ -82,6 +82,11 @@ TEST(Remarks, AShuntThatSeesNoPulse) {
   // Visible above 2 us/30 us of duty: at rest 24 V/1.03 ohm/15 = 1.553 A.
   EXPECT_THAT(remarks_on(s),
               Contains(AllOf(HasSubstr("above a duty of 0.0667"), HasSubstr("that is 1.55 A"))));
+  s.pwm.chopping = control::Chopping::complementary;
+  EXPECT_THAT(remarks_on(s), Contains(HasSubstr("that is 1.55 A")));
+  s.pwm.chopping = control::Chopping::hard;  // no current at a duty of one half, where each pulse is seen
+  EXPECT_THAT(remarks_on(s), IsEmpty());
+  s.pwm.chopping = control::Chopping::soft;
   s.reference.value = 5.0;
   EXPECT_THAT(remarks_on(s), IsEmpty());
 }

@@ -31,12 +31,13 @@ std::optional<double> idle_swing(const DesignOrder& order, const DesignStudy& s)
 
 double unseen_current_A(const design::DriveDesign& d, const study::Scenario& s) {
   if (s.sensors.currents != rig::CurrentMeasurement::dc_link) return 0.0;
-  return study::least_visible_duty(s) * d.bus_V / (2 * d.motor.machine.R_ohm);
+  return study::unseen_at_rest_A(s, d.motor.machine.R_ohm);
 }
 
 void look_at_blind_shunt(const DesignOrder& order, DesignStudy& s) {
   if (s.scenario.sensors.currents != rig::CurrentMeasurement::dc_link) return;
   const double unseen_A = unseen_current_A(s.design, s.scenario);
+  if (unseen_A == 0.0) return;
   const std::string blind = "with the rotor at rest one shunt sees no current below " +
                             base::three_digits(unseen_A) + " A: its pulse is too short";
   design::Warning w{

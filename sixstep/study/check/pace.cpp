@@ -194,10 +194,11 @@ double dead_time_in_counts_s(double dead_time_s, const Pwm& pwm) {
 
 void check_dead_time(const std::string& where, double dead_time_s, const Pwm& pwm, base::Problems& out) {
   constexpr double worth_a_word = 0.9;
-  if (!(dead_time_s < pwm.period_s)) {
-    out.push_back({where, written(dead_time_s),
-                   "must be shorter than pwm.period_s = " + written(pwm.period_s),
-                   "a leg would never turn on"});
+  // A leg that is turned on and off within a period waits twice.
+  if (!(2 * dead_time_s < pwm.period_s)) {
+    out.push_back(
+        {where, written(dead_time_s), "must be shorter than half of pwm.period_s = " + written(pwm.period_s),
+         "give what the gate driver needs, microseconds: a leg with two dead times in a period would never turn on"});
     return;
   }
   const double counted_s = dead_time_in_counts_s(dead_time_s, pwm);

@@ -39,6 +39,12 @@ double least_visible_duty(const Scenario& s) {
   return std::min(duty, 1.0);
 }
 
+double unseen_at_rest_A(const Scenario& s, double R_ohm) {
+  const double gain = design::volts_per_duty(s.pwm.chopping);
+  const double part = 1.0 - gain * (1.0 - least_visible_duty(s));
+  return std::max(part, 0.0) * s.supply.voltage_V / (2 * R_ohm);
+}
+
 namespace {
 
 rig::SensorsConfig sensors_of(const Scenario& s, double L_over_R_s) {

@@ -66,9 +66,9 @@ std::string on_shunt(const Scenario& s, const Compiled& c, const RunWatch& w) {
       " current samples fell outside of the pulse: the shunt shows a current only above a duty of " +
       few_digits(w.shunt_least_duty) +
       " (sensors.shunt_settle_s = " + few_digits(1e6 * s.sensors.shunt_settle_s) + " us)";
-  if (s.pwm.chopping == control::Chopping::soft && w.shunt_least_duty < 1.0)
-    text += "; with the rotor at rest that is " +
-            few_digits(w.shunt_least_duty * s.supply.voltage_V / (2 * c.motor.machine.R_ohm)) +
+  const double unseen_A = unseen_at_rest_A(s, c.motor.machine.R_ohm);
+  if (unseen_A > 0.0 && w.shunt_least_duty < 1.0)
+    text += "; with the rotor at rest that is " + few_digits(unseen_A) +
             " A, and what is below it is not measured";
   return text;
 }
