@@ -91,8 +91,11 @@ std::vector<DesignSpec> rescues(const DesignOrder& order, const DriveDesign& d) 
   for (const DesignSpec& spec : joint_changes(order, d)) all.push_back(spec);
   if (!order.spec.rotor.hall) return all;
   if (order.spec.mode == Mode::position) {
-    std::vector<DesignSpec> first = on_encoders(order, d);
-    first.push_back(on_encoder(order, unhurried_period_s));
+    std::vector<DesignSpec> first;
+    // A slow drive has all the time of a longer period, and is tried in a fraction of that of a short one.
+    if (order.spec.period_s < unhurried_period_s) first.push_back(unhurried(order.spec, d.motor));
+    for (const DesignSpec& spec : on_encoders(order, d)) first.push_back(spec);
+    first.push_back(unhurried(on_encoder(order, order.spec.period_s), d.motor));
     all.insert(all.begin(), first.begin(), first.end());
   } else {
     for (const DesignSpec& spec : on_encoders(order, d)) all.push_back(spec);

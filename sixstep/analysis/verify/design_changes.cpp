@@ -145,6 +145,15 @@ void add_voltage(const DriveDesign& d, const DesignSpec& w, std::vector<DesignSp
 
 }  // namespace
 
+DesignSpec unhurried(DesignSpec w, const design::MotorModel& motor) {
+  take_period(w, unhurried_period_s);
+  const double winding_s = 8 * motor.machine.L_H / motor.machine.R_ohm;
+  if (has_speed_loop(w) && !w.current_settle_s)
+    w.current_settle_s =
+        plain(std::max(10 * w.period_s, std::min(40 * w.period_s, winding_s)), base::Towards::down);
+  return w;
+}
+
 DesignSpec on_encoder(const DesignOrder& order, double period_s) {
   DesignSpec w = order.spec;
   w.chopping = Chopping::complementary;

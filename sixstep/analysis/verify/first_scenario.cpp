@@ -148,9 +148,7 @@ bool shorten_trial(DesignOrder& order, const design::MotorModel& motor, double l
   const double ripple_A = usable_ripple * d->nominal_current_A;
   if (period_for_ripple_s(d->motor, d->bus_V, order.spec.chopping, ripple_A) < unhurried_period_s)
     return false;
-  order.spec.period_s = order.spec.rotor.shaft.period_s = unhurried_period_s;
-  order.spec.current_settle_s = std::max(
-      10 * unhurried_period_s, std::min(20 * unhurried_period_s, design::usual_current_settle_s_of(motor)));
+  order.spec = unhurried(order.spec, motor);
   d = design::design_drive(motor, order.spec);
   return fits();
 }

@@ -257,7 +257,8 @@ void add_sensing(DriveDesign& d) {
   d.lag = speed_lag(d.spec.rotor, pole_pairs, d.lowest_speed_rad_s, crossover);
   d.sensing = lag_steps(d.spec.rotor, pole_pairs, d.lowest_speed_rad_s, crossover);
   add_speed_step(d, crossover);
-  d.limits = settling_limits(settling_question(d), d.spec.rotor, d.lowest_speed_rad_s);
+  d.limits = settling_limits(settling_question(d), d.spec.rotor,
+                             {.lowest = d.lowest_speed_rad_s, .highest = d.high_speed_rad_s});
 }
 
 /// A P loop that counts edges: one step away from its target it asks for K_p steps per second.

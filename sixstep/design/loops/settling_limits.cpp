@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/design/loops/settling_limits.hpp"
 
+#include <algorithm>
+
 #include "sixstep/base/angle.hpp"
 #include "sixstep/design/loops/design_warnings.hpp"
 #include "sixstep/design/loops/loop_figures.hpp"
@@ -43,16 +45,25 @@ std::optional<double> fastest_settling_s(const SettlingQuestion& q, const RotorS
 }
 
 std::vector<SettlingLimit> settling_limits(const SettlingQuestion& question, const RotorSensing& rotor,
-                                           double lowest_speed_rad_s) {
+                                           const SpeedsToHold& speeds) {
   std::vector<RotorSensing> ways{rotor};
   if (rotor.shaft.kind == ShaftSensorKind::none) ways = {{true, 1}, {true, 6}, {true, 0}};
   std::vector<SettlingLimit> out;
   for (const RotorSensing& sensing : ways)
     for (const double times : {1.0, 2.0, 5.0}) {
-      const double speed = times * lowest_speed_rad_s;
+      const double speed = times * speeds.lowest;
+      if (times > 1.0 && speed > speeds.highest) continue;
       out.push_back({sensing, speed, fastest_settling_s(question, sensing, speed)});
     }
   return out;
+}
+
+std::size_t speeds_in(const std::vector<SettlingLimit>& limits) {
+  const auto starts_a_way = [&](const SettlingLimit& l) {
+    return l.lowest_speed_rad_s == limits.front().lowest_speed_rad_s;
+  };
+  const auto ways = static_cast<std::size_t>(std::count_if(limits.begin(), limits.end(), starts_a_way));
+  return ways > 0 ? limits.size() / ways : 0;
 }
 
 }  // namespace sixstep::design

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How fast a speed loop may be for the sensor that it has and the lowest speed that it is to hold.
 #pragma once
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -26,9 +27,17 @@ struct SettlingLimit {
   double lowest_speed_rad_s = 0.0;
   std::optional<double> settle_s;
 };
-/// For Hall probes with one edge, with six and adaptive, or for the encoder or resolver that there is, down to the
-/// lowest speed and to twice and five times it.
+/// Speeds that a drive may have to hold at the least, in rad/s. The second and third are twice and five times the first, where they are
+/// no more than `highest`.
+struct SpeedsToHold {
+  double lowest = 0.0, highest = 0.0;
+};
+
+/// For Hall probes with one edge, with six and adaptive, or for the encoder or resolver that there is: each way of sensing with every
+/// speed, one way after the other.
 std::vector<SettlingLimit> settling_limits(const SettlingQuestion& question, const RotorSensing& rotor,
-                                           double lowest_speed_rad_s);
+                                           const SpeedsToHold& speeds);
+/// How many speeds each way of sensing has in them.
+std::size_t speeds_in(const std::vector<SettlingLimit>& limits);
 
 }  // namespace sixstep::design
