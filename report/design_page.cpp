@@ -139,13 +139,14 @@ std::string sensing(const DesignStudy& s) {
   const sixstep::design::DriveDesign& d = s.design;
   if (d.limits.empty()) return "";
   std::vector<std::string> heads{"Sensor"};
-  for (std::size_t n = 0; n < 3; ++n)
+  const std::size_t speeds = sixstep::design::speeds_in(d.limits);
+  for (std::size_t n = 0; n < speeds; ++n)
     heads.push_back("#down to " +
                     computed(d.limits[n].lowest_speed_rad_s, motion_of(d.motor).unit("rad/s").linear));
   std::string rows;
-  for (std::size_t n = 0; n + 3 <= d.limits.size(); n += 3) {
+  for (std::size_t n = 0; n < d.limits.size(); n += speeds) {
     rows += "<tr><th scope=\"row\">" + escaped(edges_words(d.limits[n].sensing)) + "</th>";
-    for (std::size_t k = n; k < n + 3; ++k)
+    for (std::size_t k = n; k < n + speeds; ++k)
       rows += number_cell(d.limits[k].settle_s ? computed(*d.limits[k].settle_s, "s") : "–");
     rows += "</tr>\n";
   }
@@ -154,9 +155,8 @@ std::string sensing(const DesignStudy& s) {
     table +=
         text[0] == '#' ? "<th class=\"num\">" + escaped(text.substr(1)) + "</th>" : "<th>" + text + "</th>";
   return fmt::format(
-      "<h3>Fastest settling of the speed loop</h3><p class=\"origin\">that keeps 45 degrees of phase at the "
-      "lowest "
-      "speed; this design's speed is {} old there</p>\n{}</tr></thead><tbody>\n{}</tbody></table>\n",
+      "<h3>Fastest settling time of the speed loop</h3><p class=\"origin\">that leaves 45 degrees of phase, by "
+      "the lowest speed to be held; at this design's lowest speed the measured speed is {} old</p>\n{}</tr></thead><tbody>\n{}</tbody></table>\n",
       escaped(computed(d.lag.delay_s(), "s")), table, rows);
 }
 

@@ -159,6 +159,11 @@ std::vector<std::string> contest_notes(const Contest& c) {
     else if (!c.rows[n].nominal_held)
       notes.push_back(fmt::format("{} does not hold the speed that is asked for, and wins nothing",
                                   controller_name(c, n)));
+    if (scenario && scenario->control.speed.output == study::SpeedOutput::duty)
+      notes.push_back(
+          fmt::format("{} has no current loop, and the torque limit does not bound its current: its setpoint "
+                      "moves no faster than that torque could follow",
+                      controller_name(c, n)));
   }
   return notes;
 }

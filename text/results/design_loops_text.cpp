@@ -122,18 +122,20 @@ std::string sensing_text(const DriveDesign& d) {
     steps.add({step.symbol, quantity_text(step.value, step.unit, 6), step.formula});
   Rows table;
   std::vector<std::string> head{"sensor"};
-  for (std::size_t n = 0; n < 3 && n < d.limits.size(); ++n)
+  const std::size_t speeds = sixstep::design::speeds_in(d.limits);
+  for (std::size_t n = 0; n < speeds; ++n)
     head.push_back("down to " + quantity_text(d.limits[n].lowest_speed_rad_s, speed_unit, 3));
   table.add(head);
-  for (std::size_t n = 0; n + 3 <= d.limits.size(); n += 3) {
+  for (std::size_t n = 0; n < d.limits.size(); n += speeds) {
     std::vector<std::string> cells{sixstep::design::edges_words(d.limits[n].sensing)};
-    for (std::size_t k = n; k < n + 3; ++k)
+    for (std::size_t k = n; k < n + speeds; ++k)
       cells.push_back(d.limits[k].settle_s ? quantity_text(*d.limits[k].settle_s, "s", 3) : "none");
     table.add(std::move(cells));
   }
   const std::string words = sixstep::design::edges_words(d.spec.rotor);
   return (d.spec.rotor.hall ? "\nSpeed from Hall edges, " + words.substr(6) : "\nSpeed from the " + words) +
-         "\n" + steps.text() + "\nFastest settling of the speed loop that keeps 45 degrees of phase\n" +
+         "\n" + steps.text() +
+         "\nFastest settling time that leaves the speed loop 45 degrees of phase, by the lowest speed to be held\n" +
          table.text();
 }
 
