@@ -5,10 +5,7 @@ namespace sixstep::plant {
 
 template <>
 void Audit<double>::segment(const Plant<double>& plant, double s) {
-#ifdef __x86_64__
-  if (detail::has_avx) return detail::audit_with_avx(*this, plant, s);
-#endif
-  take(plant, detail::segment_energy_here(plant, s));
+  take(plant, segment_energy(plant, s));
 }
 
 }  // namespace sixstep::plant

@@ -166,13 +166,8 @@ EnergyBook Audit<Real>::energy() const {
           .mechanical_residual = d((air_gap - friction - load - kinetic) / scale)};
 }
 
-// Compiled once, with the energies in it, for any processor and for those with AVX (plant/audit_avx.cpp).
+// Compiled once.
 template <>
 void Audit<double>::segment(const Plant<double>& plant, double s);
-#ifdef __x86_64__
-namespace detail {
-void audit_with_avx(Audit<double>& audit, const Plant<double>& plant, double s);
-}
-#endif
 
 }  // namespace sixstep::plant
