@@ -54,53 +54,10 @@ std::vector<double> spelled_as(std::vector<double> list, const sixstep::base::Sp
 }
 
 /// Every key of a scenario with its value as text, in the order of the descriptions.
-class Flat {
+class Flat final : public sixstep::base::Visitor {
  public:
   explicit Flat(Motion motion = {}) : motion_(motion) {}
   std::vector<std::pair<std::string, std::string>> rows;
-
-  template <class T>
-  void value(std::string_view key, const T& member, const About& about) {
-    const sixstep::base::Spelling* linear = motion_.linear ? linear_spelling(about) : nullptr;
-    if constexpr (is_number<T>)
-      if (linear) return add(linear->key, shown(spelled_as(member, *linear), linear->unit));
-    add(linear ? linear->key : key, shown(member, linear ? linear->unit : about.unit));
-  }
-  template <class Enum, class Choices>
-  void choice(std::string_view key, const Enum& member, const Choices& choices, const About&) {
-    add(key, std::string(word_in(motion_, choices, member)));
-  }
-  void quantity(std::string_view key, const sixstep::base::Quantity& q, const About& about) {
-    value(key, q.value, about);
-  }
-  void quantity(std::string_view key, const std::optional<sixstep::base::Quantity>& q, const About& about) {
-    value(key, q ? std::optional(q->value) : std::nullopt, about);
-  }
-  template <class Struct>
-  void table(std::string_view key, Struct& member, const About&) {
-    const std::string outer = std::exchange(path_, path_ + std::string(key) + ".");
-    describe(*this, member);
-    path_ = outer;
-  }
-  template <class Struct>
-  void table(std::string_view key, std::optional<Struct>& member, const About& about) {
-    if (member) table(key, *member, about);
-  }
-  /// Of the lists only [[at]] changes a run. What an event leaves alone is not told.
-  template <class Item>
-  void list(std::string_view key, std::vector<Item>& items, const About&) {
-    if (key != "at") return;
-    Item usual;
-    Flat plain(motion_);
-    describe(plain, usual);
-    for (std::size_t n = 0; n < items.size(); ++n) {
-      Flat event(motion_);
-      describe(event, items[n]);
-      for (auto& row : event.rows)
-        if (row.first == "time_s" || std::ranges::find(plain.rows, row) == plain.rows.end())
-          rows.emplace_back("at[" + std::to_string(n) + "]." + row.first, std::move(row.second));
-    }
-  }
 
   std::string text_of(const std::string& key) const {
     const auto found = std::ranges::find(rows, key, &std::pair<std::string, std::string>::first);
@@ -108,6 +65,45 @@ class Flat {
   }
 
  private:
+  void visit_value(std::string_view key, const sixstep::base::ValueMember& member,
+                   const About& about) override {
+    std::visit([&](const auto* of) { row(key, *of, about); }, member);
+  }
+  template <class T>
+  void row(std::string_view key, const T& member, const About& about) {
+    const sixstep::base::Spelling* linear = motion_.linear ? linear_spelling(about) : nullptr;
+    if constexpr (is_number<T>)
+      if (linear) return add(linear->key, shown(spelled_as(member, *linear), linear->unit));
+    add(linear ? linear->key : key, shown(member, linear ? linear->unit : about.unit));
+  }
+  void visit_word(std::string_view key, sixstep::base::WordMember& member, const About&) override {
+    add(key, std::string(motion_.linear ? member.linear_word() : member.word()));
+  }
+  void visit_quantity(std::string_view key, const sixstep::base::QuantityMember& member,
+                      const About& about) override {
+    const sixstep::base::Quantity* const q = quantity_in(member);
+    row(key, q ? std::optional(q->value) : std::nullopt, about);
+  }
+  void visit_table(std::string_view key, sixstep::base::TableMember& member, const About&) override {
+    if (!member.is_there()) return;
+    const std::string outer = std::exchange(path_, path_ + std::string(key) + ".");
+    member.walk(*this);
+    path_ = outer;
+  }
+  /// Of the lists only [[at]] changes a run. What an event leaves alone is not told.
+  void visit_list(std::string_view key, sixstep::base::ListMember& items, const About&) override {
+    if (key != sixstep::study::events_list) return;
+    Flat plain(motion_);
+    items.walk_usual(plain);
+    for (std::size_t n = 0; n < items.size(); ++n) {
+      Flat event(motion_);
+      items.walk(n, event);
+      for (auto& row : event.rows)
+        if (row.first == "time_s" || std::ranges::find(plain.rows, row) == plain.rows.end())
+          rows.emplace_back("at[" + std::to_string(n) + "]." + row.first, std::move(row.second));
+    }
+  }
+
   void add(std::string_view key, std::string text) {
     rows.emplace_back(path_ + std::string(key), std::move(text));
   }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // One description of a parameter feeds every face: TOML reading and its checks, help and the schema, and later
-// the web form, Python and FMU. For each parameter struct S there is one free function template
+// the web form, Python and FMU. For each parameter struct S there is one free function
 //
-//   template <class Visitor> void describe(Visitor& v, S& s);
+//   void describe(Visitor& v, S& s);          (base/visitor.hpp)
 //
 // that walks the members in reading order and calls on the visitor, per member,
-//   v.value(key, member, about)            double, int, std::int64_t, bool, std::string,
+//   v.value(key, member, about)            double, int, bool, std::string,
 //                                          std::optional<double>, std::vector<double>, std::vector<std::string>
 //   v.choice(key, member, choices, about)  an enum, by its words: choices is an array of Choice
 //   v.quantity(key, member, about)         Quantity: a number with frame and source

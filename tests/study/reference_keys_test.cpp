@@ -35,38 +35,37 @@ std::vector<Reference> one_of_each_shape() {
 }
 
 /// Walks the description: counts the keys, and gives the n-th another value that a run could have.
-struct AnotherValue {
-  std::size_t wanted, n = 0;
-  std::string key{};
+class AnotherValue final : public base::Visitor {
+ public:
+  explicit AnotherValue(std::size_t wanted) : wanted_(wanted) {}
+  std::size_t n = 0;
+  std::string key;
 
-  template <class T, class Change>
-  void at(std::string_view name, T& member, const Change& change) {
-    if (n++ != wanted) return;
+ private:
+  bool is_wanted(std::string_view name) {
+    if (n++ != wanted_) return false;
     key = name;
-    change(member);
+    return true;
   }
-  void value(std::string_view name, double& x, const base::About&) {
-    at(name, x, [](double& d) { d = d == 0.0 ? 1e-3 : 1.25 * d; });
+  void visit_value(std::string_view name, const base::ValueMember& member, const base::About&) override {
+    if (is_wanted(name)) std::visit([](auto* of) { change(*of); }, member);
   }
-  void value(std::string_view name, std::optional<double>& x, const base::About&) {
-    at(name, x, [](std::optional<double>& d) { d = d.value_or(4e-3) * 1.25; });
+  void visit_word(std::string_view name, base::WordMember& member, const base::About&) override {
+    if (is_wanted(name)) member.choose(member.size() - 1);
   }
-  void value(std::string_view name, std::vector<double>& x, const base::About&) {
-    at(name, x, [](std::vector<double>& list) {
-      if (list.empty()) list = {0.0, 1e-3};
-      list.back() *= 2;
-    });
+  static void change(double& x) { x = x == 0.0 ? 1e-3 : 1.25 * x; }
+  static void change(std::optional<double>& x) { x = x.value_or(4e-3) * 1.25; }
+  static void change(std::vector<double>& list) {
+    if (list.empty()) list = {0.0, 1e-3};
+    list.back() *= 2;
   }
-  void value(std::string_view name, std::string& x, const base::About&) {
-    at(name, x, [](std::string& text) { text = "x.csv"; });
+  static void change(std::string& text) { text = "x.csv"; }
+  static void change(std::optional<std::string>& text) { text = "speed"; }
+  template <class Other>
+  static void change(Other&) {
+    ADD_FAILURE() << "a kind of value that a reference did not have";
   }
-  void value(std::string_view name, std::optional<std::string>& x, const base::About&) {
-    at(name, x, [](std::optional<std::string>& text) { text = "speed"; });
-  }
-  template <class Enum, class Choices>
-  void choice(std::string_view name, Enum& x, const Choices& choices, const base::About&) {
-    at(name, x, [&](Enum& e) { e = std::end(choices)[-1].value; });
-  }
+  std::size_t wanted_;
 };
 
 study::Scenario with(const Reference& r) {
@@ -94,7 +93,7 @@ TEST(ReferenceKeys, EachChangesWhatIsAskedForOrIsRefusedByName) {
     std::size_t keys = 1, refused = 0;
     for (std::size_t n = 0; n < keys; ++n) {
       Reference changed = good;
-      AnotherValue walk{n};
+      AnotherValue walk(n);
       describe(walk, changed);
       keys = walk.n;
       // What the file holds is read before this, and what the shape is decides about all others.
@@ -118,7 +117,7 @@ TEST(ReferenceKeys, TheTableHasAllOfThem) {
   std::vector<std::string> described, rows;
   for (std::size_t n = 0, keys = 1; n < keys; ++n) {
     Reference r;
-    AnotherValue walk{n};
+    AnotherValue walk(n);
     describe(walk, r);
     keys = walk.n;
     if (walk.key != "shape" && walk.key != "unit") described.push_back(walk.key);

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "sixstep/design/sheet/sheet_description.hpp"
 #include "sixstep/study/scenario/scenario_description.hpp"
 #include "text/keys/key_advice.hpp"
 #include "text/keys/key_catalog.hpp"
@@ -16,46 +17,54 @@ namespace text {
 namespace SIXSTEP_TEST_FILE {
 
 /// Writes a struct as TOML; with `change` it first gives every member another value that its range allows.
-class Dump {
+class Dump final : public base::Visitor {
  public:
   explicit Dump(bool change) : change_(change) {}
-  std::string text;
+  /// Lists come last: what follows a heading would belong to it.
+  std::string whole() const { return text_ + lists_; }
 
-  void value(std::string_view key, double& x, const base::About& about) {
+ private:
+  void visit_value(std::string_view key, const base::ValueMember& member, const base::About& about) override {
+    std::visit([&](auto* of) { put(key, *of, about); }, member);
+  }
+  void visit_quantity(std::string_view key, const base::QuantityMember& member,
+                      const base::About& about) override {
+    std::visit([&](auto* of) { put(key, *of, about); }, member);
+  }
+  void put(std::string_view key, double& x, const base::About& about) {
     if (change_) x = inside(about.range, x);
     emit(key, fmt::format("{}", x));
   }
-  void value(std::string_view key, int& x, const base::About& about) {
+  void put(std::string_view key, int& x, const base::About& about) {
     if (change_) x = about.range.holds(7) ? 7 : about.range.high < 2 ? 1 : about.range.holds(3) ? 3 : 12;
     emit(key, fmt::format("{}", x));
   }
-  void value(std::string_view key, bool& x, const base::About&) {
+  void put(std::string_view key, bool& x, const base::About&) {
     if (change_) x = !x;
     emit(key, x ? "true" : "false");
   }
-  void value(std::string_view key, std::string& x, const base::About&) {
+  void put(std::string_view key, std::string& x, const base::About&) {
     if (change_) x = fmt::format("text of {}", key);
     emit(key, fmt::format("\"{}\"", x));
   }
-  void value(std::string_view key, std::vector<double>& x, const base::About&) {
+  void put(std::string_view key, std::vector<double>& x, const base::About&) {
     if (change_) x = {0.25, 0.5};
     emit(key, fmt::format("[{}]", fmt::join(x, ", ")));
   }
-  void value(std::string_view key, std::vector<std::string>& x, const base::About&) {
+  void put(std::string_view key, std::vector<std::string>& x, const base::About&) {
     if (change_) x = {"one", "two"};
     emit(key, fmt::format("[\"{}\"]", fmt::join(x, "\", \"")));
   }
   template <class T>
-  void value(std::string_view key, std::optional<T>& x, const base::About& about) {
+  void put(std::string_view key, std::optional<T>& x, const base::About& about) {
     if (change_) x.emplace();
-    if (x) value(key, *x, about);
+    if (x) put(key, *x, about);
   }
-  template <class Enum, class Choices>
-  void choice(std::string_view key, Enum& x, const Choices& choices, const base::About&) {
-    if (change_) x = std::rbegin(choices)->value;
-    emit(key, fmt::format("\"{}\"", base::word(choices, x)));
+  void visit_word(std::string_view key, base::WordMember& x, const base::About&) override {
+    if (change_) x.choose(x.size() - 1);
+    emit(key, fmt::format("\"{}\"", x.word()));
   }
-  void quantity(std::string_view key, base::Quantity& q, const base::About& about) {
+  void put(std::string_view key, base::Quantity& q, const base::About& about) {
     if (change_) {
       q = {inside(about.range, q.value), std::string(about.frame.substr(about.frame.rfind('|') + 1)),
            "a source"};
@@ -67,47 +76,38 @@ class Dump {
     const std::string range = q.range ? fmt::format(", range = [{}, {}]", q.range->low, q.range->high) : "";
     emit(key, fmt::format("{{ value = {}, {}source = \"{}\"{}{} }}", q.value, frame, q.source, kind, range));
   }
-  void quantity(std::string_view key, std::optional<base::Quantity>& q, const base::About& about) {
+  void put(std::string_view key, std::optional<base::Quantity>& q, const base::About& about) {
     if (change_) q.emplace();
-    if (q) quantity(key, *q, about);
+    if (q) put(key, *q, about);
   }
-  template <class Struct>
-  void table(std::string_view key, Struct& member, const base::About&) {
+  void visit_table(std::string_view key, base::TableMember& member, const base::About&) override {
+    if (change_) member.emplace();
+    if (!member.is_there()) return;
     const std::string outer = prefix_;
     prefix_ += std::string(key) + '.';
-    describe(*this, member);
+    member.walk(*this);
     prefix_ = outer;
   }
-  template <class Struct>
-  void table(std::string_view key, std::optional<Struct>& member, const base::About& about) {
-    if (change_) member.emplace();
-    if (member) table(key, *member, about);
-  }
-  template <class Struct>
-  void list(std::string_view key, std::vector<Struct>& member, const base::About&) {
+  void visit_list(std::string_view key, base::ListMember& member, const base::About&) override {
     if (change_) member.resize(2);
-    const std::string keys = std::exchange(text, ""), outer = std::exchange(prefix_, "");
-    for (Struct& item : member) {
-      text += fmt::format("[[{}{}]]\n", outer, key);
-      describe(*this, item);
+    const std::string keys = std::exchange(text_, ""), outer = std::exchange(prefix_, "");
+    for (std::size_t n = 0; n < member.size(); ++n) {
+      text_ += fmt::format("[[{}{}]]\n", outer, key);
+      member.walk(n, *this);
     }
     prefix_ = outer;
-    lists_ += std::exchange(text, keys);
+    lists_ += std::exchange(text_, keys);
   }
-  /// Lists come last: what follows a heading would belong to it.
-  std::string whole() const { return text + lists_; }
-
- private:
   static double inside(const base::Range& range, double present) {
     const double tried = 0.375;
     if (range.holds(tried) && tried != present) return tried;
     return range.holds(5.5) ? 5.5 : range.holds(1.0) ? 1.0 : (range.low + range.high) / 2;
   }
   void emit(std::string_view key, const std::string& toml) {
-    text += fmt::format("{}{} = {}\n", prefix_, key, toml);
+    text_ += fmt::format("{}{} = {}\n", prefix_, key, toml);
   }
   bool change_;
-  std::string prefix_, lists_;
+  std::string text_, prefix_, lists_;
 };
 
 template <class Struct>

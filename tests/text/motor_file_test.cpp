@@ -124,16 +124,16 @@ TEST_F(MotorFile, AValueInAnotherSpellingIsToldAsItStands) {
 }
 
 /// Visits a sheet and finds one quantity.
-struct Find {
-  std::string_view wanted;
+class Find final : public base::Visitor {
+ public:
+  explicit Find(std::string_view wanted) : wanted_(wanted) {}
   std::optional<base::Quantity> found;
-  void quantity(std::string_view key, std::optional<base::Quantity>& q, const base::About&) {
-    if (key == wanted) found = q;
+
+ private:
+  void visit_quantity(std::string_view key, const base::QuantityMember& member, const base::About&) override {
+    if (const base::Quantity* q = quantity_in(member); q && key == wanted_) found = *q;
   }
-  template <class T>
-  void value(std::string_view, T&, const base::About&) {}
-  template <class Enum, class Choices>
-  void choice(std::string_view, Enum&, const Choices&, const base::About&) {}
+  std::string_view wanted_;
 };
 
 TEST_F(MotorFile, EverySpellingIsTheKeyInItsUnit) {
@@ -149,7 +149,7 @@ TEST_F(MotorFile, EverySpellingIsTheKeyInItsUnit) {
       design::Sheet sheet;
       read_root(*document, sheet, complaints);
       EXPECT_TRUE(complaints.empty()) << to_string(complaints.in_order().front());
-      Find find{key.path, {}};
+      Find find(key.path);
       describe(find, sheet);
       ASSERT_TRUE(find.found);
       EXPECT_EQ(find.found->value, base::times_ten_to(2.5, spelling.ten) * spelling.factor);

@@ -20,20 +20,18 @@ namespace SIXSTEP_TEST_FILE {
 namespace fs = std::filesystem;
 
 /// Visits a sheet and calls on each value that it gives.
-template <class Call>
-struct EachQuantity {
-  Call call;
-  void quantity(std::string_view key, std::optional<base::Quantity>& q, const base::About& about) {
-    if (q) call(key, *q, about);
-  }
-  template <class T>
-  void value(std::string_view, T&, const base::About&) {}
-  template <class Enum, class Choices>
-  void choice(std::string_view, Enum&, const Choices&, const base::About&) {}
-};
+class EachQuantity final : public base::Visitor {
+ public:
+  using Call = std::function<void(std::string_view key, const base::Quantity& q, const base::About& about)>;
+  explicit EachQuantity(Call call) : call_(std::move(call)) {}
 
-template <class Call>
-EachQuantity(Call) -> EachQuantity<Call>;
+ private:
+  void visit_quantity(std::string_view key, const base::QuantityMember& member,
+                      const base::About& about) override {
+    if (const base::Quantity* q = quantity_in(member)) call_(key, *q, about);
+  }
+  Call call_;
+};
 
 class MotorLibrary : public ::testing::TestWithParam<std::string> {
  protected:

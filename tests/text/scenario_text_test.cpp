@@ -29,56 +29,53 @@ study::Scenario read_back(const std::string& text) {
 }
 
 /// Every described key of a scenario as text, the motor's sheet and what stands in tables and lists included.
-struct EveryKey {
-  std::vector<std::string> rows{};
-  std::string path{};
+class EveryKey final : public base::Visitor {
+ public:
+  std::vector<std::string> rows;
 
+ private:
+  void visit_value(std::string_view key, const base::ValueMember& member, const base::About&) override {
+    std::visit([&](const auto* of) { row(key, *of); }, member);
+  }
   template <class T>
-  void value(std::string_view key, const T& member, const base::About&) {
+  void row(std::string_view key, const T& member) {
     add(key, fmt::format("{}", member));
   }
   template <class T>
-  void value(std::string_view key, const std::optional<T>& member, const base::About& about) {
-    if (member) value(key, *member, about);
+  void row(std::string_view key, const std::optional<T>& member) {
+    if (member) row(key, *member);
   }
   template <class T>
-  void value(std::string_view key, const std::vector<T>& member, const base::About&) {
+  void row(std::string_view key, const std::vector<T>& member) {
     add(key, fmt::format("{}", fmt::join(member, ", ")));
   }
-  template <class Enum, class Choices>
-  void choice(std::string_view key, const Enum& member, const Choices& choices, const base::About&) {
-    add(key, std::string(base::word(choices, member)));
+  void visit_word(std::string_view key, base::WordMember& member, const base::About&) override {
+    add(key, std::string(member.word()));
   }
-  void quantity(std::string_view key, const std::optional<base::Quantity>& q, const base::About&) {
+  void visit_quantity(std::string_view key, const base::QuantityMember& member, const base::About&) override {
+    const base::Quantity* const q = quantity_in(member);
     if (!q) return;
     const base::Interval range = q->range.value_or(base::Interval{});
     add(key, fmt::format("{} {} {} {} {} {} {}", q->value, q->frame, q->source, static_cast<int>(q->kind),
                          range.low, range.high, q->last_digit.value_or(0)));
   }
-  template <class Struct>
-  void table(std::string_view key, Struct& member, const base::About&) {
-    within(key, member);
+  void visit_table(std::string_view key, base::TableMember& member, const base::About&) override {
+    if (member.is_there()) within(key, [&] { member.walk(*this); });
   }
-  template <class Struct>
-  void table(std::string_view key, std::optional<Struct>& member, const base::About&) {
-    if (member) within(key, *member);
+  void visit_list(std::string_view key, base::ListMember& items, const base::About&) override {
+    for (std::size_t n = 0; n < items.size(); ++n) within(key, [&] { items.walk(n, *this); });
   }
-  template <class Item>
-  void list(std::string_view key, std::vector<Item>& items, const base::About&) {
-    for (Item& item : items) within(key, item);
-  }
-
- private:
-  template <class Struct>
-  void within(std::string_view key, Struct& member) {
-    const std::string outer = path;
-    path += std::string(key) + ".";
-    describe(*this, member);
-    path = outer;
+  template <class Walk>
+  void within(std::string_view key, const Walk& walk) {
+    const std::string outer = path_;
+    path_ += std::string(key) + ".";
+    walk();
+    path_ = outer;
   }
   void add(std::string_view key, const std::string& text) {
-    rows.push_back(path + std::string(key) + " " + text);
+    rows.push_back(path_ + std::string(key) + " " + text);
   }
+  std::string path_;
 };
 
 std::vector<std::string> every_key(study::Scenario s) {

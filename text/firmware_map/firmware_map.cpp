@@ -22,8 +22,7 @@ struct MapFile {
   double setpoint_range = 1.0;
 };
 
-template <class Visitor>
-void describe(Visitor& v, MapFile& w) {
+void describe(base::Visitor& v, MapFile& w) {
   v.value("chip", w.chip, {.meaning = "the chip, \"atmega2560\"", .required = true});
   v.value("elf", w.elf, {.meaning = "the program as its linker left it", .required = true});
   v.value("hall", w.hall, {.meaning = "pins of the Hall lines H1 H2 H3, of port K"});

@@ -31,59 +31,54 @@ std::string as_toml(const std::vector<T>&) {
   return "";
 }
 
-class Catalog {
+class Catalog final : public base::Visitor {
  public:
+  std::vector<KeyEntry> take() { return std::move(entries_); }
+
+ private:
+  void visit_value(std::string_view key, const base::ValueMember& member, const base::About& about) override {
+    std::visit([&](const auto* of) { note(key, *of, about); }, member);
+  }
   template <class T>
-  void value(std::string_view key, T& member, const base::About& about) {
+  void note(std::string_view key, const T& member, const base::About& about) {
     add(key, type_of(member), about).default_value = about.required ? "" : as_toml(member);
   }
   template <class T>
-  void value(std::string_view key, std::optional<T>&, const base::About& about) {
+  void note(std::string_view key, const std::optional<T>&, const base::About& about) {
     add(key, type_of(T{}), about).optional = true;
   }
-  template <class Enum, class Choices>
-  void choice(std::string_view key, Enum& member, const Choices& choices, const base::About& about) {
+  void visit_word(std::string_view key, base::WordMember& member, const base::About& about) override {
     KeyEntry& entry = add(key, KeyType::word, about);
-    if (!about.required) entry.default_value = fmt::format("\"{}\"", base::word(choices, member));
-    for (const auto& choice : choices)
+    if (!about.required) entry.default_value = fmt::format("\"{}\"", member.word());
+    for (std::size_t n = 0; n < member.size(); ++n) {
+      const base::WordMember::Word choice = member.at(n);
       if (choice.turning.empty())
         entry.choices.emplace_back(choice.word, choice.meaning);
       else
         entry.linear_choices.push_back(
             {std::string(choice.turning), std::string(choice.word), std::string(choice.meaning)});
+    }
   }
-  void quantity(std::string_view key, base::Quantity&, const base::About& about) {
-    add(key, KeyType::quantity, about);
+  void visit_quantity(std::string_view key, const base::QuantityMember& member,
+                      const base::About& about) override {
+    add(key, KeyType::quantity, about).optional =
+        std::holds_alternative<std::optional<base::Quantity>*>(member);
   }
-  void quantity(std::string_view key, std::optional<base::Quantity>&, const base::About& about) {
-    add(key, KeyType::quantity, about).optional = true;
-  }
-  template <class Struct>
-  void table(std::string_view key, Struct& member, const base::About& about) {
-    add(key, KeyType::table, about);
+  void visit_table(std::string_view key, base::TableMember& member, const base::About& about) override {
+    add(key, KeyType::table, about).optional = member.is_optional();
     const std::string outer = prefix_;
     prefix_ += std::string(key) + ".";
-    describe(*this, member);
+    member.is_optional() ? member.walk_usual(*this) : member.walk(*this);
     prefix_ = outer;
   }
-  template <class Struct>
-  void table(std::string_view key, std::optional<Struct>&, const base::About& about) {
-    Struct inner;
-    const std::size_t at = entries_.size();
-    table(key, inner, about);
-    entries_[at].optional = true;
-  }
-  template <class Struct>
-  void list(std::string_view key, std::vector<Struct>&, const base::About& about) {
-    Struct item;
-    table(key, item, about);
-    for (KeyEntry& entry : entries_)
-      if (entry.path == prefix_ + std::string(key)) entry.type = KeyType::list;
+  void visit_list(std::string_view key, base::ListMember& member, const base::About& about) override {
+    add(key, KeyType::list, about);
+    const std::string outer = prefix_;
+    prefix_ += std::string(key) + ".";
+    member.walk_usual(*this);
+    prefix_ = outer;
   }
 
-  std::vector<KeyEntry> take() { return std::move(entries_); }
-
- private:
   KeyEntry& add(std::string_view key, KeyType type, const base::About& about) {
     return entries_.emplace_back(KeyEntry{.path = prefix_ + std::string(key), .type = type, .about = about});
   }

@@ -13,23 +13,28 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Visits a sheet; what it does not give is left out.
-class SheetJson {
+class SheetJson final : public base::Visitor {
  public:
   Json object = Json::object();
 
-  template <class T>
-  void value(std::string_view key, const T& member, const base::About&) {
-    object[std::string(key)] = member;
+ private:
+  void visit_value(std::string_view key, const base::ValueMember& member, const base::About&) override {
+    std::visit([&](const auto* of) { put(std::string(key), *of); }, member);
   }
   template <class T>
-  void value(std::string_view key, const std::optional<T>& member, const base::About& about) {
-    if (member) value(key, *member, about);
+  void put(const std::string& key, const T& member) {
+    object[key] = member;
   }
-  template <class Enum, class Choices>
-  void choice(std::string_view key, const Enum& member, const Choices& choices, const base::About&) {
-    object[std::string(key)] = base::word(choices, member);
+  template <class T>
+  void put(const std::string& key, const std::optional<T>& member) {
+    if (member) put(key, *member);
   }
-  void quantity(std::string_view given, const std::optional<base::Quantity>& q, const base::About& about) {
+  void visit_word(std::string_view key, base::WordMember& member, const base::About&) override {
+    object[std::string(key)] = member.word();
+  }
+  void visit_quantity(std::string_view given, const base::QuantityMember& member,
+                      const base::About& about) override {
+    const base::Quantity* const q = quantity_in(member);
     if (!q) return;
     const base::Spelling* linear = base::linear_spelling(about);
     if (!linear || linear->key != q->key) linear = nullptr;  // a linear motor's is told in its own words

@@ -29,24 +29,30 @@ std::string trimmed(std::string row) {
 }
 
 /// Visits a sheet and writes one row per value that it gives.
-class SheetRows {
+class SheetRows final : public base::Visitor {
  public:
+  const std::string& text() const { return text_; }
+
+ private:
+  void visit_value(std::string_view key, const base::ValueMember& member, const base::About& about) override {
+    std::visit([&](const auto* of) { row(key, *of, about); }, member);
+  }
   template <class T>
-  void value(std::string_view key, const T& member, const base::About& about) {
+  void row(std::string_view key, const T& member, const base::About& about) {
     add(key, fmt::format("{}", member), about.unit, "", "");
   }
-  void value(std::string_view key, const std::string& member, const base::About&) {
+  void row(std::string_view key, const std::string& member, const base::About&) {
     if (!member.empty()) add(key, member, "", "", "");
   }
-  void value(std::string_view key, const bool& member, const base::About&) {
+  void row(std::string_view key, const bool& member, const base::About&) {
     if (member != (key == "simulatable")) add(key, member ? "true" : "false", "", "", "");
   }
-  void value(std::string_view key, const double& member, const base::About& about) {
+  void row(std::string_view key, const double& member, const base::About& about) {
     if (member != 0) add(key, fmt::format("{}", member), about.unit, "", "");
   }
   /// A long list is told of by its ends.
   template <class T>
-  void value(std::string_view key, const std::vector<T>& member, const base::About& about) {
+  void row(std::string_view key, const std::vector<T>& member, const base::About& about) {
     constexpr std::size_t read_at_a_glance = 12;
     if (member.empty()) return;
     if (member.size() <= read_at_a_glance)
@@ -55,16 +61,18 @@ class SheetRows {
         "");
   }
   template <class T>
-  void value(std::string_view key, const std::optional<T>& member, const base::About& about) {
-    if (member) value(key, *member, about);
+  void row(std::string_view key, const std::optional<T>& member, const base::About& about) {
+    if (member) row(key, *member, about);
   }
-  template <class Enum, class Choices>
-  void choice(std::string_view key, const Enum& member, const Choices& choices, const base::About&) {
-    if ((key != "connection" && key != "rotor" && key != "kind") || member != Enum{})
-      add(key, base::word(choices, member), "", "", "");
+  /// The first word of these is what nearly every motor has.
+  void visit_word(std::string_view key, base::WordMember& member, const base::About&) override {
+    if ((key != "connection" && key != "rotor" && key != "kind") || member.chosen() != 0)
+      add(key, member.word(), "", "", "");
   }
   /// As printed: in the unit of the key that the file uses.
-  void quantity(std::string_view key, const std::optional<base::Quantity>& q, const base::About& about) {
+  void visit_quantity(std::string_view key, const base::QuantityMember& member,
+                      const base::About& about) override {
+    const base::Quantity* const q = quantity_in(member);
     if (!q) return;
     double value = q->value;
     std::string_view unit = about.unit;
@@ -86,9 +94,6 @@ class SheetRows {
     add(q->key.empty() ? key : std::string_view(q->key),
         converted ? fmt::format("{:.12g}", value) : shortest(value), unit, q->frame, source);
   }
-  const std::string& text() const { return text_; }
-
- private:
   void add(std::string_view key, std::string_view value, std::string_view unit, std::string_view frame,
            std::string_view source) {
     text_ += trimmed(fmt::format("{:<26} {:>10} {:<8}{:<10}{}", key, value, unit, frame, source));

@@ -8,6 +8,7 @@
 
 #include "sixstep/base/linear.hpp"
 #include "sixstep/study/scenario/changes.hpp"
+#include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/scenario_description.hpp"
 #include "text/keys/key_tree.hpp"
 
@@ -68,41 +69,34 @@ const TwoNames* find(const std::vector<TwoNames>& names, std::string TwoNames::*
 }
 
 /// Visits a scenario and writes over what is in a unit that follows from a mode or a figure.
-class InMetres {
+class InMetres final : public base::Visitor {
  public:
   explicit InMetres(const study::Scenario& s) : modes_(study::modes_from(s)), mode_(s.control.mode) {}
 
-  void value(std::string_view, double& x, const base::About& about) { x = written_as(x, factor_of(about)); }
-  void value(std::string_view, std::vector<double>& list, const base::About& about) {
-    for (double& x : list) x = written_as(x, factor_of(about));
+ private:
+  void visit_value(std::string_view, const base::ValueMember& member, const base::About& about) override {
+    std::visit([&](auto* of) { write(*of, factor_of(about)); }, member);
   }
-  void value(std::string_view, std::optional<double>& x, const base::About& about) {
-    if (x) x = written_as(*x, factor_of(about));
+  static void write(double& x, double factor) { x = written_as(x, factor); }
+  static void write(std::vector<double>& list, double factor) {
+    for (double& x : list) x = written_as(x, factor);
+  }
+  static void write(std::optional<double>& x, double factor) {
+    if (x) x = written_as(*x, factor);
   }
   template <class Other>
-  void value(std::string_view, Other&, const base::About&) {}
-  template <class Enum, class Choices>
-  void choice(std::string_view, Enum&, const Choices&, const base::About&) {}
-  void table(std::string_view, design::Sheet&, const base::About&) {}
-  template <class Struct>
-  void table(std::string_view, Struct& member, const base::About&) {
-    describe(*this, member);
+  static void write(Other&, double) {}
+  void visit_table(std::string_view key, base::TableMember& member, const base::About&) override {
+    if (member.is_there() && key != study::sheet_table) member.walk(*this);
   }
-  template <class Struct>
-  void table(std::string_view, std::optional<Struct>& member, const base::About&) {
-    if (member) describe(*this, *member);
-  }
-  template <class Item>
-  void list(std::string_view, std::vector<Item>& items, const base::About&) {
+  void visit_list(std::string_view key, base::ListMember& items, const base::About&) override {
     const sixstep::control::Mode at_start = mode_;
     for (std::size_t n = 0; n < items.size(); ++n) {
-      if constexpr (std::is_same_v<Item, study::At>) mode_ = modes_[n];
-      describe(*this, items[n]);
+      if (key == study::events_list) mode_ = modes_[n];
+      items.walk(n, *this);
     }
     mode_ = at_start;
   }
-
- private:
   double factor_of(const base::About& about) const {
     const std::string_view unit = about.mode_unit.empty() ? about.unit_here : study::reference_unit(mode_);
     return base::in_linear(unit).factor;

@@ -11,6 +11,7 @@
 
 #include "sixstep/base/linear.hpp"
 #include "sixstep/base/written.hpp"
+#include "sixstep/design/sheet/sheet_description.hpp"
 #include "sixstep/study/scenario/scenario_description.hpp"
 #include "text/escape/escape.hpp"
 #include "text/scenario/motion_words.hpp"
@@ -67,114 +68,71 @@ std::vector<double> spelled_as(std::vector<double> list, const sixstep::base::Sp
 }
 
 /// One table's keys as they would be written, tables within it and lists behind them: of a linear motor in its words.
-class TableText {
+class TableText final : public sixstep::base::Visitor {
  public:
   explicit TableText(bool linear_motor = false) : linear_motor_(linear_motor) {}
 
+  enum class Heading { with_rows, always, none };
+
+  /// The rows that differ from `usual`, under the table's path; then the tables within.
+  std::string text(const TableText& usual, const std::string& path, Heading heading) const;
+  /// All rows, each under `path`; then those of the tables and lists within.
+  void add_values(const TableText& usual, const std::string& path, std::vector<WrittenValue>& out) const;
+
+ private:
+  void visit_value(std::string_view key, const sixstep::base::ValueMember& member,
+                   const sixstep::base::About& about) override {
+    std::visit([&](const auto* of) { add_row(key, *of, about); }, member);
+  }
   template <class T>
-  void value(std::string_view key, const T& member, const sixstep::base::About& about) {
+  void add_row(std::string_view key, const T& member, const sixstep::base::About& about) {
     if constexpr (std::is_same_v<T, double> || std::is_same_v<T, std::vector<double>>)
       if (const auto* linear = linear_motor_ ? sixstep::base::linear_spelling(about) : nullptr)
         return rows_.push_back({std::string(linear->key), toml(spelled_as(member, *linear)), about.required});
     rows_.push_back({std::string(key), toml(member), about.required});
   }
   template <class T>
-  void value(std::string_view key, const std::optional<T>& member, const sixstep::base::About& about) {
-    if (member) value(key, *member, about);
+  void add_row(std::string_view key, const std::optional<T>& member, const sixstep::base::About& about) {
+    if (member) add_row(key, *member, about);
   }
-  template <class Enum, class Choices>
-  void choice(std::string_view key, const Enum& member, const Choices& choices,
-              const sixstep::base::About& about) {
-    value(key, std::string(sixstep::base::word_in({linear_motor_}, choices, member)), about);
+  void visit_word(std::string_view key, sixstep::base::WordMember& member,
+                  const sixstep::base::About& about) override {
+    add_row(key, std::string(linear_motor_ ? member.linear_word() : member.word()), about);
   }
-  template <class Quantity>
-  void quantity(std::string_view key, const Quantity& member, const sixstep::base::About& about) {
-    value(key, member, about);
-  }
-  template <class Struct>
-  void table(std::string_view key, Struct& member, const sixstep::base::About& about) {
-    add(key, member, about.partial ? Shown::partly : Shown::where_it_differs);
+  void visit_quantity(std::string_view key, const sixstep::base::QuantityMember& member,
+                      const sixstep::base::About& about) override {
+    std::visit([&](const auto* of) { add_row(key, *of, about); }, member);
   }
   /// One that may be left out is told by its heading, even where every row is the default.
-  template <class Struct>
-  void table(std::string_view key, std::optional<Struct>& member, const sixstep::base::About&) {
-    Struct usual;
-    add(key, member ? *member : usual, member ? Shown::always : Shown::never);
+  void visit_table(std::string_view key, sixstep::base::TableMember& member,
+                   const sixstep::base::About& about) override {
+    TableText inner(linear_motor_);
+    member.is_there() ? member.walk(inner) : member.walk_usual(inner);
+    inner.key_ = std::string(key);
+    inner.shown_ = !member.is_optional() ? about.partial ? Shown::partly : Shown::where_it_differs
+                   : member.is_there()   ? Shown::always
+                                         : Shown::never;
+    tables_.push_back(std::move(inner));
   }
-  template <class Item>
-  void list(std::string_view key, std::vector<Item>& items, const sixstep::base::About&) {
-    Item usual;
+  void visit_list(std::string_view key, sixstep::base::ListMember& items,
+                  const sixstep::base::About&) override {
     TableText plain(linear_motor_);
-    describe(plain, usual);
-    for (Item& item : items) {
+    items.walk_usual(plain);
+    for (std::size_t n = 0; n < items.size(); ++n) {
       TableText inner(linear_motor_);
-      describe(inner, item);
+      items.walk(n, inner);
       inner.key_ = std::string(key);
-      inner.add_values(plain, fmt::format("{}[{}].", key, &item - items.data()), listed_);
+      inner.add_values(plain, fmt::format("{}[{}].", key, n), listed_);
       items_.push_back(std::move(inner));
       usual_items_.push_back(plain);
     }
   }
 
-  enum class Heading { with_rows, always, none };
-
-  /// The rows that differ from `usual`, under the table's path; then the tables within.
-  std::string text(const TableText& usual, const std::string& path, Heading heading) const {
-    std::map<std::string, std::string> other;
-    for (const Row& row : usual.rows_) other.emplace(row.key, row.value);
-    std::string out;
-    for (const Row& row : rows_) {
-      const auto same = other.find(row.key);
-      if ((row.required && shown_ != Shown::partly) || same == other.end() || same->second != row.value)
-        out += fmt::format("{} = {}\n", row.key, row.value);
-    }
-    if (heading == Heading::always || (heading == Heading::with_rows && !out.empty()))
-      out = fmt::format("\n[{}]\n", path) + out;
-    const auto within = [&path](const TableText& inner) {
-      return path.empty() ? inner.key_ : path + "." + inner.key_;
-    };
-    for (std::size_t n = 0; n < tables_.size(); ++n) {
-      const TableText& inner = tables_[n];
-      if (inner.shown_ == Shown::never) continue;
-      out += inner.text(usual.tables_[n], within(inner),
-                        inner.shown_ == Shown::always ? Heading::always : Heading::with_rows);
-    }
-    for (std::size_t n = 0; n < items_.size(); ++n)
-      out += fmt::format("\n[[{}]]\n{}", within(items_[n]),
-                         items_[n].text(usual_items_[n], within(items_[n]), Heading::none));
-    return out;
-  }
-
-  /// All rows, each under `path`; then those of the tables and lists within.
-  void add_values(const TableText& usual, const std::string& path, std::vector<WrittenValue>& out) const {
-    for (const Row& row : rows_) {
-      const bool same = std::any_of(usual.rows_.begin(), usual.rows_.end(), [&](const Row& other) {
-        return other.key == row.key && other.value == row.value;
-      });
-      if (shown_ == Shown::partly && same) continue;
-      out.push_back({path + row.key, row.value, same && !row.required});
-    }
-    for (std::size_t n = 0; n < tables_.size(); ++n)
-      if (tables_[n].shown_ != Shown::never)
-        tables_[n].add_values(usual.tables_[n], path + tables_[n].key_ + ".", out);
-    for (const WrittenValue& value : listed_) out.push_back({path + value.path, value.text, value.usual});
-  }
-
- private:
   enum class Shown { where_it_differs, always, never, partly };  ///< partly: none of its keys need be there
   struct Row {
     std::string key, value;
     bool required;
   };
-
-  template <class Struct>
-  void add(std::string_view key, Struct& member, Shown shown) {
-    TableText inner(linear_motor_);
-    describe(inner, member);
-    inner.key_ = std::string(key);
-    inner.shown_ = shown;
-    tables_.push_back(std::move(inner));
-  }
 
   bool linear_motor_;
   std::string key_;
@@ -185,23 +143,63 @@ class TableText {
   std::vector<WrittenValue> listed_;            ///< of the lists' items
 };
 
+std::string TableText::text(const TableText& usual, const std::string& path, Heading heading) const {
+  std::map<std::string, std::string> other;
+  for (const Row& row : usual.rows_) other.emplace(row.key, row.value);
+  std::string out;
+  for (const Row& row : rows_) {
+    const auto same = other.find(row.key);
+    if ((row.required && shown_ != Shown::partly) || same == other.end() || same->second != row.value)
+      out += fmt::format("{} = {}\n", row.key, row.value);
+  }
+  if (heading == Heading::always || (heading == Heading::with_rows && !out.empty()))
+    out = fmt::format("\n[{}]\n", path) + out;
+  const auto within = [&path](const TableText& inner) {
+    return path.empty() ? inner.key_ : path + "." + inner.key_;
+  };
+  for (std::size_t n = 0; n < tables_.size(); ++n) {
+    const TableText& inner = tables_[n];
+    if (inner.shown_ == Shown::never) continue;
+    out += inner.text(usual.tables_[n], within(inner),
+                      inner.shown_ == Shown::always ? Heading::always : Heading::with_rows);
+  }
+  for (std::size_t n = 0; n < items_.size(); ++n)
+    out += fmt::format("\n[[{}]]\n{}", within(items_[n]),
+                       items_[n].text(usual_items_[n], within(items_[n]), Heading::none));
+  return out;
+}
+
+void TableText::add_values(const TableText& usual, const std::string& path,
+                           std::vector<WrittenValue>& out) const {
+  for (const Row& row : rows_) {
+    const bool same = std::any_of(usual.rows_.begin(), usual.rows_.end(), [&](const Row& other) {
+      return other.key == row.key && other.value == row.value;
+    });
+    if (shown_ == Shown::partly && same) continue;
+    out.push_back({path + row.key, row.value, same && !row.required});
+  }
+  for (std::size_t n = 0; n < tables_.size(); ++n)
+    if (tables_[n].shown_ != Shown::never)
+      tables_[n].add_values(usual.tables_[n], path + tables_[n].key_ + ".", out);
+  for (const WrittenValue& value : listed_) out.push_back({path + value.path, value.text, value.usual});
+}
+
 /// The quantities, counts and texts that a sheet gives.
-struct KeysGiven {
+class KeysGiven final : public sixstep::base::Visitor {
+ public:
   std::vector<std::string_view> keys;
-  template <class T>
-  void quantity(std::string_view key, const std::optional<T>& member, const sixstep::base::About&) {
-    if (member) keys.push_back(key);
+
+ private:
+  void visit_quantity(std::string_view key, const sixstep::base::QuantityMember& member,
+                      const sixstep::base::About&) override {
+    if (quantity_in(member)) keys.push_back(key);
   }
-  void value(std::string_view key, const std::optional<int>& member, const sixstep::base::About&) {
-    if (member) keys.push_back(key);
+  void visit_value(std::string_view key, const sixstep::base::ValueMember& member,
+                   const sixstep::base::About&) override {
+    const std::optional<int>* const* count = std::get_if<std::optional<int>*>(&member);
+    const std::string* const* text = std::get_if<std::string*>(&member);
+    if ((count && **count) || (text && !(*text)->empty())) keys.push_back(key);
   }
-  void value(std::string_view key, const std::string& member, const sixstep::base::About&) {
-    if (!member.empty()) keys.push_back(key);
-  }
-  template <class T>
-  void value(std::string_view, const T&, const sixstep::base::About&) {}
-  template <class Enum, class Choices>
-  void choice(std::string_view, const Enum&, const Choices&, const sixstep::base::About&) {}
 };
 
 /// What is given where nothing is overridden: the motor's own sheet. A key that it has and the run has not was dropped with the

@@ -8,6 +8,7 @@
 
 #include "sixstep/design/sheet/sheet_constants.hpp"
 #include "sixstep/design/sheet/sheet_description.hpp"
+#include "sixstep/design/sheet/sheet_spellings.hpp"
 #include "text/keys/key_catalog.hpp"
 #include "text/motor/motor_library.hpp"
 #include "text/scenario/motion_words.hpp"

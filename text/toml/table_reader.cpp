@@ -113,7 +113,7 @@ base::About in_spelling(base::About about, const base::Spelling& spelling) {
 
 }  // namespace
 
-void TableReader::value(std::string_view key, double& member, const base::About& about) {
+void TableReader::read(std::string_view key, double& member, const base::About& about) {
   const std::optional<base::Spelling> spelling =
       about.also.empty() ? std::nullopt : spelling_in_file(key, about);
   if (!spelling || spelling->key == key) {
@@ -125,7 +125,7 @@ void TableReader::value(std::string_view key, double& member, const base::About&
     member = base::in_own_unit(written, *spelling);
 }
 
-void TableReader::value(std::string_view key, std::int64_t& member, const base::About& about) {
+void TableReader::read(std::string_view key, std::int64_t& member, const base::About& about) {
   const toml::node* node = find(key, about);
   double checked = 0.0;
   if (!node || !number(*node, at(key), about, checked)) return;
@@ -135,16 +135,16 @@ void TableReader::value(std::string_view key, std::int64_t& member, const base::
     complaints_.value(*node, at(key), {.limit = "must be a whole number", .cure = cure_of(about)});
 }
 
-void TableReader::value(std::string_view key, int& member, const base::About& about) {
+void TableReader::read(std::string_view key, int& member, const base::About& about) {
   std::int64_t wide = member;
   base::About narrow = about;
   narrow.range.high = std::min(narrow.range.high, 2147483647.0);
   narrow.range.low = std::max(narrow.range.low, -2147483648.0);
-  value(key, wide, narrow);
+  read(key, wide, narrow);
   member = static_cast<int>(wide);
 }
 
-void TableReader::value(std::string_view key, bool& member, const base::About& about) {
+void TableReader::read(std::string_view key, bool& member, const base::About& about) {
   const toml::node* node = find(key, about);
   if (!node) return;
   if (const toml::value<bool>* flag = node->as_boolean())
@@ -154,11 +154,11 @@ void TableReader::value(std::string_view key, bool& member, const base::About& a
                       {.limit = "must be true or false", .cure = fmt::format("it means: {}", about.meaning)});
 }
 
-void TableReader::value(std::string_view key, std::string& member, const base::About& about) {
+void TableReader::read(std::string_view key, std::string& member, const base::About& about) {
   if (const toml::node* node = find(key, about)) word(*node, at(key), about, member);
 }
 
-void TableReader::value(std::string_view given, std::vector<double>& member, const base::About& own) {
+void TableReader::read(std::string_view given, std::vector<double>& member, const base::About& own) {
   const std::optional<base::Spelling> spelling =
       own.also.empty() ? std::nullopt : spelling_in_file(given, own);
   const bool other = spelling && spelling->key != given;
@@ -182,7 +182,7 @@ void TableReader::value(std::string_view given, std::vector<double>& member, con
     for (double& x : member) x = base::in_own_unit(x, *spelling);
 }
 
-void TableReader::value(std::string_view key, std::vector<std::string>& member, const base::About& about) {
+void TableReader::read(std::string_view key, std::vector<std::string>& member, const base::About& about) {
   const toml::node* node = find(key, about);
   if (!node) return;
   const toml::array* items = node->as_array();

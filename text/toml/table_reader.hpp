@@ -6,18 +6,17 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <vector>
 
-#include "sixstep/base/describe.hpp"
 #include "sixstep/base/result.hpp"
+#include "sixstep/base/visitor.hpp"
 #include "text/keys/units.hpp"
 #include "text/rooms.hpp"
 #include "text/toml/complaints.hpp"
 
 namespace text {
 
-class TableReader {
+class TableReader final : public base::Visitor {
  public:
   /// `path` is where the table stands; empty for the file itself. `partial`: no key is required.
   /// `advice` is told of keys that are nothing like those of the table; empty: they are listed.
@@ -25,92 +24,29 @@ class TableReader {
               std::string_view advice = {})
       : table_(table), path_(std::move(path)), complaints_(complaints), partial_(partial), advice_(advice) {}
 
-  void value(std::string_view key, double& member, const base::About& about);
-  void value(std::string_view key, int& member, const base::About& about);
-  void value(std::string_view key, std::int64_t& member, const base::About& about);
-  void value(std::string_view key, bool& member, const base::About& about);
-  void value(std::string_view key, std::string& member, const base::About& about);
-  void value(std::string_view key, std::vector<double>& member, const base::About& about);
-  void value(std::string_view key, std::vector<std::string>& member, const base::About& about);
-  void quantity(std::string_view key, base::Quantity& member, const base::About& about);
-
-  template <class T>
-  void value(std::string_view key, std::optional<T>& member, const base::About& about) {
-    if (!any_spelling_in_file(key, about)) return absent(key, about);
-    T present{};
-    refused_ = false;
-    if constexpr (std::is_same_v<T, double>)
-      value(key, present, about);  // which looks for its spellings itself
-    else
-      value(spelling_in_file(key, about)->key, present, about);
-    if constexpr (std::is_arithmetic_v<T>)
-      if (refused_) present = static_cast<T>(within(about));  // it is told of; what follows sees it as given
-    member = std::move(present);
-  }
-
-  void quantity(std::string_view key, std::optional<base::Quantity>& member, const base::About& about) {
-    if (!any_spelling_in_file(key, about)) return absent(key, about);
-    std::optional<base::Quantity> read = member ? member : base::Quantity{};
-    quantity(key, *read, about);
-    // What could not be read is no number of the file's: what follows sees none, or the one that it was to replace.
-    if (!complaints_.about(shown(at(read->key.empty() ? key : std::string_view(read->key))))) member = read;
-  }
-
-  template <class Enum, class Choices>
-  void choice(std::string_view key, Enum& member, const Choices& choices, const base::About& about) {
-    const toml::node* node = find(key, about);
-    lost_word_ = lost_word_ || (!node && about.required);
-    if (!node) return;
-    // A word of digits is a number to TOML where it has no quotes, as behind --set.
-    const toml::value<std::int64_t>* digits = node->as_integer();
-    const std::optional<std::string> said =
-        digits ? std::to_string(digits->get()) : node->value<std::string>();
-    std::vector<std::string> words;
-    for (const auto& choice : choices) {
-      const std::string_view instead = of_other_motion(choice, choices);
-      if (said == choice.word) {
-        member = choice.value;
-        if (!instead.empty()) complaints_.other_motion(at(key), "\"" + std::string(instead) + "\"");
-        return;
-      }
-      if (instead.empty()) words.emplace_back(choice.word);
-    }
-    lost_word_ = true;
-    no_such_word(*node, key, words);
-  }
-
-  template <class Struct>
-  void table(std::string_view key, Struct& member, const base::About& about) {
-    const toml::table* inner = find_table(key, about);
-    if (!inner) return;
-    TableReader reader(*inner, at(key), complaints_, partial_ || about.partial, about.cure);
-    describe(reader, member);
-    reader.refuse_unknown_keys();
-  }
-
-  template <class Struct>
-  void table(std::string_view key, std::optional<Struct>& member, const base::About& about) {
-    if (!given(key)) return absent(key, about);
-    table(key, member.emplace(), about);
-  }
-
-  template <class Struct>
-  void list(std::string_view key, std::vector<Struct>& member, const base::About& about) {
-    const toml::array* items = find_tables(key, about);
-    if (!items) return;
-    member.clear();
-    for (std::size_t n = 0; n < items->size(); ++n) {
-      TableReader reader(*items->get(n)->as_table(), at(key) + "[" + std::to_string(n) + "]", complaints_,
-                         partial_, about.cure);
-      describe(reader, member.emplace_back());
-      reader.refuse_unknown_keys();
-    }
-  }
-
   /// To be called last: every key that no description named.
   void refuse_unknown_keys();
 
  private:
+  void visit_value(std::string_view key, const base::ValueMember& member, const base::About& about) override;
+  void visit_quantity(std::string_view key, const base::QuantityMember& member,
+                      const base::About& about) override;
+  void visit_word(std::string_view key, base::WordMember& member, const base::About& about) override;
+  void visit_table(std::string_view key, base::TableMember& member, const base::About& about) override;
+  void visit_list(std::string_view key, base::ListMember& member, const base::About& about) override;
+
+  void read(std::string_view key, double& member, const base::About& about);
+  void read(std::string_view key, int& member, const base::About& about);
+  void read(std::string_view key, std::int64_t& member, const base::About& about);
+  void read(std::string_view key, bool& member, const base::About& about);
+  void read(std::string_view key, std::string& member, const base::About& about);
+  void read(std::string_view key, std::vector<double>& member, const base::About& about);
+  void read(std::string_view key, std::vector<std::string>& member, const base::About& about);
+  void read(std::string_view key, base::Quantity& member, const base::About& about);
+  void read(std::string_view key, std::optional<base::Quantity>& member, const base::About& about);
+  template <class T>
+  void read(std::string_view key, std::optional<T>& member, const base::About& about);
+
   std::string at(std::string_view key) const {
     return path_.empty() ? std::string(key) : path_ + "." + std::string(key);
   }
@@ -140,13 +76,7 @@ class TableReader {
   std::optional<double> last_digit(const toml::node& node, const std::string& path, const base::About& about,
                                    int ten) const;
   /// The word of this motor for one that is the other kind's; empty for one of this or of both.
-  template <class Choice, class Choices>
-  std::string_view of_other_motion(const Choice& choice, const Choices& choices) const {
-    if (!complaints_.linear_motor()) return choice.turning;
-    for (const auto& other : choices)
-      if (other.turning == choice.word) return other.word;
-    return {};
-  }
+  std::string_view of_other_motion(const base::WordMember& words, const base::WordMember::Word& word) const;
   const toml::table* find_table(std::string_view key, const base::About& about);
   const toml::array* find_tables(std::string_view key, const base::About& about);
   /// A number that the key may have.

@@ -110,7 +110,7 @@ void TableReader::parts(const toml::table& table, const std::string& path, const
   reader.refuse_unknown_keys();
 }
 
-void TableReader::quantity(std::string_view key, base::Quantity& member, const base::About& about) {
+void TableReader::read(std::string_view key, base::Quantity& member, const base::About& about) {
   const std::optional<base::Spelling> spelling = spelling_in_file(key, about);
   if (!spelling) {
     find(key, about);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sixstep/analysis/plan/plan.hpp"
-#include "sixstep/base/describe.hpp"
+#include "sixstep/base/visitor.hpp"
 
 namespace sixstep::analysis {
 
@@ -45,8 +45,7 @@ inline constexpr base::Choice<Spacing> spacing_choices[] = {
     {"log", Spacing::logarithmic, "equal factors"},
 };
 
-template <class Visitor>
-void describe(Visitor& v, AxisEntry& s) {
+inline void describe(base::Visitor& v, AxisEntry& s) {
   v.value("key", s.key,
           {.meaning = "what is varied: a key of the scenario, as pwm.period_s", .required = true});
   v.value("values", s.values, {.meaning = "the values that it takes, as the scenario would write them"});
@@ -61,8 +60,7 @@ void describe(Visitor& v, AxisEntry& s) {
                   "else the controller is designed for each value"});
 }
 
-template <class Visitor>
-void describe(Visitor& v, PlanEntry& s) {
+inline void describe(base::Visitor& v, PlanEntry& s) {
   v.value("title", s.title, {.meaning = "one line that names the plan"});
   v.value("scenario", s.scenario,
           {.meaning = "the scenario that all runs are made of, beside this file", .required = true});

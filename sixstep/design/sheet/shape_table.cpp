@@ -7,6 +7,7 @@
 #include "sixstep/base/elementary.hpp"
 #include "sixstep/design/sheet/sheet_description.hpp"
 #include "sixstep/design/sheet/sheet_reader.hpp"
+#include "sixstep/design/sheet/winding_description.hpp"
 
 namespace sixstep::design {
 namespace {

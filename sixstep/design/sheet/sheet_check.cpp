@@ -51,10 +51,16 @@ constexpr Reason reasons[] = {
 };
 
 /// Visits a sheet and says of each quantity given whether the model is made of it.
-class Lines {
+class Lines final : public base::Visitor {
  public:
   explicit Lines(const SheetConstants& constants) : constants_(constants) {}
-  void quantity(std::string_view key, std::optional<Quantity>& q, const base::About& about) {
+
+  std::vector<LineUse> lines;
+
+ private:
+  void visit_quantity(std::string_view key, const base::QuantityMember& member,
+                      const base::About& about) override {
+    const Quantity* const q = quantity_in(member);
     if (!q) return;
     const bool geometry = key == "active_length_mm" || key == "air_gap_radius_mm";
     const bool body = key.starts_with("rotor_");
@@ -67,14 +73,6 @@ class Lines {
     if (!line.used) line.why = why_not(key);
     lines.push_back(std::move(line));
   }
-  template <class T>
-  void value(std::string_view, T&, const base::About&) {}
-  template <class Enum, class Choices>
-  void choice(std::string_view, Enum&, const Choices&, const base::About&) {}
-
-  std::vector<LineUse> lines;
-
- private:
   std::string why_not(std::string_view key) const {
     if (key.ends_with("no_load_speed_rpm") || key.ends_with("no_load_current_mA")) return why_no_point(key);
     for (const Reason& reason : reasons)

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The keys of a motor file: the only place of their names, units, frames and meanings.
-#pragma once
-#include "sixstep/base/describe.hpp"
-#include "sixstep/design/sheet/sheet.hpp"
+#include "sixstep/design/sheet/sheet_description.hpp"
+
 #include "sixstep/design/sheet/sheet_spellings.hpp"
 #include "sixstep/design/sheet/winding_description.hpp"
 
 namespace sixstep::design {
 
-template <class Visitor>
-void describe_words(Visitor& v, Sheet& s) {
+void describe_words(base::Visitor& v, Sheet& s) {
   v.value("name", s.name, {.meaning = "what the motor is called", .required = true});
   v.value("maker", s.maker, {.meaning = "who makes it"});
   v.value("notes", s.notes, {.meaning = "what a reader should know about the values"});
@@ -21,8 +18,7 @@ void describe_words(Visitor& v, Sheet& s) {
           {.meaning = "relations between its values that this sheet is known to break"});
 }
 
-template <class Visitor>
-void describe_torque_constant(Visitor& v, Sheet& s) {
+void describe_torque_constant(base::Visitor& v, Sheet& s) {
   v.quantity("torque_constant_mNm_A", s.torque_constant_mNm_A,
              {.meaning = "torque per ampere through the driven pair, mean over a sector",
               .unit = "mNm/A",
@@ -79,8 +75,7 @@ void describe_torque_constant(Visitor& v, Sheet& s) {
           {.meaning = "turns N in series between two terminals", .range = base::between(1, most_turns)});
 }
 
-template <class Visitor>
-void describe_mechanics(Visitor& v, Sheet& s) {
+void describe_mechanics(base::Visitor& v, Sheet& s) {
   v.quantity("inertia_gcm2", s.inertia_gcm2,
              {.meaning = "moment of inertia of the rotor",
               .unit = "g cm2",
@@ -134,8 +129,7 @@ void describe_mechanics(Visitor& v, Sheet& s) {
        .also = spellings::iron_coulomb});
 }
 
-template <class Visitor>
-void describe_no_load(Visitor& v, Sheet& s) {
+void describe_no_load(base::Visitor& v, Sheet& s) {
   v.quantity("no_load_voltage_V", s.no_load_voltage_V,
              {.meaning = "voltage of the no-load point, where it is not the nominal one",
               .unit = "V",
@@ -172,8 +166,7 @@ void describe_no_load(Visitor& v, Sheet& s) {
               .range = base::from(0)});
 }
 
-template <class Visitor>
-void describe_ratings(Visitor& v, Sheet& s) {
+void describe_ratings(base::Visitor& v, Sheet& s) {
   v.quantity("nominal_speed_rpm", s.nominal_speed_rpm,
              {.meaning = "speed at nominal voltage and torque",
               .unit = "rpm",
@@ -226,8 +219,7 @@ void describe_ratings(Visitor& v, Sheet& s) {
               .also = spellings::max_speed});
 }
 
-template <class Visitor>
-void describe_thermal(Visitor& v, Sheet& s) {
+void describe_thermal(base::Visitor& v, Sheet& s) {
   v.quantity("thermal_resistance_winding_housing_K_W", s.thermal_resistance_winding_housing_K_W,
              {.meaning = "temperature of the winding above the housing, per watt of its loss",
               .unit = "K/W",
@@ -260,8 +252,7 @@ void describe_thermal(Visitor& v, Sheet& s) {
            .range = base::between(0, 1)});
 }
 
-template <class Visitor>
-void describe(Visitor& v, Sheet& s) {
+void describe(base::Visitor& v, Sheet& s) {
   describe_words(v, s);
   describe_winding(v, s);
   describe_torque_constant(v, s);

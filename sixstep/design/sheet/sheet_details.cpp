@@ -5,6 +5,7 @@
 #include "sixstep/design/sheet/parameters.hpp"
 #include "sixstep/design/sheet/sheet_description.hpp"
 #include "sixstep/design/sheet/sheet_reader.hpp"
+#include "sixstep/design/sheet/winding_description.hpp"
 
 namespace sixstep::design {
 namespace {

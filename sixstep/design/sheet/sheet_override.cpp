@@ -30,29 +30,22 @@ constexpr std::array<std::string_view, 1> shape_file = {"back_emf_file"};
 constexpr std::array<std::string_view, 3> pole_keys = {"pole_pairs", "poles", "winding"};
 
 /// Visits a sheet and clears those of the keys that the override leaves alone.
-class Forget {
+class Forget final : public base::Visitor {
  public:
   Forget(Keys keys, const std::function<bool(std::string_view)>& overridden)
       : keys_(keys), overridden_(overridden) {}
-  template <class T>
-  void quantity(std::string_view key, std::optional<T>& member, const base::About&) {
-    if (stale(key)) member.reset();
-  }
-  void value(std::string_view key, std::optional<int>& member, const base::About&) {
-    if (stale(key)) member.reset();
-  }
-  void value(std::string_view key, std::string& member, const base::About&) {
-    if (stale(key)) member.clear();
-  }
-  void value(std::string_view key, std::vector<double>& member, const base::About&) {
-    if (stale(key)) member.clear();
-  }
-  template <class T>
-  void value(std::string_view, T&, const base::About&) {}
-  template <class Enum, class Choices>
-  void choice(std::string_view, Enum&, const Choices&, const base::About&) {}
 
  private:
+  void visit_quantity(std::string_view key, const base::QuantityMember& member, const base::About&) override {
+    std::optional<base::Quantity>* const* q = std::get_if<std::optional<base::Quantity>*>(&member);
+    if (q && stale(key)) (*q)->reset();
+  }
+  void visit_value(std::string_view key, const base::ValueMember& member, const base::About&) override {
+    if (!stale(key)) return;
+    if (std::optional<int>* const* count = std::get_if<std::optional<int>*>(&member)) (*count)->reset();
+    if (std::string* const* text = std::get_if<std::string*>(&member)) (*text)->clear();
+    if (std::vector<double>* const* list = std::get_if<std::vector<double>*>(&member)) (*list)->clear();
+  }
   bool stale(std::string_view key) const {
     return std::find(keys_.begin(), keys_.end(), key) != keys_.end() && !overridden_(key);
   }

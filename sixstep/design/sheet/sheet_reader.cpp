@@ -11,44 +11,37 @@ namespace sixstep::design {
 namespace {
 
 /// The visitor that holds each number to what it may be.
-class Numbers {
+class Numbers final : public base::Visitor {
  public:
   explicit Numbers(SheetReader& reader) : reader_(reader) {}
 
-  void quantity(std::string_view key, const std::optional<base::Quantity>& q, const base::About& about) {
+ private:
+  void visit_quantity(std::string_view key, const base::QuantityMember& member,
+                      const base::About& about) override {
+    const base::Quantity* const q = quantity_in(member);
     if (!q) return;
     const base::Range allowed = base::allowed(about);
     if (allowed.holds(q->value)) return;
     reader_.wrong(key, *q, limit_of(about.range, allowed, q->value),
                   "give the value as the sheet prints it, or leave the key out");
   }
-  template <class Other>
-  void value(std::string_view, const Other&, const base::About&) {}
-  template <class Enum, class Choices>
-  void choice(std::string_view, const Enum&, const Choices&, const base::About&) {}
 
- private:
   SheetReader& reader_;
 };
 
 /// The visitor that finds what one key's other spelling is worth.
-class Spelled {
+class Spelled final : public base::Visitor {
  public:
   Spelled(std::string_view key, std::string_view spelling) : key_(key), spelling_(spelling) {}
-
-  void quantity(std::string_view key, const std::optional<base::Quantity>&, const base::About& about) {
-    if (key != key_) return;
-    for (const base::Spelling& s : about.also)
-      if (s.key == spelling_) found = s;
-  }
-  template <class Other>
-  void value(std::string_view, const Other&, const base::About&) {}
-  template <class Enum, class Choices>
-  void choice(std::string_view, const Enum&, const Choices&, const base::About&) {}
 
   std::optional<base::Spelling> found;
 
  private:
+  void visit_quantity(std::string_view key, const base::QuantityMember&, const base::About& about) override {
+    if (key != key_) return;
+    for (const base::Spelling& s : about.also)
+      if (s.key == spelling_) found = s;
+  }
   std::string_view key_, spelling_;
 };
 

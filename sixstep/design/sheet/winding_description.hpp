@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The keys of a motor file that speak of poles and windings: the only place of their names, units, frames and meanings.
 #pragma once
-#include "sixstep/base/describe.hpp"
+#include "sixstep/base/visitor.hpp"
 #include "sixstep/design/sheet/sheet.hpp"
 #include "sixstep/design/sheet/sheet_spellings.hpp"
 
@@ -41,8 +41,7 @@ inline constexpr base::Choice<WindingConnection> connection_choices[] = {
     {"delta", WindingConnection::delta, "the phases lie between the terminals, and a current may run round"},
 };
 
-template <class Visitor>
-void describe_winding(Visitor& v, Sheet& s) {
+inline void describe_winding(base::Visitor& v, Sheet& s) {
   v.choice("kind", s.kind, kind_choices, {.meaning = "whether the motor turns or moves along a line"});
   v.quantity(
       "pole_pitch_mm", s.pole_pitch_mm,

@@ -5,6 +5,7 @@
 #include "sixstep/base/range_text.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/scenario/changes.hpp"
+#include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/scenario_description.hpp"
 
 namespace sixstep::study {
@@ -15,16 +16,20 @@ namespace {
 constexpr std::size_t most_told = 5;
 
 /// The visitor that holds each number to what it may be.
-class Numbers {
+class Numbers final : public base::Visitor {
  public:
   explicit Numbers(const Scenario& s)
       : modes_(modes_from(s)), reference_unit_(reference_unit(s.control.mode)) {}
 
   base::Problems found;
 
-  void value(std::string_view key, const double& x, const base::About& about) { look(key, x, about); }
-  void value(std::string_view key, const int& x, const base::About& about) { look(key, x, about); }
-  void value(std::string_view key, const std::vector<double>& list, const base::About& about) {
+ private:
+  void visit_value(std::string_view key, const base::ValueMember& member, const base::About& about) override {
+    std::visit([&](const auto* of) { hold(key, *of, about); }, member);
+  }
+  void hold(std::string_view key, const double& x, const base::About& about) { look(key, x, about); }
+  void hold(std::string_view key, const int& x, const base::About& about) { look(key, x, about); }
+  void hold(std::string_view key, const std::vector<double>& list, const base::About& about) {
     const base::Range range = range_of(about);
     std::size_t told = 0;
     for (std::size_t n = 0; n < list.size() && told < most_told; ++n)
@@ -32,33 +37,24 @@ class Numbers {
         told += look(std::string(key) + "[" + std::to_string(n) + "]", list[n], about);
   }
   template <class T>
-  void value(std::string_view key, const std::optional<T>& x, const base::About& about) {
-    if (x) value(key, *x, about);
+  void hold(std::string_view key, const std::optional<T>& x, const base::About& about) {
+    if (x) hold(key, *x, about);
   }
   template <class Other>
-  void value(std::string_view, const Other&, const base::About&) {}
-  template <class Enum, class Choices>
-  void choice(std::string_view, const Enum&, const Choices&, const base::About&) {}
-  void table(std::string_view, design::Sheet&, const base::About&) {}
-  template <class Struct>
-  void table(std::string_view key, Struct& member, const base::About&) {
-    within(std::string(key), member);
+  void hold(std::string_view, const Other&, const base::About&) {}
+  /// The sheet is held to its own limits (design/sheet/sheet_reader.hpp).
+  void visit_table(std::string_view key, base::TableMember& member, const base::About&) override {
+    if (member.is_there() && key != sheet_table) within(std::string(key), [&] { member.walk(*this); });
   }
-  template <class Struct>
-  void table(std::string_view key, std::optional<Struct>& member, const base::About&) {
-    if (member) within(std::string(key), *member);
-  }
-  template <class Item>
-  void list(std::string_view key, std::vector<Item>& items, const base::About&) {
+  void visit_list(std::string_view key, base::ListMember& items, const base::About&) override {
     const std::string_view at_start = reference_unit_;
     for (std::size_t n = 0; n < items.size(); ++n) {
-      if constexpr (std::is_same_v<Item, At>) reference_unit_ = reference_unit(modes_[n]);
-      within(std::string(key) + "[" + std::to_string(n) + "]", items[n]);
+      if (key == events_list) reference_unit_ = reference_unit(modes_[n]);
+      within(std::string(key) + "[" + std::to_string(n) + "]", [&] { items.walk(n, *this); });
     }
     reference_unit_ = at_start;
   }
 
- private:
   /// A reference is in its mode's unit.
   base::Range range_of(const base::About& about) const {
     return about.mode_unit == "*" ? base::allowed(about.range, reference_unit_) : base::allowed(about);
@@ -71,11 +67,11 @@ class Numbers {
                          (about.unit.empty() ? "" : ", in " + std::string(about.unit))});
     return 1;
   }
-  template <class Struct>
-  void within(const std::string& key, Struct& member) {
+  template <class Walk>
+  void within(const std::string& key, const Walk& walk) {
     const std::size_t outer = path_.size();
     path_ += key + ".";
-    describe(*this, member);
+    walk();
     path_.resize(outer);
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The keys of [[at]]: what may change while a run goes on.
 #pragma once
+#include "sixstep/base/visitor.hpp"
 #include "sixstep/study/scenario/at_sensors_description.hpp"
 #include "sixstep/study/scenario/control_description.hpp"
 #include "sixstep/study/scenario/linear_words.hpp"
@@ -8,8 +9,7 @@
 
 namespace sixstep::study {
 
-template <class Visitor>
-void describe(Visitor& v, AtSupply& s) {
+inline void describe(base::Visitor& v, AtSupply& s) {
   v.value("voltage_V", s.voltage_V,
           {.meaning = "voltage of the source from then on; a stiff bus follows at once",
            .unit = "V",
@@ -17,8 +17,7 @@ void describe(Visitor& v, AtSupply& s) {
   v.value("sinks", s.sinks, {.meaning = "whether the source takes current back from then on"});
 }
 
-template <class Visitor>
-void describe(Visitor& v, AtLoad& s) {
+inline void describe(base::Visitor& v, AtLoad& s) {
   v.value("torque_Nm", s.torque_Nm,
           {.meaning = "load torque from then on, until the next of load.times_s",
            .unit = "N m",
@@ -42,8 +41,7 @@ inline constexpr base::Choice<AtChopping> at_chopping_choices[] = {
     {"complementary", AtChopping::complementary, chopping_choices[2].meaning},
 };
 
-template <class Visitor>
-void describe(Visitor& v, AtCurrentLoop& s) {
+inline void describe(base::Visitor& v, AtCurrentLoop& s) {
   describe_gains(v, s, current_gain_meanings);
   v.value("band_A", s.band_A,
           {.meaning = "hysteresis: half width of the band from then on", .unit = "A", .range = above(0)});
@@ -53,8 +51,7 @@ void describe(Visitor& v, AtCurrentLoop& s) {
            .range = above(0)});
 }
 
-template <class Visitor>
-void describe(Visitor& v, AtSpeedLoop& s) {
+inline void describe(base::Visitor& v, AtSpeedLoop& s) {
   describe_gains(v, s, speed_gain_meanings);
   v.value("torque_limit_Nm", s.torque_limit_Nm,
           {.meaning = "torque at the speed controller's full output from then on",
@@ -63,8 +60,7 @@ void describe(Visitor& v, AtSpeedLoop& s) {
            .also = words::force_limit});
 }
 
-template <class Visitor>
-void describe(Visitor& v, AtPositionLoop& s) {
+inline void describe(base::Visitor& v, AtPositionLoop& s) {
   v.value("gain_rad_s_per_deg", s.gain_rad_s_per_deg,
           {.meaning = "speed asked for per degree of position error from then on",
            .unit = "rad/s/deg",
@@ -77,8 +73,7 @@ void describe(Visitor& v, AtPositionLoop& s) {
            .also = words::speed_limit});
 }
 
-template <class Visitor>
-void describe(Visitor& v, AtLimits& s) {
+inline void describe(base::Visitor& v, AtLimits& s) {
   v.value("current_A", s.current_A,
           {.meaning = "bound on the current reference from then on", .unit = "A", .range = above(0)});
   v.value(
@@ -97,14 +92,12 @@ inline constexpr base::Choice<AtCommutates> at_commutates_choices[] = {
     {"hall", AtCommutates::hall, commutates_choices[1].meaning},
 };
 
-template <class Visitor>
-void describe(Visitor& v, AtSensorless& s) {
+inline void describe(base::Visitor& v, AtSensorless& s) {
   v.choice("commutates", s.commutates, at_commutates_choices,
            {.meaning = "what the pairs are commutated by, once both agree on where the rotor is"});
 }
 
-template <class Visitor>
-void describe(Visitor& v, AtControl& s) {
+inline void describe(base::Visitor& v, AtControl& s) {
   v.choice("mode", s.mode, at_mode_choices,
            {.meaning = "what is controlled from the next control sample on; with a reference in its unit"});
   v.table("current", s.current, {.meaning = "the current controller", .cure = what_may_change});
@@ -118,8 +111,7 @@ void describe(Visitor& v, AtControl& s) {
   v.table("sensorless", s.sensorless, {.meaning = "the sensorless drive", .cure = what_may_change});
 }
 
-template <class Visitor>
-void describe(Visitor& v, AtPwm& s) {
+inline void describe(base::Visitor& v, AtPwm& s) {
   v.choice("chopping", s.chopping, at_chopping_choices,
            {.meaning = "which switches are chopped from the next control sample on"});
 }
@@ -140,8 +132,7 @@ inline constexpr base::Choice<AtOrder> at_phase_order_choices[] = {
     {"bac", AtOrder::bac, phase_order_choices[5].meaning},
 };
 
-template <class Visitor>
-void describe(Visitor& v, AtBridge& s) {
+inline void describe(base::Visitor& v, AtBridge& s) {
   v.choice("open_switch", s.open_switch, switch_choices,
            {.meaning = "a switch whose gate no longer acts from then on: it is off, its diode stays"});
   v.choice(
@@ -163,14 +154,12 @@ inline constexpr base::Choice<Wire> wire_choices[] = {
     {"c", Wire::c, "the wire of terminal c"},
 };
 
-template <class Visitor>
-void describe(Visitor& v, AtMotor& s) {
+inline void describe(base::Visitor& v, AtMotor& s) {
   v.choice("broken_wire", s.broken_wire, wire_choices,
            {.meaning = "a wire that breaks then: it opens at its current's next zero, and stays open"});
 }
 
-template <class Visitor>
-void describe(Visitor& v, At& s) {
+inline void describe(base::Visitor& v, At& s) {
   v.value("time_s", s.time_s,
           {.meaning = "when", .unit = "s", .range = base::between(0, longest_s), .required = true});
   v.table("reference", s.reference,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The keys of [[at]].sensors: what may happen to Hall lines, amplifiers, encoders and resolvers while a run goes on.
 #pragma once
+#include "sixstep/base/visitor.hpp"
 #include "sixstep/study/scenario/at.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
 
@@ -22,8 +23,7 @@ inline constexpr base::Choice<PinLevel> pin_level_choices[] = {
     {"probe", PinLevel::probe, "what its probe says: the break is over, and was a glitch"},
 };
 
-template <class Visitor>
-void describe(Visitor& v, AtHallBreak& s) {
+inline void describe(base::Visitor& v, AtHallBreak& s) {
   v.value("line", s.line, {.meaning = "which of H1, H2, H3", .range = base::between(1, 3)});
   v.choice("level", s.level, pin_level_choices, {.meaning = "what the pin reads from then on"});
 }
@@ -55,8 +55,7 @@ inline constexpr base::Choice<EncoderLevel> encoder_level_choices[] = {
     {"whole", EncoderLevel::whole, "what the encoder gives: the fault is over"},
 };
 
-template <class Visitor>
-void describe(Visitor& v, AtTrack& s) {
+inline void describe(base::Visitor& v, AtTrack& s) {
   v.value("track", s.track,
           {.meaning = "which, 1 the finest, up to sensors.absolute.bits", .range = base::between(1, 20)});
   v.choice("level", s.level, encoder_level_choices, {.meaning = "what it shows from then on"});
@@ -69,8 +68,7 @@ inline constexpr base::Choice<EncoderLine> encoder_line_choices[] = {
      "the index: stuck it is lost, and where it rises by that it is passed at a wrong place"},
 };
 
-template <class Visitor>
-void describe(Visitor& v, AtEncoderLine& s) {
+inline void describe(base::Visitor& v, AtEncoderLine& s) {
   v.choice("line", s.line, encoder_line_choices, {.meaning = "which of the encoder's three"});
   v.choice(
       "level", s.level, encoder_level_choices,
@@ -92,8 +90,7 @@ inline constexpr base::Choice<Wire> divider_choices[] = {
     {"c", Wire::c, "that of terminal c"},
 };
 
-template <class Visitor>
-void describe(Visitor& v, AtSensors& s) {
+inline void describe(base::Visitor& v, AtSensors& s) {
   v.table("hall_break", s.hall_break, {.meaning = "a Hall line that breaks then, or is whole again"});
   v.choice("hall_lines", s.hall_lines, at_hall_order_choices,
            {.meaning = "which Hall probe is wired to pins H1, H2, H3 of the board from then on"});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The keys of [bridge] and [heat].
 #pragma once
+#include "sixstep/base/visitor.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 
 namespace sixstep::study {
@@ -13,8 +14,7 @@ using base::from;
 inline constexpr double most_energy_J = 100, most_charge_C = 0.03, most_gate_A = 200;
 
 /// What acts on efficiency and temperatures alone.
-template <class Visitor>
-void describe_losses(Visitor& v, Bridge& s) {
+inline void describe_losses(base::Visitor& v, Bridge& s) {
   v.value("turn_on_J", s.turn_on_J,
           {.meaning = "energy of a turn-on at energies_at_V and energies_at_A",
            .unit = "J",
@@ -59,8 +59,7 @@ void describe_losses(Visitor& v, Bridge& s) {
        .range = from(0)});
 }
 
-template <class Visitor>
-void describe(Visitor& v, Bridge& s) {
+inline void describe(base::Visitor& v, Bridge& s) {
   v.choice("phases", s.phases, phase_order_choices,
            {.meaning = "which phase of the motor is wired to legs a, b, c of the bridge"});
   v.choice("device", s.device, device_choices, {.meaning = "kind of the six switches"});
@@ -85,8 +84,7 @@ void describe(Visitor& v, Bridge& s) {
   describe_losses(v, s);
 }
 
-template <class Visitor>
-void describe(Visitor& v, Heat& s) {
+inline void describe(base::Visitor& v, Heat& s) {
   v.value(
       "motor", s.motor,
       {.meaning = "whether winding and housing warm up by the sheet's thermal lines, and R and K_e follow"});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The keys of [sensors.comparators]: names, units, ranges and meanings.
 #pragma once
-#include "sixstep/base/describe.hpp"
+#include "sixstep/base/visitor.hpp"
 #include "sixstep/study/scenario/sensors.hpp"
 
 namespace sixstep::study {
@@ -13,8 +13,7 @@ inline constexpr base::Choice<rig::CrossingReference> crossing_reference_choices
      "half the bus, filtered alike: it tells while the pair is on, and the filter has to be settled within half a pulse"},
 };
 
-template <class Visitor>
-void describe(Visitor& v, Comparators& s) {
+inline void describe(base::Visitor& v, Comparators& s) {
   v.value("bandwidth_Hz", s.bandwidth_Hz,
           {.meaning = "of the low-pass in front of each, a first-order lag; comparators need one",
            .unit = "Hz",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The keys of [control]: names, units, ranges and meanings.
 #pragma once
-#include "sixstep/base/describe.hpp"
+#include "sixstep/base/visitor.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/control.hpp"
 #include "sixstep/study/scenario/field_description.hpp"
@@ -32,8 +32,8 @@ inline constexpr GainMeanings speed_gain_meanings{
     "integral gain per sample, full output per rad/s, with kp: ki = d1 + d0",
     "integral gain per second, full output per rad, with kp, as other tools give it: ki = ki_per_s times pwm.period_s"};
 
-template <class Visitor, class Loop>
-void describe_gains(Visitor& v, Loop& s, const GainMeanings& of) {
+template <class Loop>
+void describe_gains(base::Visitor& v, Loop& s, const GainMeanings& of) {
   v.value(
       "settle_s", s.settle_s,
       {.meaning = "settling time the poles are placed for, with damping", .unit = "s", .range = above(0)});
@@ -47,8 +47,7 @@ void describe_gains(Visitor& v, Loop& s, const GainMeanings& of) {
   v.value("ki_per_s", s.ki_per_s, {.meaning = of.ki_per_s});
 }
 
-template <class Visitor>
-void describe(Visitor& v, CurrentLoop& s) {
+inline void describe(base::Visitor& v, CurrentLoop& s) {
   v.choice("type", s.type, current_loop_choices, {.meaning = "kind of the current controller"});
   describe_gains(v, s, current_gain_meanings);
   v.value(
@@ -79,8 +78,7 @@ void describe(Visitor& v, CurrentLoop& s) {
            .range = above(0)});
 }
 
-template <class Visitor>
-void describe(Visitor& v, SpeedLoop& s) {
+inline void describe(base::Visitor& v, SpeedLoop& s) {
   v.choice("output", s.output, speed_output_choices, {.meaning = "what the speed controller sets"});
   v.choice("law", s.law, speed_law_choices,
            {.meaning = "what computes its output; all of them are designed for settle_s"});
@@ -121,8 +119,7 @@ void describe(Visitor& v, SpeedLoop& s) {
        .range = between(1, 20)});
 }
 
-template <class Visitor>
-void describe(Visitor& v, PositionProfile& s) {
+inline void describe(base::Visitor& v, PositionProfile& s) {
   v.value("on", s.on,
           {.meaning = "whether the setpoint moves within limits of speed, acceleration and jerk"});
   v.value("speed_rad_s", s.speed_rad_s,
@@ -153,8 +150,7 @@ void describe(Visitor& v, PositionProfile& s) {
            "acceleration and the sheet's friction to what the speed loop does"});
 }
 
-template <class Visitor>
-void describe(Visitor& v, PositionLoop& s) {
+inline void describe(base::Visitor& v, PositionLoop& s) {
   v.value("gain_rad_s_per_deg", s.gain_rad_s_per_deg,
           {.meaning = "speed asked for per degree of position error",
            .unit = "rad/s/deg",
@@ -171,8 +167,7 @@ void describe(Visitor& v, PositionLoop& s) {
       {.meaning = "a setpoint that moves within limits of speed, acceleration and jerk, and lands exactly"});
 }
 
-template <class Visitor>
-void describe(Visitor& v, FullScale& s) {
+inline void describe(base::Visitor& v, FullScale& s) {
   v.value("current_A", s.current_A,
           {.meaning = "largest current and difference of currents that a number holds; without it three "
                       "times the largest reference or limit, or what the bus can drive on top of one",
@@ -194,8 +189,7 @@ void describe(Visitor& v, FullScale& s) {
            .also = words::full_position});
 }
 
-template <class Visitor>
-void describe(Visitor& v, Regeneration& s) {
+inline void describe(base::Visitor& v, Regeneration& s) {
   v.value(
       "limit_V", s.limit_V,
       {.meaning = "bus voltage above which the drive feeds nothing back: all gates are off, unless it drives",
@@ -209,8 +203,7 @@ void describe(Visitor& v, Regeneration& s) {
        .range = above(0)});
 }
 
-template <class Visitor>
-void describe(Visitor& v, Limits& s) {
+inline void describe(base::Visitor& v, Limits& s) {
   v.value("current_A", s.current_A,
           {.meaning = "bound on the current reference in every mode; all gates are off until the next sample "
                       "where a phase is a quarter above it",
@@ -236,8 +229,7 @@ void describe(Visitor& v, Limits& s) {
            .also = words::speed_limit_gain});
 }
 
-template <class Visitor>
-void describe(Visitor& v, SmoothChopping& s) {
+inline void describe(base::Visitor& v, SmoothChopping& s) {
   v.value("on", s.on,
           {.meaning = "whether chopping goes by the current, soft above and complementary below, instead of "
                       "by pwm.chopping: no jump at duty 0"});
@@ -252,8 +244,7 @@ void describe(Visitor& v, SmoothChopping& s) {
            .range = from(0)});
 }
 
-template <class Visitor>
-void describe(Visitor& v, Advance& s) {
+inline void describe(base::Visitor& v, Advance& s) {
   v.value("angle_deg", s.angle_deg,
           {.meaning = "electrical angle before the Hall edge at which the pair changes, at every speed",
            .unit = "deg",
@@ -269,8 +260,7 @@ void describe(Visitor& v, Advance& s) {
            .range = base::strictly_between(0, 60)});
 }
 
-template <class Visitor>
-void describe(Visitor& v, Control& s) {
+inline void describe(base::Visitor& v, Control& s) {
   v.choice("drive", s.drive, drive_choices, {.meaning = "what the chip runs"});
   v.choice("mode", s.mode, mode_choices, {.meaning = "what is controlled, and so what the reference means"});
   v.choice("arithmetic", s.arithmetic, arithmetic_choices,

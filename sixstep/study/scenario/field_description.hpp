@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The keys of [control.field]: names, units, ranges and meanings.
 #pragma once
-#include "sixstep/base/describe.hpp"
+#include "sixstep/base/visitor.hpp"
 #include "sixstep/study/scenario/field.hpp"
 
 namespace sixstep::study {
@@ -28,8 +28,7 @@ inline constexpr base::Choice<FieldLaw> field_law_choices[] = {
      "its reference, for a whole period"},
 };
 
-template <class Visitor>
-void describe(Visitor& v, Field& s) {
+inline void describe(base::Visitor& v, Field& s) {
   using base::above;
   v.choice("law", s.law, field_law_choices, {.meaning = "what holds the currents"});
   v.value(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The keys of [load].
 #pragma once
+#include "sixstep/base/visitor.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/linear_words.hpp"
 
@@ -10,8 +11,7 @@ using base::above;
 using base::between;
 using base::from;
 
-template <class Visitor>
-void describe(Visitor& v, Load& s) {
+inline void describe(base::Visitor& v, Load& s) {
   v.value("torque_Nm", s.torque_Nm,
           {.meaning = "constant load torque, positive against forward motion",
            .unit = "N m",

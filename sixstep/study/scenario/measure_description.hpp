@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The keys of [[require]] and [[compare]]: names, units, ranges and meanings.
 #pragma once
-#include "sixstep/base/describe.hpp"
+#include "sixstep/base/visitor.hpp"
 #include "sixstep/study/scenario/measure_choices.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
 
@@ -11,8 +11,7 @@ using base::above;
 using base::between;
 using base::from;
 
-template <class Visitor>
-void describe(Visitor& v, Measure& s) {
+inline void describe(base::Visitor& v, Measure& s) {
   v.choice("metric", s.metric, metric_choices,
            {.meaning = "figure that is taken of the signal", .required = true});
   v.choice("signal", s.signal, signal_choices, {.meaning = "signal that the figure is taken of"});
@@ -45,8 +44,7 @@ void describe(Visitor& v, Measure& s) {
   v.value("label", s.label, {.meaning = "name of the figure, instead of metric and signal"});
 }
 
-template <class Visitor>
-void describe(Visitor& v, Requirement& s) {
+inline void describe(base::Visitor& v, Requirement& s) {
   describe(v, s.measure);
   const std::string_view unit = figure_unit(s.measure);
   v.value("min", s.min,
@@ -55,8 +53,7 @@ void describe(Visitor& v, Requirement& s) {
           {.meaning = "the figure must be at most this, in the figure's unit", .unit_here = unit});
 }
 
-template <class Visitor>
-void describe(Visitor& v, Comparison& s) {
+inline void describe(base::Visitor& v, Comparison& s) {
   describe(v, s.measure);
   v.value("value", s.value,
           {.meaning = "what the source says, in the figure's unit",

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The keys of [protection]: names, units, ranges and meanings.
 #pragma once
-#include "sixstep/base/describe.hpp"
+#include "sixstep/base/visitor.hpp"
 #include "sixstep/study/scenario/linear_words.hpp"
 #include "sixstep/study/scenario/protection.hpp"
 
 namespace sixstep::study {
 
-template <class Visitor>
-void describe(Visitor& v, Align& s) {
+inline void describe(base::Visitor& v, Align& s) {
   v.value("current_A", s.current_A,
           {.meaning = "current that pulls the rotor into place before it runs; without it there is no "
                       "alignment",
@@ -25,8 +24,7 @@ void describe(Visitor& v, Align& s) {
            .range = base::between(0, 5)});
 }
 
-template <class Visitor>
-void describe_thresholds(Visitor& v, Protection& s) {
+inline void describe_thresholds(base::Visitor& v, Protection& s) {
   using base::above;
   using base::from;
   v.value("over_current_A", s.over_current_A,
@@ -55,8 +53,7 @@ void describe_thresholds(Visitor& v, Protection& s) {
            .range = above(0)});
 }
 
-template <class Visitor>
-void describe(Visitor& v, Protection& s) {
+inline void describe(base::Visitor& v, Protection& s) {
   using base::from;
   describe_thresholds(v, s);
   v.table("align", s.align, {.meaning = "pulling the rotor into place before it runs"});

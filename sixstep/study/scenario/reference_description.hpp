@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The keys of a reference: their names, units, ranges and meanings.
 #pragma once
-#include "sixstep/base/describe.hpp"
+#include "sixstep/base/visitor.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 
 namespace sixstep::study {
@@ -10,8 +10,7 @@ namespace sixstep::study {
 inline constexpr double longest_s = 9e6;
 inline constexpr double shortest_period_s = 1e-9;
 
-template <class Visitor>
-void describe_moving(Visitor& v, Reference& s) {
+inline void describe_moving(base::Visitor& v, Reference& s) {
   v.value(
       "begin_s", s.begin_s,
       {.meaning = "ramp, trapezoid: when it sets off", .unit = "s", .range = base::between(0, longest_s)});
@@ -42,8 +41,7 @@ void describe_moving(Visitor& v, Reference& s) {
           {.meaning = "sine: its phase at the start, 0 where it rises through its mean", .unit = "deg"});
 }
 
-template <class Visitor>
-void describe(Visitor& v, Reference& s) {
+inline void describe(base::Visitor& v, Reference& s) {
   v.choice("shape", s.shape, shape_choices, {.meaning = "how the reference runs over time"});
   v.value("value", s.value,
           {.meaning = "constant: the reference, in the unit of control.mode", .mode_unit = "*"});

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The keys of a scenario file: the only place of their names, units, ranges and meanings. Defaults are the
-// structs'.
-#pragma once
+#include "sixstep/study/scenario/scenario_description.hpp"
+
 #include "sixstep/design/sheet/sheet_description.hpp"
 #include "sixstep/study/scenario/at_description.hpp"
 #include "sixstep/study/scenario/bridge_description.hpp"
@@ -20,8 +19,7 @@ using base::above;
 using base::between;
 using base::from;
 
-template <class Visitor>
-void describe(Visitor& v, Pwm& s) {
+void describe(base::Visitor& v, Pwm& s) {
   v.value("period_s", s.period_s,
           {.meaning = "PWM period, and the controller's sampling period",
            .unit = "s",
@@ -46,8 +44,7 @@ void describe(Visitor& v, Pwm& s) {
            .range = from(0)});
 }
 
-template <class Visitor>
-void describe(Visitor& v, Initial& s) {
+void describe(base::Visitor& v, Initial& s) {
   v.value("speed_rad_s", s.speed_rad_s,
           {.meaning = "mechanical speed at the start", .unit = "rad/s", .also = words::speed});
   v.value("angle_rad", s.angle_rad,
@@ -57,8 +54,7 @@ void describe(Visitor& v, Initial& s) {
       {.meaning = "bus voltage at the start; without it supply.voltage_V", .unit = "V", .range = above(0)});
 }
 
-template <class Visitor>
-void describe(Visitor& v, Record& s) {
+void describe(base::Visitor& v, Record& s) {
   v.value("grid_s", s.grid_s,
           {.meaning = "spacing of the recorded rows; without it pwm.period_s",
            .unit = "s",
@@ -69,8 +65,7 @@ void describe(Visitor& v, Record& s) {
   v.value("columns", s.columns, {.meaning = "columns to record, t_s always first; without it all of them"});
 }
 
-template <class Visitor>
-void describe(Visitor& v, Spread& s) {
+void describe(base::Visitor& v, Spread& s) {
   v.value(
       "key", s.key,
       {.meaning =
@@ -91,8 +86,7 @@ void describe(Visitor& v, Spread& s) {
   v.value("source", s.source, {.meaning = "where the width comes from"});
 }
 
-template <class Visitor>
-void describe(Visitor& v, Scenario& s) {
+void describe(base::Visitor& v, Scenario& s) {
   v.value("title", s.title, {.meaning = "one line that names the run"});
   v.value(
       "extends", s.extends,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The keys of [control.sensorless]: names, units, ranges and meanings.
 #pragma once
-#include "sixstep/base/describe.hpp"
+#include "sixstep/base/visitor.hpp"
 #include "sixstep/study/scenario/sensorless.hpp"
 
 namespace sixstep::study {
@@ -26,8 +26,7 @@ inline constexpr base::Choice<StartsBy> starts_by_choices[] = {
      "six short pulses ask how it stands, where saliency and saturation show it; else it is aligned"},
 };
 
-template <class Visitor>
-void describe(Visitor& v, Sensorless& s) {
+inline void describe(base::Visitor& v, Sensorless& s) {
   using base::above;
   using base::between;
   v.value("greatest_load", s.greatest_load,

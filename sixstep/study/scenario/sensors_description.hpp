@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The keys of [sensors]: names, units, ranges and meanings.
 #pragma once
-#include "sixstep/base/describe.hpp"
+#include "sixstep/base/visitor.hpp"
 #include "sixstep/study/scenario/comparators_description.hpp"
 #include "sixstep/study/scenario/sensors.hpp"
 
@@ -75,8 +75,7 @@ inline constexpr base::Choice<control::HallArrangement> hall_spacing_choices[] =
     {"60", control::HallArrangement::degrees_60, "codes 010 and 101 are impossible"},
 };
 
-template <class Visitor>
-void describe(Visitor& v, HallBreak& s) {
+inline void describe(base::Visitor& v, HallBreak& s) {
   using base::between;
   v.value("at_s", s.at_s,
           {.meaning = "when a Hall line sticks; without it none does", .unit = "s", .range = base::from(0)});
@@ -84,8 +83,7 @@ void describe(Visitor& v, HallBreak& s) {
   v.choice("level", s.level, level_choices, {.meaning = "level it sticks at"});
 }
 
-template <class Visitor>
-void describe_currents(Visitor& v, Sensors& s) {
+inline void describe_currents(base::Visitor& v, Sensors& s) {
   v.choice("currents", s.currents, current_sensing_choices,
            {.meaning = "how the controller gets the currents"});
   v.value("adc_bits", s.adc_bits, {.meaning = "bits of the converter", .range = base::between(4, 16)});
@@ -119,8 +117,7 @@ void describe_currents(Visitor& v, Sensors& s) {
            .range = base::between(0, 255)});
 }
 
-template <class Visitor>
-void describe(Visitor& v, Encoder& s) {
+inline void describe(base::Visitor& v, Encoder& s) {
   v.value("lines", s.lines,
           {.meaning = "of a turn; the timer counts four edges of each", .range = base::between(1, 1000000)});
   v.value(
@@ -140,8 +137,7 @@ void describe(Visitor& v, Encoder& s) {
        .range = base::from(0)});
 }
 
-template <class Visitor>
-void describe(Visitor& v, AbsoluteEncoder& s) {
+inline void describe(base::Visitor& v, AbsoluteEncoder& s) {
   v.value("bits", s.bits, {.meaning = "of its Gray code", .range = base::between(4, 20)});
   v.value("latency_s", s.latency_s,
           {.meaning = "how long before a sample the code that it reads was latched",
@@ -151,8 +147,7 @@ void describe(Visitor& v, AbsoluteEncoder& s) {
           {.meaning = "control periods that the speed is taken over", .range = base::between(1, 8)});
 }
 
-template <class Visitor>
-void describe(Visitor& v, Resolver& s) {
+inline void describe(base::Visitor& v, Resolver& s) {
   v.value("pole_pairs", s.pole_pairs,
           {.meaning = "of the resolver itself; those of the motor are a multiple of them",
            .range = base::between(1, 32)});
@@ -198,8 +193,7 @@ void describe(Visitor& v, Resolver& s) {
 }
 
 /// How the probes are built in, of the motor's angle in electrical degrees.
-template <class Visitor>
-void describe_probes(Visitor& v, Sensors& s) {
+inline void describe_probes(base::Visitor& v, Sensors& s) {
   v.choice("hall_spacing", s.hall_spacing, hall_spacing_choices,
            {.meaning = "how many electrical degrees the Hall probes stand apart"});
   v.value("hall_offset_deg", s.hall_offset_deg,
@@ -229,8 +223,7 @@ void describe_probes(Visitor& v, Sensors& s) {
           {.meaning = "how long", .unit = "s", .range = base::between(1e-9, 1e-3)});
 }
 
-template <class Visitor>
-void describe(Visitor& v, Sensors& s) {
+inline void describe(base::Visitor& v, Sensors& s) {
   describe_currents(v, s);
   v.choice("bus", s.bus, bus_sensing_choices, {.meaning = "how the controller gets the bus voltage"});
   v.value("bus_range_V", s.bus_range_V,

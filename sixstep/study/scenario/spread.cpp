@@ -41,7 +41,7 @@ bool may_stray(std::string_view key) {
 
 /// Six digits say what a message needs, without the rounding of 1.03 - 1.5 * 1.03.
 /// The visitor that looks for the number at a key's path.
-class NumberAt {
+class NumberAt final : public base::Visitor {
  public:
   explicit NumberAt(std::string_view path) : path_(path) {}
 
@@ -49,34 +49,24 @@ class NumberAt {
   base::Range range;
   bool left_out = false;  ///< the key is there, its value is not
 
-  void value(std::string_view key, double& x, const base::About& about) { take(key, &x, about); }
-  void value(std::string_view key, std::optional<double>& x, const base::About& about) {
-    take(key, x ? &*x : nullptr, about);
+ private:
+  void visit_value(std::string_view key, const base::ValueMember& member, const base::About& about) override {
+    if (double* const* x = std::get_if<double*>(&member)) take(key, *x, about);
+    if (std::optional<double>* const* x = std::get_if<std::optional<double>*>(&member))
+      take(key, **x ? &***x : nullptr, about);
   }
-  void quantity(std::string_view key, base::Quantity& q, const base::About& about) {
-    take(key, &q.value, about);
-  }
-  void quantity(std::string_view key, std::optional<base::Quantity>& q, const base::About& about) {
+  void visit_quantity(std::string_view key, const base::QuantityMember& member,
+                      const base::About& about) override {
+    base::Quantity* const q = quantity_in(member);
     take(key, q ? &q->value : nullptr, about);
   }
-  template <class Other>
-  void value(std::string_view, Other&, const base::About&) {}
-  template <class Enum, class Choices>
-  void choice(std::string_view, Enum&, const Choices&, const base::About&) {}
-  template <class Item>
-  void list(std::string_view, std::vector<Item>&, const base::About&) {}
-  template <class Struct>
-  void table(std::string_view, std::optional<Struct>&, const base::About&) {}
-  template <class Struct>
-  void table(std::string_view key, Struct& member, const base::About&) {
-    if (!path_.starts_with(key) || path_.substr(key.size(), 1) != ".") return;
+  void visit_table(std::string_view key, base::TableMember& member, const base::About&) override {
+    if (member.is_optional() || !path_.starts_with(key) || path_.substr(key.size(), 1) != ".") return;
     const std::string_view whole = path_;
     path_.remove_prefix(key.size() + 1);
-    describe(*this, member);
+    member.walk(*this);
     path_ = whole;
   }
-
- private:
   void take(std::string_view key, double* x, const base::About& about) {
     if (key != path_) return;
     number = x;

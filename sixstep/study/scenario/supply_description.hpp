@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The keys of [supply].
 #pragma once
+#include "sixstep/base/visitor.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 
 namespace sixstep::study {
@@ -9,8 +10,7 @@ using base::above;
 using base::between;
 using base::from;
 
-template <class Visitor>
-void describe_battery(Visitor& v, Supply& s) {
+inline void describe_battery(base::Visitor& v, Supply& s) {
   v.value("battery_charges", s.battery_charges,
           {.meaning = "charges of a battery, of the whole, rising: where battery_voltages_V are given",
            .range = between(0, 1)});
@@ -29,8 +29,7 @@ void describe_battery(Visitor& v, Supply& s) {
           {.meaning = "capacitance across battery_recovery_ohm", .unit = "F", .range = from(0)});
 }
 
-template <class Visitor>
-void describe(Visitor& v, Supply& s) {
+inline void describe(base::Visitor& v, Supply& s) {
   v.choice(
       "source", s.source, source_choices,
       {.meaning = "what feeds the bus; of a battery or mains voltage_V is what the drive is designed for"});
