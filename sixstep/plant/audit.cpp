@@ -5,6 +5,9 @@ namespace sixstep::plant {
 
 template <>
 void Audit<double>::segment(const Plant<double>& plant, double s) {
+#ifdef __x86_64__
+  if (detail::has_avx) return detail::audit_with_avx(*this, plant, s);
+#endif
   take(plant, segment_energy(plant, s));
 }
 

@@ -166,8 +166,14 @@ EnergyBook Audit<Real>::energy() const {
           .mechanical_residual = d((air_gap - friction - load - kinetic) / scale)};
 }
 
-// Compiled once.
+// Compiled once for processors with AVX, the energies inlined (plant/audit_avx.cpp): one segment after the other is what a run is. Others
+// call the energies that all share.
 template <>
 void Audit<double>::segment(const Plant<double>& plant, double s);
+#ifdef __x86_64__
+namespace detail {
+void audit_with_avx(Audit<double>& audit, const Plant<double>& plant, double s);
+}
+#endif
 
 }  // namespace sixstep::plant

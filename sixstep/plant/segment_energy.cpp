@@ -4,9 +4,6 @@
 namespace sixstep::plant {
 
 SegmentEnergy<double> segment_energy(const Plant<double>& plant, double to) {
-#ifdef __x86_64__
-  if (detail::has_avx) return detail::segment_energy_with_avx(plant, to);
-#endif
   return detail::segment_energy_here(plant, to);
 }
 

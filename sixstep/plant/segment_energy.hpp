@@ -186,12 +186,7 @@ template <class Real>
 SegmentEnergy<Real> segment_energy(const Plant<Real>& plant, Real to) {
   return detail::segment_energy_here(plant, to);
 }
-/// Of doubles compiled once, for any processor and for those with AVX: the same bits (plant/segment_energy_avx.cpp).
+/// Of doubles compiled once, for any processor. The audit's, for processors with AVX, has the same bits (plant/audit_avx.cpp).
 SegmentEnergy<double> segment_energy(const Plant<double>& plant, double to);
-#ifdef __x86_64__
-namespace detail {
-SegmentEnergy<double> segment_energy_with_avx(const Plant<double>& plant, double to);
-}
-#endif
 
 }  // namespace sixstep::plant
