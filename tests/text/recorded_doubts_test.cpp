@@ -26,6 +26,39 @@ TEST(RecordedDoubts, WordsThatAreNoUnitsAreRefused) {
               HasSubstr("heads u_ab as A, where V belongs"));
 }
 
+/// The unit in a heading and the one in the row below it, or above it as Tektronix writes it.
+TEST(RecordedDoubts, UnitsThatContradictEachOtherAreRefused) {
+  for (const char* head :
+       {"time [s],u_ab (mV),u_bc (mV)\ns,V,V\n", "Vertical Units,V,V\ntime [s],u_ab (mV),u_bc (mV)\n"})
+    EXPECT_THAT(seen(plain(head), between_lines).problem, HasSubstr("heads u_ab in \"mV and V\"")) << head;
+}
+
+TEST(RecordedDoubts, UnitsAboveTheHeadingsCount) {
+  const auto volts_of = [](const char* units) {
+    const auto recording = read_recording("r.csv", std::string("Horizontal Units,s\nVertical Units,") +
+                                                       units + "\nTIME,CH1,CH2\n0,1,2\n1e-3,3,4\n");
+    return recording ? recording->columns[2].values : std::vector<double>{};
+  };
+  EXPECT_THAT(volts_of("mV,mV"), ElementsAre(2e-3, 4e-3));
+  EXPECT_THAT(volts_of("mV,V"), ElementsAre(2.0, 4.0));
+  const auto amps = read_recording("r.csv", "Horizontal Units,s\nVertical Units,A\nTIME,CH1\n0,1\n1e-3,3\n");
+  ASSERT_TRUE(amps);
+  EXPECT_EQ(amps->columns[1].unit, "A");
+}
+
+/// sixstep's own columns, by which --columns names them: i_m in A is no i in m/A.
+TEST(RecordedDoubts, AKnownNameComesBeforeAUnit) {
+  const auto read = read_recording("r.csv", "t_s,i_m_A,i_m,speed_rad_s\n0,1,2,3\n");
+  ASSERT_TRUE(read);
+  std::vector<std::string> names, units;
+  for (const RecordedColumn& column : read->columns) {
+    names.push_back(column.name);
+    units.push_back(column.unit);
+  }
+  EXPECT_THAT(names, ElementsAre("t", "i_m_A", "i_m", "speed"));
+  EXPECT_THAT(units, ElementsAre("s", "A", "", "rad/s"));
+}
+
 /// Of a name that ends in a letter the letter is no unit that must fit.
 TEST(RecordedDoubts, LettersThatArePhases) {
   for (const char* head : {"time,phase_A,phase_B,phase_C\n", "time,phase A,phase B,phase C\n",

@@ -9,6 +9,7 @@
 #include "text/keys/key_advice.hpp"
 #include "text/keys/units.hpp"
 #include "text/recording/cells.hpp"
+#include "text/recording/known_names.hpp"
 
 namespace text {
 namespace {
@@ -99,18 +100,37 @@ bool is_rather_a_word(std::string_view word) {
   return is_number_of_a_place(word) || std::find(std::begin(words), std::end(words), word) != std::end(words);
 }
 
+/// The unit that the pieces of a key's are, parted by underscores: "rad_s" and "N_m". Empty where they are none.
+std::string unit_in_pieces(std::string_view pieces) {
+  for (const char between : {'/', ' '}) {
+    std::string unit(pieces);
+    std::replace(unit.begin(), unit.end(), '_', between);
+    if (unit = unit_in_words(unit); !unit.empty()) return unit;
+  }
+  return {};
+}
+
+/// "i_m_A" is the known i_m in A, and no i in m/A; "i_m" has no unit.
+std::optional<Heading> behind_a_known_name(std::string_view cell) {
+  for (std::size_t at = cell.rfind('_'); at != std::string_view::npos && at > 0;
+       at = cell.rfind('_', at - 1)) {
+    if (!is_known_name(bare_name(cell.substr(0, at)))) continue;
+    const std::string_view pieces = cell.substr(at + 1);
+    if (std::string unit = unit_in_pieces(pieces); !unit.empty())
+      return Heading{std::string(cell.substr(0, at)), std::move(unit), {}, pieces.size() == 1};
+  }
+  if (is_known_name(bare_name(cell))) return Heading{std::string(cell), {}, {}, false};
+  return {};
+}
+
 /// "speed_rad_s": the pieces of a key's unit, parted by underscores.
 std::optional<Heading> behind_underscores(std::string_view cell) {
   const std::string_view name = without_unit(cell);
   if (name.empty() || name.size() == cell.size()) return {};
   const std::string_view pieces = cell.substr(name.size() + 1);
-  for (const char between : {'/', ' '}) {
-    std::string unit(pieces);
-    std::replace(unit.begin(), unit.end(), '_', between);
-    if (unit = unit_in_words(unit); !unit.empty())
-      return Heading{std::string(name), unit, {}, pieces.size() == 1};
-  }
-  return {};
+  std::string unit = unit_in_pieces(pieces);
+  if (unit.empty()) return {};
+  return Heading{std::string(name), std::move(unit), {}, pieces.size() == 1};
 }
 
 /// "CH1 mV", "CH1_mVolt", "u_ab, mV", "u_ab_counts", and "u_ab.v" as Modelica has it.
@@ -169,7 +189,9 @@ Heading heading_of(std::string_view cell) {
     const std::string unit = unit_in_words(cell);
     return {same_kind(*unit_of(unit), *unit_of("V")) ? std::string(cell) : std::string(), unit, {}, false};
   }
-  std::optional<Heading> found = behind_underscores(cell);
+  std::optional<Heading> found;
+  if (cell.find('_') != std::string_view::npos) found = behind_a_known_name(cell);
+  if (!found) found = behind_underscores(cell);
   if (!found) found = last_word(cell);
   if (!found) return {std::string(cell), {}, {}, false};
   if (found->letter && found->unit != "V" && found->unit != "s") found->name = std::string(cell);

@@ -128,7 +128,23 @@ class HeadReader {
     }
     if (head.names.empty())
       head.names = std::exchange(head.units, {});  // "s,V": units at once, or names that look like them
+    if (head.units.empty()) head.units = units_by_keys();
     return head;
+  }
+
+  /// "Horizontal Units,s" and "Vertical Units,V,V" above the headings, as Tektronix has them.
+  Cells units_by_keys() const {
+    Cells units;
+    for (const std::string& line : above_.lines) {
+      const Cells cells = cells_of(line);
+      if (cells.size() < 2) continue;
+      const std::string key = bare_name(cells[0]);
+      if (key != "horizontalunits" && key != "verticalunits") continue;
+      const std::size_t first = key == "horizontalunits" ? 0 : 1, last = first == 0 ? 1 : cells.size() - 1;
+      if (units.size() < last + first) units.resize(last + first);
+      for (std::size_t n = 0; n < last; ++n) units[first + n] = cells[1 + n];
+    }
+    return units;
   }
 
   RecordedColumn column(const Head& head, std::size_t n) const {
@@ -142,9 +158,12 @@ class HeadReader {
       out.letter = heading.letter;
     }
     if (n < head.units.size() && !head.units[n].empty() && head.units[n] != "-") {
+      const std::string named = out.letter ? std::string() : out.unit;
       out.unit = unit_in_words(head.units[n]);
       if (out.unit.empty())
         out.odd_unit = bounded(std::string(without_brackets(head.units[n])), longest_name);
+      else if (!named.empty() && named != out.unit)
+        out.odd_unit = bounded(named + " and " + out.unit, longest_name);
       out.letter = false;
     }
     const bool is_time = !out.unit.empty() && same_kind(*unit_of(out.unit), *unit_of("s"));
