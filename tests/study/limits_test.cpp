@@ -98,7 +98,7 @@ TEST(Limits, WhatNeedsACurrentLoopIsRefusedWithoutOne) {
 TEST(Limits, ACurrentThatOnePulsePassesIsRefused) {
   Scenario s = maxon_scenario(Mode::current, 1.0);
   s.control.limits.current_A = 1.0;  // 24 V 30 us/0.572 mH = 1.26 A
-  EXPECT_THAT(refusal(s), HasSubstr("one PWM period drives 1.26 A"));
+  EXPECT_THAT(refusal(s), HasSubstr("one PWM period on a bus of up to 24 V drives 1.26 A"));
   s.pwm.period_s = 20e-6;
   EXPECT_TRUE(study::run(s));
 }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "sixstep/study/compile/compile.hpp"
 #include "sixstep/study/run/run.hpp"
 #include "sixstep/study/session/session.hpp"
 #include "tests/support/product_scenarios.hpp"
@@ -85,10 +86,39 @@ TEST(Remarks, AShuntThatSeesNoPulse) {
   s.pwm.chopping = control::Chopping::complementary;
   EXPECT_THAT(remarks_on(s), Contains(HasSubstr("that is 1.55 A")));
   s.pwm.chopping = control::Chopping::hard;  // no current at a duty of one half, where each pulse is seen
-  EXPECT_THAT(remarks_on(s), IsEmpty());
+  EXPECT_THAT(remarks_on(s), Not(Contains(HasSubstr("at rest"))));
   s.pwm.chopping = control::Chopping::soft;
   s.reference.value = 5.0;
   EXPECT_THAT(remarks_on(s), IsEmpty());
+}
+
+/// What conducts of the bridge takes its part, and a reading that comes late needs a longer pulse.
+TEST(Remarks, AShuntBehindARealBridge) {
+  Scenario s = held(0.3);
+  s.pwm.alignment = study::Alignment::centre;
+  s.pwm.sample = study::SampleAt::middle;
+  s.sensors.currents = rig::CurrentMeasurement::dc_link;
+  s.sensors.current_range_A = 20.0;
+  const double R = 1.03 / 2, d = 2e-6 / 30e-6;
+  s.bridge.diode_drop_V = 0.7;
+  EXPECT_NEAR(study::unseen_at_rest_A(s, R), (24 * d - 0.7 * (1 - d)) / 1.03, 1e-12);
+  s.bridge.diode_drop_V = 0.0;
+  s.bridge.on_resistance_ohm = 0.2;
+  EXPECT_NEAR(study::unseen_at_rest_A(s, R), 24 * d / (1.03 + 0.2 * (1 + d)), 1e-12);
+  s.pwm.chopping = control::Chopping::complementary;
+  EXPECT_NEAR(study::unseen_at_rest_A(s, R), 24 * d / (1.03 + 0.4), 1e-12);
+  s.bridge.on_resistance_ohm = 0.0;
+  s.sensors.current_delay_s = 3e-6;
+  EXPECT_NEAR(study::unseen_at_rest_A(s, R), 24 * 8e-6 / 30e-6 / 1.03, 1e-12);
+  EXPECT_THAT(remarks_on(s), Contains(AllOf(HasSubstr("above a duty of 0.267"), HasSubstr("that is 6.21 A"),
+                                            HasSubstr("sensors.current_delay_s = 3 us"))));
+  s.sensors.current_delay_s = 0.0;
+  s.pwm.minimum_pulse_s = 3e-6;
+  EXPECT_NEAR(study::unseen_at_rest_A(s, R), 24 * 0.1 / 1.03, 1e-12);
+  s.pwm.minimum_pulse_s = 0.0;
+  s.sensors.current_bandwidth_Hz = 2e4;
+  // 1 - exp(-7.5 us 2 pi 20 kHz) = 0.610
+  EXPECT_THAT(remarks_on(s), Contains(HasSubstr("shows 61 % at the sample")));
 }
 
 TEST(Remarks, HallEdgesRarerThanTheTimeout) {

@@ -39,10 +39,33 @@ double least_visible_duty(const Scenario& s) {
   return std::min(duty, 1.0);
 }
 
+double least_shown_duty(const Scenario& s) {
+  const double late = (s.sensors.shunt_settle_s + s.sensors.current_delay_s) / s.pwm.period_s;
+  const double duty = s.pwm.alignment == Alignment::centre ? 2 * late : 0.5 + late;
+  return std::min(std::max(duty, s.pwm.minimum_pulse_s / s.pwm.period_s), 1.0);
+}
+
 double unseen_at_rest_A(const Scenario& s, double R_ohm) {
-  const double gain = design::volts_per_duty(s.pwm.chopping);
-  const double part = 1.0 - gain * (1.0 - least_visible_duty(s));
-  return std::max(part, 0.0) * s.supply.voltage_V / (2 * R_ohm);
+  const Bridge& b = s.bridge;
+  const double d = least_shown_duty(s), off = 1 - d;
+  // While the pulse lasts two switches conduct; beside it a switch and a diode, two switches or two diodes.
+  double switches = 2 * d, diodes = 0.0, volts = d * s.supply.voltage_V;
+  switch (s.pwm.chopping) {
+    case control::Chopping::soft:
+      switches += off;
+      diodes = off;
+      break;
+    case control::Chopping::complementary:
+      switches += 2 * off;
+      break;
+    case control::Chopping::hard:
+      diodes = 2 * off;
+      volts -= off * s.supply.voltage_V;
+      break;
+  }
+  volts -= diodes * b.diode_drop_V + switches * b.saturation_V;
+  return std::max(volts, 0.0) /
+         (2 * R_ohm + switches * b.on_resistance_ohm + diodes * b.diode_resistance_ohm);
 }
 
 namespace {

@@ -64,8 +64,10 @@ struct Compiled {
 
 /// Of a shunt in the DC link: the duty above which the middle of the period lies in the on-time and the amplifier has settled.
 double least_visible_duty(const Scenario& scenario);
-/// The current that flows at that duty with the rotor at rest, A, through a pair of phases of 2 R: what is below it is not seen. 0 where
-/// that duty drives no current forwards, as with hard chopping below one half.
+/// The same with what delays the reading behind the pulse, and with the shortest pulse that the modulator makes.
+double least_shown_duty(const Scenario& scenario);
+/// The current that flows at that duty with the rotor at rest, A, through a pair of phases of 2 R and what conducts of the bridge: what is
+/// below it is not seen. 0 where that duty drives no current forwards, as with hard chopping below one half.
 double unseen_at_rest_A(const Scenario& scenario, double R_ohm);
 
 /// Assumes that check() found nothing.

@@ -59,13 +59,17 @@ void check_current(const Scenario& s, const design::LimitSetting& setting, base:
   const double pulse_A = setting.bus_V * s.pwm.period_s / (2 * setting.machine.L_H);
   if (pulse_A <= setting.current_A) return;
   const bool by_current = wanted.current_A.has_value();
+  // A current loop is never asked for more than its largest reference.
+  const bool narrowed = by_current && setting.current_A < *wanted.current_A;
   out.push_back({by_current ? "control.limits.current_A" : "control.limits.torque_Nm",
                  base::three_digits(by_current ? *wanted.current_A : *wanted.torque_Nm),
-                 "comes to " + base::three_digits(setting.current_A) + " A, and one PWM period drives " +
-                     base::three_digits(pulse_A) + " A into the held rotor",
+                 (narrowed ? "comes to the most that is asked for, " : std::string("comes to ")) +
+                     base::three_digits(setting.current_A) + " A, and one PWM period on a bus of up to " +
+                     base::three_digits(setting.bus_V) + " V drives " + base::three_digits(pulse_A) +
+                     " A into the held rotor",
                  "shorten pwm.period_s to " +
                      base::three_digits(s.pwm.period_s * setting.current_A / pulse_A) +
-                     " or raise the limit"});
+                     (narrowed ? ", or leave the limit away" : " or raise the limit")});
 }
 
 /// Mechanical angle in which the drive does not learn of a speed: k sectors that it is the mean of and the

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Thresholds of the product drive that a check accepts and that would protect nothing on a bridge: told to whoever exports the drive.
+// Thresholds of the product drive that a check accepts and that would protect nothing on a bridge: a run tells of them, and export
+// refuses them.
 #pragma once
 #include "sixstep/base/problem.hpp"
 #include "sixstep/design/sheet/parameters.hpp"

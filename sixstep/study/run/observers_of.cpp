@@ -30,7 +30,7 @@ Observers observers_of(const Scenario& s, const Listeners& listeners,
   const double gap_s = s.duration_s / drawn_points;
   Observers w{.figures = Figures(s, reference_levels(s)), .keep_going = listeners.keep_going};
   if (s.sensors.currents == rig::CurrentMeasurement::dc_link)
-    w.extremes.shunt_least_duty = least_visible_duty(s);
+    w.extremes.shunt_least_duty = least_shown_duty(s);
   if (listeners.keep_books) w.audit.emplace();
   if (listeners.keep_books && tells_losses(s.bridge)) w.devices.emplace(s.bridge);
   const design::IronDrag iron = design::sheet_constants(s.sheet).friction.iron;

@@ -6,10 +6,12 @@
 #include <string>
 
 #include "sixstep/base/angle.hpp"
+#include "sixstep/base/elementary.hpp"
 #include "sixstep/base/linear.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/sheet/thermal_ranges.hpp"
 #include "sixstep/study/check/unused_keys.hpp"
+#include "sixstep/study/run/export_protection.hpp"
 #include "sixstep/study/run/limit_remarks.hpp"
 #include "sixstep/study/run/loop_stability.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
@@ -59,13 +61,33 @@ double sector_s(const Compiled& c, double rad_s) {
   return base::pi / 3 / (c.motor.machine.pole_pairs * rad_s);
 }
 
+/// A pulse of half a period is sampled in its middle, when an amplifier of one pole has come to 1 - exp(-T/4 2 pi f) of it.
+std::string on_shunt_amplifier(const Scenario& s) {
+  constexpr double enough = 0.9;
+  if (s.sensors.currents != rig::CurrentMeasurement::dc_link || !s.sensors.current_bandwidth_Hz) return {};
+  const double shown = 1 - base::exp(-s.pwm.period_s / 4 * 2 * base::pi * *s.sensors.current_bandwidth_Hz);
+  if (shown >= enough) return {};
+  return "of a current through half a PWM period the shunt's amplifier shows " + few_digits(100 * shown) +
+         " % at the sample, of shorter pulses less (sensors.current_bandwidth_Hz = " +
+         few_digits(*s.sensors.current_bandwidth_Hz) + "): more flows than is measured";
+}
+
 std::string on_shunt(const Scenario& s, const Compiled& c, const RunWatch& w) {
   if (static_cast<double>(w.hidden_samples) <= hidden_part * static_cast<double>(w.samples)) return {};
+  if (w.shunt_least_duty >= 1.0)
+    return "the shunt shows no current at all: its sample comes " +
+           few_digits(1e6 * (s.sensors.shunt_settle_s + s.sensors.current_delay_s)) +
+           " us behind the pulse's begin at the soonest (sensors.shunt_settle_s, sensors.current_delay_s), and no "
+           "pulse lasts so long";
   std::string text =
       std::to_string(w.hidden_samples) + " of " + std::to_string(w.samples) +
       " current samples fell outside of the pulse: the shunt shows a current only above a duty of " +
       few_digits(w.shunt_least_duty) +
-      " (sensors.shunt_settle_s = " + few_digits(1e6 * s.sensors.shunt_settle_s) + " us)";
+      " (sensors.shunt_settle_s = " + few_digits(1e6 * s.sensors.shunt_settle_s) + " us" +
+      (s.sensors.current_delay_s > 0.0
+           ? ", sensors.current_delay_s = " + few_digits(1e6 * s.sensors.current_delay_s) + " us"
+           : "") +
+      ")";
   const double unseen_A = unseen_at_rest_A(s, c.motor.machine.R_ohm);
   if (unseen_A > 0.0 && w.shunt_least_duty < 1.0)
     text += "; with the rotor at rest that is " + few_digits(unseen_A) +
@@ -166,6 +188,12 @@ std::string on_steps(const Scenario& s, const Compiled& c, const RunWatch& w) {
          " control periods: fewer than five samples see it; a shorter pwm.period_s gives more";
 }
 
+void on_protection(const Scenario& s, const Compiled& c, Outcome& out) {
+  base::Problems found;
+  if (s.control.drive == FirmwareKind::product) look_at_protection(s, c.motor, found);
+  for (const base::Problem& p : found) out.remarks.push_back(to_string(p));
+}
+
 }  // namespace
 
 void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, Outcome& out) {
@@ -175,10 +203,12 @@ void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, Outcom
   if (const std::string unused = unused_keys(s); !unused.empty()) add("given without effect: " + unused);
   if (!s.not_usable.empty()) add("its design calls it NOT USABLE: " + s.not_usable);
   add(on_supply(s));
+  on_protection(s, c, out);
   add(on_late_values(s));
   for (std::string& text : passed_limits(s, w, out)) add(std::move(text));
   if (c.own.is) return;  // its gains and samples are its own
   add(on_shunt(s, c, w));
+  add(on_shunt_amplifier(s));
   add(on_hall_timeout(s, c));
   for (const LoopGains& g : out.gains) {
     const std::string key = g.loop == "speed" ? "control.speed" : "control.current";
