@@ -82,6 +82,7 @@ design::DesignSpec spec_of(const DesignArguments& a, const study::Scenario* scen
   take(w.torque_limit_Nm, a.force_limit_N ? a.force_limit_N : a.torque_limit_Nm);
   take(w.lowest_speed_rad_s, a.lowest_speed_rad_s);
   w.damping = a.damping.value_or(w.damping);
+  if (a.damping) w.current_damping.reset();
   w.bandwidth_rad_s = a.bandwidth_rad_s;
   w.period_s = a.period_s.value_or(w.period_s);
   w.rotor = rotor_of(a, scenario, w, found);
@@ -126,26 +127,37 @@ base::Problems put(std::optional<files::AtomicFile>& file, const std::string& te
   return file->commit();
 }
 
-/// The scenario that was simulated, with what its board's says of the drive beside the loops.
-std::string designed_text(const analysis::DesignStudy& s, const study::Scenario* board,
-                          const DesignArguments& a) {
+/// The scenario that was simulated, with what its board's says of the drive beside the loops. What is lost of that is a warning.
+analysis::CarriedOver designed_scenario(analysis::DesignStudy& s, const study::Scenario* board) {
   study::Scenario scenario = s.scenario;
   analysis::require_swing(s, scenario);
   scenario.not_usable = analysis::found_against(s);
-  std::vector<std::string> lines = text::design_lines(s);
-  if (board) {
-    analysis::CarriedOver carried = analysis::carry_over(scenario, *board);
-    if (!carried.kept.empty()) lines.push_back("Of the board's scenario it has " + carried.kept + ".");
-    scenario = std::move(carried.scenario);
-  }
+  if (!board) return {.scenario = std::move(scenario), .kept = {}, .lost = {}};
+  analysis::CarriedOver carried = analysis::carry_over(s, scenario, *board);
+  const auto warn = [&s](std::string what, bool grave) {
+    s.warnings.push_back({.what = std::move(what), .cure = "", .grave = grave, .of = design::Concern::board});
+  };
+  // The verdict on the loops of a sensorless drive is not that on its file, which lacks what commutates.
+  if (!carried.lost.empty()) warn(carried.lost, board->control.drive != study::FirmwareKind::sensorless);
+  if (const std::string keys = analysis::left_out(*board, carried.scenario); !keys.empty())
+    warn("of the board's scenario this design does not have " + keys, false);
+  return carried;
+}
+
+std::string designed_text(const analysis::DesignStudy& s, const analysis::CarriedOver& carried,
+                          const DesignArguments& a) {
+  std::vector<std::string> lines = text::design_lines(s, !a.scenario.empty());
+  if (!carried.kept.empty()) lines.push_back("Of the board's scenario it has " + carried.kept + ".");
+  study::Scenario scenario = carried.scenario;
   scenario.motor = motor_beside(scenario.motor, a.toml);
   return files::with_own_mark(a.command, text::scenario_text(scenario, lines));
 }
 
-base::Problems write(const analysis::DesignStudy& s, const study::Scenario* board, const DesignArguments& a,
+base::Problems write(analysis::DesignStudy& s, const study::Scenario* board, const DesignArguments& a,
                      DesignFiles& out) {
+  const analysis::CarriedOver carried = designed_scenario(s, board);
   base::Problems found = put(out.json, text::design_json(s));
-  const std::string text = out.toml || out.html ? designed_text(s, board, a) : std::string();
+  const std::string text = out.toml || out.html ? designed_text(s, carried, a) : std::string();
   append(found, put(out.toml, text));
   if (out.html)
     append(found, put(out.html, report::render_design({.study = s,

@@ -58,6 +58,82 @@ class Design(ProgramTest):
         told = self.run_program("design", "maxon-251601", "--mode", "speed", "--quick", "--rotor", "ideal").stdout
         self.assertRegex(told, r"step: settling to 2 % +900 us +[\d.]+ ms\n")
 
+    BOARD = """
+motor = "maxon-251601"
+duration_s = 0.1
+supply = {voltage_V = 24, resistance_ohm = 0.05, capacitance_F = 1e-3}
+bridge = {dead_time_s = 0.5e-6}
+pwm = {chopping = "complementary", delay_periods = 1}
+sensors = {currents = "phases", current_range_A = 10, bus = "adc", bus_range_V = 40, rotor = "hall"}
+reference = {value = 100}
+"""
+
+    def designed_for(self, text, *options, code=0):
+        """The design's text and the scenario that it wrote for a board's."""
+        (self.path / "board.toml").write_text(text)
+        told = self.run_program("design", "--scenario", "board.toml", "--quick", "--toml", "d.toml", "--force", *options, code=code).stdout
+        return told, tomllib.loads((self.path / "d.toml").read_text())
+
+    def test_a_protected_board_keeps_its_limit_and_its_protection(self):
+        board = self.BOARD + """
+[control]
+drive = "product"
+mode = "speed"
+current = {settle_s = 1e-3, damping = 0.9, limit_A = 3}
+speed = {settle_s = 0.1, damping = 0.9}
+[protection]
+over_current_A = 4
+over_voltage_V = 30
+under_voltage_V = 18
+over_speed_rad_s = 300
+"""
+        told, written = self.designed_for(board)
+        self.assertRegex(told, "^(good|usable)")
+        self.assertEqual((written["control"]["drive"], written["control"]["current"]["limit_A"]), ("product", 3))
+        self.assertEqual(written["protection"]["over_current_A"], 4)
+        self.assertNotIn("not_usable", written)
+        self.assertNotIn("gate drivers of small bridges", (self.path / "d.toml").read_text())
+        # With a limit that lets it trip the text says what the file says.
+        told, written = self.designed_for(board.replace("limit_A = 3", "limit_A = 8"), code=1)
+        self.assertIn("NOT USABLE: of the board's scenario are left out: ", told)
+        self.assertIn("control.drive and [protection]", written["not_usable"])
+
+    def test_what_a_design_leaves_out_of_a_board_is_named(self):
+        told, written = self.designed_for(self.BOARD + """
+load = {coulomb_Nm = 1e-3}
+heat = {motor = true}
+[control]
+mode = "speed"
+slew = 1000
+current = {settle_s = 1e-3, damping = 0.6, back_emf_feed_forward = true}
+speed = {settle_s = 0.1, damping = 0.95, torque_limit_Nm = 0.15}
+""")
+        self.assertIn("of the board's scenario this design does not have control.slew, heat.motor, load.coulomb_Nm\n", told)
+        self.assertEqual((written["control"]["current"]["damping"], written["control"]["speed"]["damping"]), (0.6, 0.95))
+        self.assertTrue(written["control"]["current"]["back_emf_feed_forward"])
+
+    def test_the_speed_that_a_position_may_ask_for_is_the_boards(self):
+        _, written = self.designed_for(self.BOARD.replace("value = 100", "value = 1000") + """
+[control]
+mode = "position"
+current = {settle_s = 1e-3, damping = 0.9}
+speed = {settle_s = 0.1, damping = 0.9}
+position = {gain_rad_s_per_deg = 0.1, speed_limit_rad_s = 50}
+""", code=None)
+        self.assertEqual(written["control"]["position"]["speed_limit_rad_s"], 50)
+
+    def test_a_ripple_is_judged_over_an_electrical_turn(self):
+        """At 2 rad/s and eight pole pairs a sector lasts 65 ms: what is printed is what a longer run shows."""
+        told = self.run_program("design", "maxon-251601", "--mode", "speed", "--quick", "--lowest-speed", "2", "--rotor", "encoder",
+                                "--toml", "q.toml", code=None).stdout
+        printed = float(re.search(r"speed ripple +\S+ rad/s +(\S+) rad/s", told).group(1))
+        last = tomllib.loads((self.path / "q.toml").read_text())["duration_s"]
+        self.run_program("run", "q.toml", "--set", f"duration_s={last + 1}", "--csv", "o.csv", "--quiet", code=None)
+        rows = [line.split(",") for line in (self.path / "o.csv").read_text().splitlines() if not line.startswith("#")]
+        speed, t = rows[0].index("speed_rad_s"), 0
+        seen = [float(row[speed]) for row in rows[1:] if float(row[t]) > last]
+        self.assertAlmostEqual(printed, max(seen) - min(seen), delta=0.2 * printed)
+
     def test_what_fails_at_a_corner_is_within_the_tolerances(self):
         told = self.run_program("design", "maxon-251601", "--step", "20", code=1).stdout
         self.assertRegex(told, r"^NOT USABLE: within the tolerances it never settles: with R ")

@@ -232,8 +232,10 @@ TEST(DriveDesign, WarnsOfWhatIsOffAndOfNothingElse) {
   EXPECT_TRUE(warns(good, "the sheet names no nominal current"));
   EXPECT_FALSE(good.warnings[0].grave);
   EXPECT_TRUE(warns(designed({.mode = Mode::current}), "soft chopping cannot hold a braking current"));
-  EXPECT_TRUE(warns(designed({.mode = Mode::current, .settle_s = 0.3e-3}), "degrees of phase"));
-  EXPECT_TRUE(warns(designed({.mode = Mode::current, .settle_s = 0.1e-3}), "unstable where"));
+  EXPECT_TRUE(
+      warns(designed({.mode = Mode::current, .settle_s = 0.3e-3, .delay_periods = 1}), "degrees of phase"));
+  EXPECT_TRUE(
+      warns(designed({.mode = Mode::current, .settle_s = 0.1e-3, .delay_periods = 1}), "loop is unstable"));
   EXPECT_TRUE(warns(designed({.mode = Mode::speed, .settle_s = 10e-3, .current_settle_s = 8e-3}),
                     "times the frequency"));
   EXPECT_TRUE(warns(designed({.mode = Mode::current, .settle_s = 0.25e-3}), "asks for"));

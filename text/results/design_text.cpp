@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sixstep/analysis/verify/run_warnings.hpp"
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/sheet/motion.hpp"
@@ -172,7 +173,7 @@ std::string design_verdict(const analysis::DesignStudy& s) {
     for (const auto& w : s.warnings)
       if (w.grave) return text + ": " + w.what;
   const auto *settling = find(s, "settling time"), *overshoot = find(s, "overshoot");
-  if (settling && !std::isfinite(settling->measured)) {
+  if (settling && (!std::isfinite(settling->measured) || sixstep::analysis::drowned(s))) {
     text += fmt::format(": the {} loop's settling cannot be told", mode);
   } else if (settling) {
     text += fmt::format(": the {} loop settles to {:g} % in {}", mode, settled_percent(s),
@@ -209,7 +210,7 @@ std::string design_text(const analysis::DesignStudy& s, bool colour) {
   return text;
 }
 
-std::vector<std::string> design_lines(const analysis::DesignStudy& s) {
+std::vector<std::string> design_lines(const analysis::DesignStudy& s, bool of_a_board) {
   const Motion motion = sixstep::design::motion_of(s.design.motor);
   const sixstep::base::LinearUnit gain = motion.unit("rad/s per deg");
   std::vector<std::string> lines;
@@ -221,7 +222,7 @@ std::vector<std::string> design_lines(const analysis::DesignStudy& s) {
                               sixstep::base::six_digits(loop.gains.d0), gain_unit(loop, motion));
     lines.push_back(line);
   }
-  if (s.scenario.bridge.dead_time_s == analysis::usual_dead_time_s)
+  if (!of_a_board && s.scenario.bridge.dead_time_s == analysis::usual_dead_time_s)
     lines.push_back(
         "bridge.dead_time_s: what gate drivers of small bridges ask for, and what this was simulated with; write what yours need");
   return lines;

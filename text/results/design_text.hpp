@@ -17,6 +17,6 @@ std::string design_verdict(const analysis::DesignStudy& study);
 study::ComparisonResult as_shown(study::ComparisonResult figure, const study::Scenario& scenario);
 
 /// For the head of a scenario file: where the gains come from, one line per loop.
-std::vector<std::string> design_lines(const analysis::DesignStudy& study);
+std::vector<std::string> design_lines(const analysis::DesignStudy& study, bool of_a_board = false);
 
 }  // namespace text

@@ -68,6 +68,9 @@ void advise_usable(const DesignOrder& order, DesignStudy& s) {
     if (!d || !promises(s.warnings, *d)) continue;
     const std::optional<DesignStudy> next = tried(order, spec, budget);
     if (!next || !next->usable() || next->warnings.size() >= s.warnings.size()) continue;
+    const bool brings_another = std::any_of(next->warnings.begin(), next->warnings.end(),
+                                            [&s](const Warning& w) { return !warns_of(s.warnings, w.of); });
+    if (brings_another) continue;
     for (Warning& w : s.warnings)
       if (w.cure.empty() && !warns_of(next->warnings, w.of))
         add_cure(w.cure, words_of_change(order.spec, spec));

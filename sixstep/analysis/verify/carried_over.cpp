@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/analysis/verify/carried_over.hpp"
 
+#include <cmath>
+
+#include "sixstep/analysis/verify/run_warnings.hpp"
+#include "sixstep/base/written.hpp"
 #include "sixstep/study/run/run.hpp"
 
 namespace sixstep::analysis {
@@ -10,26 +14,55 @@ bool bounds_anything(const study::Limits& l) {
   return l.current_A || l.torque_Nm || l.speed_rad_s || l.gain_A_s_per_rad;
 }
 
+/// The step of a speed comes when the drive has started: what it takes longer is the limits' doing.
+std::string slower(const study::Scenario& s, const study::Outcome& run, const study::Outcome& designed) {
+  if (s.control.mode != control::Mode::speed) return {};
+  const auto of = [](const study::Outcome& out, const char* figure) {
+    const study::ComparisonResult* found = figure_of(out, figure);
+    return found ? found->measured : 0.0;
+  };
+  if (std::isfinite(of(designed, settling_of_start)) && !std::isfinite(of(run, settling_of_start)))
+    return "the start never settles";
+  const double now = of(run, "settling time"), before = of(designed, "settling time");
+  if (!std::isfinite(before) || now <= 1.25 * before) return {};
+  return "a step settles in " + base::three_digits(1e3 * now) + " ms, and in " +
+         base::three_digits(1e3 * before) + " ms without them";
+}
+
 /// Empty: it passes.
-std::string against(const study::Scenario& s) {
+std::string against(const study::Scenario& s, const study::Outcome& designed) {
   const base::Result<study::Outcome> run = study::run(s);
   if (!run) return to_string(run.problems().front());
   if (run->fault) return to_string(*run->fault);
   for (const study::Verdict& v : run->verdicts)
     if (!v.ok) return v.figure + " misses what is required";
   if (run->trip) return "the drive trips: " + run->trip->reasons.front();
-  return {};
+  return slower(s, *run, designed);
+}
+
+/// What a current loop has beside its gains and its limit. False: nothing, or the board's is no PI.
+bool take_current_loop(const study::Control& board, study::Control& to) {
+  study::CurrentLoop current = board.current;
+  if (current.type != study::CurrentLoopType::pi) return false;
+  for (const auto gain : {&study::CurrentLoop::settle_s, &study::CurrentLoop::damping,
+                          &study::CurrentLoop::d1, &study::CurrentLoop::d0, &study::CurrentLoop::kp,
+                          &study::CurrentLoop::ki, &study::CurrentLoop::ki_per_s})
+    current.*gain = to.current.*gain;
+  to.current = current;
+  return current.back_emf_feed_forward || current.feedback != study::CurrentFeedback::mean ||
+         current.commutation != study::CurrentCommutation::plain || current.measured_bus_from_V;
 }
 
 }  // namespace
 
-CarriedOver carry_over(study::Scenario designed, const study::Scenario& board) {
-  CarriedOver out{.scenario = designed, .kept = {}};
+CarriedOver carry_over(const DesignStudy& study, study::Scenario designed, const study::Scenario& board) {
+  CarriedOver out{.scenario = designed, .kept = {}, .lost = {}};
   study::Scenario& s = out.scenario;
   const auto keep = [&out](const char* name) {
     out.kept += (out.kept.empty() ? "" : ", ") + std::string(name);
   };
   s.control.full_scale = board.control.full_scale;
+  if (take_current_loop(board.control, s.control)) keep("what control.current has beside gains");
   if (board.control.drive == study::FirmwareKind::product) {
     s.control.drive = study::FirmwareKind::product;
     s.protection = board.protection;
@@ -45,17 +78,24 @@ CarriedOver carry_over(study::Scenario designed, const study::Scenario& board) {
     s.control.regeneration = board.control.regeneration;
     keep("control.regeneration");
   }
-  std::string lost;
   if (board.control.drive == study::FirmwareKind::sensorless)
-    lost =
+    out.lost =
         "control.drive = \"sensorless\" of the board's scenario is left out: the loops were run with Hall edges "
         "where crossings would be";
   else if (!out.kept.empty())
-    if (const std::string reason = against(s); !reason.empty())
-      lost = "of the board's scenario " + out.kept + " are left out, for with them " + reason;
-  if (lost.empty()) return out;
-  if (designed.not_usable.empty()) designed.not_usable = lost;
-  return {.scenario = designed, .kept = {}};
+    if (const std::string reason = against(s, study.outcome); !reason.empty())
+      out.lost = "of the board's scenario are left out: " + out.kept + "; with them " + reason;
+  if (out.lost.empty()) {
+    study::Scenario in_its_numbers = s;
+    in_its_numbers.control.arithmetic = board.control.arithmetic;
+    if (board.control.arithmetic != s.control.arithmetic && against(in_its_numbers, study.outcome).empty()) {
+      s = std::move(in_its_numbers);
+      keep("control.arithmetic");
+    }
+    return out;
+  }
+  if (designed.not_usable.empty()) designed.not_usable = out.lost;
+  return {.scenario = designed, .kept = {}, .lost = out.lost};
 }
 
 }  // namespace sixstep::analysis

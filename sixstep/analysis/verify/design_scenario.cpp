@@ -76,6 +76,9 @@ study::Scenario common(const DriveDesign& d, const DesignSubject& subject) {
     s.sensors.hall_stable_samples = study::Sensors{}.hall_stable_samples;
     s.sensors.terminal_gain_error.clear();
     s.sensors.comparators = {};
+    s.sensors.hall_break = {};  // a fault of the board's own course
+    s.control.current.limit_A = subject.board->control.current.limit_A;
+    s.control.position.speed_limit_rad_s = subject.board->control.position.speed_limit_rad_s;
     s.sensors.encoder.referenced = true;  // a move begins where the position is known
     s.load.gear = subject.board->load.gear;
   } else {
@@ -170,8 +173,11 @@ SpeedTest speed_test(const DriveDesign& d, const DesignSubject& subject) {
   // A step that somebody chose may be one that the limits hold up, and so may any of a loop that is faster than the torque.
   const double travel = travel_time(d, t.first, t.first + t.step, K * t.load_A);
   const double held_up = subject.step || travel > settle ? 2 * travel : 0.0;
-  t.end = plain_time(t.begin + 5 * settle + held_up);
-  t.calm = t.end - settle;
+  // Its end is judged over an electrical turn at the least: a shorter window sees no commutation.
+  const double slow = std::fabs(t.first + t.step) * d.motor.machine.pole_pairs;
+  const double window = slow > 0.0 ? std::max(settle, 2 * base::pi / slow) : settle;
+  t.end = plain_time(t.begin + 4 * settle + held_up + window);
+  t.calm = t.end - window;
   return t;
 }
 

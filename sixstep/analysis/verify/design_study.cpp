@@ -29,7 +29,7 @@ base::Problems too_long(const study::Scenario& s) {
   if (s.duration_s / s.pwm.period_s <= most_periods) return {};
   return {{"the test", base::three_digits(s.duration_s) + " s",
            "is longer than two million control periods, so slow is the drive beside them",
-           "give a shorter settle_s, a smaller step or more torque_limit_Nm, or a longer period_s"}};
+           "give more torque_limit_Nm, a higher lowest_speed_rad_s or a longer period_s"}};
 }
 
 /// Position: the gain, and the design that has it.

@@ -29,8 +29,9 @@ constexpr double line_tolerance = 0.05;
 
 constexpr double longest_run_up_s = 600;
 
-/// Control periods of a trial, and of all together: half a second, and one and a half, of one core.
-constexpr double trial_periods = 3.5e5, all_trials_periods = 1.2e6;
+/// Control periods of a trial, and of all together: half a second, and one and a half, of one core. Where none of them did, a last
+/// round of five seconds.
+constexpr double trial_periods = 3.5e5, all_trials_periods = 1.2e6, last_trial_periods = 4e6;
 
 study::Measure measure(study::MetricKind metric, study::Signal signal, double from_s, const char* label) {
   study::Measure m;
@@ -240,13 +241,14 @@ base::Result<study::Scenario> usable_design(const FirstScenarioSpec& spec, const
   for (const design::Warning& w : usual->warnings)
     if (w.grave) why = w.what;
   // A slow motor's trial takes all that there is, and only where no shorter one did.
-  for (const double longest : {trial_periods, all_trials_periods}) {
-    TrialBudget budget{all_trials_periods};
+  for (const double longest : {trial_periods, all_trials_periods, last_trial_periods}) {
+    TrialBudget budget{std::max(longest, all_trials_periods)};
     for (const design::DesignSpec& candidate : candidates(order, *usual)) {
       DesignOrder next = order;
       next.spec = candidate;
       next.gain.periods = longest;
       next.gain.longest_periods = std::max(next.gain.longest_periods, longest / 2);
+      if (longest == last_trial_periods) next.tolerances.clear();
       if (!shorten_trial(next, motor, longest)) continue;
       std::optional<DesignStudy> study = tried(next, next.spec, budget);
       if (!study) continue;

@@ -31,10 +31,11 @@ class Left {
   TrialBudget* of_all_;
 };
 
-base::Problem none_found() {
+base::Problem none_found(const design::DesignSpec& spec) {
   return {"mode", "position",
           "finds no gain that does not overshoot: the drive was tried down to gains that take too long",
-          "give a smaller step, a shorter period_s, or rotor = encoder in the place of Hall probes"};
+          std::string("give more torque_limit_Nm, or a smaller step") +
+              (spec.rotor.hall ? ", or rotor = encoder in the place of Hall probes" : "")};
 }
 
 /// Runs the move with a gain; only the overshoot is looked at.
@@ -52,7 +53,7 @@ class Trial {
     s.compare.clear();
     s.require.resize(1);
     if (!left_.takes(s, 1)) {
-      problems = {none_found()};
+      problems = {none_found(design_.spec)};
       return true;
     }
     const base::Result<study::Outcome> outcome = study::run(
@@ -100,7 +101,7 @@ class Field {
     nominal.require.front().max = allowed_overshoot_deg(d, nominal.reference.value);
     if (!left_.takes(nominal, all_.size())) {
       too_long = true;
-      problems = {none_found()};
+      problems = {none_found(design_.spec)};
       return false;
     }
     std::vector<base::Result<study::Outcome>> outcomes(all_.size(), base::Problem{});
@@ -200,7 +201,8 @@ base::Result<PositionGain> lowered_for_tolerances(const design::DriveDesign& des
     (holds(middle) ? low : high) = middle;
   }
   if (!field.problems.empty() && !field.too_long) return field.problems;
-  if (!held) return field.too_long && !search.quick ? base::Result<PositionGain>(none_found()) : found;
+  if (!held)
+    return field.too_long && !search.quick ? base::Result<PositionGain>(none_found(design.spec)) : found;
   found.gain_rad_s_per_deg = low;
   return found;
 }

@@ -16,14 +16,6 @@ void warn(DesignStudy& s, design::Concern of, std::string what, bool grave) {
   s.warnings.push_back({.what = std::move(what), .cure = "", .grave = grave, .of = of});
 }
 
-/// The torque ripple of the commutations can be wider than the band of a small step: then settling times say
-/// nothing.
-bool drowned(const DesignStudy& s) {
-  if (!s.ideal_swing_rad_s || s.scenario.reference.values.size() < 2) return false;
-  const std::vector<double>& levels = s.scenario.reference.values;
-  return *s.ideal_swing_rad_s > 2 * design::settling_band(s.design) * std::fabs(levels[1] - levels[0]);
-}
-
 /// Of a step that somebody asked for: an integral leaves no error behind, unless a limit holds it up.
 constexpr double missed_part = 0.02;
 
@@ -193,6 +185,12 @@ void look_at_tolerances(DesignStudy& s) {
 }
 
 }  // namespace
+
+bool drowned(const DesignStudy& s) {
+  if (!s.ideal_swing_rad_s || s.scenario.reference.values.size() < 2) return false;
+  const std::vector<double>& levels = s.scenario.reference.values;
+  return *s.ideal_swing_rad_s > 2 * design::settling_band(s.design) * std::fabs(levels[1] - levels[0]);
+}
 
 const study::ComparisonResult* figure_of(const study::Outcome& outcome, const std::string& figure) {
   for (const study::ComparisonResult& c : outcome.comparisons)

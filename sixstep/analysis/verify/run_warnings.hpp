@@ -11,6 +11,9 @@ namespace sixstep::analysis {
 /// Null where the run has no such figure.
 const study::ComparisonResult* figure_of(const study::Outcome& outcome, const std::string& figure);
 
+/// Whether the torque ripple of the commutations is wider than the band of the speed's step: its settling time then says nothing.
+bool drowned(const DesignStudy& study);
+
 /// Adds them to those of the closed form, grave ones first. Wants the study's outcome, robustness and swings. `asked_step`: the step
 /// is somebody's, and not one at which no limit acts.
 void add_run_warnings(DesignStudy& study, bool asked_step);

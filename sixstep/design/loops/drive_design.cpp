@@ -100,7 +100,8 @@ base::Result<LoopDesign> current_loop(const DriveDesign& d) {
           ? by_rule("current", "pole-zero cancellation",
                     cancel_pole(winding.R_ohm, winding.L_H,
                                 w.bandwidth_rad_s.value_or(time_constants_to_settle / settle), w.period_s))
-          : by_placement("current", current_plant(winding, w.period_s), settle, w.damping, w.period_s);
+          : by_placement("current", current_plant(winding, w.period_s), settle,
+                         w.current_damping.value_or(w.damping), w.period_s);
   if (loop) tell_chopping(w.chopping, loop->steps);
   return loop;
 }

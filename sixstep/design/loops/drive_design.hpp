@@ -32,6 +32,7 @@ struct DesignSpec {
   /// Of the inner loop; as above, or a tenth of the speed loop's where that is shorter.
   std::optional<double> current_settle_s;
   double damping = usual_damping;
+  std::optional<double> current_damping;  ///< of the inner loop; else as above
   std::optional<double> bandwidth_rad_s;  ///< of the loop the method is for; else 4.6/settle_s
   double period_s = 30e-6;
   std::optional<double> voltage_V;        ///< of the bus; else the sheet's
@@ -102,7 +103,8 @@ enum class Concern : std::uint8_t {
   swing,
   shunt,
   fault,
-  requirement
+  requirement,
+  board
 };
 
 struct Warning {

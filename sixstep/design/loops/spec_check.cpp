@@ -49,6 +49,7 @@ base::Problems check_spec(const MotorModel& motor, const DesignSpec& w) {
   hold("settle_s", w.settle_s, above(0), "s", "give the settling time in seconds");
   hold("current_settle_s", w.current_settle_s, above(0), "s", "give the settling time in seconds");
   hold("damping", w.damping, {0, 1, false, true}, "", "0.9 is the thesis's choice");
+  hold("current_damping", w.current_damping, {0, 1, false, true}, "", "0.9 is the thesis's choice");
   hold("torque_limit_Nm", w.torque_limit_Nm, above(0), "N m", "give it in N m");
   hold("lowest_speed_rad_s", w.lowest_speed_rad_s, above(0), "rad/s", "give it in rad/s");
   const double bus_V = w.voltage_V.value_or(motor.nominal_voltage_V);
