@@ -117,8 +117,13 @@ TEST(Remarks, AShuntBehindARealBridge) {
   EXPECT_NEAR(study::unseen_at_rest_A(s, R), 24 * 0.1 / 1.03, 1e-12);
   s.pwm.minimum_pulse_s = 0.0;
   s.sensors.current_bandwidth_Hz = 2e4;
-  // 1 - exp(-7.5 us 2 pi 20 kHz) = 0.610
-  EXPECT_THAT(remarks_on(s), Contains(HasSubstr("shows 61 % at the sample")));
+  // 1 - exp(-1 us 2 pi 20 kHz) = 0.118, and ln 10/(2 pi 20 kHz) = 18.3 us
+  EXPECT_THAT(remarks_on(s),
+              Contains(AllOf(HasSubstr("shows 11.8 %"), HasSubstr("at 18.3 us it shows 90 %"))));
+  // Complementary, the upper switch turns on a dead time later: 24 V (2 - 1) us/30 us/1.03 ohm.
+  s.sensors.current_bandwidth_Hz.reset();
+  s.bridge.dead_time_s = 1e-6;
+  EXPECT_NEAR(study::unseen_at_rest_A(s, R), 24 * 1e-6 / 30e-6 / 1.03, 1e-12);
 }
 
 TEST(Remarks, HallEdgesRarerThanTheTimeout) {

@@ -55,9 +55,14 @@ double unseen_at_rest_A(const Scenario& s, double R_ohm) {
       switches += off;
       diodes = off;
       break;
-    case control::Chopping::complementary:
-      switches += 2 * off;
+    case control::Chopping::complementary: {
+      // The upper switch turns on a dead time later, and beside each edge a lower diode conducts for as long.
+      const double dead = std::min(b.dead_time_s / s.pwm.period_s, d);
+      volts -= dead * s.supply.voltage_V;
+      diodes = 2 * dead;
+      switches = 2 - diodes;
       break;
+    }
     case control::Chopping::hard:
       diodes = 2 * off;
       volts -= off * s.supply.voltage_V;

@@ -39,6 +39,12 @@ std::optional<MostCurrent> most_current(const Scenario& s, const design::MotorMo
   }
   const std::optional<double> limit = current_limit_A(s, motor);
   if (!limit) return std::nullopt;
+  const Limits& bounds = s.control.limits;
+  const double bound_A = std::min(bounds.current_A.value_or(*limit),
+                                  bounds.torque_Nm ? *bounds.torque_Nm / motor.K_t_Nm_A : *limit);
+  if (bound_A < *limit)
+    return MostCurrent{bound_A,
+                       bounds.current_A ? "control.limits.current_A" : "control.limits.torque_Nm over K_t"};
   return MostCurrent{*limit, s.control.current.limit_A == limit ? "control.current.limit_A"
                              : s.control.speed.torque_limit_Nm  ? "control.speed.torque_limit_Nm over K_t"
                                                                 : "the usual torque limit over K_t"};
@@ -84,8 +90,9 @@ void look_at_over_speed(const Scenario& s, const design::MotorModel& motor, base
     if (s.control.mode == Mode::speed) fastest = std::max(fastest, beyond_no_load * std::fabs(level.value));
   if (!over || *over <= fastest) return;
   out.push_back({"protection.over_speed_rad_s", written(*over),
-                 "protects nothing: the bus turns the motor at " +
-                     base::three_digits(highest_open_V(s) / motor.K_t_Nm_A) + " rad/s without a load",
+                 "protects nothing: without a load the bus turns the motor at " +
+                     base::three_digits(highest_open_V(s) / motor.K_t_Nm_A) +
+                     " rad/s, and this is more than " + base::three_digits(beyond_no_load) + " times that",
                  "lower it to what motor and machine stand"});
 }
 

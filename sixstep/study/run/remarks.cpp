@@ -61,15 +61,18 @@ double sector_s(const Compiled& c, double rad_s) {
   return base::pi / 3 / (c.motor.machine.pole_pairs * rad_s);
 }
 
-/// A pulse of half a period is sampled in its middle, when an amplifier of one pole has come to 1 - exp(-T/4 2 pi f) of it.
+/// The shortest pulse that counts as seen is sampled when an amplifier of one pole has come to 1 - exp(-2 pi f t) of it.
 std::string on_shunt_amplifier(const Scenario& s) {
   constexpr double enough = 0.9;
   if (s.sensors.currents != rig::CurrentMeasurement::dc_link || !s.sensors.current_bandwidth_Hz) return {};
-  const double shown = 1 - base::exp(-s.pwm.period_s / 4 * 2 * base::pi * *s.sensors.current_bandwidth_Hz);
+  const double rate = 2 * base::pi * *s.sensors.current_bandwidth_Hz;
+  const double shown = 1 - base::exp(-rate * s.sensors.shunt_settle_s);
   if (shown >= enough) return {};
-  return "of a current through half a PWM period the shunt's amplifier shows " + few_digits(100 * shown) +
-         " % at the sample, of shorter pulses less (sensors.current_bandwidth_Hz = " +
-         few_digits(*s.sensors.current_bandwidth_Hz) + "): more flows than is measured";
+  return "of a pulse that has lasted sensors.shunt_settle_s = " + few_digits(1e6 * s.sensors.shunt_settle_s) +
+         " us the shunt's amplifier shows " + few_digits(100 * shown) +
+         " % (sensors.current_bandwidth_Hz = " + few_digits(*s.sensors.current_bandwidth_Hz) +
+         "): more flows than is measured; at " + few_digits(1e6 * std::log(10.0) / rate) +
+         " us it shows 90 %";
 }
 
 std::string on_shunt(const Scenario& s, const Compiled& c, const RunWatch& w) {
@@ -86,6 +89,9 @@ std::string on_shunt(const Scenario& s, const Compiled& c, const RunWatch& w) {
       " (sensors.shunt_settle_s = " + few_digits(1e6 * s.sensors.shunt_settle_s) + " us" +
       (s.sensors.current_delay_s > 0.0
            ? ", sensors.current_delay_s = " + few_digits(1e6 * s.sensors.current_delay_s) + " us"
+           : "") +
+      (s.pwm.minimum_pulse_s > 0.0
+           ? ", pwm.minimum_pulse_s = " + few_digits(1e6 * s.pwm.minimum_pulse_s) + " us"
            : "") +
       ")";
   const double unseen_A = unseen_at_rest_A(s, c.motor.machine.R_ohm);
