@@ -30,6 +30,7 @@ bool names_a_time(std::string_view bare) {
 std::string bare_column(const study::Column& column) {
   std::string unit = "_" + column.unit;
   std::replace(unit.begin(), unit.end(), '/', '_');
+  std::erase(unit, ' ');  // "N m" is written Nm in names
   std::string_view name = column.name;
   if (name.ends_with(unit)) name.remove_suffix(unit.size());
   return bare_name(name);
