@@ -132,13 +132,17 @@ analysis::CarriedOver designed_scenario(analysis::DesignStudy& s, const study::S
   study::Scenario scenario = s.scenario;
   analysis::require_swing(s, scenario);
   scenario.not_usable = analysis::found_against(s);
-  if (!board) return {.scenario = std::move(scenario), .kept = {}, .lost = {}};
+  if (!board) return {.scenario = std::move(scenario), .kept = {}, .lost = {}, .differs = {}};
   analysis::CarriedOver carried = analysis::carry_over(s, scenario, *board);
   const auto warn = [&s](std::string what, bool grave) {
     s.warnings.push_back({.what = std::move(what), .cure = "", .grave = grave, .of = design::Concern::board});
   };
   // The verdict on the loops of a sensorless drive is not that on its file, which lacks what commutates.
   if (!carried.lost.empty()) warn(carried.lost, board->control.drive != study::FirmwareKind::sensorless);
+  if (!carried.differs.empty())
+    warn("with " + carried.kept + " of the board's scenario, which its file has, a run shows " +
+             carried.differs,
+         false);
   if (const std::string keys = analysis::left_out(*board, carried.scenario); !keys.empty())
     warn("of the board's scenario this design does not have " + keys, false);
   return carried;

@@ -112,6 +112,33 @@ speed = {settle_s = 0.1, damping = 0.95, torque_limit_Nm = 0.15}
         self.assertEqual((written["control"]["current"]["damping"], written["control"]["speed"]["damping"]), (0.6, 0.95))
         self.assertTrue(written["control"]["current"]["back_emf_feed_forward"])
 
+    def test_what_the_boards_limits_change_is_told_as_the_file_runs(self):
+        told, _ = self.designed_for(self.BOARD + """
+[control]
+mode = "speed"
+current = {settle_s = 1e-3, damping = 0.9}
+speed = {settle_s = 0.05, damping = 0.9}
+limits = {current_A = 2}
+""")
+        line = re.search(r"with control.limits of the board's scenario, which its file has, a run shows (.*)", told).group(1)
+        run = json.loads(self.run_program("run", "d.toml", "--json", "-", code=None).stdout)
+        ran = {c["figure"]: c["measured"] for c in run["compare"]}
+        named = re.findall(r"(?:^|, )([a-z ]+) (\S+) (?:s|rad/s|A) in the place of", line)
+        self.assertIn("settling of the start", [name for name, _ in named])
+        for name, value in named:
+            self.assertAlmostEqual(float(value), ran[name], delta=0.005 * abs(ran[name]), msg=name)
+
+    def test_a_limit_of_the_current_bounds_what_is_warned_of(self):
+        """3 A of the 5.83 A at full torque: 1.29 times the nominal current."""
+        told, _ = self.designed_for(self.BOARD + """
+[control]
+mode = "speed"
+current = {settle_s = 1e-3, damping = 0.9, limit_A = 3}
+speed = {settle_s = 0.05, damping = 0.9, torque_limit_Nm = 0.5}
+""")
+        self.assertRegex(told, r"peak current of the start +3 A .* at the limit of the current")
+        self.assertNotIn("the speed loop may ask for", told)
+
     def test_the_speed_that_a_position_may_ask_for_is_the_boards(self):
         _, written = self.designed_for(self.BOARD.replace("value = 100", "value = 1000") + """
 [control]

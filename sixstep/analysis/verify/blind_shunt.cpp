@@ -27,6 +27,14 @@ std::optional<double> idle_swing(const DesignOrder& order, const DesignStudy& s)
   return swing ? std::optional(swing->measured) : std::nullopt;
 }
 
+/// The keys by which a pulse is too short to be seen.
+std::string hiding(const study::Scenario& s) {
+  const double late_s = s.sensors.shunt_settle_s + s.sensors.current_delay_s;
+  if (s.pwm.minimum_pulse_s > 2 * late_s) return "pwm.minimum_pulse_s";
+  return std::string("sensors.shunt_settle_s") +
+         (s.sensors.current_delay_s > 0.0 ? ", sensors.current_delay_s" : "");
+}
+
 }  // namespace
 
 double unseen_current_A(const design::DriveDesign& d, const study::Scenario& s) {
@@ -42,7 +50,7 @@ void look_at_blind_shunt(const DesignOrder& order, DesignStudy& s) {
                             base::three_digits(unseen_A) + " A: its pulse is too short";
   design::Warning w{
       .what = blind + ", and what is not seen is not controlled",
-      .cure = "measure the phases' currents, or let the sample settle sooner: sensors.shunt_settle_s",
+      .cure = "measure the phases' currents, or make it shorter what hides it: " + hiding(s.scenario),
       .of = design::Concern::shunt};
   if (s.design.spec.mode == control::Mode::current && std::fabs(s.scenario.reference.value) < unseen_A) {
     w.what =

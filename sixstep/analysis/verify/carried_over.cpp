@@ -29,10 +29,25 @@ std::string slower(const study::Scenario& s, const study::Outcome& run, const st
          base::three_digits(1e3 * before) + " ms without them";
 }
 
+/// "settling time 0.0418 s in the place of 0.0501": of the figures by which a design is told, those that are others by a twentieth.
+std::string others(const study::Outcome& run, const study::Outcome& designed) {
+  std::string out;
+  for (const char* figure : {"settling time", "overshoot", settling_of_start, "peak current of the start"}) {
+    const study::ComparisonResult *now = figure_of(run, figure), *before = figure_of(designed, figure);
+    if (!now || !before || std::fabs(now->measured - before->measured) <= 0.05 * std::fabs(before->measured))
+      continue;
+    out += (out.empty() ? "" : ", ") + before->figure + " " + base::three_digits(now->measured) + " " +
+           before->unit + " in the place of " + base::three_digits(before->measured);
+  }
+  return out;
+}
+
 /// Empty: it passes.
-std::string against(const study::Scenario& s, const study::Outcome& designed) {
+std::string against(const study::Scenario& s, const study::Outcome& designed,
+                    std::string* differs = nullptr) {
   const base::Result<study::Outcome> run = study::run(s);
   if (!run) return to_string(run.problems().front());
+  if (differs) *differs = others(*run, designed);
   if (run->fault) return to_string(*run->fault);
   for (const study::Verdict& v : run->verdicts)
     if (!v.ok) return v.figure + " misses what is required";
@@ -48,6 +63,7 @@ bool take_current_loop(const study::Control& board, study::Control& to) {
                           &study::CurrentLoop::d1, &study::CurrentLoop::d0, &study::CurrentLoop::kp,
                           &study::CurrentLoop::ki, &study::CurrentLoop::ki_per_s})
     current.*gain = to.current.*gain;
+  current.limit_A = to.current.limit_A;
   to.current = current;
   return current.back_emf_feed_forward || current.feedback != study::CurrentFeedback::mean ||
          current.commutation != study::CurrentCommutation::plain || current.measured_bus_from_V;
@@ -56,7 +72,7 @@ bool take_current_loop(const study::Control& board, study::Control& to) {
 }  // namespace
 
 CarriedOver carry_over(const DesignStudy& study, study::Scenario designed, const study::Scenario& board) {
-  CarriedOver out{.scenario = designed, .kept = {}, .lost = {}};
+  CarriedOver out{.scenario = designed, .kept = {}, .lost = {}, .differs = {}};
   study::Scenario& s = out.scenario;
   const auto keep = [&out](const char* name) {
     out.kept += (out.kept.empty() ? "" : ", ") + std::string(name);
@@ -83,7 +99,7 @@ CarriedOver carry_over(const DesignStudy& study, study::Scenario designed, const
         "control.drive = \"sensorless\" of the board's scenario is left out: the loops were run with Hall edges "
         "where crossings would be";
   else if (!out.kept.empty())
-    if (const std::string reason = against(s, study.outcome); !reason.empty())
+    if (const std::string reason = against(s, study.outcome, &out.differs); !reason.empty())
       out.lost = "of the board's scenario are left out: " + out.kept + "; with them " + reason;
   if (out.lost.empty()) {
     study::Scenario in_its_numbers = s;
@@ -95,7 +111,7 @@ CarriedOver carry_over(const DesignStudy& study, study::Scenario designed, const
     return out;
   }
   if (designed.not_usable.empty()) designed.not_usable = out.lost;
-  return {.scenario = designed, .kept = {}, .lost = out.lost};
+  return {.scenario = designed, .kept = {}, .lost = out.lost, .differs = {}};
 }
 
 }  // namespace sixstep::analysis

@@ -9,8 +9,9 @@ namespace sixstep::analysis {
 
 struct CarriedOver {
   study::Scenario scenario;
-  std::string kept;  ///< names of what the scenario has of the board's; empty where it has none
-  std::string lost;  ///< why it has none, where the board says something
+  std::string kept;     ///< names of what the scenario has of the board's; empty where it has none
+  std::string lost;     ///< why it has none, where the board says something
+  std::string differs;  ///< figures that a run with them has, where the design without them has others
 };
 
 /// Puts the board's product drive, protection, limits, regeneration, full scale and what its loops have beside gains into a study's

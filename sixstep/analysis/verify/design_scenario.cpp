@@ -77,7 +77,7 @@ study::Scenario common(const DriveDesign& d, const DesignSubject& subject) {
     s.sensors.terminal_gain_error.clear();
     s.sensors.comparators = {};
     s.sensors.hall_break = {};  // a fault of the board's own course
-    s.control.current.limit_A = subject.board->control.current.limit_A;
+    s.control.current.limit_A = d.spec.current_limit_A;
     s.control.position.speed_limit_rad_s = subject.board->control.position.speed_limit_rad_s;
     s.sensors.encoder.referenced = true;  // a move begins where the position is known
     s.load.gear = subject.board->load.gear;
@@ -156,7 +156,7 @@ struct SpeedTest {
 SpeedTest speed_test(const DriveDesign& d, const DesignSubject& subject) {
   const LoopDesign &speed = d.loop("speed"), &current = d.loop("current");
   const double K = d.motor.K_t_Nm_A, R = 2 * d.motor.machine.R_ohm;
-  const design::TestSpeeds speeds = test_speeds(d.motor, d.bus_V, d.torque_limit_Nm);
+  const design::TestSpeeds speeds = test_speeds(d.motor, d.bus_V, d.most_torque_Nm());
   const double load_A = speeds.load_A;
   SpeedTest t{.load_A = load_A, .first = plain_number(0.15 * d.bus_V / K)};
   const bool lags = d.lag.delay_s() > 0;
@@ -181,10 +181,14 @@ SpeedTest speed_test(const DriveDesign& d, const DesignSubject& subject) {
   return t;
 }
 
+std::string at_most_current(const DriveDesign& d) {
+  return d.most_current_A() < d.current_at_full_torque_A ? "at the limit of the current" : "at full torque";
+}
+
 /// Whether the speed loop asks for more than its torque limit at the step: d1 of it at once, beside what the load takes.
 bool step_is_limited(const DriveDesign& d, const SpeedTest& t) {
   const double load = d.motor.K_t_Nm_A * t.load_A / d.torque_limit_Nm;
-  return std::fabs(load + d.loop("speed").gains.d1 * t.step) > 1.0;
+  return std::fabs(load + d.loop("speed").gains.d1 * t.step) > d.most_torque_Nm() / d.torque_limit_Nm;
 }
 
 void add_speed_figures(const DriveDesign& d, const SpeedTest& t, study::Scenario& s) {
@@ -216,7 +220,7 @@ void add_speed_figures(const DriveDesign& d, const SpeedTest& t, study::Scenario
        "designed, were there no limits"},
       {window_measure(study::MetricKind::maximum, study::Signal::current, 0, t.begin,
                       "peak current of the start"),
-       d.current_at_full_torque_A, "at full torque"},
+       d.most_current_A(), at_most_current(d)},
   };
   const double band = within * std::fabs(t.step);
   s.require = {
@@ -257,12 +261,12 @@ void add_position(const DriveDesign& d, const DesignSubject& subject, study::Sce
   const double J = d.motor.shaft.J_kg_m2;
   // Full torque half of the way forth, half of it back; the bus ends the acceleration at U/K_t, and a third
   // of that is what a bus-limited start reaches soon. Then the P loop's exponential down to 1e-9 of the step.
-  const double forth_and_back = 2 * std::sqrt(height * J / d.torque_limit_Nm),
+  const double forth_and_back = 2 * std::sqrt(height * J / d.most_torque_Nm()),
                top = bounded_speed(d, subject, s);
   const std::string of_top =
       top < d.bus_V / d.motor.K_t_Nm_A ? "control.position.speed_limit_rad_s" : "bus/K_t";
   // The bus may end the acceleration before half of the way: a trapezoid of the speed then.
-  const double to_top = top * J / d.torque_limit_Nm;
+  const double to_top = top * J / d.most_torque_Nm();
   const double fastest = forth_and_back / 2 > to_top ? height / top + to_top : forth_and_back;
   const double travel = 2 * forth_and_back + 3 * height / top + 4 * start_time(d, top / 2, 0.0);
   const double fade = 21.0 / (loop.gains.d1 * 180 / base::pi), end = plain_time(travel + fade);
@@ -288,7 +292,7 @@ void add_position(const DriveDesign& d, const DesignSubject& subject, study::Sce
       {overshoot, 0.0, "none wanted"},
       {window_measure(study::MetricKind::maximum, study::Signal::speed, 0, end, "peak speed"), top, of_top},
       {window_measure(study::MetricKind::maximum, study::Signal::current_magnitude, 0, end, "peak current"),
-       d.current_at_full_torque_A, "at full torque; simulated: the largest of the phases, braking too"},
+       d.most_current_A(), at_most_current(d) + "; simulated: the largest of the phases, braking too"},
   };
   s.require = {{overshoot, std::nullopt, counts ? steps : 1e-9 * std::fabs(step)}};
   if (!counts) return;

@@ -51,7 +51,7 @@ class KeyTexts final : public base::Visitor {
 
 /// What a run is called, lasts, asks for and writes, the gains, and what is chosen with the spec.
 bool is_the_designs(std::string_view key) {
-  constexpr std::string_view tables[] = {"reference.", "record.", "initial."};
+  constexpr std::string_view tables[] = {"reference.", "record.", "initial.", "sensors.hall_break."};
   constexpr std::string_view keys[] = {"title",
                                        "notes",
                                        "not_usable",
@@ -62,8 +62,8 @@ bool is_the_designs(std::string_view key) {
                                        "control.drive",
                                        "control.smooth_chopping.on",
                                        "control.position.gain_rad_s_per_deg",
+                                       "control.current.limit_A",
                                        "sensors.speed_edges",
-                                       "sensors.hall_break.at_s",
                                        "protection.off_at_s",
                                        "load.locked",
                                        "load.torque_Nm",

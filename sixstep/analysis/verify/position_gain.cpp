@@ -140,7 +140,7 @@ bool TrialBudget::takes(const study::Scenario& s, std::size_t runs) {
 }
 
 double braking_gain(const design::DriveDesign& d) {
-  return d.torque_limit_Nm / d.motor.shaft.J_kg_m2 / (d.bus_V / d.motor.K_t_Nm_A) * base::pi / 180;
+  return d.most_torque_Nm() / d.motor.shaft.J_kg_m2 / (d.bus_V / d.motor.K_t_Nm_A) * base::pi / 180;
 }
 
 base::Result<PositionGain> largest_position_gain(const design::DriveDesign& design,

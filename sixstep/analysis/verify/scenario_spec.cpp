@@ -126,7 +126,10 @@ design::DesignSpec spec_of(const study::Scenario& s, std::optional<Mode> mode) {
   const std::optional<double>& damping =
       w.mode == Mode::current ? s.control.current.damping : s.control.speed.damping;
   w.damping = damping.value_or(w.damping);
-  if (w.mode != Mode::current) w.current_damping = s.control.current.damping;
+  if (w.mode != Mode::current) {
+    w.current_damping = s.control.current.damping;
+    w.current_limit_A = s.control.current.limit_A;
+  }
   w.period_s = s.pwm.period_s;
   w.voltage_V = s.supply.voltage_V;
   w.torque_limit_Nm = s.control.speed.torque_limit_Nm;

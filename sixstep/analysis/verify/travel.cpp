@@ -10,9 +10,9 @@ namespace {
 /// What the bus leaves of the torque limit at that speed, or what brakes beside the load: soft chopping through the lower switches.
 double torque_towards(const design::DriveDesign& d, double rad_s, bool faster) {
   const double K = d.motor.K_t_Nm_A, R = 2 * d.motor.machine.R_ohm;
-  if (faster) return std::min(d.torque_limit_Nm, K * (d.bus_V - K * rad_s) / R);
-  const double shorted = d.spec.chopping == control::Chopping::soft ? K * K * rad_s / R : d.torque_limit_Nm;
-  return std::min(d.torque_limit_Nm, shorted);
+  if (faster) return std::min(d.most_torque_Nm(), K * (d.bus_V - K * rad_s) / R);
+  const double shorted = d.spec.chopping == control::Chopping::soft ? K * K * rad_s / R : d.most_torque_Nm();
+  return std::min(d.most_torque_Nm(), shorted);
 }
 
 }  // namespace
@@ -20,7 +20,7 @@ double torque_towards(const design::DriveDesign& d, double rad_s, bool faster) {
 double start_time(const design::DriveDesign& d, double to_rad_s, double load_Nm) {
   const double K = d.motor.K_t_Nm_A, R = 2 * d.motor.machine.R_ohm;
   const double by_bus = K * (d.bus_V - K * to_rad_s) / R,
-               torque = std::min(d.torque_limit_Nm, by_bus) - load_Nm;
+               torque = std::min(d.most_torque_Nm(), by_bus) - load_Nm;
   return torque > 0.0 ? d.motor.shaft.J_kg_m2 * to_rad_s / torque : 0.0;
 }
 
@@ -33,7 +33,7 @@ double travel_time(const design::DriveDesign& d, double from_rad_s, double to_ra
   for (int n = 0; n < parts; ++n) {
     const double speed = std::fabs(from_rad_s + (n + 0.5) / parts * (to_rad_s - from_rad_s));
     const double torque = torque_towards(d, speed, faster) + (faster ? -load_Nm : load_Nm);
-    if (!(torque > 0.01 * d.torque_limit_Nm)) return time + 5 * creep;
+    if (!(torque > 0.01 * d.most_torque_Nm())) return time + 5 * creep;
     time += J * part / torque;
   }
   return time;

@@ -169,9 +169,10 @@ void look_at_heat(const DriveDesign& d, Collector& out) {
               : "give the sheet's nominal_current_A, or torque_limit_Nm with what bridge and winding bear");
     return;
   }
-  if (!current && d.current_at_full_torque_A > 3.0 * d.nominal_current_A)
-    out.add(Concern::heat, "the speed loop may ask for " + base::three_digits(d.current_at_full_torque_A) +
-                               " A, " + base::three_digits(d.current_at_full_torque_A / d.nominal_current_A) +
+  const double most_A = d.most_current_A();
+  if (!current && most_A > 3.0 * d.nominal_current_A)
+    out.add(Concern::heat, "the speed loop may ask for " + base::three_digits(most_A) + " A, " +
+                               base::three_digits(most_A / d.nominal_current_A) +
                                " times the nominal current");
 }
 

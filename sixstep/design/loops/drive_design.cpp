@@ -221,7 +221,7 @@ constexpr double times_of_torque = 1.5;
 void choose_settling(DriveDesign& d) {
   if (d.spec.mode == Mode::speed)  // a move is at its limits most of the way, however slow the loop is
     d.settle_by_torque_s =
-        times_of_torque * d.motor.shaft.J_kg_m2 * d.lowest_speed_rad_s / 2 / d.torque_limit_Nm;
+        times_of_torque * d.motor.shaft.J_kg_m2 * d.lowest_speed_rad_s / 2 / d.most_torque_Nm();
   if (d.spec.settle_s) return;
   double least = d.settle_by_torque_s;
   if (d.spec.rotor.lags())
@@ -285,6 +285,14 @@ void finish(DriveDesign& d) {
 }
 
 }  // namespace
+
+double DriveDesign::most_current_A() const {
+  return std::fmin(current_at_full_torque_A, spec.current_limit_A.value_or(current_at_full_torque_A));
+}
+
+double DriveDesign::most_torque_Nm() const {
+  return std::fmin(torque_limit_Nm, motor.K_t_Nm_A * most_current_A());
+}
 
 double usual_current_settle_s_of(const MotorModel& m) {
   const double by_winding = winding_times * m.machine.L_H / m.machine.R_ohm;

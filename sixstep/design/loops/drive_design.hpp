@@ -37,8 +37,10 @@ struct DesignSpec {
   double period_s = 30e-6;
   std::optional<double> voltage_V;        ///< of the bus; else the sheet's
   std::optional<double> torque_limit_Nm;  ///< full output of the speed loop; else usual_torque_limit_Nm
-  double load_inertia_kg_m2 = 0.0;        ///< on the shaft, beside the rotor's
-  int delay_periods = 0;                  ///< whole ones from a sample until its result takes effect, 0 or 1
+  std::optional<double>
+      current_limit_A;  ///< that a speed loop's output is cut off at, where that is less than full output
+  double load_inertia_kg_m2 = 0.0;  ///< on the shaft, beside the rotor's
+  int delay_periods = 0;            ///< whole ones from a sample until its result takes effect, 0 or 1
   bool sampled_in_middle =
       false;  ///< of a period, whose next start is the soonest that a result takes effect
   control::Chopping chopping = control::Chopping::soft;
@@ -143,6 +145,9 @@ struct DriveDesign {
   std::vector<Warning> warnings;
 
   const LoopDesign& loop(std::string_view name) const;
+  /// What the speed loop can ask for: full output, or the spec's limit of the current.
+  double most_current_A() const;
+  double most_torque_Nm() const;
   /// A loop's figures with the sooner and with the later of the two delays, whichever the spec has.
   const LoopFigures& sooner(const LoopDesign& loop) const {
     return spec.delay_periods > 0 ? loop.other : loop.figures;
