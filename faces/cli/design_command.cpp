@@ -137,6 +137,11 @@ analysis::CarriedOver designed_scenario(analysis::DesignStudy& s, const study::S
   const auto warn = [&s](std::string what, bool grave) {
     s.warnings.push_back({.what = std::move(what), .cure = "", .grave = grave, .of = design::Concern::board});
   };
+  // Advice is tried on the board's parts, and not with what bounds its drive.
+  if (!carried.kept.empty() || !carried.lost.empty())
+    for (design::Warning& w : s.warnings)
+      if (w.cure.starts_with("usable with"))
+        w.cure += ", as far as tried: without what bounds the board's drive";
   // The verdict on the loops of a sensorless drive is not that on its file, which lacks what commutates.
   if (!carried.lost.empty()) warn(carried.lost, board->control.drive != study::FirmwareKind::sensorless);
   if (!carried.differs.empty())
