@@ -58,97 +58,6 @@ class Design(ProgramTest):
         told = self.run_program("design", "maxon-251601", "--mode", "speed", "--quick", "--rotor", "ideal").stdout
         self.assertRegex(told, r"step: settling to 2 % +900 us +[\d.]+ ms\n")
 
-    BOARD = """
-motor = "maxon-251601"
-duration_s = 0.1
-supply = {voltage_V = 24, resistance_ohm = 0.05, capacitance_F = 1e-3}
-bridge = {dead_time_s = 0.5e-6}
-pwm = {chopping = "complementary", delay_periods = 1}
-sensors = {currents = "phases", current_range_A = 10, bus = "adc", bus_range_V = 40, rotor = "hall"}
-reference = {value = 100}
-"""
-
-    def designed_for(self, text, *options, code=0):
-        """The design's text and the scenario that it wrote for a board's."""
-        (self.path / "board.toml").write_text(text)
-        told = self.run_program("design", "--scenario", "board.toml", "--quick", "--toml", "d.toml", "--force", *options, code=code).stdout
-        return told, tomllib.loads((self.path / "d.toml").read_text())
-
-    def test_a_protected_board_keeps_its_limit_and_its_protection(self):
-        board = self.BOARD + """
-[control]
-drive = "product"
-mode = "speed"
-current = {settle_s = 1e-3, damping = 0.9, limit_A = 3}
-speed = {settle_s = 0.1, damping = 0.9}
-[protection]
-over_current_A = 4
-over_voltage_V = 30
-under_voltage_V = 18
-over_speed_rad_s = 300
-"""
-        told, written = self.designed_for(board)
-        self.assertRegex(told, "^(good|usable)")
-        self.assertEqual((written["control"]["drive"], written["control"]["current"]["limit_A"]), ("product", 3))
-        self.assertEqual(written["protection"]["over_current_A"], 4)
-        self.assertNotIn("not_usable", written)
-        self.assertNotIn("gate drivers of small bridges", (self.path / "d.toml").read_text())
-        # With a limit that lets it trip the text says what the file says.
-        told, written = self.designed_for(board.replace("limit_A = 3", "limit_A = 8"), code=1)
-        self.assertIn("NOT USABLE: of the board's scenario are left out: ", told)
-        self.assertIn("control.drive and [protection]", written["not_usable"])
-
-    def test_what_a_design_leaves_out_of_a_board_is_named(self):
-        told, written = self.designed_for(self.BOARD + """
-load = {coulomb_Nm = 1e-3}
-heat = {motor = true}
-[control]
-mode = "speed"
-slew = 1000
-current = {settle_s = 1e-3, damping = 0.6, back_emf_feed_forward = true}
-speed = {settle_s = 0.1, damping = 0.95, torque_limit_Nm = 0.15}
-""")
-        self.assertIn("of the board's scenario this design does not have control.slew, heat.motor, load.coulomb_Nm\n", told)
-        self.assertEqual((written["control"]["current"]["damping"], written["control"]["speed"]["damping"]), (0.6, 0.95))
-        self.assertTrue(written["control"]["current"]["back_emf_feed_forward"])
-
-    def test_what_the_boards_limits_change_is_told_as_the_file_runs(self):
-        told, _ = self.designed_for(self.BOARD + """
-[control]
-mode = "speed"
-current = {settle_s = 1e-3, damping = 0.9}
-speed = {settle_s = 0.05, damping = 0.9}
-limits = {current_A = 2}
-""")
-        line = re.search(r"with control.limits of the board's scenario, which its file has, a run shows (.*)", told).group(1)
-        run = json.loads(self.run_program("run", "d.toml", "--json", "-", code=None).stdout)
-        ran = {c["figure"]: c["measured"] for c in run["compare"]}
-        named = re.findall(r"(?:^|, )([a-z ]+) (\S+) (?:s|rad/s|A) in the place of", line)
-        self.assertIn("settling of the start", [name for name, _ in named])
-        for name, value in named:
-            self.assertAlmostEqual(float(value), ran[name], delta=0.005 * abs(ran[name]), msg=name)
-
-    def test_a_limit_of_the_current_bounds_what_is_warned_of(self):
-        """3 A of the 5.83 A at full torque: 1.29 times the nominal current."""
-        told, _ = self.designed_for(self.BOARD + """
-[control]
-mode = "speed"
-current = {settle_s = 1e-3, damping = 0.9, limit_A = 3}
-speed = {settle_s = 0.05, damping = 0.9, torque_limit_Nm = 0.5}
-""")
-        self.assertRegex(told, r"peak current of the start +3 A .* at the limit of the current")
-        self.assertNotIn("the speed loop may ask for", told)
-
-    def test_the_speed_that_a_position_may_ask_for_is_the_boards(self):
-        _, written = self.designed_for(self.BOARD.replace("value = 100", "value = 1000") + """
-[control]
-mode = "position"
-current = {settle_s = 1e-3, damping = 0.9}
-speed = {settle_s = 0.1, damping = 0.9}
-position = {gain_rad_s_per_deg = 0.1, speed_limit_rad_s = 50}
-""", code=None)
-        self.assertEqual(written["control"]["position"]["speed_limit_rad_s"], 50)
-
     def test_a_ripple_is_judged_over_an_electrical_turn(self):
         """At 2 rad/s and eight pole pairs a sector lasts 65 ms: what is printed is what a longer run shows."""
         told = self.run_program("design", "maxon-251601", "--mode", "speed", "--quick", "--lowest-speed", "2", "--rotor", "encoder",
@@ -385,37 +294,6 @@ position = {gain_rad_s_per_deg = 0.1, speed_limit_rad_s = 50}
         text = told("maxon-251601", "--settle", "0.5e-3", "--delay", "1", code=1)
         self.assertRegex(text.splitlines()[0], "^NOT USABLE: in the simulation it never settles$")
         self.assertIn("usable with --chopping complementary", text)
-
-    def test_another_mode_than_the_scenarios_keeps_each_loops_own_settling_time(self):
-        scenarios = SOURCE / "data" / "scenarios"
-        for name, mode, settle_s in (("firmware/cortex-m", "current", 1e-3), ("firmware/cortex-m", "speed", 1e-3), ("current-square-board", "speed", 1e-3)):
-            self.run_program("design", "--scenario", str(scenarios / f"{name}.toml"), "--mode", mode, "--quick", "--quiet", "--toml", "d.toml", "--force")
-            self.assertEqual(tomllib.loads((self.path / "d.toml").read_text())["control"]["current"]["settle_s"], settle_s, (name, mode))
-
-    def test_a_boards_protection_stays_in_the_file_or_stops_its_header(self):
-        scenarios = SOURCE / "data" / "scenarios"
-        self.run_program("design", "--scenario", str(scenarios / "firmware" / "cortex-m.toml"), "--mode", "speed", "--quick", "--quiet", "--toml", "kept.toml")
-        board, kept = (tomllib.loads(path.read_text()) for path in (scenarios / "firmware" / "cortex-m.toml", self.path / "kept.toml"))
-        for key in ("off_at_s", "voltage_samples"):  # of its own course; the default
-            board["protection"].pop(key, None)
-        self.assertEqual(kept["protection"], board["protection"])
-        self.assertEqual(kept["control"]["drive"], "product")
-        self.run_program("export", "header", "kept.toml", "--arithmetic", "q15", "--out", "kept.hpp")
-        self.assertIn("over_current_A", (self.path / "kept.hpp").read_text())
-        self.run_program("design", "--scenario", str(scenarios / "gallery" / "sensorless-start.toml"), "--quick", "--quiet", "--toml", "lost.toml")
-        self.assertIn("sensorless", tomllib.loads((self.path / "lost.toml").read_text())["not_usable"])
-        self.run_program("export", "header", "lost.toml", "--arithmetic", "float", "--out", "lost.hpp", code=2)
-
-    def test_what_only_the_boards_drive_looks_at_is_no_obstacle(self):
-        for name in ("sensorless-comparators", "hall-glitch", "hall-glitches"):
-            scenario = str(SOURCE / "data" / "scenarios" / "gallery" / f"{name}.toml")
-            self.assertNotIn("set control.drive", self.run_any("design", "--scenario", scenario, "--quick").stderr)
-
-    def test_a_loop_that_is_unstable_within_the_tolerances_is_not_usable(self):
-        board = str(SOURCE / "data" / "scenarios" / "firmware" / "cortex-m.toml")
-        text = self.run_program("design", "--scenario", board, "--mode", "speed", "--current-settle", "0.25e-3", code=1).stdout
-        self.assertRegex(text.splitlines()[0], "^NOT USABLE: within the tolerances the current loop is unstable: with L -20 %")
-        self.assertNotIn("-0 deg", text)
 
     def test_no_header_is_exported_of_a_design_that_is_not_usable(self):
         bad = ("design", "maxon-251601", "--mode", "speed", "--edges", "1", "--capture", "5e4", "--quick", "--quiet", "--toml", "d.toml")

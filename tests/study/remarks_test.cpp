@@ -74,12 +74,18 @@ TEST(Remarks, ValuesOfTheReferenceBehindTheEnd) {
   EXPECT_THAT(remarks_on(s), Contains(HasSubstr("2 of the 4 values")));
 }
 
-TEST(Remarks, AShuntThatSeesNoPulse) {
+/// Held at 0.3 A, sampled in the middle of a centred pulse.
+Scenario on_one_shunt() {
   Scenario s = held(0.3);
   s.pwm.alignment = study::Alignment::centre;
   s.pwm.sample = study::SampleAt::middle;
   s.sensors.currents = rig::CurrentMeasurement::dc_link;
   s.sensors.current_range_A = 20.0;
+  return s;
+}
+
+TEST(Remarks, AShuntThatSeesNoPulse) {
+  Scenario s = on_one_shunt();
   // Visible above 2 us/30 us of duty: at rest 24 V/1.03 ohm/15 = 1.553 A.
   EXPECT_THAT(remarks_on(s),
               Contains(AllOf(HasSubstr("above a duty of 0.0667"), HasSubstr("that is 1.55 A"))));
@@ -94,11 +100,7 @@ TEST(Remarks, AShuntThatSeesNoPulse) {
 
 /// What conducts of the bridge takes its part, and a reading that comes late needs a longer pulse.
 TEST(Remarks, AShuntBehindARealBridge) {
-  Scenario s = held(0.3);
-  s.pwm.alignment = study::Alignment::centre;
-  s.pwm.sample = study::SampleAt::middle;
-  s.sensors.currents = rig::CurrentMeasurement::dc_link;
-  s.sensors.current_range_A = 20.0;
+  Scenario s = on_one_shunt();
   const double R = 1.03 / 2, d = 2e-6 / 30e-6;
   s.bridge.diode_drop_V = 0.7;
   EXPECT_NEAR(study::unseen_at_rest_A(s, R), (24 * d - 0.7 * (1 - d)) / 1.03, 1e-12);
