@@ -104,8 +104,8 @@ class Bode(ProgramTest):
                 (("sp.toml",), None, ()),
                 (("sp.toml", *ideal), None, ()),
                 (("sp.toml", *free, *ideal), "this chopping lets no current flow backwards", (both,)),
-                (("po.toml",), "Hall probes tell the position in steps of 7.5 deg", (ideal, encoder)),
-                (("po.toml", *both), "Hall probes tell the position in steps of 7.5 deg", (ideal, encoder))):
+                (("po.toml",), "Hall probes tell the position in steps of 7.5 deg", (encoder,)),
+                (("po.toml", *both), "Hall probes tell the position in steps of 7.5 deg", (ideal,))):
             with self.subTest(words=words):
                 beside = re.findall("deg beside the designed one: (.*)", self.run_program("run", *words, "--bode").stdout)
                 self.assertEqual(len(beside), said is not None, beside)

@@ -12,7 +12,7 @@ import unittest
 import urllib.parse
 
 from hostile import FILES, TEXTS, is_visible
-from program import PROGRAM, SHORT, SOURCE, ProgramTest, hall_log
+from program import BRISK, PROGRAM, SHORT, SOURCE, ProgramTest, hall_log
 
 if os.path.isdir("/dev/shm"):  # hundreds of files, each made safe on its disk
     tempfile.tempdir = "/dev/shm"
@@ -130,17 +130,17 @@ class Hostile(ProgramTest):
             self.assertEqual(shown.stderr.count(b"\n"), 1, shown.stderr)
 
     def test_a_motors_sheet_is_shown_harmless_everywhere(self):
-        sheet = (SOURCE / "data/motors/maxon-251601.toml").read_text()
         for text in UTF8:
             value = quoted(text)
             (self.path / "own.toml").write_text(re.sub(r'(?m)^(name|maker) = .*|(?<=source = )"[^"]*"',
-                                                       lambda m: f"{m[1]} = {value}" if m[1] else value, sheet))
+                                                       lambda m: f"{m[1]} = {value}" if m[1] else value, BRISK))
             for words in (["motor", "show", "own"], ["motor", "check", "own"], ["motor", "show", "own", "--json"]):
                 shown = self.run_bytes(*words)
                 self.check_shown(shown.stdout + shown.stderr)
             plain = self.run_bytes("motor", "show", "maxon-251601").stdout.count(b"\n")
             self.assertEqual(self.run_bytes("motor", "show", "own").stdout.count(b"\n"), plain)
-        for words in (["motor", "commission", "own"], ["motor", "commission", "own", "--html", "/dev/stdout", "--quiet"], ["motor", "wiring", "own"], ["motor", "wiring", "own", "--svg", "/dev/stdout", "--quiet"], ["curve", "own", "--points", "2"], ["curve", "own", "--points", "2", "--json", "-"], ["curve", "own", "--points", "2", "--csv", "/dev/stdout"],
+        for words in (["motor", "commission", "own"], ["motor", "commission", "own", "--html", "/dev/stdout", "--quiet"], ["motor", "wiring", "own", "--current", "15"],
+                      ["motor", "wiring", "own", "--current", "15", "--svg", "/dev/stdout", "--quiet"], ["curve", "own", "--points", "2"], ["curve", "own", "--points", "2", "--json", "-"], ["curve", "own", "--points", "2", "--csv", "/dev/stdout"],
                       ["design", "own", "--quick"], ["design", "own", "--quick", "--toml", "/dev/stdout", "--quiet"]):
             shown = self.run_bytes(*words)
             self.check_shown(shown.stdout + shown.stderr)
@@ -197,7 +197,7 @@ class Hostile(ProgramTest):
                 self.assertEqual(tomllib.loads(file.read().decode())["name"].encode().replace("\ufffd".encode(), b""),
                                  name.decode(errors="ignore").encode())
             os.unlink(os.path.join(os.fsencode(self.path), path))
-            shown = self.run_bytes("new", path)
+            shown = self.run_bytes("new", path, "--mode", "duty")
             self.check_shown(shown.stdout)
             self.assertEqual(shown.stdout.count(b"\n"), 2)
             self.run_bytes("run", path, "--quiet")

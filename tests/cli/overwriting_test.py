@@ -7,7 +7,7 @@ import stat
 import time
 import unittest
 
-from program import SHORT, SOURCE, Started, hall_log
+from program import BRISK, SHORT, SOURCE, WIRING, Started, hall_log
 
 LETTER = "Dear reader,\nthis is nobody's trace.\n"
 EMF = f"motor emf {SOURCE}/data/recordings/bly172s-emf.csv --pole-pairs 4"
@@ -19,8 +19,7 @@ OUTPUTS = {"run --csv": "run slow.toml --csv {}", "run --mat": "run slow.toml --
            "design --html": "design maxon-251601 --html {}",
            "design --models as JSON": "design maxon-251601 --models {}.json", "design --models as MAT": "design maxon-251601 --models {}.mat",
            "curve --csv": "curve maxon-251601 --csv {}", "curve --json": "curve maxon-251601 --json {}", "curve --html": "curve maxon-251601 --html {}",
-           "motor wiring --svg": "motor wiring maxon-251601 --svg {}", "motor wiring --html": "motor wiring maxon-251601 --html {}",
-           "motor wiring --toml": "motor wiring maxon-251601 --toml {}",
+           "motor wiring --svg": WIRING + " --svg {}", "motor wiring --html": WIRING + " --html {}", "motor wiring --toml": WIRING + " --toml {}",
            "motor commission --html": "motor commission maxon-251601 --html {}", "motor commission --write": "motor commission maxon-251601 --write {}",
            "motor identify --html": "motor identify log.csv --html {}", "motor identify --write": "motor identify log.csv --write {}",
            "motor emf --html": EMF + " --html {}", "motor emf --write": EMF + " --write {}", "motor emf --shape": EMF + " --shape {}",
@@ -34,6 +33,7 @@ class Overwriting(Started):
         super().setUp()
         (self.path / "slow.toml").write_text(SHORT.format(limit=1000).replace("1e-4", "1e6"))
         (self.path / "log.csv").write_text(hall_log(turns=6))
+        (self.path / "brisk.toml").write_text(BRISK)
 
     def test_a_file_of_somebody_else_stays_and_is_told_before_the_work(self):
         for what, command in OUTPUTS.items():
@@ -44,7 +44,7 @@ class Overwriting(Started):
                 told = self.run_program(*words, code=2).stderr
                 self.assertEqual(told, f"{name}: holds what sixstep has not written; name another file, or add --force to lose that one\n")
                 self.assertEqual((self.path / name).read_text(), LETTER)
-        self.assertEqual(self.names(), ["letter", "letter.json", "letter.mat", "log.csv", "slow.toml"])
+        self.assertEqual(self.names(), ["brisk.toml", "letter", "letter.json", "letter.mat", "log.csv", "slow.toml"])
 
     def test_with_force_it_is_replaced_and_our_own_need_none(self):
         for what, command in OUTPUTS.items():
@@ -82,7 +82,7 @@ class Overwriting(Started):
                 time.sleep(0.2)
                 program.send_signal(signal.SIGINT)
                 self.assertEqual(program.wait(timeout=20), 130)
-            self.assertEqual(self.names(), ["a.partial.csv", "log.csv", "slow.toml"])
+            self.assertEqual(self.names(), ["a.partial.csv", "brisk.toml", "log.csv", "slow.toml"])
 
     def test_what_a_killed_run_left_is_in_nobodys_way(self):
         with self.started("run", "slow.toml", "--csv", "a.csv", "--html", "a.html") as program:

@@ -9,7 +9,7 @@ import subprocess
 import time
 import unittest
 
-from program import PROGRAM, SHORT, SOURCE, ProgramTest, Started, hall_log
+from program import BRISK, PROGRAM, SHORT, SOURCE, WIRING, ProgramTest, Started, hall_log
 
 EMF = f"motor emf {SOURCE}/data/recordings/bly172s-emf.csv --pole-pairs 4"
 R3 = str(SOURCE / "data/scenarios/reference/R3.toml")
@@ -50,8 +50,8 @@ class Unheard(ProgramTest):
     VERBS = ["--version", "--help", "run --help", "help", "help pwm", "help pwm.period_s", "man", "schema", "schema motor",
              "completion bash", "completion zsh", "completion fish", "__complete run --", "new", "new --full", "motor list",
              "motor list --json", "motor show maxon-251601", "motor check maxon-251601", "motor new",
-             "design maxon-251601 --quick", "design maxon-251601 --quick --json - --quiet", "compare maxon-251601 --runs 0", "curve maxon-251601 --points 2",
-             "compare maxon-251601 --runs 0 --quiet --json -", "curve maxon-251601 --points 2 --json -", "motor wiring maxon-251601", "motor wiring maxon-251601 --json", "motor commission maxon-251601", "motor commission maxon-251601 --json", "motor identify log.csv", "motor identify log.csv --json", EMF, EMF + " --json",
+             "design maxon-251601 --quick", "design maxon-251601 --quick --json - --quiet", "compare maxon-251601 --period 100e-6 --runs 0", "curve maxon-251601 --points 2",
+             "compare maxon-251601 --period 100e-6 --runs 0 --quiet --json -", "curve maxon-251601 --points 2 --json -", WIRING, WIRING + " --json", "motor commission maxon-251601", "motor commission maxon-251601 --json", "motor identify log.csv", "motor identify log.csv --json", EMF, EMF + " --json",
              "export header pi.toml --despite unread", "run a.toml", "run a.toml --json -",
              "run a.toml b.toml --html c.html", "run spread.toml --runs 3"]
 
@@ -60,6 +60,7 @@ class Unheard(ProgramTest):
         self.write("a.toml", 1000), self.write("b.toml", 1000), self.write("failing.toml", -1)
         (self.path / "spread.toml").write_text(SHORT.format(limit=1000) + '[[spread]]\nkey = "motor_override.resistance_ohm"\nrelative = 0.1\n')
         (self.path / "log.csv").write_text(hall_log(turns=6))
+        (self.path / "brisk.toml").write_text(BRISK)
         (self.path / "pi.toml").write_text((SOURCE / "data/scenarios/current-square.toml").read_text())
 
     def answer(self, words, stdout):

@@ -4,6 +4,7 @@
 import contextlib
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -28,6 +29,10 @@ signal = "current"
 label = "current"
 max = {limit}
 """
+
+
+BRISK = re.sub("(?m)^inertia.*$", "inertia_gcm2 = 0.3", (SOURCE / "data/motors/maxon-251601.toml").read_text())
+WIRING = "motor wiring brisk.toml --current 15"  # of that motor a fifth of the work, for tests of what is printed
 
 
 def hall_log(turns, rows=60):

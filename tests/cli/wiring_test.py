@@ -10,7 +10,7 @@ import xml.etree.ElementTree
 
 EVERY = "--every-motor" in sys.argv and not sys.argv.remove("--every-motor")
 
-from program import SOURCE, Started  # noqa: E402, it takes its own words from the command line
+from program import BRISK, SOURCE, WIRING, Started  # noqa: E402, it takes its own words from the command line
 
 SHIPPED = (SOURCE / "data/motors/maxon-251601.toml").read_text()
 ORDERS, DIGITS = ["abc", "bca", "cab", "acb", "cba", "bac"], ["123", "231", "312", "132", "321", "213"]
@@ -56,7 +56,6 @@ class Wiring(Started):
             self.assertEqual(shown[w["phases"]][DIGITS.index(w["hall_lines"])], does)
         self.assertEqual([row["hall"] for row in told["commutation"]], ["100", "110", "010", "011", "001", "101"])
         self.assertAlmostEqual(told["bench"]["stalled_A"], 2.33)
-        self.assertEqual(printed, self.run_program("motor", "wiring", "maxon-251601", "--json", "--jobs", "1").stdout)
 
     def test_an_outer_rotor_of_sines_and_a_delta_in_files_of_their_own(self):
         self.check_all(self.wirings("dji-2212-920kv"))
@@ -69,8 +68,14 @@ class Wiring(Started):
         self.assertIn("force_N_A", told["wirings"][0]["theory"])
         self.assertGreater(told["wirings"][0]["measured"]["runs"][0]["speed_m_s"], 1)
 
+    def test_the_number_of_cores_changes_nothing(self):
+        (self.path / "brisk.toml").write_text(BRISK)
+        made = [self.run_program(*WIRING.split(), "--json", "--jobs", jobs).stdout for jobs in "123"]
+        self.assertEqual(made[1:], made[:1] * 2)
+
     def test_files(self):
-        words = ["motor", "wiring", "maxon-251601", "--svg", "w.svg", "--html", "w.html", "--toml", "w.toml", "--quiet"]
+        (self.path / "brisk.toml").write_text(BRISK)
+        words = [*WIRING.split(), "--svg", "w.svg", "--html", "w.html", "--toml", "w.toml", "--quiet"]
         self.assertEqual(self.run_program(*words).stdout, "")
         first = [(self.path / name).read_bytes() for name in ("w.svg", "w.html")]
         self.run_program(*words)  # our own are replaced
@@ -83,7 +88,7 @@ class Wiring(Started):
         for extra, sign in (([], 1), (crossed, -1)):
             told = json.loads(self.run_program("run", "w.toml", *extra, "--json", "-", "--quiet").stdout)
             self.assertGreater(told["compare"][0]["measured"] * sign, 50)
-        self.assertEqual(self.names(), ["w.html", "w.svg", "w.toml"])
+        self.assertEqual(self.names(), ["brisk.toml", "w.html", "w.svg", "w.toml"])
 
     def test_what_it_cannot_do_is_one_line_and_bad_input(self):
         for words, told in ((["be8108"], "be8108: simulatable = false because no source gives its inertia"),
