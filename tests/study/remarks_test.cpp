@@ -122,10 +122,27 @@ TEST(Remarks, AShuntBehindARealBridge) {
   // 1 - exp(-1 us 2 pi 20 kHz) = 0.118, and ln 10/(2 pi 20 kHz) = 18.3 us
   EXPECT_THAT(remarks_on(s),
               Contains(AllOf(HasSubstr("shows 11.8 %"), HasSubstr("at 18.3 us it shows 90 %"))));
-  // Complementary, the upper switch turns on a dead time later: 24 V (2 - 1) us/30 us/1.03 ohm.
   s.sensors.current_bandwidth_Hz.reset();
+}
+
+/// Complementary, the upper switch turns on a dead time later: of a pulse of 4 us around its sample 3 us are left, of which the last half,
+/// less a dead time, is the microsecond that the amplifier needs.
+TEST(Remarks, AShuntBehindADeadTime) {
+  Scenario s = on_one_shunt();
+  s.pwm.chopping = control::Chopping::complementary;
   s.bridge.dead_time_s = 1e-6;
-  EXPECT_NEAR(study::unseen_at_rest_A(s, R), 24 * 1e-6 / 30e-6 / 1.03, 1e-12);
+  EXPECT_NEAR(study::least_visible_duty(s), 4.0 / 30, 1e-15);
+  const double hidden_A = study::unseen_at_rest_A(s, 1.03 / 2);
+  EXPECT_NEAR(hidden_A, 24 * 3e-6 / 30e-6 / 1.03, 1e-12);
+  // What is above it is measured and so held, what is below it is not.
+  s.reference.value = 1.1 * hidden_A;
+  EXPECT_THAT(remarks_on(s), Not(Contains(HasSubstr("the shunt"))));
+  s.reference.value = 0.5 * hidden_A;
+  EXPECT_THAT(remarks_on(s),
+              Contains(AllOf(HasSubstr("above a duty of 0.133"), HasSubstr("bridge.dead_time_s = 1 us"),
+                             HasSubstr("that is 2.33 A"))));
+  s.pwm.chopping = control::Chopping::soft;  // no other switch of the leg to wait for
+  EXPECT_NEAR(study::least_visible_duty(s), 2.0 / 30, 1e-15);
 }
 
 TEST(Remarks, HallEdgesRarerThanTheTimeout) {

@@ -29,10 +29,11 @@ std::optional<double> idle_swing(const DesignOrder& order, const DesignStudy& s)
 
 /// The keys by which a pulse is too short to be seen.
 std::string hiding(const study::Scenario& s) {
-  const double late_s = s.sensors.shunt_settle_s + s.sensors.current_delay_s;
-  if (s.pwm.minimum_pulse_s > 2 * late_s) return "pwm.minimum_pulse_s";
+  if (s.pwm.minimum_pulse_s > study::least_visible_duty(s) * s.pwm.period_s) return "pwm.minimum_pulse_s";
+  const bool waits = s.pwm.chopping == control::Chopping::complementary && s.bridge.dead_time_s > 0.0;
   return std::string("sensors.shunt_settle_s") +
-         (s.sensors.current_delay_s > 0.0 ? ", sensors.current_delay_s" : "");
+         (s.sensors.current_delay_s > 0.0 ? ", sensors.current_delay_s" : "") +
+         (waits ? ", bridge.dead_time_s" : "");
 }
 
 }  // namespace

@@ -33,15 +33,23 @@ plant::Shaft shaft_of(const design::MotorModel& motor, const Load& load) {
 
 }  // namespace
 
+namespace {
+
+/// Above which a pulse has lasted `late_s` where it is sampled. Complementary, its upper switch turns on a dead time after it was told to.
+double duty_of_a_pulse(const Scenario& s, double late_s) {
+  const bool waits = s.pwm.chopping == control::Chopping::complementary;
+  const double late = (late_s + (waits ? s.bridge.dead_time_s : 0.0)) / s.pwm.period_s;
+  return s.pwm.alignment == Alignment::centre ? 2 * late : 0.5 + late;
+}
+
+}  // namespace
+
 double least_visible_duty(const Scenario& s) {
-  const double settle = s.sensors.shunt_settle_s / s.pwm.period_s;
-  const double duty = s.pwm.alignment == Alignment::centre ? 2 * settle : 0.5 + settle;
-  return std::min(duty, 1.0);
+  return std::min(duty_of_a_pulse(s, s.sensors.shunt_settle_s), 1.0);
 }
 
 double least_shown_duty(const Scenario& s) {
-  const double late = (s.sensors.shunt_settle_s + s.sensors.current_delay_s) / s.pwm.period_s;
-  const double duty = s.pwm.alignment == Alignment::centre ? 2 * late : 0.5 + late;
+  const double duty = duty_of_a_pulse(s, s.sensors.shunt_settle_s + s.sensors.current_delay_s);
   return std::min(std::max(duty, s.pwm.minimum_pulse_s / s.pwm.period_s), 1.0);
 }
 
@@ -56,7 +64,7 @@ double unseen_at_rest_A(const Scenario& s, double R_ohm) {
       diodes = off;
       break;
     case control::Chopping::complementary: {
-      // The upper switch turns on a dead time later, and beside each edge a lower diode conducts for as long.
+      // Beside each edge a lower diode conducts for a dead time, and the pulse is shorter by one.
       const double dead = std::min(b.dead_time_s / s.pwm.period_s, d);
       volts -= dead * s.supply.voltage_V;
       diodes = 2 * dead;

@@ -62,7 +62,8 @@ struct Compiled {
   sim::Instant end;
 };
 
-/// Of a shunt in the DC link: the duty above which the middle of the period lies in the on-time and the amplifier has settled.
+/// Of a shunt in the DC link: the duty above which the middle of the period lies in the on-time and the amplifier has settled. With
+/// complementary chopping the on-time begins a dead time later.
 double least_visible_duty(const Scenario& scenario);
 /// The same with what delays the reading behind the pulse, and with the shortest pulse that the modulator makes.
 double least_shown_duty(const Scenario& scenario);

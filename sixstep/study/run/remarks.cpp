@@ -31,6 +31,7 @@ std::string speed(const Scenario& s, double rad_s) {
   return few_digits(rad_s) + (s.sheet.kind == design::MotorKind::linear ? " m/s" : " rad/s");
 }
 std::string ms(double t_s) { return few_digits(1e3 * t_s) + " ms"; }
+std::string us(double t_s) { return few_digits(1e6 * t_s) + " us"; }
 
 /// A bus nobody has chosen, beside the voltage that the motor is made for.
 std::string on_supply(const Scenario& s) {
@@ -68,8 +69,8 @@ std::string on_shunt_amplifier(const Scenario& s) {
   const double rate = 2 * base::pi * *s.sensors.current_bandwidth_Hz;
   const double shown = 1 - base::exp(-rate * s.sensors.shunt_settle_s);
   if (shown >= enough) return {};
-  return "of a pulse that has lasted sensors.shunt_settle_s = " + few_digits(1e6 * s.sensors.shunt_settle_s) +
-         " us the shunt's amplifier shows " + few_digits(100 * shown) +
+  return "of a pulse that has lasted sensors.shunt_settle_s = " + us(s.sensors.shunt_settle_s) +
+         " the shunt's amplifier shows " + few_digits(100 * shown) +
          " % (sensors.current_bandwidth_Hz = " + few_digits(*s.sensors.current_bandwidth_Hz) +
          "): more flows than is measured; at " + few_digits(1e6 * std::log(10.0) / rate) +
          " us it shows 90 %";
@@ -77,25 +78,20 @@ std::string on_shunt_amplifier(const Scenario& s) {
 
 std::string on_shunt(const Scenario& s, const Compiled& c, const RunWatch& w) {
   if (static_cast<double>(w.hidden_samples) <= hidden_part * static_cast<double>(w.samples)) return {};
+  const bool dead = s.pwm.chopping == control::Chopping::complementary && s.bridge.dead_time_s > 0.0;
+  std::string hidden_by = "sensors.shunt_settle_s = " + us(s.sensors.shunt_settle_s);
+  if (s.sensors.current_delay_s > 0.0)
+    hidden_by += ", sensors.current_delay_s = " + us(s.sensors.current_delay_s);
+  if (dead) hidden_by += ", bridge.dead_time_s = " + us(s.bridge.dead_time_s);
+  if (s.pwm.minimum_pulse_s > 0.0) hidden_by += ", pwm.minimum_pulse_s = " + us(s.pwm.minimum_pulse_s);
   if (w.shunt_least_duty >= 1.0)
-    return "the shunt shows no current at all: its sample comes " +
-           few_digits(1e6 * (s.sensors.shunt_settle_s + s.sensors.current_delay_s)) +
-           " us behind the pulse's begin at the soonest (sensors.shunt_settle_s, sensors.current_delay_s), and no "
-           "pulse lasts so long";
+    return "the shunt shows no current at all: no pulse lasts long enough for its sample (" + hidden_by + ")";
   std::string text =
       std::to_string(w.hidden_samples) + " of " + std::to_string(w.samples) +
       " current samples fell outside of the pulse: the shunt shows a current only above a duty of " +
-      few_digits(w.shunt_least_duty) +
-      " (sensors.shunt_settle_s = " + few_digits(1e6 * s.sensors.shunt_settle_s) + " us" +
-      (s.sensors.current_delay_s > 0.0
-           ? ", sensors.current_delay_s = " + few_digits(1e6 * s.sensors.current_delay_s) + " us"
-           : "") +
-      (s.pwm.minimum_pulse_s > 0.0
-           ? ", pwm.minimum_pulse_s = " + few_digits(1e6 * s.pwm.minimum_pulse_s) + " us"
-           : "") +
-      ")";
+      few_digits(w.shunt_least_duty) + " (" + hidden_by + ")";
   const double unseen_A = unseen_at_rest_A(s, c.motor.machine.R_ohm);
-  if (unseen_A > 0.0 && w.shunt_least_duty < 1.0)
+  if (unseen_A > 0.0)
     text += "; with the rotor at rest that is " + few_digits(unseen_A) +
             " A, and what is below it is not measured";
   return text;
@@ -197,7 +193,10 @@ std::string on_steps(const Scenario& s, const Compiled& c, const RunWatch& w) {
 void on_protection(const Scenario& s, const Compiled& c, Outcome& out) {
   base::Problems found;
   if (s.control.drive == FirmwareKind::product) look_at_protection(s, c.motor, found);
-  for (const base::Problem& p : found) out.remarks.push_back(to_string(p));
+  const bool stalled =
+      out.trip && std::count(out.trip->reasons.begin(), out.trip->reasons.end(), "stall") > 0;
+  for (const base::Problem& p : found)
+    if (!(stalled && p.where == "protection.stall_current_A")) out.remarks.push_back(to_string(p));
 }
 
 }  // namespace

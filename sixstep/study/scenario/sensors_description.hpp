@@ -108,10 +108,13 @@ inline void describe_currents(base::Visitor& v, Sensors& s) {
            .range = base::from(0)});
   v.value("calibrated", s.calibrated,
           {.meaning = "whether the controller measured the offset before the run, in 64 noisy samples"});
-  v.value("shunt_settle_s", s.shunt_settle_s,
-          {.meaning = "dc-link: how long a pulse must last before its sample counts",
-           .unit = "s",
-           .range = base::from(0)});
+  v.value(
+      "shunt_settle_s", s.shunt_settle_s,
+      {.meaning =
+           "dc-link: how long a switch must have been on before its sample counts; with complementary chopping "
+           "it turns on bridge.dead_time_s later",
+       .unit = "s",
+       .range = base::from(0)});
   v.value("commutation_samples", s.commutation_samples,
           {.meaning = "dc-link: samples after a Hall edge that are taken for the incoming phase",
            .range = base::between(0, 255)});
