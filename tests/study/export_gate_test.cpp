@@ -380,7 +380,7 @@ TEST(ExportGate, ATripStandsAgainstItToo) {
   s.protection.over_current_A = 1.0;
   const auto tripped = study::clear_for_export(s);
   ASSERT_TRUE(tripped) << to_string(tripped.problems()[0]);
-  EXPECT_THAT(wheres(tripped->unmeasured), ElementsAre("require"));
+  EXPECT_THAT(wheres(tripped->unmeasured), ElementsAre("protection.over_current_A", "require"));
   ASSERT_EQ(tripped->unheld.size(), 1u);
   EXPECT_NE(tripped->unheld[0].limit.find("over-current"), std::string::npos);
 }

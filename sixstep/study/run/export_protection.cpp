@@ -40,11 +40,11 @@ std::optional<MostCurrent> most_current(const Scenario& s, const design::MotorMo
   const std::optional<double> limit = current_limit_A(s, motor);
   if (!limit) return std::nullopt;
   const Limits& bounds = s.control.limits;
-  const double bound_A = std::min(bounds.current_A.value_or(*limit),
-                                  bounds.torque_Nm ? *bounds.torque_Nm / motor.K_t_Nm_A : *limit);
-  if (bound_A < *limit)
-    return MostCurrent{bound_A,
-                       bounds.current_A ? "control.limits.current_A" : "control.limits.torque_Nm over K_t"};
+  const double by_current_A = bounds.current_A.value_or(*limit);
+  const double by_torque_A = bounds.torque_Nm ? *bounds.torque_Nm / motor.K_t_Nm_A : *limit;
+  if (by_torque_A < std::min(*limit, by_current_A))
+    return MostCurrent{by_torque_A, "control.limits.torque_Nm over K_t"};
+  if (by_current_A < *limit) return MostCurrent{by_current_A, "control.limits.current_A"};
   return MostCurrent{*limit, s.control.current.limit_A == limit ? "control.current.limit_A"
                              : s.control.speed.torque_limit_Nm  ? "control.speed.torque_limit_Nm over K_t"
                                                                 : "the usual torque limit over K_t"};
@@ -65,6 +65,16 @@ void look_at_stalling(const Scenario& s, const MostCurrent& most, base::Problems
   out.push_back(
       {"protection.stall_current_A", written(*p.stall_current_A), coarse ? limited + counted : limited,
        lower_A > 0 ? "lower it, as to " + rounded_down(lower_A) + (coarse ? ", or " + finer : "") : finer});
+}
+
+/// A drive that does what it is told to is not to be stopped for it.
+void look_at_over_current(const Scenario& s, const MostCurrent& most, base::Problems& out) {
+  const std::optional<double>& over_A = s.protection.over_current_A;
+  if (!over_A || *over_A > most.ampere) return;
+  out.push_back({"protection.over_current_A", written(*over_A),
+                 "stops the drive at a current that it may ask for: " + base::three_digits(most.ampere) +
+                     " A, " + most.by,
+                 "raise it above that and the ripple, or lower what the drive may ask for"});
 }
 
 /// A rotor that is held has its current in two phases, and no friction.
@@ -100,6 +110,7 @@ void look_at_over_speed(const Scenario& s, const design::MotorModel& motor, base
 
 void look_at_protection(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
   if (const std::optional<MostCurrent> most = most_current(s, motor)) {
+    look_at_over_current(s, *most, out);
     look_at_stalling(s, *most, out);
     look_at_stall_time(s, motor, *most, out);
   }
