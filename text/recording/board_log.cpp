@@ -38,12 +38,32 @@ Found column_of(const RecordedColumn& recorded) {
   Found found;
   for (const study::Column& column : study::all_columns()) {
     if (recorded.heading == column.name) return {&column, {&recorded, ""}};
+    if (recorded.name == column.name && recorded.unit == unit_of_trace(column))
+      return {&column, {&recorded, recorded.unit}};
     const bool letter = recorded.letter && bare_name(recorded.heading) == bare_column(column);
     if (!letter && recorded.bare != bare_column(column)) continue;
     const std::string unit = letter ? std::string() : recorded.unit;
     if (found.column == nullptr || (!fits(found.picked.unit, *found.column) && fits(unit, column)))
       found = {&column, {&recorded, unit}};
   }
+  return found;
+}
+
+/// "i_m_A [mA]": a trace's own name says a unit, and another one stands behind it. Which of them the numbers are in nobody knows.
+base::Problems said_twice(const Recording& r) {
+  base::Problems found;
+  for (const RecordedColumn& recorded : r.columns)
+    for (const study::Column& column : study::all_columns()) {
+      const std::string unit = unit_of_trace(column);
+      if (recorded.name != column.name || recorded.heading == column.name || unit.empty()) continue;
+      if (recorded.unit.empty() || recorded.unit == unit) continue;
+      found.push_back(of_recording(
+          r,
+          fmt::format("has a column \"{}\", in {} by its name and in {} by what is behind it",
+                      bounded(recorded.heading, 200), unit, recorded.unit),
+          fmt::format("head it {} or {} [{}]", column.name,
+                      column.name.substr(0, column.name.size() - unit.size() - 1), recorded.unit)));
+    }
   return found;
 }
 
@@ -106,6 +126,7 @@ class LogReader {
   base::Result<BoardLog> read() {
     out_.notes = r_.notes;
     if (base::Problems wrong = read_formulas(); !wrong.empty()) return wrong;
+    if (base::Problems wrong = said_twice(r_); wanted_.formulas.empty() && !wrong.empty()) return wrong;
     base::Result<Times> times = read_times();
     if (!times) return times.problems();
     out_.trace = {.columns = {study::all_columns().front()}, .values = {std::move(times->t_s)}};
