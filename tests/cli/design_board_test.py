@@ -64,21 +64,68 @@ speed = {settle_s = 0.1, damping = 0.95, torque_limit_Nm = 0.15}
         self.assertEqual((written["control"]["current"]["damping"], written["control"]["speed"]["damping"]), (0.6, 0.95))
         self.assertTrue(written["control"]["current"]["back_emf_feed_forward"])
 
-    def test_what_the_boards_limits_change_is_told_as_the_file_runs(self):
-        told, _ = self.designed_for(self.BOARD + """
+    HELD = BOARD.replace("delay_periods = 1", "delay_periods = 1, period_s = 15e-6") + """
 [control]
-mode = "speed"
-current = {settle_s = 1e-3, damping = 0.9}
-speed = {settle_s = 0.05, damping = 0.9}
-limits = {current_A = 2}
-""")
-        line = re.search(r"with control.limits of the board's scenario, which its file has, a run shows (.*)", told).group(1)
+drive = "product"
+mode = "MODE"
+current = {settle_s = 1e-3, damping = 0.9, limit_A = 4}
+speed = {settle_s = 0.1, damping = 0.9}
+limits = {LIMITS}
+[protection]
+over_current_A = 6
+over_voltage_V = 30
+under_voltage_V = 18
+over_speed_rad_s = OVER
+"""
+
+    def test_what_the_boards_drive_changes_is_told_as_the_file_runs(self):
+        """The product drive measures its offsets first, so that a step of the current settles later."""
+        told, _ = self.designed_for(self.HELD.replace("MODE", "current").replace("LIMITS", "").replace("OVER", "300").replace("value = 100", "value = 2"))
+        line = re.search(r"with control.drive and \[protection\] of the board's scenario, which its file has, a run shows (.*)", told).group(1)
         run = json.loads(self.run_program("run", "d.toml", "--json", "-", code=None).stdout)
         ran = {c["figure"]: c["measured"] for c in run["compare"]}
         named = re.findall(r"(?:^|, )([a-z ]+) (\S+) (?:s|rad/s|A) in the place of", line)
-        self.assertIn("settling of the start", [name for name, _ in named])
+        self.assertIn("settling time", [name for name, _ in named])
         for name, value in named:
             self.assertAlmostEqual(float(value), ran[name], delta=0.005 * abs(ran[name]), msg=name)
+
+    def test_the_test_asks_for_what_the_board_allows(self):
+        """Nominal are 2.33 A. A test beyond its own board's limits called it NOT USABLE, and its file lost all protection."""
+        for mode, limits, over, most in (("current", "current_A = 1.5", 300, 1.5), ("current", "torque_Nm = 0.045", 300, 0.045 / 0.0335),
+                                         ("speed", "current_A = 1.5", 300, None), ("speed", "torque_Nm = 0.06", 300, None),
+                                         ("speed", "speed_rad_s = 120", 300, 120), ("speed", "", 130, 130)):
+            with self.subTest(mode=mode, limits=limits, over=over):
+                board = self.HELD.replace("MODE", mode).replace("LIMITS", limits).replace("OVER", str(over))
+                told, written = self.designed_for(board if mode == "speed" else board.replace("value = 100", "value = 1"))
+                self.assertRegex(told, "^(good|usable)")
+                self.assertEqual((written["control"]["drive"], written["protection"]["over_speed_rad_s"]), ("product", over))
+                self.assertEqual(written["control"].get("limits", {}), tomllib.loads(board)["control"]["limits"])
+                asked = written["reference"].get("values") or [written["reference"]["value"]]
+                self.assertLessEqual(max(asked), (most or 1e9) * (1 + 1e-9))
+                if mode == "speed":
+                    self.assertEqual(written["control"]["current"]["limit_A"], 4)
+
+    def test_a_threshold_that_a_motor_of_the_tolerances_passes_is_not_usable(self):
+        board = self.HELD.replace("MODE", "speed").replace("LIMITS", "").replace("OVER", "300").replace("limit_A = 4", "limit_A = 9")
+        (self.path / "board.toml").write_text(board.replace("over_current_A = 6", "over_current_A = 100").replace("current_range_A = 10", "current_range_A = 120"))
+        told = self.run_program("design", "--scenario", "board.toml").stdout
+        nominal, worst = map(float, re.findall(r"peak current of the start +(\S+) A +(\S+) A  ", told)[-1])
+        between = 0.99 * worst
+        self.assertGreater(worst, 1.01 * nominal)
+        (self.path / "board.toml").write_text(board.replace("over_current_A = 6", f"over_current_A = {between:.4g}"))
+        told = self.run_program("design", "--scenario", "board.toml", code=1).stdout
+        self.assertRegex(told, "NOT USABLE: .*the drive trips within the tolerances: the peak current of the start is ")
+
+    def test_crossed_wires_are_named_as_the_cause(self):
+        drive = """
+[control]
+mode = "speed"
+current = {settle_s = 1e-3, damping = 0.9}
+speed = {settle_s = 0.1, damping = 0.9}
+"""
+        crossed = self.BOARD.replace('rotor = "hall"', 'rotor = "hall", hall_lines = "213"')
+        told, _ = self.designed_for(crossed + drive, code=1)
+        self.assertIn("the wiring is the cause (sensors.hall_lines, bridge.phases)", told)
 
     def test_a_limit_of_the_current_bounds_what_is_warned_of(self):
         """3 A of the 5.83 A at full torque: 1.29 times the nominal current."""

@@ -109,7 +109,7 @@ class Design(ProgramTest):
         self.assertEqual(self.names(), [])
 
     def test_design_writes_a_scenario_that_runs_and_is_exported_with_the_same_gains(self):
-        for mode, figures in (("current", 3), ("speed", 7), ("position", 5)):
+        for mode, figures in (("current", 3), ("speed", 8), ("position", 5)):
             self.run_program("design", "maxon-251601", "--mode", mode, "--quick", "--quiet", "--toml", "d.toml",
                              "--json", "d.json")
             designed = json.loads((self.path / "d.json").read_text())

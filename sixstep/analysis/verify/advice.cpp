@@ -92,7 +92,7 @@ bool above_nominal(const DesignSpec& spec, const DriveDesign& d) {
 std::vector<DesignSpec> rescues(const DesignOrder& order, const DriveDesign& d) {
   std::vector<DesignSpec> all = single_changes(order, d);
   for (const DesignSpec& spec : joint_changes(order, d)) all.push_back(spec);
-  if (!order.spec.rotor.hall) return all;
+  if (!order.spec.rotor.hall || !decodes_encoders(order.subject.board)) return all;
   if (order.spec.mode == Mode::position) {
     std::vector<DesignSpec> first;
     // A slow drive has all the time of a longer period, and is tried in a fraction of that of a short one.
@@ -180,6 +180,33 @@ std::string nothing_tried(const DriveDesign& d, bool too_long) {
   return text;
 }
 
+/// What a board may have against any design: without it the same loops are usable.
+std::string board_is_the_cause(const DesignOrder& order) {
+  if (!order.subject.board) return {};
+  const study::Scenario &board = *order.subject.board, usual;
+  TrialBudget budget{rescue_periods};
+  const auto holds_on = [&](const auto& change) {
+    DesignOrder next = order;
+    next.tolerances.clear();
+    next.gain.quick = true;
+    change(*next.subject.board);
+    return holds(next, order.spec, budget);
+  };
+  const auto straight = [&usual](study::Scenario& s) {
+    s.sensors.hall_lines = usual.sensors.hall_lines;
+    s.bridge.phases = usual.bridge.phases;
+  };
+  const bool crossed =
+      board.sensors.hall_lines != usual.sensors.hall_lines || board.bridge.phases != usual.bridge.phases;
+  if (crossed && holds_on(straight))
+    return "the wiring is the cause (sensors.hall_lines, bridge.phases): with straight wires it is usable";
+  if (board.sensors.current_bandwidth_Hz &&
+      holds_on([](study::Scenario& s) { s.sensors.current_bandwidth_Hz.reset(); }))
+    return "the current's amplifier is the cause: usable with a sensors.current_bandwidth_Hz above " +
+           base::three_digits(*board.sensors.current_bandwidth_Hz);
+  return {};
+}
+
 /// Of another: what makes it usable.
 void advise_unusable(const DesignOrder& order, DesignStudy& s) {
   const auto grave =
@@ -189,6 +216,8 @@ void advise_unusable(const DesignOrder& order, DesignStudy& s) {
     grave->cure = smaller_step(order, s);
     return;
   }
+  if (of_a_run(grave->of))
+    if (grave->cure = board_is_the_cause(order); !grave->cure.empty()) return;
   const Rescue found = rescue(order, s.design);
   grave->cure = found.words.empty() ? nothing_tried(s.design, found.too_long) : "usable with " + found.words;
 }
@@ -224,8 +253,12 @@ void advise(const DesignOrder& order, base::Problems& problems) {
   if (!motor) return;
   const base::Result<DriveDesign> d = design::design_drive(*motor, order.spec);
   if (!d) return;
+  const auto grave =
+      std::find_if(d->warnings.begin(), d->warnings.end(), [](const Warning& w) { return w.grave; });
   if (const std::string words = rescue(order, *d).words; !words.empty())
     problems.front().cure = "take " + words;
+  else if (grave != d->warnings.end())  // whatever the gain is
+    problems.front().cure = "mend first what the design has against it: " + grave->what;
 }
 
 void advise(const DesignOrder& order, DesignStudy& study) {

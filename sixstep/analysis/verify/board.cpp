@@ -76,7 +76,7 @@ study::Sensors board_sensors(const design::DriveDesign& d, std::optional<double>
 namespace {
 
 /// The most that a drive asks for: of a current loop also what the step that is asked for overshoots to.
-double most_current_A(const design::DriveDesign& d, std::optional<double> step) {
+double measured_current_A(const design::DriveDesign& d, std::optional<double> step) {
   if (d.spec.mode != control::Mode::current) return d.current_at_full_torque_A;
   const double usual = design::usual_overload * d.nominal_current_A;
   const double overshoot = d.loop("current").step.overshoot;
@@ -91,12 +91,33 @@ void sense_currents(const design::DriveDesign& d, rig::CurrentMeasurement curren
   s.currents = currents;
   if (currents == rig::CurrentMeasurement::ideal || s.current_range_A) return;
   const double headroom = d.spec.mode == control::Mode::position ? 2.0 : 1.25;
-  s.current_range_A = range_from(headroom * (most_current_A(d, step) + d.ripple.worst_A));
+  s.current_range_A = range_from(headroom * (measured_current_A(d, step) + d.ripple.worst_A));
 }
 
 study::Scenario with_ideal_sensors(study::Scenario scenario) {
   scenario.sensors = {};
   return scenario;
+}
+
+bool decodes_encoders(const std::optional<study::Scenario>& board) {
+  using enum study::FirmwareKind;
+  return !board || (board->control.drive != product && board->control.drive != sensorless);
+}
+
+std::optional<double> most_current_A(const study::Scenario& board, double K_t_Nm_A) {
+  const study::Limits& l = board.control.limits;
+  std::optional<double> most = l.current_A;
+  if (l.torque_Nm) most = std::min(*l.torque_Nm / K_t_Nm_A, most.value_or(*l.torque_Nm / K_t_Nm_A));
+  return most;
+}
+
+std::optional<double> most_speed_rad_s(const study::Scenario& board) {
+  constexpr double below_a_trip = 0.9;
+  std::optional<double> most = board.control.limits.speed_rad_s;
+  const std::optional<double>& trip = board.protection.over_speed_rad_s;
+  if (board.control.drive == study::FirmwareKind::product && trip)
+    most = std::min(below_a_trip * *trip, most.value_or(below_a_trip * *trip));
+  return most;
 }
 
 double allowed_swing_rad_s(double with_ideal_sensors_rad_s, double speed_rad_s) {

@@ -22,6 +22,14 @@ study::Sensors with_rotor(study::Sensors sensors, study::RotorSensing rotor, dou
 void sense_currents(const design::DriveDesign& design, rig::CurrentMeasurement currents,
                     std::optional<double> step, study::Sensors& sensors);
 
+/// Whether the board's drive reads an encoder: to the product drive and to the sensorless one edges tell the rotor's place.
+bool decodes_encoders(const std::optional<study::Scenario>& board);
+
+/// What a board's control.limits and the thresholds of its protection leave a test: the most current that may be asked for, A, and the
+/// most speed, a tenth below what trips it, rad/s. Empty where nothing bounds it.
+std::optional<double> most_current_A(const study::Scenario& board, double K_t_Nm_A);
+std::optional<double> most_speed_rad_s(const study::Scenario& board);
+
 /// The same run with everything measured as it is: what the sensors cost is the difference.
 study::Scenario with_ideal_sensors(study::Scenario scenario);
 

@@ -55,6 +55,18 @@ std::string against(const study::Scenario& s, const study::Outcome& designed,
   return slower(s, *run, designed);
 }
 
+/// The protection acts on every motor of the tolerances.
+std::string trips_within_tolerances(const DesignStudy& study, const study::Scenario& s) {
+  const std::optional<double>& trip_A = s.protection.over_current_A;
+  if (s.control.drive != study::FirmwareKind::product || !trip_A || !study.robustness) return {};
+  for (const RobustFigure& f : study.robustness->figures)
+    if (f.figure.starts_with("peak current") && std::isfinite(f.worst) && f.worst >= *trip_A)
+      return "the drive trips within the tolerances: the " + f.figure + " is " + base::three_digits(f.worst) +
+             " A" + (f.at.empty() ? "" : " with " + f.at) + ", and protection.over_current_A is " +
+             base::three_digits(*trip_A) + " A";
+  return {};
+}
+
 /// What a current loop has beside its gains and its limit. False: nothing, or the board's is no PI.
 bool take_current_loop(const study::Control& board, study::Control& to) {
   study::CurrentLoop current = board.current;
@@ -88,6 +100,7 @@ CarriedOver carry_over(const DesignStudy& study, study::Scenario designed, const
   }
   if (bounds_anything(board.control.limits)) {
     s.control.limits = board.control.limits;
+    if (s.control.mode != control::Mode::current) s.control.current.limit_A = board.control.current.limit_A;
     keep("control.limits");
   }
   if (board.control.regeneration.limit_V) {
@@ -98,9 +111,12 @@ CarriedOver carry_over(const DesignStudy& study, study::Scenario designed, const
     out.lost =
         "control.drive = \"sensorless\" of the board's scenario is left out: the loops were run with Hall edges "
         "where crossings would be";
-  else if (!out.kept.empty())
-    if (const std::string reason = against(s, study.outcome, &out.differs); !reason.empty())
+  else if (!out.kept.empty()) {
+    std::string reason = against(s, study.outcome, &out.differs);
+    if (reason.empty()) reason = trips_within_tolerances(study, s);
+    if (!reason.empty())
       out.lost = "of the board's scenario are left out: " + out.kept + "; with them " + reason;
+  }
   if (out.lost.empty()) {
     study::Scenario in_its_numbers = s;
     in_its_numbers.control.arithmetic = board.control.arithmetic;

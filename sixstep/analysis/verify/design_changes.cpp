@@ -163,7 +163,7 @@ DesignSpec on_encoder(const DesignOrder& order, double period_s) {
 }
 
 std::vector<DesignSpec> on_encoders(const DesignOrder& order, const DriveDesign& d) {
-  if (!order.spec.rotor.hall) return {};
+  if (!order.spec.rotor.hall || !decodes_encoders(order.subject.board)) return {};
   std::vector<DesignSpec> out{on_encoder(order, order.spec.period_s)};
   const std::vector<double> periods = shorter_periods(out.front(), d);
   for (std::size_t n = periods.size(); n-- > 0;) out.push_back(on_encoder(order, periods[n]));
@@ -184,7 +184,7 @@ std::vector<DesignSpec> single_changes(const DesignOrder& order, const DriveDesi
     with([](DesignSpec& n) { n.chopping = Chopping::complementary; });
   for (const double period : shorter_periods(w, d)) with([&](DesignSpec& n) { take_period(n, period); });
   if (w.rotor.hall && w.rotor.edges > 1) with([](DesignSpec& n) { n.rotor.edges = 1; });
-  if (w.rotor.hall && w.mode == Mode::position)
+  if (w.rotor.hall && w.mode == Mode::position && decodes_encoders(order.subject.board))
     with([&](DesignSpec& n) { n.rotor = encoder(order, w.period_s); });
   // A damping that somebody chose is of placed poles: the other method has no use for it.
   if (w.method == design::GainMethod::pole_placement && w.mode == Mode::current &&

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sixstep/analysis/verify/blind_shunt.hpp"
 #include "sixstep/analysis/verify/board.hpp"
@@ -113,11 +114,22 @@ double settling_of(const LoopDesign& loop, double otherwise) {
   return std::isfinite(loop.step.settling_s) && loop.step.settling_s > 0.0 ? loop.step.settling_s : otherwise;
 }
 
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+double allowed_current_A(const DriveDesign& d, const DesignSubject& subject) {
+  return subject.board ? most_current_A(*subject.board, d.motor.K_t_Nm_A).value_or(unbounded) : unbounded;
+}
+
+double allowed_speed_rad_s(const DesignSubject& subject) {
+  return subject.board ? most_speed_rad_s(*subject.board).value_or(unbounded) : unbounded;
+}
+
 void add_current(const DriveDesign& d, const DesignSubject& subject, study::Scenario& s) {
   const LoopDesign& loop = d.loop("current");
   const double unlimited_A = part_of_bus * d.bus_V / std::fabs(loop.gains.d1);
-  const double step = subject.step.value_or(
-      plain_number(std::min(d.nominal_current_A, std::max(unlimited_A, 1.5 * unseen_current_A(d, s)))));
+  const double step =
+      subject.step.value_or(plain_number(std::min({d.nominal_current_A, allowed_current_A(d, subject),
+                                                   std::max(unlimited_A, 1.5 * unseen_current_A(d, s))})));
   const double settle = settling_of(loop, 100 * d.spec.period_s), end = plain_time(5 * settle);
   const double last = end - 10 * d.spec.period_s, R = 2 * d.motor.machine.R_ohm;
   s.title = "Current loop as designed, rotor held";
@@ -161,6 +173,7 @@ SpeedTest speed_test(const DriveDesign& d, const DesignSubject& subject) {
   SpeedTest t{.load_A = load_A, .first = plain_number(0.15 * d.bus_V / K)};
   const bool lags = d.lag.delay_s() > 0;
   if (lags) t.first = std::min(1.5 * d.lowest_speed_rad_s, speeds.top_rad_s);
+  t.first = std::min(t.first, allowed_speed_rad_s(subject));
   // The current that a step asks for at first is d1 (speed) times the current at full torque. In volts that
   // is d1 (current) at once, and R when it flows.
   const double volts = part_of_bus * (d.bus_V - K * t.first - R * t.load_A);
@@ -218,9 +231,12 @@ void add_speed_figures(const DriveDesign& d, const SpeedTest& t, study::Scenario
        "designed, were there no limits"},
       {of(study::MetricKind::overshoot, false, "overshoot of the start"), linear.overshoot * t.first,
        "designed, were there no limits"},
-      {window_measure(study::MetricKind::maximum, study::Signal::current, 0, t.begin,
+      {window_measure(study::MetricKind::maximum, study::Signal::current_magnitude, 0, t.begin,
                       "peak current of the start"),
-       d.most_current_A(), at_most_current(d)},
+       d.most_current_A(), at_most_current(d) + "; simulated: the largest of the phases"},
+      {window_measure(study::MetricKind::maximum, study::Signal::current_magnitude, t.begin, t.end,
+                      "peak current of the step"),
+       d.most_current_A(), at_most_current(d) + "; simulated: the largest of the phases, braking too"},
   };
   const double band = within * std::fabs(t.step);
   s.require = {
@@ -241,15 +257,16 @@ void add_speed(const DriveDesign& d, const DesignSubject& subject, study::Scenar
   add_speed_figures(d, t, s);
 }
 
-/// What the loop may ask for is what the bus can reach, or the sheet's greatest speed where that is less: a fifth below it, for a
-/// speed from Hall edges passes its reference by as much.
+/// What the loop may ask for is what the bus can reach, or the sheet's greatest speed or the board's where that is less: a fifth below
+/// it, for a speed from Hall edges passes its reference by as much.
 double bounded_speed(const DriveDesign& d, const DesignSubject& subject, study::Scenario& s) {
   constexpr double below = 0.8;
   const double reached = d.bus_V / d.motor.K_t_Nm_A;
   std::optional<double>& bound = s.control.position.speed_limit_rad_s;
-  if (const auto& most = subject.sheet.max_speed_rpm;
-      most && !bound && most->value / base::rpm_per_rad_s < reached)
-    bound = base::shortened(below * most->value / base::rpm_per_rad_s, 3, base::Towards::down);
+  double most = allowed_speed_rad_s(subject);
+  if (const auto& sheet = subject.sheet.max_speed_rpm)
+    most = std::min(most, sheet->value / base::rpm_per_rad_s);
+  if (most < reached && !bound) bound = base::shortened(below * most, 3, base::Towards::down);
   return std::min(reached, bound.value_or(reached));
 }
 
@@ -322,7 +339,7 @@ void expect_step(const DriveDesign& design, study::Scenario& s) {
   for (study::Comparison& c : s.compare) {
     if (c.measure.metric == study::MetricKind::settling_time) c.value = first_s + step.settling_s;
     if (c.measure.metric == study::MetricKind::overshoot)
-      c.value = step.overshoot * std::fabs(s.reference.value);
+      c.value = step.overshoot > 1e-9 ? step.overshoot * std::fabs(s.reference.value) : 0.0;
   }
 }
 

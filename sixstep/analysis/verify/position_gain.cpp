@@ -31,12 +31,17 @@ class Left {
   TrialBudget* of_all_;
 };
 
-base::Problem none_found(const design::DesignSpec& spec) {
+base::Problem none_found(const design::DesignSpec& spec, const DesignSubject& subject,
+                         const std::string& who) {
+  const bool encoder_helps = spec.rotor.hall && decodes_encoders(subject.board);
   return {"mode", "position",
-          "finds no gain that does not overshoot: the drive was tried down to gains that take too long",
+          "finds no gain that does not overshoot: " + who + " tried down to gains that take too long",
           std::string("give more torque_limit_Nm, or a smaller step") +
-              (spec.rotor.hall ? ", or rotor = encoder in the place of Hall probes" : "")};
+              (encoder_helps ? ", or rotor = encoder in the place of Hall probes" : "")};
 }
+
+constexpr const char* the_drive = "the drive was";
+constexpr const char* all_motors = "the motors of the tolerances were";
 
 /// Runs the move with a gain; only the overshoot is looked at.
 class Trial {
@@ -53,7 +58,7 @@ class Trial {
     s.compare.clear();
     s.require.resize(1);
     if (!left_.takes(s, 1)) {
-      problems = {none_found(design_.spec)};
+      problems = {none_found(design_.spec, subject_, the_drive)};
       return true;
     }
     const base::Result<study::Outcome> outcome = study::run(
@@ -101,7 +106,7 @@ class Field {
     nominal.require.front().max = allowed_overshoot_deg(d, nominal.reference.value);
     if (!left_.takes(nominal, all_.size())) {
       too_long = true;
-      problems = {none_found(design_.spec)};
+      problems = {none_found(design_.spec, subject_, all_motors)};
       return false;
     }
     std::vector<base::Result<study::Outcome>> outcomes(all_.size(), base::Problem{});
@@ -202,7 +207,9 @@ base::Result<PositionGain> lowered_for_tolerances(const design::DriveDesign& des
   }
   if (!field.problems.empty() && !field.too_long) return field.problems;
   if (!held)
-    return field.too_long && !search.quick ? base::Result<PositionGain>(none_found(design.spec)) : found;
+    return field.too_long && !search.quick
+               ? base::Result<PositionGain>(none_found(design.spec, subject, all_motors))
+               : found;
   found.gain_rad_s_per_deg = low;
   return found;
 }

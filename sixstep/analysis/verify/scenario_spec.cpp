@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sixstep/analysis/verify/board.hpp"
 #include "sixstep/base/angle.hpp"
 #include "sixstep/design/loops/spec_check.hpp"
 #include "sixstep/design/loops/tracking_loop.hpp"
@@ -141,11 +142,16 @@ design::DesignSpec spec_of(const study::Scenario& s, std::optional<Mode> mode) {
   w.chopping = s.control.smooth_chopping.on ? control::Chopping::complementary : s.pwm.chopping;
   w.rotor = rotor_sensing_of(s);
   w.lowest_speed_rad_s = lowest_speed(s);
-  // A reference near the top of what the bus drives leaves no room for a step down to it.
-  if (const base::Result<design::MotorModel> motor = design::motor_model(s.sheet);
-      motor && w.lowest_speed_rad_s)
-    if (const double most = most_lowest_speed_rad_s(*motor, w); most > 0.0)
-      w.lowest_speed_rad_s = std::min(*w.lowest_speed_rad_s, most);
+  const base::Result<design::MotorModel> motor = design::motor_model(s.sheet);
+  if (!motor) return w;
+  if (const std::optional<double> most = most_current_A(s, motor->K_t_Nm_A); most && w.mode != Mode::current)
+    w.current_limit_A = std::min(*most, w.current_limit_A.value_or(*most));
+  if (!w.lowest_speed_rad_s) return w;
+  // A reference near the top of what the bus drives, or of what the board allows, leaves no room for a step down to it.
+  if (const double most = most_lowest_speed_rad_s(*motor, w); most > 0.0)
+    w.lowest_speed_rad_s = std::min(*w.lowest_speed_rad_s, most);
+  if (const std::optional<double> most = most_speed_rad_s(s))
+    w.lowest_speed_rad_s = std::min(*w.lowest_speed_rad_s, 0.8 * *most);
   return w;
 }
 
