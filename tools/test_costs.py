@@ -1,0 +1,38 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""test_costs.py [BUILD]          what each test costs: the dearest first, of what ctest has measured in this build
+test_costs.py [BUILD] --write  those that take long into tests/slow.txt: ./test leaves them out, .ci/run has them"""
+import pathlib
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+SLOW = ROOT / "tests/slow.txt"
+SECONDS = 8  # of a test's time, two side by side
+HEAD = f"""# Tests that take more than {SECONDS} s, and how many, two side by side: tools/test_costs.py --write has measured them.
+# ./test leaves them out, ./test --faces and .ci/run have them.
+"""
+
+
+def measured(build):
+    """Seconds by name, of the tests that ctest counts among those that end."""
+    text = (build / "Testing/Temporary/CTestCostData.txt").read_text().split("---")[0]
+    costs = {name: float(seconds) for name, runs, seconds in (line.split() for line in text.splitlines()) if int(runs)}
+    return {name: seconds for name, seconds in costs.items() if not name.startswith("long.")}
+
+
+def main(words):
+    writes = "--write" in words
+    folders = [word for word in words if word != "--write"]
+    costs = measured(pathlib.Path(folders[0] if folders else ROOT / "build/dev"))
+    dear = sorted(((seconds, name) for name, seconds in costs.items() if seconds > SECONDS), reverse=True)
+    rows = "".join(f"{seconds:4.0f}  {name}\n" for seconds, name in dear)
+    if writes:
+        SLOW.write_text(HEAD + rows)
+    else:
+        print(rows, end="")
+    rest = sum(costs.values()) - sum(seconds for seconds, _ in dear)
+    print(f"{sum(costs.values()):.0f} s of {len(costs)} tests; without these {len(dear)} {rest:.0f} s")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
