@@ -219,6 +219,33 @@ TEST(ExportGate, AStallThatTheLimitHidesStandsAgainstIt) {
   EXPECT_THAT(unmeasured(s), IsEmpty());
 }
 
+/// What the drive may ask for is the least of its limits; a threshold below that stops what is in order.
+TEST(ExportGate, AnOverCurrentBelowTheLimitThatBindsStandsAgainstIt) {
+  Scenario s = product_scenario(Mode::speed, 100.0);
+  s.pwm.delay_periods = 1;
+  s.bridge.dead_time_s = 500e-9;
+  s.require.push_back({measure(study::MetricKind::maximum, study::Signal::current), {}, 15.0});
+  s.control.current.limit_A.reset();
+  s.control.speed.torque_limit_Nm = 0.195;  // 5.82 A
+  s.protection.stall_current_A.reset();
+  s.protection.stall_s.reset();
+  const auto told = [&s](double threshold_A) {
+    s.protection.over_current_A = threshold_A;
+    std::string text;
+    for (const base::Problem& p : study::never_measured(s)) text += to_string(p);
+    return text;
+  };
+  using ::testing::HasSubstr;
+  EXPECT_THAT(told(5.8), HasSubstr("may ask for: 5.82 A, control.speed.torque_limit_Nm over K_t"));
+  EXPECT_EQ(told(5.9), "");
+  s.control.limits.current_A = 5.0;
+  EXPECT_THAT(told(4.9), HasSubstr("5 A, control.limits.current_A"));
+  EXPECT_EQ(told(5.1), "");
+  s.control.limits.torque_Nm = 0.1;  // 2.99 A
+  EXPECT_THAT(told(2.9), HasSubstr("2.99 A, control.limits.torque_Nm over K_t"));
+  EXPECT_EQ(told(3.1), "");
+}
+
 /// The winding's time by the thermal model: at I it is heated by I^2 R, and stands that from cold to its limit for as long as the closed
 /// form says, which the sheet's own numbers bound: longer than without any cooling, shorter than for ever.
 TEST(ExportGate, AStallThatTheWindingDoesNotStandStandsAgainstIt) {
