@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "sixstep/analysis/verify/blind_shunt.hpp"
 #include "sixstep/analysis/verify/board.hpp"
+#include "sixstep/analysis/verify/course_parts.hpp"
 #include "sixstep/analysis/verify/linear_study.hpp"
 #include "sixstep/analysis/verify/travel.hpp"
 #include "sixstep/base/angle.hpp"
@@ -24,31 +24,6 @@ using design::LoopDesign;
 
 /// The part of the bus that a first command may use: what is left keeps the clamp away.
 constexpr double part_of_bus = 0.8;
-
-/// One digit, rounded down: 10.9 -> 10.
-double plain_number(double x) { return base::shortened(x, 1, base::Towards::down); }
-
-/// Whole microseconds, upwards: short to write, and a few more do no harm.
-double plain_time(double s) { return std::ceil(s * 1e6) / 1e6; }
-
-study::Measure window_measure(study::MetricKind metric, study::Signal signal, double from_s, double to_s,
-                              const char* label) {
-  study::Measure m;
-  m.metric = metric;
-  m.signal = signal;
-  m.from_s = from_s;
-  m.to_s = to_s;
-  m.label = label;
-  return m;
-}
-
-study::Measure step_measure(study::MetricKind metric, study::Signal signal, double from_s, double to_s,
-                            double start, double level, const char* label) {
-  study::Measure m = window_measure(metric, signal, from_s, to_s, label);
-  m.start = start;
-  m.level = level;
-  return m;
-}
 
 /// Placed poles are said as such: the run places them again, to the same bits.
 template <class Gains>
@@ -112,16 +87,6 @@ study::Scenario common(const DriveDesign& d, const DesignSubject& subject) {
 
 double settling_of(const LoopDesign& loop, double otherwise) {
   return std::isfinite(loop.step.settling_s) && loop.step.settling_s > 0.0 ? loop.step.settling_s : otherwise;
-}
-
-constexpr double unbounded = std::numeric_limits<double>::infinity();
-
-double allowed_current_A(const DriveDesign& d, const DesignSubject& subject) {
-  return subject.board ? most_current_A(*subject.board, d.motor.K_t_Nm_A).value_or(unbounded) : unbounded;
-}
-
-double allowed_speed_rad_s(const DesignSubject& subject) {
-  return subject.board ? most_speed_rad_s(*subject.board).value_or(unbounded) : unbounded;
 }
 
 void add_current(const DriveDesign& d, const DesignSubject& subject, study::Scenario& s) {
@@ -194,10 +159,6 @@ SpeedTest speed_test(const DriveDesign& d, const DesignSubject& subject) {
   return t;
 }
 
-std::string at_most_current(const DriveDesign& d) {
-  return d.most_current_A() < d.current_at_full_torque_A ? "at the limit of the current" : "at full torque";
-}
-
 /// Whether the speed loop asks for more than its torque limit at the step: d1 of it at once, beside what the load takes.
 bool step_is_limited(const DriveDesign& d, const SpeedTest& t) {
   const double load = d.motor.K_t_Nm_A * t.load_A / d.torque_limit_Nm;
@@ -257,74 +218,7 @@ void add_speed(const DriveDesign& d, const DesignSubject& subject, study::Scenar
   add_speed_figures(d, t, s);
 }
 
-/// What the loop may ask for is what the bus can reach, or the sheet's greatest speed or the board's where that is less: a fifth below
-/// it, for a speed from Hall edges passes its reference by as much.
-double bounded_speed(const DriveDesign& d, const DesignSubject& subject, study::Scenario& s) {
-  constexpr double below = 0.8;
-  const double reached = d.bus_V / d.motor.K_t_Nm_A;
-  std::optional<double>& bound = s.control.position.speed_limit_rad_s;
-  double most = allowed_speed_rad_s(subject);
-  if (const auto& sheet = subject.sheet.max_speed_rpm)
-    most = std::min(most, sheet->value / base::rpm_per_rad_s);
-  if (most < reached && !bound) bound = base::shortened(below * most, 3, base::Towards::down);
-  return std::min(reached, bound.value_or(reached));
-}
-
-void add_position(const DriveDesign& d, const DesignSubject& subject, study::Scenario& s) {
-  const LoopDesign& loop = d.loop("position");
-  const base::LinearUnit unit = design::motion_of(d.motor).unit("deg");
-  const double step = subject.step.value_or(usual_move(d)) / unit.factor;
-  const double height = std::fabs(step) * base::pi / 180;
-  const double J = d.motor.shaft.J_kg_m2;
-  // Full torque half of the way forth, half of it back; the bus ends the acceleration at U/K_t, and a third
-  // of that is what a bus-limited start reaches soon. Then the P loop's exponential down to 1e-9 of the step.
-  const double forth_and_back = 2 * std::sqrt(height * J / d.most_torque_Nm()),
-               top = bounded_speed(d, subject, s);
-  const std::string of_top =
-      top < d.bus_V / d.motor.K_t_Nm_A ? "control.position.speed_limit_rad_s" : "bus/K_t";
-  // The bus may end the acceleration before half of the way: a trapezoid of the speed then.
-  const double to_top = top * J / d.most_torque_Nm();
-  const double fastest = forth_and_back / 2 > to_top ? height / top + to_top : forth_and_back;
-  const double travel = 2 * forth_and_back + 3 * height / top + 4 * start_time(d, top / 2, 0.0);
-  const double fade = 21.0 / (loop.gains.d1 * 180 / base::pi), end = plain_time(travel + fade);
-  s.title = "Position cascade as designed, one move";
-  s.duration_s = end;
-  s.reference.value = step;
-  s.reference.unit.emplace(unit.linear);
-  study::Measure settling = step_measure(study::MetricKind::settling_time, study::Signal::position, 0, end, 0,
-                                         step, "settling time");
-  const bool counts = d.spec.rotor.lags();  // it rests within what the sensor tells, if at all
-  const bool hall = d.spec.rotor.hall;
-  const double steps = allowed_overshoot_deg(d, step);
-  settling.band = counts ? steps / std::fabs(step) : 0.0005;
-  const study::Measure overshoot =
-      step_measure(study::MetricKind::overshoot, study::Signal::position, 0, end, 0, step, "overshoot");
-  s.compare = {
-      {settling, fastest,
-       (forth_and_back / 2 > to_top ? "full torque up to " + of_top + " and down again"
-                                    : std::string("full torque, half the way on and half off")) +
-           std::string(hall     ? "; simulated: to within three Hall steps"
-                       : counts ? "; simulated: to within 1 %, or three steps of the sensor"
-                                : "; simulated: to within 0.05 %")},
-      {overshoot, 0.0, "none wanted"},
-      {window_measure(study::MetricKind::maximum, study::Signal::speed, 0, end, "peak speed"), top, of_top},
-      {window_measure(study::MetricKind::maximum, study::Signal::current_magnitude, 0, end, "peak current"),
-       d.most_current_A(), at_most_current(d) + "; simulated: the largest of the phases, braking too"},
-  };
-  s.require = {{overshoot, std::nullopt, counts ? steps : 1e-9 * std::fabs(step)}};
-  if (!counts) return;
-  const study::Measure swing = window_measure(study::MetricKind::peak_to_peak, study::Signal::position,
-                                              end - 0.2 * (end - travel), end, swing_at_target);
-  s.compare.push_back({swing, 0.0, "none wanted"});
-  s.require.push_back({swing, std::nullopt, std::max(usual_move(d) / unit.factor, std::fabs(step)) / 10});
-}
-
 }  // namespace
-
-double usual_move(const DriveDesign& d) {
-  if (!design::motion_of(d.motor).linear) return 1000.0;
-  return plain_number(20 * 1e3 * base::pi / d.motor.machine.pole_pairs);
-}
 
 bool samples_in_middle(const DesignSubject& subject) {
   if (subject.board && subject.board->pwm.sample == study::SampleAt::middle) return true;

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the courses of a design's test have in common: round numbers, windows, and what the board allows them.
+#pragma once
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "sixstep/analysis/verify/board.hpp"
+#include "sixstep/analysis/verify/design_scenario.hpp"
+#include "sixstep/base/decimal.hpp"
+
+namespace sixstep::analysis {
+
+/// One digit, rounded down: 10.9 -> 10.
+inline double plain_number(double x) { return base::shortened(x, 1, base::Towards::down); }
+
+/// Whole microseconds, upwards: short to write, and a few more do no harm.
+inline double plain_time(double s) { return std::ceil(s * 1e6) / 1e6; }
+
+inline study::Measure window_measure(study::MetricKind metric, study::Signal signal, double from_s,
+                                     double to_s, const char* label) {
+  study::Measure m;
+  m.metric = metric;
+  m.signal = signal;
+  m.from_s = from_s;
+  m.to_s = to_s;
+  m.label = label;
+  return m;
+}
+
+inline study::Measure step_measure(study::MetricKind metric, study::Signal signal, double from_s, double to_s,
+                                   double start, double level, const char* label) {
+  study::Measure m = window_measure(metric, signal, from_s, to_s, label);
+  m.start = start;
+  m.level = level;
+  return m;
+}
+
+/// Infinite where no board bounds it.
+inline constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+inline double allowed_current_A(const design::DriveDesign& d, const DesignSubject& subject) {
+  return subject.board ? most_current_A(*subject.board, d.motor.K_t_Nm_A).value_or(unbounded) : unbounded;
+}
+
+inline double allowed_speed_rad_s(const DesignSubject& subject) {
+  return subject.board ? most_speed_rad_s(*subject.board).value_or(unbounded) : unbounded;
+}
+
+/// Where the largest current of a design comes from.
+inline std::string at_most_current(const design::DriveDesign& d) {
+  return d.most_current_A() < d.current_at_full_torque_A ? "at the limit of the current" : "at full torque";
+}
+
+/// A position's course: one move, by the words of design_scenario.hpp.
+void add_position(const design::DriveDesign& design, const DesignSubject& subject, study::Scenario& scenario);
+
+}  // namespace sixstep::analysis
