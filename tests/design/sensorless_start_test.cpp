@@ -36,6 +36,15 @@ TEST(SensorlessStart, FollowsItsClosedForms) {
   EXPECT_GT(c.speed.timeout_ticks, c.lock.longest_ticks) << "a time-out would end the history";
 }
 
+/// The half of a pulse before its middle is shorter by what its begin is late.
+TEST(SensorlessStart, APulseThatBeginsLateNeedsMoreDuty) {
+  design::SensorlessSpec late = spec;
+  late.pulse_late_s = 1e-6;
+  const auto start = design::sensorless_start(maxon(), late, 5.825);
+  ASSERT_TRUE(start);
+  EXPECT_DOUBLE_EQ(start->least_duty, 2 * (1e-6 + 0.25e-6) / 30e-6);
+}
+
 TEST(SensorlessStart, AFilterSetsLeadBlankingAndLeastDuty) {
   design::SensorlessSpec filtered = spec;
   filtered.lowest_part = 0.2;

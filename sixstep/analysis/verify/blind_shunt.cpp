@@ -6,6 +6,7 @@
 #include "sixstep/analysis/verify/run_warnings.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/compile/compile.hpp"
+#include "sixstep/study/compile/pulse.hpp"
 #include "sixstep/study/run/keep_going.hpp"
 #include "sixstep/study/run/run.hpp"
 
@@ -29,11 +30,10 @@ std::optional<double> idle_swing(const DesignOrder& order, const DesignStudy& s)
 
 /// The keys by which a pulse is too short to be seen.
 std::string hiding(const study::Scenario& s) {
-  if (s.pwm.minimum_pulse_s > study::least_visible_duty(s) * s.pwm.period_s) return "pwm.minimum_pulse_s";
-  const bool waits = s.pwm.chopping == control::Chopping::complementary && s.bridge.dead_time_s > 0.0;
+  if (s.pwm.minimum_pulse_s >= study::least_shown_duty(s) * s.pwm.period_s) return "pwm.minimum_pulse_s";
   return std::string("sensors.shunt_settle_s") +
          (s.sensors.current_delay_s > 0.0 ? ", sensors.current_delay_s" : "") +
-         (waits ? ", bridge.dead_time_s" : "");
+         (study::pulse_late_s(s) > 0.0 ? ", bridge.dead_time_s" : "");
 }
 
 }  // namespace

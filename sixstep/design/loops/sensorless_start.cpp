@@ -164,7 +164,8 @@ base::Result<SensorlessStart> sensorless_start(const MotorModel& motor, const Se
   out.duty_per_period = b.nominal_A * K_t * K_t / (motor.shaft.J_kg_m2 * swing_V) * spec.period_s;
   out.current_per_period = b.nominal_A * spec.period_s / usual_current_settle_s;
   if (spec.seen == control::NeutralSeen::on_time)
-    out.least_duty = std::min(0.5, 2.0 * std::max(spec.sampling_s, settled_s(b)) / spec.period_s);
+    out.least_duty =
+        std::min(0.5, 2.0 * (spec.pulse_late_s + std::max(spec.sampling_s, settled_s(b))) / spec.period_s);
   out.lowest_rad_s = b.lowest_rad_s;
   out.highest_rad_s = b.sector_s(1.0) / (least_periods_a_sector(b) * spec.period_s);
   out.steps = steps_of(b, out);

@@ -55,7 +55,9 @@ struct SensorlessSpec {
   double lowest_part = 0.05;    ///< of the no-load speed: where the ramp ends
   double advance_deg = 0.0;     ///< electrical, ahead of the middle between two crossings
   double sampling_s = 0.25e-6;  ///< that a pulse must reach to either side of its middle for a sample to fit
-  double blanking_s = 0.0;      ///< beyond the end of the freewheel: dividers' and converters' filters
+  double pulse_late_s =
+      0.0;  ///< by which it begins later than the timer says: a dead time, with complementary chopping
+  double blanking_s = 0.0;             ///< beyond the end of the freewheel: dividers' and converters' filters
   double terminal_bandwidth_Hz = 0.0;  ///< of dividers and bus, first-order lags; 0: there are none
   double speed_window_s =
       0.0;  ///< six crossings make a speed within this time, else one (hall_speed.hpp); 0: always six

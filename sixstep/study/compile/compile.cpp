@@ -11,6 +11,7 @@
 #include "sixstep/study/compile/front_end.hpp"
 #include "sixstep/study/compile/general_plant.hpp"
 #include "sixstep/study/compile/loops.hpp"
+#include "sixstep/study/compile/pulse.hpp"
 #include "sixstep/study/compile/setpoint_range.hpp"
 #include "sixstep/study/compile/shaft_sensor.hpp"
 #include "sixstep/study/compile/timeline.hpp"
@@ -35,10 +36,9 @@ plant::Shaft shaft_of(const design::MotorModel& motor, const Load& load) {
 
 namespace {
 
-/// Above which a pulse has lasted `late_s` where it is sampled. Complementary, its upper switch turns on a dead time after it was told to.
+/// Above which a pulse has lasted `late_s` where it is sampled.
 double duty_of_a_pulse(const Scenario& s, double late_s) {
-  const bool waits = s.pwm.chopping == control::Chopping::complementary;
-  const double late = (late_s + (waits ? s.bridge.dead_time_s : 0.0)) / s.pwm.period_s;
+  const double late = (late_s + pulse_late_s(s)) / s.pwm.period_s;
   return s.pwm.alignment == Alignment::centre ? 2 * late : 0.5 + late;
 }
 

@@ -7,6 +7,7 @@
 #include "sixstep/design/loops/sensorless_observer.hpp"
 #include "sixstep/study/compile/basis.hpp"
 #include "sixstep/study/compile/front_end.hpp"
+#include "sixstep/study/compile/pulse.hpp"
 
 namespace sixstep::study {
 
@@ -36,6 +37,7 @@ design::SensorlessSpec spec_of(const Scenario& s, const Basis& basis,
   spec.overload = wanted.overload;
   spec.lowest_part = wanted.lowest_part;
   spec.advance_deg = wanted.advance_deg;
+  spec.pulse_late_s = pulse_late_s(s);
   spec.blanking_s = wanted.blanking_s;
   spec.terminal_bandwidth_Hz = s.sensors.bus_bandwidth_Hz.value_or(0.0);
   spec.speed_window_s = speed_window_s(s, basis, drive);

@@ -11,6 +11,7 @@
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/sheet/thermal_ranges.hpp"
 #include "sixstep/study/check/unused_keys.hpp"
+#include "sixstep/study/compile/pulse.hpp"
 #include "sixstep/study/run/export_protection.hpp"
 #include "sixstep/study/run/limit_remarks.hpp"
 #include "sixstep/study/run/loop_stability.hpp"
@@ -78,11 +79,10 @@ std::string on_shunt_amplifier(const Scenario& s) {
 
 std::string on_shunt(const Scenario& s, const Compiled& c, const RunWatch& w) {
   if (static_cast<double>(w.hidden_samples) <= hidden_part * static_cast<double>(w.samples)) return {};
-  const bool dead = s.pwm.chopping == control::Chopping::complementary && s.bridge.dead_time_s > 0.0;
   std::string hidden_by = "sensors.shunt_settle_s = " + us(s.sensors.shunt_settle_s);
   if (s.sensors.current_delay_s > 0.0)
     hidden_by += ", sensors.current_delay_s = " + us(s.sensors.current_delay_s);
-  if (dead) hidden_by += ", bridge.dead_time_s = " + us(s.bridge.dead_time_s);
+  if (pulse_late_s(s) > 0.0) hidden_by += ", bridge.dead_time_s = " + us(s.bridge.dead_time_s);
   if (s.pwm.minimum_pulse_s > 0.0) hidden_by += ", pwm.minimum_pulse_s = " + us(s.pwm.minimum_pulse_s);
   if (w.shunt_least_duty >= 1.0)
     return "the shunt shows no current at all: no pulse lasts long enough for its sample (" + hidden_by + ")";
