@@ -145,6 +145,18 @@ TEST(Remarks, AShuntBehindADeadTime) {
   EXPECT_NEAR(study::least_visible_duty(s), 2.0 / 30, 1e-15);
 }
 
+/// A pulse of 3 us is left out though its sample would count from 2 us on: half of 3 us is the settling time by which the drive knows.
+TEST(Remarks, SamplesThatTheDriveTakesTooSoon) {
+  Scenario s = on_one_shunt();
+  s.pwm.minimum_pulse_s = 3e-6;
+  s.reference.value = 1.0;
+  EXPECT_THAT(remarks_on(s),
+              Contains(AllOf(HasSubstr("from a duty of 0.0667 on the drive takes such a sample"),
+                             HasSubstr("give sensors.shunt_settle_s = 1.5 us"))));
+  s.sensors.shunt_settle_s = 1.5e-6;
+  EXPECT_THAT(remarks_on(s), Contains(AllOf(HasSubstr("above a duty of 0.1"), Not(HasSubstr("takes such")))));
+}
+
 TEST(Remarks, HallEdgesRarerThanTheTimeout) {
   Scenario s = drive_of(Mode::speed, 2.0);
   s.duration_s = 10e-3;

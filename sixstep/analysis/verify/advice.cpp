@@ -200,11 +200,15 @@ std::string board_is_the_cause(const DesignOrder& order) {
       board.sensors.hall_lines != usual.sensors.hall_lines || board.bridge.phases != usual.bridge.phases;
   if (crossed && holds_on(straight))
     return "the wiring is the cause (sensors.hall_lines, bridge.phases): with straight wires it is usable";
-  if (board.sensors.current_bandwidth_Hz &&
-      holds_on([](study::Scenario& s) { s.sensors.current_bandwidth_Hz.reset(); }))
-    return "the current's amplifier is the cause: usable with a sensors.current_bandwidth_Hz above " +
-           base::three_digits(*board.sensors.current_bandwidth_Hz);
-  return {};
+  if (!board.sensors.current_bandwidth_Hz ||
+      !holds_on([](study::Scenario& s) { s.sensors.current_bandwidth_Hz.reset(); }))
+    return {};
+  for (const double times : {2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0})
+    if (const double wider_Hz = times * *board.sensors.current_bandwidth_Hz;
+        holds_on([wider_Hz](study::Scenario& s) { s.sensors.current_bandwidth_Hz = wider_Hz; }))
+      return "the current's amplifier is the cause: usable with sensors.current_bandwidth_Hz = " +
+             base::written(wider_Hz);
+  return "the current's amplifier is the cause: without its lag it is usable";
 }
 
 /// Of another: what makes it usable.

@@ -32,7 +32,8 @@ std::string slower(const study::Scenario& s, const study::Outcome& run, const st
 /// "settling time 0.0418 s in the place of 0.0501": of the figures by which a design is told, those that are others by a twentieth.
 std::string others(const study::Outcome& run, const study::Outcome& designed) {
   std::string out;
-  for (const char* figure : {"settling time", "overshoot", settling_of_start, "peak current of the start"}) {
+  for (const char* figure : {"settling time", "overshoot", settling_of_start, "peak current of the start",
+                             "peak current of the step"}) {
     const study::ComparisonResult *now = figure_of(run, figure), *before = figure_of(designed, figure);
     if (!now || !before || std::fabs(now->measured - before->measured) <= 0.05 * std::fabs(before->measured))
       continue;

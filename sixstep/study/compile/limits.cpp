@@ -6,6 +6,7 @@
 #include <string>
 
 #include "sixstep/base/angle.hpp"
+#include "sixstep/base/decimal.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/compile/basis.hpp"
 #include "sixstep/study/compile/timeline.hpp"
@@ -63,12 +64,13 @@ void check_current(const Scenario& s, const design::LimitSetting& setting, base:
   const bool narrowed = by_current && setting.current_A < *wanted.current_A;
   out.push_back({by_current ? "control.limits.current_A" : "control.limits.torque_Nm",
                  base::three_digits(by_current ? *wanted.current_A : *wanted.torque_Nm),
-                 (narrowed ? "comes to the most that is asked for, " : std::string("comes to ")) +
-                     base::three_digits(setting.current_A) + " A, and one PWM period on a bus of up to " +
-                     base::three_digits(setting.bus_V) + " V drives " + base::three_digits(pulse_A) +
-                     " A into the held rotor",
+                 "cannot be held: one PWM period on a bus of up to " + base::three_digits(setting.bus_V) +
+                     " V drives " + base::three_digits(pulse_A) + " A into the held rotor, more than the " +
+                     base::three_digits(setting.current_A) +
+                     (narrowed ? " A that the reference asks for" : " A of the limit"),
                  "shorten pwm.period_s to " +
-                     base::three_digits(s.pwm.period_s * setting.current_A / pulse_A) +
+                     base::written(base::shortened(s.pwm.period_s * setting.current_A / pulse_A, 3,
+                                                   base::Towards::down)) +
                      (narrowed ? ", or leave the limit away" : " or raise the limit")});
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "sixstep/base/angle.hpp"
+#include "sixstep/base/decimal.hpp"
 #include "sixstep/base/elementary.hpp"
 #include "sixstep/base/linear.hpp"
 #include "sixstep/base/written.hpp"
@@ -77,6 +78,17 @@ std::string on_shunt_amplifier(const Scenario& s) {
          " us it shows 90 %";
 }
 
+/// The drive knows of shunt_settle_s and of the dead time alone. Between what it takes and what is shown it reads 0 A for the current.
+std::string on_samples_taken_too_soon(const Scenario& s, double shown_duty) {
+  const double taken_duty = least_visible_duty(s);
+  if (!(shown_duty > taken_duty * (1 + 1e-9))) return {};
+  const bool centre = s.pwm.alignment == Alignment::centre;
+  const double settle_s = (centre ? shown_duty / 2 : shown_duty - 0.5) * s.pwm.period_s - pulse_late_s(s);
+  return "; from a duty of " + few_digits(taken_duty) +
+         " on the drive takes such a sample for the current: give sensors.shunt_settle_s = " +
+         few_digits(1e6 * base::shortened(settle_s * (1 - 1e-9), 3, base::Towards::up)) + " us";
+}
+
 std::string on_shunt(const Scenario& s, const Compiled& c, const RunWatch& w) {
   if (static_cast<double>(w.hidden_samples) <= hidden_part * static_cast<double>(w.samples)) return {};
   std::string hidden_by = "sensors.shunt_settle_s = " + us(s.sensors.shunt_settle_s);
@@ -94,7 +106,7 @@ std::string on_shunt(const Scenario& s, const Compiled& c, const RunWatch& w) {
   if (unseen_A > 0.0)
     text += "; with the rotor at rest that is " + few_digits(unseen_A) +
             " A, and what is below it is not measured";
-  return text;
+  return text + on_samples_taken_too_soon(s, w.shunt_least_duty);
 }
 
 /// The smallest speed other than 0 that is asked for.

@@ -206,7 +206,7 @@ inline void describe(base::Visitor& v, Regeneration& s) {
 inline void describe(base::Visitor& v, Limits& s) {
   v.value("current_A", s.current_A,
           {.meaning = "bound on the current reference in every mode; all gates are off until the next sample "
-                      "where a phase is a quarter above it",
+                      "where a measured phase current is a quarter above it",
            .unit = "A",
            .range = above(0)});
   v.value("torque_Nm", s.torque_Nm,

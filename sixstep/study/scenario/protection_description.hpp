@@ -28,7 +28,7 @@ inline void describe_thresholds(base::Visitor& v, Protection& s) {
   using base::above;
   using base::from;
   v.value("over_current_A", s.over_current_A,
-          {.meaning = "a phase current above it is a fault", .unit = "A", .range = above(0)});
+          {.meaning = "a measured phase current above it is a fault", .unit = "A", .range = above(0)});
   v.value("over_voltage_V", s.over_voltage_V,
           {.meaning = "a bus voltage above it is a fault", .unit = "V", .range = above(0)});
   v.value("under_voltage_V", s.under_voltage_V,
