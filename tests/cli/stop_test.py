@@ -99,7 +99,8 @@ class Stopped(Started):
                 return
         self.fail("the signal never came while it prepared")
 
-    LONG = ["--set", "duration_s=1e4", "--set", "record.grid_s=1e-3"]
+    # A square wave of 10 ms over 1e4 s is two million stretches, seconds of preparing in which nothing is finished yet.
+    LONG = ["--set", "duration_s=1e4", "--set", "record.grid_s=1e-3", "--set", "reference.period_s=100"]
 
     def test_a_terminal_that_goes_leaves_what_is_finished(self):
         """It tells so twice: the kernel, and the shell."""
@@ -129,7 +130,7 @@ class Stopped(Started):
         with self.started("run", ONE, "--csv", "o.csv", *self.LONG, preexec_fn=limit) as program:
             told = program.communicate(timeout=60)[1]
         self.assertEqual(program.returncode, 152, told)
-        self.assertEqual(self.names(), ["log.csv", "o.partial.csv"])
+        self.assertEqual(self.names(), ["log.csv", "o.partial.csv"], told)
 
     def test_twice_ends_at_once_and_leaves_nothing_hidden(self):
         """A pipe that takes nothing holds the program up where it prints."""
