@@ -21,6 +21,7 @@
 namespace sixstep::control {
 
 enum class PwmPattern : std::uint8_t { upper, lower, pwm_on, on_pwm, pwm_on_pwm };
+inline constexpr std::uint8_t pwm_patterns = 5;
 
 template <class Scalar>
 struct PwmPatternConfig {

@@ -128,8 +128,8 @@ std::string load(const study::Load& l) {
   if (l.gear_efficiency < 1) text += fmt::format(" with an efficiency of {:.6g}", l.gear_efficiency);
   if (!l.at_speeds_Nm.empty()) text += fmt::format("; torque over speed in {} points", l.at_speeds_Nm.size());
   if (!l.dynamometer_rad_s.empty()) text += "; turned by a dynamometer";
-  text += flaw("elastic shaft", l.stiffness_Nm_rad, "N m/rad") + flaw("fan", l.fan_Nm_s2, "N m s2") +
-          flaw("weight", l.gravity_Nm, "N m");
+  text += flaw("elastic shaft", l.stiffness_Nm_rad, "N m/rad") +
+          flaw("fan", study::square_law(l).Nm_s2, "N m s2") + flaw("weight", l.gravity_Nm, "N m");
   return text + flaw("friction", l.coulomb_Nm, "N m") + flaw("viscous friction", l.viscous_Nm_s, "N m s") +
          (l.times_s.empty() ? "" : "; steps of torque");
 }

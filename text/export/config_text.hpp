@@ -4,6 +4,7 @@
 #pragma once
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <string>
@@ -97,14 +98,8 @@ struct EnumText<sixstep::control::SpeedLaw> {
 };
 template <>
 struct EnumText<sixstep::control::PwmPattern> {
-  using enum sixstep::control::PwmPattern;
   static constexpr const char* type = "PwmPattern";
-  static constexpr sixstep::base::Choice<sixstep::control::PwmPattern> words[] = {
-      {"upper", upper, ""},
-      {"lower", lower, ""},
-      {"pwm_on", pwm_on, ""},
-      {"on_pwm", on_pwm, ""},
-      {"pwm_on_pwm", pwm_on_pwm, ""}};
+  static constexpr auto& words = sixstep::study::pattern_choices;
 };
 template <>
 struct EnumText<sixstep::control::Watch> {
@@ -193,7 +188,9 @@ class ConfigText {
   void choice(const Field& f, Enum, Enum kept, Enum otherwise) {
     if (!f.always && kept == otherwise) return;
     using Text = EnumText<Enum>;
-    line(f, fmt::format("{}::{}", Text::type, sixstep::base::word(Text::words, kept)), "");
+    std::string word(sixstep::base::word(Text::words, kept));
+    std::replace(word.begin(), word.end(), '-', '_');
+    line(f, fmt::format("{}::{}", Text::type, word), "");
   }
   template <class Whole>
   void count(const Field& f, Whole, Whole kept, Whole otherwise) {

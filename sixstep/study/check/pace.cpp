@@ -110,7 +110,8 @@ void check_coupling(const Scenario& s, const design::MotorModel& motor, base::Pr
     look("load.damping_Nm_s_rad", l.damping_Nm_s_rad, l.damping_Nm_s_rad * both);
   }
   const double fastest_load = fastest_field_rad_s / motor.machine.pole_pairs / l.gear;
-  look("load.fan_Nm_s2", l.fan_Nm_s2, l.fan_Nm_s2 * fastest_load / (elastic ? J_2 : J_1 + J_2));
+  const SquareLaw fan = square_law(l);
+  look(fan.key.c_str(), fan.Nm_s2, fan.Nm_s2 * fastest_load / (elastic ? J_2 : J_1 + J_2));
 }
 
 /// A torque that throws the rotor out of all bounds within a few PWM periods.

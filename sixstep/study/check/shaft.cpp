@@ -56,7 +56,7 @@ void check_dynamometer(const Scenario& s, base::Problems& out) {
   if (!l.dynamometer_times_s.empty() && l.dynamometer_times_s.front() != 0)
     out.push_back({"load.dynamometer_times_s", base::six_digits(l.dynamometer_times_s.front()),
                    "must begin at 0: a dynamometer turns the shaft from the start", "write 0 for the first"});
-  const auto refuse = [&out](const char* key, double value) {
+  const auto refuse = [&out](const std::string& key, double value) {
     if (value != 0)
       out.push_back({key, base::six_digits(value), "is not felt where a dynamometer says the speed",
                      "leave it away: the load torque is the run's result"});
@@ -64,7 +64,7 @@ void check_dynamometer(const Scenario& s, base::Problems& out) {
   refuse("load.torque_Nm", l.torque_Nm);
   refuse("load.torques_Nm", static_cast<double>(l.torques_Nm.size()));
   refuse("load.at_speeds_Nm", static_cast<double>(l.at_speeds_Nm.size()));
-  refuse("load.fan_Nm_s2", l.fan_Nm_s2);
+  refuse(square_law(l).key, square_law(l).Nm_s2);
   refuse("load.gravity_Nm", l.gravity_Nm);
   refuse("initial.speed_rad_s", s.initial.speed_rad_s);
   if (l.locked)

@@ -94,7 +94,7 @@ general::Shaft shaft_of(const Scenario& s, const Compiled& c) {
           .load_B_Nm_s = s.load.viscous_Nm_s,
           .stiffness_Nm = s.load.stiffness_Nm_rad,
           .damping_Nm_s = s.load.damping_Nm_s_rad,
-          .load = {.fan_Nm_s2 = s.load.fan_Nm_s2,
+          .load = {.fan_Nm_s2 = square_law(s.load).Nm_s2,
                    .gravity_Nm = s.load.gravity_Nm,
                    .gravity_angle_rad = s.load.gravity_angle_deg * base::pi / 180,
                    .over_speed = torque_over_speed(s.load)},
@@ -190,8 +190,8 @@ double start_bus_V(const Scenario& s, double usual_V) {
 bool needs_general_plant(const Scenario& s) {
   const Load& l = s.load;
   const bool ramps = l.between == Between::lines && !l.times_s.empty();
-  const bool shaft = l.gear != 1 || l.stiffness_Nm_rad > 0 || l.fan_Nm_s2 > 0 || l.gravity_Nm != 0 || ramps ||
-                     !l.at_speeds_Nm.empty() || !l.dynamometer_rad_s.empty();
+  const bool shaft = l.gear != 1 || l.stiffness_Nm_rad > 0 || square_law(l).Nm_s2 > 0 || l.gravity_Nm != 0 ||
+                     ramps || !l.at_speeds_Nm.empty() || !l.dynamometer_rad_s.empty();
   const bool supply = s.supply.inductance_H > 0 || s.supply.brake_resistance_ohm > 0 ||
                       s.supply.source != SourceKind::steady || s.supply.capacitor_resistance_ohm > 0 ||
                       s.supply.sink_limit_A > 0;

@@ -4,25 +4,11 @@
 // looks for stands in mean_gauges.hpp, extreme_gauges.hpp and step_gauges.hpp.
 #pragma once
 #include <optional>
-#include <variant>
 
-#include "sixstep/study/measure/extreme_gauges.hpp"
-#include "sixstep/study/measure/mean_gauges.hpp"
-#include "sixstep/study/measure/step_gauges.hpp"
+#include "sixstep/study/measure/any_gauge.hpp"
 #include "sixstep/study/measure/window.hpp"
 
 namespace sixstep::study {
-
-/// A metric that is not taken of one signal's curve has none.
-struct NoGauge {
-  void part(const Series&, int, double, double) {}
-  void sample(double, double) {}
-  double value(double) const { return std::numeric_limits<double>::quiet_NaN(); }
-};
-
-using AnyGauge = std::variant<NoGauge, FinalValue, Mean, SteadyError, Rms, RippleRms, ExtremeGauge<Maximum>,
-                              ExtremeGauge<Minimum>, ExtremeGauge<PeakToPeak>, ExtremeGauge<LargestError>,
-                              ExtremeGauge<Overshoot>, ReachTime, RiseTime, SettlingTime>;
 
 class Gauge {
  public:

@@ -49,6 +49,7 @@ inline constexpr Choice<control::PwmPattern> pattern_choices[] = {
      "that of the leg which has come in for the first half of a sector, of the one that stays for the second: no gap "
      "sends a current through the free phase"},
 };
+static_assert(std::size(pattern_choices) == control::pwm_patterns);
 inline constexpr Choice<CommutationAt> commutation_choices[] = {
     {"hall-edge", CommutationAt::hall_edge, "the pair changes at the Hall edge itself"},
     {"sample", CommutationAt::sample, "the pair changes at the next control sample"},

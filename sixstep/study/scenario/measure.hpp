@@ -6,33 +6,9 @@
 #include <optional>
 #include <string>
 
-namespace sixstep::study {
+#include "sixstep/study/scenario/metrics.hpp"
 
-/// Exact on the trajectory's polynomials (gauge.hpp and its like).
-enum class MetricKind : std::uint8_t {
-  final_value,
-  mean,
-  rms,
-  maximum,
-  minimum,
-  peak_to_peak,
-  ripple_rms,
-  overshoot,
-  reach_time,
-  rise_time,
-  settling_time,
-  steady_error,
-  largest_error,
-  thd,
-  energy,
-  efficiency,
-  band_excess,
-  band_deficit,
-  switching_frequency,
-  switching_loss,
-  commutation_error,
-  commutation_error_rms
-};
+namespace sixstep::study {
 
 /// What a figure is taken of; signal_facts (signal_choices.hpp) has word, unit and meaning of each.
 enum class Signal : std::uint8_t {

@@ -12,6 +12,7 @@
 #include "sixstep/design/sheet/sheet.hpp"
 #include "sixstep/study/scenario/at.hpp"
 #include "sixstep/study/scenario/control.hpp"
+#include "sixstep/study/scenario/load.hpp"
 #include "sixstep/study/scenario/measure.hpp"
 #include "sixstep/study/scenario/protection.hpp"
 #include "sixstep/study/scenario/sensors.hpp"
@@ -82,30 +83,6 @@ struct Pwm {
   int delay_periods = 0;
   double timer_Hz = 0.0;         // 0: edges are not quantised
   double minimum_pulse_s = 0.0;  // a shorter pulse does not come, a shorter gap closes
-};
-
-/// How a table over time goes from one of its points to the next.
-enum class Between : std::uint8_t { steps, lines };
-
-struct Load {
-  double torque_Nm = 0.0;
-  std::vector<double> times_s;  // steps: torques_Nm[n] holds from times_s[n] on
-  std::vector<double> torques_Nm;
-  Between between = Between::steps;
-  std::vector<double> at_speeds_rad_s, at_speeds_Nm;           // torque over the load's speed
-  std::vector<double> dynamometer_times_s, dynamometer_rad_s;  // the load's speed, imposed
-  double viscous_Nm_s = 0.0;                                   // added to the motor's own friction
-  double coulomb_Nm = 0.0;
-  double static_Nm = 0.0;  // breakaway torque where larger than coulomb
-  double inertia_kg_m2 = 0.0;
-  double gear_efficiency = 1.0;
-  double gear = 1.0;              // motor turns per load turn; what the load is given in is at its own side
-  double stiffness_Nm_rad = 0.0;  // of the shaft to the load; 0: rigid
-  double damping_Nm_s_rad = 0.0;
-  double fan_Nm_s2 = 0.0;  // torque per square of the load's speed
-  double gravity_Nm = 0.0;
-  double gravity_angle_deg = 0.0;
-  bool locked = false;
 };
 
 struct Initial {

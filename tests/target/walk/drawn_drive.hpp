@@ -61,7 +61,7 @@ struct DrawnDriveWalk {
   void draw(Random& r) {
     DriveConfig<Scalar> next = drawn_drive<Scalar>(r);
     // Drives with probes alone have these two.
-    next.extras.pwm = {static_cast<PwmPattern>(r.below(5)), positive_gain<Scalar>(r, 0)};
+    next.extras.pwm = {static_cast<PwmPattern>(r.below(pwm_patterns)), positive_gain<Scalar>(r, 0)};
     next.extras.staying_phase = r.one_in(2);
     next.extras.steps_commutation = r.one_in(2);
     next.extras.commutation = {

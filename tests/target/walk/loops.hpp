@@ -184,7 +184,7 @@ struct PwmPatternWalk {
   unsigned sector = 0;
 
   void draw(Random& r) {
-    config = {static_cast<PwmPattern>(r.below(5)), positive_gain<Scalar>(r, 0)};
+    config = {static_cast<PwmPattern>(r.below(pwm_patterns)), positive_gain<Scalar>(r, 0)};
     if (r.one_in(4)) state = {};
   }
   void step(Random& r, Digest& mix) {

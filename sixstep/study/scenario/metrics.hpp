@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// The figures of merit: their words, in files and in results, and what they mean.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <iterator>
+#include <string_view>
+
+#include "sixstep/base/describe.hpp"
+
+namespace sixstep::study {
+
+/// Exact on the trajectory's polynomials (gauge.hpp and its like).
+enum class MetricKind : std::uint8_t {
+  final_value,
+  mean,
+  rms,
+  maximum,
+  minimum,
+  peak_to_peak,
+  ripple_rms,
+  overshoot,
+  reach_time,
+  rise_time,
+  settling_time,
+  steady_error,
+  largest_error,
+  thd,
+  energy,
+  efficiency,
+  band_excess,
+  band_deficit,
+  switching_frequency,
+  switching_loss,
+  commutation_error,
+  commutation_error_rms
+};
+
+/// What a figure looks at.
+enum class TakenOf : std::uint8_t {
+  signal,
+  fundamental,
+  power,
+  energies,
+  band,
+  switching,
+  transitions,
+  commutations
+};
+
+/// Over which stretches of its window, where no level is given: all of it, each step or each level of the
+/// reference, of which the worst counts.
+enum class TakenOver : std::uint8_t { window, steps, levels };
+
+/// One row per figure. `phrase` stands before the signal's: "mean line voltage a to b". Without a unit the
+/// figure has that of its signal.
+struct MetricFact {
+  MetricKind kind;
+  std::string_view word;
+  std::string_view phrase;
+  std::string_view unit;
+  std::string_view meaning;
+  TakenOf of = TakenOf::signal;
+  TakenOver over = TakenOver::window;
+};
+
+inline constexpr MetricFact metric_facts[] = {
+    {MetricKind::final_value, "final", "final", "", "value at the end of the window"},
+    {MetricKind::mean, "mean", "mean", "", "mean over the window"},
+    {MetricKind::rms, "rms", "rms", "", "root of the mean square over the window"},
+    {MetricKind::maximum, "max", "maximum of", "", "largest value in the window"},
+    {MetricKind::minimum, "min", "minimum of", "", "smallest value in the window"},
+    {MetricKind::peak_to_peak, "peak_to_peak", "peak-to-peak", "",
+     "largest less smallest value in the window"},
+    {MetricKind::ripple_rms, "ripple_rms", "rms ripple of", "",
+     "rms of what is left of the signal without its mean"},
+    {MetricKind::overshoot, "overshoot", "overshoot of", "",
+     "how far the signal goes beyond level, in the signal's unit", TakenOf::signal, TakenOver::steps},
+    {MetricKind::reach_time, "reach_time_s", "time to reach,", "s",
+     "time until the signal first gets to start + fraction (level - start); without level: the slowest over "
+     "all steps of the reference",
+     TakenOf::signal, TakenOver::steps},
+    {MetricKind::rise_time, "rise_time_s", "rise time of", "s",
+     "time from 10 % to 90 % of the way from start to level; without level: the slowest over all steps of "
+     "the reference",
+     TakenOf::signal, TakenOver::steps},
+    {MetricKind::settling_time, "settling_time_s", "settling time of", "s",
+     "time of the last exit from level +- band |level - start|, counted from from_s; of samples: of the "
+     "first one from which on all lie inside",
+     TakenOf::signal, TakenOver::steps},
+    {MetricKind::steady_error, "steady_error", "steady error of", "",
+     "mean of level - signal; without level: of reference - signal at the end of each of the reference's "
+     "levels, the largest by size",
+     TakenOf::signal, TakenOver::levels},
+    {MetricKind::largest_error, "largest_error", "largest error of", "",
+     "largest distance of the signal from level: half width of the band it keeps; without level as for "
+     "steady_error",
+     TakenOf::signal, TakenOver::levels},
+    {MetricKind::thd, "thd", "THD of", "1",
+     "total harmonic distortion: rms of all but mean and fundamental, over the rms of the fundamental; over "
+     "whole electrical turns, or whole periods of frequency_Hz",
+     TakenOf::fundamental},
+    {MetricKind::energy, "energy_J", "energy of", "J", "energy over the window of a power or a loss",
+     TakenOf::power},
+    {MetricKind::efficiency, "efficiency", "efficiency", "1",
+     "energy given to load and inertia over energy taken from the bus; while braking the other way round",
+     TakenOf::energies},
+    {MetricKind::band_excess, "band_excess_A", "excess above the band of", "A",
+     "largest excess above the upper limit of the hysteresis band", TakenOf::band},
+    {MetricKind::band_deficit, "band_deficit_A", "shortfall below the band of", "A",
+     "largest shortfall below the lower limit, except from a sector edge or reference step until the current "
+     "is back in the band",
+     TakenOf::band},
+    {MetricKind::switching_frequency, "switching_frequency_Hz", "switching frequency", "Hz",
+     "turn-ons per second in the window: of what is chopped, or of one switch with signal = \"gate_T1\"",
+     TakenOf::switching},
+    {MetricKind::switching_loss, "switching_loss_W", "switching loss", "W",
+     "mean power over the window that turning on, turning off and reverse recovery cost, by the bridge's energies",
+     TakenOf::transitions},
+    {MetricKind::commutation_error, "commutation_error_deg", "commutation error", "deg",
+     "largest electrical angle by which the pair changed before or behind the edge of its sector",
+     TakenOf::commutations},
+    {MetricKind::commutation_error_rms, "commutation_error_rms_deg", "rms commutation error", "deg",
+     "root of the mean square of that angle over all commutations in the window", TakenOf::commutations},
+};
+
+inline constexpr auto metric_choices = [] {
+  std::array<base::Choice<MetricKind>, std::size(metric_facts)> all{};
+  std::size_t n = 0;
+  for (const MetricFact& fact : metric_facts) all[n++] = {fact.word, fact.kind, fact.meaning};
+  return all;
+}();
+
+constexpr const MetricFact& fact_of(MetricKind kind) { return metric_facts[static_cast<std::size_t>(kind)]; }
+
+static_assert([] {
+  for (std::size_t n = 0; n < std::size(metric_facts); ++n)
+    if (static_cast<std::size_t>(metric_facts[n].kind) != n) return false;
+  return std::size(metric_facts) == static_cast<std::size_t>(MetricKind::commutation_error_rms) + 1;
+}());
+
+/// The figures that belong to steps or levels of the reference where no level is given.
+constexpr bool is_of_a_step(MetricKind kind) { return fact_of(kind).over == TakenOver::steps; }
+constexpr bool is_of_a_level(MetricKind kind) { return fact_of(kind).over == TakenOver::levels; }
+/// Infinite where it never comes.
+constexpr bool is_time(MetricKind kind) { return fact_of(kind).unit == "s"; }
+
+}  // namespace sixstep::study
