@@ -6,6 +6,7 @@
 #include "report/setup_words.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
+#include "text/results/shaft_sensor_words.hpp"
 
 namespace report {
 
@@ -13,39 +14,10 @@ using namespace sixstep;
 
 namespace {
 
-std::string sensor_alone(const study::Sensors& s) {
-  switch (s.rotor) {
-    case study::RotorSensing::ideal:
-    case study::RotorSensing::hall:
-      return {};
-    case study::RotorSensing::encoder:
-      return fmt::format("; encoder of {}{}{}",
-                         s.encoder.pitch_mm ? "pitch " + given(*s.encoder.pitch_mm, "mm")
-                                            : std::to_string(s.encoder.lines) + " lines",
-                         s.encoder.referenced ? "" : ", its index not passed yet",
-                         s.encoder.missed_Hz > 0
-                             ? fmt::format(", {} edges missed each second", s.encoder.missed_Hz)
-                             : std::string());
-    case study::RotorSensing::absolute:
-      return fmt::format("; absolute encoder of {} bits, {} late, speed over {} samples", s.absolute.bits,
-                         given(s.absolute.latency_s, "s"), s.absolute.speed_samples);
-    case study::RotorSensing::resolver:
-      if (s.resolver.reading == rig::ResolverReading::tracking)
-        return fmt::format(
-            "; resolver of {} pole pairs, followed within {} by a converter chip of {} bits at {}, {} late",
-            s.resolver.pole_pairs, given(s.resolver.bandwidth_Hz, "Hz"), s.resolver.bits,
-            given(s.resolver.converter_Hz, "Hz"), given(s.resolver.latency_s, "s"));
-      return fmt::format("; resolver of {} pole pairs at {}, followed within {}, {} bits{}",
-                         s.resolver.pole_pairs, given(s.resolver.excitation_Hz, "Hz"),
-                         given(s.resolver.bandwidth_Hz, "Hz"), s.resolver.bits,
-                         s.resolver.calibrated ? ", what its windings are unlike by taken off" : "");
-  }
-  return {};
-}
-
 std::string shaft_sensor(const study::Sensors& s) {
-  const std::string text = sensor_alone(s);
-  return text.empty() || s.shaft == study::SensorShaft::motor ? text : text + ", on the load's shaft";
+  const std::string words = text::shaft_sensor_words(s, text::SensorWordsOf::page, given);
+  if (words.empty()) return words;
+  return "; " + words + (s.shaft == study::SensorShaft::motor ? "" : ", on the load's shaft");
 }
 
 /// What the terminals' dividers and comparators are.

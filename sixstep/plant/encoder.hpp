@@ -30,8 +30,13 @@ std::int64_t parts_of_turn(const ShaftAngle<Real>& at, std::int64_t parts) {
   return turns * parts + whole + static_cast<std::int64_t>(std::floor(more));
 }
 
-/// The three lines of an incremental encoder of N lines in one of the quarters of lines that parts_of_turn(at, 4 N) counts, as
-/// bits A 4, B 2, Z 1.
+/// In which quarter of a line an incremental encoder of N lines shows the shaft, counted over all turns.
+template <class Real>
+std::int64_t encoder_quarter(const ShaftAngle<Real>& at, std::int64_t lines) {
+  return parts_of_turn(at, 4 * lines);
+}
+
+/// The three lines of one of N lines in a quarter of a line, as bits A 4, B 2, Z 1.
 inline std::uint8_t encoder_lines_in(std::int64_t quarter, std::int64_t lines) {
   const std::int64_t in_turn = ((quarter % (4 * lines)) + 4 * lines) % (4 * lines), in_line = in_turn % 4;
   const bool a = in_line < 2, b = in_line == 1 || in_line == 2, z = in_turn < 4;
@@ -41,7 +46,7 @@ inline std::uint8_t encoder_lines_in(std::int64_t quarter, std::int64_t lines) {
 /// The same of an angle.
 template <class Real>
 std::uint8_t encoder_lines(const ShaftAngle<Real>& at, std::int64_t lines) {
-  return encoder_lines_in(parts_of_turn(at, 4 * lines), lines);
+  return encoder_lines_in(encoder_quarter(at, lines), lines);
 }
 
 /// What an absolute encoder of `bits` shows.

@@ -39,9 +39,9 @@ struct SensorsConfig {
   std::uint16_t calibration_turns = 8;  ///< electrical ones that edges are learned from
   double hall_delay_s = 0.0;            ///< by which edges are seen late, as the data sheet says
   double hall_hysteresis_deg = 0.0;
-  double window_s = 0.0;  ///< one edge where these take longer; 0: always `edges`
-  ShaftGiven shaft{};     ///< an encoder or a resolver in the place of the Hall probes
-  double period_s = 0.0;  ///< of the control ticks
+  double window_s = 0.0;      ///< one edge where these take longer; 0: always `edges`
+  ShaftSensorConfig shaft{};  ///< an encoder or a resolver in the place of the Hall probes
+  double period_s = 0.0;      ///< of the control ticks
 
   /// The controller is told what is.
   bool ideal() const {

@@ -44,9 +44,10 @@ class RotorDecoder {
   }
   void set_speeds(const SensorsConfig& config, const Bases& bases);
   void set_resolver(const SensorsConfig& config, const Bases& bases, const control::UnwrappedAngle& at);
-  void set_watch(const ShaftGiven& given);
-  void look_at_index(const ShaftGiven& given);
-  void look_at_windings(const ShaftGiven& given, const control::ResolverCounts& before, bool positive_peak);
+  void set_watch(const ShaftSensorConfig& given);
+  void look_at_index(const ShaftSensorConfig& given);
+  void look_at_windings(const ShaftSensorConfig& given, const control::ResolverCounts& before,
+                        bool positive_peak);
 
   std::uint8_t pole_pairs_ = 1;
   bool on_load_ = false;
@@ -87,7 +88,7 @@ template <class Scalar>
 RotorDecoder<Scalar>::RotorDecoder(const SensorsConfig& config, const Bases& bases,
                                    const plant::ShaftAngle<double>& at)
     : pole_pairs_(static_cast<std::uint8_t>(at.pole_pairs)), on_load_(config.shaft.on_load) {
-  const ShaftGiven& given = config.shaft;
+  const ShaftSensorConfig& given = config.shaft;
   per_turn_ = given.kind == ShaftSensor::resolver ? static_cast<std::uint8_t>(given.resolver.pole_pairs)
                                                   : std::uint8_t{1};
   deg_per_unit_ =
@@ -95,11 +96,11 @@ RotorDecoder<Scalar>::RotorDecoder(const SensorsConfig& config, const Bases& bas
   seen_ = detail::unwrapped(at, per_turn_);
   set_speeds(config, bases);
   if (given.kind == ShaftSensor::encoder) {
-    quadrature_ = control::quadrature_of_lines(static_cast<std::uint32_t>(given.lines));
-    counted_ = plant::parts_of_turn(at, 4 * given.lines);
-    quarters_.referenced = given.referenced;
-    if (given.referenced) {
-      const std::int64_t turn = 4 * given.lines;
+    quadrature_ = control::quadrature_of_lines(static_cast<std::uint32_t>(given.encoder.lines));
+    counted_ = encoder_quarter(given, at);
+    quarters_.referenced = given.encoder.referenced;
+    if (given.encoder.referenced) {
+      const std::int64_t turn = given.quarters();
       quarters_.in_turn = static_cast<std::uint32_t>((counted_ % turn + turn) % turn);
       quarters_.turns = seen_.turns;
     }
@@ -110,21 +111,22 @@ RotorDecoder<Scalar>::RotorDecoder(const SensorsConfig& config, const Bases& bas
 
 template <class Scalar>
 void RotorDecoder<Scalar>::set_speeds(const SensorsConfig& config, const Bases& bases) {
-  const ShaftGiven& given = config.shaft;
+  const ShaftSensorConfig& given = config.shaft;
   const double turn_rad = 2 * base::pi * given.gear, unit_rad = turn_rad / 0x1p32;
   if (given.kind == ShaftSensor::encoder)
-    pulse_config_ = {control::TickRatio<Scalar>(turn_rad / static_cast<double>(4 * given.lines) *
+    pulse_config_ = {control::TickRatio<Scalar>(turn_rad / static_cast<double>(given.quarters()) *
                                                 config.capture_Hz / bases.speed_rad_s),
                      static_cast<std::uint32_t>(config.timeout_s * config.capture_Hz)};
   if (given.kind == ShaftSensor::absolute) {
-    gray_config_.bits = static_cast<std::uint8_t>(given.bits);
-    gray_config_.span = static_cast<std::uint8_t>(given.speed_samples);
-    gray_config_.speed_per_unit = control::Gain<Scalar>(unit_rad / (given.speed_samples * config.period_s) /
-                                                        bases.speed_rad_s / raw_unit<Scalar>());
+    gray_config_.bits = static_cast<std::uint8_t>(given.absolute.bits);
+    gray_config_.span = static_cast<std::uint8_t>(given.absolute.speed_samples);
+    gray_config_.speed_per_unit = control::Gain<Scalar>(
+        unit_rad / (given.absolute.speed_samples * config.period_s) / bases.speed_rad_s / raw_unit<Scalar>());
   }
   if (given.kind != ShaftSensor::resolver) return;
-  const double step_s = given.reading == ResolverReading::tracking ? 1.0 / given.converter_Hz
-                                                                   : given.samples_per_peak * config.period_s;
+  const double step_s = given.resolver.reading == ResolverReading::tracking
+                            ? 1.0 / given.resolver.converter_Hz
+                            : given.samples_per_peak * config.period_s;
   resolver_speed_ =
       control::Gain<Scalar>(unit_rad / step_s / per_turn_ / bases.speed_rad_s / raw_unit<Scalar>());
 }
@@ -136,12 +138,12 @@ inline constexpr double full_signal = 0.6;
 template <class Scalar>
 void RotorDecoder<Scalar>::set_resolver(const SensorsConfig& config, const Bases&,
                                         const control::UnwrappedAngle& at) {
-  const ShaftGiven& given = config.shaft;
+  const ShaftSensorConfig& given = config.shaft;
   const double per_count = full_signal * resolver_adc(given).lsb() / (2 * given.resolver.amplitude_V);
   resolver_config_.cos_per_count = resolver_config_.sin_per_count =
       control::Gain<Scalar>(per_count / raw_unit<Scalar>());
-  if (given.calibrated) {
-    const plant::Resolver& r = given.resolver;
+  if (given.resolver.calibrated) {
+    const plant::Resolver r = windings_of(given.resolver);
     // At its peak of the excitation a winding that leads by d shows cos d of its amplitude.
     const double cos_part = base::cos(r.phase_1_rad), sin_part = (1 + r.imbalance) * base::cos(r.phase_2_rad);
     const double g_c = per_count / cos_part, g_s = per_count / (sin_part * base::cos(r.quadrature_rad));
@@ -152,14 +154,14 @@ void RotorDecoder<Scalar>::set_resolver(const SensorsConfig& config, const Bases
   if (given.watched) set_watch(given);
   resolver_config_.loop = given.tracking;
   resolver_.loop.angle = at.angle;
-  bits_ = static_cast<std::uint8_t>(given.bits);
+  bits_ = static_cast<std::uint8_t>(given.resolver.bits);
   samples_per_peak_ = given.samples_per_peak;
   period_ticks_ = sim::to_instant(config.period_s).ticks;
 }
 
 /// A limit that its number cannot hold is none.
 template <class Scalar>
-void RotorDecoder<Scalar>::set_watch(const ShaftGiven& given) {
+void RotorDecoder<Scalar>::set_watch(const ShaftSensorConfig& given) {
   constexpr double unit = full_signal * full_signal;
   resolver_config_.least_square = Scalar(unit * given.watch.least_square);
   if (unit * given.watch.greatest_square < 1.0)
@@ -178,8 +180,8 @@ void RotorDecoder<Scalar>::sense(control::Measurement<Scalar>& m, const Sample& 
     case ShaftSensor::absolute:
       return of_absolute(m, ports);
     case ShaftSensor::resolver:
-      return ports.given().reading == ResolverReading::tracking ? of_converter(m, ports.converter())
-                                                                : of_resolver(m, s, ports);
+      return ports.given().resolver.reading == ResolverReading::tracking ? of_converter(m, ports.converter())
+                                                                         : of_resolver(m, s, ports);
   }
 }
 
@@ -211,7 +213,7 @@ void RotorDecoder<Scalar>::of_encoder(control::Measurement<Scalar>& m, ShaftPort
 }
 
 template <class Scalar>
-void RotorDecoder<Scalar>::look_at_index(const ShaftGiven& given) {
+void RotorDecoder<Scalar>::look_at_index(const ShaftSensorConfig& given) {
   const double turns = given.on_load ? given.gear : 1.0;
   const double sectors = 6.0 * pole_pairs_ * turns * quarters_.missed / quadrature_.counts;
   if (given.watched && std::fabs(sectors) > 1)
@@ -238,8 +240,8 @@ void RotorDecoder<Scalar>::of_converter(control::Measurement<Scalar>& m, const T
 
 /// Which of them it is, of the last peak and the one before.
 template <class Scalar>
-void RotorDecoder<Scalar>::look_at_windings(const ShaftGiven& given, const control::ResolverCounts& before,
-                                            bool positive_peak) {
+void RotorDecoder<Scalar>::look_at_windings(const ShaftSensorConfig& given,
+                                            const control::ResolverCounts& before, bool positive_peak) {
   const control::ResolverSignals<Scalar> x =
       control::resolver_signals(resolver_config_, before, resolver_.last, positive_peak);
   found_ =

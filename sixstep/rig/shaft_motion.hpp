@@ -64,13 +64,13 @@ Real turning_part(const ShaftMotion<Real>& m) {
   return high;
 }
 
-/// When a shaft that goes one way from `low` to `high` comes to a count of parts_of_turn().
-template <class Real>
-Real part_of_count(const ShaftMotion<Real>& m, std::int64_t parts, Real low, Real high, std::int64_t count,
-                   int way) {
+/// When a shaft that goes one way from `low` to `high` comes to a count; `count_at` says which one stands at an angle.
+template <class Real, class CountAt>
+Real part_of_count(const ShaftMotion<Real>& m, const CountAt& count_at, Real low, Real high,
+                   std::int64_t count, int way) {
   for (int n = 0; n < 60; ++n) {
     const Real middle = (low + high) / 2;
-    ((plant::parts_of_turn(m.angle(middle), parts) - count) * way >= 0 ? high : low) = middle;
+    ((count_at(m.angle(middle)) - count) * way >= 0 ? high : low) = middle;
   }
   return high;
 }

@@ -17,22 +17,22 @@
 namespace sixstep::rig {
 
 /// That of both windings: its range leaves a quarter of room above their amplitude.
-inline AdcPath resolver_adc(const ShaftGiven& given) {
-  return {.bits = 12, .range = 1.25 * given.resolver.amplitude_V, .noise = given.noise_V};
+inline AdcPath resolver_adc(const ShaftSensorConfig& given) {
+  return {.bits = 12, .range = 1.25 * given.resolver.amplitude_V, .noise = given.resolver.noise_V};
 }
 
 class ShaftPorts {
  public:
-  ShaftPorts(const ShaftGiven& given, double capture_Hz, std::uint64_t seed,
+  ShaftPorts(const ShaftSensorConfig& given, double capture_Hz, std::uint64_t seed,
              const plant::ShaftAngle<double>& at);
 
-  const ShaftGiven& given() const { return given_; }
+  const ShaftSensorConfig& given() const { return given_; }
   template <class Real>
   void follow(const ShaftMotion<Real>& motion) {
     if (given_.kind == ShaftSensor::encoder) count(motion);
     if (given_.kind == ShaftSensor::absolute) latch(motion);
     if (given_.kind != ShaftSensor::resolver) return;
-    if (given_.reading == ResolverReading::tracking) converter_.follow(motion, windings_);
+    if (given_.resolver.reading == ResolverReading::tracking) converter_.follow(motion, windings_);
     if (given_.on_load) stands_ = as_double(motion.angle(motion.s));
   }
 
@@ -59,18 +59,25 @@ class ShaftPorts {
   std::uint8_t pins_in(std::int64_t quarter) const {
     const unsigned elsewhere =
         given_.linear && (quarter < 0 || quarter > 3) ? 1 : 0;  // the scale's one index is at 0
-    const unsigned shown = plant::encoder_lines_in(quarter, given_.lines) & ~elsewhere;
+    const unsigned shown = plant::encoder_lines_in(quarter, given_.encoder.lines) & ~elsewhere;
     return static_cast<std::uint8_t>((shown | lines_high_) & ~unsigned{lines_low_});
   }
   /// The same where the shaft stands at the end of the last segment.
   std::uint8_t pins() const { return pins_in(quarters_); }
-  /// What is left of a Gray code, where tracks stick.
-  std::uint32_t shown(std::uint32_t code) const { return (code | stuck_high_) & ~stuck_low_; }
+  /// In which quarter of a line the encoder shows a shaft.
+  template <class Real>
+  std::int64_t quarter_at(const plant::ShaftAngle<Real>& at) const {
+    return encoder_quarter(given_, at);
+  }
+  /// The Gray code of a shaft, tracks that stick included.
+  std::uint32_t code_at(const plant::ShaftAngle<double>& at) const {
+    return shown(absolute_code(given_, at));
+  }
   /// Of cosine and sine, without noise. A drive that samples them by itself begins to excite them at its first sample; a chip
   /// has done so at t = 0.
   std::array<double, 2> windings_V(const plant::ShaftAngle<double>& at, const sim::Instant& t) const {
-    if (!excited_ && given_.reading == ResolverReading::sampled) return {};
-    return windings_.leave(plant::resolver_V(given_.resolver, at, t.ticks - excited_ticks_), {});
+    if (!excited_ && given_.resolver.reading == ResolverReading::sampled) return {};
+    return windings_.leave(plant::resolver_V(resolver_, at, t.ticks - excited_ticks_), {});
   }
 
   /// The next so many edges are not counted.
@@ -105,7 +112,8 @@ class ShaftPorts {
   void excite(double part) { windings_.excitation = part; }
 
  private:
-  std::int64_t parts() const { return 4 * given_.lines; }
+  std::int64_t parts() const { return given_.quarters(); }
+  std::uint32_t shown(std::uint32_t code) const { return (code | stuck_high_) & ~stuck_low_; }
   bool stands_index(std::int64_t border) const { return given_.linear ? border == 0 : border % parts() == 0; }
   template <class Real>
   static plant::ShaftAngle<double> as_double(const plant::ShaftAngle<Real>& at) {
@@ -129,7 +137,8 @@ class ShaftPorts {
   template <class Real>
   void latch(const ShaftMotion<Real>& m);
 
-  ShaftGiven given_;
+  ShaftSensorConfig given_;
+  plant::Resolver resolver_{};
   CaptureClock capture_{1e6};
   AdcPath adc_{};
   TrackingConverter converter_{};
@@ -144,14 +153,15 @@ class ShaftPorts {
   bool index_ = false, excited_ = false;
 };
 
-inline ShaftPorts::ShaftPorts(const ShaftGiven& given, double capture_Hz, std::uint64_t seed,
+inline ShaftPorts::ShaftPorts(const ShaftSensorConfig& given, double capture_Hz, std::uint64_t seed,
                               const plant::ShaftAngle<double>& at)
     : given_(given), capture_(capture_Hz), stands_(at), seed_(seed) {
-  if (given.kind == ShaftSensor::encoder) counted_ = quarters_ = plant::parts_of_turn(at, parts());
-  if (given.kind == ShaftSensor::absolute) code_ = plant::gray_code(at, given.bits);
+  if (given.kind == ShaftSensor::encoder) counted_ = quarters_ = quarter_at(at);
+  if (given.kind == ShaftSensor::absolute) code_ = absolute_code(given, at);
   if (given.kind != ShaftSensor::resolver) return;
   adc_ = resolver_adc(given);
-  if (given.reading == ResolverReading::tracking) converter_ = TrackingConverter(given, seed, at);
+  resolver_ = windings_of(given.resolver);
+  if (given.resolver.reading == ResolverReading::tracking) converter_ = TrackingConverter(given, seed, at);
 }
 
 /// Within a segment the shaft may turn round once: then each way by itself.
@@ -164,7 +174,7 @@ void ShaftPorts::count(const ShaftMotion<Real>& m) {
 
 template <class Real>
 void ShaftPorts::count_one_way(const ShaftMotion<Real>& m, Real from, Real to) {
-  const std::int64_t end = plant::parts_of_turn(m.angle(to), parts());
+  const std::int64_t end = quarter_at(m.angle(to));
   if (end == quarters_) return;
   if (((lines_high_ | lines_low_) & 6) != 0) return count_by_pins(m, from, to, end);
   const int direction = end > quarters_ ? 1 : -1;
@@ -182,7 +192,8 @@ void ShaftPorts::count_one_way(const ShaftMotion<Real>& m, Real from, Real to) {
 
 template <class Real>
 void ShaftPorts::capture(const ShaftMotion<Real>& m, Real low, Real high, std::int64_t count, int way) {
-  const Real at = part_of_count(m, parts(), low, high, count, way);
+  const auto quarter = [this](const plant::ShaftAngle<Real>& shaft) { return quarter_at(shaft); };
+  const Real at = part_of_count(m, quarter, low, high, count, way);
   edge_time_ = capture_.counts(m.from.plus_seconds(static_cast<double>(at * m.y.h)));
 }
 
@@ -241,9 +252,9 @@ inline void ShaftPorts::look_for_index(std::int64_t end, std::int64_t not_missed
 
 template <class Real>
 void ShaftPorts::latch(const ShaftMotion<Real>& m) {
-  const sim::Instant at = m.next_sample.plus_seconds(-given_.latency_s);
+  const sim::Instant at = m.next_sample.plus_seconds(-given_.absolute.latency_s);
   if (at < m.from || m.to < at) return;
-  code_ = plant::gray_code(m.angle(m.part(at)), given_.bits);
+  code_ = absolute_code(given_, m.angle(m.part(at)));
 }
 
 /// The chip begins its excitation so that samples fall on peaks.

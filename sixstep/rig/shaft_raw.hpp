@@ -16,14 +16,13 @@ struct ShaftRaw {
 
 inline ShaftRaw shaft_raw(const ShaftPorts& ports, const plant::ShaftAngle<double>& at,
                           const sim::Instant& t) {
-  const ShaftGiven& given = ports.given();
-  switch (given.kind) {
+  switch (ports.given().kind) {
     case ShaftSensor::none:
       break;
     case ShaftSensor::encoder:
-      return {.lines = ports.pins_in(plant::parts_of_turn(at, 4 * given.lines))};
+      return {.lines = ports.pins_in(ports.quarter_at(at))};
     case ShaftSensor::absolute:
-      return {.code = ports.shown(plant::gray_code(at, given.bits))};
+      return {.code = ports.code_at(at)};
     case ShaftSensor::resolver:
       return {.winding_V = ports.windings_V(at, t)};
   }
@@ -34,15 +33,15 @@ namespace detail {
 
 /// The quarters of lines passed on a way without a turn, each with the part of the segment where it begins to stand.
 template <class Real, class Visit>
-void for_each_quarter_one_way(const ShaftMotion<Real>& m, std::int64_t parts, Real from, Real to,
+void for_each_quarter_one_way(const ShaftMotion<Real>& m, const ShaftPorts& ports, Real from, Real to,
                               Visit&& visit) {
-  const std::int64_t begin = plant::parts_of_turn(m.angle(from), parts),
-                     end = plant::parts_of_turn(m.angle(to), parts);
+  const auto quarter_at = [&ports](const plant::ShaftAngle<Real>& at) { return ports.quarter_at(at); };
+  const std::int64_t begin = quarter_at(m.angle(from)), end = quarter_at(m.angle(to));
   const int way = end > begin ? 1 : -1;
   Real reached = from;
   for (std::int64_t quarter = begin; quarter != end;) {
     quarter += way;
-    const Real at = part_of_count(m, parts, reached, to, quarter, way);
+    const Real at = part_of_count(m, quarter_at, reached, to, quarter, way);
     visit(quarter, at);
     reached = at;
   }
@@ -52,10 +51,10 @@ void for_each_quarter_one_way(const ShaftMotion<Real>& m, std::int64_t parts, Re
 
 /// In the order of time, as often as the shaft passes each.
 template <class Real, class Visit>
-void for_each_quarter(const ShaftMotion<Real>& m, std::int64_t parts, Visit&& visit) {
+void for_each_quarter(const ShaftMotion<Real>& m, const ShaftPorts& ports, Visit&& visit) {
   const Real turns = turning_part(m);
-  if (turns > 0) detail::for_each_quarter_one_way(m, parts, Real(0), turns, visit);
-  detail::for_each_quarter_one_way(m, parts, turns, m.s, visit);
+  if (turns > 0) detail::for_each_quarter_one_way(m, ports, Real(0), turns, visit);
+  detail::for_each_quarter_one_way(m, ports, turns, m.s, visit);
 }
 
 }  // namespace sixstep::rig

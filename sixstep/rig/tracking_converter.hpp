@@ -14,8 +14,8 @@
 #pragma once
 #include "sixstep/base/random.hpp"
 #include "sixstep/control/sensing/resolver.hpp"
-#include "sixstep/rig/shaft_given.hpp"
 #include "sixstep/rig/shaft_motion.hpp"
+#include "sixstep/rig/shaft_sensor_config.hpp"
 
 namespace sixstep::rig {
 
@@ -23,16 +23,16 @@ class TrackingConverter {
  public:
   TrackingConverter() = default;
   /// It has followed the shaft before the run.
-  TrackingConverter(const ShaftGiven& given, std::uint64_t seed, const plant::ShaftAngle<double>& at)
+  TrackingConverter(const ShaftSensorConfig& given, std::uint64_t seed, const plant::ShaftAngle<double>& at)
       : loop_{given.tracking},
-        resolver_(given.resolver),
+        resolver_(windings_of(given.resolver)),
         watch_(given.watch),
         watched_(given.watched),
-        noise_(given.noise_V / given.resolver.amplitude_V),
-        latency_s_(given.latency_s),
+        noise_(given.resolver.noise_V / given.resolver.amplitude_V),
+        latency_s_(given.resolver.latency_s),
         seed_(seed),
-        period_ticks_(sim::to_instant(1.0 / given.converter_Hz).ticks),
-        bits_(static_cast<std::uint8_t>(given.bits)) {
+        period_ticks_(sim::to_instant(1.0 / given.resolver.converter_Hz).ticks),
+        bits_(static_cast<std::uint8_t>(given.resolver.bits)) {
     const auto all = static_cast<std::uint64_t>(plant::parts_of_turn(at, std::int64_t{1} << 32));
     state_.angle = static_cast<control::BinaryAngle>(all * static_cast<std::uint64_t>(resolver_.pole_pairs));
     next_.ticks = period_ticks_;

@@ -18,8 +18,9 @@ using sixstep::testing::Motion;
 constexpr double capture_Hz = 1e9;
 constexpr int line_A = 1, line_B = 2, line_Z = 3;
 
-ShaftPorts encoder(std::int64_t lines, const Motion& m) {
-  return ShaftPorts({.kind = rig::ShaftSensor::encoder, .lines = lines}, capture_Hz, 0, m.shaft(0));
+ShaftPorts encoder(int lines, const Motion& m) {
+  return ShaftPorts({.kind = rig::ShaftSensor::encoder, .encoder = {.lines = lines}}, capture_Hz, 0,
+                    m.shaft(0));
 }
 
 /// Of floor(4 N theta/2 pi).
@@ -149,7 +150,7 @@ TEST(FalseIndex, LatchesTheCountAtAWrongPlace) {
 
 TEST(AbsolutePort, ATrackIsWholeAgain) {
   const Motion m{0.3, 0, 0};
-  ShaftPorts ports({.kind = rig::ShaftSensor::absolute, .bits = 16}, capture_Hz, 0, m.shaft(0));
+  ShaftPorts ports({.kind = rig::ShaftSensor::absolute, .absolute = {.bits = 16}}, capture_Hz, 0, m.shaft(0));
   const std::uint32_t whole = ports.code();
   for (int bit = 0; bit < 16; ++bit) {
     ports.stick_track(bit, (whole >> bit & 1) == 0);
@@ -163,7 +164,7 @@ TEST(AbsolutePort, ATrackIsWholeAgain) {
 TEST(ResolverPort, ShowsThePartOfItsExcitation) {
   const Motion m{0.7, 0, 0};
   ShaftPorts ports({.kind = rig::ShaftSensor::resolver,
-                    .resolver = {.amplitude_V = 2.0, .excitation_Hz = 10e3, .pole_pairs = 2}},
+                    .resolver = {.pole_pairs = 2, .amplitude_V = 2.0, .excitation_Hz = 10e3}},
                    capture_Hz, 0, m.shaft(0));
   int n = 0;
   const auto shows = [&](double cosine, double sine) {
@@ -186,12 +187,11 @@ TEST(ResolverPort, ShowsThePartOfItsExcitation) {
   shows(1, 1);
 }
 
-rig::ShaftGiven converter() {
-  rig::ShaftGiven given{.kind = rig::ShaftSensor::resolver, .bits = 16};
-  given.reading = rig::ResolverReading::tracking;
-  given.converter_Hz = 500e3;
+rig::ShaftSensorConfig converter() {
+  rig::ShaftSensorConfig given{.kind = rig::ShaftSensor::resolver};
+  given.resolver = {.amplitude_V = 1.0, .reading = rig::ResolverReading::tracking};
   const auto loop = design::tracking_loop(
-      {.bandwidth_rad_s = 2 * base::pi * 1000, .damping = 1.0, .period_s = 1 / given.converter_Hz});
+      {.bandwidth_rad_s = 2 * base::pi * 1000, .damping = 1.0, .period_s = 1 / given.resolver.converter_Hz});
   given.tracking = design::tracking_config(*loop);
   return given;
 }

@@ -19,8 +19,9 @@ using sixstep::testing::Motion;
 
 constexpr double capture_Hz = 1e9;
 
-ShaftPorts encoder(std::int64_t lines, const Motion& m) {
-  return ShaftPorts({.kind = rig::ShaftSensor::encoder, .lines = lines}, capture_Hz, 0, m.shaft(0));
+ShaftPorts encoder(int lines, const Motion& m) {
+  return ShaftPorts({.kind = rig::ShaftSensor::encoder, .encoder = {.lines = lines}}, capture_Hz, 0,
+                    m.shaft(0));
 }
 
 /// Of floor(4 N theta/2 pi).
@@ -98,8 +99,9 @@ TEST(EncoderPort, EdgesMissedBehindTheIndexAreMissingFromItsCount) {
 
 TEST(EncoderPort, OnTheLoadsSideCountsTheLoad) {
   const Motion m{0.3, 170, 900};
-  ShaftPorts ports({.kind = rig::ShaftSensor::encoder, .on_load = true, .gear = 3.7, .lines = 1000},
-                   capture_Hz, 0, rig::in_sixths(m.theta(0) / 3.7));
+  ShaftPorts ports(
+      {.kind = rig::ShaftSensor::encoder, .on_load = true, .gear = 3.7, .encoder = {.lines = 1000}},
+      capture_Hz, 0, rig::in_sixths(m.theta(0) / 3.7));
   m.show(ports, 0, 0.02, 1.0, 3.7, 0.01);
   const double turns = (m.theta(0.02) / 3.7 - 0.01) / (2 * base::pi);
   EXPECT_EQ(ports.quarters(), static_cast<std::int64_t>(std::floor(4000 * turns)));
@@ -107,7 +109,7 @@ TEST(EncoderPort, OnTheLoadsSideCountsTheLoad) {
 
 TEST(AbsolutePort, ATrackSticks) {
   const Motion m{0.3, 0, 0};
-  ShaftPorts ports({.kind = rig::ShaftSensor::absolute, .bits = 16}, capture_Hz, 0, m.shaft(0));
+  ShaftPorts ports({.kind = rig::ShaftSensor::absolute, .absolute = {.bits = 16}}, capture_Hz, 0, m.shaft(0));
   const std::uint32_t whole = ports.code();
   for (int bit = 0; bit < 16; ++bit) {
     ShaftPorts low = ports, high = ports;
@@ -121,8 +123,8 @@ TEST(AbsolutePort, ATrackSticks) {
 TEST(AbsolutePort, LatchesItsCodeBeforeItIsRead) {
   const Motion m{0.3, 200, 5000};
   for (const double latency_s : {0.0, 7e-6, 28e-6}) {
-    ShaftPorts ports({.kind = rig::ShaftSensor::absolute, .bits = 16, .latency_s = latency_s}, capture_Hz, 0,
-                     m.shaft(0));
+    ShaftPorts ports({.kind = rig::ShaftSensor::absolute, .absolute = {.bits = 16, .latency_s = latency_s}},
+                     capture_Hz, 0, m.shaft(0));
     for (int n = 1; n < 200; ++n) {
       m.show(ports, (n - 1) * 30e-6, n * 30e-6, n * 30e-6);
       const double turns = m.theta(n * 30e-6 - latency_s) / (2 * base::pi);
@@ -135,7 +137,7 @@ TEST(AbsolutePort, LatchesItsCodeBeforeItIsRead) {
 TEST(ResolverPort, IsSampledAtItsPeaks) {
   const Motion m{0.7, 0, 0};
   ShaftPorts ports({.kind = rig::ShaftSensor::resolver,
-                    .resolver = {.amplitude_V = 2.0, .excitation_Hz = 10e3, .pole_pairs = 2}},
+                    .resolver = {.pole_pairs = 2, .amplitude_V = 2.0, .excitation_Hz = 10e3}},
                    capture_Hz, 0, m.shaft(0));
   for (int n = 0; n < 6; ++n) {
     const auto counts =
@@ -148,12 +150,13 @@ TEST(ResolverPort, IsSampledAtItsPeaks) {
 
 // Windings as MODEL has them: at a peak of the excitation one that leads by d shows cos d of its amplitude.
 TEST(ResolverPort, ShowsWhatItsWindingsAreUnlikeBy) {
-  const plant::Resolver r{.amplitude_V = 1.5,
-                          .excitation_Hz = 10e3,
-                          .imbalance = 0.04,
-                          .quadrature_rad = 0.03,
-                          .phase_1_rad = 0.2,
-                          .phase_2_rad = -0.35};
+  constexpr double rad = 180 / base::pi;
+  const rig::Resolver r{.amplitude_V = 1.5,
+                        .excitation_Hz = 10e3,
+                        .imbalance = 0.04,
+                        .quadrature_deg = 0.03 * rad,
+                        .phase_deg = 0.2 * rad,
+                        .sine_phase_deg = -0.35 * rad};
   const double lsb = 2 * 1.25 * 1.5 / 4096;
   for (const double theta : {0.0, 0.4, 1.3, 2.9, 4.0, 5.5}) {
     const Motion m{theta, 0, 0};
@@ -166,7 +169,7 @@ TEST(ResolverPort, ShowsWhatItsWindingsAreUnlikeBy) {
       EXPECT_NEAR(counts.sin, 2048 + sign * 1.5 * 1.04 * std::cos(0.35) * std::sin(theta + 0.03) / lsb, 0.51)
           << theta;
     }
-    const auto envelope = plant::resolver_envelope(r, m.shaft(0));
+    const auto envelope = plant::resolver_envelope(rig::windings_of(r), m.shaft(0));
     EXPECT_NEAR(envelope[0], std::cos(theta), 4e-11);
     EXPECT_NEAR(envelope[1], 1.04 * std::sin(theta + 0.03), 4e-11);
   }
@@ -175,8 +178,8 @@ TEST(ResolverPort, ShowsWhatItsWindingsAreUnlikeBy) {
 TEST(ResolverPort, IsAsNoisyAsItIsSaidToBeAndTheSeedsOwn) {
   const Motion m{0.7, 0, 0};
   const double lsb = 2 * 2.5 / 4096, noise_V = 10 * lsb;
-  const rig::ShaftGiven given{
-      .kind = rig::ShaftSensor::resolver, .resolver = {.amplitude_V = 2.0}, .noise_V = noise_V};
+  const rig::ShaftSensorConfig given{.kind = rig::ShaftSensor::resolver,
+                                     .resolver = {.amplitude_V = 2.0, .noise_V = noise_V}};
   ShaftPorts one(given, capture_Hz, 1, m.shaft(0)), same(given, capture_Hz, 1, m.shaft(0)),
       other(given, capture_Hz, 2, m.shaft(0));
   constexpr int samples = 4000;
@@ -202,11 +205,13 @@ TEST(ResolverPort, IsAsNoisyAsItIsSaidToBeAndTheSeedsOwn) {
 
 constexpr double clock_Hz = 500e3;
 
-rig::ShaftGiven converter(int bits, double latency_s = 0.0) {
-  rig::ShaftGiven given{.kind = rig::ShaftSensor::resolver, .bits = bits, .latency_s = latency_s};
-  given.resolver.pole_pairs = 2;
-  given.reading = rig::ResolverReading::tracking;
-  given.converter_Hz = clock_Hz;
+rig::ShaftSensorConfig converter(int bits, double latency_s = 0.0) {
+  rig::ShaftSensorConfig given{.kind = rig::ShaftSensor::resolver};
+  given.resolver = {.pole_pairs = 2,
+                    .bits = bits,
+                    .reading = rig::ResolverReading::tracking,
+                    .converter_Hz = clock_Hz,
+                    .latency_s = latency_s};
   const auto loop = design::tracking_loop(
       {.bandwidth_rad_s = 2 * base::pi * 1000, .damping = 1.0, .period_s = 1 / clock_Hz});
   given.tracking = design::tracking_config(*loop);

@@ -42,7 +42,7 @@ TEST(LinearEncoder, TellsAPlaceToAQuarterOfItsPitch) {
   const Scenario s = on_a_scale(cascade());
   for (const double v : {0.11, -0.73}) {
     rig::SensorsConfig config;
-    config.shaft = shaft_given(s);
+    config.shaft = shaft_sensor_config(s);
     config.period_s = s.pwm.period_s;
     config.capture_Hz = 1e8;
     const double x_0 = v > 0 ? -3e-3 : 4e-3, h = s.pwm.period_s;  // across the index

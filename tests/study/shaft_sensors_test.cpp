@@ -85,7 +85,7 @@ TEST(RotorDecoders, TellSpeedAngleAndSectorOfASteadyRotor) {
       Scenario s = sensed(cascade(), kind);
       const double T = s.pwm.period_s, h = T;
       rig::SensorsConfig config;
-      config.shaft = shaft_given(s);
+      config.shaft = shaft_sensor_config(s);
       config.period_s = T;
       config.capture_Hz = 1e8;
       const auto shaft = [&](double t) {
@@ -137,7 +137,7 @@ TEST(RotorDecoders, TakeOffWhatAResolverIsKnownToBeWrongBy) {
       s.sensors.resolver.sine_phase_deg = -20.0;
       s.sensors.resolver.calibrated = calibrated;
       rig::SensorsConfig config;
-      config.shaft = shaft_given(s);
+      config.shaft = shaft_sensor_config(s);
       config.period_s = s.pwm.period_s;
       config.capture_Hz = 1e8;
       const double theta = (n + 0.37) * 2 * base::pi / 24, e = 8 * theta;

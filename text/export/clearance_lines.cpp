@@ -9,6 +9,7 @@
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
 #include "text/escape/escape.hpp"
+#include "text/results/shaft_sensor_words.hpp"
 #include "text/results/source_words.hpp"
 
 namespace text {
@@ -93,14 +94,7 @@ std::string bus(const study::Sensors& s) {
 std::string rotor(const study::Sensors& s) {
   using study::RotorSensing;
   if (s.rotor == RotorSensing::ideal) return "as it is";
-  if (s.rotor == RotorSensing::encoder)
-    return fmt::format("encoder of {} lines, edges captured at {:.6g} Hz", s.encoder.lines, s.capture_Hz);
-  if (s.rotor == RotorSensing::absolute)
-    return fmt::format("absolute encoder of {} bits, {:.6g} s late, speed over {} samples", s.absolute.bits,
-                       s.absolute.latency_s, s.absolute.speed_samples);
-  if (s.rotor == RotorSensing::resolver)
-    return fmt::format("resolver of {} pole pairs, followed within {:.6g} Hz", s.resolver.pole_pairs,
-                       s.resolver.bandwidth_Hz);
+  if (s.rotor != RotorSensing::hall) return shaft_sensor_words(s, SensorWordsOf::header, plain);
   const std::string over = s.speed_edges > 0
                                ? fmt::format("speed over {} edges", s.speed_edges)
                                : "speed over six edges where the loop stands their delay, else one";

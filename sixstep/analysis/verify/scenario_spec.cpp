@@ -51,10 +51,10 @@ design::ShaftSensing shaft_sensing(const study::Scenario& s) {
     case study::RotorSensing::encoder:
       to.kind = design::ShaftSensorKind::encoder;
       to.lines = x.encoder.lines;
-      if (const rig::ShaftGiven given = study::shaft_given(s); given.linear) {
+      if (const rig::ShaftSensorConfig given = study::shaft_sensor_config(s); given.linear) {
         to.linear = true;
         to.gear = given.gear;
-        to.lines = static_cast<int>(given.lines);
+        to.lines = given.encoder.lines;
       }
       to.capture_Hz = x.capture_Hz;
       to.timeout_s = x.timeout_s;

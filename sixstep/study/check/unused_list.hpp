@@ -2,10 +2,35 @@
 // Keys that a scenario gives and that change nothing, as they are collected.
 #pragma once
 #include <string>
+#include <variant>
+#include <vector>
 
+#include "sixstep/base/visitor.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
 
 namespace sixstep::study {
+
+/// The numbers and switches of a described table, in their order. Which word is chosen is never told to be in vain.
+class NumbersAndSwitches final : public base::Visitor {
+ public:
+  struct Entry {
+    std::string key;
+    base::ValueMember value;
+  };
+  template <class Table>
+  static std::vector<Entry> of(Table& table) {
+    NumbersAndSwitches found;
+    describe(found, table);
+    return found.entries_;
+  }
+
+ private:
+  void visit_value(std::string_view key, const base::ValueMember& value, const base::About&) override {
+    entries_.push_back({std::string(key), value});
+  }
+
+  std::vector<Entry> entries_;
+};
 
 class Unused {
  public:
@@ -13,6 +38,18 @@ class Unused {
   void add(const std::string& key, const Value& given, const Value& usual, const std::string& reason) {
     if (given == usual) return;
     text_ += (text_.empty() ? "" : ", ") + key + " (" + reason + ")";
+  }
+  /// Each key of a table that has no effect at all.
+  template <class Table>
+  void add_table(const std::string& table, Table given, const std::string& reason) {
+    Table usual;
+    const auto of_given = NumbersAndSwitches::of(given), of_usual = NumbersAndSwitches::of(usual);
+    for (std::size_t n = 0; n < of_given.size(); ++n)
+      std::visit(
+          [&]<class Value>(const Value* value) {
+            add(table + '.' + of_given[n].key, *value, *std::get<Value*>(of_usual[n].value), reason);
+          },
+          of_given[n].value);
   }
   const std::string& text() const { return text_; }
 

@@ -3,6 +3,7 @@
 
 #include "sixstep/study/check/unused_list.hpp"
 #include "sixstep/study/scenario/changes.hpp"
+#include "sixstep/study/scenario/sensors_description.hpp"
 
 namespace sixstep::study {
 namespace {
@@ -30,43 +31,12 @@ bool is_bus_unread(const Scenario& s) {
          std::none_of(s.at.begin(), s.at.end(), [&](const At& at) { return retunes(at); });
 }
 
-void of_shaft_sensors(const Scenario& s, Unused& out) {
-  const Sensors usual, &x = s.sensors;
-  if (x.rotor != RotorSensing::encoder) {
-    constexpr char reason[] = "sensors.rotor is not encoder";
-    const Encoder &given = x.encoder, &none = usual.encoder;
-    out.add("sensors.encoder.lines", given.lines, none.lines, reason);
-    out.add("sensors.encoder.pitch_mm", given.pitch_mm, none.pitch_mm, reason);
-    out.add("sensors.encoder.referenced", given.referenced, none.referenced, reason);
-    out.add("sensors.encoder.missed_Hz", given.missed_Hz, none.missed_Hz, reason);
-  }
-  if (x.rotor != RotorSensing::absolute) {
-    constexpr char reason[] = "sensors.rotor is not absolute";
-    const AbsoluteEncoder &given = x.absolute, &none = usual.absolute;
-    out.add("sensors.absolute.bits", given.bits, none.bits, reason);
-    out.add("sensors.absolute.latency_s", given.latency_s, none.latency_s, reason);
-    out.add("sensors.absolute.speed_samples", given.speed_samples, none.speed_samples, reason);
-  }
-}
-
-void of_resolver(const Scenario& s, Unused& out) {
-  if (s.sensors.rotor == RotorSensing::resolver) return;
-  constexpr char reason[] = "sensors.rotor is not resolver";
-  const Resolver none, &x = s.sensors.resolver;
-  out.add("sensors.resolver.pole_pairs", x.pole_pairs, none.pole_pairs, reason);
-  out.add("sensors.resolver.amplitude_V", x.amplitude_V, none.amplitude_V, reason);
-  out.add("sensors.resolver.excitation_Hz", x.excitation_Hz, none.excitation_Hz, reason);
-  out.add("sensors.resolver.imbalance", x.imbalance, none.imbalance, reason);
-  out.add("sensors.resolver.quadrature_deg", x.quadrature_deg, none.quadrature_deg, reason);
-  out.add("sensors.resolver.phase_deg", x.phase_deg, none.phase_deg, reason);
-  out.add("sensors.resolver.sine_phase_deg", x.sine_phase_deg, none.sine_phase_deg, reason);
-  out.add("sensors.resolver.calibrated", x.calibrated, none.calibrated, reason);
-  out.add("sensors.resolver.noise_V", x.noise_V, none.noise_V, reason);
-  out.add("sensors.resolver.bandwidth_Hz", x.bandwidth_Hz, none.bandwidth_Hz, reason);
-  out.add("sensors.resolver.damping", x.damping, none.damping, reason);
-  out.add("sensors.resolver.bits", x.bits, none.bits, reason);
-  out.add("sensors.resolver.converter_Hz", x.converter_Hz, none.converter_Hz, reason);
-  out.add("sensors.resolver.latency_s", x.latency_s, none.latency_s, reason);
+/// Of a sensor on the shaft that is not the one chosen.
+template <class Sensor>
+void of_other_sensor(RotorSensing kind, const Sensor& given, RotorSensing chosen, Unused& out) {
+  if (kind == chosen) return;
+  const std::string name(base::word(rotor_sensing_choices, kind));
+  out.add_table("sensors." + name, given, "sensors.rotor is not " + name);
 }
 
 }  // namespace
@@ -103,8 +73,9 @@ void unused_of_sensors(const Scenario& s, Unused& out) {
     if (x.rotor == RotorSensing::ideal) of_ideal_rotor(s, out);
   }
   if (draws_nothing(s)) out.add("sensors.seed", x.seed, usual.seed, "nothing is drawn");
-  of_shaft_sensors(s, out);
-  of_resolver(s, out);
+  of_other_sensor(RotorSensing::encoder, x.encoder, x.rotor, out);
+  of_other_sensor(RotorSensing::absolute, x.absolute, x.rotor, out);
+  of_other_sensor(RotorSensing::resolver, x.resolver, x.rotor, out);
   if (x.currents != rig::CurrentMeasurement::dc_link) {
     constexpr char reason[] = "sensors.currents is not dc-link";
     out.add("sensors.shunt_settle_s", x.shunt_settle_s, usual.shunt_settle_s, reason);

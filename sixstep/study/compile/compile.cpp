@@ -110,7 +110,7 @@ rig::SensorsConfig sensors_of(const Scenario& s, double L_over_R_s) {
   to.edges = static_cast<std::uint8_t>(from.speed_edges);  // 0 is settled where the loops are known
   take_hall_angle(s, to);
   to.seed = static_cast<std::uint64_t>(from.seed);
-  to.shaft = shaft_given(s);
+  to.shaft = shaft_sensor_config(s);
   to.period_s = s.pwm.period_s;
   return to;
 }

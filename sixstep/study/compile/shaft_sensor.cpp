@@ -16,24 +16,25 @@ namespace {
 
 /// Of what the drive, or the chip, makes of the windings. A sampled signal is half the difference of two samples, each rounded to
 /// a count; a chip's is one sample.
-rig::ResolverWatch watch_of(const rig::ShaftGiven& given) {
-  const plant::Resolver& r = given.resolver;
-  const double noise = given.noise_V / r.amplitude_V;
+rig::ResolverWatch watch_of(const rig::ShaftSensorConfig& given) {
+  const plant::Resolver r = rig::windings_of(given.resolver);
+  const bool sampled = given.resolver.reading == rig::ResolverReading::sampled;
+  const double noise = given.resolver.noise_V / r.amplitude_V;
   design::ResolverShows whole{.k_1 = 1.0, .k_2 = 1 + r.imbalance, .quadrature_rad = r.quadrature_rad};
   double count = 0.0;
   whole.noise = noise;
-  if (given.reading == rig::ResolverReading::sampled) {
+  if (sampled) {
     count = rig::resolver_adc(given).lsb() / r.amplitude_V;
     whole.noise = std::sqrt((noise * noise + count * count / 12) / 2);
     whole.k_1 = base::cos(r.phase_1_rad);
     whole.k_2 *= base::cos(r.phase_2_rad);
     // Taken off, it is made up for by gain, which noise has as well.
-    if (given.calibrated)
+    if (given.resolver.calibrated)
       whole = {.noise = whole.noise / std::min(whole.k_1, whole.k_2 * base::cos(r.quadrature_rad))};
   }
   const design::ResolverLimits limits = design::resolver_limits(whole);
   // The first result behind a fault is half of a sample before it: what is named is of two.
-  const int results = given.reading == rig::ResolverReading::sampled ? 2 : 1;
+  const int results = sampled ? 2 : 1;
   // Of normal noise six deviations are rarer than once in 10^8, and rounding reaches a count.
   return {.least_square = limits.least_square,
           .greatest_square = limits.greatest_square,
@@ -41,22 +42,9 @@ rig::ResolverWatch watch_of(const rig::ShaftGiven& given) {
           .in_a_row = std::max(limits.in_a_row, results)};
 }
 
-rig::ShaftGiven resolver_given(const Scenario& s) {
+/// The loop that follows it, the drive's or the chip's, and what it watches.
+void take_resolver(const Scenario& s, rig::ShaftSensorConfig& to) {
   const Resolver& r = s.sensors.resolver;
-  constexpr double deg = base::pi / 180;
-  rig::ShaftGiven to{.kind = rig::ShaftSensor::resolver, .bits = r.bits};
-  to.noise_V = r.noise_V;
-  to.reading = r.reading;
-  to.converter_Hz = r.converter_Hz;
-  to.latency_s = r.latency_s;
-  to.resolver = {.amplitude_V = r.amplitude_V,
-                 .excitation_Hz = r.excitation_Hz,
-                 .pole_pairs = r.pole_pairs,
-                 .imbalance = r.imbalance,
-                 .quadrature_rad = r.quadrature_deg * deg,
-                 .phase_1_rad = r.phase_deg * deg,
-                 .phase_2_rad = r.sine_phase_deg.value_or(r.phase_deg) * deg};
-  to.calibrated = r.calibrated;
   to.samples_per_peak = samples_per_peak(s);
   to.watch = watch_of(to);
   // check() has held the bandwidth below half the rate of the loop's steps.
@@ -64,36 +52,30 @@ rig::ShaftGiven resolver_given(const Scenario& s) {
                                                .damping = r.damping,
                                                .period_s = tracking_period_s(s)}))
     to.tracking = design::tracking_config(*loop);
-  return to;
 }
 
-rig::ShaftGiven on_the_motor(const Scenario& s) {
-  switch (s.sensors.rotor) {
+/// Of a linear motor the magnets' period is a turn.
+void take_encoder(const Scenario& s, rig::ShaftSensorConfig& to) {
+  if (!s.sensors.encoder.pitch_mm || !s.sheet.pole_pitch_mm) return;
+  to.linear = true;
+  // check() holds them to a million, but a design may ask before it.
+  to.encoder.lines = static_cast<int>(std::clamp(std::floor(lines_to_period(s) + 0.5), 0.0, 0x7fffffffp0));
+  to.gear = base::times_ten_to(s.sheet.pole_pitch_mm->value, -3) / base::pi;
+}
+
+rig::ShaftSensor kind_of(RotorSensing rotor) {
+  switch (rotor) {
     case RotorSensing::ideal:
     case RotorSensing::hall:
       break;
-    case RotorSensing::encoder: {
-      rig::ShaftGiven to{.kind = rig::ShaftSensor::encoder};
-      to.lines = s.sensors.encoder.lines;
-      if (s.sensors.encoder.pitch_mm && s.sheet.pole_pitch_mm) {
-        to.linear = true;
-        to.lines = static_cast<std::int64_t>(std::floor(lines_to_period(s) + 0.5));
-        to.gear = base::times_ten_to(s.sheet.pole_pitch_mm->value, -3) / base::pi;
-      }
-      to.referenced = s.sensors.encoder.referenced;
-      return to;
-    }
-    case RotorSensing::absolute: {
-      rig::ShaftGiven to{.kind = rig::ShaftSensor::absolute};
-      to.bits = s.sensors.absolute.bits;
-      to.latency_s = s.sensors.absolute.latency_s;
-      to.speed_samples = s.sensors.absolute.speed_samples;
-      return to;
-    }
+    case RotorSensing::encoder:
+      return rig::ShaftSensor::encoder;
+    case RotorSensing::absolute:
+      return rig::ShaftSensor::absolute;
     case RotorSensing::resolver:
-      return resolver_given(s);
+      return rig::ShaftSensor::resolver;
   }
-  return {};
+  return rig::ShaftSensor::none;
 }
 
 }  // namespace
@@ -122,10 +104,15 @@ void take_hall_angle(const Scenario& s, rig::SensorsConfig& to) {
   to.hall_hysteresis_deg = from.hall_hysteresis_deg;
 }
 
-rig::ShaftGiven shaft_given(const Scenario& s) {
-  rig::ShaftGiven to = on_the_motor(s);
-  to.watched = s.sensors.watched;
-  to.on_load = s.sensors.shaft == SensorShaft::load;
+rig::ShaftSensorConfig shaft_sensor_config(const Scenario& s) {
+  const Sensors& x = s.sensors;
+  rig::ShaftSensorConfig to{.kind = kind_of(x.rotor), .watched = x.watched};
+  to.encoder = x.encoder;
+  to.absolute = x.absolute;
+  to.resolver = x.resolver;
+  if (to.kind == rig::ShaftSensor::encoder) take_encoder(s, to);
+  if (to.kind == rig::ShaftSensor::resolver) take_resolver(s, to);
+  to.on_load = x.shaft == SensorShaft::load;
   if (to.on_load) to.gear = s.load.gear;
   return to;
 }

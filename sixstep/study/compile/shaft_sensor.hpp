@@ -15,10 +15,10 @@ double tracking_period_s(const Scenario& scenario);
 /// How speed and position between Hall edges are found.
 void take_hall_angle(const Scenario& scenario, rig::SensorsConfig& to);
 
-/// None where the Hall probes do, or nothing is sensed.
 /// Lines of a linear motor's scale to two pole pitches: check() holds them to a whole number.
 double lines_to_period(const Scenario& scenario);
 
-rig::ShaftGiven shaft_given(const Scenario& scenario);
+/// Of kind none where the Hall probes do, or nothing is sensed.
+rig::ShaftSensorConfig shaft_sensor_config(const Scenario& scenario);
 
 }  // namespace sixstep::study

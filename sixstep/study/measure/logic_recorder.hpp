@@ -76,7 +76,7 @@ class LogicRecorder {
     const rig::ShaftPorts* const ports = rig::shaft_ports_of(rig.firmware());
     if (ports == nullptr || ports->given().kind != rig::ShaftSensor::encoder) return;
     const auto motion = rig.shaft_motion(s, rig.now());
-    rig::for_each_quarter(motion, 4 * ports->given().lines, [&](std::int64_t quarter, double at) {
+    rig::for_each_quarter(motion, *ports, [&](std::int64_t quarter, double at) {
       set_lines(row, ports->pins_in(quarter));
       take(motion.from.plus_seconds(at * motion.y.h).ticks, row);
     });

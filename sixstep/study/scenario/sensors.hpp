@@ -39,36 +39,10 @@ struct HallBreak {
   Level01 level = Level01::low;
 };
 
-/// What stands on the shaft in the place of Hall probes; only that of `rotor` counts.
-struct Encoder {
-  static constexpr int usual_lines = 1024;
-  int lines = usual_lines;
-  std::optional<double> pitch_mm;  // of a linear motor's, in their place
-  bool referenced = true;
-  double missed_Hz = 0.0;
-};
-struct AbsoluteEncoder {
-  int bits = 14;
-  double latency_s = 0.0;
-  int speed_samples = 8;
-};
-struct Resolver {
-  int pole_pairs = 1;
-  double amplitude_V = 2.0;
-  double excitation_Hz = 10e3;
-  double imbalance = 0.0;
-  double quadrature_deg = 0.0;
-  double phase_deg = 0.0;
-  std::optional<double> sine_phase_deg;
-  bool calibrated = false;
-  double noise_V = 0.0;
-  double bandwidth_Hz = 1000.0;
-  double damping = 1.0;
-  int bits = 16;
-  rig::ResolverReading reading = rig::ResolverReading::sampled;
-  double converter_Hz = 500e3;
-  double latency_s = 0.0;
-};
+// What stands on the shaft in the place of Hall probes: said here as the board takes it. Only that of `rotor` counts.
+using rig::AbsoluteEncoder;
+using rig::Encoder;
+using rig::Resolver;
 
 /// Comparators at the terminals; they count where control.sensorless.follows names them.
 struct Comparators {
