@@ -1,0 +1,52 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""one_engine_test.py BUILD: no object compiled for size has the engine's templates, which the linker would take in place of the fast ones.
+
+Of a template that several objects instantiate, the linker keeps the copy that it meets first. An eighth more instructions for each run
+of the command line came from three sources of sixstep/analysis that were compiled with -Os.
+"""
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import unittest
+
+BUILD = pathlib.Path(sys.argv.pop())
+ENGINE = re.compile(r"sixstep::(sim::run<|rig::Rig<|plant::(general::)?(Plant<|mode_guards|expand|detail::)|series::(first_root|detail::))")
+# What a scenario is compiled to, made once before a run.
+SET_UP = re.compile(r"add_lines|shape_table|add_harmonic")
+
+
+def objects(for_size):
+    for entry in json.loads((BUILD / "compile_commands.json").read_text()):
+        name = re.search(r" -o (\S+) ", entry["command"])[1]
+        levels = re.findall(r" -O(\S)", entry["command"])
+        if name.endswith(".o") and not name.startswith(("tests/", "benchmarks/")) and (levels[-1] == "s") == for_size:
+            yield BUILD / name
+
+
+def engine_of(objects_):
+    """{object: its engine's functions}, weak ones, for only those can be taken for each other's."""
+    found = {}
+    for path in objects_:
+        for line in subprocess.run(["nm", "-C", "--defined-only", path], check=True, text=True, stdout=subprocess.PIPE).stdout.splitlines():
+            words = line.split(" ", 2)
+            if words[1] == "W" and ENGINE.search(words[2]) and not SET_UP.search(words[2]):
+                found.setdefault(path.name, []).append(words[2])
+    return found
+
+
+class OneEngine(unittest.TestCase):
+    def test_objects_compiled_for_size_have_none(self):
+        self.assertEqual(engine_of(objects(for_size=True)), {})
+
+    def test_the_others_do(self):
+        """Else the pattern finds nothing."""
+        fast = engine_of(objects(for_size=False))
+        self.assertIn("rig_lean.cpp.o", fast)
+        self.assertTrue(any("sim::run<" in name for name in fast["rig_lean.cpp.o"]))
+
+
+if __name__ == "__main__":
+    unittest.main()
