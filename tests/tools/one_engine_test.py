@@ -13,9 +13,8 @@ import sys
 import unittest
 
 BUILD = pathlib.Path(sys.argv.pop())
-ENGINE = re.compile(r"sixstep::(sim::run<|rig::Rig<|plant::(general::)?(Plant<|mode_guards|expand|detail::)|series::(first_root|detail::))")
-# What a scenario is compiled to, made once before a run.
-SET_UP = re.compile(r"add_lines|shape_table|add_harmonic")
+# What runs once a segment or oftener. A plant's set-up, made once before a run, may be anywhere.
+ENGINE = re.compile(r"sixstep::(sim::run<|rig::Rig<|plant::(general::)?(Plant<\w+>::(?!Plant\()|mode_guards|expand)|series::(first_root|detail::))")
 
 
 def objects(for_size):
@@ -32,7 +31,7 @@ def engine_of(objects_):
     for path in objects_:
         for line in subprocess.run(["nm", "-C", "--defined-only", path], check=True, text=True, stdout=subprocess.PIPE).stdout.splitlines():
             words = line.split(" ", 2)
-            if words[1] == "W" and ENGINE.search(words[2]) and not SET_UP.search(words[2]):
+            if words[1] == "W" and ENGINE.search(words[2]):
                 found.setdefault(path.name, []).append(words[2])
     return found
 
