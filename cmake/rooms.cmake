@@ -30,29 +30,31 @@ function(sixstep_holds_engine target)
 endfunction()
 
 # A small source costs the reading of its headers: sixteen of a room are compiled together, in a third of the time. So what a
-# room's sources keep for themselves has one name in the room. Compiled alone: what follows the target.
+# room's sources keep for themselves has one name in the room. Compiled alone: what follows the target. Rooms that read JSON and
+# formatting in nearly each source set a larger SIXSTEP_BATCH.
 option(SIXSTEP_BATCHES "compile small sources together, tests too" ON)
+set(SIXSTEP_BATCH 16)
 function(sixstep_in_batches target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${SIXSTEP_BATCHES} UNITY_BUILD_BATCH_SIZE 16)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${SIXSTEP_BATCHES} UNITY_BUILD_BATCH_SIZE ${SIXSTEP_BATCH})
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-# Folders of a library's room that are compiled for size, in batches of their own.
-function(sixstep_for_size target)
+# Sources of a library's room that are compiled apart: `size` of them together (0: all), a release with `level`.
+function(sixstep_apart target name size level)
   set(sources)
-  foreach(folder ${ARGN})
-    file(GLOB found CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
-    list(APPEND sources ${found})
+  foreach(source ${ARGN})
+    cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+    list(APPEND sources ${source})
   endforeach()
   get_target_property(kept ${target} SOURCES)
   list(REMOVE_ITEM kept ${sources})
   set_target_properties(${target} PROPERTIES SOURCES "${kept}")
-  add_library(${target}_small OBJECT ${sources})
-  target_link_libraries(${target}_small PRIVATE $<TARGET_PROPERTY:${target},LINK_LIBRARIES>)
+  add_library(${target}_${name} OBJECT ${sources})
+  target_link_libraries(${target}_${name} PRIVATE $<TARGET_PROPERTY:${target},LINK_LIBRARIES>)
   get_target_property(options ${target} COMPILE_OPTIONS)
-  target_compile_options(${target}_small PRIVATE ${options} $<$<CONFIG:Release>:-Os>)
-  sixstep_in_batches(${target}_small)
-  target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_small>)
+  target_compile_options(${target}_${name} PRIVATE ${options} $<$<CONFIG:Release>:${level}>)
+  set_target_properties(${target}_${name} PROPERTIES UNITY_BUILD ${SIXSTEP_BATCHES} UNITY_BUILD_BATCH_SIZE ${size})
+  target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_${name}>)
 endfunction()
 
 # The text files of a folder as C++ constants, so that the program needs nothing beside itself.

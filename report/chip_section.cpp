@@ -14,7 +14,7 @@ namespace {
 
 using sixstep::rig::InterruptTimes;
 
-constexpr int least_bar_wide = 9, least_wide = 160, picture_high = 110, below = 22;
+constexpr int least_bar_wide = 9, least_wide = 160, picture_high = 110, axis_high = 22;
 
 struct Bins {
   int first = 0, last = 0;
@@ -51,7 +51,7 @@ std::string histogram(const InterruptTimes& t, double clock_Hz) {
       "<svg viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\" aria-label=\"how often it took how long\">{2}"
       "<text x=\"0\" y=\"{3}\" font-size=\"12\" fill=\"currentColor\">{4}</text>"
       "<text x=\"{0}\" y=\"{3}\" font-size=\"12\" fill=\"currentColor\" text-anchor=\"end\">{5}</text></svg>",
-      wide, picture_high + below, bars, picture_high + below - 6,
+      wide, picture_high + axis_high, bars, picture_high + axis_high - 6,
       text::cycles_text(b.first * double(t.bin_cycles), clock_Hz),
       text::cycles_text((b.last + 1) * double(t.bin_cycles), clock_Hz));
 }

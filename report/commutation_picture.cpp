@@ -14,7 +14,7 @@ namespace {
 namespace analysis = sixstep::analysis;
 
 constexpr double wave_left = 102, sector_width = 126, wave_right = wave_left + 6 * sector_width;
-constexpr double heads_height = 34, line_height = 24, level = 13;  // of a Hall line
+constexpr double heads_height = 34, line_height = 24, level_height = 13;  // of a Hall line
 constexpr double emf_half = 30;
 constexpr const char* leg_letters[] = {"a", "b", "c"};
 constexpr const char* phase_colours[] = {"--a", "--b", "--c"};
@@ -44,11 +44,11 @@ std::string hall_lines(double y) {
     const double base = y + line_height * line + 18;
     std::string d;
     for (std::uint8_t s = 0; s < 6; ++s) {
-      const double at = base - ((analysis::commutation(s).code >> (2 - line) & 1U) ? level : 0);
+      const double at = base - ((analysis::commutation(s).code >> (2 - line) & 1U) ? level_height : 0);
       d += fmt::format("{}{:.0f} {:.1f}H{:.0f}", s == 0 ? 'M' : 'L', wave_left + s * sector_width, at,
                        wave_left + (s + 1) * sector_width);
     }
-    out += name(fmt::format("Hall H{}", line + 1), base - level / 2) +
+    out += name(fmt::format("Hall H{}", line + 1), base - level_height / 2) +
            fmt::format("<path class=\"w-wire\" d=\"{}\"/>\n", d);
   }
   return out;

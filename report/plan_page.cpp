@@ -23,7 +23,7 @@ namespace {
 namespace analysis = sixstep::analysis;
 namespace base = sixstep::base;
 
-constexpr std::string_view colours[most_plans_on_a_page] = {"a", "c"};
+constexpr std::string_view plan_colours[most_plans_on_a_page] = {"a", "c"};
 
 std::string count(std::size_t n) { return grouped(static_cast<long long>(n)); }
 
@@ -35,7 +35,7 @@ bool asks(const PagePlan& plan) {
 /// The plan's name in its colour, where there are two.
 std::string tag(const PlanPageInput& in, std::size_t p) {
   if (in.plans.size() < 2) return "";
-  return fmt::format("<span class=\"run\" style=\"border-color: var(--{})\">{}</span> ", colours[p],
+  return fmt::format("<span class=\"run\" style=\"border-color: var(--{})\">{}</span> ", plan_colours[p],
                      escaped(in.plans[p].story.name));
 }
 
@@ -192,7 +192,7 @@ std::string distributions(const std::vector<PagePlan>& plans) {
   std::string html;
   for (const Shared& s : all) {
     std::vector<DrawnHistogram> drawn;
-    for (const auto& [p, f] : s.in) drawn.push_back({colours[p], of_plans[p][f]});
+    for (const auto& [p, f] : s.in) drawn.push_back({plan_colours[p], of_plans[p][f]});
     html += histogram_picture(*s.column, s.span, drawn);
   }
   return html;

@@ -10,7 +10,7 @@ namespace report {
 namespace {
 
 namespace analysis = sixstep::analysis;
-constexpr float none = std::numeric_limits<float>::quiet_NaN();
+constexpr float no_value = std::numeric_limits<float>::quiet_NaN();
 
 bool has_words(const analysis::Axis& axis) {
   return std::any_of(axis.values.begin(), axis.values.end(),
@@ -41,9 +41,9 @@ std::vector<PlanColumn> columns_of(const text::PlanStory& story) {
 }
 
 float key_value(const PlanColumn& column, const std::string& written) {
-  if (column.words.empty()) return static_cast<float>(text::number_alone(written).value_or(none));
+  if (column.words.empty()) return static_cast<float>(text::number_alone(written).value_or(no_value));
   const auto found = std::find(column.words.begin(), column.words.end(), analysis::bare(written));
-  return found == column.words.end() ? none : static_cast<float>(found - column.words.begin());
+  return found == column.words.end() ? no_value : static_cast<float>(found - column.words.begin());
 }
 
 void add(PlanRows& rows, const analysis::RunRecord& record) {

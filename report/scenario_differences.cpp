@@ -20,23 +20,23 @@ using sixstep::base::Motion;
 
 constexpr const char* absent = "–";
 
-std::string shown(double x, std::string_view unit) {
+std::string value_text(double x, std::string_view unit) {
   return sixstep::base::written(x) + (unit.empty() ? "" : "\u00a0" + std::string(unit));
 }
-std::string shown(bool x, std::string_view) { return x ? "true" : "false"; }
+std::string value_text(bool x, std::string_view) { return x ? "true" : "false"; }
 template <std::integral Int>
-std::string shown(Int x, std::string_view) {
+std::string value_text(Int x, std::string_view) {
   return std::to_string(x);
 }
-std::string shown(const std::string& x, std::string_view) { return x; }
+std::string value_text(const std::string& x, std::string_view) { return x; }
 template <class T>
-std::string shown(const std::optional<T>& x, std::string_view unit) {
-  return x ? shown(*x, unit) : absent;
+std::string value_text(const std::optional<T>& x, std::string_view unit) {
+  return x ? value_text(*x, unit) : absent;
 }
 template <class T>
-std::string shown(const std::vector<T>& list, std::string_view unit) {
+std::string value_text(const std::vector<T>& list, std::string_view unit) {
   std::string out;
-  for (std::size_t n = 0; n < list.size(); ++n) out += (n ? ", " : "") + shown(list[n], "");
+  for (std::size_t n = 0; n < list.size(); ++n) out += (n ? ", " : "") + value_text(list[n], "");
   return out.empty() ? absent : out + (unit.empty() ? "" : "\u00a0" + std::string(unit));
 }
 
@@ -73,8 +73,8 @@ class Flat final : public sixstep::base::Visitor {
   void row(std::string_view key, const T& member, const About& about) {
     const sixstep::base::Spelling* linear = motion_.linear ? linear_spelling(about) : nullptr;
     if constexpr (is_number<T>)
-      if (linear) return add(linear->key, shown(spelled_as(member, *linear), linear->unit));
-    add(linear ? linear->key : key, shown(member, linear ? linear->unit : about.unit));
+      if (linear) return add(linear->key, value_text(spelled_as(member, *linear), linear->unit));
+    add(linear ? linear->key : key, value_text(member, linear ? linear->unit : about.unit));
   }
   void visit_word(std::string_view key, sixstep::base::WordMember& member, const About&) override {
     add(key, std::string(motion_.linear ? member.linear_word() : member.word()));

@@ -48,7 +48,7 @@ std::string pwm(const study::Scenario& scenario) {
                      three_legs ? std::string("three legs, each complementary") : chopping_words(p));
 }
 
-std::string current_loop(const study::CurrentLoop& c) {
+std::string current_loop_words(const study::CurrentLoop& c) {
   if (c.type == study::CurrentLoopType::hysteresis)
     return fmt::format("current hysteresis ±{}, {} comparator", given(c.band_A, "A"),
                        c.comparator == study::Comparator::event ? "event" : "sampled");
@@ -64,14 +64,14 @@ bool chooses_legs(const study::Control& c) {
 }
 
 /// The speed loop and what it sets.
-std::string speed_loop(const study::Control& c) {
+std::string speed_loop_words(const study::Control& c) {
   static constexpr const char* laws[] = {"speed PI", "speed by state feedback",
                                          "speed by disturbance rejection", "speed by sliding mode"};
   const std::string law = laws[static_cast<int>(c.speed.law)];
   return law + " → " +
          (c.speed.output == study::SpeedOutput::duty ? "duty"
           : chooses_legs(c)                          ? "current by a finite set of states"
-                                                     : current_loop(c.current));
+                                                     : current_loop_words(c.current));
 }
 
 /// ", fixed point Q1.14": digits before and behind the point.
@@ -107,13 +107,14 @@ std::string control(const study::Scenario& s) {
       text = "duty";
       break;
     case control::Mode::current:
-      text = chooses_legs(s.control) ? "current by a finite set of states" : current_loop(s.control.current);
+      text = chooses_legs(s.control) ? "current by a finite set of states"
+                                     : current_loop_words(s.control.current);
       break;
     case control::Mode::speed:
-      text = speed_loop(s.control);
+      text = speed_loop_words(s.control);
       break;
     case control::Mode::position:
-      text = "position P → " + speed_loop(s.control);
+      text = "position P → " + speed_loop_words(s.control);
       break;
   }
   if (s.control.drive == study::FirmwareKind::own) text = own_controller(s);

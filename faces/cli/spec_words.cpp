@@ -10,31 +10,31 @@ namespace {
 struct Word {
   std::string_view member, option;
 };
-constexpr Word words[] = {{"bandwidth_rad_s", "--bandwidth"},
-                          {"capture_Hz", "--capture"},
-                          {"chopping", "--chopping"},
-                          {"current_settle_s", "--current-settle"},
-                          {"damping", "--damping"},
-                          {"delay_periods", "--delay"},
-                          {"edges", "--edges"},
-                          {"force_limit_N", "--force-limit"},
-                          {"load_inertia_kg_m2", "--load-inertia"},
-                          {"load_mass_kg", "--load-mass"},
-                          {"lowest_speed_m_s", "--lowest-speed"},
-                          {"lowest_speed_rad_s", "--lowest-speed"},
-                          {"method", "--method"},
-                          {"mode", "--mode"},
-                          {"period_s", "--period"},
-                          {"rotor", "--rotor"},
-                          {"settle_s", "--settle"},
-                          {"step", "--step"},
-                          {"torque_limit_Nm", "--torque-limit"},
-                          {"voltage_V", "--voltage"}};
+constexpr Word member_words[] = {{"bandwidth_rad_s", "--bandwidth"},
+                                 {"capture_Hz", "--capture"},
+                                 {"chopping", "--chopping"},
+                                 {"current_settle_s", "--current-settle"},
+                                 {"damping", "--damping"},
+                                 {"delay_periods", "--delay"},
+                                 {"edges", "--edges"},
+                                 {"force_limit_N", "--force-limit"},
+                                 {"load_inertia_kg_m2", "--load-inertia"},
+                                 {"load_mass_kg", "--load-mass"},
+                                 {"lowest_speed_m_s", "--lowest-speed"},
+                                 {"lowest_speed_rad_s", "--lowest-speed"},
+                                 {"method", "--method"},
+                                 {"mode", "--mode"},
+                                 {"period_s", "--period"},
+                                 {"rotor", "--rotor"},
+                                 {"settle_s", "--settle"},
+                                 {"step", "--step"},
+                                 {"torque_limit_Nm", "--torque-limit"},
+                                 {"voltage_V", "--voltage"}};
 
 const Word* word_of(std::string_view member) {
-  const auto* found =
-      std::find_if(std::begin(words), std::end(words), [&](const Word& w) { return w.member == member; });
-  return found == std::end(words) ? nullptr : found;
+  const auto* found = std::find_if(std::begin(member_words), std::end(member_words),
+                                   [&](const Word& w) { return w.member == member; });
+  return found == std::end(member_words) ? nullptr : found;
 }
 
 bool in_name(char c) {

@@ -23,7 +23,7 @@ constexpr StopSignal stop_signals[] = {
     {SIGINT, true}, {SIGTERM, true}, {SIGQUIT, true}, {SIGHUP, false}, {SIGXCPU, false}};
 
 volatile std::sig_atomic_t asked_to_end = 0, puts_in_order = 0;
-std::atomic<bool> told = false, as_asked = false;
+std::atomic<bool> stop_told = false, as_asked = false;
 
 void end_at_once(int signal) {
   files::remove_temporary_files();
@@ -69,7 +69,7 @@ void catch_interrupts() { puts_in_order = 1; }
 bool interrupted() { return asked_to_end != 0; }
 Exit exit_of_interrupt() { return static_cast<Exit>(128 + asked_to_end); }
 
-void stop_is_told() { told = true; }
+void stop_is_told() { stop_told = true; }
 
 void tell_stop(const std::string& line) {
   print(line + "\n", stderr);
@@ -88,7 +88,7 @@ Exit ended_as_asked(Exit exit) {
 
 Exit exit_after_stop(Exit exit) {
   if (!interrupted() || as_asked) return exit;
-  if (!told)
+  if (!stop_told)
     for (const ExitMeaning& meaning : exit_meanings)
       if (meaning.code == exit_of_interrupt()) tell_stop(std::string(meaning.meaning));
   return exit_of_interrupt();

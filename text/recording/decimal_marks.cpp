@@ -10,7 +10,7 @@
 namespace text {
 namespace {
 
-constexpr std::string_view all_digits = "0123456789";
+constexpr std::string_view every_digit = "0123456789";
 constexpr std::size_t longest_quoted = 40;
 
 std::string_view without_sign(std::string_view number) {
@@ -32,8 +32,8 @@ bool may_part_thousands(std::string_view number, char mark) {
   number = without_sign(number);
   const std::size_t at = number.find(mark);
   return at >= 1 && at <= 3 && number[0] != '0' && number.size() == at + 4 &&
-         number.find_first_not_of(all_digits) == at &&
-         number.find_first_not_of(all_digits, at + 1) == std::string_view::npos;
+         number.find_first_not_of(every_digit) == at &&
+         number.find_first_not_of(every_digit, at + 1) == std::string_view::npos;
 }
 
 void DecimalMarks::see(std::size_t line, std::size_t column, std::string_view cell) {

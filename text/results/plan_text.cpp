@@ -16,7 +16,7 @@ namespace text {
 namespace {
 
 constexpr int plan_digits = 4;
-using Cells = std::vector<std::string>;
+using PointCells = std::vector<std::string>;
 
 /// The drives at one point.
 struct Point {
@@ -58,9 +58,9 @@ std::string verdict(const Point& point, std::size_t drives, bool asks) {
   return point.passed == 1 ? "ok" : "FAIL";
 }
 
-Cells cells_of(const Point& point, const PlanStory& story, bool asks) {
+PointCells cells_of(const Point& point, const PlanStory& story, bool asks) {
   const std::vector<analysis::FigureColumn>& figures = story.columns.figures;
-  Cells cells{fmt::format("{}", point.first)};
+  PointCells cells{fmt::format("{}", point.first)};
   for (std::size_t k = 0; k < point.values.size(); ++k)
     cells.push_back(value_text(point.values[k], story.columns.keys[k].unit));
   for (std::size_t n = 0; n < figures.size(); ++n) {
@@ -87,7 +87,7 @@ std::string legend(const PlanStory& story) {
 std::string point_table(const PlanStory& story) {
   const bool asks = std::any_of(story.columns.figures.begin(), story.columns.figures.end(),
                                 [](const auto& f) { return f.required; });
-  Cells head{"run"};
+  PointCells head{"run"};
   for (const analysis::InputColumn& c : story.columns.keys) head.push_back(visible(c.key));
   for (std::size_t n = 0; n < story.columns.figures.size(); ++n) head.push_back(fmt::format("[{}]", n + 1));
   head.push_back(!asks ? "" : story.plan.drives > 1 ? "holds" : "verdict");

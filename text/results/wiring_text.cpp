@@ -46,7 +46,7 @@ std::string grid(const WiringStudy& s, const std::function<std::string(const Wir
   return rows.text();
 }
 
-std::string per_cent(double part) { return fmt::format("{:5} %", std::lround(100 * part)); }
+std::string share_text(double part) { return fmt::format("{:5} %", std::lround(100 * part)); }
 
 std::string amperes(double A) { return quantity_text(A, "A", 3); }
 
@@ -58,8 +58,8 @@ Rows symptom_rows(const WiringStudy& s, const base::Motion& motion) {
     const analysis::WiringCase* const example = s.example(does);
     if (!example) continue;
     const analysis::Symptom here = s.symptom(does);
-    rows.add({std::string(does_text(does)), fmt::format("{:4}", here.ways), per_cent(here.part),
-              per_cent(example->theory.part),
+    rows.add({std::string(does_text(does)), fmt::format("{:4}", here.ways), share_text(here.part),
+              share_text(example->theory.part),
               analysis::direction_of(does) != 0 ? wiring_speed_text(s, here.speed_rad_s) : "swings",
               amperes(here.phase_rms_A), amperes(here.peak_A), amperes(here.supply_A),
               symptom_text(s, does)});

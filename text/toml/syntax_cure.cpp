@@ -12,7 +12,7 @@ struct Cure {
 };
 
 /// The first that fits counts.
-constexpr std::array<Cure, 11> cures = {{
+constexpr std::array<Cure, 11> syntax_cures = {{
     {"invalid utf-8", "save the file as text in UTF-8"},
     {"parsing string", "close the quote on the same line"},
     {"cannot redefine", "give each key and table once"},
@@ -30,7 +30,7 @@ constexpr std::array<Cure, 11> cures = {{
 }  // namespace
 
 std::string_view syntax_cure(std::string_view met) {
-  for (const Cure& cure : cures)
+  for (const Cure& cure : syntax_cures)
     if (met.find(cure.met) != std::string_view::npos) return cure.cure;
   return "mend the TOML syntax";
 }
