@@ -81,7 +81,7 @@ struct Motor {
     const plant::LegsLaw<Real> law = plant::legs_law(segment.mode.legs, {}, constants.R, constants.inv_L);
     const Rotor<Real> rotor(constants, segment.mode.motion);
     Currents currents(rotor, constants, law, ShapeLine<false, Real>(segment.emf<Real>(), y.x[0]));
-    Growing<Real> growing;
+    SeriesBuilder<Real> growing;
     growing.w[0] = y.w[0];
     growing.x[0] = y.x[0];
     growing.bus[0] = y.bus[0];

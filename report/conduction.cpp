@@ -4,7 +4,7 @@
 #include <array>
 
 #include "report/windows.hpp"
-#include "sixstep/plant/general/leg_ways.hpp"
+#include "sixstep/plant/general/leg_connections.hpp"
 #include "sixstep/study/measure/trace.hpp"
 
 namespace report {
@@ -26,7 +26,7 @@ plant::Connection leg_after(const Columns& c, std::size_t n, bool igbt) {
   const bool upper = (*c.upper)[n] > 0.5, lower = (*c.lower)[n] > 0.5;
   const double current = (*c.current)[n] + (*c.current)[n + 1];
   if (!igbt) return plant::connection_of(upper, lower, current);
-  const plant::general::Ways ways = plant::general::ways_of({.igbt = true}, upper, lower);
+  const plant::general::LegConnections ways = plant::general::ways_of({.igbt = true}, upper, lower);
   return current > 0 ? ways.positive : current < 0 ? ways.negative : plant::Connection::floating;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A core in its emulator, call by call: it runs the drive beside the host (rig/beside_core.hpp).
+// A core in its emulator, call by call: it runs the drive beside the host (rig/lockstep_core.hpp).
 #pragma once
 #include <cstdint>
 #include <memory>

@@ -9,7 +9,7 @@
 #include "faces/loop/descriptor.hpp"
 #include "faces/loop/rooms.hpp"
 #include "sixstep/base/result.hpp"
-#include "sixstep/rig/beside_core.hpp"
+#include "sixstep/rig/lockstep_core.hpp"
 
 namespace loop {
 

@@ -77,7 +77,7 @@ struct Convergence {
   /// A sine's shape counts too: without current it alone decides how far a floating terminal's voltage is
   /// known.
   template <bool sine, bool bus>
-  void look(const Growing<Real>& y, int n, Real currents, Real speed) {
+  void look(const SeriesBuilder<Real>& y, int n, Real currents, Real speed) {
     before = last;
     last = currents * amp_limit + speed * speed_limit;
     if constexpr (bus) last += abs(y.bus[n]) * volt_limit;
@@ -97,7 +97,7 @@ struct Recurrence {
   Currents currents;
   BusLaw<Real> bus_law;
   Convergence<Real> convergence;
-  Growing<Real> y;
+  SeriesBuilder<Real> y;
 
   template <class Shape>
   Recurrence(const Constants<Real>& c, const Mode& mode, const LegsLaw<Real>& law, const Shape& shape,

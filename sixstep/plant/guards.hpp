@@ -15,9 +15,9 @@ inline constexpr int current_zero = 0;  // + k
 inline constexpr int standstill = 3;
 inline constexpr int edge_ahead = 4;
 inline constexpr int edge_behind = 5;
-inline constexpr int low_rail = 6;    // + k
-inline constexpr int high_rail = 9;   // + k
-inline constexpr int free_star = 12;  // + 3 j + k: e_j - e_k against the rails
+inline constexpr int low_rail = 6;        // + k
+inline constexpr int high_rail = 9;       // + k
+inline constexpr int floating_star = 12;  // + 3 j + k: e_j - e_k against the rails
 inline constexpr int breakaway_forward = 21;
 inline constexpr int breakaway_backward = 22;
 inline constexpr int source = 23;
@@ -90,8 +90,8 @@ template <class Real, class Visit>
 
 /// |S| = 0: conduction starts when max e - min e > U_s + 2 V_f.
 template <class Real, class Visit>
-void free_star_guards(const Constants<Real>& c, const EmfPiece<Real>& piece, const LegsLaw<Real>& law,
-                      const Expansion<Real>& y, Real noise, Visit&& visit) {
+void floating_star_guards(const Constants<Real>& c, const EmfPiece<Real>& piece, const LegsLaw<Real>& law,
+                          const Expansion<Real>& y, Real noise, Visit&& visit) {
   const Real bus_rest = c.inv_C > 0 ? series::tail_bound(y.bus, y.degree) - abs(y.bus[1]) : Real(0);
   PerLeg<PoleOutline<Real>> is;
   for (unsigned k = 0; k < 3; ++k) is[k] = pole_outline(c, y, pole_law(piece, law, k), bus_rest);
@@ -108,7 +108,7 @@ void free_star_guards(const Constants<Real>& c, const EmfPiece<Real>& piece, con
       // mutant: 2 * Real(c.devices.V_f_V) => Real(c.devices.V_f_V)
       g[0] = y.bus[0] - high[0] + low[0] + 2 * Real(c.devices.V_f_V);
       for (int n = 1; n <= y.degree; ++n) g[n] = y.bus[n] - high[n] + low[n];
-      visit(guard::free_star + 3 * static_cast<int>(j) + static_cast<int>(k), g, y.degree, noise);
+      visit(guard::floating_star + 3 * static_cast<int>(j) + static_cast<int>(k), g, y.degree, noise);
     }
 }
 
@@ -161,7 +161,7 @@ void mode_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Rea
   if (law.floating != 0) {
     const EmfPiece<Real>& piece = c.emf[mode.sector].piece[mode.piece];
     if (law.connected == 0) {
-      detail::free_star_guards(c, piece, law, y, volt_noise, visit);
+      detail::floating_star_guards(c, piece, law, y, volt_noise, visit);
     } else {
       for (unsigned k = 0; k < 3; ++k)
         if (law.floating >> k & 1)

@@ -4,8 +4,8 @@
 #pragma once
 #include <algorithm>
 
-#include "sixstep/plant/passages.hpp"
 #include "sixstep/plant/settle.hpp"
+#include "sixstep/plant/state_transitions.hpp"
 
 namespace sixstep::plant {
 
@@ -130,7 +130,7 @@ Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices,
   state_.w = Real(start.speed_rad_s);
   set_locked(shaft.locked);
   const double electrical = start.angle_rad * m.pole_pairs;
-  const bool on_edge = detail::put_down(state_, electrical);
+  const bool on_edge = detail::set_rotor_angle(state_, electrical);
   mode_.sector = static_cast<std::uint8_t>(sector_in_turn(state_.sector));
   const EmfSector<Real>& pieces = c.emf[mode_.sector];
   while (mode_.piece + 1 < pieces.count && state_.x >= pieces.piece[mode_.piece].to) ++mode_.piece;
@@ -144,7 +144,7 @@ template <class Real>
 bool Plant<Real>::resettle(Real wanted, bool& expanded) {
   const unsigned floated = constants_.legs[legs_index(mode_.legs)].floating;
   slack_ = 1;
-  if ((doubted_ || !settle_plainly(constants_, state_, gates_, mode_)) && !settle_fully(wanted, expanded))
+  if ((doubted_ || !settle_fast(constants_, state_, gates_, mode_)) && !settle_fully(wanted, expanded))
     return false;
   stale_ = false;
   // mutant: floated & constants_.legs[legs_index(mode_.legs)].diodes => constants_.legs[legs_index(mode_.legs)].diodes

@@ -42,7 +42,7 @@ bool Plant<Real>::apply(int id) {
     const bool ahead = id == guard::edge_ahead, leaves = pass_edge(ahead);
     // mutant: doubted_ && before == (ahead ? guard::edge_behind : guard::edge_ahead) => false
     if (doubted_ && before == (ahead ? guard::edge_behind : guard::edge_ahead))
-      detail::leave_edge(state_, ahead);
+      detail::clear_edge(state_, ahead);
     return leaves;
   }
   if (id < guard::standstill) {

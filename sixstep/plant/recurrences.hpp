@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One order of the Taylor recurrence for the currents, for each number of connected legs (model.md 1 and 2).
 #pragma once
-#include "sixstep/plant/growing.hpp"
+#include "sixstep/plant/series_builder.hpp"
 
 namespace sixstep::plant::detail {
 
@@ -10,9 +10,9 @@ template <bool sine, class Real>
 struct NoCurrent {
   static constexpr bool sine_shape = sine;
   NoCurrent(const Rotor<Real>&, const Constants<Real>&, const LegsLaw<Real>&, const ShapeLine<sine, Real>&) {}
-  void start(const Expansion<Real>&, Growing<Real>& y) const { y.i[0] = y.i_2[0] = 0; }
+  void start(const Expansion<Real>&, SeriesBuilder<Real>& y) const { y.i[0] = y.i_2[0] = 0; }
   template <int n, bool bus>
-  void step(const Rotor<Real>& rotor, Growing<Real>& y, Real f) {
+  void step(const Rotor<Real>& rotor, SeriesBuilder<Real>& y, Real f) {
     if constexpr (sine) {
       Real w0, w1;
       sine_products<n>(rotor, y, f, w0, w1);
@@ -20,11 +20,11 @@ struct NoCurrent {
     y.i[n + 1] = y.i_2[n + 1] = y.torque[n] = 0;
     rotor.template step<n>(y, f);
   }
-  void write(Expansion<Real>& out, int n, const Growing<Real>&) const {
+  void write(Expansion<Real>& out, int n, const SeriesBuilder<Real>&) const {
     out.i[0][n] = out.i[1][n] = out.i[2][n] = 0;
   }
-  Real reached(Growing<Real>&, int) const { return 0; }
-  void reach(const Growing<Real>&, PerLeg<Real>& of) const { of = {}; }
+  Real reached(SeriesBuilder<Real>&, int) const { return 0; }
+  void reach(const SeriesBuilder<Real>&, PerLeg<Real>& of) const { of = {}; }
 };
 
 /// Two legs share one current: one recurrence. Coefficients are multiplied out beforehand and the newest
@@ -44,29 +44,29 @@ struct PairLaw {
     from_w1 = -law.emf_rate * torque_1;
   }
   template <int n, bool bus>
-  Real known(const Growing<Real>& y, Real w0) const {
+  Real known(const SeriesBuilder<Real>& y, Real w0) const {
     Real sum = slope.i * y.i[n] + from_w0 * w0;
     if constexpr (n == 0 || bus) sum += slope.bus * y.bus[n];
     if constexpr (n == 0) sum += slope.offset;
     return sum;
   }
-  void start(const Expansion<Real>& out, Growing<Real>& y) const {
+  void start(const Expansion<Real>& out, SeriesBuilder<Real>& y) const {
     y.i[0] = out.i[j][0];
     y.i_2[0] = 0;
   }
-  void write(Expansion<Real>& out, int n, const Growing<Real>& y) const {
+  void write(Expansion<Real>& out, int n, const SeriesBuilder<Real>& y) const {
     out.i[j][n] = y.i[n];
     out.i[k][n] = -y.i[n];
     out.i[floating][n] = 0;
   }
   /// Adds the term to the series' reach and sum, and tells its size over all legs.
-  Real reached(Growing<Real>& y, int n) const {
+  Real reached(SeriesBuilder<Real>& y, int n) const {
     const Real size = abs(y.i[n]);
     y.reach_i += size;
     if (n > 1) y.later_i += y.i[n];
     return 2 * size;
   }
-  void reach(const Growing<Real>& y, PerLeg<Real>& of) const {
+  void reach(const SeriesBuilder<Real>& y, PerLeg<Real>& of) const {
     of[j] = of[k] = y.reach_i;
     of[floating] = 0;
   }
@@ -82,13 +82,13 @@ struct OneCurrent {
              const ShapeLine<sine, Real>& f)
       // mutant: pair.from_w1 * c.inv_pole_pairs => pair.from_w1
       : pair(law, f), from_square(pair.from_w1 * c.inv_pole_pairs) {}
-  void start(const Expansion<Real>& out, Growing<Real>& y) const { pair.start(out, y); }
-  void write(Expansion<Real>& out, int n, const Growing<Real>& y) const { pair.write(out, n, y); }
-  Real reached(Growing<Real>& y, int n) const { return pair.reached(y, n); }
-  void reach(const Growing<Real>& y, PerLeg<Real>& of) const { pair.reach(y, of); }
+  void start(const Expansion<Real>& out, SeriesBuilder<Real>& y) const { pair.start(out, y); }
+  void write(Expansion<Real>& out, int n, const SeriesBuilder<Real>& y) const { pair.write(out, n, y); }
+  Real reached(SeriesBuilder<Real>& y, int n) const { return pair.reached(y, n); }
+  void reach(const SeriesBuilder<Real>& y, PerLeg<Real>& of) const { pair.reach(y, of); }
 
   template <int n, bool bus>
-  void step(const Rotor<Real>& rotor, Growing<Real>& y, Real f) {
+  void step(const Rotor<Real>& rotor, SeriesBuilder<Real>& y, Real f) {
     const series::Coefficients<Real>& i = y.i;
     y.i_2[n + 1] = 0;
     if constexpr (sine) {
@@ -133,12 +133,12 @@ struct FlatPair {
     m_wi = d * a + e * d;
     m_ww = d * b + e * e;
   }
-  void start(const Expansion<Real>& out, Growing<Real>& y) const { pair.start(out, y); }
-  void write(Expansion<Real>& out, int n, const Growing<Real>& y) const { pair.write(out, n, y); }
-  Real reached(Growing<Real>& y, int n) const { return pair.reached(y, n); }
-  void reach(const Growing<Real>& y, PerLeg<Real>& of) const { pair.reach(y, of); }
+  void start(const Expansion<Real>& out, SeriesBuilder<Real>& y) const { pair.start(out, y); }
+  void write(Expansion<Real>& out, int n, const SeriesBuilder<Real>& y) const { pair.write(out, n, y); }
+  Real reached(SeriesBuilder<Real>& y, int n) const { return pair.reached(y, n); }
+  void reach(const SeriesBuilder<Real>& y, PerLeg<Real>& of) const { pair.reach(y, of); }
   template <int n, bool bus>
-  void step(const Rotor<Real>& rotor, Growing<Real>& y, Real f) {
+  void step(const Rotor<Real>& rotor, SeriesBuilder<Real>& y, Real f) {
     const series::Coefficients<Real>& i = y.i;
     y.i_2[n + 1] = 0;
     y.torque[n] = pair.torque_0 * i[n];
@@ -184,19 +184,19 @@ struct TwoCurrents {
     // mutant: f.rise[1] - f.rise[2] => f.rise[1] - f.rise[0]
     torque_1b = f.rise[1] - f.rise[2];
   }
-  void start(const Expansion<Real>& out, Growing<Real>& y) const {
+  void start(const Expansion<Real>& out, SeriesBuilder<Real>& y) const {
     y.i[0] = out.i[0][0];
     y.i_2[0] = out.i[1][0];
   }
   template <int n, bool bus>
-  static Real known(const Slope& s, const Growing<Real>& y, Real w0) {
+  static Real known(const Slope& s, const SeriesBuilder<Real>& y, Real w0) {
     Real sum = (s.terms.i * y.i[n] + s.terms.i_2 * y.i_2[n]) + s.w0 * w0;
     if constexpr (n == 0 || bus) sum += s.terms.bus * y.bus[n];
     if constexpr (n == 0) sum += s.terms.offset;
     return sum;
   }
   template <int n, bool bus>
-  void step(const Rotor<Real>& rotor, Growing<Real>& y, Real f) {
+  void step(const Rotor<Real>& rotor, SeriesBuilder<Real>& y, Real f) {
     const Real i_a = y.i[n], i_b = y.i_2[n];
     if constexpr (sine) {
       Real w0, w1;
@@ -223,12 +223,12 @@ struct TwoCurrents {
     }
     rotor.template step<n>(y, f);
   }
-  void write(Expansion<Real>& out, int n, const Growing<Real>& y) const {
+  void write(Expansion<Real>& out, int n, const SeriesBuilder<Real>& y) const {
     out.i[0][n] = y.i[n];
     out.i[1][n] = y.i_2[n];
     out.i[2][n] = -(y.i[n] + y.i_2[n]);
   }
-  Real reached(Growing<Real>& y, int n) const {
+  Real reached(SeriesBuilder<Real>& y, int n) const {
     const Real size = abs(y.i[n]), size_2 = abs(y.i_2[n]);
     y.reach_i += size;
     y.reach_i_2 += size_2;
@@ -238,7 +238,7 @@ struct TwoCurrents {
     }
     return 2 * (size + size_2);
   }
-  void reach(const Growing<Real>& y, PerLeg<Real>& of) const {
+  void reach(const SeriesBuilder<Real>& y, PerLeg<Real>& of) const {
     // mutant: y.reach_i + y.reach_i_2 => y.reach_i_2
     of = {y.reach_i, y.reach_i_2, y.reach_i + y.reach_i_2};
   }

@@ -6,7 +6,7 @@
 #pragma once
 #include <span>
 
-#include "sixstep/plant/settle_plainly.hpp"
+#include "sixstep/plant/settle_fast.hpp"
 #include "sixstep/series/first_root.hpp"
 
 namespace sixstep::plant {

@@ -9,7 +9,7 @@
 
 #include "sixstep/control/drive.hpp"
 #include "sixstep/control/leg_command.hpp"
-#include "sixstep/rig/field_held.hpp"
+#include "sixstep/rig/field_telemetry.hpp"
 #include "sixstep/rig/firmware.hpp"
 #include "sixstep/rig/shaft_motion.hpp"
 
@@ -23,7 +23,7 @@ struct DriveAnswer {
   bool moved_on = false;  ///< the tick found a commutation that was due already
   sim::Instant next_commutation = sim::Instant::never();  ///< compare match that it waits for
   control::Telemetry<double> told{};
-  FieldHeld field{};  ///< of a field-oriented drive
+  FieldTelemetry field{};  ///< of a field-oriented drive
 };
 
 /// What changes only where a firmware is made or retuned.
@@ -138,7 +138,7 @@ class AnyDrive {
   bool moved_on() const { return answer_.moved_on; }
   const sim::Instant& next_commutation() const { return answer_.next_commutation; }
   const control::Telemetry<double>& telemetry() const { return answer_.told; }
-  const FieldHeld& field_held() const { return answer_.field; }
+  const FieldTelemetry& field_held() const { return answer_.field; }
   Diagnosis diagnosis() const { return drive_->diagnosis(); }
   bool ends_run_by_fault() const { return drive_->fault_ends_run(); }
   Registers* registers() { return drive_->registers(); }

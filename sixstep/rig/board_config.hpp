@@ -3,9 +3,9 @@
 #pragma once
 #include "sixstep/control/hall.hpp"
 #include "sixstep/rig/bases.hpp"
-#include "sixstep/rig/beside_core.hpp"
 #include "sixstep/rig/chip_port.hpp"
 #include "sixstep/rig/front_end_config.hpp"
+#include "sixstep/rig/lockstep_core.hpp"
 #include "sixstep/rig/pulse.hpp"
 #include "sixstep/rig/registers.hpp"
 

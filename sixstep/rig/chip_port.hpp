@@ -5,7 +5,7 @@
 #pragma once
 #include <cstdint>
 
-#include "sixstep/rig/beside_core.hpp"
+#include "sixstep/rig/lockstep_core.hpp"
 
 namespace sixstep::rig {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What goes between the plant and a core that runs the drive (beside_core.hpp): with what an entry of it is called, and what it
+// What goes between the plant and a core that runs the drive (lockstep_core.hpp): with what an entry of it is called, and what it
 // answers. Plain structs of words and scalars, laid out alike by all compilers of cores with 32 bits and by a host with the same
 // order of bytes; the core's program (faces/loop/core/) includes this file too.
 #pragma once

@@ -10,7 +10,7 @@
 // (field_direction.hpp).
 #pragma once
 #include "sixstep/control/field/sensorless_field_drive.hpp"
-#include "sixstep/rig/field_held.hpp"
+#include "sixstep/rig/field_telemetry.hpp"
 #include "sixstep/rig/firmware.hpp"
 #include "sixstep/rig/magnet_angle.hpp"
 
@@ -92,7 +92,7 @@ class FieldDrive {
   const control::FieldDriveState<Scalar>& state() const { return state_.field; }
   /// What is known of the magnet where no sensor tells it.
   const control::EstimatorState<Scalar>& estimator() const { return state_.estimator; }
-  FieldHeld field_held() const {
+  FieldTelemetry field_held() const {
     const auto si = [](const control::Dq<Scalar>& x, double unit) {
       return control::Dq<double>{to_si(x.d, unit), to_si(x.q, unit)};
     };
@@ -135,7 +135,7 @@ class FieldDrive {
   control::SensorlessFieldState<Scalar> state_{};
   control::Telemetry<Scalar> telemetry_{};
   double angle_error_deg_ = 0.0;
-  BesideCore core_;
+  LockstepCore core_;
 };
 
 }  // namespace sixstep::rig

@@ -131,7 +131,7 @@ class SensedDrive {
   LeanDrive<Scalar> drive_;
   Sensors<Scalar> sensors_;
   Bases bases_;
-  BesideCore core_;
+  LockstepCore core_;
 };
 
 }  // namespace sixstep::rig

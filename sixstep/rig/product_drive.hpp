@@ -69,7 +69,7 @@ class ProductDrive {
   control::ProtectedState<Scalar> state_{};
   control::ProtectedTelemetry<Scalar> telemetry_{};
   Diagnosis diagnosis_{};
-  BesideCore core_;
+  LockstepCore core_;
 };
 
 template <class Scalar>

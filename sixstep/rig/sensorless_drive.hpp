@@ -11,8 +11,8 @@
 // are to ask how the rotor stands (control/commissioning/pulse_start.hpp), it reads the counts of the currents, too.
 #pragma once
 #include "sixstep/control/commissioning/pulse_start.hpp"
-#include "sixstep/rig/beside_core.hpp"
 #include "sixstep/rig/firmware.hpp"
+#include "sixstep/rig/lockstep_core.hpp"
 #include "sixstep/rig/sensorless_call.hpp"
 
 namespace sixstep::rig {
@@ -174,7 +174,7 @@ class SensorlessDrive {
   int losses_ = 0, in_a_row_ = 0, unseen_ = 0;
   control::PulsedDriveState<Scalar> state_{};
   control::Telemetry<Scalar> telemetry_{};
-  BesideCore core_;
+  LockstepCore core_;
 };
 
 }  // namespace sixstep::rig

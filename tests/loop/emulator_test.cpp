@@ -19,7 +19,7 @@ Core playing(const char* how) { return {"fake", "Fake", {}, {FAKE_CORE, how}, ""
 struct Asked {
   Core core;
   std::unique_ptr<Emulator> emulator;
-  rig::BesideCore beside;
+  rig::LockstepCore beside;
 
   explicit Asked(const char* how)
       : core(playing(how)), emulator(std::move(*Emulator::start(core, "image"))), beside(emulator->port()) {}

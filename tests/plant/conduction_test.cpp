@@ -73,7 +73,7 @@ TEST(Rail, AFallingRailMeetsTheTerminalAtTheClosedFormInstant) {
   ASSERT_EQ(bench.run_to(0.1e-3), Stop::end);
   const double RC = 0.05 * 1e-3, left_V = 30.0 - 0.7 - 24.0, exact = RC * std::log(24.0 / left_V);
   const double noise_V = plant::noise_of(bench.plant().constants().volt_scale, 1.0);
-  EXPECT_NEAR(first_s(bench, plant::guard::high_rail, plant::guard::free_star), exact,
+  EXPECT_NEAR(first_s(bench, plant::guard::high_rail, plant::guard::floating_star), exact,
               2 * noise_V * RC / left_V + 16 * eps * exact);
 }
 
@@ -96,7 +96,7 @@ TEST(Rail, ATerminalWithinTheDropFloatsAtOnce) {
   }
 }
 
-TEST(FreeStar, ConductsOnlyAboveTheBus) {
+TEST(FloatingStar, ConductsOnlyAboveTheBus) {
   // 2 K_e w against U_s + 2 V_f, a part in 1e9 below and above.
   for (const double V_f : {0.0, 0.7}) {
     for (const double side : {-1e-9, 1e-9}) {

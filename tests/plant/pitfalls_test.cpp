@@ -96,7 +96,7 @@ struct Order {
       const bool snap = id <= guard::standstill;
       snap_after_another = snap_after_another || (snap && other);
       other = other || !snap;
-      rail = rail || (id >= guard::low_rail && id < guard::free_star);
+      rail = rail || (id >= guard::low_rail && id < guard::floating_star);
       current = current || id < guard::standstill;
       standstill = standstill || id == guard::standstill;
     });
@@ -146,10 +146,10 @@ double watched(const plant::Plant<double>& p, int id, double s) {
   if (id == guard::edge_ahead) return piece.to - x;
   if (id == guard::edge_behind) return x - piece.from;
   if (id < guard::high_rail) return now.pole[id - guard::low_rail] + V_f;
-  if (id < guard::free_star) return now.bus + V_f - now.pole[id - guard::high_rail];
+  if (id < guard::floating_star) return now.bus + V_f - now.pole[id - guard::high_rail];
   if (id == guard::breakaway_forward) return p.constants().breakaway - (now.torque - p.constants().load);
   if (id == guard::breakaway_backward) return p.constants().breakaway + (now.torque - p.constants().load);
-  const int j = (id - guard::free_star) / 3, k = (id - guard::free_star) % 3;
+  const int j = (id - guard::floating_star) / 3, k = (id - guard::floating_star) % 3;
   return now.bus + 2 * V_f - now.emf[j] + now.emf[k];
 }
 
@@ -190,7 +190,7 @@ TEST(Pitfall06_GuardsShareThePolynomials, EachGuardIsTheQuantityItWatches) {
   // Noise is 64 eps of the natural scale; both sides are sums of a few dozen products of that scale.
   EXPECT_LT(same.worst, 1.0);
   for (const int id : {0, 1, 2, guard::standstill, guard::edge_ahead, 6, 7, 8, 9, 10, 11,
-                       guard::free_star + 1, guard::breakaway_forward, guard::breakaway_backward})
+                       guard::floating_star + 1, guard::breakaway_forward, guard::breakaway_backward})
     EXPECT_GT(same.seen[static_cast<std::size_t>(id)], 0) << id;
 }
 

@@ -67,7 +67,7 @@ TEST(SignalBounds, NoneForWhatHasNoneAtHand) {
 struct AgainstTheTrace {
   double worst = 0.0;  ///< difference over the signal's natural size
   std::string where;
-  std::int64_t compared = 0, free_stars = 0, high_degrees = 0;
+  std::int64_t compared = 0, floating_stars = 0, high_degrees = 0;
 
   void compare(double is, double should, double size, std::string_view what) {
     ++compared;
@@ -79,7 +79,7 @@ struct AgainstTheTrace {
   template <class Rig>
   void segment(const Rig& rig, double s) {
     const SegmentView g = segment_view(rig);
-    free_stars += plant::connected_count(g.plant.legs()) == 0;
+    floating_stars += plant::connected_count(g.plant.legs()) == 0;
     high_degrees += 2 * g.plant.expansion().degree > series::max_degree;
     for (const SignalFact& fact : signal_facts)
       for_each_piece(g, fact.signal, 0.1 * s, s, [&](const Piece& y, double from, double to) {
@@ -184,9 +184,9 @@ TEST(Signals, AreWhatTheTraceShows) {
     b.drive.mode = control::Mode::off;
     for (const double speed : {500.0, -500.0, 900.0}) {  // at 900 the EMF exceeds the bus: diodes conduct
       b.start.speed_rad_s = speed;
-      const std::int64_t free_stars = watched(b, 6e-3).free_stars;
+      const std::int64_t floating_stars = watched(b, 6e-3).floating_stars;
       if (speed < 900.0) {
-        EXPECT_GT(free_stars, 5) << flat_deg;
+        EXPECT_GT(floating_stars, 5) << flat_deg;
       }
     }
   }

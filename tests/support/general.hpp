@@ -32,13 +32,14 @@ inline GeneralRig general_rig(const GeneralSetup& setup, const Board& board) {
 }
 
 /// The general plant alone with gates held, as a System for sim::run.
-class HeldGeneral : public rig::BarePlant<double, general::Plant<double>> {
+class HeldGeneral : public rig::UnscheduledPlant<double, general::Plant<double>> {
  public:
-  explicit HeldGeneral(const GeneralSetup& setup, const plant::Gates& gates = {}) : BarePlant(setup.plant()) {
+  explicit HeldGeneral(const GeneralSetup& setup, const plant::Gates& gates = {})
+      : UnscheduledPlant(setup.plant()) {
     plant_.set_gates(gates);
   }
   void apply(int id) { plant_.apply(id); }
-  using BarePlant::plant;
+  using UnscheduledPlant::plant;
   general::Plant<double>& plant() { return plant_; }
 };
 

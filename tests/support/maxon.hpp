@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "sixstep/rig/bare_plant.hpp"
+#include "sixstep/rig/unscheduled_plant.hpp"
 #include "sixstep/sim/run.hpp"
 
 namespace sixstep::testing {
@@ -44,19 +44,19 @@ inline plant::Gates all_low() { return gates({}, {true, true, true}); }
 
 /// The plant with gates held, as a System for sim::run; notes every located event.
 template <class RealType = double>
-class Held : public rig::BarePlant<RealType> {
-  using rig::BarePlant<RealType>::plant_;
-  using rig::BarePlant<RealType>::now_;
+class Held : public rig::UnscheduledPlant<RealType> {
+  using rig::UnscheduledPlant<RealType>::plant_;
+  using rig::UnscheduledPlant<RealType>::now_;
 
  public:
   using Real = RealType;
-  using rig::BarePlant<RealType>::plant;
+  using rig::UnscheduledPlant<RealType>::plant;
   struct Event {
     int id;
     sim::Instant at;
   };
 
-  Held(const Drivetrain& setup, const plant::Gates& g) : rig::BarePlant<Real>(setup.plant<Real>()) {
+  Held(const Drivetrain& setup, const plant::Gates& g) : rig::UnscheduledPlant<Real>(setup.plant<Real>()) {
     plant_.set_gates(g);
   }
 

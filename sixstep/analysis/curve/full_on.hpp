@@ -4,7 +4,7 @@
 #include "sixstep/analysis/curve/bench.hpp"
 #include "sixstep/analysis/curve/sums_recorder.hpp"
 #include "sixstep/control/commutation.hpp"
-#include "sixstep/rig/bare_plant.hpp"
+#include "sixstep/rig/unscheduled_plant.hpp"
 #include "sixstep/sim/run.hpp"
 
 namespace sixstep::analysis {
@@ -20,10 +20,10 @@ inline plant::Plant<double> plant_of(const Bench& b, const plant::Shaft& shaft, 
   return {b.motor.machine, shaft, b.devices, {.V_0_V = b.voltage_V}, {speed_rad_s, angle, b.voltage_V}};
 }
 
-class FullOn : public rig::BarePlant<double> {
+class FullOn : public rig::UnscheduledPlant<double> {
  public:
   FullOn(const Bench& bench, const plant::Shaft& shaft, double speed_rad_s)
-      : BarePlant(plant_of(bench, shaft, speed_rad_s)),
+      : UnscheduledPlant(plant_of(bench, shaft, speed_rad_s)),
         keep_going_(bench.keep_going),
         reversed_(bench.duty < 0) {
     commutate();

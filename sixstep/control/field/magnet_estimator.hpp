@@ -18,7 +18,7 @@
 #pragma once
 #include "sixstep/control/field/active_flux.hpp"
 #include "sixstep/control/field/injection.hpp"
-#include "sixstep/control/field/north.hpp"
+#include "sixstep/control/field/polarity.hpp"
 #include "sixstep/control/leg_command.hpp"
 #include "sixstep/control/sensing/sine.hpp"
 #include "sixstep/control/sensing/tracking.hpp"
@@ -49,7 +49,7 @@ struct EstimatorConfig {
   std::uint8_t late = 0;         ///< n: ticks from an answer to the begin of its period
   bool in_middle = false;        ///< a sample lies in the middle of a period: no injection then
   InjectionConfig<Scalar> injection{};
-  NorthConfig<Scalar> north{};
+  PolarityConfig<Scalar> north{};
   ActiveFluxConfig<Scalar> flux{};
   TurnStartConfig<Scalar> start{};
   Scalar low_rad_s{}, high_rad_s{};  ///< w_low, w_high, mechanical

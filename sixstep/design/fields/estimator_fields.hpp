@@ -23,9 +23,9 @@ void fields(Walk&& w, const control::InjectionConfig<double>& c, Kept& kept) {
 }
 
 template <class Walk, class Kept>
-void fields(Walk&& w, const control::NorthConfig<double>& c, Kept& kept) {
+void fields(Walk&& w, const control::PolarityConfig<double>& c, Kept& kept) {
   auto& [current_A, certain, settle_ticks, look_ticks] = kept;
-  constexpr control::NorthConfig<double> unset{};
+  constexpr control::PolarityConfig<double> unset{};
   w.signal({"current_A", "A"}, c.current_A, current_A, Base::current);
   w.gain({"certain"}, c.certain, certain, {Base::one, Base::one});
   w.count({"settle_ticks"}, c.settle_ticks, settle_ticks, unset.settle_ticks);

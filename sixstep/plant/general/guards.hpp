@@ -4,7 +4,7 @@
 // diodes, for an IGBT with one that of its transistor too (model.md 2).
 #pragma once
 #include "sixstep/plant/general/expand.hpp"
-#include "sixstep/plant/general/leg_ways.hpp"
+#include "sixstep/plant/general/leg_connections.hpp"
 #include "sixstep/plant/guards.hpp"
 
 namespace sixstep::plant::general {
@@ -26,7 +26,7 @@ void leg_guards(const Constants<Real>& c, const Gates& gates, const Mode& mode, 
                 const Expansion<Real>& y, const Series<Real>& z, Real slack, Visit&& visit) {
   const Real noise = c.volt_noise * slack;
   const int connected = connected_count(mode.legs);
-  PerLeg<Ways> ways;
+  PerLeg<LegConnections> ways;
   for (unsigned k = 0; k < 3; ++k) ways[k] = ways_of(c.devices, gates.high[k], gates.low[k]);
   if (connected == 0) {
     for (unsigned j = 0; j < 3; ++j)
@@ -36,7 +36,7 @@ void leg_guards(const Constants<Real>& c, const Gates& gates, const Mode& mode, 
         series::Coefficients<Real> g = beyond(c.terms(j, ways[j].negative), y, z.pole[j], Real(1));
         const series::Coefficients<Real> low = beyond(c.terms(k, ways[k].positive), y, z.pole[k], Real(-1));
         for (int n = 0; n <= y.degree; ++n) g[n] += low[n];
-        visit(guard::free_star + 3 * static_cast<int>(j) + static_cast<int>(k), g, y.degree, noise);
+        visit(guard::floating_star + 3 * static_cast<int>(j) + static_cast<int>(k), g, y.degree, noise);
       }
     return;
   }

@@ -4,7 +4,7 @@
 #pragma once
 #include <utility>
 
-#include "sixstep/plant/general/free_star.hpp"
+#include "sixstep/plant/general/floating_star.hpp"
 #include "sixstep/plant/general/heat.hpp"
 #include "sixstep/plant/general/settle.hpp"
 #include "sixstep/plant/plant.hpp"

@@ -27,7 +27,7 @@ bool Plant<Real>::resettle(Real wanted, bool& expanded) {
     }
   const Question<Real> question{constants_, state_, more_,    gates_, dead_,
                                 breaking_,  wanted, doubted_, slack_};
-  if ((doubted_ || !settle_plainly(question, mode_, y_, z_)) && !settle_fully(wanted, expanded)) return false;
+  if ((doubted_ || !settle_fast(question, mode_, y_, z_)) && !settle_fully(wanted, expanded)) return false;
   stale_ = false;
   for (unsigned k = 0; k < 3; ++k)
     if (is_floating(before[k]) && is_diode(mode_.legs[k])) ++diodes_started_;
@@ -163,7 +163,7 @@ bool Plant<Real>::apply(int id) {
   if (id == guard::edge_ahead || id == guard::edge_behind) {
     const bool ahead = id == guard::edge_ahead, leaves = pass_edge(ahead);
     if (doubted_ && before == (ahead ? guard::edge_behind : guard::edge_ahead))
-      plant::detail::leave_edge(state_, ahead);
+      plant::detail::clear_edge(state_, ahead);
     return leaves;
   }
   if (id < guard::standstill) {

@@ -211,7 +211,7 @@ void Plant<Real>::place(const Start& start) {
   more_.load_w.set(constants_.elastic ? Real(0) : constants_.inv_gear * state_.w);
   mode_.load_sign = state_.w < 0 ? -1 : 1;
   const double electrical = start.angle_rad * static_cast<double>(constants_.pole_pairs);
-  const bool on_edge = plant::detail::put_down(state_, electrical);
+  const bool on_edge = plant::detail::set_rotor_angle(state_, electrical);
   mode_.sector = static_cast<std::uint8_t>(sector_in_turn(state_.sector));
   const auto& pieces = constants_.shape.sector[mode_.sector];
   while (mode_.piece + 1u < pieces.size() && state_.x >= pieces[mode_.piece].to) ++mode_.piece;

@@ -39,7 +39,7 @@ unsigned named_legs(const Question<Real>& q, Legs& legs) {
       legs[k] = high ? Connection::high_switch : Connection::low_switch;
       continue;
     }
-    const Ways ways = ways_of(q.constants.devices, high, low);
+    const LegConnections ways = ways_of(q.constants.devices, high, low);
     if (i > 0)
       legs[k] = ways.positive;
     else if (i < 0)
@@ -62,7 +62,7 @@ Judgement judge_legs(const Question<Real>& q, const Mode& mode, const Expansion<
   };
   PerLeg<Real> up{}, down{};  // where it would begin to carry a negative and a positive current
   for (unsigned k = 0; k < 3; ++k) {
-    const Ways ways = ways_of(c.devices, q.gates.high[k], q.gates.low[k]);
+    const LegConnections ways = ways_of(c.devices, q.gates.high[k], q.gates.low[k]);
     up[k] = at(k, ways.negative);
     down[k] = at(k, ways.positive);
   }
@@ -144,7 +144,7 @@ bool settle_legs(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series
   for (const plant::detail::Combination& tried : plant::detail::combinations_of(count)) {
     for (int n = 0; n < count; ++n) {
       const unsigned k = leg[static_cast<std::size_t>(n)];
-      const Ways ways = ways_of(q.constants.devices, q.gates.high[k], q.gates.low[k]);
+      const LegConnections ways = ways_of(q.constants.devices, q.gates.high[k], q.gates.low[k]);
       const Connection as = tried.leg[static_cast<std::size_t>(n)];
       mode.legs[k] = is_floating(as) ? as : as == Connection::low_diode ? ways.positive : ways.negative;
     }
@@ -174,7 +174,7 @@ bool settle_source(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Seri
 /// Where nothing has to be tried, which is nearly always: gates and currents name all, and what they leave open stands clear
 /// within its window, or one leg beside two that conduct stands clear beyond it. False, and `mode` may be written: the rest.
 template <class Real>
-bool settle_plainly(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series<Real>& z) {
+bool settle_fast(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series<Real>& z) {
   const Constants<Real>& c = q.constants;
   const State<Real>& s = q.state;
   if (c.dry_friction && plant::detail::abs(s.w) <= c.speed_noise) return false;
@@ -196,7 +196,7 @@ bool settle_plainly(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Ser
     return false;
   // With the third leg on, L di/dt is two thirds of what it stands beyond.
   const unsigned k = open >> 1;
-  const Ways ways = ways_of(c.devices, q.gates.high[k], q.gates.low[k]);
+  const LegConnections ways = ways_of(c.devices, q.gates.high[k], q.gates.low[k]);
   const auto stands = [&](Connection to) {
     const PoleTerms<Real>& terms = c.terms(k, to);
     return z.pole[k][0] - (terms.bus_share * y.bus[0] + terms.offset_V);

@@ -81,7 +81,7 @@ void set_shaft_sensor(FullRow& row, const Rig& rig, double s, double t) {
   set(ColumnId::resolver_sin_V, raw.winding_V[1]);
 }
 
-inline void set_field(FullRow& row, const rig::FieldHeld& held) {
+inline void set_field(FullRow& row, const rig::FieldTelemetry& held) {
   const auto pair = [&row](ColumnId along, const control::Dq<double>& x) {
     row[static_cast<std::size_t>(along)] = x.d;
     row[static_cast<std::size_t>(along) + 1] = x.q;

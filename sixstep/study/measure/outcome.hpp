@@ -55,7 +55,7 @@ struct Trip {
   int hall_line = 0;                 // 1..3: the line to blame; 0: none, or it cannot be told
 };
 
-/// A core that ran the drive beside the host (rig/beside_core.hpp); each of its answers was the host's, to the
+/// A core that ran the drive beside the host (rig/lockstep_core.hpp); each of its answers was the host's, to the
 /// bit, unless the fault says otherwise.
 struct CoreRun {
   std::string core;         // "Cortex-M4F"

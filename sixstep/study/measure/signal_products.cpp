@@ -73,7 +73,7 @@ Series emf_series(const Span& part, int k) {
 /// Nothing connected: the star point is put midway, u_n = (U_s - e_high - e_low)/2 (plant/circuit.hpp). Which
 /// legs are highest and lowest changes at edges of sectors and pieces only: the shapes are even about their
 /// tops and cross there. Where the rotor turns backwards the two change places, which changes no sum.
-void add_free_star(const Span& part, const SpeedShapes& shapes, Series& u) {
+void add_floating_star(const Span& part, const SpeedShapes& shapes, Series& u) {
   const plant::Plant<double>& plant = *part.g.plant.lean;
   const plant::EmfPiece<double>& p = emf_piece(plant);
   const double x = (p.from + p.to) / 2;
@@ -90,7 +90,7 @@ void add_free_star(const Span& part, const SpeedShapes& shapes, Series& u) {
 }
 
 /// The same of the general kernel, which has e_k in the place of the pole voltages then: by the ends of the stretch.
-void add_general_free_star(const Span& part, Series& u) {
+void add_general_floating_star(const Span& part, Series& u) {
   const auto& emf = part.g.plant.general->series().emf;
   const int degree = part.g.plant.expansion().degree;
   PerLeg<double> middle;
@@ -107,7 +107,7 @@ Series floating_series(const Span& part, int k) {
   Series u{};
   if (part.g.plant.general) {
     u = part.of(part.g.plant.general->series().pole[k]);
-    if (free) add_general_free_star(part, u);
+    if (free) add_general_floating_star(part, u);
     return u;
   }
   const plant::Plant<double>& plant = *part.g.plant.lean;
@@ -122,7 +122,7 @@ Series floating_series(const Span& part, int k) {
   if (law.bus != 0) add(u, law.bus, part.of(y.bus));
   if (law.i != 0) add(u, law.i, part.of(y.i[law.leg]));
   u[0] += law.offset;
-  if (free) add_free_star(part, shapes, u);
+  if (free) add_floating_star(part, shapes, u);
   return u;
 }
 

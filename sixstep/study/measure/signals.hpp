@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "sixstep/plant/view.hpp"
-#include "sixstep/rig/field_held.hpp"
+#include "sixstep/rig/field_telemetry.hpp"
 #include "sixstep/rig/rig.hpp"
 #include "sixstep/series/extremes.hpp"
 #include "sixstep/study/measure/modulator_view.hpp"
@@ -20,11 +20,11 @@ struct SegmentView {
   ModulatorView modulator;
   double t_s = 0.0;  ///< where the segment begins
   double current_reference_A = 0.0, speed_reference_rad_s = 0.0, position_reference_deg = 0.0, setpoint = 0.0;
-  rig::FieldHeld field{};  ///< of a field-oriented drive
-  plant::Gates gates{};    ///< of the board's legs
-  int board_sector = 0;    ///< that the board takes the rotor to be in
-  int probe_sector = 0;    ///< that the motor's probes show
-  bool ticked = false;     ///< a control sample was taken where the segment begins
+  rig::FieldTelemetry field{};  ///< of a field-oriented drive
+  plant::Gates gates{};         ///< of the board's legs
+  int board_sector = 0;         ///< that the board takes the rotor to be in
+  int probe_sector = 0;         ///< that the motor's probes show
+  bool ticked = false;          ///< a control sample was taken where the segment begins
 };
 template <class Rig>
 SegmentView segment_view(const Rig& rig) {

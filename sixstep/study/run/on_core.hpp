@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which scenarios a core can run, each with what stands against it: one beside the host (rig/beside_core.hpp), which is flashed once and
+// Which scenarios a core can run, each with what stands against it: one beside the host (rig/lockstep_core.hpp), which is flashed once and
 // has one answer for a bridge; or the AVR in the drive's place (rig/chip_drive.hpp), whose board has a timer, a converter and three
 // transducers, and no more.
 #pragma once

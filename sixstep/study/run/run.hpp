@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "sixstep/base/result.hpp"
-#include "sixstep/rig/beside_core.hpp"
 #include "sixstep/rig/chip_port.hpp"
+#include "sixstep/rig/lockstep_core.hpp"
 #include "sixstep/study/measure/logic.hpp"
 #include "sixstep/study/measure/outcome.hpp"
 #include "sixstep/study/scenario/scenario.hpp"

@@ -85,8 +85,8 @@ TYPED_TEST(MagnetEstimator, WithoutThreePulsesNothingIsToldOfThem) {
 
 template <class Scalar>
 NorthState<Scalar> looked(double saturation, double current_A) {
-  const NorthConfig<Scalar> c{static_cast<Scalar>(current_A), static_cast<Scalar>(current_A / 40.0 / 3), 5,
-                              8};
+  const PolarityConfig<Scalar> c{static_cast<Scalar>(current_A), static_cast<Scalar>(current_A / 40.0 / 3), 5,
+                                 8};
   NorthState<Scalar> state;
   for (int n = 0; n < 100; ++n) {
     const double i_d = static_cast<double>(north_current(c, state)) * saturation;
@@ -105,7 +105,7 @@ TYPED_TEST(MagnetEstimator, SaturationTellsNorth) {
     EXPECT_EQ(opposite.phase, NorthPhase::opposite);
     EXPECT_NEAR(north_seen(found), I / 40.0, digits<TypeParam>(4));
     EXPECT_NEAR(north_seen(opposite), -I / 40.0, digits<TypeParam>(4));
-    EXPECT_EQ(north_current(NorthConfig<TypeParam>{TypeParam(I), {}, 5, 8}, found), TypeParam{});
+    EXPECT_EQ(north_current(PolarityConfig<TypeParam>{TypeParam(I), {}, 5, 8}, found), TypeParam{});
   }
   EXPECT_EQ(looked<TypeParam>(0, 8.0).phase, NorthPhase::unseen);
   EXPECT_EQ(looked<TypeParam>(0.3, 8.0).phase, NorthPhase::unseen);

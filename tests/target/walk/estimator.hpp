@@ -27,7 +27,7 @@ InjectionConfig<Scalar> drawn_injection(Random& r) {
 }
 
 template <class Scalar>
-NorthConfig<Scalar> drawn_north(Random& r) {
+PolarityConfig<Scalar> drawn_north(Random& r) {
   const Scalar current_A = positive<Scalar>(r);
   const Gain<Scalar> certain = positive_gain<Scalar>(r, 2, 4);
   const auto settle = static_cast<std::uint16_t>(r.below(4));
@@ -72,7 +72,7 @@ struct InjectionWalk {
 
 template <class Scalar>
 struct NorthWalk {
-  NorthConfig<Scalar> config{};
+  PolarityConfig<Scalar> config{};
   NorthState<Scalar> state{};
 
   void draw(Random& r) {

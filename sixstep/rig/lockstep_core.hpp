@@ -29,9 +29,9 @@ struct CorePort {
   explicit operator bool() const { return ask != nullptr; }
 };
 
-class BesideCore {
+class LockstepCore {
  public:
-  explicit BesideCore(const CorePort& port) : port_(port) {}
+  explicit LockstepCore(const CorePort& port) : port_(port) {}
 
   bool there() const { return static_cast<bool>(port_); }
   /// Where the core is in trouble, or gets into it now, an answer that turns the bridge off and is a fault.

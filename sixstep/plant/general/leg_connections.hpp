@@ -7,10 +7,10 @@ namespace sixstep::plant::general {
 
 /// What a leg without current may become, by its gates: the connection that carries a positive current and the one that
 /// carries a negative one.
-struct Ways {
+struct LegConnections {
   Connection positive = Connection::low_diode, negative = Connection::high_diode;
 };
-inline Ways ways_of(const Devices& devices, bool gate_high, bool gate_low) {
+inline LegConnections ways_of(const Devices& devices, bool gate_high, bool gate_low) {
   if (devices.igbt && gate_high) return {Connection::high_switch, Connection::high_diode};
   if (devices.igbt && gate_low) return {Connection::low_diode, Connection::low_switch};
   return {};

@@ -53,7 +53,7 @@ base::Problems note_end(const Rig& rig, sim::Stop stop, Observers& w, Outcome& o
 }
 
 template <class Firmware, class PlantType>
-class LiveRig final : public AnyRun {
+class RunningRig final : public AnyRun {
  public:
   /// The chip of a scenario: once at the start, and once for each change of its future.
   using MakeChip = base::Result<Chip<Firmware>> (*)(const Scenario&, const Compiled&);
@@ -62,10 +62,10 @@ class LiveRig final : public AnyRun {
                                                     const Compiled& compiled, rig::Timeline timeline) {
     const base::Result<Chip<Firmware>> chip = make_chip(scenario, compiled);
     if (!chip) return chip.problems();
-    return std::unique_ptr<AnyRun>(new LiveRig(make_chip, compiled, *chip, std::move(timeline)));
+    return std::unique_ptr<AnyRun>(new RunningRig(make_chip, compiled, *chip, std::move(timeline)));
   }
 
-  std::unique_ptr<AnyRun> clone() const override { return std::unique_ptr<AnyRun>(new LiveRig(*this)); }
+  std::unique_ptr<AnyRun> clone() const override { return std::unique_ptr<AnyRun>(new RunningRig(*this)); }
   sim::Instant now() const override { return rig_.now(); }
   sim::Instant next_tick() const override { return rig_.next_tick(); }
   sim::Stop advance(const sim::Instant& end, Slice& slice) override {
@@ -90,11 +90,11 @@ class LiveRig final : public AnyRun {
  private:
   using Rig = rig::Rig<double, Firmware, PlantType>;
 
-  LiveRig(MakeChip make_chip, const Compiled& compiled, const Chip<Firmware>& chip, rig::Timeline timeline)
+  RunningRig(MakeChip make_chip, const Compiled& compiled, const Chip<Firmware>& chip, rig::Timeline timeline)
       : make_chip_(make_chip),
         rig_(built(compiled, chip, std::move(timeline))),
         full_scale_(chip.full_scale) {}
-  LiveRig(const LiveRig&) = default;
+  RunningRig(const RunningRig&) = default;
   static Rig built(const Compiled& compiled, const Chip<Firmware>& chip, rig::Timeline timeline) {
     if constexpr (std::is_same_v<PlantType, plant::general::Plant<double>>)
       return general_rig_of<Firmware>(compiled, chip, std::move(timeline));

@@ -12,7 +12,7 @@ namespace sixstep::plant::detail {
 /// The series while they grow: a local of the recurrence, so that the newest terms stay in registers and no
 /// store has to be waited for. What a law does not use is never made.
 template <class Real>
-struct Growing {
+struct SeriesBuilder {
   Real h;
   Real reach_w = 0, reach_i = 0, reach_i_2 = 0;               ///< sums of the terms' sizes
   Real later_w = 0, later_x = 0, later_i = 0, later_i_2 = 0;  ///< sums of the terms behind the first
@@ -37,7 +37,7 @@ struct Rotor {
   }
 
   template <int n>
-  void step(Growing<Real>& y, Real f) const {
+  void step(SeriesBuilder<Real>& y, Real f) const {
     Real losses = per_speed * y.w[n];
     if constexpr (n == 0) losses += steady;
     y.w[n + 1] = (y.torque[n] - losses) * (f * inv_J);
@@ -47,7 +47,7 @@ struct Rotor {
 
 /// w phi0 and w phi1 of a sine at order n; cos x and sin x grow along with them.
 template <int n, class Real>
-inline void sine_products(const Rotor<Real>& rotor, Growing<Real>& y, Real f, Real& w0, Real& w1) {
+inline void sine_products(const Rotor<Real>& rotor, SeriesBuilder<Real>& y, Real f, Real& w0, Real& w1) {
   w0 = series::product_term<n>(y.w, y.phi0);
   w1 = series::product_term<n>(y.w, y.phi1);
   // mutant: -f * rotor.pole_pairs * w1 => -f * w1
@@ -83,7 +83,7 @@ struct BusLaw {
     dc_i_2 = law.connected == 3 ? high(1) - high(2) : Real(0);
   }
   template <int n>
-  void step(Growing<Real>& y, Real f, Real i, Real i_2) const {
+  void step(SeriesBuilder<Real>& y, Real f, Real i, Real i_2) const {
     y.bus[n + 1] = f * inv_C * (feed * ((n == 0 ? V_0 : Real(0)) - y.bus[n]) - (dc_i * i + dc_i_2 * i_2));
   }
 };

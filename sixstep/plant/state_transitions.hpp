@@ -53,7 +53,7 @@ bool pass_edge(State<Real>& state, Mode& mode, bool ahead, Pieces&& pieces, Coun
 /// A rotor at rest on an edge, which a bridge that follows the sectors drives back from either side, would pass
 /// it for ever at one instant. It is put down inside, by what rounding may have moved it: then time goes on.
 template <class Real>
-void leave_edge(State<Real>& state, bool ahead) {
+void clear_edge(State<Real>& state, bool ahead) {
   const Real inside =
       4 * noise_of(Real(base::sector_rad), Real(1));  // beyond what edge_guards() take for the edge
   state.x += ahead ? inside : -inside;
@@ -62,7 +62,7 @@ void leave_edge(State<Real>& state, bool ahead) {
 /// Puts the rotor to a mechanical angle; true where that is the edge of a sector. An edge named in degrees or radians of the
 /// shaft has been rounded up to four times on its way here.
 template <class Real>
-bool put_down(State<Real>& state, double electrical_rad) {
+bool set_rotor_angle(State<Real>& state, double electrical_rad) {
   const double edge = std::floor(electrical_rad / base::sector_rad + 0.5);
   const bool on_edge =
       std::fabs(electrical_rad - edge * base::sector_rad) <= 0x1p-50 * std::fabs(electrical_rad);

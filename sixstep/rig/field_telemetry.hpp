@@ -6,7 +6,7 @@
 
 namespace sixstep::rig {
 
-struct FieldHeld {
+struct FieldTelemetry {
   control::Dq<double> measured_A{}, reference_A{};
   control::Dq<double> voltage_V{};  ///< of a phase, as asked for
   double angle_error_deg = 0.0;     ///< electrical: where the magnet is taken to point, less where it does
@@ -14,7 +14,7 @@ struct FieldHeld {
 
 /// That of a firmware that has it; of any other zeros.
 template <class Firmware>
-FieldHeld field_held(const Firmware& firmware) {
+FieldTelemetry field_held(const Firmware& firmware) {
   if constexpr (requires { firmware.field_held(); })
     return firmware.field_held();
   else

@@ -19,12 +19,12 @@ namespace sixstep::control {
 enum class NorthPhase : std::uint8_t { forth, back, found, opposite, unseen };
 
 template <class Scalar>
-struct NorthConfig {
+struct PolarityConfig {
   Scalar current_A{};              ///< I
   Gain<Scalar> certain{};          ///< of (h+ - h-)/(h+ + h-)
   std::uint16_t settle_ticks = 0;  ///< until the current stands
   std::uint16_t look_ticks = 0;    ///< what is summed then
-  bool operator==(const NorthConfig&) const = default;
+  bool operator==(const PolarityConfig&) const = default;
 };
 
 template <class Scalar>
@@ -36,7 +36,7 @@ struct NorthState {
 
 /// i_d to ask for.
 template <class Scalar>
-constexpr Scalar north_current(const NorthConfig<Scalar>& config, const NorthState<Scalar>& state) {
+constexpr Scalar north_current(const PolarityConfig<Scalar>& config, const NorthState<Scalar>& state) {
   if (state.phase == NorthPhase::forth) return config.current_A;
   return state.phase == NorthPhase::back ? -config.current_A : Scalar{};
 }
@@ -50,7 +50,7 @@ constexpr Scalar north_seen(const NorthState<Scalar>& state) {
 
 /// One tick with its h_d, A.
 template <class Scalar>
-constexpr void north_step(const NorthConfig<Scalar>& config, NorthState<Scalar>& state, Scalar h_d) {
+constexpr void north_step(const PolarityConfig<Scalar>& config, NorthState<Scalar>& state, Scalar h_d) {
   if (state.phase != NorthPhase::forth && state.phase != NorthPhase::back) return;
   if (++state.ticks <= config.settle_ticks) return;
   (state.phase == NorthPhase::forth ? state.forth : state.back) += h_d;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// settle_plainly() answers where nothing has to be tried (model.md 2): gates and currents name the
+// settle_fast() answers where nothing has to be tried (model.md 2): gates and currents name the
 // connections, and what they leave open stands clear of the rails. Nearly every event is of this kind;
 // settle.hpp answers the rest.
 #pragma once
@@ -78,7 +78,7 @@ template <class Real>
 /// one leg beside two that conduct. False, and nothing is written: something is too close to zero or to a
 /// rail to say, or more is open.
 template <class Real>
-bool settle_plainly(const Constants<Real>& c, const State<Real>& s, const Gates& gates, Mode& mode) {
+bool settle_fast(const Constants<Real>& c, const State<Real>& s, const Gates& gates, Mode& mode) {
   Motion motion = c.locked ? Motion::locked : Motion::free;
   if (c.dry_friction) {
     // mutant: detail::abs(s.w) <= c.speed_noise => false

@@ -8,11 +8,11 @@
 namespace sixstep::rig {
 
 template <class RealType, class Plant = plant::Plant<RealType>>
-class BarePlant {
+class UnscheduledPlant {
  public:
   using Real = RealType;
 
-  explicit BarePlant(const Plant& plant) : plant_(plant) {}
+  explicit UnscheduledPlant(const Plant& plant) : plant_(plant) {}
 
   sim::Instant now() const { return now_; }
   sim::Instant next_known() const { return sim::Instant::never(); }
