@@ -200,10 +200,10 @@ std::string chips(const std::vector<ComparedRun>& runs) {
 }
 
 /// Of a board's log: how far it lies from the simulation. Nothing where there is none.
-std::string laid_over_table(const ComparisonInput& in) {
+std::string trace_comparison_table(const ComparisonInput& in) {
   if (in.laid_over.empty()) return "";
   std::string rows;
-  for (const sixstep::analysis::LaidOver& one : in.laid_over) {
+  for (const sixstep::analysis::TraceComparison& one : in.laid_over) {
     const std::string unit = one.column.unit == "1" ? "" : one.column.unit;
     rows += fmt::format(
         "<tr><th scope=\"row\"><code>{}</code></th><td class=\"num\">{}</td><td class=\"num\">{}</td><td "
@@ -241,7 +241,7 @@ std::string render_comparison(const ComparisonInput& in) {
                                          "scenario.</p>\n"
                                        : difference_table(in.runs)},
               {"figures", table("Figure", in.runs.size(), named_figures(in.runs) + usual_figures(in.runs)) +
-                              chips(in.runs) + laid_over_table(in)},
+                              chips(in.runs) + trace_comparison_table(in)},
               {"plots", assets::plots_html},
               {"grid", escaped(given(common_grid_s(scenarios), "s"))},
               {"between", with_log ? ", the log straight between its rows" : ""},

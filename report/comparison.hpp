@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sixstep/analysis/bench/log/laid_over.hpp"
+#include "sixstep/analysis/identification/log/trace_comparison.hpp"
 #include "sixstep/study/measure/outcome.hpp"
 #include "sixstep/study/measure/trace.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
@@ -24,8 +24,8 @@ inline constexpr std::size_t most_compared = 5;  ///< as many as there are colou
 
 struct ComparisonInput {
   std::vector<ComparedRun> runs;  ///< two to most_compared; differences are against the first, which is a run
-  std::vector<sixstep::analysis::LaidOver> laid_over{};  ///< of a log, the last one
-  double shift_s = 0.0;                                  ///< of the log
+  std::vector<sixstep::analysis::TraceComparison> laid_over{};  ///< of a log, the last one
+  double shift_s = 0.0;                                         ///< of the log
   std::string command;
   std::string version;
 };

@@ -19,7 +19,7 @@
 #include "files/text_file.hpp"
 #include "report/emf_page.hpp"
 #include "report/identify_page.hpp"
-#include "sixstep/analysis/bench/built_machines.hpp"
+#include "sixstep/analysis/identification/built_machines.hpp"
 #include "sixstep/base/plausible.hpp"
 #include "sixstep/base/range_text.hpp"
 #include "sixstep/base/written.hpp"

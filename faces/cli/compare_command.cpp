@@ -29,7 +29,7 @@
 #include "sixstep/study/measure/trace.hpp"
 #include "sixstep/study/run/run.hpp"
 #include "text/recording/board_log.hpp"
-#include "text/results/laid_over_text.hpp"
+#include "text/results/trace_comparison_text.hpp"
 #include "text/results/verdict_table.hpp"
 
 namespace cli {
@@ -249,8 +249,8 @@ Exit compare_command(const RunArguments& arguments, const std::vector<Job>& jobs
   }
   print_table(jobs, runs, arguments.quiet);
   if (*log && !arguments.quiet)
-    print(
-        text::laid_over_text((*log)->name, (*log)->found.columns, (*log)->found.shift_s, (*log)->read.notes));
+    print(text::trace_comparison_text((*log)->name, (*log)->found.columns, (*log)->found.shift_s,
+                                      (*log)->read.notes));
   return unwritten.empty() ? exit : graver(exit, Exit::bad_input);
 }
 

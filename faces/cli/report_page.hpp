@@ -7,7 +7,7 @@
 #include "faces/cli/rooms.hpp"
 #include "report/plan_page.hpp"
 #include "report/report.hpp"
-#include "sixstep/analysis/bench/log/laid_over.hpp"
+#include "sixstep/analysis/identification/log/trace_comparison.hpp"
 #include "sixstep/study/measure/outcome.hpp"
 #include "sixstep/study/measure/trace.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
@@ -36,7 +36,7 @@ struct ComparedSource {
 
 /// How far a board's log lies from its simulation.
 struct LogFound {
-  std::vector<analysis::LaidOver> columns;
+  std::vector<analysis::TraceComparison> columns;
   double shift_s = 0.0;
 };
 

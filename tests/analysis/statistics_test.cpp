@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sixstep/analysis/series/statistics.hpp"
+#include "sixstep/analysis/statistics/statistics.hpp"
 
 #include <gtest/gtest.h>
 

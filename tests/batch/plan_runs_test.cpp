@@ -10,7 +10,7 @@
 #include <mutex>
 #include <stdexcept>
 
-#include "sixstep/analysis/series/series.hpp"
+#include "sixstep/analysis/statistics/series.hpp"
 #include "sixstep/study/check/check.hpp"
 #include "sixstep/study/run/run.hpp"
 #include "sixstep/study/scenario/spread.hpp"

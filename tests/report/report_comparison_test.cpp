@@ -96,7 +96,7 @@ TEST(Comparison, names_what_an_event_changes) {
 
 TEST(Comparison, a_boards_log_has_its_columns_and_no_verdict) {
   const SyntheticRun one = synthetic_run(0.002);
-  sixstep::analysis::LaidOver current;
+  sixstep::analysis::TraceComparison current;
   current.column = {"i_m_A", "A", "", ""};
   current.rows = 12;
   current.rms = 0.125;

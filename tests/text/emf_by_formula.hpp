@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "sixstep/analysis/bench/emf/emf.hpp"
+#include "sixstep/analysis/identification/emf/emf.hpp"
 #include "text/recording/bench_recordings.hpp"
 
 namespace text::emf_by_formula {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <optional>
 
-#include "sixstep/analysis/bench/hall/identify.hpp"
+#include "sixstep/analysis/identification/hall/identify.hpp"
 #include "text/recording/bench_recordings.hpp"
 
 namespace text {

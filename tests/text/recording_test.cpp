@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "sixstep/analysis/bench/emf/emf.hpp"
-#include "sixstep/analysis/bench/hall/identify.hpp"
+#include "sixstep/analysis/identification/emf/emf.hpp"
+#include "sixstep/analysis/identification/hall/identify.hpp"
 #include "text/recording/bench_recordings.hpp"
 #include "text/recording/times.hpp"
 

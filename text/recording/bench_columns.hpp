@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sixstep/analysis/bench/emf/emf_record.hpp"
+#include "sixstep/analysis/identification/emf/emf_record.hpp"
 #include "text/recording/columns.hpp"
 
 namespace text {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "sixstep/analysis/bench/emf/emf_record.hpp"
-#include "sixstep/analysis/bench/hall/hall_log.hpp"
+#include "sixstep/analysis/identification/emf/emf_record.hpp"
+#include "sixstep/analysis/identification/hall/hall_log.hpp"
 #include "text/recording/recording.hpp"
 
 namespace text {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sixstep/analysis/bench/emf/emf_doubts.hpp"
+#include "sixstep/analysis/identification/emf/emf_doubts.hpp"
 #include "sixstep/base/angle.hpp"
 #include "text/escape/escape.hpp"
 #include "text/results/interval_text.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sixstep/analysis/bench/emf/frame_check.hpp"
+#include "sixstep/analysis/identification/emf/frame_check.hpp"
 #include "text/rooms.hpp"
 
 namespace text {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "sixstep/analysis/bench/hall/identify.hpp"
+#include "sixstep/analysis/identification/hall/identify.hpp"
 #include "text/rooms.hpp"
 
 namespace text {

@@ -3,7 +3,7 @@
 #pragma once
 #include <string>
 
-#include "sixstep/analysis/bench/hall/identify.hpp"
+#include "sixstep/analysis/identification/hall/identify.hpp"
 #include "text/rooms.hpp"
 
 namespace text {

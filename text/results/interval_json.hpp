@@ -2,7 +2,7 @@
 #pragma once
 #include <nlohmann/json.hpp>
 
-#include "sixstep/analysis/bench/interval.hpp"
+#include "sixstep/analysis/identification/interval.hpp"
 #include "text/rooms.hpp"
 
 namespace text {

@@ -3,7 +3,7 @@
 #pragma once
 #include <string>
 
-#include "sixstep/analysis/bench/interval.hpp"
+#include "sixstep/analysis/identification/interval.hpp"
 #include "text/rooms.hpp"
 
 namespace text {

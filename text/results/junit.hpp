@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sixstep/analysis/series/series.hpp"
+#include "sixstep/analysis/statistics/series.hpp"
 #include "sixstep/study/measure/outcome.hpp"
 #include "text/rooms.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sixstep/analysis/plan/sensitivity.hpp"
-#include "sixstep/analysis/series/series.hpp"
+#include "sixstep/analysis/statistics/series.hpp"
 #include "text/rooms.hpp"
 
 namespace text {

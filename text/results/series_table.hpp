@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-#include "sixstep/analysis/series/series.hpp"
+#include "sixstep/analysis/statistics/series.hpp"
 #include "text/rooms.hpp"
 
 namespace text {

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/analysis/identification/emf/emf_doubts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "sixstep/base/angle.hpp"
+#include "sixstep/base/written.hpp"
+
+namespace sixstep::analysis {
+namespace {
+
+/// A whole top within one step of the converter seems to have lost that step, and with noise more: this cannot be told from it.
+double hidden_V(const EmfChannelResult& channel) { return 2.0 * (channel.step_V + channel.residual_rms_V); }
+
+double middle_of(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// How far rows lie from the straight line between their neighbours, at the middle of all that do not stand at an extreme.
+double bend_of_flanks(const std::vector<double>& t, const std::vector<double>& u) {
+  const auto [low, high] = std::minmax_element(u.begin(), u.end());
+  std::vector<double> bends;
+  for (std::size_t n = 1; n + 1 < u.size(); ++n) {
+    if (u[n] == *low || u[n] == *high || u[n - 1] == u[n] || u[n] == u[n + 1]) continue;
+    const double part = (t[n] - t[n - 1]) / (t[n + 1] - t[n - 1]);
+    bends.push_back(std::fabs(u[n] - u[n - 1] - part * (u[n + 1] - u[n - 1])));
+  }
+  return middle_of(std::move(bends));
+}
+
+/// What is left of a top: a run of rows at the extreme of half width h, and how far the voltage lies below it on the mean over
+/// h .. 2 h from the run's middle and over 2 h .. 3 h, on both sides.
+struct Top {
+  std::size_t from = 0, to = 0;
+  double near = 0.0, far = 0.0;
+};
+
+/// The rows of the windows are those of an even recording; a top at the recording's ends is none.
+std::optional<Top> measured_top(const std::vector<double>& u, std::size_t from, std::size_t to) {
+  const std::size_t rows = to - from + 1, half = rows / 2;
+  if (half == 0 || from < rows || to + rows >= u.size()) return {};
+  Top top{from, to};
+  for (std::size_t n = 0; n < half; ++n) {
+    top.near += std::fabs(u[from] - u[from - 1 - n]) + std::fabs(u[from] - u[to + 1 + n]);
+    top.far += std::fabs(u[from] - u[from - 1 - half - n]) + std::fabs(u[from] - u[to + 1 + half + n]);
+  }
+  top.near /= 2.0 * static_cast<double>(half);
+  top.far /= 2.0 * static_cast<double>(half);
+  return top;
+}
+
+/// The last row of a top that begins at `from`: noise makes it leave its ends and come back.
+std::size_t end_of_top(const std::vector<double>& u, std::size_t from) {
+  std::size_t end = from;
+  for (std::size_t n = from + 1; n < u.size() && n - end <= std::max<std::size_t>(2, (end - from) / 4); ++n)
+    if (u[n] == u[from]) end = n;
+  return end;
+}
+
+/// Whether nothing leaves the inner part of a top. What is flat by itself is noisy there, too.
+bool stands_still(const std::vector<double>& u, std::size_t from, std::size_t to) {
+  const std::size_t edge = (to - from + 1) / 5;
+  return std::all_of(u.begin() + static_cast<std::ptrdiff_t>(from + edge),
+                     u.begin() + static_cast<std::ptrdiff_t>(to + 1 - edge),
+                     [&](double x) { return x == u[from]; });
+}
+
+/// The tops at one extreme that stand still, those that are about as long as the longest.
+std::vector<Top> tops_at(const std::vector<double>& u, double extreme) {
+  constexpr std::size_t fewest_rows = 8;
+  std::vector<Top> all;
+  std::size_t longest = 0;
+  for (std::size_t n = 0; n < u.size(); ++n) {
+    if (u[n] != extreme) continue;
+    const std::size_t end = end_of_top(u, n), rows = end - n + 1;
+    longest = std::max(longest, rows);
+    if (rows >= fewest_rows && stands_still(u, n, end))
+      if (const std::optional<Top> top = measured_top(u, n, end)) all.push_back(*top);
+    n = end;
+  }
+  std::erase_if(all, [&](const Top& top) { return 2 * (top.to - top.from + 1) < longest; });
+  return all;
+}
+
+/// How far the voltage would have gone beyond its extreme, by the parabola u = V - b x^2 through the rows beside the run: b h^2 = V,
+/// and near is 4/3 V. Nothing where the flanks are no parabola's: far is 4 times near there, 3.4 of a sine that has lost a fifth;
+/// straight flanks have 3 and less, a top that is flat by itself and round at its ends more than both.
+double lost_beyond(const std::vector<double>& u, double extreme, double periods) {
+  constexpr double straight = 3.2, round = 4.6, near_of_lost = 4.0 / 3.0, most_periods = 0.6;
+  std::vector<double> lost, bent;
+  const std::vector<Top> tops = tops_at(u, extreme);
+  // A rail stops every period; a flat top that hum lifts onto a step of the converter does so now and then.
+  if (static_cast<double>(tops.size()) + 1.0 < most_periods * periods) return 0.0;
+  for (const Top& top : tops) {
+    lost.push_back(top.near / near_of_lost);
+    bent.push_back(top.near > 0.0 ? top.far / top.near : 0.0);
+  }
+  const double ratio = middle_of(std::move(bent));
+  return ratio > straight && ratio < round ? middle_of(std::move(lost)) : 0.0;
+}
+
+}  // namespace
+
+base::Problem no_period(const std::vector<double>& t_s, const std::string& channel, std::size_t passed,
+                        bool regular) {
+  constexpr double much_longer = 10.0;
+  std::vector<double> steps;
+  for (std::size_t n = 1; n < t_s.size(); ++n) steps.push_back(t_s[n] - t_s[n - 1]);
+  const auto longest = std::max_element(steps.begin(), steps.end());
+  if (longest != steps.end() && *longest > much_longer * middle_of(steps)) {
+    const auto row = static_cast<std::size_t>(longest - steps.begin());
+    return {.where = "time",
+            .value = base::six_digits(t_s[row]) + " s",
+            .limit = "in row " + std::to_string(row + 1) + " is followed by a gap of " +
+                     base::three_digits(*longest) + " s, and " + channel + " shows no steady period",
+            .cure = "cut out a part without a gap, of a period and a half and more"};
+  }
+  if (!regular)
+    return {.where = channel,
+            .value = "",
+            .limit = "is noise, or changes its speed all the time: its half waves are of all lengths",
+            .cure = "look at where the probe hung; turn the motor steadily while it is recorded"};
+  return {
+      .where = channel,
+      .limit = "passes its mean " + std::to_string(passed) + " times; a period is to be seen once and a half",
+      .cure = "record for longer, or turn the motor faster"};
+}
+
+base::Problems check_noise(const EmfRecord& record, const HarmonicFit& fit) {
+  for (std::size_t c = 0; c < fit.channels.size(); ++c) {
+    const ChannelFit& channel = fit.channels[c];
+    double squares = 0.0;
+    for (const Harmonic& h : channel.harmonics) squares += 0.5 * (h.a_V * h.a_V + h.b_V * h.b_V);
+    const double rms = std::sqrt(squares);
+    if (channel.residual_rms_V < rms) continue;
+    return {{.where = record.channels[c].name,
+             .value = "",
+             .limit = "is noise: " + base::three_digits(rms) + " V rms of it repeat with " +
+                      base::three_digits(fit.phase.rate[0] / base::turn_rad) + " Hz, and " +
+                      base::three_digits(channel.residual_rms_V) + " V rms do not",
+             .cure = "look at where the probe hung; turn the motor steadily while it is recorded"}};
+  }
+  return {};
+}
+
+bool may_be_clipped(const EmfChannelResult& channel) {
+  constexpr double much = 0.03, dithered = 0.3;
+  return channel.clipped > much && channel.residual_rms_V > dithered * channel.step_V;
+}
+
+/// A sine of peak A that has lost V at both ends, and stands there for a part q of the period at each, has 8/3 q V/A less in its
+/// fundamental and its rms, and V/A in its peak.
+void allow_for_clipping(EmfResult& result) {
+  double peak = 0.0, fundamental = 0.0;
+  for (const EmfChannelResult& channel : result.channels) {
+    if (!may_be_clipped(channel)) continue;
+    const double part = hidden_V(channel) / channel.peak_V.value;
+    peak = std::max(peak, part);
+    fundamental = std::max(fundamental, 8.0 / 3.0 * channel.clipped * part);
+  }
+  EmfConstants& k = result.constants;
+  for (Interval* of_peak : {&k.line_peak, &k.phase_peak}) of_peak->high += peak * of_peak->value;
+  for (Interval* other : {&k.line_rms, &k.line_fundamental, &k.phase_rms, &k.phase_fundamental})
+    other->high += fundamental * other->value;
+}
+
+base::Problems check_clipped(const EmfRecord& record, const EmfResult& result) {
+  constexpr double part_of_period = 0.03, steps = 2.0;
+  for (std::size_t c = 0; c < result.channels.size(); ++c) {
+    const EmfChannelResult& channel = result.channels[c];
+    const std::vector<double>& u = record.channels[c].u_V;
+    const auto [low, high] = std::minmax_element(u.begin(), u.end());
+    const bool lost = std::max(lost_beyond(u, *low, result.periods), lost_beyond(u, *high, result.periods)) >
+                      hidden_V(channel);
+    const bool bent =
+        channel.clipped > part_of_period && bend_of_flanks(record.t_s, u) > steps * channel.step_V;
+    if (!lost && !bent) continue;
+    return {{.where = channel.name,
+             .value = "",
+             .limit = "is clipped: it stands at " + base::six_digits(*high) + " or " +
+                      base::six_digits(*low) + " V for " + base::three_digits(100.0 * channel.clipped) +
+                      " % of a period",
+             .cure = "record it again in a greater range of the channel"}};
+  }
+  return {};
+}
+
+double unlike(const EmfResult& result) {
+  const auto [least, greatest] =
+      std::minmax_element(result.channels.begin(), result.channels.end(),
+                          [](const auto& a, const auto& b) { return a.peak_V.value < b.peak_V.value; });
+  if (result.channels.empty()) return 0.0;
+  return (greatest->peak_V.value - least->peak_V.value) / (greatest->peak_V.value + least->peak_V.value);
+}
+
+/// Phases of one motor differ by a few per cent, ten times by a probe's divider, a thousand times by a unit.
+base::Problems check_alike(const EmfResult& result) {
+  constexpr double most = 0.05;
+  if (!(unlike(result) > most)) return {};
+  std::string each;
+  for (const EmfChannelResult& channel : result.channels)
+    each += (each.empty() ? "" : ", ") + channel.name + " " + base::three_digits(channel.peak_V.value) + " V";
+  return {{.where = "voltage",
+           .value = each,
+           .limit = "have fundamentals that differ more than those of one motor",
+           .cure = "look at the dividers of the probes and at the units of the columns"}};
+}
+
+/// Which of the channels is right nobody knows: the constants' bounds reach as far as each.
+void allow_for_unlike_channels(EmfResult& result) {
+  constexpr double usual = 0.01;
+  const double half = unlike(result), part = half * (1.0 + half);  // a mean of squares lies beyond the middle
+  if (!(half > usual)) return;
+  EmfConstants& k = result.constants;
+  for (Interval* i :
+       {&k.line_peak, &k.line_rms, &k.line_fundamental, &k.phase_peak, &k.phase_rms, &k.phase_fundamental}) {
+    i->low -= part * i->value;
+    i->high += part * i->value;
+  }
+}
+
+}  // namespace sixstep::analysis

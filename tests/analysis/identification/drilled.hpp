@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// A log that leaves nothing to be asked.
+#pragma once
+#include "tests/analysis/identification/drawn_hall_log.hpp"
+
+namespace sixstep::testing {
+
+/// Six electrical turns of a drill, forty rows in a sector.
+inline HallTruth drilled() {
+  HallTruth t;
+  t.turning = Turning::drill;
+  t.turns = 6.0;
+  t.usual_turns_s = 10.0;
+  t.row_s = 1.0 / (10.0 * 6.0 * 40.0);
+  t.jitter_deg = 0.05;
+  return t;
+}
+
+}  // namespace sixstep::testing

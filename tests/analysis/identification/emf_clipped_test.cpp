@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tops that the converter cut off: a sine of known peak is refused, or its constants' bounds hold what was cut.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <string>
+
+#include "sixstep/analysis/identification/emf/emf.hpp"
+#include "tests/analysis/identification/drawn_emf.hpp"
+
+namespace SIXSTEP_TEST_FILE {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using ::testing::HasSubstr;
+
+constexpr double frequency_Hz = 50.0, peak_V = 3.0;
+/// V s per electrical rad.
+constexpr double true_peak = peak_V / (2 * std::numbers::pi * frequency_Hz);
+
+struct Cut {
+  double part = 0.0;  ///< of the peak that is lost
+  double step_V = 0.0, noise_V = 0.0;
+  bool both = true;  ///< ends, else the upper one alone
+};
+
+analysis::EmfRequest recorded(const Cut& cut) {
+  Draw draw(7);
+  analysis::EmfRequest out;
+  out.record.between = analysis::EmfBetween::lines;
+  out.record.channels.push_back({"u_ab", {}});
+  const double rail = (1 - cut.part) * peak_V;
+  for (int n = 0; n < 6000; ++n) {
+    const double t = n / (1000.0 * frequency_Hz);
+    double u = peak_V * std::cos(2 * std::numbers::pi * frequency_Hz * t + 0.3) + cut.noise_V * normal(draw);
+    u = std::clamp(u, cut.both ? -rail : -2 * peak_V, rail);
+    out.record.t_s.push_back(t);
+    out.record.channels[0].u_V.push_back(cut.step_V * std::round(u / cut.step_V));
+  }
+  return out;
+}
+
+/// 12 and 8 bits of 8 V, without noise and with half a step of it: from three steps on it is refused, noise or not.
+TEST(EmfClipped, WhatLacksThreeStepsIsRefused) {
+  for (const double step_V : {8.0 / 4096, 8.0 / 256})
+    for (const double noise : {0.0, 0.3, 0.5})
+      for (const double part : {0.01, 0.02, 0.05, 0.2})
+        for (const bool both : {true, false}) {
+          if (part * peak_V < 3 * step_V) continue;
+          const auto found = analysis::measure_emf(recorded({part, step_V, noise * step_V, both}));
+          ASSERT_FALSE(found) << step_V << " V, " << noise << ", " << part;
+          EXPECT_THAT(found.problems()[0].limit, HasSubstr("is clipped"));
+        }
+}
+
+/// What is cut less than a step can tell is in the bounds of peak and fundamental, or the top is refused.
+TEST(EmfClipped, WhatIsLeftIsWithinTheBounds) {
+  for (const double step_V : {8.0 / 256, 8.0 / 64})
+    for (const double noise : {0.3, 0.5})
+      for (const double steps : {0.8, 1.0, 1.4, 1.7, 2.0, 2.4, 2.8}) {
+        const double part = steps * step_V / peak_V;
+        const auto found = analysis::measure_emf(recorded({part, step_V, noise * step_V, true}));
+        if (!found) continue;
+        SCOPED_TRACE(std::to_string(step_V) + " V, " + std::to_string(noise) + ", " + std::to_string(steps));
+        EXPECT_GT(found->constants.line_peak.high, (1 - 2e-3) * true_peak);
+        EXPECT_GT(found->constants.line_fundamental.high, (1 - 2e-3) * true_peak);
+      }
+}
+
+/// A whole sine is none, however coarse the steps that its tops stand on.
+TEST(EmfClipped, AWholeSineIsMeasured) {
+  for (const double step_V : {8.0 / 4096, 8.0 / 256, 8.0 / 64, 8.0 / 32})
+    for (const double noise : {0.0, 0.1, 0.3, 0.5, 2.0}) {
+      const auto found = analysis::measure_emf(recorded({0.0, step_V, noise * step_V, true}));
+      EXPECT_TRUE(found) << step_V << " V, " << noise << ": " << to_string(found.problems()[0]);
+    }
+}
+
+/// Nor are a trapezoid's tops, of any width, which are flat by themselves.
+TEST(EmfClipped, TheTopsOfATrapezoidAreItsOwn) {
+  for (const double flat_deg : {60.0, 90.0, 120.0, 140.0})
+    for (const double part_of_peak : {1.0 / 1000, 1.0 / 100, 1.0 / 30})
+      for (const bool star : {true, false}) {
+        EmfTruth t;
+        t.cos_part[1] = 1.0;
+        t.star = star;
+        make_trapezoid(t, flat_deg);
+        t.step_V = part_of_peak * true_line_peak(t) * 2 * std::numbers::pi * t.frequency_Hz;
+        t.noise_V = 0.3 * t.step_V;
+        const auto found = analysis::measure_emf(drawn_record(t));
+        EXPECT_TRUE(found) << flat_deg << " deg, " << part_of_peak << ": " << to_string(found.problems()[0]);
+      }
+}
+
+}  // namespace SIXSTEP_TEST_FILE

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Edges that come in bursts, of a contact that is loose for a moment or an edge that bounces: one event each, whatever rows
+// they fill.
+#include <gmock/gmock.h>
+
+#include "sixstep/analysis/identification/hall/hall_edges.hpp"
+#include "tests/analysis/identification/drilled.hpp"
+
+namespace SIXSTEP_TEST_FILE {
+
+using namespace sixstep;
+using namespace sixstep::testing;
+using analysis::HallEdges;
+using analysis::HallLog;
+using Code = std::uint8_t;
+
+/// Line H1 reads wrong in every other row while the code is `at`, in the middle 24 rows of its first `turns` sectors.
+HallLog loose(HallLog log, Code at, int turns) {
+  const std::vector<Code> clean = log.codes;
+  for (std::size_t n = 1; n < clean.size() && turns > 0; ++n) {
+    if (clean[n] != at || clean[n - 1] == at || n + 40 > clean.size()) continue;
+    for (std::size_t row = n + 6; row < n + 30; row += 2) log.codes[row] ^= 0b100;
+    --turns;
+  }
+  return log;
+}
+
+void expect_same_way(const HallLog& clean, const HallLog& broken) {
+  const auto expected = analysis::hall_edges(clean), found = analysis::hall_edges(broken);
+  ASSERT_TRUE(expected && found) << to_string(found.problems()[0]);
+  EXPECT_EQ(found->mask, 0);
+  EXPECT_GT(found->mask_probability, 0.99);
+  EXPECT_GT(found->glitches, 10u);
+  ASSERT_EQ(found->edges.size(), expected->edges.size());
+  for (std::size_t n = 0; n < expected->edges.size(); ++n) {
+    EXPECT_EQ(found->edges[n].boundary, expected->edges[n].boundary);
+    EXPECT_EQ(found->edges[n].t_s, expected->edges[n].t_s);
+  }
+}
+
+/// 36 times 000, which probes 120 degrees apart never show, beside 12 times 010 and 101: counted one by one they would be
+/// probes 60 degrees apart.
+TEST(HallBursts, ImpossibleCodesOfALooseContactCountOncePerBurst) {
+  const HallLog clean = drawn_log(drilled()).log;
+  expect_same_way(clean, loose(clean, 0b100, 3));
+}
+
+/// 96 changes of H1 beside 24 of a good line: the good ones are not dead for that.
+TEST(HallBursts, ABurstOnOneLineMakesNoOtherOneDead) {
+  HallLog broken = drawn_log(drilled()).log;
+  for (int n = 0; n < 2; ++n) broken = loose(broken, n == 0 ? 0b100 : 0b110, 5);
+  expect_same_way(drawn_log(drilled()).log, broken);
+}
+
+/// What only swings over one edge has one line that changes, and two that never do.
+TEST(HallBursts, LinesThatNeverChangeAreToldHoweverOftenTheThirdDoes) {
+  HallLog log = drawn_log(drilled()).log;
+  for (std::size_t n = 0; n < log.codes.size(); ++n) log.codes[n] = n / 20 % 2 == 0 ? 0b100 : 0b110;
+  const auto found = analysis::hall_edges(log);
+  ASSERT_FALSE(found);
+  ASSERT_EQ(found.problems().size(), 2u);
+  EXPECT_THAT(to_string(found.problems()[0]),
+              ::testing::HasSubstr("hall1 = 1 in every row, while another line changes "));
+  EXPECT_THAT(to_string(found.problems()[1]), ::testing::HasSubstr("hall3 = 0 in every row"));
+}
+
+}  // namespace SIXSTEP_TEST_FILE
