@@ -7,10 +7,10 @@
 
 #include "report/chip_section.hpp"
 #include "report/figures.hpp"
-#include "report/glance.hpp"
+#include "report/summary.hpp"
 #include "report/html.hpp"
 #include "report/kept_rows.hpp"
-#include "report/ledger.hpp"
+#include "report/energy_balance.hpp"
 #include "report/parameters.hpp"
 #include "report/plots.hpp"
 #include "report/scripts.hpp"

@@ -9,10 +9,10 @@
 #include <numbers>
 #include <utility>
 
-#include "faces/cli/keep.hpp"
+#include "faces/cli/open_or_report.hpp"
 #include "faces/cli/stop_signals.hpp"
 #include "faces/cli/terminal.hpp"
-#include "faces/cli/written_twice.hpp"
+#include "faces/cli/duplicate_outputs.hpp"
 #include "files/atomic_file.hpp"
 #include "files/own_file.hpp"
 #include "files/scenario_on_disk.hpp"
@@ -107,11 +107,11 @@ struct BenchOutputs {
 
   base::Problems open(const BenchArguments& a, const std::string& shape_path) {
     base::Problems problems =
-        written_twice({{"--write", a.write}, {"--html", a.html}, {"--shape", shape_path}});
+        duplicate_outputs({{"--write", a.write}, {"--html", a.html}, {"--shape", shape_path}});
     if (!problems.empty()) return problems;
-    if (!a.write.empty()) keep(write, files::AtomicFile::create({a.write, a.force}), problems);
-    if (!a.html.empty()) keep(html, files::AtomicFile::create({a.html, a.force}), problems);
-    if (!shape_path.empty()) keep(shape, files::AtomicFile::create({shape_path, a.force}), problems);
+    if (!a.write.empty()) open_or_report(write, files::AtomicFile::create({a.write, a.force}), problems);
+    if (!a.html.empty()) open_or_report(html, files::AtomicFile::create({a.html, a.force}), problems);
+    if (!shape_path.empty()) open_or_report(shape, files::AtomicFile::create({shape_path, a.force}), problems);
     return problems;
   }
 };

@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "faces/cli/choose.hpp"
-#include "faces/cli/keep.hpp"
+#include "faces/cli/open_or_report.hpp"
 #include "faces/cli/stop_signals.hpp"
 #include "faces/cli/terminal.hpp"
-#include "faces/cli/written_twice.hpp"
+#include "faces/cli/duplicate_outputs.hpp"
 #include "files/atomic_file.hpp"
 #include "files/own_file.hpp"
 #include "files/scenario_on_disk.hpp"
@@ -38,10 +38,10 @@ struct CommissionFiles {
   std::optional<files::AtomicFile> write, html;
 
   base::Problems open(const CommissionArguments& a) {
-    base::Problems found = written_twice({{"--write", a.write}, {"--html", a.html}});
+    base::Problems found = duplicate_outputs({{"--write", a.write}, {"--html", a.html}});
     if (!found.empty()) return found;
-    if (!a.write.empty()) keep(write, files::AtomicFile::create({a.write, a.force}), found);
-    if (!a.html.empty()) keep(html, files::AtomicFile::create({a.html, a.force}), found);
+    if (!a.write.empty()) open_or_report(write, files::AtomicFile::create({a.write, a.force}), found);
+    if (!a.html.empty()) open_or_report(html, files::AtomicFile::create({a.html, a.force}), found);
     return found;
   }
 };

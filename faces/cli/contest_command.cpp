@@ -11,7 +11,7 @@
 #include "batch/contest.hpp"
 #include "faces/cli/contest_own.hpp"
 #include "faces/cli/contest_store.hpp"
-#include "faces/cli/keep.hpp"
+#include "faces/cli/open_or_report.hpp"
 #include "faces/cli/new_file.hpp"
 #include "faces/cli/outputs.hpp"
 #include "faces/cli/plan_storing.hpp"
@@ -20,7 +20,7 @@
 #include "faces/cli/stop_watch.hpp"
 #include "faces/cli/store_option.hpp"
 #include "faces/cli/terminal.hpp"
-#include "faces/cli/written_twice.hpp"
+#include "faces/cli/duplicate_outputs.hpp"
 #include "files/atomic_file.hpp"
 #include "files/own_file.hpp"
 #include "files/scenario_on_disk.hpp"
@@ -63,14 +63,14 @@ struct ContestFiles {
   std::vector<files::AtomicFile> scenarios;  ///< of the entries that have one, in their order
 
   base::Problems open(const ContestArguments& a, const std::vector<analysis::ContestEntry>& entries) {
-    base::Problems found = written_twice({{"--json", a.json}, {"--csv", a.csv}, {"--html", a.html}});
+    base::Problems found = duplicate_outputs({{"--json", a.json}, {"--csv", a.csv}, {"--html", a.html}});
     if (!found.empty()) return found;
     const auto one = [&](std::optional<files::AtomicFile>& into, const std::string& path) {
-      if (!path.empty() && path != "-") keep(into, files::AtomicFile::create({path, a.force}), found);
+      if (!path.empty() && path != "-") open_or_report(into, files::AtomicFile::create({path, a.force}), found);
     };
     one(json, a.json);
     one(csv, a.csv);
-    if (!a.html.empty()) keep(html, files::AtomicFile::create({a.html, a.force}), found);
+    if (!a.html.empty()) open_or_report(html, files::AtomicFile::create({a.html, a.force}), found);
     if (a.write.empty() || !found.empty()) return found;
     found = make_folder(a.write);
     for (const analysis::ContestEntry& entry : entries) {

@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "batch/curve.hpp"
-#include "faces/cli/keep.hpp"
+#include "faces/cli/open_or_report.hpp"
 #include "faces/cli/side_by_side.hpp"
 #include "faces/cli/stop_signals.hpp"
 #include "faces/cli/terminal.hpp"
-#include "faces/cli/written_twice.hpp"
+#include "faces/cli/duplicate_outputs.hpp"
 #include "files/scenario_on_disk.hpp"
 #include "files/trace/csv_writer.hpp"
 #include "report/curve_page.hpp"
@@ -57,11 +57,11 @@ CurveFiles outputs(const CurveArguments& a, const design::Sheet& sheet, base::Pr
       columns.push_back(c.column);
     const std::string origin[] = {"sixstep " SIXSTEP_VERSION, "motor: " + text::visible(a.motor),
                                   "command: " + a.command};
-    keep(out.csv, files::CsvWriter::create({a.csv, a.force}, columns, origin), problems);
+    open_or_report(out.csv, files::CsvWriter::create({a.csv, a.force}, columns, origin), problems);
   }
   if (!a.json.empty() && a.json != "-")
-    keep(out.json, files::AtomicFile::create({a.json, a.force}), problems);
-  if (!a.html.empty()) keep(out.html, files::AtomicFile::create({a.html, a.force}), problems);
+    open_or_report(out.json, files::AtomicFile::create({a.json, a.force}), problems);
+  if (!a.html.empty()) open_or_report(out.html, files::AtomicFile::create({a.html, a.force}), problems);
   return out;
 }
 
@@ -159,7 +159,7 @@ Exit curve_command(const CurveArguments& a) {
     complain(request.problems());
     return Exit::bad_input;
   }
-  base::Problems problems = written_twice({{"--csv", a.csv}, {"--json", a.json}, {"--html", a.html}});
+  base::Problems problems = duplicate_outputs({{"--csv", a.csv}, {"--json", a.json}, {"--html", a.html}});
   if (!problems.empty()) return refused(problems);
   catch_interrupts();
   CurveFiles out = outputs(a, request->sheet, problems);

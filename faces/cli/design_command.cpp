@@ -17,7 +17,7 @@
 #include "faces/cli/stop_signals.hpp"
 #include "faces/cli/store_option.hpp"
 #include "faces/cli/terminal.hpp"
-#include "faces/cli/written_twice.hpp"
+#include "faces/cli/duplicate_outputs.hpp"
 #include "files/atomic_file.hpp"
 #include "files/own_file.hpp"
 #include "files/scenario_on_disk.hpp"
@@ -100,7 +100,7 @@ struct DesignFiles {
 
   base::Problems open(const DesignArguments& a) {
     base::Problems found =
-        written_twice({{"--json", a.json}, {"--toml", a.toml}, {"--models", a.models}, {"--html", a.html}});
+        duplicate_outputs({{"--json", a.json}, {"--toml", a.toml}, {"--models", a.models}, {"--html", a.html}});
     if (!found.empty()) return found;
     const std::string kind = fs::path(a.models).extension().string();
     if (!a.models.empty() && kind != ".json" && kind != ".mat")

@@ -8,7 +8,7 @@
 #include <charconv>
 #include <optional>
 
-#include "faces/cli/keep.hpp"
+#include "faces/cli/open_or_report.hpp"
 #include "faces/cli/progress.hpp"
 #include "faces/cli/settings.hpp"
 #include "faces/cli/stop_signals.hpp"
@@ -170,7 +170,7 @@ Exit export_header(const ExportArguments& a) {
     return refused(within(a.file, unrun.problems()));
   catch_interrupts();
   std::optional<files::AtomicFile> file;
-  if (!a.out.empty() && a.out != "-") keep(file, files::AtomicFile::create({a.out, a.force}), problems);
+  if (!a.out.empty() && a.out != "-") open_or_report(file, files::AtomicFile::create({a.out, a.force}), problems);
   if (!problems.empty()) return refused(problems);
   const base::Result<study::Clearance> clearance = cleared(*scenario);
   if (interrupted()) return told_interrupted("export " + a.file);

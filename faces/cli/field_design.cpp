@@ -2,7 +2,7 @@
 #include "faces/cli/field_design.hpp"
 
 #include "faces/cli/design_use.hpp"
-#include "faces/cli/keep.hpp"
+#include "faces/cli/open_or_report.hpp"
 #include "faces/cli/terminal.hpp"
 #include "files/atomic_file.hpp"
 #include "sixstep/analysis/verify/field_study.hpp"
@@ -12,7 +12,7 @@ namespace cli {
 Exit design_field(const DesignArguments& a, const study::Scenario& scenario) {
   base::Problems found = unread_by_field_design(a);
   std::optional<files::AtomicFile> file;
-  if (!a.json.empty() && a.json != "-") keep(file, files::AtomicFile::create({a.json, a.force}), found);
+  if (!a.json.empty() && a.json != "-") open_or_report(file, files::AtomicFile::create({a.json, a.force}), found);
   if (!found.empty()) return refused(found);
   const base::Result<analysis::FieldStudy> s = analysis::study_field(scenario);
   if (!s) return refused(s.problems());

@@ -22,7 +22,7 @@
 #include "faces/cli/man_command.hpp"
 #include "faces/cli/motor_command.hpp"
 #include "faces/cli/new_command.hpp"
-#include "faces/cli/not_called.hpp"
+#include "faces/cli/usage_error.hpp"
 #include "faces/cli/plan_ranks.hpp"
 #include "faces/cli/run_command.hpp"
 #include "faces/cli/schema_command.hpp"
@@ -85,7 +85,7 @@ Exit run_program(int count, const char* const* words) {
   try {
     app.parse(count, words);
   } catch (const CLI::ParseError& error) {
-    return not_called(app, error, count > 1 ? words[count - 1] : "");
+    return usage_error(app, error, count > 1 ? words[count - 1] : "");
   }
   const files::ReadLog inputs;  // no output takes the place of an input
   const auto chosen = std::find_if(verbs.begin(), verbs.end(), [](const Verb& v) { return v.app->parsed(); });

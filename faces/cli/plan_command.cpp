@@ -11,7 +11,7 @@
 
 #include "batch/plan_runs.hpp"
 #include "faces/cli/compare_command.hpp"
-#include "faces/cli/plan_foretold.hpp"
+#include "faces/cli/plan_estimate.hpp"
 #include "faces/cli/plan_outputs.hpp"
 #include "faces/cli/plan_ranks.hpp"
 #include "faces/cli/plan_reports.hpp"
@@ -230,7 +230,7 @@ Exit run_plans(const RunArguments& a, const std::vector<ReadPlan>& plans,
   if (on_one_page) exit = compare_plans(a, plans, suites);
   for (const ReadPlan& plan : plans) {
     if (on_one_page || (interrupted() && !suites.empty())) break;
-    exit = graver(exit, a.plan.dry_run ? foretell(a, plan) : run_plan(a, plan, suites));
+    exit = graver(exit, a.plan.dry_run ? estimate(a, plan) : run_plan(a, plan, suites));
   }
   if (!junit) return exit;
   junit->write(text::junit_xml(suites));

@@ -20,7 +20,7 @@
 #include "faces/cli/stop_signals.hpp"
 #include "faces/cli/store_option.hpp"
 #include "faces/cli/terminal.hpp"
-#include "faces/cli/whole_in.hpp"
+#include "faces/cli/integer_in.hpp"
 #include "faces/loop/cores.hpp"
 #include "files/atomic_file.hpp"
 #include "text/escape/escape.hpp"
@@ -210,14 +210,14 @@ void declare_plan_options(CLI::App& run, PlanArguments& a) {
   run.add_option("--sampling", a.sampling,
                  "how points are laid out: grid, latin-hypercube, sobol, monte-carlo, saltelli");
   run.add_option("--points", a.points, "how many points, of everything but a grid")
-      ->check(whole_in(1, 1'000'000'000));
+      ->check(integer_in(1, 1'000'000'000));
   run.add_flag("--tolerances", a.tolerances,
                "drives of --runs also stray in what makers do not promise: R, L and K_t");
   take_store(run, a.store, "keep each finished run in this SQLite file");
   run.add_flag("--resume", a.resume, "go on with the runs of --store, or of --out as it was");
   run.add_flag("--dry-run", a.dry_run, "how many runs, how long and how large, and nothing else");
   run.add_option("--only", a.only, "run N of the plan alone, with all its outputs")
-      ->check(whole_in(0, std::numeric_limits<std::int64_t>::max()));
+      ->check(integer_in(0, std::numeric_limits<std::int64_t>::max()));
 }
 
 void declare_options(CLI::App& run, RunArguments& a) {
@@ -237,9 +237,9 @@ void declare_options(CLI::App& run, RunArguments& a) {
   CLI::Option* watch = run.add_flag("--watch", a.watch, "run again whenever a file that was read is saved");
   CLI::Option* runs =
       run.add_option("--runs", a.runs, "that many drives of the series that [[spread]] describes");
-  runs->excludes(watch)->check(whole_in(1, 1'000'000'000));
+  runs->excludes(watch)->check(integer_in(1, 1'000'000'000));
   // A minus would come round as a large number.
-  const CLI::Validator whole = whole_in(0, std::numeric_limits<std::int64_t>::max());
+  const CLI::Validator whole = integer_in(0, std::numeric_limits<std::int64_t>::max());
   run.add_option("--seed", a.seed, "another series of drives; without it 1")->check(whole);
   run.add_option("--drive", a.drive, "drive N of the series alone, with all its outputs")
       ->excludes(runs)

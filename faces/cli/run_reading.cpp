@@ -11,7 +11,7 @@
 #include "faces/cli/compare_command.hpp"
 #include "faces/cli/plan_reading.hpp"
 #include "faces/cli/settings.hpp"
-#include "faces/cli/written_twice.hpp"
+#include "faces/cli/duplicate_outputs.hpp"
 #include "faces/loop/own_firmware.hpp"
 #include "files/scenario_on_disk.hpp"
 #include "files/text_file.hpp"
@@ -91,7 +91,7 @@ base::Problems same_outputs(const RunArguments& arguments) {
   }
   std::vector<std::pair<std::string, std::string>> files = arguments.paths.files();
   files.emplace_back("--junit", arguments.junit);
-  append(problems, written_twice(files));
+  append(problems, duplicate_outputs(files));
   return problems;
 }
 

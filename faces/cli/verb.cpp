@@ -3,7 +3,7 @@
 
 #include <CLI/App.hpp>
 
-#include "faces/cli/whole_in.hpp"
+#include "faces/cli/integer_in.hpp"
 
 namespace cli {
 
@@ -21,7 +21,7 @@ void take_force(CLI::App& verb, bool& force) {
 }
 
 void take_jobs(CLI::App& verb, unsigned& jobs, const std::string& what) {
-  verb.add_option("--jobs", jobs, what + " side by side; without it one per core")->check(whole_in(1, 1024));
+  verb.add_option("--jobs", jobs, what + " side by side; without it one per core")->check(integer_in(1, 1024));
 }
 
 }  // namespace cli

@@ -5,12 +5,12 @@
 
 #include <optional>
 
-#include "faces/cli/keep.hpp"
+#include "faces/cli/open_or_report.hpp"
 #include "faces/cli/new_file.hpp"
 #include "faces/cli/side_by_side.hpp"
 #include "faces/cli/stop_signals.hpp"
 #include "faces/cli/terminal.hpp"
-#include "faces/cli/written_twice.hpp"
+#include "faces/cli/duplicate_outputs.hpp"
 #include "files/atomic_file.hpp"
 #include "files/own_file.hpp"
 #include "files/scenario_on_disk.hpp"
@@ -39,10 +39,10 @@ struct WiringFiles {
   std::optional<files::AtomicFile> svg, html, toml;
 
   base::Problems open(const WiringArguments& a) {
-    base::Problems found = written_twice({{"--svg", a.svg}, {"--html", a.html}, {"--toml", a.toml}});
+    base::Problems found = duplicate_outputs({{"--svg", a.svg}, {"--html", a.html}, {"--toml", a.toml}});
     if (!found.empty()) return found;
     const auto one = [&](std::optional<files::AtomicFile>& into, const std::string& path) {
-      if (!path.empty()) keep(into, files::AtomicFile::create({path, a.force}), found);
+      if (!path.empty()) open_or_report(into, files::AtomicFile::create({path, a.force}), found);
     };
     one(svg, a.svg);
     one(html, a.html);

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "report/figures.hpp"
-#include "report/glance.hpp"
+#include "report/summary.hpp"
 #include "report/highlights.hpp"
 #include "report/kept_rows.hpp"
 #include "report/windows.hpp"

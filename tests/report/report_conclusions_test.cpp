@@ -7,7 +7,7 @@
 
 #include "report/conduction.hpp"
 #include "report/cost_card.hpp"
-#include "report/glance.hpp"
+#include "report/summary.hpp"
 #include "report/groups.hpp"
 #include "report/highlights.hpp"
 #include "report/html.hpp"

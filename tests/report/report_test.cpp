@@ -12,7 +12,7 @@
 
 #include "report/figures.hpp"
 #include "report/html.hpp"
-#include "report/ledger.hpp"
+#include "report/energy_balance.hpp"
 #include "report/plots.hpp"
 #include "report/thinning.hpp"
 #include "report/windows.hpp"

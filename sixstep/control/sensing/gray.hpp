@@ -67,7 +67,7 @@ constexpr bool within(BinaryAngle angle, BinaryAngle of, BinaryAngle tolerance) 
 }
 
 /// The only track that turned round explains the code; no_track where none does, or several do. Codes before
-/// this one may have been wrong within the tolerance, and so bent what they foretell: within four of it one
+/// this one may have been wrong within the tolerance, and so bent what they estimate: within four of it one
 /// track alone must explain the code. Of 12 tracks broken at 4 to 20 counts per tick, tolerance 3 counts, that
 /// names two of three from the fifth on, none of the finer ones, and in 8820 breaks no wrong one
 /// (tests/control/sensing/gray_test.cpp); within three of it 42 would be wrong.

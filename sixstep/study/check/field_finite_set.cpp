@@ -43,7 +43,7 @@ void check_finite_set(const Scenario& s, base::Problems& out) {
          "turns an answer on, and the finite set knows where the magnet will point", to_pi);
   refuse(
       s.pwm.sample == SampleAt::middle, "pwm.sample",
-      "= \"middle\" lies half a period before the legs switch, over which the finite set does not foretell",
+      "= \"middle\" lies half a period before the legs switch, over which the finite set does not estimate",
       "set sample = \"start\"");
 }
 

@@ -109,7 +109,7 @@ void find_mask(const Codes& codes, HallEdges& out) {
 /// Follows the way from one stay that shows its sector to the next.
 class EdgeList {
  public:
-  EdgeList(const std::vector<Stay>& stays, const Way& way, HallEdges& out)
+  EdgeList(const std::vector<Stay>& stays, const RotorPath& way, HallEdges& out)
       : stays_(stays), way_(way.at_stays), sector_s_(way.sector_s), out_(out) {}
 
   void make() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "faces/cli/not_called.hpp"
+#include "faces/cli/usage_error.hpp"
 
 #include <fmt/format.h>
 #include <CLI/App.hpp>
@@ -133,7 +133,7 @@ std::optional<Problem> no_number(const Called& called) {
   return {};
 }
 
-/// By the limits of whole_in().
+/// By the limits of integer_in().
 std::optional<Problem> out_of_range(const Called& called) {
   for (CLI::Option* option : called.verb->get_options())
     for (std::string word : option->results()) {
@@ -178,7 +178,7 @@ Problem problem_of(const Called& called, const CLI::ParseError& error, const std
 
 }  // namespace
 
-Exit not_called(CLI::App& app, const CLI::ParseError& error, const std::string& last_word) {
+Exit usage_error(CLI::App& app, const CLI::ParseError& error, const std::string& last_word) {
   std::ostringstream asked_for, ignored;
   if (app.exit(error, asked_for, ignored) == 0) {
     print(asked_for.str());

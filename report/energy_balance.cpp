@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/ledger.hpp"
+#include "report/energy_balance.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "faces/cli/whole_in.hpp"
+#include "faces/cli/integer_in.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 namespace cli {
 
-CLI::Validator whole_in(std::int64_t least, std::int64_t most) {
+CLI::Validator integer_in(std::int64_t least, std::int64_t most) {
   CLI::Validator range = CLI::Range(least, most);  // as --help shows it
   range.operation([least, most](std::string& word) {
     std::int64_t value = 0;

@@ -11,7 +11,7 @@ namespace cli {
 
 /// The file, or what is wrong with it.
 template <class File>
-void keep(std::optional<File>& into, base::Result<File> file, base::Problems& problems) {
+void open_or_report(std::optional<File>& into, base::Result<File> file, base::Problems& problems) {
   if (file)
     into.emplace(std::move(*file));
   else

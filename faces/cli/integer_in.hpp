@@ -7,6 +7,6 @@
 namespace cli {
 
 /// Lets an option take whole numbers of a range; what it says of any other is the limit of a Problem.
-CLI::Validator whole_in(std::int64_t least, std::int64_t most);
+CLI::Validator integer_in(std::int64_t least, std::int64_t most);
 
 }  // namespace cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "faces/cli/plan_foretold.hpp"
+#include "faces/cli/plan_estimate.hpp"
 
 #include <fmt/format.h>
 
@@ -71,7 +71,7 @@ Sample sample_of(const batch::PlanRuns& runs) {
 
 }  // namespace
 
-Exit foretell(const RunArguments& arguments, const ReadPlan& plan) {
+Exit estimate(const RunArguments& arguments, const ReadPlan& plan) {
   const analysis::Plan& p = plan.scenarios->plan();
   const std::size_t all = analysis::runs_of(p);
   const Sample sample = sample_of({.plan = p,

@@ -13,6 +13,6 @@ namespace cli {
 
 /// A command line that calls no verb: help or the version that was asked for; else what is wrong with it, in
 /// the form of all other messages, with the nearest word for one that nobody takes.
-Exit not_called(CLI::App& app, const CLI::ParseError& error, const std::string& last_word);
+Exit usage_error(CLI::App& app, const CLI::ParseError& error, const std::string& last_word);
 
 }  // namespace cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/glance.hpp"
+#include "report/summary.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "faces/cli/written_twice.hpp"
+#include "faces/cli/duplicate_outputs.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 namespace cli {
 
-base::Problems written_twice(const std::vector<std::pair<std::string, std::string>>& outputs) {
+base::Problems duplicate_outputs(const std::vector<std::pair<std::string, std::string>>& outputs) {
   namespace fs = std::filesystem;
   base::Problems problems;
   std::map<std::string, std::string> seen;

@@ -10,6 +10,6 @@
 namespace cli {
 
 /// Options with the files they name, "" and "-" left out: the same file twice, in whatever spelling.
-base::Problems written_twice(const std::vector<std::pair<std::string, std::string>>& outputs);
+base::Problems duplicate_outputs(const std::vector<std::pair<std::string, std::string>>& outputs);
 
 }  // namespace cli

@@ -6,6 +6,6 @@
 namespace cli {
 
 /// What a plan would take, without making it: its runs, the time of a few of them, and the store's size.
-Exit foretell(const RunArguments& arguments, const ReadPlan& plan);
+Exit estimate(const RunArguments& arguments, const ReadPlan& plan);
 
 }  // namespace cli

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the accounts miss, on the page and in the JSON, is what their rows miss.
-#include "report/ledger.hpp"
+#include "report/energy_balance.hpp"
 
 #include <gmock/gmock.h>
 
