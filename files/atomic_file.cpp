@@ -154,7 +154,7 @@ int AtomicFile::open_beside(const struct stat* old) {
 base::Result<AtomicFile> AtomicFile::create(const Destination& to) {
   if (to.path == "-")  // of what can go to standard output its own face knows
     return base::Problem{.where = "-",
-                         .limit = "is standard output elsewhere, and this is written to a file",
+                         .limit = "means standard output elsewhere, and this output must be a file",
                          .cure = "name a file; ./- is one of that name"};
   AtomicFile file;
   file.path_ = to.path;

@@ -6,16 +6,16 @@
 #include <report_assets.hpp>
 
 #include "report/chip_section.hpp"
+#include "report/energy_balance.hpp"
 #include "report/figures.hpp"
-#include "report/summary.hpp"
 #include "report/html.hpp"
 #include "report/kept_rows.hpp"
-#include "report/energy_balance.hpp"
 #include "report/parameters.hpp"
 #include "report/plots.hpp"
 #include "report/scripts.hpp"
 #include "report/shell.hpp"
 #include "report/spectra.hpp"
+#include "report/summary.hpp"
 #include "report/verdicts.hpp"
 #include "sixstep/design/sheet/motion.hpp"
 #include "sixstep/study/run/run.hpp"

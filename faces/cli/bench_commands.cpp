@@ -9,10 +9,10 @@
 #include <numbers>
 #include <utility>
 
+#include "faces/cli/duplicate_outputs.hpp"
 #include "faces/cli/open_or_report.hpp"
 #include "faces/cli/stop_signals.hpp"
 #include "faces/cli/terminal.hpp"
-#include "faces/cli/duplicate_outputs.hpp"
 #include "files/atomic_file.hpp"
 #include "files/own_file.hpp"
 #include "files/scenario_on_disk.hpp"
@@ -111,7 +111,8 @@ struct BenchOutputs {
     if (!problems.empty()) return problems;
     if (!a.write.empty()) open_or_report(write, files::AtomicFile::create({a.write, a.force}), problems);
     if (!a.html.empty()) open_or_report(html, files::AtomicFile::create({a.html, a.force}), problems);
-    if (!shape_path.empty()) open_or_report(shape, files::AtomicFile::create({shape_path, a.force}), problems);
+    if (!shape_path.empty())
+      open_or_report(shape, files::AtomicFile::create({shape_path, a.force}), problems);
     return problems;
   }
 };
@@ -254,7 +255,7 @@ Verb declare_identify(CLI::App& motor) {
   identify.add_option("--pole-pairs", a->pole_pairs,
                       "place every edge of the shaft's turn apart; without it the six that repeat");
   identify.add_option("--write", a->write,
-                      "write the lines of a scenario, and the table for a firmware of one's own");
+                      "write the lines of a scenario, and the table for a user's firmware");
   return {&identify, calling(identify_command, a)};
 }
 

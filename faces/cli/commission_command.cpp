@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "faces/cli/choose.hpp"
+#include "faces/cli/duplicate_outputs.hpp"
 #include "faces/cli/open_or_report.hpp"
 #include "faces/cli/stop_signals.hpp"
 #include "faces/cli/terminal.hpp"
-#include "faces/cli/duplicate_outputs.hpp"
 #include "files/atomic_file.hpp"
 #include "files/own_file.hpp"
 #include "files/scenario_on_disk.hpp"

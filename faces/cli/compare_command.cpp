@@ -198,7 +198,7 @@ base::Problems check_comparison(const RunArguments& arguments) {
   if (with_log && (arguments.files.size() > 1 || !arguments.out.empty() || !page_alone))
     return {{.where = "--compare",
              .value = arguments.log.path,
-             .limit = "is laid over one run, and on one page",
+             .limit = "is compared with one run only",
              .cure = "name one scenario, and no output but --html FILE"}};
   if (arguments.files.size() <= report::most_compared) return {};
   return {{.where = "--html",

@@ -11,8 +11,9 @@
 #include "batch/contest.hpp"
 #include "faces/cli/contest_own.hpp"
 #include "faces/cli/contest_store.hpp"
-#include "faces/cli/open_or_report.hpp"
+#include "faces/cli/duplicate_outputs.hpp"
 #include "faces/cli/new_file.hpp"
+#include "faces/cli/open_or_report.hpp"
 #include "faces/cli/outputs.hpp"
 #include "faces/cli/plan_storing.hpp"
 #include "faces/cli/progress.hpp"
@@ -20,7 +21,6 @@
 #include "faces/cli/stop_watch.hpp"
 #include "faces/cli/store_option.hpp"
 #include "faces/cli/terminal.hpp"
-#include "faces/cli/duplicate_outputs.hpp"
 #include "files/atomic_file.hpp"
 #include "files/own_file.hpp"
 #include "files/scenario_on_disk.hpp"
@@ -66,7 +66,8 @@ struct ContestFiles {
     base::Problems found = duplicate_outputs({{"--json", a.json}, {"--csv", a.csv}, {"--html", a.html}});
     if (!found.empty()) return found;
     const auto one = [&](std::optional<files::AtomicFile>& into, const std::string& path) {
-      if (!path.empty() && path != "-") open_or_report(into, files::AtomicFile::create({path, a.force}), found);
+      if (!path.empty() && path != "-")
+        open_or_report(into, files::AtomicFile::create({path, a.force}), found);
     };
     one(json, a.json);
     one(csv, a.csv);
@@ -179,11 +180,11 @@ base::Problems contest_contradictions(const ContestArguments& a) {
   base::Problems problems;
   if (a.resume && a.store.empty())
     problems.push_back({.where = "--resume",
-                        .limit = "goes on with the drives of a store, and none is named",
+                        .limit = "continues the drives of a store, and none is named",
                         .cure = "add --store FILE.sqlite"});
   if (!a.store.empty() && a.drives == 0)
     problems.push_back({.where = "--store",
-                        .limit = "keeps drives of the tolerances, and --runs 0 makes none",
+                        .limit = "stores drives of the tolerances, and --runs 0 makes none",
                         .cure = "leave one of them out"});
   return problems;
 }
@@ -230,7 +231,7 @@ void declare_options(CLI::App& verb, ContestArguments& a) {
       ->capture_default_str();
   verb.add_option("--seed", a.seed, "of these drives")->capture_default_str();
   take_store(verb, a.store, "an SQLite file for the figures of each of these drives, one row each");
-  verb.add_flag("--resume", a.resume, "go on with the drives that --store has not yet");
+  verb.add_flag("--resume", a.resume, "continue with the drives that --store does not have yet");
   verb.add_option("--json", a.json, "write everything; - for standard output instead of the tables");
   verb.add_option("--csv", a.csv, "write a line per controller; - for standard output");
   verb.add_option("--html", a.html,

@@ -47,9 +47,8 @@ void take_count(const std::string& file, Contestants& out, base::Problems& found
   const auto who = std::find_if(first_own, out.all.end(),
                                 [&](const auto& own) { return own.name == counted->controller; });
   if (who == out.all.end()) {
-    found.push_back({"--own-cost " + file, '"' + counted->controller + '"',
-                     "is none of the controllers of --own",
-                     "name that one with --own too, or leave its count away"});
+    found.push_back({"--own-cost " + file, '"' + counted->controller + '"', "is not a controller of --own",
+                     "name that one with --own too, or remove its count"});
     return;
   }
   who->tick = out.texts.emplace_back(counted->cost.tick);
@@ -70,9 +69,8 @@ base::Result<Contestants> contestants_of(const OwnArguments& own) {
 }
 
 void declare_own(CLI::App& verb, OwnArguments& own) {
-  verb.add_option(
-          "--own", own.files,
-          "shared object of a controller of one's own, to stand beside the library's; may be repeated")
+  verb.add_option("--own", own.files,
+                  "shared object of a user's controller, compared with the built-in ones; may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
   verb.add_option(

@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "batch/curve.hpp"
+#include "faces/cli/duplicate_outputs.hpp"
 #include "faces/cli/open_or_report.hpp"
 #include "faces/cli/side_by_side.hpp"
 #include "faces/cli/stop_signals.hpp"
 #include "faces/cli/terminal.hpp"
-#include "faces/cli/duplicate_outputs.hpp"
 #include "files/scenario_on_disk.hpp"
 #include "files/trace/csv_writer.hpp"
 #include "report/curve_page.hpp"
@@ -110,7 +110,7 @@ void refuse_chopping_without_use(const CurveArguments& a, double duty, base::Pro
   for (const auto& [option, given] :
        {std::pair{"--chopping", !a.chopping.empty()}, std::pair{"--pwm-period", a.pwm_period_s.has_value()}})
     if (given)
-      problems.push_back({option, "", "is of no use at full duty: nothing is chopped",
+      problems.push_back({option, "", "has no effect at full duty, where nothing is chopped",
                           "give a --duty below 1, or leave it out"});
 }
 

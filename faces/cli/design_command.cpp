@@ -9,6 +9,7 @@
 #include "faces/cli/choose.hpp"
 #include "faces/cli/design_arguments.hpp"
 #include "faces/cli/design_use.hpp"
+#include "faces/cli/duplicate_outputs.hpp"
 #include "faces/cli/field_design.hpp"
 #include "faces/cli/new_file.hpp"
 #include "faces/cli/optimise_command.hpp"
@@ -17,7 +18,6 @@
 #include "faces/cli/stop_signals.hpp"
 #include "faces/cli/store_option.hpp"
 #include "faces/cli/terminal.hpp"
-#include "faces/cli/duplicate_outputs.hpp"
 #include "files/atomic_file.hpp"
 #include "files/own_file.hpp"
 #include "files/scenario_on_disk.hpp"
@@ -99,8 +99,8 @@ struct DesignFiles {
   std::optional<files::AtomicFile> json, toml, models, html;
 
   base::Problems open(const DesignArguments& a) {
-    base::Problems found =
-        duplicate_outputs({{"--json", a.json}, {"--toml", a.toml}, {"--models", a.models}, {"--html", a.html}});
+    base::Problems found = duplicate_outputs(
+        {{"--json", a.json}, {"--toml", a.toml}, {"--models", a.models}, {"--html", a.html}});
     if (!found.empty()) return found;
     const std::string kind = fs::path(a.models).extension().string();
     if (!a.models.empty() && kind != ".json" && kind != ".mat")
@@ -145,9 +145,9 @@ analysis::CarriedOver designed_scenario(analysis::DesignStudy& s, const study::S
   // The verdict on the loops of a sensorless drive is not that on its file, which lacks what commutates.
   if (!carried.lost.empty()) warn(carried.lost, board->control.drive != study::FirmwareKind::sensorless);
   if (!carried.differs.empty())
-    warn("with " + carried.kept + " of the board's scenario, which its file has, a run shows " +
-             carried.differs,
-         false);
+    warn(
+        "with " + carried.kept + " of the board's scenario, kept in its file, a run shows " + carried.differs,
+        false);
   if (const std::string keys = analysis::left_out(*board, carried.scenario); !keys.empty())
     warn("of the board's scenario this design does not have " + keys, false);
   return carried;
@@ -324,7 +324,7 @@ void declare_options(CLI::App& design, DesignArguments& a) {
       "--optimise", a.optimise,
       "a plan that says what is to be small: the best point of its ranges, and what limits it");
   take_store(design, a.store, "keep each run of --optimise in this SQLite file")->needs(optimise);
-  design.add_flag("--resume", a.resume, "go on with the runs of --store")->needs("--store");
+  design.add_flag("--resume", a.resume, "continue the runs of --store")->needs("--store");
   take_force(design, a.force);
   design.add_flag("--quick", a.quick, "leave out the tolerances");
   design.add_flag("--quiet", a.quiet, "no text, only errors and the exit code");

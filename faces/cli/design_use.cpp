@@ -11,7 +11,7 @@
 namespace cli {
 namespace {
 
-constexpr const char* in_scenario = "say it in the scenario, in control, pwm, supply, sensors or load";
+constexpr const char* in_scenario = "set it in the scenario, in control, pwm, supply, sensors or load";
 constexpr const char* by_bandwidth = "see control.field.bandwidth_Hz";
 constexpr const char* not_written = "leave it out: --json has all numbers";
 
@@ -100,8 +100,10 @@ base::Problems unread_by_field_design(const DesignArguments& a) {
   base::Problems found;
   for (const Use& use : uses)
     if (use.in_field != nullptr && use.given(a))
-      found.push_back({use.option, "", "is of six-step's design, and the scenario's drive is field-oriented",
-                       use.in_field});
+      found.push_back(
+          {use.option, "",
+           "applies to the design of six-step drives only, and the scenario's drive is field-oriented",
+           use.in_field});
   return found;
 }
 
@@ -109,7 +111,7 @@ base::Problems unread_by_optimise(const DesignArguments& a) {
   base::Problems found;
   for (const Use& use : uses)
     if (!use.in_optimise && use.given(a))
-      found.push_back({use.option, "", "is of a design's own, and with --optimise the plan says all",
+      found.push_back({use.option, "", "applies to a single design; with --optimise the plan gives it",
                        "leave it out, or say it in the plan or its scenario"});
   return found;
 }

@@ -101,15 +101,14 @@ base::Result<study::Scenario> scenario_of(const ExportArguments& a) {
   const files::ReadOptions options = read_options(a.data_dir, a.sets, problems);
   if (a.despite && a.despite->find_first_not_of(" \t\r\n") == std::string::npos)
     problems.push_back({"--despite", "", "gives no reason",
-                        "say why the header is written all the same: whoever flashes it reads that"});
+                        "give the reason for writing the header all the same; the header quotes it"});
   if (!problems.empty()) return problems;
   base::Result<study::Scenario> scenario = files::read_scenario(a.file, options);
   if (!scenario) return scenario;
   if (arithmetic) scenario->control.arithmetic = *arithmetic;
   const study::Arithmetic number = scenario->control.arithmetic;
   if (!a.ranges.empty() && (number == study::Arithmetic::float64 || number == study::Arithmetic::float32))
-    return base::Problem{"--range", "",
-                         "says what fixed point must hold, and the drive is to be in floating point",
+    return base::Problem{"--range", "", "is the range of fixed point, and the drive is in floating point",
                          "add --arithmetic q15 or another fixed point, or leave the range out"};
   return scenario;
 }
@@ -170,7 +169,8 @@ Exit export_header(const ExportArguments& a) {
     return refused(within(a.file, unrun.problems()));
   catch_interrupts();
   std::optional<files::AtomicFile> file;
-  if (!a.out.empty() && a.out != "-") open_or_report(file, files::AtomicFile::create({a.out, a.force}), problems);
+  if (!a.out.empty() && a.out != "-")
+    open_or_report(file, files::AtomicFile::create({a.out, a.force}), problems);
   if (!problems.empty()) return refused(problems);
   const base::Result<study::Clearance> clearance = cleared(*scenario);
   if (interrupted()) return told_interrupted("export " + a.file);

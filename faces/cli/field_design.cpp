@@ -12,7 +12,8 @@ namespace cli {
 Exit design_field(const DesignArguments& a, const study::Scenario& scenario) {
   base::Problems found = unread_by_field_design(a);
   std::optional<files::AtomicFile> file;
-  if (!a.json.empty() && a.json != "-") open_or_report(file, files::AtomicFile::create({a.json, a.force}), found);
+  if (!a.json.empty() && a.json != "-")
+    open_or_report(file, files::AtomicFile::create({a.json, a.force}), found);
   if (!found.empty()) return refused(found);
   const base::Result<analysis::FieldStudy> s = analysis::study_field(scenario);
   if (!s) return refused(s.problems());

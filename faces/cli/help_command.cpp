@@ -113,7 +113,7 @@ Exit help_command(const CLI::App& app, const std::string& key) {
   for (const std::string& path : known)  // "voltage_V" stands in a table; so may a misspelt one
     if (near.empty() && text::edit_distance(path.substr(path.rfind('.') + 1), key) <= 1) near = path;
   complain({{.where = key,
-             .limit = "is no key of a scenario or motor file",
+             .limit = "is not a key of a scenario or motor file",
              .cure = near.empty() ? "sixstep help lists them" : fmt::format("did you mean {}?", near)}});
   return Exit::bad_input;
 }

@@ -247,11 +247,11 @@ base::Problems plan_contradictions(const RunArguments& a) {
   base::Problems problems;
   if (a.plan.resume && a.plan.store.empty() && a.out.empty())
     problems.push_back({.where = "--resume",
-                        .limit = "goes on with the runs of a store, and none is named",
+                        .limit = "continues the runs of a store, and none is named",
                         .cure = "add --store FILE.sqlite, or --out DIR as it was"});
   if (a.watch)
     problems.push_back({.where = "--watch",
-                        .limit = "runs scenarios again, and this is a plan of many runs",
+                        .limit = "reruns scenarios, and this is a plan of many runs",
                         .cure = "leave it out, or watch one of them with --only N"});
   const bool both = compares(a);
   if (both && a.files.size() > report::most_plans_on_a_page)

@@ -47,7 +47,7 @@ base::Problems PlanOutputs::open(const RunArguments& arguments, const ReadPlan& 
     if (path.empty()) continue;
     if (!has_format(option))
       return {{.where = std::string(option),
-               .limit = "is a trace of one run, and this is a plan of many",
+               .limit = "is the trace of one run, and this is a plan of many runs",
                .cure = "take the run's number: --only N " + std::string(option) + " FILE"}};
     if (path == "-" && option == "--json") {
       prints_json_ = true;

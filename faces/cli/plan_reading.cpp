@@ -56,7 +56,7 @@ base::Problems add_options(const RunArguments& a, analysis::Plan& plan) {
     plan.sampling = analysis::Sampling::sobol;
   if (a.plan.points > 0 && plan.sampling == analysis::Sampling::grid)
     problems.push_back({"--points", std::to_string(a.plan.points),
-                        "is of drawn points, and a grid has those of each range",
+                        "applies to drawn points only, and a grid has the points of each range",
                         "write --vary KEY=FROM:TO:POINTS, or leave --sampling grid out"});
   for (const analysis::Axis& axis : plan.axes)
     for (const std::string& set : a.sets)
@@ -104,15 +104,15 @@ std::uint64_t inputs_digest(const files::ReadLog& log, const RunArguments& a, bo
 base::Problems without_drives(const RunArguments& a, const analysis::Plan& plan) {
   if (!a.plan.tolerances || plan.drives > 0) return {};
   return {{.where = "--tolerances",
-           .limit = "makes drives differ, and there is but the one as written",
-           .cure = "say how many: --runs 1000"}};
+           .limit = "makes drives differ, and only the drive as written is run",
+           .cure = "give the number, as --runs 1000"}};
 }
 
 base::Problems without_series(const std::string& file, const ReadPlan& plan) {
   if (plan.scenarios->plan().drives == 0 || !plan.nominal.spread.empty()) return {};
   return {{.where = file + ":",
-           .limit = "describes no series: all drives would be the same",
-           .cure = "say in [[spread]] what differs; see: sixstep help spread"}};
+           .limit = "describes no series, since all drives would be the same",
+           .cure = "add [[spread]] with what differs; see: sixstep help spread"}};
 }
 
 }  // namespace

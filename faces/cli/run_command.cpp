@@ -12,6 +12,7 @@
 #include "faces/cli/bode_command.hpp"
 #include "faces/cli/compare_command.hpp"
 #include "faces/cli/file_watch.hpp"
+#include "faces/cli/integer_in.hpp"
 #include "faces/cli/plan_command.hpp"
 #include "faces/cli/plan_reading.hpp"
 #include "faces/cli/progress.hpp"
@@ -20,7 +21,6 @@
 #include "faces/cli/stop_signals.hpp"
 #include "faces/cli/store_option.hpp"
 #include "faces/cli/terminal.hpp"
-#include "faces/cli/integer_in.hpp"
 #include "faces/loop/cores.hpp"
 #include "files/atomic_file.hpp"
 #include "text/escape/escape.hpp"
@@ -214,7 +214,7 @@ void declare_plan_options(CLI::App& run, PlanArguments& a) {
   run.add_flag("--tolerances", a.tolerances,
                "drives of --runs also stray in what makers do not promise: R, L and K_t");
   take_store(run, a.store, "keep each finished run in this SQLite file");
-  run.add_flag("--resume", a.resume, "go on with the runs of --store, or of --out as it was");
+  run.add_flag("--resume", a.resume, "continue the runs of --store, or of --out as it was");
   run.add_flag("--dry-run", a.dry_run, "how many runs, how long and how large, and nothing else");
   run.add_option("--only", a.only, "run N of the plan alone, with all its outputs")
       ->check(integer_in(0, std::numeric_limits<std::int64_t>::max()));

@@ -9,9 +9,9 @@
 
 #include "faces/cli/choose.hpp"
 #include "faces/cli/compare_command.hpp"
+#include "faces/cli/duplicate_outputs.hpp"
 #include "faces/cli/plan_reading.hpp"
 #include "faces/cli/settings.hpp"
-#include "faces/cli/duplicate_outputs.hpp"
 #include "faces/loop/own_firmware.hpp"
 #include "files/scenario_on_disk.hpp"
 #include "files/text_file.hpp"
@@ -62,7 +62,7 @@ std::optional<Job> read_one_of_a_plan(const std::string& file, const RunArgument
     into.problems.push_back(
         {.where = "--only",
          .value = std::to_string(number),
-         .limit = fmt::format("is no run of this plan: they count from 0 to {}", runs - 1),
+         .limit = fmt::format("is not a run of this plan: they count from 0 to {}", runs - 1),
          .cure = "take one of these"});
     return {};
   }

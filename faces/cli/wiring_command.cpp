@@ -5,12 +5,12 @@
 
 #include <optional>
 
-#include "faces/cli/open_or_report.hpp"
+#include "faces/cli/duplicate_outputs.hpp"
 #include "faces/cli/new_file.hpp"
+#include "faces/cli/open_or_report.hpp"
 #include "faces/cli/side_by_side.hpp"
 #include "faces/cli/stop_signals.hpp"
 #include "faces/cli/terminal.hpp"
-#include "faces/cli/duplicate_outputs.hpp"
 #include "files/atomic_file.hpp"
 #include "files/own_file.hpp"
 #include "files/scenario_on_disk.hpp"

@@ -187,7 +187,7 @@ base::Result<PlanStore> PlanStore::create(const std::string& path, StoredPlan pl
   if (standing == Standing::other) return foreign(path);
   if (standing == Standing::store && !force)
     return base::Problem{path + ":", "", "holds runs already",
-                         "go on with them (resume), name another file, or overwrite it (force)"};
+                         "continue them (resume), name another file, or overwrite it (force)"};
   if (standing == Standing::store)
     for (const char* part : {"", "-wal", "-shm"}) ::remove((path + part).c_str());
   base::Result<Database> db = Database::open(path);

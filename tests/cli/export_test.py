@@ -191,7 +191,7 @@ class Gate(ProgramTest):
 
     def test_despite_needs_a_reason_and_is_told_where_it_was_not_needed(self):
         told = self.run_program("export", "header", self.scenario(BOARD), "--despite", " \n", code=2).stderr
-        self.assertEqual(told, "--despite gives no reason; say why the header is written all the same: whoever flashes it reads that\n")
+        self.assertEqual(told, "--despite gives no reason; give the reason for writing the header all the same; the header quotes it\n")
         clear = self.run_program("export", "header", self.scenario(BOARD), *DESPITE)
         self.assertEqual(clear.stderr, "--despite was not needed: the run holds, and the header says so\n")
         self.assertIn("Cleared by its run", clear.stdout)

@@ -247,7 +247,7 @@ class Plan(ProgramTest):
         rows = self.rows("p.sqlite")
         self.assertEqual(told, self.run_program(*words, "--resume").stdout)
         self.assertEqual(self.rows("p.sqlite"), rows)
-        for wrong, why in (('minimise = "currant"', "did you mean current?"), ('sampling = "sobol"\npoints = 9', "does not say what is to be small")):
+        for wrong, why in (('minimise = "currant"', "did you mean current?"), ('sampling = "sobol"\npoints = 9', "does not name the figure to be minimised")):
             (self.path / "q.toml").write_text((self.path / "p.toml").read_text().replace('minimise = "current"', wrong))
             self.assertIn(why, self.run_program("design", "--optimise", "q.toml", code=2).stderr)
 

@@ -371,7 +371,7 @@ TEST(DriveDesign, NamesOptionsThatContradict) {
   };
   EXPECT_EQ(
       refused({.method = GainMethod::symmetrical_optimum}),
-      "method = symmetrical-optimum is a rule for speed loops; add mode = speed, or take pole-placement "
+      "method = symmetrical-optimum applies to speed loops only; add mode = speed, or take pole-placement "
       "or cancellation");
   EXPECT_EQ(refused({.settle_s = -1.0}), "settle_s = -1 must be above 0; give the settling time in seconds");
   EXPECT_NE(refused({.bandwidth_rad_s = 100.0}), "");

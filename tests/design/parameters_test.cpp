@@ -147,12 +147,12 @@ TEST(MotorModel, AMotorTooFastToBeOneHasASlipInAUnit) {
   EXPECT_EQ(
       problems_of(henry),
       "inductance_mH = 0.000572 makes the winding's time constant L/R 555 ns, and no motor is below 1000 ns; "
-      "look at the unit of inductance and resistance\n");
+      "check the unit of inductance and resistance\n");
   Sheet kilograms = maxon();
   kilograms.inertia_gcm2->value = 1.35e-5;
   EXPECT_EQ(problems_of(kilograms),
             "inertia_gcm2 = 1.35e-05 makes rotor and winding swing at K_t/sqrt(L J) = 1.21e+06 rad/s, and "
-            "no motor is above 1e5; look at the unit of the inertia, then at those of inductance and "
+            "no motor is above 1e5; check the unit of the inertia, then those of inductance and "
             "torque constant\n");
 }
 

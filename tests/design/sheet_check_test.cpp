@@ -217,7 +217,7 @@ TEST(SheetCheck, ASlowWindingOrRotorIsDoubted) {
   EXPECT_EQ(
       doubts(s)[0],
       "inductance_mH = 1200 makes the winding's time constant L/R 1.17 s, and next to no motor is above "
-      "0.2 s; look at the unit of inductance and resistance");
+      "0.2 s; check the unit of inductance and resistance");
   s = good;
   s.inertia_gcm2->value = 4.8e8;
   s.inertia_gcm2->key = "inertia_kgm2";  // the file says 48

@@ -75,7 +75,7 @@ class OwnControllerPage(unittest.TestCase):
         self.assertEqual((cost["core"], cost["tick_instructions"], cost["flash_bytes"]), ("Cortex-M4F", worst, flash))
         for text, said in (("{", "is no count of a controller"), (json.dumps({**counted, "cores": []}), "has no count of the Cortex-M4F"),
                            (json.dumps({**counted, "cores": [{**row, "flash_bytes": -1}]}), "has no count of the Cortex-M4F"),
-                           (json.dumps({**counted, "controller": "another"}), '"another" is none of the controllers of --own')):
+                           (json.dumps({**counted, "controller": "another"}), '"another" is not a controller of --own')):
             (self.path / "cost.json").write_text(text, encoding="utf-8")
             self.assertIn(said, self.run_program(*words, code=2).stderr)
 

@@ -36,7 +36,7 @@ TEST(ControllerFile, WhatIsNoneIsToldAsSuch) {
       told("other_interface.so"),
       folder +
           "/other_interface.so has a controller whose interface = 2 is not the interface of this program: compile it "
-          "with this program's own_controller.h; look at sixstep/control/own/own_controller.h");
+          "with this program's own_controller.h; see sixstep/control/own/own_controller.h");
   EXPECT_EQ(told("in_float.so"),
             folder +
                 "/in_float.so has a controller whose interface = 257 is that of float, and this program's is "

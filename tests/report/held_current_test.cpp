@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "report/figures.hpp"
-#include "report/summary.hpp"
 #include "report/highlights.hpp"
 #include "report/kept_rows.hpp"
+#include "report/summary.hpp"
 #include "report/windows.hpp"
 #include "tests/support/scenarios.hpp"
 

@@ -7,7 +7,6 @@
 
 #include "report/conduction.hpp"
 #include "report/cost_card.hpp"
-#include "report/summary.hpp"
 #include "report/groups.hpp"
 #include "report/highlights.hpp"
 #include "report/html.hpp"
@@ -15,6 +14,7 @@
 #include "report/parameters.hpp"
 #include "report/spectra.hpp"
 #include "report/spectrum.hpp"
+#include "report/summary.hpp"
 #include "sixstep/study/measure/trace.hpp"
 #include "tests/report/synthetic_run.hpp"
 

@@ -10,9 +10,9 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "report/energy_balance.hpp"
 #include "report/figures.hpp"
 #include "report/html.hpp"
-#include "report/energy_balance.hpp"
 #include "report/plots.hpp"
 #include "report/thinning.hpp"
 #include "report/windows.hpp"

@@ -170,7 +170,7 @@ TEST(ProductCommutation, SaysWhatCannotBe) {
   s.protection = {};
   all.clear();
   for (const base::Problem& p : study::check(s)) all += to_string(p) + "\n";
-  EXPECT_THAT(all, HasSubstr("control.advance is what the product drive does only"));
+  EXPECT_THAT(all, HasSubstr("control.advance applies to the product drive only"));
   EXPECT_THAT(all, HasSubstr("sensors.hall_stable_samples = 6 filters the pins"));
 }
 

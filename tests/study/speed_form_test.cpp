@@ -146,7 +146,7 @@ TEST(SpeedForm, SaysWhatOnlyThePositionalFormHas) {
   const base::Problems incremental = study::check(s);
   ASSERT_EQ(incremental.size(), 2u);
   EXPECT_THAT(to_string(incremental[0]),
-              HasSubstr("control.speed.anti_windup = 0.5 is of the positional form only; set "
+              HasSubstr("control.speed.anti_windup = 0.5 applies to the positional form only; set "
                         "control.speed.form = \"positional\""));
   s.control.speed.form = SpeedForm::positional;
   EXPECT_TRUE(study::check(s).empty());

@@ -214,7 +214,7 @@ TEST(SpeedLaw, SaysWhatALawDoesNotHave) {
   s.control.speed.setpoint_weight = 0.5;
   s.control.speed.observer_ratio = 4;
   ASSERT_EQ(study::check(s).size(), 2u);
-  EXPECT_THAT(to_string(study::check(s)[0]), HasSubstr("is of the positional form only"));
+  EXPECT_THAT(to_string(study::check(s)[0]), HasSubstr("applies to the positional form only"));
   EXPECT_THAT(to_string(study::check(s)[1]), HasSubstr("is of an observer, and law = \"pi\" has none"));
   s = loaded(SpeedLaw::state_feedback);
   s.load.viscous_Nm_s = 0.01;  // J/B = 1.35 ms

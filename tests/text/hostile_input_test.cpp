@@ -44,7 +44,7 @@ TEST(HostileInput, ABusFasterThanAnyBoardIsRefusedWithItsTimeConstant) {
       told(head + bus),
       ElementsAre("x.toml:5:17: supply.capacitance_F = 1e-07 makes the bus's time constant with "
                   "supply.resistance_ohm = 0.2 and the winding 14.4 ns, and on no board it is below 100 "
-                  "ns; look at its unit: a bus has hundreds of microfarads; or leave both away for a "
+                  "ns; check its unit: a bus has hundreds of microfarads; or remove both for a "
                   "stiff bus"));
   EXPECT_THAT(told(head + "[supply]\nresistance_ohm = 0.2\ncapacitance_F = 1e-5\n"), SizeIs(0));
   EXPECT_THAT(told(head + "[initial]\nbus_V = 1e308\n[supply]\nresistance_ohm = 0.2\ncapacitance_F = 1e-3\n"),
@@ -245,7 +245,7 @@ TEST(HostileInput, ATableOfRowsIsHeldToTheSameNumbers) {
   EXPECT_THAT(
       told_of_rows("t_s,i_A\n0,1\n1e-3,1e308\n"),
       ElementsAre(
-          "r.csv:3: value 1e+308 must lie in -1000000 to 1000000, in A; look at the unit of its column"));
+          "r.csv:3: value 1e+308 must lie in -1000000 to 1000000, in A; check the unit of its column"));
   EXPECT_THAT(told_of_rows("0,1\n1e10,2\n"),
               ElementsAre(HasSubstr("time 10000000000 must lie in -9000000 to 9000000, in s")));
   for (const char* none : {"nan", "inf", "-inf", "1e999"})

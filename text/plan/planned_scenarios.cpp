@@ -83,9 +83,10 @@ base::Result<study::Scenario> PlannedScenarios::at(const std::vector<std::string
   for (std::size_t k = 0; k < point.size() && scenario; ++k) {
     if (!plan_.axes[k].strays) continue;
     const std::optional<double> x = number_alone(point[k]);
-    scenario = x ? study::strayed_to(*scenario, plan_.axes[k].key, *x)
-                 : base::Problem{plan_.axes[k].key, point[k], "is no number, and only numbers stray",
-                                 "write numbers, or strays = false"};
+    scenario =
+        x ? study::strayed_to(*scenario, plan_.axes[k].key, *x)
+          : base::Problem{plan_.axes[k].key, point[k], "is not a number, and only numbers can be spread",
+                          "write numbers, or strays = false"};
   }
   return scenario;
 }

@@ -159,7 +159,7 @@ base::Result<std::vector<double>> values_of(const Recording& recording, const Pi
       return of_recording(
           recording,
           fmt::format("{} {:g} in row {} is beyond all instruments", column.name, (*out)[n], n + 1),
-          "look at the unit of its column");
+          "check the unit of its column");
   return out;
 }
 

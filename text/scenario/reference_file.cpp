@@ -80,7 +80,7 @@ class RowsOf {
       names += fmt::format("{}\"{}\"", n == 1 ? "" : ", ", r_.columns[n].name);
     const std::string keep = fmt::format("keep two columns: {}", first_.row);
     return at_line(r_.line_of(0), fmt::format("has {} columns: {}", r_.columns.size(), names),
-                   r_.has_headings && first_.selects ? "say in column which of them is meant" : keep);
+                   r_.has_headings && first_.selects ? "name the column that is meant" : keep);
   }
 
   /// A line is told of once.
@@ -109,7 +109,7 @@ class RowsOf {
     range.least = 0.0;
     if (range.holds(x)) return true;
     const std::string in = unit.empty() ? "" : ", in " + unit;
-    say(row, fmt::format("{} {} {}{}", what, x, limit_of(range), in), "look at the unit of its column");
+    say(row, fmt::format("{} {} {}{}", what, x, limit_of(range), in), "check the unit of its column");
     return false;
   }
 

@@ -209,7 +209,7 @@ void TableReader::no_such_word(const toml::node& node, std::string_view key,
   const std::string near = written ? nearest_word(*written, words) : std::string();
   complaints_.value(node, at(key),
                     {.limit = words.size() > read_at_a_glance
-                                  ? fmt::format("is none of the {} words that it may be", words.size())
+                                  ? fmt::format("is not one of the {} allowed words", words.size())
                                   : "must be " + quoted_alternatives(words),
                      .cure = near.empty() ? fmt::format("see: sixstep help {}", shown(at(key)))
                                           : fmt::format("did you mean \"{}\"?", near)});

@@ -171,7 +171,7 @@ void TableReader::frame(const toml::node& node, const std::string& path, const b
   else
     complaints_.value(node, path + ".frame",
                       {.limit = fmt::format("must be {}", quoted_alternatives(frames)),
-                       .cure = "say between which points the sheet measures"});
+                       .cure = "give the points between which the sheet measures"});
 }
 
 }  // namespace text

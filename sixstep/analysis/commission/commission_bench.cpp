@@ -160,8 +160,8 @@ base::Result<TestCurrentFrom> current_of(const CommissionSubject& subject, const
         "current_A", base::written(I),
         "must be above 0 and at most the " + base::rounded(most_A, 4) +
             " A that the bus drives through the resting motor and its rotor stays in the field with",
-        nominal.printed ? "leave it away for twice the sheet's nominal current"
-                        : "leave it away for a fifth of what full duty drives through the resting motor"};
+        nominal.printed ? "remove it for twice the sheet's nominal current"
+                        : "remove it for a fifth of what full duty drives through the resting motor"};
   return TestCurrentFrom{I, from};
 }
 
@@ -180,7 +180,7 @@ base::Problems too_weak(const CommissionBench& b, const design::MotorModel& moto
     return {{"current_A", base::written(b.wish.test_A),
              "makes a test of up to " + base::rounded(b.longest_s, 3) +
                  " s: so long does the rotor swing in its field",
-             "give more current, or look at the units of the motor's inertia and torque constant"}};
+             "give more current, or check the units of the motor's inertia and torque constant"}};
   return {};
 }
 

@@ -29,11 +29,11 @@ void check_pace(const Bench& b, base::Problems& problems) {
     refuse("voltage_V", b.voltage_V,
            "lets the field turn at " + base::rounded(plant::field_at(m, b.voltage_V), 3) +
                " electrical rad/s, and no motor's is above " + base::rounded(plant::fastest_field_rad_s, 3),
-           "lower it, or look at the unit of the motor's torque constant");
+           "lower it, or check the unit of the motor's torque constant");
   if (plant::winding_rate(m, b.devices) > plant::fastest_answer_1_s)
     refuse("on_resistance_ohm", b.devices.R_on_ohm,
            "makes the time constant of winding and bridge shorter than 100 ns",
-           "look at its unit: a MOSFET has milliohms");
+           "check its unit: a MOSFET has milliohms");
   const bool chops = b.duty != 1 && b.duty != -1;
   if (chops && m.L_H / m.R_ohm > most_periods * b.pwm_period_s)
     refuse("pwm_period_s", b.pwm_period_s,

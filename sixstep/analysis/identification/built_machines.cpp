@@ -25,20 +25,20 @@ base::Problems check_built_speed(double electrical_Hz, int pole_pairs) {
              .limit = "makes " + base::six_digits(electrical_Hz) +
                       " Hz of the voltage, and no brushless machine is built for more than " +
                       base::six_digits(most_built_Hz),
-             .cure = "look at the unit of time and at the time from row to row"}};
+             .cure = "check the unit of time and the time from row to row"}};
   if (pole_pairs > 0 && rpm > built_shaft_rpm.high)
     return {{.where = "time",
              .limit = "makes " + base::six_digits(rpm) + " rpm" + pairs +
                       ", and no brushless machine is built for more than " +
                       base::six_digits(built_shaft_rpm.high),
-             .cure = "look at the unit of time, at the time from row to row, and whether the pole pairs are "
+             .cure = "check the unit of time, the time from row to row, and whether the pole pairs are "
                      "more"}};
   if (rpm < built_shaft_rpm.low)
     return {{.where = "time",
              .limit = "makes " + base::three_digits(rpm) + " rpm" + pairs +
                       (pole_pairs == 0 ? " at the most" : "") + ", and what turns less than " +
                       base::written(built_shaft_rpm.low) + " shows no back-EMF to go by",
-             .cure = std::string("look at the unit of time and at the time from row to row") +
+             .cure = std::string("check the unit of time and the time from row to row") +
                      (pole_pairs > 1 ? ", and whether the pole pairs are fewer" : "")}};
   return {};
 }
@@ -56,7 +56,7 @@ base::Problems check_built_constant(double line_peak_V_s, double electrical_Hz, 
                     ", and no brushless machine is built with " +
                     (low ? "less than " + base::written(built_line_mV_s.low)
                          : "more than " + base::six_digits(built_line_mV_s.high)),
-           .cure = std::string("look at the units of time and voltage and at the probe's factor: ") +
+           .cure = std::string("check the units of time and voltage and the probe's factor: ") +
                    (low ? "the voltage is taken too small, or the time too short"
                         : "the voltage is taken too great, or the time too long") +
                    pairs}};

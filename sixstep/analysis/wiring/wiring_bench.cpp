@@ -45,7 +45,7 @@ base::Problems set_current(const WiringSubject& subject, WiringBench& b) {
     return {{"current_A", base::written(b.current_A),
              "must be above 0 and at most the " + base::rounded(stall_A, 4) +
                  " A that the bus drives through the stalled motor",
-             "leave it away for the sheet's nominal current"}};
+             "remove it for the sheet's nominal current"}};
   b.duty = b.current_A / stall_A;
   return {};
 }
@@ -114,11 +114,10 @@ base::Result<WiringBench> wiring_bench(const WiringSubject& subject) {
   set_times(b);
   const double longest = std::max(b.free_s, b.turned_from_s + b.turned_s);
   if (!(longest <= most_periods * study::Pwm{}.period_s))
-    return base::Problem{
-        "current_A", base::written(b.current_A),
-        "makes a test of " + base::rounded(longest, 3) +
-            " s, and that 252 times: so slow is the motor with it",
-        "give more current, or look at the units of the motor's inertia and torque constant"};
+    return base::Problem{"current_A", base::written(b.current_A),
+                         "makes a test of " + base::rounded(longest, 3) +
+                             " s, and that 252 times: so slow is the motor with it",
+                         "give more current, or check the units of the motor's inertia and torque constant"};
   return b;
 }
 

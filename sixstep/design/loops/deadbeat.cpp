@@ -17,7 +17,7 @@ control::HeldWinding<double> held(const DeadbeatSpec& spec, double time_s) {
 base::Result<Deadbeat> deadbeat(const DeadbeatSpec& spec) {
   if (spec.wait_periods > 1)
     return base::Problem{"wait_periods", base::written(spec.wait_periods),
-                         "is more than the one period that a prediction looks over",
+                         "exceeds one period, the horizon of the prediction",
                          "answer within a period of the sample"};
   const double T = spec.period_s, wait_s = spec.wait_periods * T;
   const control::HeldWinding<double> wait = held(spec, wait_s), rest = held(spec, T - wait_s),

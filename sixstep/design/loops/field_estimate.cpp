@@ -101,7 +101,7 @@ void turned(const FieldMachine& m, const FieldEstimateSpec& s, FieldEstimate& ou
   out.steps.insert(out.steps.end(),
                    {{"I", "holds the rotor, and turns it on", I, "A"},
                     {"t_align", "until it stands", align_s, "s"},
-                    {"t_ramp", "until the flux is followed", c.high_rad_s / rad_s2, "s"},
+                    {"t_ramp", "until the flux estimate follows", c.high_rad_s / rad_s2, "s"},
                     {"T_start", "greatest load that it starts against", start_load_part * most_Nm, "N m"}});
 }
 

@@ -34,7 +34,7 @@ base::Problem badly_filtered(const SensorlessBasis& b) {
             "give it; " + least + " is slow enough here, and fast enough"};
   return {"comparators.bandwidth_Hz", base::rounded(c.bandwidth_Hz, 4),
           c.against_half_bus ? "is not settled within half of the least on-time"
-                             : "has not forgotten the freewheel by the crossing at no-load speed",
+                             : "has not recovered from the freewheel by the crossing at no-load speed",
           c.against_half_bus ? "raise it to " + least + ", or hand over at a higher lowest_part"
                              : "raise it to " + least};
 }

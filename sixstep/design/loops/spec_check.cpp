@@ -31,7 +31,7 @@ base::Problems check_spec(const MotorModel& motor, const DesignSpec& w) {
   if (w.mode != Mode::current && w.mode != Mode::speed && w.mode != Mode::position)
     add("mode", "", "must be current, speed or position", "choose what is to be controlled");
   if (w.method == GainMethod::symmetrical_optimum && w.mode == Mode::current)
-    add("method", "symmetrical-optimum", "is a rule for speed loops",
+    add("method", "symmetrical-optimum", "applies to speed loops only",
         "add mode = speed, or take pole-placement or cancellation");
   if (w.delay_periods < 0 || w.delay_periods > 1)
     add("delay_periods", std::to_string(w.delay_periods), "must be 0 or 1",

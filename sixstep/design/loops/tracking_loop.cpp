@@ -16,7 +16,7 @@ base::Problems mistakes(const TrackingSpec& spec) {
     if (!(value > 0 && value - value == 0))
       problems.push_back({where, base::written(value), "must be above 0 and finite", cure});
   };
-  above_0("bandwidth_rad_s", spec.bandwidth_rad_s, "say how fast an angle shall be followed");
+  above_0("bandwidth_rad_s", spec.bandwidth_rad_s, "give the bandwidth of the angle's tracking loop");
   above_0("damping", spec.damping, "1 has no overshoot of its own");
   above_0("period_s", spec.period_s, "give the time between two samples");
   if (problems.empty() && spec.bandwidth_rad_s * spec.period_s >= base::pi)

@@ -36,7 +36,7 @@ void check_constants(SheetReader& reader, const MotorModel& m) {
       reader.problem(where, "",
                      std::string("makes ") + what + " " + rounded(value) + " " + std::string(unit) +
                          ", which " + limit_of(own, allowed, value),
-                     "look at the units of the lines that it is made of");
+                     "check the units of the lines that it is made of");
   };
   hold(m.from.K_t.substr(0, m.from.K_t.find(',')), m.K_t_Nm_A, base::above(0), "Nm/A", "the torque constant");
   hold(reader.sheet.viscous_friction_Nm_s ? "viscous_friction_Nm_s" : "no_load_current_mA", m.shaft.B_Nm_s,
@@ -64,7 +64,7 @@ void check_pace(SheetReader& reader, const MotorModel& m) {
                                   : rounded(1 / winding, 3) + " s, and no motor is above 100 s";
     reader.problem(q ? SheetReader::key_of(key, *q) : key, q ? reader.value_of(key, *q) : "",
                    "makes the winding's time constant L/R " + bound,
-                   "look at the unit of inductance and resistance");
+                   "check the unit of inductance and resistance");
   } else if (swing > fastest_swing_rad_s) {
     const std::optional<base::Quantity>& q =
         sheet.with_brake ? sheet.inertia_with_brake_gcm2 : sheet.inertia_gcm2;
@@ -73,7 +73,7 @@ void check_pace(SheetReader& reader, const MotorModel& m) {
         q ? reader.value_of(sheet.with_brake ? "inertia_with_brake_gcm2" : "inertia_gcm2", *q) : "",
         "makes rotor and winding swing at K_t/sqrt(L J) = " + rounded(swing, 3) +
             " rad/s, and no motor is above 1e5",
-        "look at the unit of the inertia, then at those of inductance and torque constant");
+        "check the unit of the inertia, then those of inductance and torque constant");
   }
 }
 

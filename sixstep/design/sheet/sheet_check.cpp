@@ -133,7 +133,7 @@ void doubt_pace(const Sheet& sheet, SheetCheck& check) {
     doubt(axes ? "d_axis_inductance_mH" : "inductance_mH",
           axes ? sheet.d_axis_inductance_mH : sheet.inductance_mH,
           slow_words("the winding's time constant L/R", *winding, slowest_usual_winding_s),
-          "look at the unit of inductance and resistance");
+          "check the unit of inductance and resistance");
   }
   if (rotor && *rotor > slowest_usual_rotor_s) {
     const bool braked = sheet.with_brake && sheet.inertia_with_brake_gcm2;
@@ -143,11 +143,11 @@ void doubt_pace(const Sheet& sheet, SheetCheck& check) {
     if (q)
       doubt(braked ? "inertia_with_brake_gcm2" : "inertia_gcm2", q,
             slow_words(linear ? "R m/K_f^2" : "R J/K_t^2", *rotor, slowest_usual_rotor_s),
-            linear ? "look at the unit of the mass, then at those of force constant and resistance"
-                   : "look at the unit of the inertia, then at those of torque constant and resistance");
+            linear ? "check the unit of the mass, then those of force constant and resistance"
+                   : "check the unit of the inertia, then those of torque constant and resistance");
     else
       doubt(from, {}, slow_words("R J/K_t^2", *rotor, slowest_usual_rotor_s),
-            "look at the units of the rotor's measures, then at those of torque constant and resistance");
+            "check the units of the rotor's measures, then those of torque constant and resistance");
   }
 }
 

@@ -130,7 +130,7 @@ void read_trust(SheetReader& reader) {
   const Sheet& s = reader.sheet;
   if (!s.simulatable && s.not_simulatable_because.empty())
     reader.problem("simulatable", "false", "gives no reason",
-                   "say in not_simulatable_because what is missing");
+                   "give what is missing in not_simulatable_because");
   if (s.simulatable && !s.not_simulatable_because.empty())
     reader.problem("not_simulatable_because", "\"" + s.not_simulatable_because + "\"",
                    "contradicts simulatable = true", "write simulatable = false, or leave the reason out");

@@ -47,7 +47,8 @@ void read_table_keys(SheetReader& reader) {
                     : !s.back_emf_angle_deg.empty() ? "back_emf_angle_deg"
                     : !s.back_emf_shape.empty()     ? "back_emf_shape"
                                                     : nullptr;
-  if (key) reader.problem(key, "", "is of a table, and back_emf is none", "write back_emf = \"table\"");
+  if (key)
+    reader.problem(key, "", "applies to a table only, and back_emf is none", "write back_emf = \"table\"");
 }
 
 void read_deviations(SheetReader& reader) {
@@ -59,7 +60,7 @@ void read_deviations(SheetReader& reader) {
                      "needs one for each of the phases a, b, c",
                      std::string("write ") + key + " = [0.05, -0.03, 0]");
     if (s.connection == WindingConnection::delta)
-      reader.problem(key, "", "is of a star's phases, and connection is \"delta\"", "leave it away");
+      reader.problem(key, "", "is of a star's phases, and connection is \"delta\"", "remove it");
   };
   look("phase_resistance_deviation", s.phase_resistance_deviation);
   look("phase_back_emf_deviation", s.phase_back_emf_deviation);
@@ -70,7 +71,7 @@ void read_delta(SheetReader& reader) {
   if (s.connection == WindingConnection::star) {
     if (s.mutual_inductance_mH != 0)
       reader.problem("mutual_inductance_mH", base::written(s.mutual_inductance_mH),
-                     "is of a delta's branches; a star's inductance_mH has it in it", "leave it away");
+                     "applies to a delta's branches only; a star's inductance_mH includes it", "remove it");
     return;
   }
   const auto look = [&](const char* key, const std::optional<base::Quantity>& q, const char* cure) {
@@ -91,7 +92,7 @@ void read_delta(SheetReader& reader) {
                    "give inductance_mH between two terminals");
   if (s.saturation_current_A)
     reader.wrong("saturation_current_A", *s.saturation_current_A,
-                 "is of a star's phases, and connection is \"delta\"", "leave it away");
+                 "is of a star's phases, and connection is \"delta\"", "remove it");
 }
 
 void read_cogging(SheetReader& reader, std::optional<int> pole_pairs) {
@@ -103,8 +104,7 @@ void read_cogging(SheetReader& reader, std::optional<int> pole_pairs) {
                    "write cogging_orders = [48] and cogging_mNm = [8]");
   if (!s.cogging_phase_deg.empty() && s.cogging_phase_deg.size() != s.cogging_orders.size())
     reader.problem("cogging_phase_deg", std::to_string(s.cogging_phase_deg.size()) + " values",
-                   "needs one for each of the " + count + " cogging_orders",
-                   "or leave it away: all begin at 0");
+                   "needs one for each of the " + count + " cogging_orders", "or remove it: all begin at 0");
   if (s.cogging_orders.size() > most_cogging)
     reader.problem("cogging_orders", count + " values", "must be at most " + std::to_string(most_cogging),
                    "keep the largest");

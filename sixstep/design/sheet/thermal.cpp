@@ -79,7 +79,7 @@ base::Result<ThermalModel> thermal_model(const Sheet& s) {
   for (const double* value : {&m.winding_housing_K_W, &m.housing_ambient_K_W, &m.winding_s, &m.motor_s})
     if (!base::above(0).holds(*value))
       return base::Problem{"thermal resistances and time constants", "", "must be above 0",
-                           "look at the sheet's thermal lines"};
+                           "check the sheet's thermal lines"};
   return m;
 }
 

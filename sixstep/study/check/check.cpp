@@ -84,7 +84,7 @@ void check_limited_mode(const Scenario& s, base::Problems& out) {
   const auto refuse = [&out](const char* key, const std::optional<double>& value) {
     if (value)
       out.push_back({key, base::six_digits(*value), "needs a current loop, and control.mode has none",
-                     "leave it away, or control current, speed or position"});
+                     "remove it, or control current, speed or position"});
   };
   refuse("control.limits.current_A", c.limits.current_A);
   refuse("control.limits.torque_Nm", c.limits.torque_Nm);
@@ -173,11 +173,11 @@ void check_linear(const Scenario& s, base::Problems& out) {
   if (s.sheet.kind != design::MotorKind::linear) return;
   if (s.load.gravity_Nm != 0)
     out.push_back({"load.gravity_Nm", base::six_digits(s.load.gravity_Nm),
-                   "is of a weight on an arm, and the motor is linear",
+                   "is a weight on an arm, and the motor is linear",
                    "give an incline's force as load.force_N"});
   if (s.load.gear != 1)
     out.push_back({"load.gear", base::six_digits(s.load.gear),
-                   "is of a turning motor, and this one is linear",
+                   "applies to a turning motor only, and this one is linear",
                    "give the load as the motor's slide feels it"});
 }
 

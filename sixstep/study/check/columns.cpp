@@ -15,7 +15,7 @@ NoValue no_value(ColumnId id, const Scenario& s) {
   switch (id) {
     case ColumnId::load_speed:
     case ColumnId::load_angle:
-      return {"is of a load behind a gear or an elastic shaft, and this one turns with the rotor",
+      return {"applies to a load behind a gear or an elastic shaft only, and this load turns with the rotor",
               "record speed_rad_s and angle_rad, or set load.gear or load.stiffness_Nm_rad"};
     case ColumnId::source_A:
       return {"is recorded where the source has an inductance, and supply.inductance_H = 0",
@@ -24,7 +24,8 @@ NoValue no_value(ColumnId id, const Scenario& s) {
       return {"is recorded where the capacitor has a resistance, and supply.capacitor_resistance_ohm = 0",
               "remove it, or set supply.capacitor_resistance_ohm"};
     case ColumnId::battery_charge:
-      return {"is a battery's, and supply.source is none", "remove it, or set supply.source = \"battery\""};
+      return {"applies to a battery only, and supply.source is none",
+              "remove it, or set supply.source = \"battery\""};
     case ColumnId::winding_degC:
     case ColumnId::housing_degC:
       return {"stays as it is while heat.motor = false", "remove it, or set heat.motor = true"};
@@ -34,7 +35,7 @@ NoValue no_value(ColumnId id, const Scenario& s) {
       break;
   }
   if (id >= ColumnId::i_d && s.control.drive != FirmwareKind::field)
-    return {"is held by the field-oriented drive only",
+    return {"applies to the field-oriented drive only",
             "remove it, or set control.drive = \"field-oriented\""};
   if (id == ColumnId::angle_error)
     return {"is 0 where nothing senses the angle: sensors.rotor = \"ideal\"",

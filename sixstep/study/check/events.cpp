@@ -59,13 +59,13 @@ void check_mode(const Event& e) {
   std::string word(1, '"');  // GCC 12 warns of a literal before it
   word += base::word(mode_choices, e.mode);
   word += '"';
-  if (e.mode == e.before) return e.say(".control.mode", word, "is the mode already", "leave it away");
+  if (e.mode == e.before) return e.say(".control.mode", word, "is the mode already", "remove it");
   if (e.mode == control::Mode::off) return;
   if (!e.at.reference)
     e.say(".control.mode", word, "needs a reference: the one before is in another unit",
           "give reference beside it, in " + std::string(reference_unit(e.mode)));
   else if (goes_on(*e.at.reference))
-    e.say(".reference", "", "goes on from where the reference stood, which was in another unit",
+    e.say(".reference", "", "continues from the reference's last value, which was in another unit",
           "give start, or let times_s begin at 0");
   if (e.s.control.slew && !e.at.control.slew)
     e.say(".control.mode", word, "leaves control.slew in the unit of another mode",
@@ -77,10 +77,11 @@ void check_chip(const Event& e) {
   if (e.at.control.current.band_A && e.s.control.current.type != CurrentLoopType::hysteresis)
     e.say(".control.current.band_A", written(*e.at.control.current.band_A),
           "is of a hysteresis, and control.current.type = \"pi\"",
-          "leave it away: the kind of the controller cannot change during a run");
+          "remove it: the kind of the controller cannot change during a run");
   if (e.at.pwm.chopping != AtChopping::same && e.s.control.smooth_chopping.on)
-    e.say(".pwm.chopping", "", "is chosen by the current while control.smooth_chopping.on = true",
-          "leave it away, or set on = false");
+    e.say(".pwm.chopping", "",
+          "has no effect while control.smooth_chopping.on = true, which chooses it by the current",
+          "remove it, or set on = false");
   if (e.at.bridge.dead_time_s)
     check_dead_time(e.where + ".bridge.dead_time_s", *e.at.bridge.dead_time_s, e.s.pwm, e.out);
 }
@@ -116,12 +117,12 @@ void check_event(const Event& e) {
          "what changes of control, pwm or bridge"});
   if (at.supply.voltage_V && s.supply.source != SourceKind::steady)
     out.push_back({where + ".supply.voltage_V", written(*at.supply.voltage_V),
-                   "is of a steady source, and supply.source is a battery or mains",
-                   "leave it away, or set supply.source = \"steady\""});
+                   "applies to a steady source only, and supply.source is a battery or mains",
+                   "remove it, or set supply.source = \"steady\""});
   if (at.load.torque_Nm && !s.load.dynamometer_rad_s.empty())
     out.push_back({where + ".load.torque_Nm", written(*at.load.torque_Nm),
-                   "is of a load that does not impose its speed",
-                   "leave it away: a dynamometer's torque is a result"});
+                   "applies only to a load that does not impose its speed",
+                   "remove it: a dynamometer's torque is a result"});
   if (at.supply.sinks == false && !(s.supply.capacitance_F > 0))
     out.push_back({where + ".supply.sinks", "false", "needs a bus whose voltage can rise",
                    "give supply.resistance_ohm and supply.capacitance_F"});
@@ -135,7 +136,7 @@ void check_event(const Event& e) {
                    "set control.mode"});
   if (at.request != DriveRequest::none && s.control.drive != FirmwareKind::product)
     out.push_back(
-        {where + ".request", "", "is heard by the product drive only", "set control.drive = \"product\""});
+        {where + ".request", "", "is read by the product drive only", "set control.drive = \"product\""});
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace sixstep::study {
 
 namespace {
 
-constexpr const char* other_drive = "leave it away, or set control.drive = \"lean\"";
+constexpr const char* other_drive = "remove it, or set control.drive = \"lean\"";
 
 /// Three legs in the middle of the period, all of them complementary.
 void check_pwm(const Scenario& s, base::Problems& out) {
@@ -20,15 +20,18 @@ void check_pwm(const Scenario& s, base::Problems& out) {
                    "has no middle, in which the field-oriented drive's pulses lie",
                    "set alignment = \"centre\""});
   if (s.pwm.chopping != control::Chopping::soft)
-    out.push_back({"pwm.chopping", std::string(base::word(chopping_choices, s.pwm.chopping)),
-                   "is six-step's: the field-oriented drive switches all three legs complementarily",
-                   other_drive});
-  if (s.pwm.pattern != control::PwmPattern::upper)
-    out.push_back({"pwm.pattern", std::string(base::word(pattern_choices, s.pwm.pattern)),
-                   "is six-step's: three legs have no switch that is on beside one that chops", other_drive});
-  if (s.pwm.commutation != CommutationAt::hall_edge)
     out.push_back(
-        {"pwm.commutation", "\"sample\"", "is six-step's: three legs commutate nothing", other_drive});
+        {"pwm.chopping", std::string(base::word(chopping_choices, s.pwm.chopping)),
+         "applies to six-step only: the field-oriented drive switches all three legs complementarily",
+         other_drive});
+  if (s.pwm.pattern != control::PwmPattern::upper)
+    out.push_back(
+        {"pwm.pattern", std::string(base::word(pattern_choices, s.pwm.pattern)),
+         "applies to six-step only: a drive of three legs has no switch that stays on beside a chopping one",
+         other_drive});
+  if (s.pwm.commutation != CommutationAt::hall_edge)
+    out.push_back({"pwm.commutation", "\"sample\"",
+                   "applies to six-step only: a drive of three legs has no commutation", other_drive});
 }
 
 void check_field_loops(const Scenario& s, base::Problems& out) {
@@ -37,31 +40,33 @@ void check_field_loops(const Scenario& s, base::Problems& out) {
     if (given) out.push_back({key, "", limit, cure});
   };
   refuse(c.mode == control::Mode::duty, "control.mode",
-         "= \"duty\" is of a driven pair, and the field-oriented drive has none",
+         "= \"duty\" applies to a driven pair, and the field-oriented drive has none",
          "set mode = \"current\", \"speed\" or \"position\"");
   if (c.arithmetic != Arithmetic::float64 && c.arithmetic != Arithmetic::float32)
     out.push_back({"control.arithmetic", std::string(base::word(arithmetic_choices, c.arithmetic)),
                    "has no scaling that is proved for the field-oriented drive",
                    "set arithmetic = \"float\" or \"double\""});
   refuse(c.current.type == CurrentLoopType::deadbeat, "control.current.type",
-         "= \"deadbeat\" predicts a driven pair, and the field-oriented drive has none", "set type = \"pi\"");
+         "= \"deadbeat\" predicts for a driven pair, and the field-oriented drive has none",
+         "set type = \"pi\"");
   refuse(c.current.feedback != CurrentFeedback::mean, "control.current.feedback",
-         "is of a pair that moves on, and the field-oriented drive has none", "leave it away");
+         "applies to commutation, and the field-oriented drive has none", "remove it");
   refuse(c.current.commutation != CurrentCommutation::plain, "control.current.commutation",
-         "is of a pair that moves on, and the field-oriented drive has none", "leave it away");
+         "applies to commutation, and the field-oriented drive has none", "remove it");
   refuse(c.current.type == CurrentLoopType::hysteresis, "control.current.type",
-         "= \"hysteresis\" watches a driven pair, and the field-oriented drive has none",
+         "= \"hysteresis\" applies to a driven pair, and the field-oriented drive has none",
          "set type = \"pi\"");
   refuse(c.speed.output == SpeedOutput::duty, "control.speed.output",
-         "= \"duty\" is of a driven pair, and the field-oriented drive has none", "set output = \"current\"");
-  const char* const of_pair = "is of six-step's current loop";
+         "= \"duty\" applies to a driven pair, and the field-oriented drive has none",
+         "set output = \"current\"");
+  const char* const of_pair = "applies to the current loop of six-step only";
   refuse(c.current.back_emf_feed_forward, "control.current.back_emf_feed_forward", of_pair,
-         "leave it away: control.field.decoupling adds what turning makes");
+         "remove it: control.field.decoupling adds what turning makes");
   refuse(c.current.measured_bus_from_V.has_value(), "control.current.measured_bus_from_V", of_pair,
-         "leave it away: three legs go by the measured bus");
+         "remove it: three legs go by the measured bus");
   const Limits& l = c.limits;
   refuse(l.current_A || l.torque_Nm || l.speed_rad_s, "control.limits", of_pair,
-         "leave it away; in a cascade control.current.limit_A bounds the current");
+         "remove it; in a cascade control.current.limit_A bounds the current");
   refuse(c.regeneration.limit_V.has_value(), "control.regeneration", of_pair, other_drive);
   refuse(c.smooth_chopping.on, "control.smooth_chopping", of_pair, other_drive);
 }
@@ -71,19 +76,19 @@ void check_unsensed(const Scenario& s, base::Problems& out) {
   const auto angle = [&s] { return std::string(base::word(field_angle_choices, s.control.field.angle)); };
   if (s.sensors.rotor != RotorSensing::ideal)
     out.push_back({"sensors.rotor", std::string(base::word(rotor_sensing_choices, s.sensors.rotor)),
-                   "is not looked at where control.field.angle is " + angle(),
-                   "leave it away, or set control.field.angle = \"sensors\""});
+                   "has no effect where control.field.angle is " + angle(),
+                   "remove it, or set control.field.angle = \"sensors\""});
   if (s.control.field.law == FieldLaw::finite_set)
     out.push_back({"control.field.law", "\"finite-set\"",
                    "makes no pulses, and where control.field.angle is " + angle() + " they are looked at",
                    "set law = \"pi\", or control.field.angle = \"sensors\""});
   if (s.control.mode == control::Mode::position)
     out.push_back({"control.mode", "\"position\"",
-                   "needs a rotor whose turns are counted, and an estimated angle is not",
+                   "needs a sensor that counts turns, and an estimated angle does not",
                    "control speed or current, or set control.field.angle = \"sensors\""});
   if (s.control.field.angle != FieldAngle::observer && s.pwm.sample == SampleAt::middle)
     out.push_back({"pwm.sample", "\"middle\"",
-                   "is where the current of the pulse that is injected crosses zero: nothing is seen of it",
+                   "is at the zero crossing of the injected pulse's current, which hides it",
                    "set sample = \"start\""});
   if (s.sheet.kind == design::MotorKind::linear)
     out.push_back({"control.drive", "\"field-oriented\"", "drives turning motors, and this one is linear",
@@ -95,7 +100,7 @@ void check_sensing(const Scenario& s, base::Problems& out) {
   const Sensors& x = s.sensors;
   if (x.currents == rig::CurrentMeasurement::dc_link)
     out.push_back({"sensors.currents", "\"dc-link\"",
-                   "shows one current of a driven pair, and the field-oriented drive turns three",
+                   "measures one current of a driven pair, and the field-oriented drive controls three",
                    "set currents = \"phases\", or \"ideal\""});
   if (s.control.field.angle != FieldAngle::sensors) return check_unsensed(s, out);
   if (x.rotor == RotorSensing::hall && x.hall_angle == rig::HallAngleFrom::sectors)
@@ -105,8 +110,8 @@ void check_sensing(const Scenario& s, base::Problems& out) {
     out.push_back({"sensors.encoder.referenced", "false", "tells no angle before the index is passed",
                    "set referenced = true"});
   if (x.shaft == SensorShaft::load && x.rotor != RotorSensing::ideal && x.rotor != RotorSensing::hall)
-    out.push_back({"sensors.shaft", "\"load\"", "does not say where the motor's magnet points",
-                   "set shaft = \"motor\""});
+    out.push_back(
+        {"sensors.shaft", "\"load\"", "does not measure the magnet's angle", "set shaft = \"motor\""});
   if (s.sheet.kind == design::MotorKind::linear)
     out.push_back({"control.drive", "\"field-oriented\"", "drives turning motors, and this one is linear",
                    "set drive = \"lean\" or \"product\""});
@@ -125,23 +130,24 @@ void check_keys(const Scenario& s, base::Problems& out) {
     if (given && !serves) out.push_back({key, "", of, cure});
   };
   needs(f.angle_bandwidth_Hz.has_value(), injects || observes, "control.field.angle_bandwidth_Hz",
-        "is of an angle that is estimated, and this one is sensed",
-        "leave it away, or set control.field.angle");
+        "applies to an estimated angle only, and this drive measures it",
+        "remove it, or set control.field.angle");
   needs(f.injection_V.has_value(), injects, "control.field.injection_V", "is injected nowhere",
-        "leave it away, or set control.field.angle = \"injection\"");
+        "remove it, or set control.field.angle = \"injection\"");
   needs(f.observer_from_rad_s.has_value(), observes, "control.field.observer_from_rad_s",
-        "is of an observer, and there is none", "leave it away, or set control.field.angle = \"observer\"");
+        "applies to an observer, and the drive has none",
+        "remove it, or set control.field.angle = \"observer\"");
   needs(f.start_current_A.has_value(), observes && !injects, "control.field.start_current_A",
-        "turns a rotor that is not seen at rest, and this one is",
-        "leave it away, or set control.field.angle = \"observer\"");
+        "turns a rotor whose angle is unknown at rest, and this drive measures it",
+        "remove it, or set control.field.angle = \"observer\"");
   if (f.weakening_A && f.voltage_limit != control::VoltageLimit::circle)
     out.push_back({"control.field.weakening_A", "", "goes by the circle, and voltage_limit is \"axes\"",
-                   "set control.field.voltage_limit = \"circle\", or leave it away"});
+                   "set control.field.voltage_limit = \"circle\", or remove it"});
   if (f.harmonic_current && design::is_salient(s.sheet))
     out.push_back(
         {"control.field.harmonic_current", "true",
          "is the least current of a round rotor, and d_axis_inductance_mH and q_axis_inductance_mH differ",
-         "leave it away, or give the motor one inductance_mH"});
+         "remove it, or give the motor one inductance_mH"});
 }
 
 }  // namespace
@@ -149,7 +155,7 @@ void check_keys(const Scenario& s, base::Problems& out) {
 void check_pair_figures(const Scenario& s, base::Problems& out) {
   const auto refuse = [&out](const Measure& m, const std::string& where) {
     if (fact_of(m.metric).of == TakenOf::commutations)
-      out.push_back({where + ".metric", "", "is of a driven pair that moves on, and three legs have none",
+      out.push_back({where + ".metric", "", "applies to commutation, and a drive of three legs has none",
                      "take another figure"});
   };
   for (std::size_t n = 0; n < s.require.size(); ++n)
@@ -161,8 +167,8 @@ void check_pair_figures(const Scenario& s, base::Problems& out) {
 void check_field(const Scenario& s, base::Problems& out) {
   if (s.control.drive != FirmwareKind::field) {
     if (s.control.field != Field{})
-      out.push_back({"control.field", "", "is what the field-oriented drive does only",
-                     "set control.drive = \"field-oriented\", or leave it away"});
+      out.push_back({"control.field", "", "applies to the field-oriented drive only",
+                     "set control.drive = \"field-oriented\", or remove it"});
     return;
   }
   check_pwm(s, out);

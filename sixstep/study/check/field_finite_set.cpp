@@ -12,7 +12,7 @@ void check_beside_pi(const Field& f, base::Problems& out) {
   const auto refuse = [&out](bool given, const char* key) {
     if (given)
       out.push_back({key, "", "is of the choice among the legs' states, and control.field.law is \"pi\"",
-                     "set control.field.law = \"finite-set\", or leave it away"});
+                     "set control.field.law = \"finite-set\", or remove it"});
   };
   refuse(f.switching_weight_A > 0, "control.field.switching_weight_A");
   refuse(f.peak_A.has_value(), "control.field.peak_A");
@@ -29,18 +29,17 @@ void check_finite_set(const Scenario& s, base::Problems& out) {
   };
   const CurrentLoop& loop = s.control.current;
   const char* const no_loop = "is of current loops, and control.field.law = \"finite-set\" has none";
-  const char* const to_pi = "leave it away, or set control.field.law = \"pi\"";
+  const char* const to_pi = "remove it, or set control.field.law = \"pi\"";
   refuse(f.bandwidth_Hz.has_value(), "control.field.bandwidth_Hz", no_loop, to_pi);
   refuse(gives_gains(loop), "control.current", no_loop, to_pi);
   refuse(!f.decoupling, "control.field.decoupling",
          "= false leaves out what turning makes, and the finite set foretells with it", to_pi);
   refuse(f.voltage_limit != control::VoltageLimit::circle, "control.field.voltage_limit",
-         "= \"axes\" bounds a voltage of any length, and three legs for a whole period have one length",
-         to_pi);
+         "= \"axes\" limits the voltage's magnitude, and three legs for a whole period have only one", to_pi);
   refuse(f.weakening_A.has_value(), "control.field.weakening_A",
-         "goes by how long the voltage is, and three legs for a whole period have one length", to_pi);
+         "depends on the voltage's magnitude, and three legs for a whole period have only one", to_pi);
   refuse(f.advance_periods.has_value(), "control.field.advance_periods",
-         "turns an answer on, and the finite set knows where the magnet will point", to_pi);
+         "rotates the output, and the finite set predicts the magnet's angle itself", to_pi);
   refuse(
       s.pwm.sample == SampleAt::middle, "pwm.sample",
       "= \"middle\" lies half a period before the legs switch, over which the finite set does not estimate",

@@ -27,7 +27,7 @@ void check_energies(const Bridge& b, base::Problems& out) {
                    "give gate_current_A and gate_drain_charge_C, or neither"});
   if (charges && energies)
     out.push_back({"bridge.gate_drain_charge_C", base::six_digits(b.gate_drain_charge_C),
-                   "says again what turn_on_J and turn_off_J say", "keep one of the two ways"});
+                   "repeats turn_on_J and turn_off_J", "keep one of the two ways"});
 }
 
 }  // namespace
@@ -52,8 +52,8 @@ void check_heat(const Scenario& s, base::Problems& out) {
                    "acts where junctions warm up only", "set heat.devices = true"});
   const auto unused = [&](const char* key, const std::optional<double>& value) {
     if (value && !h.motor)
-      out.push_back({key, base::six_digits(*value), "is of a motor that warms up, and heat.motor = false",
-                     "set heat.motor = true, or leave it away"});
+      out.push_back({key, base::six_digits(*value), "applies only with heat.motor = true",
+                     "set heat.motor = true, or remove it"});
   };
   unused("heat.winding_degC", h.winding_degC);
   unused("heat.housing_degC", h.housing_degC);

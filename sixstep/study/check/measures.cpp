@@ -86,7 +86,7 @@ void check_signal(const Asked& a) {
       return;
     case TakenOf::power:
       if (!is_power(signal))
-        a.refuse("signal", quoted(signal), "is no power, and has no energy",
+        a.refuse("signal", quoted(signal), "is not a power, so that it has no energy",
                  "name a power or a loss, as signal = \"supply_power_W\" or \"copper_loss_W\"");
       return;
   }
@@ -96,7 +96,7 @@ void check_signal(const Asked& a) {
 void check_drive(const Asked& a) {
   if (!is_of_field(a.m.signal)) return;
   if (a.s.control.drive != FirmwareKind::field)
-    a.refuse("signal", quoted(a.m.signal), "is held by the field-oriented drive only",
+    a.refuse("signal", quoted(a.m.signal), "applies to the field-oriented drive only",
              "set control.drive = \"field-oriented\", or name another signal");
 }
 

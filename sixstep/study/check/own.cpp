@@ -45,8 +45,8 @@ void check_own_numbers(const Own& own, base::Problems& out) {
     const sixstep_parameter* is = parameter(*own.loaded, given.name);
     if (is == nullptr) {
       const std::string names = names_of(*own.loaded);
-      out.push_back({where + ".name", '"' + given.name + '"', "is none of the controller's numbers",
-                     names.empty() ? "leave it away: it has none" : "use one of: " + names});
+      out.push_back({where + ".name", '"' + given.name + '"', "is not a number of the controller",
+                     names.empty() ? "remove it: it has none" : "use one of: " + names});
     } else if (!(given.value >= is->least && given.value <= is->most)) {
       out.push_back(
           {where + ".value", base::written(given.value),
@@ -65,29 +65,29 @@ void check_around(const Scenario& s, base::Problems& out) {
   const auto refuse = [&out](bool given, const char* key, const char* limit, const char* cure) {
     if (given) out.push_back({key, "", limit, cure});
   };
-  const char* const its_own = "is of the library's loops, and a controller of one's own runs none of them";
-  refuse(c.mode == control::Mode::off, "control.mode",
-         "= \"off\" leaves a controller of one's own nothing to do",
+  const char* const its_own = "applies to the built-in loops, and a user's controller runs none of them";
+  refuse(c.mode == control::Mode::off, "control.mode", "= \"off\" leaves a user's controller nothing to do",
          "set mode = \"duty\", \"current\", \"speed\" or \"position\"");
   if (c.arithmetic != Arithmetic::float64)
-    out.push_back({"control.arithmetic", std::string(base::word(arithmetic_choices, c.arithmetic)),
-                   "is the library's numbers: a controller of one's own computes in what it is written in",
-                   "leave it away"});
-  refuse(c.current.type != CurrentLoopType::pi, "control.current.type", its_own, "leave it away");
-  refuse(c.current.feedback != CurrentFeedback::mean, "control.current.feedback", its_own, "leave it away");
+    out.push_back(
+        {"control.arithmetic", std::string(base::word(arithmetic_choices, c.arithmetic)),
+         "applies to the built-in controllers: a user's controller computes in the types that it is written in",
+         "remove it"});
+  refuse(c.current.type != CurrentLoopType::pi, "control.current.type", its_own, "remove it");
+  refuse(c.current.feedback != CurrentFeedback::mean, "control.current.feedback", its_own, "remove it");
   refuse(c.current.commutation != CurrentCommutation::plain, "control.current.commutation", its_own,
-         "leave it away");
-  refuse(c.current.back_emf_feed_forward, "control.current.back_emf_feed_forward", its_own, "leave it away");
+         "remove it");
+  refuse(c.current.back_emf_feed_forward, "control.current.back_emf_feed_forward", its_own, "remove it");
   refuse(c.current.measured_bus_from_V.has_value(), "control.current.measured_bus_from_V", its_own,
-         "leave it away");
-  refuse(c.speed.law != SpeedLaw::pi, "control.speed.law", its_own, "leave it away");
+         "remove it");
+  refuse(c.speed.law != SpeedLaw::pi, "control.speed.law", its_own, "remove it");
   refuse(c.limits.current_A || c.limits.torque_Nm || c.limits.speed_rad_s, "control.limits", its_own,
-         "leave it away");
-  refuse(c.regeneration.limit_V.has_value(), "control.regeneration", its_own, "leave it away");
-  refuse(c.smooth_chopping.on, "control.smooth_chopping", its_own, "leave it away");
-  refuse(c.slew.has_value(), "control.slew", its_own, "leave it away");
-  refuse(c.position.profile.on, "control.position.profile", its_own, "leave it away");
-  refuse(s.pwm.pattern != control::PwmPattern::upper, "pwm.pattern", its_own, "leave it away");
+         "remove it");
+  refuse(c.regeneration.limit_V.has_value(), "control.regeneration", its_own, "remove it");
+  refuse(c.smooth_chopping.on, "control.smooth_chopping", its_own, "remove it");
+  refuse(c.slew.has_value(), "control.slew", its_own, "remove it");
+  refuse(c.position.profile.on, "control.position.profile", its_own, "remove it");
+  refuse(s.pwm.pattern != control::PwmPattern::upper, "pwm.pattern", its_own, "remove it");
 }
 
 }  // namespace
@@ -95,7 +95,7 @@ void check_around(const Scenario& s, base::Problems& out) {
 base::Problems check_controller(const sixstep_controller& is) {
   base::Problems out;
   const auto refuse = [&out](bool wrong, const char* where, const std::string& value, const char* limit) {
-    if (wrong) out.push_back({where, value, limit, "look at sixstep/control/own/own_controller.h"});
+    if (wrong) out.push_back({where, value, limit, "see sixstep/control/own/own_controller.h"});
   };
   if (is.interface == in_float)
     return {{"interface", std::to_string(is.interface), "is that of float, and this program's is of double",
@@ -132,8 +132,8 @@ void check_own(const Scenario& s, base::Problems& out) {
   const Own& own = s.control.own;
   if (s.control.drive != FirmwareKind::own) {
     if (own != Own{})
-      out.push_back({"control.own", "", "is what a controller of one's own is given only",
-                     "set control.drive = \"own\", or leave it away"});
+      out.push_back({"control.own", "", "applies to a user's controller only",
+                     "set control.drive = \"own\", or remove it"});
     return;
   }
   if (own.controller.empty())

@@ -30,7 +30,7 @@ void check_bridge(const Scenario& s, const plant::Machine& m, base::Problems& ou
   out.push_back({diode ? "bridge.diode_resistance_ohm" : "bridge.on_resistance_ohm",
                  written(diode ? b.diode_resistance_ohm : b.on_resistance_ohm),
                  "makes the time constant of winding and bridge " + too_short(rate),
-                 "look at its unit: a MOSFET has milliohms"});
+                 "check its unit: a MOSFET has milliohms"});
 }
 
 void check_bus(const Scenario& s, const plant::Machine& m, base::Problems& out) {
@@ -39,11 +39,10 @@ void check_bus(const Scenario& s, const plant::Machine& m, base::Problems& out) 
   const double rate =
       plant::bus_rate(m, {from.voltage_V, from.resistance_ohm, from.capacitance_F, from.sinks});
   if (rate > fastest_answer_1_s)
-    out.push_back(
-        {"supply.capacitance_F", written(from.capacitance_F),
-         "makes the bus's time constant with supply.resistance_ohm = " + written(from.resistance_ohm) +
-             " and the winding " + too_short(rate),
-         "look at its unit: a bus has hundreds of microfarads; or leave both away for a stiff bus"});
+    out.push_back({"supply.capacitance_F", written(from.capacitance_F),
+                   "makes the bus's time constant with supply.resistance_ohm = " +
+                       written(from.resistance_ohm) + " and the winding " + too_short(rate),
+                   "check its unit: a bus has hundreds of microfarads; or remove both for a stiff bus"});
 }
 
 void check_friction(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
@@ -54,7 +53,7 @@ void check_friction(const Scenario& s, const design::MotorModel& motor, base::Pr
   if (rate > fastest_answer_1_s)
     out.push_back({"load.viscous_Nm_s", written(s.load.viscous_Nm_s),
                    "stops the rotor within " + too_short(rate),
-                   "look at its unit, or set load.locked = true to hold the rotor"});
+                   "check its unit, or set load.locked = true to hold the rotor"});
 }
 
 /// C_1 of a battery between R_1 and the bus behind R_b, which is the slower.
@@ -66,7 +65,7 @@ void check_recovery(const Supply& from, base::Problems& out) {
     out.push_back({"supply.battery_recovery_F", written(from.battery_recovery_F),
                    "makes the battery's time constant with supply.battery_recovery_ohm = " +
                        written(from.battery_recovery_ohm) + " " + too_short(rate),
-                   "look at its unit: a cell recovers over milliseconds to minutes"});
+                   "check its unit: a cell recovers over milliseconds to minutes"});
 }
 
 /// Inductance and capacitor of the source, and the brake resistor on it.
@@ -77,20 +76,20 @@ void check_source(const Scenario& s, const plant::Machine& m, base::Problems& ou
   if (const double rate = from.capacitor_resistance_ohm / L; rate > fastest_answer_1_s)
     out.push_back({"supply.capacitor_resistance_ohm", written(from.capacitor_resistance_ohm),
                    "makes its time constant with the inductances around it " + too_short(rate),
-                   "look at its unit: a bus capacitor has milliohms"});
+                   "check its unit: a bus capacitor has milliohms"});
   if (from.inductance_H > 0) {
     const double rate =
         from.resistance_ohm / from.inductance_H + 1 / std::sqrt(from.inductance_H * from.capacitance_F);
     if (rate > fastest_answer_1_s)
       out.push_back({"supply.inductance_H", written(from.inductance_H),
                      "makes the source's time constant " + too_short(rate),
-                     "look at its unit: a cable has microhenries; or leave it away"});
+                     "check its unit: a cable has microhenries; or remove it"});
   }
   if (from.brake_resistance_ohm > 0) {
     const double rate = 1 / (from.brake_resistance_ohm * from.capacitance_F);
     if (rate > fastest_answer_1_s)
       out.push_back({"supply.brake_resistance_ohm", written(from.brake_resistance_ohm),
-                     "empties the bus within " + too_short(rate), "look at its unit"});
+                     "empties the bus within " + too_short(rate), "check its unit"});
   }
 }
 
@@ -101,7 +100,7 @@ void check_coupling(const Scenario& s, const design::MotorModel& motor, base::Pr
   const auto look = [&](const char* key, double value, double rate) {
     if (rate > fastest_answer_1_s)
       out.push_back({key, written(value), "makes the shaft's time constant " + too_short(rate),
-                     "look at its unit and at those of load.gear and the inertias"});
+                     "check its unit and those of load.gear and the inertias"});
   };
   const bool elastic = l.stiffness_Nm_rad > 0 && J_2 > 0;
   if (elastic) {
@@ -124,7 +123,7 @@ void check_torque(const Scenario& s, const design::MotorModel& motor, base::Prob
       out.push_back({key, written(torque_Nm),
                      "is no load for a moment of inertia of " + base::three_digits(J) + " kg m2: at most " +
                          base::three_digits(most_Nm) + " N m are simulated",
-                     "look at its unit and at that of the inertia"});
+                     "check its unit and that of the inertia"});
   };
   look("load.torque_Nm", s.load.torque_Nm);
   look("load.gravity_Nm", s.load.gravity_Nm);
@@ -149,7 +148,7 @@ void check_field_pace(const Scenario& s, const plant::Machine& m, base::Problems
                          base::three_digits(fastest_field_rad_s),
                      cure});
   };
-  constexpr const char* too_high = "lower it, or look at the unit of the motor's torque constant";
+  constexpr const char* too_high = "lower it, or check the unit of the motor's torque constant";
   look("supply.voltage_V", s.supply.voltage_V, plant::field_at(m, s.supply.voltage_V), too_high);
   if (s.initial.bus_V)
     look("initial.bus_V", *s.initial.bus_V, plant::field_at(m, *s.initial.bus_V), too_high);

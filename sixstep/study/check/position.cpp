@@ -13,8 +13,8 @@ void check_position(const Scenario& s, base::Problems& out) {
   const PositionProfile& p = c.position.profile;
   if (!p.on) {
     if (p != PositionProfile{})
-      out.push_back({"control.position.profile", "", "says how a profile is, and none is on",
-                     "set control.position.profile.on = true, or leave it away"});
+      out.push_back({"control.position.profile", "", "shapes a profile, and none is on",
+                     "set control.position.profile.on = true, or remove it"});
     return;
   }
   if (p.jerk_rad_s3 && p.smoothing_s)
@@ -30,11 +30,11 @@ void check_position(const Scenario& s, base::Problems& out) {
   if (c.slew && c.mode == control::Mode::position)
     out.push_back({"control.slew", base::six_digits(*c.slew),
                    "shapes a setpoint that control.position.profile shapes already",
-                   "leave it away: profile.speed_rad_s is its limit"});
+                   "remove it: profile.speed_rad_s is its limit"});
   if (c.arithmetic != Arithmetic::float64 && c.arithmetic != Arithmetic::float32)
     out.push_back({"control.arithmetic", std::string(base::word(arithmetic_choices, c.arithmetic)),
                    "has no room for what control.position.profile adds in a tick",
-                   "set arithmetic = \"float\" or \"double\", or leave the profile away"});
+                   "set arithmetic = \"float\" or \"double\", or remove the profile"});
   if (p.feed_forward && c.speed.law != SpeedLaw::pi)
     out.push_back({"control.position.profile.feed_forward", "true",
                    "adds a torque that the observer of control.speed.law = \"" +

@@ -33,7 +33,7 @@ void check_registers(const Scenario& s, base::Problems& out) {
     out.push_back({"sensors.rotor", "\"ideal\"", asks, "set rotor = \"hall\""});
   else if (s.sensors.rotor != RotorSensing::hall)
     out.push_back({"sensors.rotor", std::string(base::word(rotor_sensing_choices, s.sensors.rotor)),
-                   "is nothing that the product drive decodes: it reads Hall probes",
+                   "is not decoded by the product drive, which reads Hall probes",
                    "set rotor = \"hall\", or control.drive = \"lean\""});
   if (s.sensors.currents == rig::CurrentMeasurement::dc_link && s.pwm.delay_periods > 0)
     out.push_back({"pwm.delay_periods", std::to_string(s.pwm.delay_periods),
@@ -92,10 +92,10 @@ void check_activities(const Scenario& s, base::Problems& out) {
   const std::string needs = "needs a current loop, and control.mode has none";
   if (p.align.current_A && !has_current_loop)
     out.push_back({"protection.align.current_A", written(*p.align.current_A), needs,
-                   "leave it away, or control current, speed or position"});
+                   "remove it, or control current, speed or position"});
   if (p.brake_current_A > 0 && !has_current_loop)
     out.push_back({"protection.brake_current_A", written(p.brake_current_A), needs,
-                   "leave it away, or control current, speed or position"});
+                   "remove it, or control current, speed or position"});
   if (p.off_at_s && !(*p.off_at_s < s.duration_s))
     out.push_back({"protection.off_at_s", written(*p.off_at_s),
                    "lies behind the end of the run (duration_s = " + written(s.duration_s) + ")",
@@ -143,12 +143,12 @@ void check_lean(const Scenario& s, base::Problems& out) {
   };
   if (p.over_current_A || p.over_voltage_V || p.under_voltage_V || p.over_speed_rad_s || p.stall_current_A ||
       p.stall_s || p.off_at_s || p.align.current_A || p.brake_current_A > 0)
-    refuse("protection", "", "is watched by the product drive only", "leave [protection] away");
+    refuse("protection", "", "is checked by the product drive only", "leave [protection] away");
   if (advances(s.control.advance))
-    refuse("control.advance", "", "is what the product drive does only", "leave it away");
+    refuse("control.advance", "", "applies to the product drive only", "remove it");
   if (s.sensors.hall_stable_samples > 1)
     refuse("sensors.hall_stable_samples", std::to_string(s.sensors.hall_stable_samples),
-           "filters the pins that the product drive reads only", "leave it away");
+           "filters the pins that the product drive reads only", "remove it");
 }
 
 }  // namespace
@@ -188,18 +188,17 @@ void check_deadbeat(const CurrentLoop& loop, base::Problems& out) {
     if (given) out.push_back({std::string("control.current.") + key, "", limit, cure});
   };
   if (loop.type != CurrentLoopType::deadbeat) {
-    refuse(loop.correction.has_value(), "correction", "is of predictions, and nothing is predicted",
-           "set type = \"deadbeat\", or leave it away");
+    refuse(loop.correction.has_value(), "correction", "applies to a prediction, and the loop has none",
+           "set type = \"deadbeat\", or remove it");
     return;
   }
-  const char* const whole = "has nothing to set in a deadbeat loop: R, L and the period say all";
-  refuse(loop.settle_s.has_value(), "settle_s", whole, "leave it away, or set type = \"pi\"");
-  refuse(loop.damping.has_value(), "damping", whole, "leave it away, or set type = \"pi\"");
+  const char* const whole = "has no effect in a deadbeat loop, which R, L and the period determine";
+  refuse(loop.settle_s.has_value(), "settle_s", whole, "remove it, or set type = \"pi\"");
+  refuse(loop.damping.has_value(), "damping", whole, "remove it, or set type = \"pi\"");
   refuse(loop.d1 || loop.d0, "d1", whole, "leave d1 and d0 away, or set type = \"pi\"");
   refuse(loop.kp || loop.ki || loop.ki_per_s, "kp", whole,
          "leave kp and its integral away, or set type = \"pi\"");
-  refuse(loop.back_emf_feed_forward, "back_emf_feed_forward", "is in a deadbeat loop already",
-         "leave it away");
+  refuse(loop.back_emf_feed_forward, "back_emf_feed_forward", "is in a deadbeat loop already", "remove it");
 }
 
 /// What has no duty of its own, or no pair that it could be held on.
@@ -209,11 +208,11 @@ void check_commutation_step(const Scenario& s, base::Problems& out) {
   const auto refuse = [&](bool given, const char* limit, const char* cure) {
     if (given) out.push_back({"control.current.commutation", '"' + word + '"', limit, cure});
   };
-  const char* const leave = "leave it away, or set type = \"pi\"";
-  refuse(s.control.current.type == CurrentLoopType::hysteresis, "sets a duty, and a hysteresis has none",
+  const char* const leave = "remove it, or set type = \"pi\"";
+  refuse(s.control.current.type == CurrentLoopType::hysteresis, "sets a duty, and a hysteresis has no duty",
          leave);
   refuse(s.control.current.type == CurrentLoopType::deadbeat,
-         "sets a duty that the deadbeat loop's prediction would not know of", leave);
+         "sets a duty that the deadbeat loop's prediction does not include", leave);
   refuse(s.pwm.chopping == control::Chopping::hard && !s.control.smooth_chopping.on,
          "holds the current with one switch of the pair on, and pwm.chopping = \"hard\" chops both",
          "set chopping = \"soft\" or \"complementary\"");
@@ -225,10 +224,11 @@ void check_pattern(const Scenario& s, base::Problems& out) {
   if (s.pwm.chopping == control::Chopping::hard && !s.control.smooth_chopping.on)
     out.push_back({"pwm.pattern", word,
                    "leaves one switch of the pair on, and pwm.chopping = \"hard\" chops both",
-                   "leave it away, or set chopping = \"soft\" or \"complementary\""});
+                   "remove it, or set chopping = \"soft\" or \"complementary\""});
   if (s.control.current.type == CurrentLoopType::hysteresis)
-    out.push_back({"pwm.pattern", word, "is a PWM's, and the hysteresis' comparators switch the upper switch",
-                   "leave it away, or set control.current.type = \"pi\""});
+    out.push_back({"pwm.pattern", word,
+                   "applies to a PWM only, and the comparators of the hysteresis switch the upper switch",
+                   "remove it, or set control.current.type = \"pi\""});
 }
 
 }  // namespace
@@ -240,17 +240,18 @@ void check_extras(const Scenario& s, base::Problems& out) {
   check_pattern(s, out);
   if (loop.type == CurrentLoopType::hysteresis && loop.back_emf_feed_forward)
     out.push_back({"control.current.back_emf_feed_forward", "true",
-                   "has no voltage to be added to in a hysteresis", "remove it, or set type = \"pi\""});
+                   "has no effect in a hysteresis, which sets no voltage",
+                   "remove it, or set type = \"pi\""});
   if (loop.type == CurrentLoopType::hysteresis && loop.feedback != CurrentFeedback::mean)
     out.push_back({"control.current.feedback", "\"staying-phase\"",
-                   "is told to a loop that goes by samples, and a hysteresis has control.current.on",
-                   "leave it away, or set type = \"pi\""});
+                   "applies to a sampled loop; a hysteresis has control.current.on",
+                   "remove it, or set type = \"pi\""});
   if (loop.type == CurrentLoopType::hysteresis && loop.measured_bus_from_V)
     out.push_back({"control.current.measured_bus_from_V", written(*loop.measured_bus_from_V),
-                   "has no duty to correct in a hysteresis", "remove it, or set type = \"pi\""});
+                   "has no effect in a hysteresis, which has no duty", "remove it, or set type = \"pi\""});
   if (s.control.limits.gain_A_s_per_rad && !s.control.limits.speed_rad_s)
     out.push_back({"control.limits.gain_A_s_per_rad", written(*s.control.limits.gain_A_s_per_rad),
-                   "has no limit to lead up to", "give control.limits.speed_rad_s too"});
+                   "has no effect without a limit", "give control.limits.speed_rad_s too"});
   const SmoothChopping& smooth = s.control.smooth_chopping;
   if (smooth.soft_above_A && smooth.complementary_below_A &&
       !(*smooth.soft_above_A > *smooth.complementary_below_A))

@@ -55,7 +55,8 @@ void check_strays(const Place& p) {
           "set shape = " + readers_of(key) +
               ", or remove it; where a base or the file has it, reference = { .. } replaces all of its keys");
   if (p.r.shape == Shape::csv && p.r.column && p.r.file.empty() && !p.r.times_s.empty())
-    p.say("column", "\"" + *p.r.column + "\"", "is of a file, and times_s and values are no file",
+    p.say("column", "\"" + *p.r.column + "\"",
+          "applies to a file only, and times_s and values are given here",
           "give file = \"NAME.csv\" instead of them, or remove it");
 }
 

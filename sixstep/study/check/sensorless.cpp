@@ -24,7 +24,7 @@ void check_sample(const Scenario& s, base::Problems& out) {
 void check_sensorless_loops(const Scenario& s, base::Problems& out) {
   if (s.control.mode == control::Mode::position)
     out.push_back({"control.mode", "\"position\"",
-                   "needs a rotor that is seen where it stands, and a back-EMF is not",
+                   "needs the rotor's angle at rest, where there is no back-EMF",
                    "control speed, current or duty, or set control.drive = \"lean\" and sensors.rotor"});
   if (s.control.current.type == CurrentLoopType::hysteresis)
     out.push_back({"control.current.type", "\"hysteresis\"",
@@ -36,22 +36,21 @@ void check_sensorless_loops(const Scenario& s, base::Problems& out) {
                    "set type = \"pi\""});
   if (s.pwm.pattern != control::PwmPattern::upper)
     out.push_back({"pwm.pattern", std::string(base::word(pattern_choices, s.pwm.pattern)),
-                   "goes by Hall sectors, and the sensorless drive starts without them", "leave it away"});
+                   "needs Hall sectors, and the sensorless drive starts without them", "remove it"});
   if (s.control.current.feedback != CurrentFeedback::mean)
     out.push_back({"control.current.feedback", "\"staying-phase\"",
-                   "goes by Hall sectors, and the sensorless drive starts without them", "leave it away"});
+                   "needs Hall sectors, and the sensorless drive starts without them", "remove it"});
   if (s.control.current.commutation != CurrentCommutation::plain)
     out.push_back({"control.current.commutation", "",
-                   "goes by Hall sectors, and the sensorless drive starts without them", "leave it away"});
+                   "needs Hall sectors, and the sensorless drive starts without them", "remove it"});
 }
 
 void check_source(const Scenario& s, base::Problems& out) {
   const RotorSensing rotor = s.sensors.rotor;
   if (rotor != RotorSensing::ideal && rotor != RotorSensing::hall)
-    out.push_back(
-        {"sensors.rotor", std::string(base::word(rotor_sensing_choices, rotor)),
-         "is nothing that the sensorless drive can be handed over from: it reads Hall probes or none",
-         "leave it away, set rotor = \"hall\", or control.drive = \"lean\""});
+    out.push_back({"sensors.rotor", std::string(base::word(rotor_sensing_choices, rotor)),
+                   "is no sensor from which the sensorless drive can take over: it reads Hall probes or none",
+                   "remove it, set rotor = \"hall\", or control.drive = \"lean\""});
   const bool asked = s.control.sensorless.commutates == Commutates::hall;
   if (asked && rotor != RotorSensing::hall)
     out.push_back({"control.sensorless.commutates", "\"hall\"",
@@ -74,7 +73,7 @@ void check_others(const Scenario& s, base::Problems& out) {
         {"sensors.bus_bandwidth_Hz", base::written(*s.sensors.bus_bandwidth_Hz),
          "is of the terminals' dividers, too: a leg that its diode lets go within the pulse is sampled on its way "
          "from the rail, by up to half the bus off, and an observer keeps that for periods",
-         "leave it away, or set control.sensorless.follows = \"crossings\""});
+         "remove it, or set control.sensorless.follows = \"crossings\""});
   if (s.sheet.kind == design::MotorKind::linear)
     out.push_back({"control.drive", "\"sensorless\"", "starts turning motors, and this one is linear",
                    "set drive = \"lean\" or \"product\""});
@@ -85,20 +84,20 @@ void check_terminals(const Scenario& s, base::Problems& out) {
   const auto three = [&](const char* key, const std::vector<double>& values) {
     if (!values.empty() && values.size() != 3)
       out.push_back({key, std::to_string(values.size()) + " values", "is not 3, those of terminals a, b, c",
-                     "give 3, or leave it away"});
+                     "give 3, or remove it"});
   };
   three("sensors.terminal_gain_error", s.sensors.terminal_gain_error);
   three("sensors.comparators.offset_V", s.sensors.comparators.offset_V);
   if (s.sensors.comparators != Comparators{} && s.control.sensorless.follows != control::Follow::comparators)
-    out.push_back({"sensors.comparators", "", "stands at the terminals, and nothing follows its edges",
-                   "set control.sensorless.follows = \"comparators\", or leave it away"});
+    out.push_back({"sensors.comparators", "", "acts at the terminals, and nothing reads its edges",
+                   "set control.sensorless.follows = \"comparators\", or remove it"});
 }
 
 /// Of a drive that looks at no terminal.
 void check_no_terminals(const Scenario& s, base::Problems& out) {
   const auto refuse = [&](const std::string& key) {
-    out.push_back({key, "", "is of the terminals, which only the sensorless drive looks at",
-                   "set control.drive = \"sensorless\", or leave it away"});
+    out.push_back({key, "", "applies to the terminals, which only the sensorless drive measures",
+                   "set control.drive = \"sensorless\", or remove it"});
   };
   if (!s.sensors.terminal_gain_error.empty()) refuse("sensors.terminal_gain_error");
   if (s.sensors.comparators != Comparators{}) refuse("sensors.comparators");
@@ -112,8 +111,8 @@ void check_no_terminals(const Scenario& s, base::Problems& out) {
 void check_sensorless(const Scenario& s, base::Problems& out) {
   if (s.control.drive != FirmwareKind::sensorless) {
     if (s.control.sensorless != Sensorless{})
-      out.push_back({"control.sensorless", "", "is what the sensorless drive does only",
-                     "set control.drive = \"sensorless\", or leave it away"});
+      out.push_back({"control.sensorless", "", "applies to the sensorless drive only",
+                     "set control.drive = \"sensorless\", or remove it"});
     check_no_terminals(s, out);
     return;
   }

@@ -24,7 +24,7 @@ void check_currents(const Scenario& s, base::Problems& out) {
                    "lower it or widen the range"});
   const bool samples_in_middle = s.pwm.sample == SampleAt::middle;
   if (sensors.currents == CurrentMeasurement::dc_link && !samples_in_middle)
-    out.push_back({"sensors.currents", "\"dc-link\"", "shows nothing before the on-time has begun",
+    out.push_back({"sensors.currents", "\"dc-link\"", "cannot measure before the on-time has begun",
                    "set pwm.sample = \"middle\", best with pwm.alignment = \"centre\""});
 }
 

@@ -26,7 +26,7 @@ void check_table(const Load& l, base::Problems& out) {
     if (const double step = l.at_speeds_rad_s[n + 1] - l.at_speeds_rad_s[n]; !(step >= least_step_rad_s)) {
       out.push_back({"load.at_speeds_rad_s[" + std::to_string(n + 1) + "]",
                      base::six_digits(l.at_speeds_rad_s[n + 1]),
-                     step > 0 ? "is so near to the one before that a run takes both for one"
+                     step > 0 ? "is so close to the one before that a run cannot tell them apart"
                               : "must be above the one before",
                      step > 0 ? "leave one of the two out" : "sort them"});
       return;
@@ -41,10 +41,10 @@ void check_torques(const Scenario& s, base::Problems& out) {
   if (l.torque_Nm != 0 && !l.times_s.empty() && l.times_s.front() == 0)
     out.push_back({"load.torque_Nm", base::six_digits(l.torque_Nm),
                    "never acts: load.torques_Nm has the torque from load.times_s[0] = 0 on",
-                   "leave it away, or let times_s begin later"});
+                   "remove it, or let times_s begin later"});
   if (l.between == Between::lines && l.times_s.empty() && l.torques_Nm.empty())
-    out.push_back({"load.between", "\"lines\"", "is of load.torques_Nm, which is not given",
-                   "give load.times_s and load.torques_Nm, or leave it away"});
+    out.push_back({"load.between", "\"lines\"", "needs load.torques_Nm, which is not given",
+                   "give load.times_s and load.torques_Nm, or remove it"});
 }
 
 /// Whose speed is given has no other law.
@@ -58,8 +58,8 @@ void check_dynamometer(const Scenario& s, base::Problems& out) {
                    "must begin at 0: a dynamometer turns the shaft from the start", "write 0 for the first"});
   const auto refuse = [&out](const std::string& key, double value) {
     if (value != 0)
-      out.push_back({key, base::six_digits(value), "is not felt where a dynamometer says the speed",
-                     "leave it away: the load torque is the run's result"});
+      out.push_back({key, base::six_digits(value), "has no effect where a dynamometer imposes the speed",
+                     "remove it: the load torque is the run's result"});
   };
   refuse("load.torque_Nm", l.torque_Nm);
   refuse("load.torques_Nm", static_cast<double>(l.torques_Nm.size()));
@@ -71,8 +71,8 @@ void check_dynamometer(const Scenario& s, base::Problems& out) {
     out.push_back({"load.locked", "true", "contradicts load.dynamometer_rad_s", "leave one of them away"});
   if (l.gear_efficiency < 1 && !(l.stiffness_Nm_rad > 0))
     out.push_back({"load.gear_efficiency", base::six_digits(l.gear_efficiency),
-                   "says nothing where a dynamometer turns a rigid shaft",
-                   "leave it away, or give load.stiffness_Nm_rad and load.inertia_kg_m2"});
+                   "has no effect where a dynamometer turns a rigid shaft",
+                   "remove it, or give load.stiffness_Nm_rad and load.inertia_kg_m2"});
 }
 
 }  // namespace
@@ -81,19 +81,20 @@ void check_shaft(const Scenario& s, base::Problems& out) {
   const Load& l = s.load;
   if (l.stiffness_Nm_rad > 0 && !(l.inertia_kg_m2 > 0))
     out.push_back({"load.stiffness_Nm_rad", base::six_digits(l.stiffness_Nm_rad),
-                   "has no mass behind it that could swing", "give load.inertia_kg_m2"});
+                   "needs load.inertia_kg_m2, without which nothing can oscillate",
+                   "give load.inertia_kg_m2"});
   if (l.damping_Nm_s_rad > 0 && !(l.stiffness_Nm_rad > 0))
     out.push_back({"load.damping_Nm_s_rad", base::six_digits(l.damping_Nm_s_rad),
-                   "is of an elastic shaft, and this one is rigid",
-                   "give load.stiffness_Nm_rad, or leave it away"});
+                   "applies to an elastic shaft only, and this one is rigid",
+                   "give load.stiffness_Nm_rad, or remove it"});
   if (l.gravity_angle_deg != 0 && l.gravity_Nm == 0)
     out.push_back({"load.gravity_angle_deg", base::six_digits(l.gravity_angle_deg),
-                   "is of a weight that is not there", "give load.gravity_Nm"});
+                   "needs the load's weight, which is not given", "give load.gravity_Nm"});
   check_table(l, out);
   check_dynamometer(s, out);
   if (l.gear_efficiency < 1 && l.gear == 1)
     out.push_back({"load.gear_efficiency", base::six_digits(l.gear_efficiency),
-                   "is of a gear that is not there", "give load.gear, or leave it away"});
+                   "needs load.gear, which is not given", "give load.gear, or remove it"});
   if (l.locked && s.initial.speed_rad_s != 0)
     out.push_back({"initial.speed_rad_s", base::six_digits(s.initial.speed_rad_s),
                    "contradicts load.locked = true", "set it to 0 or unlock the rotor"});

@@ -42,8 +42,9 @@ void check_resolver(const Scenario& s, const std::optional<design::MotorModel>& 
           sampled ? "lower it, or raise excitation_Hz" : "lower it, or raise converter_Hz");
   if (sampled) return;
   if (r.calibrated)
-    wrong("calibrated", "true", "is of the drive's own decoder, and a converter chip reads this resolver",
-          "set reading = \"sampled\", or leave it away");
+    wrong("calibrated", "true",
+          "applies to the drive's own decoder, and a converter chip reads this resolver",
+          "set reading = \"sampled\", or remove it");
   if (r.bits < least_converter_bits)
     wrong("bits", std::to_string(r.bits), "is fewer than any converter chip has", "take 10, 12, 14 or 16");
   if (r.latency_s >= s.pwm.period_s)
@@ -64,9 +65,10 @@ void check_hall_angle(const Scenario& s, base::Problems& out) {
   word += '"';
   if (s.sensors.rotor != RotorSensing::hall)
     out.push_back({"sensors.hall_angle", word, "is of Hall probes, and sensors.rotor is not \"hall\"",
-                   "set rotor = \"hall\", or leave it away"});
+                   "set rotor = \"hall\", or remove it"});
   else if (s.control.drive == FirmwareKind::product)
-    out.push_back({"sensors.hall_angle", word, "is not what the product drive does: it goes by sectors",
+    out.push_back({"sensors.hall_angle", word,
+                   "does not apply to the product drive, which commutates by sectors",
                    "set hall_angle = \"sectors\", or control.drive = \"lean\""});
 }
 
@@ -79,7 +81,7 @@ void check_shaft_events(const Scenario& s, base::Problems& out) {
       if (s.sensors.rotor != sensor)
         out.push_back({where + key, "", std::string("is of ") + name + ", and sensors.rotor is another",
                        "set sensors.rotor = \"" + std::string(base::word(rotor_sensing_choices, sensor)) +
-                           "\", or leave it away"});
+                           "\", or remove it"});
     };
     if (at.missed_edges) of("missed_edges", RotorSensing::encoder, "an encoder");
     if (at.encoder_line) of("encoder_line", RotorSensing::encoder, "an encoder");
@@ -101,7 +103,8 @@ void check_lines(const Scenario& s, base::Problems& out) {
   const bool linear = s.sheet.kind == design::MotorKind::linear;
   if (!linear && e.pitch_mm)
     out.push_back({"sensors.encoder.pitch_mm", base::written(*e.pitch_mm),
-                   "is of a scale along a linear motor, and this one turns", "give sensors.encoder.lines"});
+                   "applies to a linear motor's scale only, and this motor turns",
+                   "give sensors.encoder.lines"});
   if (!linear) return;
   if (e.lines != Encoder::usual_lines)
     out.push_back({"sensors.encoder.lines", std::to_string(e.lines),
@@ -135,7 +138,8 @@ void check_linear(const Scenario& s, const std::string& word, base::Problems& ou
     out.push_back({"sensors.rotor", word, "is on the shaft of a turning motor, and this one is linear",
                    "set rotor = \"encoder\" with sensors.encoder.pitch_mm, \"hall\" or \"ideal\""});
   else if (s.sensors.shaft == SensorShaft::load)
-    out.push_back({"sensors.shaft", "\"load\"", "is of a turning motor's load, and this motor is linear",
+    out.push_back({"sensors.shaft", "\"load\"",
+                   "applies to a turning motor's load only, and this motor is linear",
                    "set shaft = \"motor\""});
 }
 
@@ -150,7 +154,7 @@ void check_shaft_sensor(const Scenario& s, const std::optional<design::MotorMode
   if (rotor == RotorSensing::ideal || rotor == RotorSensing::hall) {
     if (on_load)
       out.push_back({"sensors.shaft", "\"load\"",
-                     "is of an encoder or a resolver, and sensors.rotor is neither",
+                     "applies to an encoder or a resolver only, and sensors.rotor is neither",
                      "set rotor = \"encoder\", \"absolute\" or \"resolver\", or shaft = \"motor\""});
     return;
   }

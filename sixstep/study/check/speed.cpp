@@ -16,7 +16,7 @@ void check_positional(const Scenario& s, base::Problems& out) {
   const auto refuse = [&](const char* key, const std::optional<double>& value) {
     if (value && loop.form != SpeedForm::positional)
       out.push_back({std::string("control.speed.") + key, base::six_digits(*value),
-                     "is of the positional form only",
+                     "applies to the positional form only",
                      "set control.speed.form = \"positional\", or remove it"});
   };
   refuse("anti_windup", loop.anti_windup);

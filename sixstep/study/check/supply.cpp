@@ -37,7 +37,7 @@ void check_brake(const Supply& s, bool has_capacitor, base::Problems& out) {
   else if (const double falls = s.brake_on_V * s.capacitor_resistance_ohm / (s.capacitor_resistance_ohm + R);
            !(falls < s.brake_on_V - s.brake_off_V))
     out.push_back({"supply.brake_off_V", base::six_digits(s.brake_off_V),
-                   "is reached at once: the resistor takes " + base::six_digits(falls) +
+                   "is reached at once: the resistor draws " + base::six_digits(falls) +
                        " V across supply.capacitor_resistance_ohm",
                    "lower it, or the capacitor's resistance"});
 }
@@ -86,12 +86,12 @@ void check_mains(const Supply& s, base::Problems& out) {
   if (!mains) {
     if (s.mains_rms_V > 0)
       out.push_back({"supply.mains_rms_V", base::six_digits(s.mains_rms_V),
-                     "is of mains, and supply.source is not",
+                     "applies to mains only, and supply.source is not",
                      "write source = \"single-phase\" or \"three-phase\""});
     if (s.rectifier_drop_V > 0)
       out.push_back({"supply.rectifier_drop_V", base::six_digits(s.rectifier_drop_V),
-                     "is of mains, and supply.source is not",
-                     "write source = \"single-phase\" or \"three-phase\", or leave it away"});
+                     "applies to mains only, and supply.source is not",
+                     "write source = \"single-phase\" or \"three-phase\", or remove it"});
     return;
   }
   if (!(highest_open_V(s) > 0))
@@ -109,11 +109,11 @@ void check_supply(const Scenario& s, base::Problems& out) {
   if (R && !C)
     out.push_back({"supply.resistance_ohm", base::six_digits(s.supply.resistance_ohm),
                    "needs a bus capacitor behind it",
-                   "give supply.capacitance_F too, or leave both away for a stiff bus"});
+                   "give supply.capacitance_F too, or remove both for a stiff bus"});
   if (C && !R)
     out.push_back({"supply.capacitance_F", base::six_digits(s.supply.capacitance_F),
                    "needs the source's resistance",
-                   "give supply.resistance_ohm too, or leave both away for a stiff bus"});
+                   "give supply.resistance_ohm too, or remove both for a stiff bus"});
   if (!s.supply.sinks && !(R && C))
     out.push_back({"supply.sinks", "false", "needs a bus whose voltage can rise",
                    "give supply.resistance_ohm and supply.capacitance_F"});
@@ -122,7 +122,7 @@ void check_supply(const Scenario& s, base::Problems& out) {
                    "needs a bus capacitor behind it", "give supply.resistance_ohm and supply.capacitance_F"});
   if (s.supply.capacitor_resistance_ohm > 0 && !C)
     out.push_back({"supply.capacitor_resistance_ohm", base::six_digits(s.supply.capacitor_resistance_ohm),
-                   "is of a capacitor that is not there",
+                   "needs supply.capacitance_F, which is not given",
                    "give supply.resistance_ohm and supply.capacitance_F"});
   if (s.supply.sink_limit_A > 0 && s.supply.sinks)
     out.push_back({"supply.sink_limit_A", base::six_digits(s.supply.sink_limit_A),
@@ -135,7 +135,7 @@ void check_supply(const Scenario& s, base::Problems& out) {
                    "give supply.resistance_ohm and supply.capacitance_F"});
   if (s.initial.bus_V && !C)
     out.push_back({"initial.bus_V", base::six_digits(*s.initial.bus_V), "has no meaning on a stiff bus",
-                   "leave it away, or give supply.resistance_ohm and supply.capacitance_F"});
+                   "remove it, or give supply.resistance_ohm and supply.capacitance_F"});
 }
 
 }  // namespace sixstep::study

@@ -45,8 +45,8 @@ void check_shunt(const Scenario& s, base::Problems& out) {
   const auto refuse = [&out](const char* key, const std::optional<double>& value) {
     if (value)
       out.push_back({key, base::three_digits(*value),
-                     "needs every phase's current, and a shunt in the DC link hides some",
-                     "set sensors.currents = \"phases\", or leave it away"});
+                     "needs the current of every phase, and a DC-link shunt does not measure all of them",
+                     "set sensors.currents = \"phases\", or remove it"});
   };
   refuse("control.limits.current_A", s.control.limits.current_A);
   refuse("control.limits.torque_Nm", s.control.limits.torque_Nm);
@@ -71,7 +71,7 @@ void check_current(const Scenario& s, const design::LimitSetting& setting, base:
                  "shorten pwm.period_s to " +
                      base::written(base::shortened(s.pwm.period_s * setting.current_A / pulse_A, 3,
                                                    base::Towards::down)) +
-                     (narrowed ? ", or leave the limit away" : " or raise the limit")});
+                     (narrowed ? ", or remove the limit" : " or raise the limit")});
 }
 
 /// Mechanical angle in which the drive does not learn of a speed: k sectors that it is the mean of and the
@@ -143,7 +143,7 @@ void check_saliency(const Scenario& s, base::Problems& out) {
       out.push_back({key, base::three_digits(*value),
                      "is a promise that is proved for a rotor of one inductance, and this one's L_q is " +
                          base::three_digits(ratio) + " times its L_d",
-                     "leave it away, and set what the drive may ask for: control.current.limit_A, "
+                     "remove it, and set what the drive may ask for: control.current.limit_A, "
                      "control.speed.torque_limit_Nm"});
   };
   refuse("control.limits.current_A", s.control.limits.current_A);

@@ -17,9 +17,9 @@ inline int drawn_count(int usual) {
 }
 inline bool in_full() { return std::getenv("SIXSTEP_BENCH_LOGS") != nullptr; }
 
-class Held {
+class HeldOften {
  public:
-  explicit Held(std::string what) : what_(std::move(what)) {}
+  explicit HeldOften(std::string what) : what_(std::move(what)) {}
   void count(bool held, std::uint64_t seed) {
     ++all_;
     if (held)

@@ -32,7 +32,7 @@ EmfTruth clean(bool trapezoid) {
 
 TEST(EmfCalibration, IntervalsHoldTheTruth) {
   const int count = drawn_count(80);
-  Held frequency("frequency"), flux("flux linkage"), peak("line peak"), fifth("5th harmonic"),
+  HeldOften frequency("frequency"), flux("flux linkage"), peak("line peak"), fifth("5th harmonic"),
       seventh("7th harmonic"), none("harmonics that are none"), lag("lag of the second channel");
   int taken_for_clipped = 0;
   for (int n = 1; n <= count; ++n) {
@@ -60,7 +60,7 @@ TEST(EmfCalibration, IntervalsHoldTheTruth) {
   }
   // Of 4400 recordings four: round tops without noise to tell that they are the motor's.
   EXPECT_LE(taken_for_clipped, 1 + count / 300);
-  for (const Held* held : {&frequency, &flux, &peak, &fifth, &seventh}) held->expect_95();
+  for (const HeldOften* held : {&frequency, &flux, &peak, &fifth, &seventh}) held->expect_95();
   // A harmonic that is not there has an interval with one end; two probes share a hum.
   none.expect_at_least_95(count);
   lag.expect_at_least_95();

@@ -43,7 +43,7 @@ double true_own_deg(const HallTruth& t, std::uint8_t before, std::uint8_t after,
 
 TEST(IdentifyCalibration, EdgesOfLogsWithoutVoltages) {
   const int count = drawn_count(90);
-  Held own("own place of an edge, no voltages"), jitter("bound of the jitter, no voltages");
+  HeldOften own("own place of an edge, no voltages"), jitter("bound of the jitter, no voltages");
   for (int seed = 1; seed <= count; ++seed) {
     const HallTruth truth = drawn_truth(static_cast<std::uint64_t>(seed), false);
     const auto found = analysis::identify(drawn_log(truth).log);
@@ -61,7 +61,7 @@ TEST(IdentifyCalibration, EdgesOfLogsWithoutVoltages) {
 
 TEST(IdentifyCalibration, PlacesOfLogsWithVoltages) {
   const int count = drawn_count(60);
-  Held own("own place of an edge"), offset("offset"), jitter("jitter"), hysteresis("hysteresis"),
+  HeldOften own("own place of an edge"), offset("offset"), jitter("jitter"), hysteresis("hysteresis"),
       delay("delay"), flux("flux linkage");
   double right = 0.0, expected = 0.0, variance = 0.0;
   for (int n = 1; n <= count; ++n) {
@@ -90,7 +90,7 @@ TEST(IdentifyCalibration, PlacesOfLogsWithVoltages) {
     flux.count(place.flux_linkage_Vs.holds(truth.flux_Vs), truth.seed);
   }
   own.expect_95(count);
-  for (const Held* held : {&offset, &jitter, &hysteresis, &delay, &flux}) held->expect_95();
+  for (const HeldOften* held : {&offset, &jitter, &hysteresis, &delay, &flux}) held->expect_95();
   std::printf("wires and order: %.0f of %d right, %.2f expected\n", right, count, expected);
   EXPECT_NEAR(right, expected, 4.0 * std::sqrt(variance) + 1.0);
 }
@@ -99,7 +99,7 @@ TEST(IdentifyCalibration, PlacesOfLogsWithVoltages) {
 /// the turns is no fair sample of it, so that many turns and much jitter are the hard ones.
 TEST(IdentifyCalibration, HysteresisOfLogsThatTurnBothWays) {
   const int count = drawn_count(40);
-  Held hysteresis("hysteresis, to and fro"), offset("offset, to and fro"), delay("delay, to and fro");
+  HeldOften hysteresis("hysteresis, to and fro"), offset("offset, to and fro"), delay("delay, to and fro");
   double missed_by_lower = 0.0, missed_by_upper = 0.0;
   for (int n = 1; n <= count; ++n) {
     HallTruth truth = drawn_truth(static_cast<std::uint64_t>(n) + 400'000, true);
@@ -115,7 +115,7 @@ TEST(IdentifyCalibration, HysteresisOfLogsThatTurnBothWays) {
     offset.count(place.offset_deg.holds(truth.offset_deg - 60.0 * turned), truth.seed);
     if (place.delay_s) delay.count(place.delay_s->holds(truth.delay_s), truth.seed);
   }
-  for (const Held* held : {&hysteresis, &offset, &delay}) held->expect_95();
+  for (const HeldOften* held : {&hysteresis, &offset, &delay}) held->expect_95();
   // As often too wide as too narrow: who misses on one side only is biased.
   std::printf("hysteresis below its bounds in %.0f, above them in %.0f\n", missed_by_lower, missed_by_upper);
   const double missed = missed_by_lower + missed_by_upper;
@@ -126,7 +126,7 @@ TEST(IdentifyCalibration, HysteresisOfLogsThatTurnBothWays) {
 /// edges that it makes. Codes that are impossible, and places, stay as sure as they are said to be.
 TEST(IdentifyCalibration, BurstsOfALooseContact) {
   const int count = drawn_count(60);
-  Held own("own place of an edge, with bursts");
+  HeldOften own("own place of an edge, with bursts");
   double right = 0.0, expected = 0.0, variance = 0.0;
   for (int n = 1; n <= count; ++n) {
     Draw draw(static_cast<std::uint64_t>(n) + 80'000);

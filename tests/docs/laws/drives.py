@@ -73,7 +73,7 @@ def bring_up_avr(test, spot):
     test.assertTrue(told and dead_us <= float(told.group(1)) <= dead_us + 2 * cycle_us + 0.05, f"{spot}: pause at the gates")
 
 
-def trace_comparison(test, spot):
+def laid_over(test, spot):
     for rms, most, span in re.findall(r"rms ([\d.]+) \S* *at most -?([\d.]+).*?of ([\d.]+)", spot.text):
         del rms
         test.assertLessEqual(float(most), 1e4 * float(span), str(spot))
