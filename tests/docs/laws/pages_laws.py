@@ -181,7 +181,7 @@ DEFINING = [("README.md", "| task |"), ("docs/glossary.md", "| term |"),
             ("docs/firmware.md", "| what | STM32F303 |"), ("docs/firmware.md", "--uart board.csv"), ("docs/cluster.md", "./test --mpi"),
             ("docs/cluster.md", "| | |"), ("docs/motors.md", "| key |"), ("docs/motors.md", "| relation |"), ("docs/many-runs.md", "| key of a plan |"),
             ("docs/many-runs.md", "title = "), ("docs/many-runs.md", "minimise = "), ("docs/many-runs.md", "sixstep run data/scenarios"),
-            ("docs/session.md", "| change |"), ("docs/wiring.md", "| in a cell |"), ("docs/manual/control.md", "| column |"),
+            ("docs/session.md", "| change |"), ("docs/session.md", "| refused change |"), ("docs/wiring.md", "| in a cell |"), ("docs/manual/control.md", "| column |"),
             ("docs/manual/position.md", "| you need |"), ("docs/own-controller.md", "$ "), ("docs/own-controller.md", "| it |"), ("docs/firmware.md", "| log of |")]
 # Tables whose every row a named test measures and holds to a law of its own.
 HELD_BY_TESTS = [("docs/control.md", "| result |"), ("docs/control.md", "| experiment |"), ("docs/control.md", "| board |"),
