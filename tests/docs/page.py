@@ -113,9 +113,10 @@ def walk(page, desk):
 
 
 def anchors(file):
-    """The headings of a page, as links name them."""
+    """The headings of a page, as links name them, and what it keeps by <a id="..."> of older ones."""
     text = BLOCK.sub("", file.read_text(encoding="utf-8"))
-    return [re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in re.findall(r"^#+ (.*)", text, re.M)]
+    headings = [re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in re.findall(r"^#+ (.*)", text, re.M)]
+    return headings + re.findall(r'^<a id="([\w-]+)"></a>$', text, re.M)
 
 
 class LinkTest(unittest.TestCase):

@@ -5,7 +5,7 @@ import page
 
 
 class Readme(page.PageTest):
-    NAME, FEWEST = "README.md", 10
+    NAME, FEWEST = "README.md", 5
 
     def test_two_runs_give_the_same_bits(self):
         scenario = "data/scenarios/thesis/7.4-speed-thesis-gains.toml"

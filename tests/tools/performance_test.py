@@ -35,14 +35,18 @@ class Performance(unittest.TestCase):
         self.assertEqual(self.tables["speed"][3], ["R", "general", "500", "60", "6e-14", "4.0x, 5.7 %", "40.0x, 0.29 %", "3.0x", "30.0x"])
         self.assertEqual(self.tables["speed"][4], ["G", "general", "600", "50", "1e-14", "", "", "", ""])
         self.assertEqual(self.tables["speed"][5], ["G, as a user runs it, 10 s", "general", "900", "33", "", "", "", "", ""])
+        self.assertEqual(self.tables["short"][1:], [["R", "150", "100", "5e-14", "10.0x, 5.7 %", "100.0x, 0.29 %"],
+                                                    ["G", "50", "33", "1e-14", "", ""]])
         self.assertEqual(self.tables["growth"][1], ["R", "200", "220", "11.00x"])
         self.assertEqual(self.tables["observers"][1:], [["none", "200", ""], ["digest", "210", "5 %"]])
 
     def test_other_figures_are_no_difference(self):
-        self.assertEqual(self.wrong("README.md", "| 200 |", "| 199 |"), [])
+        self.assertEqual(self.wrong("docs/performance.md", "| 200 |", "| 199 |"), [])
+        self.assertEqual(self.wrong("README.md", "| 150 |", "| 149 |"), [])
 
     def test_other_rows_columns_or_markers_are(self):
-        for place, old, new in [("README.md", "| R | lean |", "| S | lean |"), ("README.md", "simulated s per s", "speed"),
+        for place, old, new in [("docs/performance.md", "| R | lean |", "| S | lean |"), ("docs/performance.md", "simulated s per s", "speed"),
+                                ("README.md", "| G | 50 |", "| H | 50 |"), ("README.md", "engine alone", "alone"),
                                 ("docs/performance.md", "| digest | 210 | 5 % |\n", ""),
                                 ("docs/performance.md", "performance: growth", "performance: grown")]:
             self.assertEqual(len(self.wrong(place, old, new)), 1, old)
