@@ -8,7 +8,7 @@
 //
 // A current along the axis alone says that it is met; h_q/(2 V T Y_D) is e where e is small, and pulls the right way up to 90
 // degrees off (Yoon, Sul, Morimoto and Ide, High-Bandwidth Sensorless Algorithm for AC Machines Based on Square-Wave-Type Voltage
-// Injection, IEEE Trans. IA 47, 2011). It shows the axis, not which of its ends is north (north.hpp).
+// Injection, IEEE Trans. IA 47, 2011). It shows the axis, not which of its ends is north (polarity.hpp).
 //
 // The drive's own currents change too, and by more than the pulse does where a current is stepped. Of the changes D in three periods
 // (D[n] - 2 D[n-1] + D[n-2])/4 is what turns with the pulse, a period old; of a current that runs along a parabola nothing is left
