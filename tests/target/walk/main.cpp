@@ -160,7 +160,7 @@ template <class Scalar>
 void walk_floating() {
   if constexpr (__is_same(Scalar, float)) {
     walk<InjectionWalk<Scalar> >("field/injection");
-    walk<NorthWalk<Scalar> >("field/north");
+    walk<NorthWalk<Scalar> >("field/polarity");
     walk<ActiveFluxWalk<Scalar> >("field/active_flux");
     walk<HarmonicCurrentWalk<Scalar> >("field/harmonic_current");
     walk<FiniteSetWalk<Scalar> >("field/finite_set");
