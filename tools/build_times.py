@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""build_times.py [--target T] [--top N] [--jobs J] [BUILD]: what each object of a configured build costs to compile, the dearest first.
+"""build_times.py [--target T] [--top N] [--jobs J] [--write] [BUILD]: what each object of a configured build costs to compile, the dearest first.
 
 Each is compiled to nowhere, and once more with -fsyntax-only: reading headers and instantiating templates is the front end, the rest
 the back end (optimising, assembling). CPU seconds, so that what else the machine does only adds a little. Without --target of all
-objects, which takes half an hour of one core; --target sixstep is what ./run builds.
+objects, which takes half an hour of one core; --target sixstep is what ./run builds. --write also writes the tables into
+docs/contributing.md.
 """
 import argparse
 import collections
@@ -17,6 +18,8 @@ import shlex
 import subprocess
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
+PAGE = ROOT / "docs/contributing.md"
+PLACE = re.compile(r"(?<=<!-- build times -->\n).*?(?=<!-- end -->)", re.S)
 
 
 def arguments():
@@ -25,6 +28,7 @@ def arguments():
     parser.add_argument("--target", default="")
     parser.add_argument("--top", type=int, default=40)
     parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
+    parser.add_argument("--write", action="store_true")
     return parser.parse_args()
 
 
@@ -98,7 +102,11 @@ def main():
     chosen = [e for e in entries(build, a.target) if e["file"].endswith((".cpp", ".cxx", ".c"))]
     with concurrent.futures.ThreadPoolExecutor(a.jobs) as pool:
         costs = list(pool.map(cost, chosen))
-    print(tables(costs, a.top))
+    text = tables(costs, a.top)
+    print(text)
+    if a.write:
+        page = PAGE.read_text(encoding="utf-8")
+        PAGE.write_text(PLACE.sub(lambda _: f"{text}\n", page, count=1), encoding="utf-8")
 
 
 if __name__ == "__main__":
