@@ -160,7 +160,7 @@ class Bench(Started):
                            (whole.replace(",", "|"), "holds no row of numbers"),
                            ("\x1f\x8b\x08\x00\x00" + whole, "is no text; export the recording as CSV; gzip -d"),
                            (whole.replace("0.01,", "nan,", 1), ': time "nan" is no number; leave such rows out'),
-                           (whole + "1e300,1,0,0,0,0,0\n", "time 1e+300 in row 2161 is beyond all instruments; look at the unit"),
+                           (whole + "1e300,1,0,0,0,0,0\n", "time 1e+300 in row 2161 is beyond all instruments; check the unit"),
                            (whole + "0,1,0,0,0,0,0\n", "time 0 in row 2161 does not rise; give the rows in the order"),
                            (whole + "1,1,0,0,1e200,0,0\n", "u_ab 1e+200 in row 2161 is beyond all instruments"),
                            (whole + "1,1,0\n", ':2162: hall3 "" is no number'),

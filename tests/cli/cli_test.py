@@ -163,7 +163,7 @@ class CommandLine(ProgramTest):
         self.run_program("run", file, "--runs", "3", "--drive", "1", code=2)
         self.write_series(1000, SPREAD.replace("resistance_ohm", "resistance"))
         self.assertTrue(self.run_program("run", file, code=2).stderr.startswith(
-            'a.toml:17:7: spread.key = "motor_override.resistance" is no number'))
+            'a.toml:17:7: spread.key = "motor_override.resistance" is not a number'))
         self.write_series(1000, SPREAD.replace("0.1", "1.5"))
         self.assertTrue(self.run_program("run", file, code=2).stderr.startswith(
             "a.toml:18:12: spread.relative = 1.5 lets motor_override.resistance_ohm reach -0.515"))

@@ -66,7 +66,7 @@ class Curve(ProgramTest):
         self.assertTrue(told("maxon-251601", "--points", "1").startswith("--points = 1 must be at least 2"))
         self.assertIn("did you mean soft?", told("maxon-251601", "--chopping", "sof"))
         for option in (("--chopping", "hard"), ("--pwm-period", "1e-4")):
-            self.assertIn(f"{option[0]} is of no use at full duty", told("maxon-251601", *option))
+            self.assertIn(f"{option[0]} has no effect at full duty", told("maxon-251601", *option))
         self.assertTrue(told("maxon-251601", "--ambient", "1e5").startswith("--ambient = 1e+05"))
         self.assertIn("did you mean", told("maxon-25160"))
         self.assertEqual(told("mjbots-mj5208"), "--voltage is missing, and the sheet prints no nominal voltage; give the bus voltage in volts\n")

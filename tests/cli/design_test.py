@@ -213,7 +213,7 @@ class Design(ProgramTest):
                 with self.subTest(words=words, option=option):
                     told = self.run_program("design", *words, option, *([value] if value else []), code=2).stderr
                     self.assertIn(option, told)
-        self.assertIn("MOTOR is of a design's own", self.run_program("design", "maxon-251601", "--optimise", plan, code=2).stderr)
+        self.assertIn("MOTOR applies to a single design", self.run_program("design", "maxon-251601", "--optimise", plan, code=2).stderr)
         changes = ["--settle", "--damping", "--method", "--period", "--voltage", "--rotor", "--currents", "--delay", "--chopping", "--step"]
         idle = ["--current-settle", "--torque-limit", "--edges", "--capture", "--lowest-speed", "--load-inertia", "--load-mass", "--force-limit", "--bandwidth", "--angle"]
         quick = ["design", "maxon-251601", "--quick", "--quiet", "--json", "-"]
@@ -227,7 +227,7 @@ class Design(ProgramTest):
             with self.subTest(option=option):
                 self.assertRegex(self.run_program(*quick, option, values[option], code=2).stderr, f"(^|design ){option} ")
         self.assertEqual(self.run_program(*quick, "--torque-limit", "0.3", code=2).stderr,
-                         "--torque-limit is the full output of a speed loop, and --mode current has none; add --mode speed or --mode position, or leave it out\n")
+                         "--torque-limit applies to a speed loop only, and --mode current has none; add --mode speed or --mode position, or leave it out\n")
 
     def test_design_writes_a_page_that_needs_nothing(self):
         self.run_program("design", "maxon-251601", "--mode", "speed", "--quiet", "--html", "d.html")

@@ -206,13 +206,13 @@ class Plan(ProgramTest):
         varied = ["--vary", "supply.voltage_V=12:24:7"]
         for words, told in ((["--dry-run"], "--vary is missing"), (["--store", "s.sqlite"], "--vary is missing"),
                             (["--points", "5"], "--vary is missing"), (["--sampling", "sobol"], "--vary is missing"),
-                            (["--resume"], "--resume goes on with the runs of a store"),
+                            (["--resume"], "--resume continues the runs of a store"),
                             (["--tolerances"], "--tolerances makes drives differ"),
                             ([*varied, "--tolerances"], "--tolerances makes drives differ"),
-                            ([*varied, "--watch"], "--watch runs scenarios again"),
+                            ([*varied, "--watch"], "--watch reruns scenarios"),
                             ([*varied, "--vary", "supply.voltage_V=5,6"], "is varied already"),
                             ([*varied, "--set", "supply.voltage_V=6"], "--set supply.voltage_V would be lost: the plan varies this key"),
-                            ([*varied, "--points", "4", "--sampling", "grid"], "--points = 4 is of drawn points")):
+                            ([*varied, "--points", "4", "--sampling", "grid"], "--points = 4 applies to drawn points")):
             self.assertIn(told, self.run_program("run", self.held(), *words, code=2).stderr)
         self.assertEqual(self.names(), ["a.toml"])
 

@@ -243,7 +243,7 @@ TEST(SheetConstants, AnIdleCurrentAtAVoltageIsANoLoadPoint) {
 TEST(SheetConstants, NotSimulatableMeansNoModelButAReason) {
   Sheet s = printed_251601();
   s.simulatable = false;
-  EXPECT_EQ(told(s).substr(0, 40), "simulatable = false gives no reason; say");
+  EXPECT_EQ(told(s).substr(0, 40), "simulatable = false gives no reason; giv");
   s.not_simulatable_because = "no source gives its inertia";
   s.inertia_gcm2.reset();
   EXPECT_EQ(

@@ -113,7 +113,7 @@ class OwnControllerPage(unittest.TestCase):
             (("--set", "control.own.controller=own.toml"), 2, "cannot be loaded"),
             (("--set", "control.own.number[0].name=width"), 2, "bandwidth, limit_A"),
             (("--set", "control.mode=position"), 2, "PI in integers holds a current or a speed"),
-            (("--set", "control.arithmetic=q15"), 2, "computes in what it is written in")]}
+            (("--set", "control.arithmetic=q15"), 2, "computes in the types that it is written in")]}
         for words, code, said in wrong["said"]:
             with self.subTest(words=words):
                 self.assertIn(said, self.run_program("run", "own.toml", *words, code=code).stderr)

@@ -94,7 +94,7 @@ TEST_F(Files, UnwritableOutputIsToldWhenCreated) {
 TEST_F(Files, ADashIsNoFilesName) {
   const base::Result<AtomicFile> made = AtomicFile::create("-");
   ASSERT_FALSE(made);
-  EXPECT_NE(to_string(made.problems().front()).find("is standard output elsewhere"), std::string::npos);
+  EXPECT_NE(to_string(made.problems().front()).find("means standard output elsewhere"), std::string::npos);
   EXPECT_FALSE(fs::exists("-"));
 }
 

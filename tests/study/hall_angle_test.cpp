@@ -98,13 +98,13 @@ TEST(HallAngle, WhatCannotBeIsRefused) {
   Scenario s = cascade();
   s.sensors.hall_angle = HallAngleFrom::angle;
   ASSERT_FALSE(check(s).empty());
-  EXPECT_THAT(to_string(check(s)[0]), HasSubstr("is of Hall probes"));
+  EXPECT_THAT(to_string(check(s)[0]), HasSubstr("applies to Hall probes"));
   s.sensors.rotor = RotorSensing::hall;
   EXPECT_TRUE(check(s).empty());
   Scenario product = product_scenario(Mode::speed, 100);
   product.sensors.hall_angle = HallAngleFrom::learned_edges;
   ASSERT_FALSE(check(product).empty());
-  EXPECT_THAT(to_string(check(product)[0]), HasSubstr("goes by sectors"));
+  EXPECT_THAT(to_string(check(product)[0]), HasSubstr("commutates by sectors"));
 }
 
 }  // namespace SIXSTEP_TEST_FILE

@@ -144,7 +144,7 @@ TEST(Limits, OneShuntHidesWhatALimitOfCurrentMustSee) {
   s.pwm.sample = study::SampleAt::middle;
   s.sensors.currents = rig::CurrentMeasurement::dc_link;
   s.sensors.current_range_A = 20.48;
-  EXPECT_THAT(refusal(s), HasSubstr("control.limits.current_A = 2 needs every phase's current"));
+  EXPECT_THAT(refusal(s), HasSubstr("control.limits.current_A = 2 needs the current of every phase"));
 }
 
 TEST(Product, BrakingAboveOverCurrentIsRefused) {

@@ -127,7 +127,7 @@ TEST(LinearEncoder, WhatCannotBeIsRefused) {
   turning.pwm.commutation = CommutationAt::sample;
   turning.sensors.rotor = RotorSensing::encoder;
   turning.sensors.encoder.pitch_mm = 0.02;
-  EXPECT_THAT(to_string(check(turning)[0]), HasSubstr("this one turns"));
+  EXPECT_THAT(to_string(check(turning)[0]), HasSubstr("this motor turns"));
 }
 
 }  // namespace SIXSTEP_TEST_FILE

@@ -187,9 +187,9 @@ TEST(ShaftSensorFaults, WhatCannotBeIsRefused) {
   EXPECT_EQ(refused([](Scenario&) {}), "nothing");
   EXPECT_EQ(refused([](Scenario& s) { s.at[0].sensors.missed_edges = 3; }), "nothing");
   EXPECT_THAT(refused([](Scenario& s) { s.at[0].sensors.bad_track = AtTrack{}; }),
-              HasSubstr("is of an absolute encoder"));
+              HasSubstr("applies to an absolute encoder"));
   EXPECT_THAT(refused([](Scenario& s) { s.at[0].sensors.broken_winding = Winding::sine; }),
-              HasSubstr("is of a resolver"));
+              HasSubstr("applies to a resolver"));
   EXPECT_THAT(refused([](Scenario& s) {
                 s.sensors.rotor = RotorSensing::absolute;
                 s.at[0].sensors.bad_track = AtTrack{.track = 15};
@@ -206,7 +206,7 @@ TEST(ShaftSensorFaults, WhatCannotBeIsRefused) {
                 s.sensors.rotor = RotorSensing::hall;
                 s.sensors.shaft = SensorShaft::load;
               }),
-              HasSubstr("of an encoder or a resolver"));
+              HasSubstr("to an encoder or a resolver"));
   EXPECT_EQ(refused([](Scenario& s) {
               s.sensors.shaft = SensorShaft::load;
               s.pwm.commutation = CommutationAt::hall_edge;

@@ -204,9 +204,9 @@ TEST(ShaftWatch, WhatCannotBeIsRefused) {
   EXPECT_EQ(refused(RotorSensing::encoder, line), "nothing");
   EXPECT_EQ(refused(RotorSensing::encoder, index), "nothing");
   EXPECT_EQ(refused(RotorSensing::resolver, excitation), "nothing");
-  EXPECT_THAT(refused(RotorSensing::resolver, line), HasSubstr("is of an encoder"));
-  EXPECT_THAT(refused(RotorSensing::absolute, index), HasSubstr("is of an encoder"));
-  EXPECT_THAT(refused(RotorSensing::encoder, excitation), HasSubstr("is of a resolver"));
+  EXPECT_THAT(refused(RotorSensing::resolver, line), HasSubstr("applies to an encoder"));
+  EXPECT_THAT(refused(RotorSensing::absolute, index), HasSubstr("applies to an encoder"));
+  EXPECT_THAT(refused(RotorSensing::encoder, excitation), HasSubstr("applies to a resolver"));
   EXPECT_THAT(refused(RotorSensing::resolver, [](AtSensors& at) { at.excitation = 2.5; }),
               HasSubstr("must lie in 0 to 2"));
 }

@@ -203,7 +203,8 @@ TEST(SpeedLaw, SaysWhatALawDoesNotHave) {
   for (const base::Problem& p : gains) all += to_string(p) + "\n";
   EXPECT_THAT(
       all,
-      HasSubstr("control.speed.kp = 0.1 is of a PI, and control.speed.law = \"state-feedback\" has none"));
+      HasSubstr(
+          "control.speed.kp = 0.1 applies to a PI only, and control.speed.law = \"state-feedback\" has none"));
   EXPECT_THAT(all, HasSubstr("control.speed.damping"));
   s = loaded(SpeedLaw::sliding_mode);
   s.control.arithmetic = study::Arithmetic::q31;
@@ -215,7 +216,8 @@ TEST(SpeedLaw, SaysWhatALawDoesNotHave) {
   s.control.speed.observer_ratio = 4;
   ASSERT_EQ(study::check(s).size(), 2u);
   EXPECT_THAT(to_string(study::check(s)[0]), HasSubstr("applies to the positional form only"));
-  EXPECT_THAT(to_string(study::check(s)[1]), HasSubstr("is of an observer, and law = \"pi\" has none"));
+  EXPECT_THAT(to_string(study::check(s)[1]),
+              HasSubstr("applies to an observer only, and law = \"pi\" has none"));
   s = loaded(SpeedLaw::state_feedback);
   s.load.viscous_Nm_s = 0.01;  // J/B = 1.35 ms
   const auto refused = study::compile(s);

@@ -214,10 +214,10 @@ std::string refusal(const Spread& spread, Scenario s = current_square()) {
 
 TEST(Spread, RefusesWhatCannotStray) {
   using ::testing::HasSubstr;
-  EXPECT_THAT(refusal(relative("motor_override.resistance", 0.1)), HasSubstr("is no number"));
-  EXPECT_THAT(refusal(relative("motor_override.stall_torque_mNm", 0.1)), HasSubstr("is no number"));
-  EXPECT_THAT(refusal(relative("control.current.d1", 0.1)), HasSubstr("is no number"));
-  EXPECT_THAT(refusal(relative("load.locked", 0.1)), HasSubstr("is no number"));
+  EXPECT_THAT(refusal(relative("motor_override.resistance", 0.1)), HasSubstr("is not a number"));
+  EXPECT_THAT(refusal(relative("motor_override.stall_torque_mNm", 0.1)), HasSubstr("is not a number"));
+  EXPECT_THAT(refusal(relative("control.current.d1", 0.1)), HasSubstr("is not a number"));
+  EXPECT_THAT(refusal(relative("load.locked", 0.1)), HasSubstr("is not a number"));
   EXPECT_THAT(refusal(relative("initial.bus_V", 0.1)), HasSubstr("give initial.bus_V its nominal value"));
   EXPECT_THAT(refusal(relative("motor_override.back_emf_mV_s", 0.1)),
               HasSubstr("the sheet gives torque_constant_mNm_A: spread that"));

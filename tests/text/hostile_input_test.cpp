@@ -71,7 +71,7 @@ TEST(HostileInput, SpeedsOfALoadThatNobodyTellsApartAreRefused) {
     return told(head + "[load]\nat_speeds_rad_s = [" + speed + ", 0, 300]\nat_speeds_Nm = [0.1, 0, 0.1]\n");
   };
   EXPECT_THAT(table("-1e-17"),
-              ElementsAre(HasSubstr("load.at_speeds_rad_s = 0 is so near to the one before")));
+              ElementsAre(HasSubstr("load.at_speeds_rad_s = 0 is so close to the one before")));
   EXPECT_THAT(table("1"), ElementsAre(HasSubstr("load.at_speeds_rad_s = 0 must be above the one before")));
   EXPECT_THAT(table("-1e-5"), SizeIs(0));
 }

@@ -63,7 +63,7 @@ TEST(Sources, WhatIsNotAtHandIsTold) {
 TEST(Sources, ACircleIsFoundInAnySpelling) {
   EXPECT_THAT(
       complaints(read("extends = \"../tried/./x.toml\"\n", {{"tried/x.toml", "extends = \"x.toml\"\n"}})),
-      ElementsAre(HasSubstr("goes round in a circle")));
+      ElementsAre(HasSubstr("forms a circle")));
 }
 
 }  // namespace SIXSTEP_TEST_FILE

@@ -153,11 +153,10 @@ TEST_F(WrongInput, FrameMustBeOneOfTheKeysOwn) {
         "inductance_mH = { value = 1, frame = \"star\" }\ninertia_gcm2 = { value = 1, frame = \"phase\" }\n");
   EXPECT_THAT(
       complaints("motor = \"m\"\nduration_s = 0.02\n"),
-      ElementsAre(
-          "m.toml:4:38: inductance_mH.frame = \"star\" must be \"terminal\" or \"phase\"; say between "
-          "which points the sheet measures",
-          "m.toml:5:37: inertia_gcm2.frame = \"phase\" is not needed; this value has one meaning "
-          "only: leave frame out"));
+      ElementsAre("m.toml:4:38: inductance_mH.frame = \"star\" must be \"terminal\" or \"phase\"; give the "
+                  "points between which the sheet measures",
+                  "m.toml:5:37: inertia_gcm2.frame = \"phase\" is not needed; this value has one meaning "
+                  "only: leave frame out"));
 }
 
 TEST_F(WrongInput, FlatWidthOfHalfATurn) {
@@ -181,13 +180,12 @@ TEST_F(WrongInput, OfManyWordsOnlyTheNearestIsTold) {
   EXPECT_THAT(
       complaints(head + "[[require]]\nmetric = \"settling_time\"\nsignal = \"u_ab\"\nmax = 1\n" +
                  "[[require]]\nmetric = \"maen\"\nsignal = \"colour\"\nmax = 1\n"),
-      ElementsAre(
-          ::testing::AllOf(
-              ::testing::StartsWith("x.toml:4:10: require.metric = \"settling_time\" is none of the "),
-              ::testing::EndsWith(" words that it may be; did you mean \"settling_time_s\"?")),
-          ::testing::HasSubstr("; did you mean \"u_ab_V\"?"),
-          ::testing::HasSubstr("; did you mean \"mean\"?"),
-          ::testing::HasSubstr("; see: sixstep help require.signal")));
+      ElementsAre(::testing::AllOf(::testing::StartsWith(
+                                       "x.toml:4:10: require.metric = \"settling_time\" is not one of the "),
+                                   ::testing::EndsWith(" allowed words; did you mean \"settling_time_s\"?")),
+                  ::testing::HasSubstr("; did you mean \"u_ab_V\"?"),
+                  ::testing::HasSubstr("; did you mean \"mean\"?"),
+                  ::testing::HasSubstr("; see: sixstep help require.signal")));
 }
 
 TEST_F(WrongInput, ReferenceInAnotherModesUnit) {

@@ -60,7 +60,7 @@ void read_deviations(SheetReader& reader) {
                      "needs one for each of the phases a, b, c",
                      std::string("write ") + key + " = [0.05, -0.03, 0]");
     if (s.connection == WindingConnection::delta)
-      reader.problem(key, "", "is of a star's phases, and connection is \"delta\"", "remove it");
+      reader.problem(key, "", "applies to a star's phases only, and connection is \"delta\"", "remove it");
   };
   look("phase_resistance_deviation", s.phase_resistance_deviation);
   look("phase_back_emf_deviation", s.phase_back_emf_deviation);
@@ -88,11 +88,11 @@ void read_delta(SheetReader& reader) {
        "give back_emf_constant_V_krpm with frame = \"line-peak\": a branch of the delta lies between two "
        "terminals, and 1 mV s is 0.10472 V/krpm");
   if (s.d_axis_inductance_mH || s.q_axis_inductance_mH)
-    reader.problem("d_axis_inductance_mH", "", "is of a star's phases, and connection is \"delta\"",
+    reader.problem("d_axis_inductance_mH", "", "applies to a star's phases only, and connection is \"delta\"",
                    "give inductance_mH between two terminals");
   if (s.saturation_current_A)
     reader.wrong("saturation_current_A", *s.saturation_current_A,
-                 "is of a star's phases, and connection is \"delta\"", "remove it");
+                 "applies to a star's phases only, and connection is \"delta\"", "remove it");
 }
 
 void read_cogging(SheetReader& reader, std::optional<int> pole_pairs) {

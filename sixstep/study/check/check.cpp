@@ -38,7 +38,7 @@ namespace {
 void check_bridge(const Scenario& s, base::Problems& out) {
   if (s.bridge.saturation_V > 0 && s.bridge.device != Device::igbt)
     out.push_back({"bridge.saturation_V", base::six_digits(s.bridge.saturation_V),
-                   "is of an IGBT, and bridge.device is \"mosfet\"",
+                   "applies to an IGBT only, and bridge.device is \"mosfet\"",
                    "write device = \"igbt\", or give on_resistance_ohm alone"});
   check_dead_time("bridge.dead_time_s", s.bridge.dead_time_s, s.pwm, out);
 }

@@ -76,7 +76,7 @@ void check_mode(const Event& e) {
 void check_chip(const Event& e) {
   if (e.at.control.current.band_A && e.s.control.current.type != CurrentLoopType::hysteresis)
     e.say(".control.current.band_A", written(*e.at.control.current.band_A),
-          "is of a hysteresis, and control.current.type = \"pi\"",
+          "applies to a hysteresis only, and control.current.type = \"pi\"",
           "remove it: the kind of the controller cannot change during a run");
   if (e.at.pwm.chopping != AtChopping::same && e.s.control.smooth_chopping.on)
     e.say(".pwm.chopping", "",
@@ -94,7 +94,7 @@ void check_drift(const Event& e) {
   const char* key = offset ? ".sensors.current_offset_A" : ".sensors.current_gain_error";
   const std::string value = written(offset ? *offset : *e.at.sensors.current_gain_error);
   if (sensors.currents == rig::CurrentMeasurement::ideal)
-    return e.say(key, value, "is of an amplifier, and sensors.currents = \"ideal\"",
+    return e.say(key, value, "applies to an amplifier only, and sensors.currents = \"ideal\"",
                  "set sensors.currents = \"phases\" or \"dc-link\", and current_range_A");
   if (offset && sensors.current_range_A && std::fabs(*offset) >= *sensors.current_range_A)
     e.say(key, value, "leaves nothing of sensors.current_range_A = " + written(*sensors.current_range_A),

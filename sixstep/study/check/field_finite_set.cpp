@@ -11,7 +11,8 @@ namespace {
 void check_beside_pi(const Field& f, base::Problems& out) {
   const auto refuse = [&out](bool given, const char* key) {
     if (given)
-      out.push_back({key, "", "is of the choice among the legs' states, and control.field.law is \"pi\"",
+      out.push_back({key, "",
+                     "applies to the choice among the legs' states only, and control.field.law is \"pi\"",
                      "set control.field.law = \"finite-set\", or remove it"});
   };
   refuse(f.switching_weight_A > 0, "control.field.switching_weight_A");
@@ -28,7 +29,8 @@ void check_finite_set(const Scenario& s, base::Problems& out) {
     if (given) out.push_back({key, "", limit, cure});
   };
   const CurrentLoop& loop = s.control.current;
-  const char* const no_loop = "is of current loops, and control.field.law = \"finite-set\" has none";
+  const char* const no_loop =
+      "applies to current loops only, and control.field.law = \"finite-set\" has none";
   const char* const to_pi = "remove it, or set control.field.law = \"pi\"";
   refuse(f.bandwidth_Hz.has_value(), "control.field.bandwidth_Hz", no_loop, to_pi);
   refuse(gives_gains(loop), "control.current", no_loop, to_pi);

@@ -64,7 +64,8 @@ void check_hall_angle(const Scenario& s, base::Problems& out) {
   word += base::word(hall_angle_choices, s.sensors.hall_angle);
   word += '"';
   if (s.sensors.rotor != RotorSensing::hall)
-    out.push_back({"sensors.hall_angle", word, "is of Hall probes, and sensors.rotor is not \"hall\"",
+    out.push_back({"sensors.hall_angle", word,
+                   "applies to Hall probes only, and sensors.rotor is not \"hall\"",
                    "set rotor = \"hall\", or remove it"});
   else if (s.control.drive == FirmwareKind::product)
     out.push_back({"sensors.hall_angle", word,
@@ -79,7 +80,8 @@ void check_shaft_events(const Scenario& s, base::Problems& out) {
     const std::string where = "at[" + std::to_string(n) + "].sensors.";
     const auto of = [&](const char* key, RotorSensing sensor, const char* name) {
       if (s.sensors.rotor != sensor)
-        out.push_back({where + key, "", std::string("is of ") + name + ", and sensors.rotor is another",
+        out.push_back({where + key, "",
+                       std::string("applies to ") + name + " only, and sensors.rotor is another",
                        "set sensors.rotor = \"" + std::string(base::word(rotor_sensing_choices, sensor)) +
                            "\", or remove it"});
     };

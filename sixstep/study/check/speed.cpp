@@ -28,7 +28,8 @@ void check_positional(const Scenario& s, base::Problems& out) {
                    "has no derivative to smooth", "give control.speed.derivative_s too"});
   if (loop.observer_ratio)
     out.push_back({"control.speed.observer_ratio", base::six_digits(*loop.observer_ratio),
-                   "is of an observer, and law = \"pi\" has none", "set control.speed.law, or remove it"});
+                   "applies to an observer only, and law = \"pi\" has none",
+                   "set control.speed.law, or remove it"});
 }
 
 /// A law that is designed for a settling time has no gains to give.
@@ -38,7 +39,7 @@ void check_designed(const Scenario& s, base::Problems& out) {
   const auto refuse = [&](const char* key, const std::optional<double>& value, const std::string& cure) {
     if (value)
       out.push_back({std::string("control.speed.") + key, base::six_digits(*value),
-                     "is of a PI, and control.speed.law = \"" + law + "\" has none", cure});
+                     "applies to a PI only, and control.speed.law = \"" + law + "\" has none", cure});
   };
   const std::string gains = "give settle_s and observer_ratio alone, or set law = \"pi\"";
   refuse("d1", loop.d1, gains);
@@ -54,7 +55,7 @@ void check_designed(const Scenario& s, base::Problems& out) {
   refuse("setpoint_weight", loop.setpoint_weight, form);
   if (loop.form == SpeedForm::positional)
     out.push_back({"control.speed.form", "\"positional\"",
-                   "is of a PI, and control.speed.law = \"" + law + "\" has none", form});
+                   "applies to a PI only, and control.speed.law = \"" + law + "\" has none", form});
   if (s.control.arithmetic != Arithmetic::float64 && s.control.arithmetic != Arithmetic::float32)
     out.push_back({"control.arithmetic", std::string(base::word(arithmetic_choices, s.control.arithmetic)),
                    "has no scaling that is proved for control.speed.law = \"" + law + "\"",
