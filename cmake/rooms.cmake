@@ -35,12 +35,19 @@ endfunction()
 option(SIXSTEP_BATCHES "compile small sources together, tests too" ON)
 set(SIXSTEP_BATCH 16)
 function(sixstep_in_batches target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${SIXSTEP_BATCHES} UNITY_BUILD_BATCH_SIZE ${SIXSTEP_BATCH})
+  set(size ${SIXSTEP_BATCH})
+  if(SIXSTEP_SANITIZE)
+    set(size 16)  # instrumented, a batch of 47 took over three minutes
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${SIXSTEP_BATCHES} UNITY_BUILD_BATCH_SIZE ${size})
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
 # Sources of a library's room that are compiled apart: `size` of them together (0: all), a release with `level`.
 function(sixstep_apart target name size level)
+  if(SIXSTEP_SANITIZE AND size LESS SIXSTEP_BATCH)
+    set(size 1)  # nothing is gained by few together there
+  endif()
   set(sources)
   foreach(source ${ARGN})
     cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
