@@ -184,7 +184,9 @@ class Search {
     nlopt_set_xtol_abs(o, tolerance.data());
     nlopt_set_maxeval(o, static_cast<int>(4 * w_.evaluations));
     double least = 0.0;
-    nlopt_optimize(o, u.data(), &least);  // what counts is what was tried, however it ended
+    const nlopt_result how =
+        nlopt_optimize(o, u.data(), &least);  // the best point is among those tried, however it ended
+    converged_ = !ended() && (how == NLOPT_XTOL_REACHED || how == NLOPT_FTOL_REACHED || how == NLOPT_SUCCESS);
   }
 
   std::optional<analysis::Optimum> told() const {
@@ -194,6 +196,7 @@ class Search {
                            .values = {},
                            .figures = e->figures,
                            .holds = e->holds(),
+                           .converged = converged_,
                            .limits = {},
                            .evaluations = tried_.size()};
     for (const std::string& text : e->point) best.values.push_back(number_of(text));
@@ -220,6 +223,7 @@ class Search {
   std::unique_ptr<Evaluated> cut_;
   std::unique_ptr<nlopt_opt_s, Destroy> optimiser_;
   double size_ = 0.0;
+  bool converged_ = false;
 };
 
 }  // namespace

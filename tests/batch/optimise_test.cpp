@@ -114,6 +114,19 @@ TEST(Optimise, WithoutRequirementsEndsInTheCornerOfTheLeastCurrent) {
   EXPECT_TRUE(found.best->limits[1].upper);
 }
 
+/// Enough points end in the corner, where the law's I = 6 V/4 ohm is the least; a few do not, and say so.
+TEST(Optimise, SaysWhetherItEndedByItself) {
+  const Found enough = search({}, 400), few = search({}, 4);
+  ASSERT_TRUE(enough.best && few.best);
+  EXPECT_TRUE(enough.best->converged);
+  EXPECT_LT(enough.best->evaluations, 400u);
+  EXPECT_FALSE(few.best->converged);
+  EXPECT_EQ(few.best->evaluations, 4u);
+  const auto current = [](const Found& f) { return f.best->figures.back(); };
+  EXPECT_NEAR(current(enough), 1.5, 2e-3);
+  EXPECT_GT(current(few), current(enough)) << "there was less to be found";
+}
+
 TEST(Optimise, StopsAtARequirementAndNamesIt) {
   const Found found = search({.min = 10.0}, 100);
   ASSERT_TRUE(found.best);

@@ -242,6 +242,12 @@ class Plan(ProgramTest):
         self.assertAlmostEqual(current["worst"], voltage["value"] / resistance["value"], places=9)
         self.assertTrue(10 <= current["worst"] <= 10.01)
         self.assertEqual(best["limits"], [{"figure": "current", "end": "lower"}])
+        few = (self.path / "p.toml").read_text().replace("evaluations = 80", "evaluations = 6")
+        (self.path / "few.toml").write_text(few.replace("from = 6\nto = 24", "from = 20\nto = 24"))
+        told_of_few = self.run_program("design", "--optimise", "few.toml", "--json", "few.json").stdout
+        self.assertIn("not converged after 6 points", told_of_few)
+        self.assertNotIn("nothing limits it", told_of_few)
+        self.assertFalse(json.loads((self.path / "few.json").read_text())["converged"])
         alone = json.loads(self.run_program("run", "best.toml", "--json", "-").stdout)
         self.assertEqual(alone["require"][0]["measured"], current["worst"])
         rows = self.rows("p.sqlite")

@@ -138,7 +138,8 @@ std::string friction_rows(const design::Friction& f, bool linear) {
     text += fmt::format("         no-load point at {} {}: B = {} {} if all of it is viscous,\n",
                         short_number(f.no_load_speed_rad_s), linear ? "m/s" : "rad/s",
                         short_number(*f.all_viscous_Nm_s), unit);
-    text += fmt::format("         {} = {} if none of it is\n", dry, torque_text(*f.all_coulomb_Nm, linear));
+    text +=
+        fmt::format("         {} = {} if all of it is dry\n", dry, torque_text(*f.all_coulomb_Nm, linear));
   }
   if (f.split_viscous_Nm_s)
     text +=

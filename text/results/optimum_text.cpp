@@ -25,7 +25,8 @@ std::string bounds(const analysis::FigureColumn& f) {
 
 std::string limits(const OptimumStory& s, const analysis::Optimum& best) {
   if (!best.holds) return "  no point was found at which every requirement holds; this is the nearest\n";
-  if (best.limits.empty()) return "  nothing limits it: a least value inside of all ranges\n";
+  if (best.limits.empty())
+    return best.converged ? "  nothing limits it: a least value inside of all ranges\n" : "";
   std::vector<std::string> words;
   for (const analysis::Limit& limit : best.limits)
     words.push_back(limit.of_key
@@ -59,7 +60,12 @@ std::string optimum_text(const OptimumStory& s, const analysis::Optimum& best) {
     text.erase(text.find_last_not_of(' ') + 1);
     text += "\n";
   }
-  text += limits(s, best) + " ";
+  text += limits(s, best);
+  if (!best.converged)
+    text += fmt::format(
+        "  not converged after {} points: a larger evaluations in the plan may find a better one\n",
+        best.evaluations);
+  text += " ";
   for (std::size_t k = 0; k < best.point.size(); ++k)
     text += fmt::format(" --set {}={}", s.plan.axes[k].key, best.point[k]);
   return text + "\n";
@@ -70,6 +76,7 @@ std::string optimum_json(const OptimumStory& s, const analysis::Optimum& best) {
                {"plan", s.name},
                {"minimise", s.columns.figures[s.figure].name},
                {"holds", best.holds},
+               {"converged", best.converged},
                {"evaluations", best.evaluations},
                {"drives", std::max<std::size_t>(s.plan.drives, 1)}};
   for (std::size_t k = 0; k < best.point.size(); ++k)

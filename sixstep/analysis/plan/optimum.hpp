@@ -20,6 +20,8 @@ struct Optimum {
   std::vector<double>
       figures;         ///< of the worst drive there: each as far towards its limit as any drive has it
   bool holds = false;  ///< every drive every requirement
+  /// The search ended by itself. Else its points were used up or it was stopped: more of them may find a smaller figure.
+  bool converged = false;
   std::vector<Limit> limits;
   std::size_t evaluations = 0, at = 0;  ///< points that were tried; the one that is best
 };
