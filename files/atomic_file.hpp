@@ -26,7 +26,7 @@ struct Destination {
 
 /// Writes to a temporary name in the same folder; commit() puts it in place, going out of scope removes it.
 /// Creating it already proves that the folder can be written, so create all of them before the work begins.
-/// What is no regular file (a pipe, /dev/null) is written as it is. A file that a ReadLog has noted is
+/// What is not a regular file (a pipe, /dev/null) is written as it is. A file that a ReadLog has noted is
 /// refused: nobody means to lose a scenario to its own report; and so is a file that is_foreign().
 /// What takes another file's place has its permissions. A link keeps its place, and what it names is made or
 /// replaced; other names of the file itself (hard links) keep the old one.

@@ -107,7 +107,7 @@ base::Result<std::string> read_regular_text(const std::string& path) {
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
       !std::filesystem::is_directory(status))
     return base::Problem{
-        .where = path + ":", .limit = "cannot be read: it is no regular file", .cure = "name a file"};
+        .where = path + ":", .limit = "cannot be read: it is not a regular file", .cure = "name a file"};
   return read_text(path);
 }
 

@@ -24,7 +24,7 @@ struct PlanColumn {
   bool logarithmic = false;
   bool required = false;  ///< of a figure, between these
   std::optional<double> min{}, max{};
-  std::vector<std::string> words{};  ///< of a key that is no number; its values count through them
+  std::vector<std::string> words{};  ///< of a key that is not a number; its values count through them
   std::vector<float> values{};       ///< a row each; NaN where there is none
 };
 

@@ -131,7 +131,7 @@ base::Problems Outputs::publish(const files::RunStory& story, bool whole) {
     append(problems, failed);
     if (output.sink.left_out) left_out_ += output.sink.left_out();
     if (!failed.empty() || output.path.empty()) continue;
-    // What is no regular file has no such name.
+    // What is not a regular file has no such name.
     const std::string partial = files::partial_name(output.path);
     const bool is_partial = !whole && std::filesystem::exists(partial);
     if (is_partial) partial_files_.push_back(partial);

@@ -236,7 +236,7 @@ Exit run_plans(const RunArguments& a, const std::vector<ReadPlan>& plans,
   junit->write(text::junit_xml(suites));
   const base::Problems unwritten = interrupted() ? junit->commit_partial() : junit->commit();
   complain(unwritten);
-  // What is no regular file has no such name.
+  // What is not a regular file has no such name.
   const std::string partial = files::partial_name(junit->path());
   if (interrupted() && unwritten.empty() && std::filesystem::exists(partial))
     tell_stop("the verdicts of what was finished are in " + text::visible(partial));

@@ -83,7 +83,7 @@ base::Problems PlanOutputs::publish(const text::PlanStory& story, const ReadPlan
     const bool in_place = whole && !interrupted();
     const base::Problems unwritten = in_place ? open.file.commit() : open.file.commit_partial();
     append(problems, unwritten);
-    // What is no regular file has no such name.
+    // What is not a regular file has no such name.
     const std::string partial = files::partial_name(open.file.path());
     if (!in_place && unwritten.empty() && fs::exists(partial)) partial_files_.push_back(partial);
   }

@@ -60,7 +60,7 @@ Run run(System& system, Instant end, Observer& observer) {
     const Instant known = next < end ? next : end;
     const double wanted = seconds_between(now, known);
     const double length = system.expand(wanted);
-    if (!(length >= 0)) return {Stop::unsettled, result.segments};  // nor a length that is no number
+    if (!(length >= 0)) return {Stop::unsettled, result.segments};  // nor a length that is not a number
 
     Real first = 1;
     int event = -1;

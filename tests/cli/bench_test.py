@@ -159,12 +159,12 @@ class Bench(Started):
                            (whole.replace("hall", "pin"), "has no columns of Hall lines: it has time, pin1"),
                            (whole.replace(",", "|"), "holds no row of numbers"),
                            ("\x1f\x8b\x08\x00\x00" + whole, "is no text; export the recording as CSV; gzip -d"),
-                           (whole.replace("0.01,", "nan,", 1), ': time "nan" is no number; leave such rows out'),
+                           (whole.replace("0.01,", "nan,", 1), ': time "nan" is not a number; leave such rows out'),
                            (whole + "1e300,1,0,0,0,0,0\n", "time 1e+300 in row 2161 is beyond all instruments; check the unit"),
                            (whole + "0,1,0,0,0,0,0\n", "time 0 in row 2161 does not rise; give the rows in the order"),
                            (whole + "1,1,0,0,1e200,0,0\n", "u_ab 1e+200 in row 2161 is beyond all instruments"),
-                           (whole + "1,1,0\n", ':2162: hall3 "" is no number'),
-                           (whole.rsplit(",", 200)[0], 'is no number')):
+                           (whole + "1,1,0\n", ':2162: hall3 "" is not a number'),
+                           (whole.rsplit(",", 200)[0], 'is not a number')):
             (self.path / "log.csv").write_text(text)
             with self.subTest(told):
                 line = self.refused("identify", "log.csv", "--write", "a.toml", "--html", "a.html")
@@ -183,7 +183,7 @@ class Bench(Started):
                            (head + "".join(f"{n * 1e-5:g},0.25\n" for n in range(900)), "u_ab = 0.25 V in every row: the motor stood"),
                            (whole.replace("u_ab [V]", "CH1 [V]"), "--between is missing: the headings do not say what the probes hung between; lines is"),
                            (whole.replace("time [s]", "sample"), "has no column of time: it has sample, u_ab; head it time [s], or give"),
-                           (whole + "1,inf\n", 'u_ab "inf" is no number')):
+                           (whole + "1,inf\n", 'u_ab "inf" is not a number')):
             (self.path / "scope.csv").write_text(text)
             with self.subTest(told):
                 line = self.refused("emf", "scope.csv", "--html", "a.html", "--write", "a.toml", "--shape", "a.csv")

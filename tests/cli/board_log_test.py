@@ -191,12 +191,12 @@ class LogsOfOthers(LogTest):
     def test_what_cannot_be_compared_exits_2(self):
         good = [f"{1e3 * r['t_s']:.1f},{r['speed_rad_s'] * RPM:.1f}\n" for r in self.rows]
         for head, rows, words, said in (
-                ("t [ms],speed [counts]\n", good, (), 'heads speed in "counts", which is no unit; rad/s belongs there; units that fit: rad/s, '),
+                ("t [ms],speed [counts]\n", good, (), 'heads speed in "counts", which is not a unit; rad/s belongs there; units that fit: rad/s, '),
                 ("t [ms],speed [Hz]\n", good, (), 'heads speed as Hz, where rad/s belongs; name another column; write rev/s for turns of the shaft'),
-                ("t [foo],speed [rpm]\n", good, (), 'heads t in "foo", which is no unit; s belongs there'),
+                ("t [foo],speed [rpm]\n", good, (), 'heads t in "foo", which is not a unit; s belongs there'),
                 ("t [s],speed [rpm]\n", good, (), "has 1 of 100 rows in the simulated time, 0 to 0.3 s; its own is 0 to 297 s, and 5 are needed"),
                 ("t [ms],speed [rpm]\n", good[:4], (), "has 4 of 4 rows"),
-                ("t [ms],speed [rpm]\n", [*good[:5], "15.0,OL\n", *good[6:]], (), 'log.csv:7: speed "OL" is no number'),
+                ("t [ms],speed [rpm]\n", [*good[:5], "15.0,OL\n", *good[6:]], (), 'log.csv:7: speed "OL" is not a number'),
                 ("t [ms],speed [rpm],speed [rpm]\n", [row[:-1] + ",1\n" for row in good], (), "has two columns of speed_rad_s"),
                 ("t [ms],speed [rpm]\n", good, ("--columns", "sped=speed"), "--columns = sped is no column that a simulation has; did you mean speed"),
                 ("t [ms],speed [rpm]\n", good, ("--columns", "speed"), "--columns = speed must be NAME=COLUMN"),

@@ -284,7 +284,7 @@ class Plan(ProgramTest):
         self.held()
         for vary, told in (("supply.voltge_V=1:2:3", "did you mean supply.voltage_V?"),
                            ("supply.voltage_V", "KEY=FROM:TO:POINTS"),
-                           ("supply.voltage_V=1:2:x", "is no number of points"),
+                           ("supply.voltage_V=1:2:x", "is not a number of points"),
                            ("supply.voltage_V=1:2:3:cubic", "write log or linear"),
                            ("supply.voltage_V=1:2", "give 2 points or more"),
                            ("supply.voltage_V=-1:2:3:log", "has no logarithm"),

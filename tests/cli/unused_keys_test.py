@@ -103,7 +103,7 @@ class UnusedKeys(Started):
 
     @staticmethod
     def another(entry):
-        """A value within the range that is not the usual one; None where it is no number and no switch."""
+        """A value within the range that is not the usual one; None where it is not a number and no switch."""
         usual = entry.get("default")
         entry = next((e for e in (entry, *entry.get("oneOf", []), *entry.get("anyOf", [])) if e.get("type") in ("number", "integer", "boolean")), entry)
         kind = entry.get("type")

@@ -120,7 +120,7 @@ class OwnControllerPage(unittest.TestCase):
         (self.path / "wrong.c").write_text(GIVES_UP, encoding="utf-8")
         subprocess.run("cc -w -shared -fPIC -I. wrong.c -o wrong.so", shell=True, check=True, cwd=self.path)
         made = self.run_program("run", "own.toml", "--set", "control.own={controller='wrong.so'}", code=3)
-        self.assertIn("answered a duty that is no number of 0 to 1", made.stderr + made.stdout)
+        self.assertIn("answered a duty that is not between 0 and 1", made.stderr + made.stdout)
         self.assertIn("own", self.run_program("export", "header", "own.toml", code=2).stderr)
         self.assertIn("is another controller's name", self.run_program(
             "compare", "maxon-251601", "--own", "six_step_again.so", "--own", "six_step_again.so", code=2).stderr)

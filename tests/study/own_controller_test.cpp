@@ -162,10 +162,10 @@ TEST(OwnController, WhatNoTimerDoesEndsTheRun) {
   for (const double duty : {-0.1, 1.1, std::numeric_limits<double>::quiet_NaN(), HUGE_VAL}) {
     sixstep_answer wrong = pair;
     wrong.duty = duty;
-    EXPECT_EQ(fault(pair_puppet, wrong), "the controller answered a duty that is no number of 0 to 1");
+    EXPECT_EQ(fault(pair_puppet, wrong), "the controller answered a duty that is not between 0 and 1");
     sixstep_answer legs{};
     legs.enabled = 1, legs.leg[2] = {SIXSTEP_LEG_PWM, SIXSTEP_PWM_UPPER, duty};
-    EXPECT_EQ(fault(legs_puppet, legs), "the controller answered a duty that is no number of 0 to 1");
+    EXPECT_EQ(fault(legs_puppet, legs), "the controller answered a duty that is not between 0 and 1");
   }
   sixstep_answer wrong = pair;
   wrong.sink = 0;

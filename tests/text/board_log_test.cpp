@@ -68,7 +68,7 @@ TEST(BoardLog, SaysWhatIsWrong) {
   EXPECT_THAT(limit("t [us],i_m [V]\n1,2\n3,4\n"), HasSubstr("where A belongs"));
   EXPECT_THAT(limit("t [us],temper\n1,2\n3,4\n"), HasSubstr("no column that a simulation has"));
   EXPECT_THAT(limit("t [us],i_m [mA]\n1,2\n1,4\n"), HasSubstr("does not rise"));
-  EXPECT_THAT(limit("t [us],i_m [mA]\n1,x\n2,4\n"), HasSubstr("is no number"));
+  EXPECT_THAT(limit("t [us],i_m [mA]\n1,x\n2,4\n"), HasSubstr("is not a number"));
   EXPECT_THAT(limit("i_m [mA],duty\n1,0\n2,0\n"), ::testing::Not("nothing"));
   EXPECT_EQ(limit("t [us],i_m [mA]\n1,2\n"), "nothing");  // how few rows suffice is for the comparison to say
   EXPECT_THAT(limit("t [us],i_m [mA]\n"), HasSubstr("holds no row of numbers"));

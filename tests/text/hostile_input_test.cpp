@@ -249,7 +249,7 @@ TEST(HostileInput, ATableOfRowsIsHeldToTheSameNumbers) {
   EXPECT_THAT(told_of_rows("0,1\n1e10,2\n"),
               ElementsAre(HasSubstr("time 10000000000 must lie in -9000000 to 9000000, in s")));
   for (const char* none : {"nan", "inf", "-inf", "1e999"})
-    EXPECT_THAT(told_of_rows(std::string("0,1\n1,") + none + "\n"), ElementsAre(HasSubstr("is no number")))
+    EXPECT_THAT(told_of_rows(std::string("0,1\n1,") + none + "\n"), ElementsAre(HasSubstr("is not a number")))
         << none;
 }
 

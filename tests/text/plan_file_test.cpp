@@ -57,8 +57,8 @@ TEST(PlanWords, NameKeysOfListsAndOfLinearMotorsInTheirUnits) {
 TEST(PlanWords, ThatAreNoneSayWhy) {
   for (const auto& [words, told] : {std::pair{"supply.voltge_V=1:2:3", "did you mean supply.voltage_V?"},
                                     std::pair{"supply.voltage_V=1 A:2 A:3", "A"},
-                                    std::pair{"supply.voltage_V=1:2:2.5", "is no number of points"},
-                                    std::pair{"supply.voltage_V=1:2:1", "is no number of points"},
+                                    std::pair{"supply.voltage_V=1:2:2.5", "is not a number of points"},
+                                    std::pair{"supply.voltage_V=1:2:1", "is not a number of points"},
                                     std::pair{"supply.voltage_V=1:2:3:4:5", "has more than"},
                                     std::pair{"supply.voltage_V=", "does not name a key and its values"},
                                     std::pair{"=1", "does not name a key and its values"}}) {

@@ -97,7 +97,7 @@ TEST(RecordedDoubts, ABadCellIsNamed) {
           static_cast<std::size_t>(std::count(head, head + std::string(head).size(), '\n'));
       const Seen found = seen(file, between_lines);
       EXPECT_THAT(found.problem, AllOf(HasSubstr(fmt::format("r.csv:{}: ", above + 8)),
-                                       HasSubstr("is no number, and so is 1 more cell")))
+                                       HasSubstr("is not a number, nor is 1 more cell")))
           << cell << head;
     }
 }

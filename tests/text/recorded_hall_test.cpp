@@ -202,7 +202,7 @@ TEST(RecordedHall, ABadCellIsNamed) {
   for (int row = 0; row < 300; ++row)
     file +=
         fmt::format("{:.5f},{}\n", row * 5e-5, row == 42 ? std::string("1,OL,0") : bits(codes[row / 10 % 6]));
-  EXPECT_THAT(seen(file).problem, AllOf(HasSubstr("r.csv:44: hall2 \"OL\" is no number")));
+  EXPECT_THAT(seen(file).problem, AllOf(HasSubstr("r.csv:44: hall2 \"OL\" is not a number")));
 }
 
 }  // namespace SIXSTEP_TEST_FILE

@@ -133,14 +133,16 @@ TEST(Recording, CellsThatAreNoNumbersAreNamedByTheirLine) {
     return "time [s],u_ab [V]\n0,1\n1e-3," + std::string(cell) + "\n2e-3,3\n";
   };
   for (const char* const cell : {"nan", "NaN", "inf", "-inf", "--", "OL", "1e", "0x10", "1.2.3", "1 2", ""})
-    EXPECT_EQ(told_of_emf(changed(cell)),
-              fmt::format(
-                  "r.csv:3: u_ab \"{}\" is no number; leave such rows out, and write numbers as 0.5 or 5e-1",
-                  cell));
-  EXPECT_THAT(told_of_emf("time [s],u_ab [V]\n0,1\n1e-3\n"), StartsWith("r.csv:3: u_ab \"\" is no number"));
+    EXPECT_EQ(
+        told_of_emf(changed(cell)),
+        fmt::format(
+            "r.csv:3: u_ab \"{}\" is not a number; leave such rows out, and write numbers as 0.5 or 5e-1",
+            cell));
+  EXPECT_THAT(told_of_emf("time [s],u_ab [V]\n0,1\n1e-3\n"),
+              StartsWith("r.csv:3: u_ab \"\" is not a number"));
   EXPECT_THAT(told_of_emf("time [s],u_ab [V]\n0,1\nnever,2\n"),
-              StartsWith("r.csv:3: time \"never\" is no number"));
-  EXPECT_THAT(told_of_emf(scope(2) + "0.5,\xff\xfe\n"), HasSubstr("is no number"));
+              StartsWith("r.csv:3: time \"never\" is not a number"));
+  EXPECT_THAT(told_of_emf(scope(2) + "0.5,\xff\xfe\n"), HasSubstr("is not a number"));
   // A column that nobody asked for may hold what it likes.
   std::string remarked = "time [s],u_ab [V],remark\n";
   for (int row = 0; row < 400; ++row)
@@ -153,7 +155,7 @@ TEST(Recording, NumbersBeyondAllInstrumentsAreNamedByTheirRow) {
     EXPECT_THAT(told_of_emf(scope(2) + fmt::format("1,{}\n", huge)),
                 AllOf(StartsWith("r.csv: u_ab "), HasSubstr(" in row 201 is beyond all instruments")));
   EXPECT_THAT(told_of_emf(scope(2) + "1e200,0\n"), StartsWith("r.csv: time 1e+200 in row 201 is beyond"));
-  EXPECT_THAT(told_of_emf(scope(2) + "1,1e999\n"), StartsWith("r.csv:202: u_ab \"1e999\" is no number"));
+  EXPECT_THAT(told_of_emf(scope(2) + "1,1e999\n"), StartsWith("r.csv:202: u_ab \"1e999\" is not a number"));
 }
 
 TEST(Recording, TimesThatDoNotTell) {

@@ -78,9 +78,9 @@ TEST(ReferenceFile, EachSlipIsToldWithItsLine) {
   EXPECT_THAT(told("t,i\n"), ElementsAre(HasSubstr("r.csv:1: holds no row of numbers; ")));
   EXPECT_THAT(told("0\n1\n"), ElementsAre("r.csv:1: has 1 column; each row is a time in s and a value"));
   EXPECT_THAT(told("0,1\n0.1\n0.2,x\n0.1,1\n0.1,1\n-1,nan\n"),
-              ElementsAre("r.csv:2: column 2 \"\" is no number; write numbers as 0.5 or 5e-1",
-                          "r.csv:3: column 2 \"x\" is no number; write numbers as 0.5 or 5e-1",
-                          "r.csv:6: column 2 \"nan\" is no number; write numbers as 0.5 or 5e-1"));
+              ElementsAre("r.csv:2: column 2 \"\" is not a number; write numbers as 0.5 or 5e-1",
+                          "r.csv:3: column 2 \"x\" is not a number; write numbers as 0.5 or 5e-1",
+                          "r.csv:6: column 2 \"nan\" is not a number; write numbers as 0.5 or 5e-1"));
   EXPECT_THAT(told("# remark\n0,1\n0.1,1\n\n0.1,1\n-1,2\n"),
               ElementsAre("r.csv:5: time 0.1 does not rise; sort the rows, from 0 s on",
                           "r.csv:6: time -1 does not rise; sort the rows, from 0 s on"));
@@ -128,7 +128,7 @@ TEST_F(ReferenceInAFile, ItsSlipsAreToldWhereTheyStand) {
                   "such file or directory; check the path and the permission to read it"));
   EXPECT_THAT(complaints("file = \"/dev/zero\"\n"),
               ElementsAre("x.toml:7:8: reference.file = \"/dev/zero\" names /dev/zero, which cannot be read: "
-                          "it is no regular file; name a file"));
+                          "it is not a regular file; name a file"));
   std::ofstream(folder_ / "r.csv") << "0,1\n0,3\n";
   EXPECT_THAT(complaints("file = \"r.csv\"\n"),
               ElementsAre("r.csv:2: time 0 does not rise; sort the rows, from 0 s on"));

@@ -53,7 +53,7 @@ TEST(ShapeFile, SaysWhatIsWrongWithItself) {
     return sheet ? std::string() : first(sheet.problems());
   };
   EXPECT_THAT(of(named, "angle_deg,value\n0,1\n120,x\n"),
-              HasSubstr("motors/shape.csv:3: value \"x\" is no number"));
+              HasSubstr("motors/shape.csv:3: value \"x\" is not a number"));
   EXPECT_THAT(of(named, "0 1\n200 -1\n100 1\n"), HasSubstr("motors/shape.csv:3: angle 100 does not rise"));
   EXPECT_THAT(of(named, "time_s,value\n0,1\n"), HasSubstr("heads time as s, where deg belongs"));
   EXPECT_THAT(of("back_emf_file = \"none.csv\"\n", rows),

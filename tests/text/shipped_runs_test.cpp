@@ -56,7 +56,7 @@ TEST_P(EveryShippedRun, ObeysTheStandingLaws) {
   }});
   ASSERT_TRUE(outcome) << to_string(outcome.problems().front());
   EXPECT_TRUE(time_holds) << "time went back";
-  EXPECT_TRUE(complete) << "a current, speed, angle or bus voltage is no number";
+  EXPECT_TRUE(complete) << "a current, speed, angle or bus voltage is not a number";
   // A lean run ends where its lines show no position: that of a scenario which is about such lines.
   const bool misled = misleads(*scenario) || loses_sensor(*scenario);
   if (misled) {

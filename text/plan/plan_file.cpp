@@ -133,7 +133,7 @@ base::Result<analysis::Axis> range_of(const std::string& key, const std::vector<
   if (parts.size() > 2) {
     const double count = number_alone(parts[2]).value_or(0.0);
     if (count < 2 || count > 1e9 || count != static_cast<double>(static_cast<std::size_t>(count)))
-      return base::Problem{std::string(whole), parts[2], "is no number of points",
+      return base::Problem{std::string(whole), parts[2], "is not a number of points",
                            "write a whole number from 2 on behind the second colon"};
     axis.points = static_cast<std::size_t>(count);
   }

@@ -30,7 +30,7 @@ struct BoardLog {
 };
 
 /// Where the board began anew, from its last headings on; a line that was cut short at the end is left out. Problems: no time, no column of
-/// a trace, a unit that is none, a cell that is no number, a time that does not rise.
+/// a trace, a unit that is none, a cell that is not a number, a time that does not rise.
 base::Result<BoardLog> read_board_log(const std::string& name, std::string_view bytes,
                                       const LogColumns& wanted = {});
 

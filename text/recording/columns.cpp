@@ -64,7 +64,7 @@ base::Result<Conversion> conversion_of(const Recording& r, const Picked& picked,
   if (!column.odd_unit.empty())
     return of_recording(
         r,
-        fmt::format("heads {} in \"{}\", which is no unit; {} belongs there", column.name, column.odd_unit,
+        fmt::format("heads {} in \"{}\", which is not a unit; {} belongs there", column.name, column.odd_unit,
                     belongs),
         wanted.unit.empty() ? "head it without a unit" : "units that fit: " + units_that_fit(wanted.unit));
   if (picked.unit.empty()) return Conversion{};
@@ -143,12 +143,12 @@ base::Result<std::vector<double>> values_of(const Recording& recording, const Pi
     const BadCell& first = column.bad.front();
     const std::size_t others = column.bad_cells - 1;
     const std::string more = others == 0   ? ""
-                             : others == 1 ? ", and so is 1 more cell below it"
-                                           : fmt::format(", and so are {} more cells below it", others);
+                             : others == 1 ? ", nor is 1 more cell below it"
+                                           : fmt::format(", nor are {} more cells below it", others);
     return bounded(
         {.where = fmt::format("{}:{}:", recording.name, first.line),
          .value = "",
-         .limit = bounded(fmt::format("{} \"{}\"", column.name, first.cell), 400) + " is no number" + more,
+         .limit = bounded(fmt::format("{} \"{}\"", column.name, first.cell), 400) + " is not a number" + more,
          .cure = "leave such rows out, and write numbers as 0.5 or 5e-1"});
   }
   base::Result<std::vector<double>> out = converted(recording, picked, wanted);

@@ -15,7 +15,7 @@
 
 namespace text {
 
-/// A cell that is no number.
+/// A cell that is not a number.
 struct BadCell {
   std::size_t line = 0;
   std::string cell;

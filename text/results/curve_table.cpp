@@ -234,7 +234,7 @@ std::string nominal(const analysis::CurveRequest& r, const analysis::Curve& curv
   const double sheet_V = r.bench.motor.nominal_voltage_V;
   if (r.bench.duty != 1 || r.bench.voltage_V != sheet_V)
     return text + fmt::format(", at full duty and {:g} V.\n", sheet_V);
-  if (!n.torque_Nm) return text + "; without a torque it is no point of the curve.\n";
+  if (!n.torque_Nm) return text + "; without a torque it is not a point of the curve.\n";
   if (!n.at_torque) return text + "; the curve never has that torque.\n";
   const analysis::OperatingPoint& p = *n.at_torque;
   text += fmt::format("; at that torque the curve has {}", speed_text(p.speed_rad_s, u));
@@ -281,7 +281,7 @@ std::string too_fast(const analysis::CurveRequest& r, const analysis::Curve& cur
   if (past(curve.marks.best_efficiency))
     text +=
         fmt::format(", the best efficiency at {}", speed_text(curve.marks.best_efficiency->speed_rad_s, u));
-  return text + ": what is faster than the sheet allows is no operating point.\n";
+  return text + ": what is faster than the sheet allows is not an operating point.\n";
 }
 
 std::string thermal(const analysis::CurveRequest& r, const analysis::Curve& curve, const Units& u) {

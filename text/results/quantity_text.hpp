@@ -14,7 +14,7 @@ namespace text {
 /// "131.17 us", "47.25 kHz", "702.61 rad/s": five significant digits unless asked for others.
 std::string quantity_text(double x, const std::string& unit, int digits = 5);
 
-/// With so many digits behind the point; "-" for what is no number, or none that ends.
+/// With so many digits behind the point; "-" for what is not a number, or none that ends.
 std::string fixed_text(double x, int digits);
 /// In full, for programs; empty for what has no value, "never" for what does not come.
 std::string csv_cell(double x);

@@ -42,7 +42,7 @@ class RowsOf {
                                             y = converted(r_, *picked, unit_);
     if (!t) return t.problems();
     if (!y) return y.problems();
-    // A time before a cell that is no number says nothing of the one behind it.
+    // A time before a cell that is not a number says nothing of the one behind it.
     for (std::size_t row = 0; bad_ == 0 && row < t->size(); ++row) take(row, (*t)[row], (*y)[row]);
     if (told_.empty()) return std::move(rows_);
     std::stable_sort(told_.begin(), told_.end(),
@@ -89,7 +89,7 @@ class RowsOf {
     for (const BadCell& bad : column.bad)
       if (std::none_of(told_.begin(), told_.end(), [&](const auto& told) { return told.first == bad.line; }))
         told_.emplace_back(bad.line,
-                           at_line(bad.line, fmt::format("{} \"{}\" is no number", column.name, bad.cell),
+                           at_line(bad.line, fmt::format("{} \"{}\" is not a number", column.name, bad.cell),
                                    "write numbers as 0.5 or 5e-1"));
   }
 

@@ -26,7 +26,7 @@ void TableReader::read(std::string_view key, std::optional<base::Quantity>& memb
   if (!any_spelling_in_file(key, about)) return absent(key, about);
   std::optional<base::Quantity> found = member ? member : base::Quantity{};
   read(key, *found, about);
-  // What could not be read is no number of the file's: what follows sees none, or the one that it was to replace.
+  // What could not be read is not a number of the file's: what follows sees none, or the one that it was to replace.
   if (!complaints_.about(shown(at(found->key.empty() ? key : std::string_view(found->key))))) member = found;
 }
 

@@ -74,7 +74,7 @@ int main(int argc, char** argv) {
   if (sent != nullptr && std::setvbuf(sent, nullptr, _IOLBF, 4096) != 0) return 2;
   static board::Chip chip(pins, sent);
   if (!chip.load(argv[argc - 1])) {
-    std::fprintf(stderr, "sixstep-avr-board: %s is no program of an ATmega2560\n", argv[argc - 1]);
+    std::fprintf(stderr, "sixstep-avr-board: %s is not a program for an ATmega2560\n", argv[argc - 1]);
     return 2;
   }
   if (!tell(rig::ChipGreeting{.clock_Hz = board::Chip::clock_Hz})) return 3;

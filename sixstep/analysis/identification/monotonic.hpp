@@ -34,7 +34,7 @@ inline base::Problems check_column(const std::string& name, const std::vector<do
   if (wrong == values.end()) return {};
   return {{.where = name,
            .value = base::written(*wrong),
-           .limit = "in row " + std::to_string(wrong - values.begin() + 1) + " is no number",
+           .limit = "in row " + std::to_string(wrong - values.begin() + 1) + " is not a number",
            .cure = "leave such rows out"}};
 }
 

@@ -107,7 +107,7 @@ base::Problem refused_answer(rig::OwnWrong wrong, double t_s) {
   using rig::OwnWrong;
   switch (wrong) {
     case OwnWrong::duty:
-      return {at(t_s), "", "the controller answered a duty that is no number of 0 to 1",
+      return {at(t_s), "", "the controller answered a duty that is not between 0 and 1",
               "bound it in the controller, and look for a division by 0"};
     case OwnWrong::leg:
       return {at(t_s), "", "the controller answered a pair of one leg, or a leg that there is not",

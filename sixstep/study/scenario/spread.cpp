@@ -137,7 +137,7 @@ struct Checker {
     if (!may_stray(spread.key) || (!at.number && !at.left_out))
       return add(
           where + ".key", "\"" + spread.key + "\"",
-          "is no number of motor_override, supply, bridge, load or initial that differs from drive to "
+          "is not a number of motor_override, supply, bridge, load or initial that differs from drive to "
           "drive",
           "write it as table.key, as in \"supply.voltage_V\"; the help on spread.key lists the motor's");
     if (!at.number)

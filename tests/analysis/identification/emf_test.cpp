@@ -307,7 +307,7 @@ TEST(Emf, WhatIsNoRecordingIsToldWhy) {
   EXPECT_THAT(told(request), HasSubstr("in row 101 does not rise"));
   request = good;
   request.record.channels[0].u_V[7] = NAN;
-  EXPECT_THAT(told(request), HasSubstr("ch1 = nan in row 8 is no number"));
+  EXPECT_THAT(told(request), HasSubstr("ch1 = nan in row 8 is not a number"));
   request.record.channels[0].u_V.pop_back();
   EXPECT_THAT(told(request), HasSubstr("must be one for each of"));
   request.record = {};

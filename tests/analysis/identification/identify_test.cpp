@@ -292,7 +292,7 @@ TEST(Identify, WhatIsNoLogIsToldWhy) {
   EXPECT_THAT(told(broken), HasSubstr("u_bc = "));
   broken = volts;
   broken.u_V[2][5] = INFINITY;
-  EXPECT_THAT(told(broken), HasSubstr("u_ca = inf in row 6 is no number"));
+  EXPECT_THAT(told(broken), HasSubstr("u_ca = inf in row 6 is not a number"));
   broken = volts;
   Draw draw(1);
   for (auto& column : broken.u_V)
