@@ -38,6 +38,9 @@ letters::Letter letter_of(const Mail& mail) {
   return std::move(*letter);
 }
 
+/// The plan is over before a question was answered: the leader may have gone, and the run is wanted by nobody.
+struct OverUnanswered {};
+
 /// One plan's runs, made on threads of its own; letters are the calling thread's.
 class Hand {
  public:
@@ -48,7 +51,8 @@ class Hand {
     const std::uint64_t number = asked_++;
     questions_.push_back({number, std::move(question)});
     moved_.notify_all();
-    moved_.wait(lock, [&] { return answers_.contains(number); });
+    moved_.wait(lock, [&] { return over_ || answers_.contains(number); });
+    if (!answers_.contains(number)) throw OverUnanswered{};
     return answers_.extract(number).mapped();
   }
 
@@ -67,6 +71,8 @@ class Hand {
     const std::jthread crew([&] {
       try {
         make_runs(runs, runs.jobs, [this] { return next(); });
+      } catch (const OverUnanswered&) {
+        // What was under way is not handed in: `open_` names it.
       } catch (...) {
         error = std::current_exception();
       }
@@ -134,6 +140,7 @@ class Hand {
     over_ = true;
     stop_.request_stop();
     work_came_.notify_all();
+    moved_.notify_all();
   }
 
   /// What there is to say, or a pause.

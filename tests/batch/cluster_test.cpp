@@ -231,6 +231,24 @@ TEST(Cluster, AnExceptionOfWhoTakesTheRowsComesOut) {
   }
 }
 
+/// The leader's disk is full while a run waits for its answer: nobody will answer, and the follower must go all the same.
+TEST(Cluster, ADismissalEndsARunThatWaitsForAnAnswer) {
+  Together cluster;
+  Cluster leader = cluster.post.of(0, 2);
+  const letters::Begin begin{cluster.plan, *cluster.columns, 1, "half a millisecond"};
+  leader.send(1, letters::bytes_of(begin));
+  leader.send(1, letters::bytes_of(letters::Runs{{0}}));
+  std::jthread follower([&] { cluster.follow_as(1, 2); });
+  for (bool asked = false; !asked;) {
+    const std::optional<Mail> mail = leader.receive();
+    const auto letter = mail ? letters::read(mail->bytes) : std::nullopt;
+    asked = letter && std::holds_alternative<letters::Question>(*letter);
+  }
+  leader.send(1, letters::bytes_of(letters::Dismissed{4}));
+  follower.join();
+  EXPECT_EQ(cluster.exits.at(1), 4);
+}
+
 /// A row that does not fit the leader's columns, as another build's might not: it is taken by nobody.
 TEST(Cluster, RowsOfOtherColumnsAreNoRows) {
   Together cluster;
