@@ -131,8 +131,8 @@ TEST(BoardLog, ALineOfUnitsWithAStrangeOneIsNoLineOfHeadings) {
   };
   EXPECT_THAT(
       limit("t,i_m,u_a\ns,foo,V\n0,1,2\n1,2,3\n"),
-      testing::AllOf(HasSubstr("heads i_m in \"foo\", which is no unit"), HasSubstr("units that fit: A")));
-  EXPECT_THAT(limit("t,i_m\nfoo,mA\n0,1\n1,2\n"), HasSubstr("heads t in \"foo\", which is no unit"));
+      testing::AllOf(HasSubstr("heads i_m in \"foo\", which is not a unit"), HasSubstr("units that fit: A")));
+  EXPECT_THAT(limit("t,i_m\nfoo,mA\n0,1\n1,2\n"), HasSubstr("heads t in \"foo\", which is not a unit"));
   EXPECT_THAT(limit("t,foo,bar\ns,V,mA\n0,1,2\n1,2,3\n"), HasSubstr("it has t, foo, bar"));
   const auto log = text::read_board_log("b.csv", "t,duty,i_m\nms,-,mA\n0,0.5,2\n1,0.25,3\n");
   ASSERT_TRUE(log);

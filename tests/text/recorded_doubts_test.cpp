@@ -20,7 +20,8 @@ TEST(RecordedDoubts, WordsThatAreNoUnitsAreRefused) {
         "time samples,u_ab,u_bc\n", "t,u_ab,u_bc\n(foo),(V),(V)\n", "t,u_ab,u_bc\ns,foo,V\n",
         "t,u_ab,u_bc\nfoo,V,V\n", "t,CH1,CH2\ns,V,foo\n"}) {
     const Seen found = seen(plain(head, "{:.0f},{:.5f},{:.5f}\n", 1e6), between_lines);
-    EXPECT_THAT(found.problem, AllOf(HasSubstr("which is no unit"), HasSubstr("units that fit: "))) << head;
+    EXPECT_THAT(found.problem, AllOf(HasSubstr("which is not a unit"), HasSubstr("units that fit: ")))
+        << head;
   }
   EXPECT_THAT(seen(plain("time [s],u_ab [A],u_bc [A]\n")).problem,
               HasSubstr("heads u_ab as A, where V belongs"));

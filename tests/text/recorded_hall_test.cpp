@@ -138,7 +138,7 @@ TEST(RecordedHall, HeadsOfManyMakes) {
   for (const char* head : {"time,hall [counts]", "time [foo],hall"}) {
     std::string file = std::string(head) + "\n";
     for (int row = 0; row < 300; ++row) file += fmt::format("{:.5f},{}\n", row * 5e-5, codes[row / 10 % 6]);
-    EXPECT_THAT(seen(file).problem, HasSubstr("which is no unit")) << head;
+    EXPECT_THAT(seen(file).problem, HasSubstr("which is not a unit")) << head;
   }
 }
 

@@ -67,7 +67,7 @@ TEST(ReferenceFile, AHeadingMayBringAUnit) {
       told("t_s,u_V\n0,1\n"),
       ElementsAre(HasSubstr("r.csv: heads u as V, where A belongs; name another column; units that fit: A")));
   for (const char* odd : {"t_s,i [counts]\n0,1\n", "Time (foo),i\n0,1\n"})
-    EXPECT_THAT(told(odd), ElementsAre(HasSubstr("which is no unit"))) << odd;
+    EXPECT_THAT(told(odd), ElementsAre(HasSubstr("which is not a unit"))) << odd;
   // In the encoding of older instruments the micro sign is one byte.
   EXPECT_THAT(read("time [\xb5s],speed_rpm\n0,30\n10000,60\n", "rad/s").times_s, ElementsAre(0.0, 0.01));
   EXPECT_DOUBLE_EQ(read("t,speed [turn/s]\n0,0.5\n", "rad/s").values.at(0), M_PI);
