@@ -123,6 +123,34 @@ std::string load_steps(const Contest& c) {
   return out;
 }
 
+std::string html_list(const std::vector<std::string>& lines, std::string_view classes) {
+  std::string out = fmt::format("<ul class=\"{}\">\n", classes);
+  for (const std::string& line : lines) out += "<li>" + escaped(line) + "</li>\n";
+  return lines.empty() ? std::string() : out + "</ul>\n";
+}
+
+/// Each table below its title; the mark of the least is bold besides.
+std::string tables(const Contest& c) {
+  std::string out;
+  for (const text::ContestTable& table : text::contest_tables(c)) {
+    if (!table.title.empty()) out += "<h3>" + escaped(table.title) + "</h3>\n";
+    out += "<div class=\"scroll\" tabindex=\"0\"><table>";
+    for (std::size_t r = 0; r < table.rows.size(); ++r) {
+      out += r == 0 ? "<thead><tr>" : "<tr>";
+      for (std::size_t n = 0; n < table.rows[r].size(); ++n) {
+        const std::string cell = escaped(table.rows[r][n]);
+        const bool least = r > 0 && cell.ends_with(" *");
+        const std::string_view side = n > 0 ? " class=\"num\"" : "";
+        out += r == 0 ? fmt::format("<th{}>{}</th>", side, cell)
+                      : fmt::format("<td{}>{}{}{}</td>", side, least ? "<b>" : "", cell, least ? "</b>" : "");
+      }
+      out += r == 0 ? "</tr></thead><tbody>\n" : "</tr>\n";
+    }
+    out += "</tbody></table></div>\n";
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string render_contest(const ContestPage& page) {
@@ -133,12 +161,17 @@ std::string render_contest(const ContestPage& page) {
       "{} controllers, each designed by its rule, on one course: start against half of the "
       "rated torque, load step, way down to the lowest speed",
       c.entries.size());
-  const std::string body = filled(assets::bench_html, {{"title", title},
-                                                       {"subtitle", escaped(subtitle)},
-                                                       {"facts", facts(c)},
-                                                       {"pictured", "On the nominal motor"},
-                                                       {"charts", svg_chart(trade(c)) + load_steps(c)},
-                                                       {"text", escaped(text::contest_text(c))}});
+  const std::string body =
+      filled(assets::contest_html, {{"title", title},
+                                    {"subtitle", escaped(subtitle)},
+                                    {"notes", html_list(text::contest_notes(c), "alert")},
+                                    {"facts", facts(c)},
+                                    {"words", html_list(text::contest_words(c), "")},
+                                    {"tables", tables(c)},
+                                    {"legend", html_list(text::contest_legend(c), "legend")},
+                                    {"trade", svg_chart(trade(c))},
+                                    {"steps", load_steps(c)},
+                                    {"rules", html_list(c.bench.rules, "")}});
   return in_shell({.title = title, .body = body, .command = page.command, .version = page.version});
 }
 

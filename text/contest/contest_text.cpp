@@ -93,24 +93,19 @@ std::vector<ContestColumn> contest_columns(const Contest& c, ContestGroup group,
   return shown;
 }
 
-std::string table(const Contest& c, ContestGroup group, FiguresOf figures) {
+ContestTable table(const Contest& c, std::string title, ContestGroup group, FiguresOf figures) {
   const std::vector<ContestColumn> shown = contest_columns(c, group, figures);
-  Rows rows(Rows::Side::left);
+  ContestTable table{std::move(title), {}};
   const auto add = [&](const auto& text_of) {
-    std::vector<std::string> cells;
+    std::vector<std::string>& cells = table.rows.emplace_back();
     cells.reserve(shown.size());
     for (const ContestColumn& column : shown) cells.push_back(text_of(column));
-    rows.add(std::move(cells));
   };
   add([](const ContestColumn& column) { return column.head; });
   for (std::size_t n = 0; n < c.rows.size(); ++n)
     if (c.entries[n].scenario && figures(c.rows[n]))
       add([n](const ContestColumn& column) { return column.cell(n); });
-  return rows.text();
-}
-
-std::string tables(const Contest& c, FiguresOf figures) {
-  return table(c, ContestGroup::moving, figures) + "\n" + table(c, ContestGroup::steady, figures);
+  return table;
 }
 
 /// In lines that a terminal holds, the later ones further in.
@@ -168,21 +163,40 @@ std::vector<std::string> contest_notes(const Contest& c) {
   return notes;
 }
 
+std::vector<ContestTable> contest_tables(const Contest& c) {
+  std::vector<ContestTable> all{table(c, {}, ContestGroup::moving, nominal_of),
+                                table(c, {}, ContestGroup::steady, nominal_of)};
+  if (c.plan.drives == 0) return all;
+  all.push_back(table(
+      c, fmt::format("Worst of the nominal motor and {} drives of the sheet's tolerances", c.plan.drives),
+      ContestGroup::moving, worst_of));
+  all.push_back(table(c, {}, ContestGroup::steady, worst_of));
+  return all;
+}
+
+std::vector<std::string> contest_legend(const Contest& c) {
+  return {
+      "* least of those that hold the course", "lowest: speed still held against the rated torque, by halves",
+      fmt::format(
+          "ripple to turn-ons: at the rated speed against half of the rated torque; slow swing, slow ripple: at "
+          "{} rad/s against all of it",
+          base::rounded(c.bench.course.slow_rad_s, 4)),
+      fmt::format("tick, flash: {} {}, instructions at worst and bytes", contest_core, arithmetic)};
+}
+
 std::string contest_text(const Contest& c) {
   std::string text = fmt::format("{}: {} controllers, designed by rule for\n",
                                  visible(c.bench.scenario.motor), c.entries.size());
   for (const std::string& rule : c.bench.rules) text += "  - " + rule + "\n";
-  text += "\n" + tables(c, nominal_of);
-  if (c.plan.drives > 0)
-    text += fmt::format("\nWorst of the nominal motor and {} drives of the sheet's tolerances\n\n",
-                        c.plan.drives) +
-            tables(c, worst_of);
-  text += fmt::format(
-      "\n  * least of those that hold the course\n"
-      "  lowest: speed still held against the rated torque, by halves\n"
-      "  ripple to turn-ons: at the rated speed against half of the rated torque; slow swing, slow ripple: at {} rad/s against all of it\n"
-      "  tick, flash: {} {}, instructions at worst and bytes\n\n",
-      base::rounded(c.bench.course.slow_rad_s, 4), contest_core, arithmetic);
+  for (const ContestTable& one : contest_tables(c)) {
+    text += one.title.empty() ? "\n" : "\n" + one.title + "\n\n";
+    Rows rows(Rows::Side::left);
+    for (const std::vector<std::string>& cells : one.rows) rows.add(cells);
+    text += rows.text();
+  }
+  text += "\n";
+  for (const std::string& line : contest_legend(c)) text += "  " + line + "\n";
+  text += "\n";
   for (const std::string& note : contest_notes(c)) text += paragraph(note);
   for (const std::string& line : contest_words(c)) text += paragraph(line);
   return text;

@@ -23,6 +23,17 @@ std::vector<std::string> contest_words(const analysis::Contest& contest);
 /// A line per controller that this motor or board does not let be, or that does not hold the course: why.
 std::vector<std::string> contest_notes(const analysis::Contest& contest);
 
+/// A table as it is printed: heads first, then a row for each controller that runs. "*" marks the least of a column.
+struct ContestTable {
+  std::string title;  ///< of the first table of a pair: what drives the figures are of
+  std::vector<std::vector<std::string>> rows;
+};
+/// The figures of the nominal drive, and the worst of the series where one was run; two tables each, while the speed changes and steady.
+std::vector<ContestTable> contest_tables(const analysis::Contest& contest);
+
+/// What the marks and heads of the tables mean, a line each.
+std::vector<std::string> contest_legend(const analysis::Contest& contest);
+
 /// What is common, the tables, nominal and worst, and the words.
 std::string contest_text(const analysis::Contest& contest);
 
