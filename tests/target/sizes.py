@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Flash and RAM of both entries of a drive, and what they ask the linker for: against data/cores/sizes.txt and the
-table of docs/control.md, section "What the linker is asked for"."""
+table of docs/reference/blocks.md, section "What the linker is asked for"."""
 import fnmatch
 import re
 
@@ -67,7 +67,7 @@ def take():
             trouble.append(f"{core.name}, {drive} in {scalar}: {answer}")
             continue
         rows[core.name, drive, scalar] = answer[0]
-        trouble += [f"{core.name}, {drive} in {scalar}: asks the linker for {name}, which docs/control.md does not list"
+        trouble += [f"{core.name}, {drive} in {scalar}: asks the linker for {name}, which docs/reference/blocks.md does not list"
                     for name in not_listed(core, answer[1])]
     return rows, trouble
 
@@ -90,7 +90,7 @@ def check():
     for key in table | rows:
         if table.get(key) != rows.get(key):
             trouble.append(f"{key[0]}, {key[1]} in {key[2]}: flash and RAM {rows.get(key)}, the table has {table.get(key)}")
-    print(f"{len(rows)} sizes: " + (f"{len(trouble)} are not as written" if trouble else "those of the table; the linker is asked for what docs/control.md lists"), flush=True)
+    print(f"{len(rows)} sizes: " + (f"{len(trouble)} are not as written" if trouble else "those of the table; the linker is asked for what docs/reference/blocks.md lists"), flush=True)
     for line in trouble:
         print(f"  {line}")
     return not trouble
