@@ -14,64 +14,79 @@ OVERRIDE = "motor_override."
 LONG = 12  # more words than this do not go into a table's cell
 HEAD = """# Scenario and motor files: all keys
 
-Which keys can a scenario or a motor file have, in which units and ranges? `tools/scenario_reference.py` writes these pages from
-`sixstep help`; a test checks that they are up to date. In the terminal, `sixstep help`, `sixstep help pwm` and
-`sixstep help pwm.period_s` say the same.
+Which keys can a scenario or a motor file have, in which units and ranges? For everybody who writes such a file. In the terminal,
+`sixstep help`, `sixstep help pwm` and `sixstep help pwm.period_s` say the same. `tools/scenario_reference.py` writes these pages
+from it; a test checks that they are up to date.
 
 ## How a file is written
 
-Files are TOML. Every key carries its unit. A key that is not listed here is an error. The column "default" shows the value that
-holds when the key is left out. A key without a default can be left out, unless it is required.
+- Files are TOML. The name of a key contains its unit, if it has one. A key that is not listed here is an error.
+- The column "default" shows the value of a key that is left out. A key without a default can be left out, unless it is required.
+- "also as" names the key for a linear motor, whose files must use that name.
 
-A number may bring a unit of its own, in quotes: `duration_s = "20 ms"`, `times_s = [0, "5 ms"]`, `inertia_kg_m2 = "135 gcm2"`,
-`damping = "90 %"`. A reference takes the unit of its control mode: `value = "6710 rpm"`. A limit takes the unit of its metric and
-signal: `max = "150 mA"`. The unit must be of the key's kind ([list of units](../../start/your-motor.md#what-a-number-means)).
+A number may have another unit, in quotes. The unit must fit the key
+([list of units](../../start/your-motor.md#what-a-number-means)):
+
+- key: `duration_s = "20 ms"`, `times_s = [0, "5 ms"]`, `inertia_kg_m2 = "135 gcm2"`, `damping = "90 %"`
+- reference, by its control mode: `value = "6710 rpm"`
+- limit, by its metric and signal: `max = "150 mA"`
+
 Powers of ten cost no rounding: "0.572 mH" is the same number as 0.000572.
 
+## Which numbers are refused
+
 Every number has a range, which the tables show. A number that may be 0 is 0 or at least 1e-30 in size; in a table of rows a smaller
-number counts as 0. Numbers that are allowed alone but make no drive together are refused too: a time constant below 100 ns of the
-bus, of the winding with its bridge or of the friction; a field above 1000000 electrical rad/s, or a load torque that brings it there
-within 100 us; a hysteresis band that is crossed within 100 ns.
+number counts as 0. Some numbers are allowed alone but make no drive together. They are refused too:
 
-## How a file takes over another
+- a time constant below 100 ns of the bus, of the winding with its bridge, or of the friction
+- a field above 1000000 electrical rad/s, or a load torque that accelerates it to that within 100 us
+- a hysteresis band that is crossed within 100 ns
 
-`extends = "base.toml"`, or a list of files, takes what stands in other scenarios. A name is relative to the file that names it. This
-file wins over its bases, a later base over an earlier one, `--set` over all. Tables under headings are joined key by key. Lists of
-tables, as `[[require]]`, are joined too, those of the bases first; `require = []` drops them. A value in brackets or braces replaces
-the other as a whole. Empty braces drop a table of a base: `load = {}`, or `speed = {}` under `[control]`.
+## How a file extends another
 
-## Which table holds what
+`extends = "base.toml"`, or a list of files, takes over the keys of other scenarios. A name is relative to the file that contains it.
+
+- This file wins over its bases, a later base over an earlier one, `--set` over all.
+- Tables under headings are joined key by key.
+- Lists of tables, such as `[[require]]`, are joined too, those of the bases first. `require = []` drops those of the bases.
+- A value in brackets or braces replaces the other as a whole. Empty braces drop a table of a base: `load = {}`, or `speed = {}`
+  under `[control]`.
+
+## Which table holds which keys
 
 """
 NOTES = {
-    "at": """`[[at]]` changes something at an instant of the run. The controller takes up gains, limits, mode and chopping with its next
-sample ([what it keeps then](../../howto/steer-a-run-from-cpp.md#what-the-chip-does-at-a-change)).
+    "at": """`[[at]]` changes something at an instant of the run. The controller takes over gains, limits, mode and chopping with its next
+sample ([what it keeps](../../howto/steer-a-run-from-cpp.md#what-the-chip-does-at-a-change)).
 """,
-    "reference": """Each control tick looks at a reference that moves, and holds it until the next tick. Figures of the reference's
-steps need a reference that stands still in their window, or their own `level`.
+    "reference": """The controller reads a moving reference at each control tick and holds it until the next. Figures of the reference's
+steps need a reference that does not move in their window, or their own `level`.
 
-The file of `shape = "csv"` has the time first and the reference in another column. Commas, semicolons (then decimal commas are
-allowed), tabs or blanks part them. One line of headings may come first; a heading may bring a unit, `t_ms` or `speed [rpm]`. Lines
-that begin with # are remarks, so that a trace written by `sixstep run --csv` can be followed.
+The file of `shape = "csv"` has the time in its first column and the reference in another.
+
+- Commas, semicolons (then decimal commas are allowed), tabs or blanks separate the columns.
+- One line of headings may come first; a heading may contain a unit: `t_ms` or `speed [rpm]`.
+- Lines that begin with # are comments. So a trace that `sixstep run --csv` wrote can be the reference.
 """,
     "require": "[Figures of merit](../figures.md) defines metrics and signals.\n",
     "compare": "[Figures of merit](../figures.md) defines metrics and signals.\n",
+    "sensors": "`sensors.resolver.bits` below 10 needs `reading = \"sampled\"`: no converter chip has fewer than 10.\n",
     "spread": "[How to run a thousand drives](../../howto/run-many.md#how-to-run-the-drives-of-a-series) shows a series.\n",
 }
 MOTOR = """# Motor files
 
 Which keys can a motor file have? A scenario names its motor by a path or by a name. The name is looked up beside the scenario, in
-`--data` and in the built-in list (`sixstep motor list`). `[motor_override]` takes the same keys, none of them required, and replaces
-single values: `resistance_ohm = 1.1`.
+`--data` and in the built-in list (`sixstep motor list`). `sixstep motor new` writes a file to fill in;
+[your motor](../../start/your-motor.md) explains the numbers. `[motor_override]` in a scenario takes the same keys, none of them
+required, and replaces single values: `resistance_ohm = 1.1`.
 
-A value is a number, or says where it comes from:
-`resistance_ohm = { value = 1.03, frame = "terminal", source = "data sheet, line 10" }`. It can also have `kind = "sheet"`,
-`"measured"` or `"derived"`, and `range = [0.978, 1.03]` where sources differ. Where a key has several frames, one must be written.
-[Your motor](../../start/your-motor.md) explains the numbers. `sixstep motor new` writes a file to fill in.
+A value is a number, or a table with its source:
+`resistance_ohm = { value = 1.03, frame = "terminal", source = "data sheet, line 10" }`. The table can also have `kind = "sheet"`,
+`"measured"` or `"derived"`, and `range = [0.978, 1.03]` where sources differ. A key with several frames requires one.
 
-Where the motor is linear, keys in N, m and kg replace those in N m, rad and kg m2. The table names each with the key that it
-replaces, "also as"; it is the only name there. References are then in m/s or mm, columns are `speed_m_s`, `position_mm`, `force_N`,
-`load_N`, `speed_ref_m_s`, `position_ref_mm`, and the signal of the torque is `force`.
+"also as" lists other names of a key: by the line of a data sheet, in another unit, or for a linear motor. A linear motor takes only
+the names in N, m and kg, not those in N m, rad and kg m2. Its references are then in m/s or mm, its columns are `speed_m_s`,
+`position_mm`, `force_N`, `load_N`, `speed_ref_m_s` and `position_ref_mm`, and the signal of the torque is `force`.
 
 """
 NEXT = "\nNext: [all tables](README.md), [figures of merit](../figures.md), [your motor](../../start/your-motor.md).\n"

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""own_controller_test.py PROGRAM: the commands and keys of docs/howto/write-a-controller.md work as they stand, and what it says goes wrong is
-told that way."""
+"""own_controller_test.py PROGRAM: the files and commands of docs/howto/write-a-controller.md work as they stand, and the program reports the
+faults that the page lists."""
 import json
 import os
 import pathlib
@@ -12,11 +12,18 @@ import sys
 import tempfile
 import unittest
 
-from page import REPOSITORY
+from page import REPOSITORY, Page
 
 PROGRAM = os.path.abspath(sys.argv.pop(1))
-PAGE = (REPOSITORY / "docs/howto/write-a-controller.md").read_text(encoding="utf-8")
+HOWTO = Page("docs/howto/write-a-controller.md")
+PAGE = HOWTO.text
 AROUND = 'motor = "maxon-251601"\nduration_s = 0.01\n[reference]\nvalue = 3\n[load]\nlocked = true\n'
+CONTROL = """
+[control]
+drive = "own"
+mode = "current"
+own = { controller = "pi_in_integers.so", number = [{ name = "bandwidth", value = 0.08 }] }
+"""
 FINAL = '[[compare]]\nmetric = "mean"\nsignal = "current"\nfrom_s = 5e-3\nvalue = 3\nsource = "the setpoint"\n'
 GIVES_UP = """
 #include "sixstep/control/own/own_controller.h"
@@ -42,11 +49,13 @@ class OwnControllerPage(unittest.TestCase):
         cls.path = pathlib.Path(cls.folder.name)
         for part in ("sixstep", "data"):  # what the commands name, as in a checkout
             (cls.path / part).symlink_to(REPOSITORY / part)
+        for block in HOWTO.blocks:
+            if block.word == "write":
+                (cls.path / block.detail).write_text(block.text, encoding="utf-8")
         cls.compiled = [c for c in commands() if c.split()[0] in ("cc", "c++")]
         for command in cls.compiled:
             subprocess.run(command, shell=True, check=True, cwd=cls.path)
-        block = re.search(r"```toml\n(.*?)```", PAGE, re.S).group(1)
-        (cls.path / "own.toml").write_text(AROUND + FINAL + block, encoding="utf-8")
+        (cls.path / "own.toml").write_text(AROUND + FINAL + CONTROL, encoding="utf-8")
 
     @classmethod
     def tearDownClass(cls):
@@ -61,8 +70,19 @@ class OwnControllerPage(unittest.TestCase):
         return json.loads(self.run_program("run", "own.toml", *words, "--json", "-").stdout)["compare"][0]["measured"]
 
     def test_everything_is_compiled(self):
-        self.assertEqual(len(self.compiled), 2)
-        self.assertEqual([c.split()[0] for c in commands()], ["cc", "c++", "./run", "tools/own_cost.sh", "./run"])
+        self.assertEqual(len(self.compiled), 3)
+        self.assertEqual([c.split()[0] for c in commands()], ["cc", "./run", "cc", "c++", "./run", "tools/own_cost.sh", "./run"])
+
+    def test_every_field_and_constant_of_the_interface_is_on_the_page(self):
+        header = (REPOSITORY / "sixstep/control/own/own_controller.h").read_text(encoding="utf-8")
+        code = re.sub(r"/\*.*?\*/", "", header, flags=re.S)
+        code = re.sub(r"\(\*(\w+)\)\(.*?\);", r" \1;", code, flags=re.S)  # members that are functions
+        structs = re.findall(r"typedef struct \{(.*?)\} sixstep_", code, re.S)
+        names = {name for struct in structs for name in re.findall(r"(\w+)(?:\[3\])?\s*[,;]", struct)}
+        names |= set(re.findall(r"\b(SIXSTEP_\w+) =", code))
+        self.assertGreater(len(names), 60)
+        for name in names:
+            self.assertRegex(HOWTO.prose, rf"`(?:leg\[k\]\.)?{name}(?:\[\w\])?[.`]", name)
 
     def test_what_was_counted_stands_in_the_comparison(self):
         words = [c for c in commands() if "--own-cost" in c][0].split()[1:]
@@ -86,18 +106,18 @@ class OwnControllerPage(unittest.TestCase):
         self.assertIn("PI in integers", (self.path / "own.html").read_text(encoding="utf-8"))
 
     def test_a_number_is_varied_and_a_new_controller_is_told(self):
-        vary = re.search(r'`(--vary "[^`]*")`', PAGE).group(1).split('"')[1]
-        self.run_program("run", "own.toml", "--vary", vary, "--store", "own.db", "--csv", "own.csv")
+        vary = re.search(r'--vary "([^"]*)"`', PAGE).group(1)
+        self.run_program("run", "mine.toml", "--vary", vary, "--store", "own.db", "--csv", "own.csv")
         rows = [line for line in (self.path / "own.csv").read_text().splitlines() if not line.startswith("#")]
         self.assertEqual(len(rows), 6, rows)
-        shutil.copy(self.path / "pi_in_integers.so", self.path / "kept.so")
-        with open(self.path / "pi_in_integers.so", "ab") as file:
+        shutil.copy(self.path / "mine.so", self.path / "kept.so")
+        with open(self.path / "mine.so", "ab") as file:
             file.write(b"\0")  # compiled anew
         try:
-            told = self.run_program("run", "own.toml", "--vary", vary, "--store", "own.db", "--resume", code=2)
+            told = self.run_program("run", "mine.toml", "--vary", vary, "--store", "own.db", "--resume", code=2)
             self.assertIn("own.db", told.stderr)
         finally:
-            shutil.move(self.path / "kept.so", self.path / "pi_in_integers.so")
+            shutil.move(self.path / "kept.so", self.path / "mine.so")
 
     def test_stands_in_the_comparison(self):
         words = next(c for c in commands() if c.startswith("./run compare")).split()[1:]
@@ -110,10 +130,13 @@ class OwnControllerPage(unittest.TestCase):
     def test_what_goes_wrong_is_told(self):
         wrong = {"own": "own.toml", "said": [
             (("--set", "control.own.controller=nowhere.so"), 2, "nowhere.so"),
-            (("--set", "control.own.controller=own.toml"), 2, "cannot be loaded"),
+            (("--set", "control.own.controller=own.toml"), 2, "cannot be loaded: invalid ELF header"),
+            (("--set", "control.own.controller=short.c"), 2, "cannot be loaded: file too short"),
+            (("--set", "control.own.controller=mine.so"), 2, "is not a number of the controller"),
             (("--set", "control.own.number[0].name=width"), 2, "bandwidth, limit_A"),
             (("--set", "control.mode=position"), 2, "PI in integers holds a current or a speed"),
             (("--set", "control.arithmetic=q15"), 2, "computes in the types that it is written in")]}
+        (self.path / "short.c").write_text("int a;\n", encoding="utf-8")
         for words, code, said in wrong["said"]:
             with self.subTest(words=words):
                 self.assertIn(said, self.run_program("run", "own.toml", *words, code=code).stderr)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Flash and RAM of both entries of a drive, and what they ask the linker for: against data/cores/sizes.txt and the
-table of docs/reference/blocks.md, section "What the linker is asked for"."""
+table of docs/reference/blocks.md, section "Which functions the linker needs"."""
 import fnmatch
 import re
 
@@ -10,7 +10,7 @@ import cost
 from build import Failed
 
 TABLE = cores.TABLES / "sizes.txt"
-PAGE = cores.REPOSITORY / "docs" / "control.md"
+PAGE = cores.REPOSITORY / "docs" / "reference" / "blocks.md"
 HEAD = """# SPDX-License-Identifier: Apache-2.0
 # core, drive, scalar, bytes of flash, bytes of RAM without the stack: both entries with state, telemetry and answer, and what
 # they need of the compiler's library; no start code. Written by tools/check_target.sh --renew
@@ -21,7 +21,7 @@ ON_THE_PAGE = {"Cortex-M3": "Cortex-M4", "Cortex-M4F": "Cortex-M4"}
 
 def listed():
     """[(patterns of names, cores that may ask for them)] of the page; None: all may."""
-    section = PAGE.read_text(encoding="utf-8").partition("## What the linker is asked for")[2].partition("\n## ")[0]
+    section = PAGE.read_text(encoding="utf-8").partition("## Which functions the linker needs")[2].partition("\n## ")[0]
     rows = [line.split("|")[1:4] for line in section.splitlines() if re.match(r"\| .*`", line)]
     return [(re.findall(r"`([^`]+)`", names), None if where.strip() == "all" else where) for _, names, where in rows]
 

@@ -117,7 +117,7 @@ std::string too_short_for_images(double period_s) {
 
 std::string core_cost_lines(const study::Compiled& c) {
   if (c.sensorless)
-    return "//\n// What its entries take on a core is counted in docs/reference/core-costs.md: sensorless_drive_step, sensorless_drive_commutate and\n"
+    return "//\n// What its entries take on a core is counted in docs/reference/block-costs.md: sensorless_drive_step, sensorless_drive_commutate and\n"
            "// sensorless_drive_hall.\n";
   const std::vector<Words> counts = rows(cores::drives_txt), sizes = rows(cores::sizes_txt);
   std::string text = fmt::format(

@@ -22,7 +22,7 @@ TOOLS = []
 
 def listed():
     """Patterns of each row of the table, and the chips that it names."""
-    section = (REPOSITORY / "docs/reference/blocks.md").read_text(encoding="utf-8").partition("## What the linker is asked for")[2]
+    section = (REPOSITORY / "docs/reference/blocks.md").read_text(encoding="utf-8").partition("## Which functions the linker needs")[2]
     rows = [line.split("|")[1:4] for line in section.splitlines() if re.match(r"\| [^-f]|\| `", line)]
     return [(re.findall(r"`([^`]+)`", names), CHIPS if where.strip() == "all" else where) for _, names, where in rows]
 

@@ -81,8 +81,8 @@ def motor_check(test, spot):
 
 
 def capacitor_store(test, spot):
-    """The least sum of the page's own table of that plan, and as many runs as it has that pass."""
-    table = (REPOSITORY / spot.page).read_text(encoding="utf-8")
+    """The least sum of the table of that plan on its page, and as many runs as it has that pass."""
+    table = (REPOSITORY / "docs/reference/plan-file.md").read_text(encoding="utf-8")
     rows = re.findall(r"^ +\d+ +[\d.]+ us +(\w+) +[\d.]+ [nu]s +(.*?) +ok$", table, re.M)
     for chopping, least, runs in re.findall(r"│ (\w+) +│ ([\d.]+) +│ (\d+) ", spot.text):
         sums = [sum(float(x) for x in re.findall(r"([\d.]+) W", cells)[:2]) for name, cells in rows if name == chopping]
@@ -159,13 +159,13 @@ BY_TEXT = [
     ("docs/start/sheet-questions.md", "motor show kv.toml | grep K_t", drives.kv), ("docs/start/sheet-questions.md", "torque_constant_Nm_A = 0.42", drives.frames),
     ("docs/explanation/currents.md", "braking, soft", drives.braking), ("docs/howto/check-heat.md", '"device"', drives.devices),
     ("docs/start/tour-bench-and-chip.md", "held as", drives.exported), ("docs/explanation/accuracy.md", "cases match", counted),
-    ("docs/start/tour.md", "settles to", design.judge), ("docs/howto/tune-a-speed-loop.md", "Fastest settling", design.judge),
+    ("docs/start/tour.md", "settles to", design.judge), ("docs/howto/tune-a-speed-loop.md", "", design.judge), ("docs/howto/choose-pwm.md", "verdict", series.judge_plan), ("docs/howto/choose-pwm.md", "$ ./run design", design.judge),
     ("docs/howto/design-", "", design.judge),
     ("docs/reference/keys/", "| key |", default_in_range),
 ]
 # Messages of the program, which repeat what was given or what is allowed.
-MESSAGES = [("docs/start/tour-bench-and-chip.md", "tells the drive currents"), ("docs/howto/measure-the-back-emf.md", "short.csv: "),
-            ("docs/start/sheet-questions.md", "coil.toml:4"), ("docs/start/sheet-questions.md", "motor show kv.toml | grep pole"), ("docs/start/your-motor.md", "mine.toml"),
+MESSAGES = [("docs/start/tour-bench-and-chip.md", "tells the drive currents"), ("docs/howto/measure-the-back-emf.md", "short.csv: "), ("docs/howto/find-the-hall-order.md", "short.csv: "),
+            ("docs/start/sheet-questions.md", "coil.toml:4"), ("docs/start/sheet-questions.md", "motor show kv.toml | grep pole"),
             ("docs/start/tour.md", "dampng"), ("docs/start/tour.md", "relations hold"), ("docs/start/tour.md", "line_"), ("docs/start/tour.md", "help control.current.damping"),
             ("docs/explanation/accuracy.md", "'mean current  '"), ("docs/start/tour-bench-and-chip.md", "hot-plug.toml | head"),
             ("docs/howto/size-a-capacitor.md", "grep ripple")]
@@ -182,7 +182,7 @@ DEFINING = [("README.md", "| task |"), ("docs/reference/glossary.md", "| term |"
             ("docs/howto/use-a-cluster.md", "| | |"), ("docs/start/your-motor.md", "| key |"), ("docs/reference/motor-sheets.md", "| relation |"), ("docs/reference/plan-file.md", "| key of a plan |"),
             ("docs/reference/plan-file.md", "title = "), ("docs/howto/find-the-best-point.md", "minimise = "), ("docs/howto/run-many.md", "sixstep run data/scenarios"),
             ("docs/howto/steer-a-run-from-cpp.md", "| change |"), ("docs/howto/steer-a-run-from-cpp.md", "| refused change |"), ("docs/howto/find-a-wiring-fault.md", "| in a cell |"), ("docs/howto/choose-a-controller.md", "| column |"),
-            ("docs/howto/choose-a-rotor-sensor.md", "| you need |"), ("docs/howto/write-a-controller.md", "$ "), ("docs/howto/write-a-controller.md", "| it |"), ("docs/howto/compare-a-log.md", "| log of |")]
+            ("docs/howto/choose-a-rotor-sensor.md", "| you need |"), ("docs/howto/write-a-controller.md", "$ "), ("docs/howto/write-a-controller.md", "| field |"), ("docs/howto/write-a-controller.md", "| the controller |"), ("docs/howto/compare-a-log.md", "| log of |")]
 # Tables whose every row a named test measures and holds to a law of its own.
 HELD_BY_TESTS = [("docs/reference/", "| result |"), ("docs/reference/fixed-point.md", "| experiment |"), ("docs/reference/sensorless-drive.md", "| board |"),
                  ("docs/reference/loops.md", "| loop | told |"), ("docs/reference/commutation.md", "| pattern | free phase"),
