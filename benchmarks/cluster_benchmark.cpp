@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the leader of a cluster does for each row that another process made, beside simulating: reads it from a letter, and puts it
 // into the store. One over the rate is the time of a core that a row takes there, and so what bounds the rows of all nodes together
-// (docs/cluster.md). Rows are those of data/scenarios/current-square-series.toml: four strayed values, two figures.
+// (docs/howto/use-a-cluster.md). Rows are those of data/scenarios/current-square-series.toml: four strayed values, two figures.
 //
 //   build/dev/benchmarks/cluster_benchmark
 #include <benchmark/benchmark.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What each observer of a run costs, alone and all together as the program has them; and every case of
-// engine_benchmark as a user runs it, over ten seconds. tools/performance.py makes the table of docs/performance.md of it,
+// engine_benchmark as a user runs it, over ten seconds. tools/performance.py makes the table of docs/explanation/performance.md of it,
 // and the second lines of README's.
 //
 //   build/dev/benchmarks/observer_benchmark

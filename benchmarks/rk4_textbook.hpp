@@ -3,7 +3,7 @@
 // for the derivatives with ifs for switches and diodes, the back-EMF from a table over the electrical turn,
 // classic fourth-order Runge-Kutta with a fixed step, currents of diodes that ended clipped to zero. It
 // includes the floating phase that starts to conduct. No cleverness, and nothing to slow it down; what it may
-// cost: docs/performance.md.
+// cost: docs/explanation/performance.md.
 #pragma once
 #include <array>
 #include <cmath>

@@ -18,7 +18,7 @@ base::Problem unloaded(const std::string& path, std::string why) {
   if (why.starts_with(path + ": ")) why.erase(0, path.size() + 2);
   return {.where = path,
           .limit = "cannot be loaded: " + why,
-          .cure = "compile it with -shared -fPIC for this machine (docs/own-controller.md)"};
+          .cure = "compile it with -shared -fPIC for this machine (docs/howto/write-a-controller.md)"};
 }
 
 /// Its code runs here already, as do the constructors of what it is linked to.

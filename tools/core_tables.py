@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""core_tables.py [--check]: writes the tables of docs/firmware.md from what was counted on the cores (data/cores/,
+"""core_tables.py [--check]: writes the tables of docs/reference/core-*.md and block-costs.md from what was counted on the cores (data/cores/,
 tests/target/digests.txt; tools/check_target.sh counts); with --check it tells whether they stand there."""
 import pathlib
 import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-PAGE = ROOT / "docs" / "firmware.md"
+PAGES = [ROOT / "docs/reference" / name for name in ("core-costs.md", "block-costs.md", "core-bits.md")]
 CORES = ROOT / "data" / "cores"
 COMMUTATED = ("duty", "hysteresis", "current", "speed", "position", "product")
 DRIVES = (*COMMUTATED, "field")
@@ -79,18 +79,18 @@ def written(text):
 
 
 def main():
-    text = PAGE.read_text(encoding="utf-8")
-    missing = [name for name in TABLES if f"<!-- table: {name} -->" not in text]
+    texts = {page: page.read_text(encoding="utf-8") for page in PAGES}
+    missing = [name for name in TABLES if not any(f"<!-- table: {name} -->" in text for text in texts.values())]
     if missing:
-        print(f"{PAGE.name} has no place for: {', '.join(missing)}")
+        print(f"docs/reference has no place for: {', '.join(missing)}")
         return 1
+    stale = [page for page, text in texts.items() if written(text) != text]
     if "--check" not in sys.argv:
-        PAGE.write_text(written(text), encoding="utf-8")
-        return 0
-    if written(text) == text:
-        return 0
-    print(f"{PAGE.name}: its tables are not what was counted: tools/core_tables.py writes them")
-    return 1
+        for page in stale:
+            page.write_text(written(texts[page]), encoding="utf-8")
+    elif stale:
+        print(f"{', '.join(page.name for page in stale)}: tables are not what was counted: tools/core_tables.py writes them")
+    return 1 if stale and "--check" in sys.argv else 0
 
 
 if __name__ == "__main__":

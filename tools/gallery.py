@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""gallery.py PROGRAM [--check]: writes docs/manual/gallery.md and its pictures from the scenarios in data/scenarios.
+"""gallery.py PROGRAM [--check]: writes the pages in docs/gallery and their pictures from the scenarios in data/scenarios.
 
 Titles and notes are those of the files, results those of the program, pictures are drawn from its traces at every event.
-docs/manual/gallery.toml says which scenarios stand together and what a picture shows. With --check nothing is written; it
-fails where page or pictures are not what they would be.
+docs/gallery/gallery.toml says which scenarios stand together and what a picture shows. With --check nothing is written; it
+fails where pages or pictures are not what they would be.
 """
 import csv
 import io
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -18,7 +19,7 @@ import tomllib
 from svg_panels import drawing
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-MANUAL, SCENARIOS = ROOT / "docs/manual", ROOT / "data/scenarios"
+GALLERY, SCENARIOS = ROOT / "docs/gallery", ROOT / "data/scenarios"
 UNITS = {"ms": 1e3, "us": 1e6, "s": 1.0}
 
 
@@ -75,25 +76,48 @@ def section_text(program, section):
     return out
 
 
-def pages(program):
-    """What the manual's gallery consists of: {path: text}."""
-    plan = tomllib.loads((MANUAL / "gallery.toml").read_text(encoding="utf-8"))
-    text, files = plan["head"].strip().splitlines() + [""], {}
-    for section in plan["section"]:
+def anchor(title):
+    return re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-")
+
+
+def page_text(program, page, following):
+    """A page of the gallery: its question, links to its sections, the sections."""
+    links = [f"- [{section['title']}](#{anchor(section['title'])})" for section in page["section"]]
+    text = [f"# {page['title']}", "", page["question"], "", *links, ""]
+    for section in page["section"]:
         text += section_text(program, section)
-        if "panel" in section:
-            files[MANUAL / "pictures" / f"{section['picture']}.svg"] = picture(program, section)
-    shown = {scenario["file"] for section in plan["section"] for scenario in section["scenario"]}
+    after = f"[{following['title']}]({following['name']}.md), " if following else ""
+    return "\n".join([*text, f"Next: {after}[all pages of the gallery](README.md).", ""])
+
+
+def index(plan):
+    text = [plan["head"].strip(), ""]
+    for page in plan["page"]:
+        text += [f"## {page['title']}", "", f"[{page['question']}]({page['name']}.md)", ""]
+        text += [f"- [{section['title']}]({page['name']}.md#{anchor(section['title'])})" for section in page["section"]] + [""]
+    return "\n".join([*text, "Next: [tour](../start/tour.md), [questions](../faq.md), [manual](../README.md).", ""])
+
+
+def pages(program):
+    """What the gallery consists of: {path: text}."""
+    plan = tomllib.loads((GALLERY / "gallery.toml").read_text(encoding="utf-8"))
+    files = {GALLERY / "README.md": index(plan)}
+    for page, following in zip(plan["page"], [*plan["page"][1:], None]):
+        files[GALLERY / f"{page['name']}.md"] = page_text(program, page, following)
+        for section in page["section"]:
+            if "panel" in section:
+                files[GALLERY / "pictures" / f"{section['picture']}.svg"] = picture(program, section)
+    shown = {scenario["file"] for page in plan["page"] for section in page["section"] for scenario in section["scenario"]}
     for file in sorted((SCENARIOS / "gallery").glob("*.toml")):
-        assert f"gallery/{file.stem}" in shown, f"docs/manual/gallery.toml does not show {file.stem}"
-    return {MANUAL / "gallery.md": "\n".join(text).rstrip("\n") + "\n"} | files
+        assert f"gallery/{file.stem}" in shown, f"docs/gallery/gallery.toml does not show {file.stem}"
+    return files
 
 
 def main(words):
     check = "--check" in words
     program = pathlib.Path(next((w for w in words if w != "--check"), ROOT / "build/release/sixstep")).resolve()
     made, stale = pages(program), []
-    extra = set((MANUAL / "pictures").glob("*.svg")) - set(made)
+    extra = {*GALLERY.glob("*.md"), *(GALLERY / "pictures").glob("*.svg")} - set(made)
     for path, text in made.items():
         if not path.exists() or path.read_text(encoding="utf-8") != text:
             stale.append(path)

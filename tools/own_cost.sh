@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # own_cost.sh SOURCE [SCENARIO]   what a controller of your own costs on Cortex-M and RISC-V cores, emulated: instructions of a step and
-#                                 of a Hall interrupt, flash and RAM (docs/own-controller.md)
+#                                 of a Hall interrupt, flash and RAM (docs/howto/write-a-controller.md)
 # own_cost.sh --help              what else may be said; needs the compilers of tools/install.sh target
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)

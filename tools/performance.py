@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """performance.py: builds the benchmarks, runs them (three minutes), prints the tables of speed as Markdown.
 
-  --renew   also writes them between their markers in README.md and docs/performance.md
+  --renew   also writes them between their markers in README.md and docs/explanation/performance.md
   --check   runs nothing: are the tables there the ones that the benchmarks would fill, row by row and column by column?
             Figures differ between machines and are not compared.
   --programs FOLDER   where the benchmarks lie, already built
@@ -23,7 +23,7 @@ KERNELS = ("lean", "general")
 LONG = ("1 s", "10 s")
 USERS = "study of 10 s"  # digest, audit and the scenario's figures
 AS_USER = ", as a user runs it, 10 s"
-PLACES = {"speed": "docs/performance.md", "short": "README.md", "growth": "docs/performance.md", "observers": "docs/performance.md"}
+PLACES = {"speed": "docs/explanation/performance.md", "short": "README.md", "growth": "docs/explanation/performance.md", "observers": "docs/explanation/performance.md"}
 
 
 def said_by(*words, **more):

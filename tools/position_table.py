@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """position_table.py [PROGRAM]: what each way to know the rotor's position does on the maxon 251601, as Markdown.
 
-  --renew          also writes the table between its markers in docs/manual/position.md
+  --renew          also writes the table between its markers in docs/howto/choose-a-rotor-sensor.md
   --check          fails where the table there is another one
   --costs          no PROGRAM and nothing measured: the page's cells stay, what a chip pays is summed anew from data/cores/
   --keep FOLDER    leaves the scenarios there
@@ -27,7 +27,7 @@ sys.dont_write_bytecode = True
 import core_tables  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-PAGE = ROOT / "docs/manual/position.md"
+PAGE = ROOT / "docs/howto/choose-a-rotor-sensor.md"
 BLOCK = re.compile(r"(<!-- position: table -->\n)(.*?)(<!-- end -->)", re.S)
 SPEEDS = (1, 10, 30, 60, 100, 300, 700)
 PAIRS, K_T = 8, 33.5e-3
@@ -201,7 +201,7 @@ def kept_rows(table):
     """What was measured, as it stands on the page: every way once, in the order of this file."""
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in table.splitlines()]
     if rows[0][:len(MEASURED)] != MEASURED or [row[0] for row in rows[2:]] != list(SOURCES):
-        sys.exit("docs/manual/position.md has other rows or columns: tools/position_table.py PROGRAM --renew measures them")
+        sys.exit("docs/howto/choose-a-rotor-sensor.md has other rows or columns: tools/position_table.py PROGRAM --renew measures them")
     return [row[:len(MEASURED)] for row in rows[2:]]
 
 
@@ -236,7 +236,7 @@ def main():
         PAGE.write_text(BLOCK.sub(lambda m: m[1] + table + m[3], text), encoding="utf-8")
     elif BLOCK.search(text)[2] != table:
         by = "--costs" if options.costs else "PROGRAM"
-        sys.exit(f"docs/manual/position.md has another table: tools/position_table.py {by} --renew")
+        sys.exit(f"docs/howto/choose-a-rotor-sensor.md has another table: tools/position_table.py {by} --renew")
 
 
 if __name__ == "__main__":

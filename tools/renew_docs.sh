@@ -20,9 +20,7 @@ done
 tools/gallery.py "$program"
 tools/position_table.py "$program" --renew
 "$program" motor wiring maxon-251601 --svg docs/images/wiring.svg --quiet --force
-for page in readme motors curve wiring bench design figures manual many_runs bode; do
-  python3 "tests/docs/${page}_md_test.py" "$program" --renew
-done
+tests/docs/pages_test.py "$program" --renew
 if [ "${1:-}" = --screenshots ]; then
   node tools/picture.mjs "$program"
 fi

@@ -1,66 +1,95 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""scenario_reference.py [--check] [PROGRAM]: writes docs/scenario.md, the page of all keys, from `sixstep help`.
+"""scenario_reference.py [--check] [PROGRAM]: writes docs/reference/keys/, the pages of all keys, from `sixstep help`.
 
-With --check nothing is written; it fails where the page is not what the program says.
+With --check nothing is written; it fails where a page is not what the program says.
 """
 import pathlib
 import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-PAGE = ROOT / "docs" / "scenario.md"
+PAGES = ROOT / "docs/reference/keys"
 OVERRIDE = "motor_override."
 LONG = 12  # more words than this do not go into a table's cell
-HEAD = """# Scenario and motor files
+HEAD = """# Scenario and motor files: all keys
 
-Written by `tools/scenario_reference.py` from `sixstep help`; a test checks that it is up to date. In the terminal
-`sixstep help`, `sixstep help pwm` or `sixstep help pwm.period_s` say the same.
+Which keys can a scenario or a motor file have, in which units and ranges? For everybody who writes such a file. In the terminal,
+`sixstep help`, `sixstep help pwm` and `sixstep help pwm.period_s` say the same. `tools/scenario_reference.py` writes these pages
+from it; a test checks that they are up to date.
 
-Files are TOML. Every key carries its unit. A key that is not listed here is an error. What stands under "default" holds
-where the key is left out; without a default it may be left out, unless it is required.
-[Figures of merit](figures.md) defines what `[[require]]` and `[[compare]]` can ask for.
+## How a file is written
 
-A number may bring a unit of its own, in quotes: `duration_s = "20 ms"`, `times_s = [0, "5 ms"]`, `inertia_kg_m2 =
-"135 gcm2"`, `damping = "90 %"`, and for a reference whatever suits the control mode, `value = "6710 rpm"`; a limit takes
-what its metric and signal ask for, `max = "150 mA"`. The unit must be of the key's kind; [what units there are](motors.md#what-a-number-means). Powers of ten cost no rounding: "0.572 mH" is the same number as 0.000572.
+- Files are TOML. The name of a key contains its unit, if it has one. A key that is not listed here is an error.
+- The column "default" shows the value of a key that is left out. A key without a default can be left out, unless it is required.
+- "also as" names the key for a linear motor, whose files must use that name.
 
-Every number is held to what its unit can be on a bench, as the tables below say; one that may be 0 is 0 or at least 1e-30 in
-size. Numbers that each may be and that together are no drive are refused too: a bus, a winding with its bridge or a friction with
-a time constant below 100 ns, a field above 1000000 electrical rad/s or a load torque that brings it there within 100 us, a
-hysteresis band that is crossed within 100 ns. In a table of rows what is smaller than 1e-30 counts as 0.
+A number may have another unit, in quotes. The unit must fit the key
+([list of units](../../start/your-motor.md#what-a-number-means)):
 
-`extends = "base.toml"`, or a list of files, takes what stands in other scenarios, each name relative to the file that names
-it. What is nearer wins: this file over its bases, a later base over an earlier one, `--set` over all. Tables under headings are
-joined key by key. Lists of tables, as `[[require]]`, are joined too, the bases' first, unless this file's is empty: `require = []`.
-Whatever stands in brackets or braces is one value and replaces the other. Empty braces drop a table that a base has, as if
-nobody had written it: `load = {}`, or `speed = {}` under `[control]`.
+- key: `duration_s = "20 ms"`, `times_s = [0, "5 ms"]`, `inertia_kg_m2 = "135 gcm2"`, `damping = "90 %"`
+- reference, by its control mode: `value = "6710 rpm"`
+- limit, by its metric and signal: `max = "150 mA"`
 
-`[[at]]` changes something at an instant of the run: the reference, the source's voltage, the load, a Hall line, the request to
-the product drive, the dead time; gains, limits, mode and chopping, which the controller takes up with its next sample
-([what it keeps then](session.md#what-the-chip-does-at-a-change)). A reference that moves is looked at by each control tick, and
-held until the next. Figures that are taken of the reference's steps need one that stands still in their window, or their own
-`level`.
+Powers of ten cost no rounding: "0.572 mH" is the same number as 0.000572.
 
-Where the motor is linear, keys in N, m and kg stand in the place of those in N m, rad and kg m2: each is named with the one that it
-stands for, "also as", and is the only word there. References are then in m/s or mm, columns are `speed_m_s`, `position_mm`,
-`force_N`, `load_N`, `speed_ref_m_s`, `position_ref_mm`, and the signal of the torque is `force`.
+## Which numbers are refused
 
-The file of `shape = "csv"` has the time first and the reference in another column, parted by commas, semicolons (then with
-decimal commas, if you like), tabs or blanks. One line of headings may come first; a heading may bring a unit, `t_ms` or
-`speed [rpm]`. Lines that begin with # are remarks, so that a trace written by `sixstep run --csv` can be followed.
-"""
-MOTOR = """
-# Motor files
+Every number has a range, which the tables show. A number that may be 0 is 0 or at least 1e-30 in size; in a table of rows a smaller
+number counts as 0. Some numbers are allowed alone but make no drive together. They are refused too:
 
-A scenario names its motor by a path or by a name that is looked up beside the scenario, in `--data` and in the built-in
-list (`sixstep motor list`). `[motor_override]` takes the same keys, none of them required, and replaces single values:
-`resistance_ohm = 1.1`. A value is a number or says where it comes from:
-`resistance_ohm = { value = 1.03, frame = "terminal", source = "data sheet, line 10" }`, where it helps with
-`kind = "sheet"`, `"measured"` or `"derived"`, and with `range = [0.978, 1.03]` where sources differ. Where a key has several
-frames, one must be written. [Motors](motors.md) explains the numbers, and `sixstep motor new` writes a file to fill in.
+- a time constant below 100 ns of the bus, of the winding with its bridge, or of the friction
+- a field above 1000000 electrical rad/s, or a load torque that accelerates it to that within 100 us
+- a hysteresis band that is crossed within 100 ns
+
+## How a file extends another
+
+`extends = "base.toml"`, or a list of files, takes over the keys of other scenarios. A name is relative to the file that contains it.
+
+- This file wins over its bases, a later base over an earlier one, `--set` over all.
+- Tables under headings are joined key by key.
+- Lists of tables, such as `[[require]]`, are joined too, those of the bases first. `require = []` drops those of the bases.
+- A value in brackets or braces replaces the other as a whole. Empty braces drop a table of a base: `load = {}`, or `speed = {}`
+  under `[control]`.
+
+## Which table holds which keys
 
 """
+NOTES = {
+    "at": """`[[at]]` changes something at an instant of the run. The controller takes over gains, limits, mode and chopping with its next
+sample ([what it keeps](../../howto/steer-a-run-from-cpp.md#what-the-chip-does-at-a-change)).
+""",
+    "reference": """The controller reads a moving reference at each control tick and holds it until the next. Figures of the reference's
+steps need a reference that does not move in their window, or their own `level`.
+
+The file of `shape = "csv"` has the time in its first column and the reference in another.
+
+- Commas, semicolons (then decimal commas are allowed), tabs or blanks separate the columns.
+- One line of headings may come first; a heading may contain a unit: `t_ms` or `speed [rpm]`.
+- Lines that begin with # are comments. So a trace that `sixstep run --csv` wrote can be the reference.
+""",
+    "require": "[Figures of merit](../figures.md) defines metrics and signals.\n",
+    "compare": "[Figures of merit](../figures.md) defines metrics and signals.\n",
+    "sensors": "`sensors.resolver.bits` below 10 needs `reading = \"sampled\"`: no converter chip has fewer than 10.\n",
+    "spread": "[How to run a thousand drives](../../howto/run-many.md#how-to-run-the-drives-of-a-series) shows a series.\n",
+}
+MOTOR = """# Motor files
+
+Which keys can a motor file have? A scenario names its motor by a path or by a name. The name is looked up beside the scenario, in
+`--data` and in the built-in list (`sixstep motor list`). `sixstep motor new` writes a file to fill in;
+[your motor](../../start/your-motor.md) explains the numbers. `[motor_override]` in a scenario takes the same keys, none of them
+required, and replaces single values: `resistance_ohm = 1.1`.
+
+A value is a number, or a table with its source:
+`resistance_ohm = { value = 1.03, frame = "terminal", source = "data sheet, line 10" }`. The table can also have `kind = "sheet"`,
+`"measured"` or `"derived"`, and `range = [0.978, 1.03]` where sources differ. A key with several frames requires one.
+
+"also as" lists other names of a key: by the line of a data sheet, in another unit, or for a linear motor. A linear motor takes only
+the names in N, m and kg, not those in N m, rad and kg m2. Its references are then in m/s or mm, its columns are `speed_m_s`,
+`position_mm`, `force_N`, `load_N`, `speed_ref_m_s` and `position_ref_mm`, and the signal of the torque is `force`.
+
+"""
+NEXT = "\nNext: [all tables](README.md), [figures of merit](../figures.md), [your motor](../../start/your-motor.md).\n"
 
 
 class Entry:
@@ -82,7 +111,7 @@ class Entry:
     def cells(self, prefix):
         what, kind = self.meaning, self.type.replace("one word of those below", "").replace("|", " or ")
         if self.path.startswith("compare.") and self.words:
-            what += ", as in `[[require]]`"
+            what += ", as in [`[[require]]`](require.md)"
         elif len(self.words) > LONG:
             what += "; listed below"
         elif self.words:
@@ -97,7 +126,7 @@ def table(entries, prefix):
     rows = ["| key | meaning | value | default |", "|---|---|---|---|"]
     text = "\n".join(rows + [entry.cells(prefix) for entry in entries]) + "\n"
     for entry in entries:
-        if len(entry.words) > LONG:
+        if len(entry.words) > LONG and not entry.path.startswith("compare."):
             text += f"\nWords of `{entry.path.removeprefix(prefix)}`:\n" + entry.word_list("\n- ") + "\n"
     return text
 
@@ -108,20 +137,25 @@ def repeats(entry, top):
     return next((t for t in top if t.is_table and t.path != entry.path and inner == [path.removeprefix(t.path) for path in t.inner]), None)
 
 
+def capital(text):
+    return text[0].upper() + text[1:]
+
+
 def section(program, entry, top):
     """A table with its own keys, then the tables inside it."""
     brackets = f"[[{entry.path}]]" if entry.type.startswith("list") else f"[{entry.path}]"
     if "." in entry.path and (same := repeats(entry, top)):
-        return f"\n## `{brackets}`\n\n{entry.meaning[0].upper()}{entry.meaning[1:]}. The keys are those of `[{same.path}]`.\n"
+        return f"\n## `{brackets}`\n\n{capital(entry.meaning)}. The keys are those of [`[{same.path}]`]({same.path}.md).\n"
     inner = [Entry(program, path) for path in entry.inner]
     tables = [e for e in inner if e.is_table]
     within = [t for t in tables if not any(t.path.startswith(o.path + ".") for o in tables)]
     own = [e for e in inner if not e.is_table and not any(e.path.startswith(t.path + ".") for t in tables)]
-    text = f"\n## `{brackets}`\n\n{entry.meaning[0].upper()}{entry.meaning[1:]}.\n\n" + table(own, entry.path + ".")
+    text = f"\n## `{brackets}`\n\n{capital(entry.meaning)}.\n\n" + table(own, entry.path + ".")
     return text + "".join(section(program, t, top) for t in within)
 
 
-def page(program):
+def pages(program):
+    """{file name: text}"""
     overview = subprocess.run([program, "help"], capture_output=True, text=True, check=True).stdout.splitlines()
     cuts = [n for n, line in enumerate(overview) if n and not line.startswith(" ")]
     top, sheet = ([line.split()[0] for line in part if line.startswith("  ")]
@@ -131,18 +165,30 @@ def page(program):
     for entry in sheet:
         entry.type = entry.type.removeprefix("number, or { value, frame, source }, ")
     tables = [e for e in top if e.is_table and e.path != "motor_override"]
-    text = HEAD + "\n## At the top of the file\n\n" + table([e for e in top if not e.is_table], "")
-    return text + "".join(section(program, e, top) for e in tables) + MOTOR + table(sheet, OVERRIDE)
+    rows = "".join(f"| [`{e.path}`]({e.path}.md) | {e.meaning} |\n" for e in tables)
+    index = HEAD + "| table | holds |\n|---|---|\n" + rows + "| [motor file](motor.md), `motor_override` | the motor's data sheet |\n"
+    index += "\n## Keys at the top of the file\n\n" + table([e for e in top if not e.is_table], "")
+    made = {"README.md": index + NEXT.replace("[all tables](README.md)", "[tour](../../start/tour.md)"), "motor.md": MOTOR + table(sheet, OVERRIDE) + NEXT}
+    for e in tables:
+        title = f"# Keys of `{e.path}`\n\nWhich keys does the table `{e.path}` of a scenario have?\n"
+        made[f"{e.path}.md"] = title + ("\n" + NOTES[e.path] if e.path in NOTES else "") + section(program, e, top) + NEXT
+    return made
 
 
 def main(words):
     check = "--check" in words
     words = [word for word in words if word != "--check"]
-    text = page(pathlib.Path(words[0] if words else ROOT / "build/release/sixstep").resolve())
-    if not check:
-        PAGE.write_text(text, encoding="utf-8")
-    elif PAGE.read_text(encoding="utf-8") != text:
-        raise SystemExit("docs/scenario.md is not what `sixstep help` says; tools/scenario_reference.py build/dev/sixstep renews it")
+    made = pages(pathlib.Path(words[0] if words else ROOT / "build/release/sixstep").resolve())
+    there = {file.name: file.read_text(encoding="utf-8") for file in PAGES.glob("*.md")}
+    if check and there != made:
+        raise SystemExit("docs/reference/keys is not what `sixstep help` says; tools/scenario_reference.py build/dev/sixstep renews it")
+    if check:
+        return
+    PAGES.mkdir(parents=True, exist_ok=True)
+    for name in there.keys() - made.keys():
+        (PAGES / name).unlink()
+    for name, text in made.items():
+        (PAGES / name).write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

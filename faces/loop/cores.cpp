@@ -41,7 +41,7 @@ Core cortex(std::string_view name, std::string_view title, const char* cpu, cons
   return core;
 }
 
-/// clang 14 to 16 compile wrongly for it (docs/firmware.md). Its flags stand beside its program, for whoever makes an image to flash too:
+/// clang 14 to 16 compile wrongly for it (docs/reference/core-bits.md). Its flags stand beside its program, for whoever makes an image to flash too:
 /// branches are to stay branches there, and a switch none of tables, for what LLVM makes of them takes a fifth more cycles of a chip that
 /// shifts bit by bit.
 Core avr() {

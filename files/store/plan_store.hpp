@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The finished runs of a plan in one SQLite file. A row is there whole or not at all, whatever kills the program; docs/many-runs.md
+// The finished runs of a plan in one SQLite file. A row is there whole or not at all, whatever kills the program; docs/howto/run-many.md
 // has the tables.
 #pragma once
 #include <condition_variable>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of a store (docs/many-runs.md), and what it says of itself in them.
+// The tables of a store (docs/howto/run-many.md), and what it says of itself in them.
 #pragma once
 #include <cstdint>
 #include <string>

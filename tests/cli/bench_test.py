@@ -11,7 +11,7 @@ import unittest
 from program import SOURCE, Started
 
 RECORDINGS = SOURCE / "data/recordings"
-CODES = [0b100, 0b110, 0b010, 0b011, 0b001, 0b101]  # docs/notation.md, forward
+CODES = [0b100, 0b110, 0b010, 0b011, 0b001, 0b101]  # docs/reference/notation.md, forward
 OWN_DEG = [3, -1, 2, -4, 1, -1]  # how far each edge lies behind its place
 TURN_S = 0.05
 
@@ -63,7 +63,7 @@ class Bench(Started):
         self.assertIn("each at its own pin", text)
         self.assertEqual([row.split()[:4] for row in text.split("Code ")[1].splitlines()[1:7]],
                          [["001", "4", "c", "a"], ["010", "2", "b", "c"], ["011", "3", "b", "a"], ["100", "0", "a", "b"],
-                          ["101", "5", "c", "b"], ["110", "1", "a", "c"]])  # docs/notation.md
+                          ["101", "5", "c", "b"], ["110", "1", "a", "c"]])  # docs/reference/notation.md
         (self.path / "log.csv").write_text(log(swapped=True))
         self.assertEqual(self.told("identify", "log.csv")["place"]["wires"][0]["hall_lines"], "132")
         self.assertIn("move the wire at H2 to H3, the wire at H3 to H2", self.run_program("motor", "identify", "log.csv").stdout)

@@ -54,8 +54,8 @@ class Manual(ProgramTest):
         self.assertIn("first.html", self.names())
 
     def test_the_page_of_the_command_line(self):
-        """Every line of docs/command-line.md does what it says, in a home of its own."""
-        text = (SOURCE / "docs/command-line.md").read_text(encoding="utf-8")
+        """Every line of docs/reference/command-line.md does what it says, in a home of its own."""
+        text = (SOURCE / "docs/reference/command-line.md").read_text(encoding="utf-8")
         script = "set -eu\n" + "".join(re.findall(r"(?ms)^```sh\n(.*?)^```$", text))
         (self.path / "bin").mkdir()
         (self.path / "bin/sixstep").symlink_to(PROGRAM)

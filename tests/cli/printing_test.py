@@ -72,7 +72,7 @@ class Unheard(ProgramTest):
         self.assertEqual(sorted({words.split()[0] for words in self.VERBS if words[:1] != "-"} - {"__complete"}), sorted(listed))
 
     def test_the_exit_codes_are_those_of_the_page(self):
-        page = dict(re.findall(r"^\| (\d+) \| (.*) \|$", (SOURCE / "docs/command-line.md").read_text(), re.M))
+        page = dict(re.findall(r"^\| (\d+) \| (.*) \|$", (SOURCE / "docs/reference/command-line.md").read_text(), re.M))
         told = dict(re.findall(r"(\d+) ([^,\n]+)", self.run_program("--help").stdout.split("Exit codes:")[1]))
         self.assertEqual(list(page), list(told))
         for code, meaning in told.items():

@@ -37,7 +37,7 @@ WIRING = "motor wiring brisk.toml --current 15"  # of that motor a fifth of the 
 
 def hall_log(turns, rows=60):
     """A log of Hall lines that turn steadily: so many rows in each electrical turn."""
-    codes = ["1,0,0", "1,1,0", "0,1,0", "0,1,1", "0,0,1", "1,0,1"]  # docs/notation.md, forward
+    codes = ["1,0,0", "1,1,0", "0,1,0", "0,1,1", "0,0,1", "1,0,1"]  # docs/reference/notation.md, forward
     return "time [s],hall1,hall2,hall3\n" + "".join(f"{1e-3 * n:.7g},{codes[6 * n // rows % 6]}\n" for n in range(turns * rows))
 
 

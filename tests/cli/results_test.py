@@ -25,7 +25,7 @@ def scenario(name):
 
 
 def read_csv(path):
-    """As docs/results.md says: three lines of comment, the names, the numbers."""
+    """As docs/reference/results.md says: three lines of comment, the names, the numbers."""
     return numpy.genfromtxt(path, delimiter=",", names=True, skip_header=3)
 
 
@@ -205,8 +205,8 @@ class Waveforms(ProgramTest):
 
 
 class Page(ProgramTest):
-    """What docs/results.md says is what happens."""
-    PAGE = (SOURCE / "docs/results.md").read_text()
+    """What docs/reference/results.md says is what happens."""
+    PAGE = (SOURCE / "docs/reference/results.md").read_text()
 
     def test_its_lines_of_python_read_the_files(self):
         self.run_program("run", scenario("reference/R1"), "--quiet", "--csv", "my.csv", "--mat", "my.mat", "--mat73", "my73.mat")

@@ -10,7 +10,7 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::control;
 
-/// The product of docs/control.md, in double.
+/// The product of docs/reference/fixed-point.md, in double.
 ProtectedConfig<double> product() {
   ProtectedConfig<double> c;
   c.drive.mode = Mode::speed;

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""docs/glossary.md is a table that can be looked up, and nobody uses the words that its last column excludes."""
+"""docs/reference/glossary.md is a table that can be looked up, and nobody uses the words that its last column excludes."""
 import pathlib
 import re
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-GLOSSARY = ROOT / "docs/glossary.md"
+GLOSSARY = ROOT / "docs/reference/glossary.md"
 READ = ("README.md", "docs/**/*.md", "faces/cli/*.cpp", "text/**/*.cpp", "report/*.cpp", "report/web/*", "sixstep/study/**/*.[ch]pp",
         "sixstep/design/**/*.[ch]pp", "sixstep/analysis/**/*.[ch]pp", "sixstep/plant/**/*.[ch]pp", "sixstep/rig/**/*.[ch]pp")
 

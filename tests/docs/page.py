@@ -7,10 +7,11 @@ A comment above each fenced block says how it is tested; a block without one fai
   <!-- test: output -->             is exactly what the block before it printed
   <!-- test: excerpt of COMMAND[; exit=N] -->   its lines stand so in the command's output; a line "..." leaves lines out
   <!-- test: write NAME -->         is written into the folder in which the page's commands run
-  <!-- test: file PATH -->          is that file without its licence line, and the scenario passes
+  <!-- test: file PATH -->          is that file without its licence line; a scenario passes
+  <!-- test: chip --> or host       C++: those of a page compile together, for a chip without a C library or for the host
   <!-- test: programs -->           each line begins with a program of the repository: it exists, may be executed
   <!-- test: measured -->           differs from machine to machine: not compared
-A page's test ends with page.main(); with --renew it writes the page's console and output blocks anew instead.
+pages_test.py runs them.
 """
 import os
 import pathlib
@@ -20,7 +21,6 @@ import subprocess
 import sys
 import tempfile
 import typing
-import unittest
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 BLOCK = re.compile(r"(?:^<!-- test: (?P<test>.*?) -->\n)?^```(?P<language>\w*)\n(?P<text>.*?)^```$", re.M | re.S)
@@ -63,7 +63,8 @@ class Desk:
         for name in ("build/release/sixstep", "bin/sixstep", "run"):  # the real ./run installs and builds first
             (self.folder / name).symlink_to(program)
         (self.folder / "build/dev").symlink_to(program.parent)
-        (self.folder / "tests").symlink_to(REPOSITORY / "tests")
+        for name in ("tests", "sixstep"):
+            (self.folder / name).symlink_to(REPOSITORY / name)
         self.environment = {**os.environ, "PATH": f"{self.folder}/bin:{os.environ['PATH']}"}
 
     def close(self):
@@ -117,89 +118,3 @@ def anchors(file):
     text = BLOCK.sub("", file.read_text(encoding="utf-8"))
     headings = [re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in re.findall(r"^#+ (.*)", text, re.M)]
     return headings + re.findall(r'^<a id="([\w-]+)"></a>$', text, re.M)
-
-
-class LinkTest(unittest.TestCase):
-    NAME = None  # of the page, from the repository's root
-    PROGRAM = REPOSITORY / "build/dev/sixstep"
-    maxDiff = None
-
-    @classmethod
-    def setUpClass(cls):
-        if cls.NAME is None:
-            raise unittest.SkipTest("no page")
-        cls.page = Page(cls.NAME)
-
-    def test_what_is_linked_named_or_pictured_is_there(self):
-        links = re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", self.page.prose)
-        named = re.findall(r"`((?:tools|tests|data|docs|sixstep)/[\w./-]+)`", self.page.prose)
-        for path in [self.page.file.parent / link for link in links if "://" not in link] + [REPOSITORY / n for n in named]:
-            self.assertTrue(path.exists(), path)
-        for words, picture in re.findall(r"!\[(.*?)\]\((.*?)\)", self.page.prose, re.S):
-            self.assertGreater(len(words), 10, f"{picture}: somebody who does not see it wants to know what it shows")
-            self.assertLess((self.page.file.parent / picture).stat().st_size, 100_000)
-
-    def test_every_anchor_is_a_heading(self):
-        for path, anchor in re.findall(r"\]\(([^)#:]*)#([^)]+)\)", self.page.prose):
-            self.assertIn(anchor, anchors(self.page.file.parent / path if path else self.page.file), path)
-
-
-class PageTest(LinkTest):
-    FEWEST = 1  # blocks
-
-    @classmethod
-    def setUpClass(cls):
-        super().setUpClass()
-        cls.desk = Desk(cls.PROGRAM)
-        cls.addClassCleanup(cls.desk.close)
-
-    def shell(self, command, code=0):
-        return self.desk.shell(command, code)
-
-    def test_every_block_does_what_it_says(self):
-        self.assertGreaterEqual(len(self.page.blocks), self.FEWEST)
-        for block, now in walk(self.page, self.desk):
-            with self.subTest(f"{self.NAME}:{block.line}"):
-                self.check(block, now)
-
-    def check(self, block, now):
-        if block.word in ("output", "console"):
-            self.assertEqual(block.text, now, f"renew with: {sys.argv[0]} PROGRAM --renew")
-        elif block.word == "excerpt":
-            command, _, code = block.detail.removeprefix("of ").partition("; exit=")
-            output = self.shell(command, int(code or 0))
-            self.assertIsNone(first_missing(block.text.splitlines(), output.splitlines()))
-        elif block.word == "file":
-            licence, _, content = (REPOSITORY / block.detail).read_text(encoding="utf-8").partition("\n")
-            self.assertIn("SPDX", licence)
-            self.assertEqual(block.text, content)
-            self.shell(f"./run run {block.detail} --quiet")
-        elif block.word == "programs":
-            for command in block.text.splitlines():
-                self.assertTrue(os.access(REPOSITORY / command.split()[0], os.X_OK), command)
-        else:
-            self.assertIn(block.word, ("run", "write", "measured"), "the block does not say how it is tested")
-
-
-def renew(name, program):
-    page, desk, text, at = Page(name), Desk(program), [], 0
-    try:
-        for block, now in walk(page, desk):
-            if now is not None:
-                text += [page.text[at:block.span[0]], now]
-                at = block.span[1]
-    except AssertionError as failure:  # as where a program is not built
-        print(f"{name}: the rest is left as it is, after {failure}", file=sys.stderr)
-    page.file.write_text("".join(text) + page.text[at:], encoding="utf-8")
-    desk.close()
-
-
-def main(*tests):
-    """The arguments of the test of one or more pages: PROGRAM [--renew]."""
-    if len(sys.argv) > 1 and not sys.argv[1].startswith("-"):
-        LinkTest.PROGRAM = pathlib.Path(os.path.abspath(sys.argv.pop(1)))
-    if "--renew" in sys.argv:
-        for test in tests:
-            renew(test.NAME, test.PROGRAM)
-    else:
-        unittest.main(module="__main__")

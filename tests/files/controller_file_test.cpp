@@ -28,7 +28,7 @@ TEST(ControllerFile, WhatIsNoneIsToldAsSuch) {
   EXPECT_EQ(told("no_symbol.so"),
             folder +
                 "/no_symbol.so cannot be loaded: it has no function sixstep_own_controller; compile it "
-                "with -shared -fPIC for this machine (docs/own-controller.md)");
+                "with -shared -fPIC for this machine (docs/howto/write-a-controller.md)");
   EXPECT_EQ(told("answers_nothing.so")
                 .find(folder + "/answers_nothing.so cannot be loaded: sixstep_own_controller answers a null"),
             0u);

@@ -40,7 +40,7 @@ Table drawn_table(Draw& draw) {
   out[0] = {"time [s]"};
   if (hall) out[0].insert(out[0].end(), {"hall1", "hall2", "hall3"});
   if (volts) out[0].insert(out[0].end(), {"u_ab [V]", "u_bc [V]", "u_ca [V]"});
-  constexpr int codes[] = {0b100, 0b110, 0b010, 0b011, 0b001, 0b101};  // docs/notation.md
+  constexpr int codes[] = {0b100, 0b110, 0b010, 0b011, 0b001, 0b101};  // docs/reference/notation.md
   for (int row = 0; row < rows; ++row) {
     const double deg = row_deg * row;
     std::vector<std::string> line{fmt::format("{:.9g}", row_s * row)};

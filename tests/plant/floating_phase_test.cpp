@@ -120,7 +120,7 @@ TEST(PwmPattern, OnlyPwmOnPwmLeavesTheFreePhaseWithoutCurrent) {
     Starts starts;
     ASSERT_EQ(run_to(again, length_s, free), sim::Stop::end);
     ASSERT_EQ(run_to(third, length_s, starts), sim::Stop::end);
-    // Counts and currents of docs/control.md.
+    // Counts and currents of docs/reference/commutation.md.
     static constexpr struct {
       int starts;
       double worst_mA;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a step starts from where the reference's own steps are looked at (docs/figures.md), against windows
+// What a step starts from where the reference's own steps are looked at (docs/reference/figures.md), against windows
 // that say it.
 #include <gtest/gtest.h>
 

@@ -37,7 +37,7 @@ def summary(done):
 
 
 def trouble_of_times(name, chip):
-    """By what a current tick and a Hall interrupt of such a drive take (docs/firmware.md), and what stands around them. The Hall interrupt
+    """By what a current tick and a Hall interrupt of such a drive take (docs/reference/core-costs.md), and what stands around them. The Hall interrupt
     and TOP's may come amid the control interrupt. The first samples only measure the offset."""
     found = []
     for which, least, most in (("control", 100, 1800), ("hall", 100, 700)):

@@ -16,7 +16,7 @@ from avr_image import EXAMPLE, built
 PERIOD = 1600  # cycles of 100 us
 CYCLE_PS = 62_500
 SAMPLE_LATE = 32  # a conversion that BOTTOM starts holds its input two of the converter's clocks later
-# docs/model.md, 3, by H1 H2 H3: the leg that the positive pair feeds from the bus, and the one that it pulls down.
+# docs/reference/model.md, 3, by H1 H2 H3: the leg that the positive pair feeds from the bus, and the one that it pulls down.
 POSITIVE = {0b100: "ab", 0b110: "ac", 0b010: "bc", 0b011: "ba", 0b001: "ca", 0b101: "cb"}
 AMPERES_PER_COUNT, D1, K_I = 20 / 1024, 2.30464, 0.37978  # of its drive_config.hpp
 # From a Hall edge to the new pair: an interrupt that has begun, the way into the next one, the dead time. From TOP: the same, and a Hall

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""tools/own_cost.sh SOURCE [SCENARIO]: what a controller of one's own costs on the cores (docs/own-controller.md)."""
+"""tools/own_cost.sh SOURCE [SCENARIO]: what a controller of one's own costs on the cores (docs/howto/write-a-controller.md)."""
 import argparse
 import json
 import pathlib

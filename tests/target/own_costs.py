@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the controllers of data/controllers/ cost by tools/own_cost.sh: one as docs/own-controller.md shows it on all cores, the others on
+"""What the controllers of data/controllers/ cost by tools/own_cost.sh: one as docs/howto/write-a-controller.md shows it on all cores, the others on
 one, against own/costs.txt: counts within 5 %, sizes to the byte."""
 import pathlib
 import re
@@ -13,7 +13,7 @@ import own_cost
 from build import Failed
 
 TABLE = own.HERE / "costs.txt"
-PAGE = cores.REPOSITORY / "docs" / "own-controller.md"
+PAGE = cores.REPOSITORY / "docs/howto/write-a-controller.md"
 CONTROLLERS = cores.REPOSITORY / "data" / "controllers"
 CORE = "Cortex-M4F"
 CASES = {"six_step_again.cpp": "speed", "sine_voltage.c": "duty"}  # each with its scenario

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the simulation's timer does with a pair and a duty (docs/model.md 3 and 11), and how far a chip's edges are from it."""
+"""What the simulation's timer does with a pair and a duty (docs/reference/model.md 3 and 11), and how far a chip's edges are from it."""
 import itertools
 
 from tim1 import LOWER, UPPER
@@ -7,7 +7,7 @@ from timed_chip import BY_UPPER, COMPLEMENTARY, DEAD, HARD, OFF, PERIOD
 
 
 def sides(wanted, leg, pulse):
-    """Of the simulation (docs/model.md 3): None, UPPER or LOWER."""
+    """Of the simulation (docs/reference/model.md 3): None, UPPER or LOWER."""
     if wanted is OFF:
         return None
     (source, sink), (chopping, chopped), _ = wanted

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Flash and RAM of both entries of a drive, and what they ask the linker for: against data/cores/sizes.txt and the
-table of docs/control.md, section "What the linker is asked for"."""
+table of docs/reference/blocks.md, section "Which functions the linker needs"."""
 import fnmatch
 import re
 
@@ -10,7 +10,7 @@ import cost
 from build import Failed
 
 TABLE = cores.TABLES / "sizes.txt"
-PAGE = cores.REPOSITORY / "docs" / "control.md"
+PAGE = cores.REPOSITORY / "docs" / "reference" / "blocks.md"
 HEAD = """# SPDX-License-Identifier: Apache-2.0
 # core, drive, scalar, bytes of flash, bytes of RAM without the stack: both entries with state, telemetry and answer, and what
 # they need of the compiler's library; no start code. Written by tools/check_target.sh --renew
@@ -21,7 +21,7 @@ ON_THE_PAGE = {"Cortex-M3": "Cortex-M4", "Cortex-M4F": "Cortex-M4"}
 
 def listed():
     """[(patterns of names, cores that may ask for them)] of the page; None: all may."""
-    section = PAGE.read_text(encoding="utf-8").partition("## What the linker is asked for")[2].partition("\n## ")[0]
+    section = PAGE.read_text(encoding="utf-8").partition("## Which functions the linker needs")[2].partition("\n## ")[0]
     rows = [line.split("|")[1:4] for line in section.splitlines() if re.match(r"\| .*`", line)]
     return [(re.findall(r"`([^`]+)`", names), None if where.strip() == "all" else where) for _, names, where in rows]
 
@@ -67,7 +67,7 @@ def take():
             trouble.append(f"{core.name}, {drive} in {scalar}: {answer}")
             continue
         rows[core.name, drive, scalar] = answer[0]
-        trouble += [f"{core.name}, {drive} in {scalar}: asks the linker for {name}, which docs/control.md does not list"
+        trouble += [f"{core.name}, {drive} in {scalar}: asks the linker for {name}, which docs/reference/blocks.md does not list"
                     for name in not_listed(core, answer[1])]
     return rows, trouble
 
@@ -90,7 +90,7 @@ def check():
     for key in table | rows:
         if table.get(key) != rows.get(key):
             trouble.append(f"{key[0]}, {key[1]} in {key[2]}: flash and RAM {rows.get(key)}, the table has {table.get(key)}")
-    print(f"{len(rows)} sizes: " + (f"{len(trouble)} are not as written" if trouble else "those of the table; the linker is asked for what docs/control.md lists"), flush=True)
+    print(f"{len(rows)} sizes: " + (f"{len(trouble)} are not as written" if trouble else "those of the table; the linker is asked for what docs/reference/blocks.md lists"), flush=True)
     for line in trouble:
         print(f"  {line}")
     return not trouble

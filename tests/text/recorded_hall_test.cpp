@@ -19,7 +19,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr int rows = 4000, codes[] = {4, 6, 2, 3, 1, 5};  // docs/notation.md, forward
+constexpr int rows = 4000, codes[] = {4, 6, 2, 3, 1, 5};  // docs/reference/notation.md, forward
 constexpr double rate_Hz = 20e3, frequency_Hz = 700.0 / 6.0;
 
 int code_at(int row) { return codes[static_cast<int>(6.0 * frequency_Hz * (row + 0.5) / rate_Hz) % 6]; }

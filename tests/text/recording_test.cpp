@@ -50,7 +50,7 @@ std::string told_of_emf(const std::string& csv, const BenchColumns& columns = {}
   return found ? "" : told(found.problems());
 }
 
-constexpr int codes[] = {4, 6, 2, 3, 1, 5};  // docs/notation.md, forward
+constexpr int codes[] = {4, 6, 2, 3, 1, 5};  // docs/reference/notation.md, forward
 
 /// Ten rows in each sector.
 std::string hall_log(int sectors, const char* heading = "time [s],hall1,hall2,hall3\n") {

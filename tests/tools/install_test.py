@@ -79,7 +79,7 @@ class Installed(unittest.TestCase):
                 if pathlib.Path(file).name not in ("CMakeLists.txt", ".clang-tidy"):
                     self.assertTrue((self.share / file).is_file(), file)
         self.assertTrue((self.prefix / "include/sixstep/control/own/own_controller.h").is_file())
-        self.assertTrue((self.prefix / "share/doc/sixstep/docs/command-line.md").is_file())
+        self.assertTrue((self.prefix / "share/doc/sixstep/docs/reference/command-line.md").is_file())
 
     def test_modes_and_links(self):
         for path in self.prefix.rglob("*"):

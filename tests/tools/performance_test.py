@@ -21,7 +21,7 @@ OBSERVERS = {"R/none": {"per_period": 200e-9}, "R/digest": {"per_period": 210e-9
 class Performance(unittest.TestCase):
     def setUp(self):
         self.tables = performance.tables_of(ENGINE, OBSERVERS)
-        self.pages = {"README.md": "", "docs/performance.md": ""}
+        self.pages = {"README.md": "", "docs/explanation/performance.md": ""}
         for name, place in performance.PLACES.items():
             self.pages[place] += f"<!-- performance: {name} -->\non this\n\n{performance.markdown(self.tables[name])}<!-- end -->\n"
 
@@ -41,14 +41,14 @@ class Performance(unittest.TestCase):
         self.assertEqual(self.tables["observers"][1:], [["none", "200", ""], ["digest", "210", "5 %"]])
 
     def test_other_figures_are_no_difference(self):
-        self.assertEqual(self.wrong("docs/performance.md", "| 200 |", "| 199 |"), [])
+        self.assertEqual(self.wrong("docs/explanation/performance.md", "| 200 |", "| 199 |"), [])
         self.assertEqual(self.wrong("README.md", "| 150 |", "| 149 |"), [])
 
     def test_other_rows_columns_or_markers_are(self):
-        for place, old, new in [("docs/performance.md", "| R | lean |", "| S | lean |"), ("docs/performance.md", "simulated s per s", "speed"),
+        for place, old, new in [("docs/explanation/performance.md", "| R | lean |", "| S | lean |"), ("docs/explanation/performance.md", "simulated s per s", "speed"),
                                 ("README.md", "| G | 50 |", "| H | 50 |"), ("README.md", "engine alone", "alone"),
-                                ("docs/performance.md", "| digest | 210 | 5 % |\n", ""),
-                                ("docs/performance.md", "performance: growth", "performance: grown")]:
+                                ("docs/explanation/performance.md", "| digest | 210 | 5 % |\n", ""),
+                                ("docs/explanation/performance.md", "performance: growth", "performance: grown")]:
             self.assertEqual(len(self.wrong(place, old, new)), 1, old)
 
 

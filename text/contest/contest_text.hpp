@@ -10,7 +10,7 @@
 
 namespace text {
 
-/// The core of the table's costs, in float; all cores stand in docs/firmware.md.
+/// The core of the table's costs, in float; all cores stand in docs/reference/core-costs.md.
 inline constexpr std::string_view contest_core = "Cortex-M4F";
 
 /// "8.22 mN m", "34.6 %"; "never" where it never comes, "-" where there is none.

@@ -117,12 +117,12 @@ std::string too_short_for_images(double period_s) {
 
 std::string core_cost_lines(const study::Compiled& c) {
   if (c.sensorless)
-    return "//\n// What its entries take on a core is counted in docs/firmware.md: sensorless_drive_step, sensorless_drive_commutate and\n"
+    return "//\n// What its entries take on a core is counted in docs/reference/block-costs.md: sensorless_drive_step, sensorless_drive_commutate and\n"
            "// sensorless_drive_hall.\n";
   const std::vector<Words> counts = rows(cores::drives_txt), sizes = rows(cores::sizes_txt);
   std::string text = fmt::format(
       "//\n// On a core, the {} drive of tests/target/scenarios/ takes, by count over 80 000 recorded periods, for a\n"
-      "// control tick and a Hall interrupt at worst, without an interrupt's entry and exit (docs/firmware.md):\n"
+      "// control tick and a Hall interrupt at worst, without an interrupt's entry and exit (docs/reference/core-costs.md):\n"
       "//   {:<12}{:<12}{:>8}{:>8}{:<16}{:>8}{:>8}\n",
       kind(c), "", "", "tick", "Hall", "", "flash", "RAM");
   for (const Words& size : sizes) {

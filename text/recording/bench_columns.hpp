@@ -14,7 +14,7 @@ namespace text {
 
 using Columns = std::vector<Picked>;
 
-/// What a heading says that stands in the tables of docs/bench.md.
+/// What a heading says that stands in the tables of docs/howto/record-a-motor.md.
 enum class Meaning : std::uint8_t { unknown, between_terminals, of_terminal, hall_line, hall_code };
 
 /// Spellings of three columns that belong together, as bare names.

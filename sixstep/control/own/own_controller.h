@@ -6,7 +6,7 @@
  *
  *   cc -O2 -ffp-contract=off -shared -fPIC -I SIXSTEP mine.c -o mine.so
  *
- * and a scenario names it: control.drive = "own", control.own.controller = "mine.so" (docs/own-controller.md).
+ * and a scenario names it: control.drive = "own", control.own.controller = "mine.so" (docs/howto/write-a-controller.md).
  *
  * The same source goes onto a chip in float: numbers are sixstep_real, double for the program, and what SIXSTEP_REAL names
  * (-DSIXSTEP_REAL=float) else. A literal like 0.5 is a double: written (sixstep_real)0.5, a chip computes with it in float.

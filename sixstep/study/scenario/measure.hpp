@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What may be asked of a run: a figure of merit, taken of a signal over a window. docs/figures.md defines
+// What may be asked of a run: a figure of merit, taken of a signal over a window. docs/reference/figures.md defines
 // each by its formula.
 #pragma once
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Recordings of open-circuit voltages as an oscilloscope makes them, drawn at random, with what is true of
-// them. Written anew from the conventions of docs/notation.md: it shares nothing with what is tested.
+// them. Written anew from the conventions of docs/reference/notation.md: it shares nothing with what is tested.
 #pragma once
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Logs of a motor that someone turned, drawn at random, with what is true of them. It shares nothing with
-// what is tested but the conventions of docs/notation.md: motion, probes, wires and noise are written anew,
+// what is tested but the conventions of docs/reference/notation.md: motion, probes, wires and noise are written anew,
 // and the shaft obeys a torque, not the smoothness that identification assumes.
 #pragma once
 #include <array>
@@ -42,7 +42,7 @@ struct HallTruth {
   std::array<double, 3> channel_offset_V{};
 };
 
-/// The code of probes 1 2 3 (bits 2, 1, 0) in a sector: docs/notation.md, and hall.hpp for 60 degrees.
+/// The code of probes 1 2 3 (bits 2, 1, 0) in a sector: docs/reference/notation.md, and hall.hpp for 60 degrees.
 inline int probe_code(int sector, bool spaced_60) {
   constexpr int apart_120[] = {0b100, 0b110, 0b010, 0b011, 0b001, 0b101};
   constexpr int apart_60[] = {0b110, 0b111, 0b011, 0b001, 0b000, 0b100};

@@ -76,7 +76,7 @@ TEST(HallWires, TheGeneratorsProbesAreTheDrives) {
   }
 }
 
-/// docs/notation.md, the table of sectors.
+/// docs/reference/notation.md, the table of sectors.
 TEST(HallWires, StraightWiresGiveTheDrivesOwnTable) {
   const auto table = analysis::commutation_of(analysis::codes_behind({}));
   ASSERT_EQ(table.size(), 6u);

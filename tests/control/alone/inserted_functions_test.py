@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""inserted_functions_test.py CLANG NM: the control library, compiled for chips, asks the linker for what docs/control.md
+"""inserted_functions_test.py CLANG NM: the control library, compiled for chips, asks the linker for what docs/reference/blocks.md
 lists and for nothing else; and every row of that list is needed somewhere, so that it can fail."""
 import fnmatch
 import pathlib
@@ -22,7 +22,7 @@ TOOLS = []
 
 def listed():
     """Patterns of each row of the table, and the chips that it names."""
-    section = (REPOSITORY / "docs/control.md").read_text(encoding="utf-8").partition("## What the linker is asked for")[2]
+    section = (REPOSITORY / "docs/reference/blocks.md").read_text(encoding="utf-8").partition("## Which functions the linker needs")[2]
     rows = [line.split("|")[1:4] for line in section.splitlines() if re.match(r"\| [^-f]|\| `", line)]
     return [(re.findall(r"`([^`]+)`", names), CHIPS if where.strip() == "all" else where) for _, names, where in rows]
 
@@ -47,7 +47,7 @@ class InsertedFunctions(unittest.TestCase):
             for name in self.needed(chip, "-Os") | self.needed(chip, "-O2"):
                 fits = [n for n, (patterns, where) in enumerate(rows)
                         if chip in where and any(fnmatch.fnmatchcase(name, p) for p in patterns)]
-                self.assertTrue(fits, f"{chip} needs {name}, which docs/control.md does not list")
+                self.assertTrue(fits, f"{chip} needs {name}, which docs/reference/blocks.md does not list")
                 for n in fits:
                     seen[n].add(chip)
         for (patterns, where), chips in zip(rows, seen):

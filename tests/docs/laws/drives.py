@@ -118,6 +118,6 @@ def devices(test, spot):
 def hall_order(test, spot):
     """The positive way passes the codes of notation.md's sectors in their order."""
     order = re.search(r"\| (\d(?: \d){5}) and again", spot.text).group(1).split()
-    page = (REPOSITORY / "docs/wiring.md").read_text(encoding="utf-8")
+    page = (REPOSITORY / "docs/howto/find-a-wiring-fault.md").read_text(encoding="utf-8")
     codes = re.findall(r"^  \d +\d+\.\. ?\d+ deg +\d +\d +\d +(\d) ", page, re.M)
     test.assertEqual(codes, order, str(spot))

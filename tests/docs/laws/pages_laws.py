@@ -6,7 +6,7 @@ from laws import bench, contest, curve, design, drives, run_output, series, tabl
 from page import REPOSITORY
 
 # What a reader writes or runs is no result.
-INPUT = {"run", "write", "file", "shell", "chip", "host", "scenario", "programs", "trips", "exported", "export", "example", "blocks"}
+INPUT = {"run", "write", "file", "chip", "host", "programs"}
 
 TEST_NAMED = re.compile(r"`(\w+)\.\*`|`(tests/[\w/*.]+|\w+_test\.cpp|\w+_tests|\w+_test\.py)`")
 
@@ -81,8 +81,8 @@ def motor_check(test, spot):
 
 
 def capacitor_store(test, spot):
-    """The least sum of the page's own table of that plan, and as many runs as it has that pass."""
-    table = (REPOSITORY / spot.page).read_text(encoding="utf-8")
+    """The least sum of the table of that plan on its page, and as many runs as it has that pass."""
+    table = (REPOSITORY / "docs/reference/plan-file.md").read_text(encoding="utf-8")
     rows = re.findall(r"^ +\d+ +[\d.]+ us +(\w+) +[\d.]+ [nu]s +(.*?) +ok$", table, re.M)
     for chopping, least, runs in re.findall(r"│ (\w+) +│ ([\d.]+) +│ (\d+) ", spot.text):
         sums = [sum(float(x) for x in re.findall(r"([\d.]+) W", cells)[:2]) for name, cells in rows if name == chopping]
@@ -133,60 +133,60 @@ def rows_at_the_leader(test, spot):
 
 
 BY_TEXT = [
-    ("docs/firmware.md", "kHz pulses", drives.bring_up_avr), ("docs/control.md", "least that flows", drives.beyond_the_bus),
-    ("docs/motors.md", "| oz-in-s2", drives.trade_units), ("docs/firmware.md", "| | do | measure |", drives.bring_up), ("docs/cluster.md", "| for each row |", rows_at_the_leader),
-    ("docs/curve.md", "rpm ", curve.judge), ("docs/manual/faq.md", "rpm ", curve.judge),
-    ("docs/manual", "drives, seed", series.judge_drives),
-    ("docs/many-runs.md", "verdict", series.judge_plan), ("docs/many-runs.md", "limited by", series.judge_best_pwm),
-    ("docs/many-runs.md", "least_W", capacitor_store), ("docs/manual/control.md", "$ sixstep compare", contest.judge),
-    ("docs/bench.md", "Constant  ", bench.emf), ("docs/bench.md", "CONTRADICTS", bench.held_against),
-    ("docs/bench.md", "cut off, 1 - c", bench.clipped),
-    ("docs/bench.md", "hysteresis  ", bench.identify), ("docs/commissioning.md", "off by     bound", bench.commission_sheet),
-    ("docs/commissioning.md", "psi ", bench.commission_constants), ("docs/commissioning.md", "worst edge off", bench.hall_places),
-    ("docs/commissioning.md", "rotor angles", rotor_angles), ("docs/wiring.md", "theory   speed", tables.wiring),
-    ("docs/control.md", "at the first try, up to speed", drives.starts), ("docs/control.md", "duty from 10 to 100 %", drives.throttle),
-    ("docs/control.md", "lost once in", counted), ("docs/bode.md", "coherence  designed", bode),
+    ("docs/howto/flash-an-image.md", "kHz pulses", drives.bring_up_avr), ("docs/reference/field-oriented-drive.md", "least that flows", drives.beyond_the_bus),
+    ("docs/start/your-motor.md", "| oz-in-s2", drives.trade_units), ("docs/howto/flash-an-image.md", "| | do | measure |", drives.bring_up), ("docs/howto/use-a-cluster.md", "| for each row |", rows_at_the_leader),
+    ("docs/howto/read-the-curve.md", "rpm ", curve.judge), ("docs/explanation/currents.md", "rpm ", curve.judge),
+    ("docs/", "drives, seed", series.judge_drives),
+    ("docs/howto/run-many.md", "verdict", series.judge_plan), ("docs/reference/plan-file.md", "verdict", series.judge_plan), ("docs/howto/find-the-best-point.md", "limited by", series.judge_best_pwm),
+    ("docs/howto/run-many.md", "least_W", capacitor_store), ("docs/howto/controllers-on-a-", "$ sixstep compare", contest.judge),
+    ("docs/howto/measure-the-back-emf.md", "Constant  ", bench.emf), ("docs/howto/measure-the-back-emf.md", "CONTRADICTS", bench.held_against),
+    ("docs/howto/measure-the-back-emf.md", "cut off, 1 - c", bench.clipped),
+    ("docs/howto/find-the-hall-order.md", "hysteresis  ", bench.identify), ("docs/howto/commission-a-drive.md", "off by     bound", bench.commission_sheet),
+    ("docs/howto/commission-a-drive.md", "psi ", bench.commission_constants), ("docs/howto/commission-a-drive.md", "worst edge off", bench.hall_places),
+    ("docs/howto/commission-a-drive.md", "rotor angles", rotor_angles), ("docs/howto/find-a-wiring-fault.md", "theory   speed", tables.wiring),
+    ("docs/reference/sensorless-drive.md", "at the first try, up to speed", drives.starts), ("docs/reference/sensorless-drive.md", "duty from 10 to 100 %", drives.throttle),
+    ("docs/reference/sensorless-drive.md", "lost once in", counted), ("docs/howto/measure-a-frequency-response.md", "coherence  designed", bode),
     ("README.md", "case      ", tables.reference),
-    ("README.md", "| case |", tables.speed_in_short), ("docs/performance.md", "| observer |", tables.observers),
-    ("docs/performance.md", "| case | kernel |", tables.speed), ("docs/performance.md", "| case |", tables.growth), ("docs/performance.md", "| part |", tables.shares),
-    ("docs/trust.md", "| accepted |", tables.trust), ("docs/trust.md", "| law |", tables.trust),
-    ("docs/cluster.md", "| ranks |", tables.cluster_measured), ("docs/cluster.md", "| a run |", tables.cluster_limits),
-    ("docs/firmware.md", "| digests |", tables.digests), ("docs/firmware.md", "| function |", tables.block_costs),
-    ("docs/firmware.md", "| core | arithmetic |", tables.drive_costs), ("docs/own-controller.md", "core        step", tables.own_cost),
-    ("docs/firmware.md", "less the simulation", drives.laid_over), ("docs/session.md", "the same bits again", session),
-    ("docs/manual/position.md", "known by", tables.position), ("docs/motors.md", "$ sixstep motor list", tables.motor_list),
-    ("docs/motors.md", "  Relation ", motor_check), ("docs/manual/tour.md", "  Relation ", motor_check),
-    ("docs/manual/faq.md", "motor show kv.toml | grep K_t", drives.kv), ("docs/manual/faq.md", "torque_constant_Nm_A = 0.42", drives.frames),
-    ("docs/manual/faq.md", "braking, soft", drives.braking), ("docs/manual/faq.md", '"device"', drives.devices),
-    ("docs/manual/tour.md", "held as", drives.exported), ("docs/manual/faq.md", "cases match", counted),
-    ("docs/manual/tour.md", "settles to", design.judge), ("docs/manual/faq.md", "Fastest settling", design.judge),
-    ("docs/design.md", "", design.judge),
-    ("docs/scenario.md", "| key |", default_in_range),
+    ("README.md", "| case |", tables.speed_in_short), ("docs/explanation/performance.md", "| observer |", tables.observers),
+    ("docs/explanation/performance.md", "| case | kernel |", tables.speed), ("docs/explanation/performance.md", "| case |", tables.growth), ("docs/explanation/performance.md", "| part |", tables.shares),
+    ("docs/explanation/drawn-scenarios.md", "| accepted |", tables.trust), ("docs/explanation/drawn-scenarios.md", "| law |", tables.trust),
+    ("docs/howto/use-a-cluster.md", "| ranks |", tables.cluster_measured), ("docs/howto/use-a-cluster.md", "| a run |", tables.cluster_limits),
+    ("docs/reference/core-bits.md", "| digests |", tables.digests), ("docs/reference/block-costs.md", "| function |", tables.block_costs),
+    ("docs/reference/core-costs.md", "| core | arithmetic |", tables.drive_costs), ("docs/howto/write-a-controller.md", "core        step", tables.own_cost),
+    ("docs/howto/compare-a-log.md", "less the simulation", drives.laid_over), ("docs/howto/steer-a-run-from-cpp.md", "the same bits again", session),
+    ("docs/howto/choose-a-rotor-sensor.md", "known by", tables.position), ("docs/reference/motor-sheets.md", "$ sixstep motor list", tables.motor_list),
+    ("docs/reference/motor-sheets.md", "  Relation ", motor_check), ("docs/start/tour.md", "  Relation ", motor_check),
+    ("docs/start/sheet-questions.md", "motor show kv.toml | grep K_t", drives.kv), ("docs/start/sheet-questions.md", "torque_constant_Nm_A = 0.42", drives.frames),
+    ("docs/explanation/currents.md", "braking, soft", drives.braking), ("docs/howto/check-heat.md", '"device"', drives.devices),
+    ("docs/start/tour-bench-and-chip.md", "held as", drives.exported), ("docs/explanation/accuracy.md", "cases match", counted),
+    ("docs/start/tour.md", "settles to", design.judge), ("docs/howto/tune-a-speed-loop.md", "", design.judge), ("docs/howto/choose-pwm.md", "verdict", series.judge_plan), ("docs/howto/choose-pwm.md", "$ ./run design", design.judge),
+    ("docs/howto/design-", "", design.judge),
+    ("docs/reference/keys/", "| key |", default_in_range),
 ]
 # Messages of the program, which repeat what was given or what is allowed.
-MESSAGES = [("docs/manual/tour.md", "tells the drive currents"), ("docs/bench.md", "short.csv: "),
-            ("docs/manual/faq.md", "coil.toml:4"), ("docs/manual/faq.md", "motor show kv.toml | grep pole"), ("docs/motors.md", "mine.toml"),
-            ("docs/manual/tour.md", "dampng"), ("docs/manual/tour.md", "relations hold"), ("docs/manual/tour.md", "line_"), ("docs/manual/tour.md", "help control.current.damping"),
-            ("docs/manual/faq.md", "'mean current  '"), ("docs/manual/tour.md", "hot-plug.toml | head"),
-            ("docs/manual/faq.md", "grep ripple")]
+MESSAGES = [("docs/start/tour-bench-and-chip.md", "tells the drive currents"), ("docs/howto/measure-the-back-emf.md", "short.csv: "), ("docs/howto/find-the-hall-order.md", "short.csv: "),
+            ("docs/start/sheet-questions.md", "coil.toml:4"), ("docs/start/sheet-questions.md", "motor show kv.toml | grep pole"),
+            ("docs/start/tour.md", "dampng"), ("docs/start/tour.md", "relations hold"), ("docs/start/tour.md", "line_"), ("docs/start/tour.md", "help control.current.damping"),
+            ("docs/explanation/accuracy.md", "'mean current  '"), ("docs/start/tour-bench-and-chip.md", "hot-plug.toml | head"),
+            ("docs/howto/size-a-capacitor.md", "grep ripple")]
 # Pages and tables that define: names, formulas, commands, exit codes, and pages of code.
-DEFINES = {"docs/architecture.md", "docs/model.md", "docs/notation.md", "docs/figures.md", "docs/results.md", "docs/command-line.md",
-           "docs/contributing.md", "docs/scenario.md"}
-DEFINING = [("README.md", "| task |"), ("docs/glossary.md", "| term |"),
-            ("docs/bench.md", "| column |"), ("docs/bode.md", "| what stands there |"), ("docs/commissioning.md", "| phase |"),
-            ("docs/curve.md", "| row |"), ("docs/curve.md", "| column |"), ("docs/control.md", "| limit |"), ("docs/control.md", "| what | exit code |"),
-            ("docs/control.md", "| law | what it is |"), ("docs/control.md", "| pattern | chopped is |"), ("docs/control.md", "| chopped is |"),
-            ("docs/control.md", "| angle"), ("docs/control.md", "| header |"), ("docs/control.md", "| for |"), ("docs/control.md", "| at rest |"),
-            ("docs/firmware.md", "| core | compiler |"), ("docs/firmware.md", "| the scenario says |"), ("docs/firmware.md", "# How main.c"),
-            ("docs/firmware.md", "| what | STM32F303 |"), ("docs/firmware.md", "--uart board.csv"), ("docs/cluster.md", "./test --mpi"),
-            ("docs/cluster.md", "| | |"), ("docs/motors.md", "| key |"), ("docs/motors.md", "| relation |"), ("docs/many-runs.md", "| key of a plan |"),
-            ("docs/many-runs.md", "title = "), ("docs/many-runs.md", "minimise = "), ("docs/many-runs.md", "sixstep run data/scenarios"),
-            ("docs/session.md", "| change |"), ("docs/session.md", "| refused change |"), ("docs/wiring.md", "| in a cell |"), ("docs/manual/control.md", "| column |"),
-            ("docs/manual/position.md", "| you need |"), ("docs/own-controller.md", "$ "), ("docs/own-controller.md", "| it |"), ("docs/firmware.md", "| log of |")]
+DEFINES = ("docs/architecture.md", "docs/contracts.md", "docs/contributing.md", "docs/reference/model", "docs/reference/notation.md",
+           "docs/reference/figures.md", "docs/reference/results.md", "docs/reference/command-line.md", "docs/reference/keys/")
+DEFINING = [("README.md", "| task |"), ("docs/reference/glossary.md", "| term |"),
+            ("docs/howto/record-a-motor.md", "| column |"), ("docs/howto/measure-a-frequency-response.md", "| what stands there |"), ("docs/howto/commission-a-drive.md", "| phase |"),
+            ("docs/howto/read-the-curve.md", "| row |"), ("docs/howto/read-the-curve.md", "| column |"), ("docs/reference/product-drive.md", "| limit |"), ("docs/howto/put-a-controller-on-a-chip.md", "| what | exit code |"),
+            ("docs/reference/loops.md", "| law | what it is |"), ("docs/reference/commutation.md", "| pattern | chopped is |"), ("docs/reference/commutation.md", "| chopped is |"),
+            ("docs/reference/", "| angle"), ("docs/reference/blocks.md", "| header |"), ("docs/reference/blocks.md", "| for |"), ("docs/reference/", "| at rest |"),
+            ("docs/howto/run-on-a-core.md", "| core | compiler |"), ("docs/howto/run-on-a-core.md", "| the scenario says |"), ("docs/howto/run-on-a-core.md", "# How main.c"),
+            ("docs/howto/flash-an-image.md", "| what | STM32F303 |"), ("docs/howto/compare-a-log.md", "--uart board.csv"), ("docs/howto/use-a-cluster.md", "./test --mpi"),
+            ("docs/howto/use-a-cluster.md", "| | |"), ("docs/start/your-motor.md", "| key |"), ("docs/reference/motor-sheets.md", "| relation |"), ("docs/reference/plan-file.md", "| key of a plan |"),
+            ("docs/reference/plan-file.md", "title = "), ("docs/howto/find-the-best-point.md", "minimise = "), ("docs/howto/run-many.md", "sixstep run data/scenarios"),
+            ("docs/howto/steer-a-run-from-cpp.md", "| change |"), ("docs/howto/steer-a-run-from-cpp.md", "| refused change |"), ("docs/howto/find-a-wiring-fault.md", "| in a cell |"), ("docs/howto/choose-a-controller.md", "| column |"),
+            ("docs/howto/choose-a-rotor-sensor.md", "| you need |"), ("docs/howto/write-a-controller.md", "$ "), ("docs/howto/write-a-controller.md", "| field |"), ("docs/howto/write-a-controller.md", "| the controller |"), ("docs/howto/compare-a-log.md", "| log of |")]
 # Tables whose every row a named test measures and holds to a law of its own.
-HELD_BY_TESTS = [("docs/control.md", "| result |"), ("docs/control.md", "| experiment |"), ("docs/control.md", "| board |"),
-                 ("docs/control.md", "| loop | told |"), ("docs/control.md", "| pattern | free phase"),
-                 ("docs/control.md", "| law | a step")]
+HELD_BY_TESTS = [("docs/reference/", "| result |"), ("docs/reference/fixed-point.md", "| experiment |"), ("docs/reference/sensorless-drive.md", "| board |"),
+                 ("docs/reference/loops.md", "| loop | told |"), ("docs/reference/commutation.md", "| pattern | free phase"),
+                 ("docs/reference/loops.md", "| law | a step")]
 
 
 NO_RESULTS = (definition, message, measured_by_a_test, default_in_range)
@@ -203,7 +203,7 @@ def law_of(spot):
         return row[2]
     if run_output.judges(spot):
         return None
-    if spot.page in DEFINES or first_of(DEFINING, spot):
+    if spot.page.startswith(DEFINES) or first_of(DEFINING, spot):
         return definition
     if first_of(MESSAGES, spot):
         return message

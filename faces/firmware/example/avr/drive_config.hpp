@@ -37,7 +37,7 @@
 //   current integral increment        5.6967 of 336
 //
 // On a core, the current drive of tests/target/scenarios/ takes, by count over 80 000 recorded periods, for a
-// control tick and a Hall interrupt at worst, without an interrupt's entry and exit (docs/firmware.md):
+// control tick and a Hall interrupt at worst, without an interrupt's entry and exit (docs/reference/core-costs.md):
 //                               tick    Hall                   flash     RAM
 //   Cortex-M0   q15              139      62 instructions       1162     124 bytes
 //   Cortex-M3   q15              111      29 instructions        966     124 bytes

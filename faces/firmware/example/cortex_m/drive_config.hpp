@@ -31,7 +31,7 @@
 //   heat      winding and magnets at 25 degC all along
 //
 // On a core, the product drive of tests/target/scenarios/ takes, by count over 80 000 recorded periods, for a
-// control tick and a Hall interrupt at worst, without an interrupt's entry and exit (docs/firmware.md):
+// control tick and a Hall interrupt at worst, without an interrupt's entry and exit (docs/reference/core-costs.md):
 //                               tick    Hall                   flash     RAM
 //   Cortex-M0   q15             1971     312 instructions      25748     276 bytes
 //   Cortex-M3   q15             1135     172 instructions      22842     276 bytes
