@@ -13,6 +13,9 @@ namespace files {
 namespace {
 
 constexpr const char* symbol = "sixstep_own_controller";
+constexpr std::string_view elf_magic =
+    "\x7f"
+    "ELF";
 
 base::Problem unloaded(const std::string& path, std::string why) {
   if (why.starts_with(path + ": ")) why.erase(0, path.size() + 2);
@@ -51,6 +54,10 @@ base::Result<text::NamedText> load_controller(const std::string& path) {
     problem.where = path;
     return problem;
   }
+  if (!bytes->starts_with(elf_magic))
+    return base::Problem{.where = path,
+                         .limit = "is not a compiled library: it may be the source",
+                         .cure = "compile it and name the result: cc -O2 -shared -fPIC -o NAME.so SOURCE.c"};
   // A name without a slash would be looked for among the system's libraries.
   std::error_code ignored;
   const std::string whole = std::filesystem::absolute(path, ignored).string();

@@ -70,7 +70,6 @@ The file of `shape = "csv"` has the time in its first column and the reference i
 """,
     "require": "[Figures of merit](../figures.md) defines metrics and signals.\n",
     "compare": "[Figures of merit](../figures.md) defines metrics and signals.\n",
-    "sensors": "`sensors.resolver.bits` below 10 needs `reading = \"sampled\"`: no converter chip has fewer than 10.\n",
     "spread": "[How to run a thousand drives](../../howto/run-many.md#how-to-run-the-drives-of-a-series) shows a series.\n",
 }
 MOTOR = """# Motor files

@@ -105,7 +105,7 @@ Exit measure(const Job& job, const RunArguments& a, std::vector<BodeFile>& files
   // What a quiet run leaves out.
   const bool answered = analysis::answered(s->points);
   if (a.quiet && !answered)
-    print(text::visible(job.name()) + ": the loop did not answer: nothing was measured\n", stderr);
+    print(text::visible(job.name()) + ": nothing was measured: no line has a coherence of 0.9\n", stderr);
   return answered ? Exit::ok : Exit::failed;
 }
 

@@ -130,8 +130,8 @@ class OwnControllerPage(unittest.TestCase):
     def test_what_goes_wrong_is_told(self):
         wrong = {"own": "own.toml", "said": [
             (("--set", "control.own.controller=nowhere.so"), 2, "nowhere.so"),
-            (("--set", "control.own.controller=own.toml"), 2, "cannot be loaded: invalid ELF header"),
-            (("--set", "control.own.controller=short.c"), 2, "cannot be loaded: file too short"),
+            (("--set", "control.own.controller=own.toml"), 2, "is not a compiled library"),
+            (("--set", "control.own.controller=short.c"), 2, "is not a compiled library"),
             (("--set", "control.own.controller=mine.so"), 2, "is not a number of the controller"),
             (("--set", "control.own.number[0].name=width"), 2, "bandwidth, limit_A"),
             (("--set", "control.mode=position"), 2, "PI in integers holds a current or a speed"),

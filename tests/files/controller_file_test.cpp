@@ -45,7 +45,7 @@ TEST(ControllerFile, WhatIsNoneIsToldAsSuch) {
   std::ofstream(text) << "no machine code\n";
   const auto loaded = files::load_controller(text);
   ASSERT_FALSE(loaded);
-  EXPECT_NE(loaded.problems()[0].limit.find("cannot be loaded"), std::string::npos)
+  EXPECT_NE(loaded.problems()[0].limit.find("is not a compiled library"), std::string::npos)
       << loaded.problems()[0].limit;
 }
 

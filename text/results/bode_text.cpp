@@ -139,9 +139,10 @@ std::vector<std::string> bode_notes(const BodeStudy& s) {
                                  [](const LoopPoint& p) { return p.coherence < analysis::little_coherence; });
   const bool sensorless = s.at_end.control.drive == study::FirmwareKind::sensorless;
   if (!analysis::answered(s.points))
-    notes.push_back(
-        "NOTHING WAS MEASURED: the loop did not answer at any of these lines; look at its run without --bode, or name a larger "
-        "amplitude");
+    notes.push_back(fmt::format(
+        "NOTHING WAS MEASURED: no line has a coherence of {:g}, so commutation, ripple or noise is larger than the answer; a "
+        "larger amplitude helps, a locked rotor has no commutation; a drive that stopped has its reason in a plain run",
+        analysis::little_coherence));
   else if (few > 0)
     notes.push_back(fmt::format(
         "{} of {} lines have a coherence below {:g}: commutation, ripple or noise is larger there than the answer; "

@@ -83,7 +83,9 @@ inline void describe(base::Visitor& v, Resolver& s) {
            .unit = "Hz",
            .range = base::above(0)});
   v.value("damping", s.damping, {.meaning = "of that loop", .range = base::between(0.1, 10)});
-  v.value("bits", s.bits, {.meaning = "of the angle that it gives out", .range = base::between(8, 16)});
+  v.value(
+      "bits", s.bits,
+      {.meaning = "of the angle that it gives out; tracking: at least 10", .range = base::between(8, 16)});
   v.choice("reading", s.reading, study::resolver_reading_choices,
            {.meaning = "who makes an angle of the windings"});
   v.value("converter_Hz", s.converter_Hz,

@@ -113,6 +113,14 @@ def bode(test, spot):
         test.assertLess(abs(float(phase) - float(by_design)), 1, str(spot))
 
 
+def bode_of_a_locked_rotor(test, spot):
+    """What a locked rotor leaves is the loop that was designed, and the hold of a real pulse."""
+    rows = re.findall(r"^ +(crossover|phase margin) +([\d.]+) \w+ +([\d.]+) \w+$", spot.text, re.M)
+    test.assertEqual(len(rows), 2, str(spot))
+    for name, measured, designed in rows:
+        test.assertLess(abs(float(measured) / float(designed) - 1), 0.03, f"{spot}: {name}")
+
+
 def session(test, spot):
     """Duty and torque: the speed rises, at most by K_t U/R/J."""
     times, speeds = zip(*((float(t), float(w)) for t, w in re.findall(r"^([\d.]+) ms: ([\d.]+) rad/s", spot.text, re.M)))
@@ -146,6 +154,7 @@ BY_TEXT = [
     ("docs/howto/commission-a-drive.md", "rotor angles", rotor_angles), ("docs/howto/find-a-wiring-fault.md", "theory   speed", tables.wiring),
     ("docs/reference/sensorless-drive.md", "at the first try, up to speed", drives.starts), ("docs/reference/sensorless-drive.md", "duty from 10 to 100 %", drives.throttle),
     ("docs/reference/sensorless-drive.md", "lost once in", counted), ("docs/howto/measure-a-frequency-response.md", "coherence  designed", bode),
+    ("docs/howto/measure-a-frequency-response.md", "load.locked=true", bode_of_a_locked_rotor),
     ("README.md", "case      ", tables.reference),
     ("README.md", "| case |", tables.speed_in_short), ("docs/explanation/performance.md", "| observer |", tables.observers),
     ("docs/explanation/performance.md", "| case | kernel |", tables.speed), ("docs/explanation/performance.md", "| case |", tables.growth), ("docs/explanation/performance.md", "| part |", tables.shares),
