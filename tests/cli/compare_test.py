@@ -116,10 +116,13 @@ class Compare(ProgramTest):
     def test_tables_and_page_show_the_same(self):
         """Each cell of the four tables, read as its reader reads it, against the JSON under the same name."""
         page = html.unescape((self.made / "c.html").read_text(encoding="utf-8"))
-        for line in self.printed.splitlines():
-            self.assertIn(line, page)
+        tables = [[re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", re.sub("</?b>", "", row)) for row in re.findall(r"<tr>(.*?)</tr>", table)]
+                  for table in re.findall(r"<table>(.*?)</table>", page, re.S)]
+        for words in self.told["words"] + self.told["notes"]:
+            self.assertIn(f"<li>{words}</li>", page)
         blocks = [block.splitlines() for block in self.printed.split("\n\n") if block.startswith("  controller")]
         self.assertEqual(len(blocks), 4)
+        self.assertEqual(tables, [[re.split(r"  +", line.strip()) for line in block] for block in blocks])
         for kind, block in zip(("nominal", "nominal", "worst", "worst"), blocks):
             head, *lines = [re.split(r"  +", line.strip()) for line in block]
             self.assertEqual(len(lines), len(self.controllers))
