@@ -33,7 +33,7 @@ std::string constant(std::string_view type, std::string_view name, const std::st
   return fmt::format("{:<72}  // {}\n", code, about);
 }
 
-std::string timing(const study::Compiled& c, bool cleared) {
+std::string timing(const study::Scenario& scenario, const study::Compiled& c, bool cleared) {
   const sixstep::rig::ModulatorConfig& m = c.board.modulator;
   const auto flag = [](bool on) { return std::string(on ? "true" : "false"); };
   const auto us = [](double ps) { return fmt::format("{:.9g} us", ps / 1e6); };
@@ -52,13 +52,23 @@ std::string timing(const study::Compiled& c, bool cleared) {
                   : constant("bool", "commutate_at_sample", flag(c.board.commutate_at_sample),
                              "else in the Hall interrupt")) +
          constant("bool", "command_delayed", flag(c.board.delayed),
-                  "a command counts from the next period on");
+                  "a command counts from the next period on") +
+         constant("bool", "sampled_in_middle",
+                  flag(m.centre_aligned && scenario.pwm.sample == study::SampleAt::middle),
+                  "of the period; else at its start");
 }
 
+/// The clock of a product drive's Hall edges: of another one every speed would be wrong by their ratio, the over-speed check too.
 /// What a lean drive leaves to its board: converters that its scenario has, and how far a setpoint goes; beside them a sensorless one's
 /// timer.
 std::string around_lean(const ConfigHeader& w, const study::Compiled& c) {
   const study::Sensors& sensors = w.scenario.sensors;
+  if (c.product &&
+      (sensors.rotor == study::RotorSensing::hall || sensors.rotor == study::RotorSensing::encoder))
+    return constant(
+        "double", "capture_Hz", hex_float(sensors.capture_Hz),
+        sixstep::base::six_digits(sensors.capture_Hz) +
+            " Hz, of the counter that takes the time of Hall edges; 32 bits, counts up and wraps");
   if (c.product || c.field) return "";
   std::string timer;
   if (c.sensorless)
@@ -137,7 +147,7 @@ std::string header(const ConfigHeader& w, const study::Compiled& c, std::string_
   const control::DriveConfig<double>& drive = c.field        ? c.field->drive
                                               : c.sensorless ? c.sensorless->drive.drive
                                                              : c.drive;
-  text += timing(c, w.clearance && w.clearance->clear()) + around_lean(w, c) + "\n" +
+  text += timing(w.scenario, c, w.clearance && w.clearance->clear()) + around_lean(w, c) + "\n" +
           made("DriveConfig", "drive", config_lines<Scalar>(c.drive.mode, drive, kept.drive, b));
   const auto around = [&](const char* type_name, const char* name, const char* within, const auto& designed,
                           const auto& own) {

@@ -77,6 +77,7 @@ inline constexpr bool pwm_centre_aligned = true;                          // els
 inline constexpr std::uint64_t dead_time_ps = 1000000;                    // 1 us
 inline constexpr bool commutate_at_sample = false;                        // else in the Hall interrupt
 inline constexpr bool command_delayed = true;                             // a command counts from the next period on
+inline constexpr bool sampled_in_middle = true;                           // of the period; else at its start
 inline constexpr int adc_bits = 10;                                       // of each phase's transducer
 inline constexpr double adc_amperes_per_count = 0x1.4p-6;                 // 0.0195312 A
 inline constexpr double setpoint_range = 0x1.4666666666666p+2;            // 5.1 in the mode's unit: a potentiometer's, either way

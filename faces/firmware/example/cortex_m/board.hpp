@@ -82,6 +82,10 @@ static_assert(!exported::pwm_centre_aligned,
 static_assert(exported::command_delayed,
               "the compare registers are preloaded: a command counts from the next period on");
 static_assert(!exported::commutate_at_sample, "the Hall interrupt moves the pair");
+static_assert(!exported::sampled_in_middle, "the converter samples at a period's start");
+static_assert(
+    exported::capture_Hz == clock_Hz,
+    "TIM2 counts the core's clock: set sensors.capture_Hz to it, or every speed is wrong by their ratio");
 
 /// Three readings a quarter of a microsecond apart, by majority: an edge of the bridge disturbs one of them.
 inline std::uint8_t hall_pins_once() {
