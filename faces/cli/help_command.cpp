@@ -5,12 +5,15 @@
 #include <CLI/App.hpp>
 
 #include <algorithm>
+#include <cctype>
+#include <string_view>
 #include <vector>
 
 #include "faces/cli/terminal.hpp"
 #include "sixstep/study/measure/columns.hpp"
 #include "sixstep/study/measure/trace.hpp"
 #include "sixstep/study/run/run.hpp"
+#include "text/escape/escape.hpp"
 #include "text/keys/key_advice.hpp"
 #include "text/keys/key_catalog.hpp"
 #include "text/keys/key_tree.hpp"
@@ -71,6 +74,27 @@ const KeyEntry* by_name(const std::vector<KeyEntry>& entries, const std::string&
   return found;
 }
 
+bool holds(std::string_view text, std::string_view word) {
+  const auto same = [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+  };
+  return !std::ranges::search(text, word, same).empty();
+}
+
+/// The keys, and the words of keys, whose name or meaning has `word` in it, a line each; "" where there is none. The keys of `at`,
+/// `motor_override` and `compare` repeat those of other tables.
+std::string with_word(const std::vector<KeyEntry>& entries, std::string_view word) {
+  std::string text;
+  for (const KeyEntry& entry : entries) {
+    if (inside(entry, "at") || inside(entry, "motor_override") || inside(entry, "compare")) continue;
+    if (holds(entry.path, word) || holds(entry.about.meaning, word)) text += line(entry);
+    for (const auto& [choice, meaning] : entry.choices)
+      if (holds(choice, word) || holds(meaning, word))
+        text += fmt::format("  {:<38} {}\n", fmt::format("{} = \"{}\"", entry.path, choice), meaning);
+  }
+  return text;
+}
+
 /// Who asks for a command's help here means `sixstep COMMAND --help`; where a key has that name too, the
 /// command comes first and the key below it.
 const CLI::App* command_of(const CLI::App& app, const std::string& name) {
@@ -112,6 +136,16 @@ Exit help_command(const CLI::App& app, const std::string& key) {
   std::string near = text::nearest(key, known);
   for (const std::string& path : known)  // "voltage_V" stands in a table; so may a misspelt one
     if (near.empty() && text::edit_distance(path.substr(path.rfind('.') + 1), key) <= 1) near = path;
+  constexpr std::size_t shortest_word = 3;
+  if (near.empty() && key.size() >= shortest_word) {
+    const std::string text = with_word(scenario, key) + with_word(sheet, key) + with_word(plan, key);
+    if (!text.empty()) {
+      print(fmt::format("No key is called {}. Keys and words that have it in their name or meaning:\n",
+                        text::visible(key)) +
+            text);
+      return Exit::ok;
+    }
+  }
   complain({{.where = key,
              .limit = "is not a key of a scenario or motor file",
              .cure = near.empty() ? "sixstep help lists them" : fmt::format("did you mean {}?", near)}});

@@ -212,6 +212,12 @@ class CommandLine(ProgramTest):
         self.assertIn("default 24", self.run_program("help", "supply.voltage_V").stdout)
         self.assertIn("i_a_A", self.run_program("help", "columns").stdout)
         self.assertIn("terminal|phase", self.run_program("help", "resistance_ohm").stdout)
+        ripple = self.run_program("help", "Ripple").stdout
+        self.assertIn('require.metric = "ripple_rms"', ripple)
+        for line in ripple.splitlines()[1:]:
+            self.assertIn("ripple", line.lower())
+        self.assertIn("pwm.period_s ", self.run_program("help", "frequency").stdout)
+        self.assertEqual("", self.run_program("help", "flux capacitor", code=2).stdout)
         self.assertIn("did you mean supply.voltage_V?", self.run_program("help", "suply.voltage_V", code=2).stderr)
         self.assertEqual(self.run_program("help", "run").stdout, self.run_program("run", "--help").stdout)
         both = self.run_program("help", "motor").stdout

@@ -60,6 +60,13 @@ TEST(Units, OtherFactorsAreRoundedLast) {
   EXPECT_DOUBLE_EQ(value("3.508 V/krpm", "mV s"), 3.508 * 30 / M_PI);
 }
 
+TEST(Units, AFrequencyForAPeriodIsToldAsItsReciprocal) {
+  EXPECT_EQ(
+      refused("20 kHz", "s"),
+      "carries the unit kHz, and this key is a time; write the period, 1 over the frequency: 20 kHz is 50 us. Units that "
+      "fit: s, ms, us or min");
+}
+
 TEST(Units, AWrongOneIsToldWithThoseThatFit) {
   EXPECT_EQ(refused("20 mA", "s"),
             "carries the unit mA, which is not of the kind of s; units that fit: s, ms, us or min");

@@ -129,6 +129,9 @@ bool multiplies_minutes(Unit from, Unit to) {
 
 base::Problem other_kind(const std::string& unit, const Unit& from, const Unit& to, const Wanted& wanted) {
   const std::string fit = units_that_fit(wanted.unit);
+  if (wanted.unit == "s" && plain_spelling(unit).ends_with("Hz"))
+    return {.limit = fmt::format("carries the unit {}, and this key is a time", unit),
+            .cure = "write the period, 1 over the frequency: 20 kHz is 50 us. Units that fit: " + fit};
   return {.limit = fmt::format("carries the unit {}, which is not of the kind of {}", unit, wanted.unit),
           .cure = multiplies_minutes(from, to)
                       ? "minutes multiply here: per rpm is written /rpm or /min-1. Units that fit: " + fit

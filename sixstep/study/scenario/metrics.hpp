@@ -71,7 +71,7 @@ inline constexpr MetricFact metric_facts[] = {
     {MetricKind::maximum, "max", "maximum of", "", "largest value in the window"},
     {MetricKind::minimum, "min", "minimum of", "", "smallest value in the window"},
     {MetricKind::peak_to_peak, "peak_to_peak", "peak-to-peak", "",
-     "largest less smallest value in the window"},
+     "largest less smallest value in the window: the ripple, peak to peak"},
     {MetricKind::ripple_rms, "ripple_rms", "rms ripple of", "",
      "rms of what is left of the signal without its mean"},
     {MetricKind::overshoot, "overshoot", "overshoot of", "",

@@ -21,7 +21,7 @@ using base::from;
 
 void describe(base::Visitor& v, Pwm& s) {
   v.value("period_s", s.period_s,
-          {.meaning = "PWM period, and the controller's sampling period",
+          {.meaning = "PWM period, 1 over its frequency, and the controller's sampling period",
            .unit = "s",
            .range = between(shortest_period_s, 1)});
   v.choice("alignment", s.alignment, alignment_choices, {.meaning = "where in the period the on-time lies"});
