@@ -93,7 +93,7 @@ static void hall(const void* config, void* state, uint8_t code, sixstep_answer* 
 const sixstep_controller* sixstep_own_controller(void) {
   static const sixstep_controller own = {
       SIXSTEP_OWN_INTERFACE, SIXSTEP_ANSWERS_PAIR, "PI in integers",
-      "it counts in mA and mV, as a small chip does",
+      "counts in mA and mV, as a small chip does",
       sizeof(config_t), sizeof(state_t), sizeof numbers / sizeof numbers[0], numbers, design, 0, step, hall};
   return &own;
 }

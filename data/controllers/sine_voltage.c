@@ -29,7 +29,7 @@ static void step(const void* config, void* state, const sixstep_measured* seen, 
 
 const sixstep_controller* sixstep_own_controller(void) {
   static const sixstep_controller own = {
-      SIXSTEP_OWN_INTERFACE, SIXSTEP_ANSWERS_LEGS, "sine voltage", "it asks for sines of voltage and measures no current",
+      SIXSTEP_OWN_INTERFACE, SIXSTEP_ANSWERS_LEGS, "sine voltage", "applies sines of voltage and measures no current",
       0, 0, 0, 0, design, 0, step, 0};
   return &own;
 }

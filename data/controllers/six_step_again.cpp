@@ -64,4 +64,4 @@ struct SixStepAgain {
 }  // namespace
 
 SIXSTEP_OWN_CONTROLLER(SixStepAgain, SIXSTEP_ANSWERS_PAIR, "six-step, again",
-                       "it is the library's drive, by the door for controllers of one's own")
+                       "is the library's drive, built as a user's own controller")

@@ -151,10 +151,12 @@ std::string sensorless_text(const std::vector<sixstep::design::DerivationStep>& 
 std::string limits_text(const DriveDesign& d) {
   std::string text = fmt::format(
       "\nLimits at the nominal current of {}{}\n"
-      "  current ripple      {} peak to peak at worst (duty {}); gaps in the current below {}\n",
+      "  current ripple      {} peak to peak at worst (duty {}); {} below {}\n",
       quantity_text(d.nominal_current_A, "A"),
       d.nominal_printed ? "" : ", a tenth of the stall current: the sheet names none",
       quantity_text(d.ripple.worst_A, "A", 3), d.ripple.worst_duty,
+      d.spec.chopping == sixstep::control::Chopping::complementary ? "the current reverses within a period"
+                                                                   : "gaps in the current",
       quantity_text(d.ripple.continuous_above_A, "A", 3));
   const Motion motion = sixstep::design::motion_of(d.motor);
   // A turning motor's speeds are hundreds, a linear one's a few.
@@ -167,7 +169,9 @@ std::string limits_text(const DriveDesign& d) {
     text += fmt::format("{}{:.1f} V at {}", n ? ", " : "",
                         sixstep::design::headroom_V(d.motor, d.bus_V, d.nominal_current_A, w), speed(w, 0));
   }
-  text += motion.words(fmt::format(" rad/s; none above {} rad/s\n", speed(d.headroom_end_rad_s, 0)));
+  text += motion.words(fmt::format(
+      " rad/s; none above {} rad/s, without the time that commutation takes (sixstep curve has it)\n",
+      speed(d.headroom_end_rad_s, 0)));
   text += motion.words(
       fmt::format("  braking, soft       held up to {} rad/s, (i/K_t) R\n", speed(d.braking_limit_rad_s, 1)));
   text += fmt::format("  control period      up to {} for 45 degrees with {} of delay\n",
