@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values as bytes, the same on every processor: whole numbers and doubles as eight bytes, the least first; texts and lists behind
-// their length. A double keeps its bits, NaN's too.
+// Writes values as bytes, the same on every processor: whole numbers and doubles as eight bytes, least
+// significant first; texts and lists behind their length. A double keeps its bits, also NaN.
 #pragma once
 #include <bit>
 #include <cstddef>
@@ -33,12 +33,12 @@ class ByteWriter {
   std::string bytes_;
 };
 
-/// Reads what a ByteWriter wrote. Past the end, or where a length cannot be, it has failed and reads nothing more.
+/// Reads the bytes of a ByteWriter. Past the end, or at an impossible length, it fails and reads nothing more.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
 
-  /// All was read, and nothing is left over.
+  /// Everything was read and nothing is left over.
   bool whole_read() const { return !failed_ && rest_.empty(); }
   bool failed() const { return failed_; }
 
@@ -53,13 +53,13 @@ class ByteReader {
   template <class T, class Read>
   std::vector<T> list(Read read) {
     std::vector<T> list;
-    // No entry is shorter than eight bytes: a length that cannot be reserves no memory.
+    // No entry is shorter than eight bytes, so an impossible length reserves no memory.
     const std::uint64_t length = whole();
     if (length > rest_.size() / 8) failed_ = true;
     for (std::uint64_t n = 0; n < length && !failed_; ++n) list.push_back(read());
     return list;
   }
-  /// One of the first `count` of an enumeration.
+  /// One of the first `count` values of an enumeration.
   template <class E>
   E choice(std::uint64_t count) {
     const std::uint64_t x = whole();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Processes on one machine or many that make a plan's runs together. The first one leads: it reads, hands out numbers of runs,
-// keeps the rows, prints and writes; the others make runs and send rows, and open no file. Nothing here knows what carries the
-// letters between them: batch/ranks.hpp brings MPI, the tests bring threads.
+// Makes a plan's runs with several processes on one machine or many. The first process leads: it reads,
+// distributes run numbers, keeps the rows, prints and writes. The others make runs and send rows; they open no
+// file. The transport is exchangeable: MPI in batch/ranks.hpp, threads in the tests.
 #pragma once
 #include <cstddef>
 #include <functional>
@@ -17,35 +17,37 @@ struct Mail {
   std::string bytes;
 };
 
-/// A process as one of them. Both functions are called by one thread alone.
+/// One process of the cluster. Only one thread may call the two functions.
 struct Cluster {
   unsigned rank = 0;  ///< 0 leads
   unsigned size = 1;
-  /// Comes back at once. Letters arrive in the order in which they were sent.
+  /// Does not block. Letters arrive in the order in which they were sent.
   std::function<void(unsigned to, std::string bytes)> send;
-  /// The next letter that has arrived, if one has.
+  /// The next letter, if one has arrived.
   std::function<std::optional<Mail>()> receive;
 };
 
-/// What the leader's face tells the others' of the plan: bytes that only faces read.
+/// The leader's data on the plan for the others: bytes that only the command line programs interpret.
 struct Briefing {
   std::string made_of;
-  /// Of what they ask while they work; on the thread that leads.
+  /// Answers the others' questions during the work, on the leading thread.
   std::function<std::string(const std::string& question)> answer;
 };
 
-/// run_plan() with the others' help: rows come in whatever order, `take` is called as there. Without `jobs` each process has one
-/// thread for runs. False where somebody left without a word, and there is no waiting for him.
+/// run_plan() with the help of the other processes. Rows come in any order; `take` is called as there. Without
+/// `jobs` each process has one thread for runs. False: a process ended without notice, and must not be waited
+/// for.
 bool lead_plan(Cluster& cluster, const PlanRuns& runs, const Briefing& briefing);
 
-/// The leader's last word: the others end, too.
+/// Ends the other processes with this exit code.
 void dismiss(Cluster& cluster, int exit);
 
-/// Asks the leader, from any thread, and waits for what it answers.
+/// Sends a question to the leader, from any thread, and waits for the answer.
 using Ask = std::function<std::string(std::string question)>;
 
-/// What another process than the leader's does: plan after plan, until it is dismissed with the leader's exit. `prepare` makes of
-/// a briefing what turns a number into a run. Where `told_to_end` says so, it makes no more runs and waits for the last word.
+/// The work of a process that does not lead: plan after plan, until the leader dismisses it; returns the
+/// leader's exit code. `prepare` makes from a briefing the function that turns a number into a run. If
+/// `told_to_end` returns true, it makes no more runs and waits for the dismissal.
 using Prepare = std::function<decltype(PlanRuns::scenario)(const std::string& made_of,
                                                            const analysis::Plan& plan, Ask ask)>;
 int follow(Cluster& cluster, const Prepare& prepare, const std::function<bool()>& told_to_end);

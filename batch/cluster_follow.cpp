@@ -24,11 +24,12 @@ using std::chrono::duration;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-/// Between two looks for letters: nobody burns a core by waiting.
+/// Pause between two looks for letters, so that waiting does not occupy a core.
 constexpr milliseconds follower_pause{2};
-/// Between two letters with rows: what a kill takes from a process is what it made since.
+/// Time between two letters with rows: a killed process loses the rows made since the last one.
 constexpr milliseconds rows_every{50};
-/// So much work lies ready, by the pace since it last was asked for; runs that take longer are fetched one by one.
+/// Runs kept ready, in seconds at the pace since the last request; runs that take longer are requested one by
+/// one.
 constexpr double ahead_s = 0.25;
 constexpr double most_ahead = 4096;
 
@@ -38,10 +39,10 @@ letters::Letter letter_of(const Mail& mail) {
   return std::move(*letter);
 }
 
-/// The plan is over before a question was answered: the leader may have gone, and the run is wanted by nobody.
+/// The plan ended before a question was answered: the leader may have gone, and the run is no longer needed.
 struct OverUnanswered {};
 
-/// One plan's runs, made on threads of its own; letters are the calling thread's.
+/// Makes one plan's runs on its own threads; the calling thread handles the letters.
 class Hand {
  public:
   Hand(Cluster& cluster, const letters::Begin& begin) : cluster_(cluster), begin_(begin) {}
@@ -56,7 +57,7 @@ class Hand {
     return answers_.extract(number).mapped();
   }
 
-  /// The leader's exit, if the last word came in the middle of it.
+  /// The leader's exit code, if the dismissal came during the plan.
   std::optional<int> work(const Prepare& prepare, const std::function<bool()>& told_to_end) {
     PlanRuns runs{.plan = begin_.plan,
                   .columns = std::make_shared<const analysis::PlanColumns>(begin_.columns),
@@ -72,7 +73,7 @@ class Hand {
       try {
         make_runs(runs, runs.jobs, [this] { return next(); });
       } catch (const OverUnanswered&) {
-        // What was under way is not handed in: `open_` names it.
+        // Runs in progress are not sent; `open_` lists them.
       } catch (...) {
         error = std::current_exception();
       }
@@ -91,7 +92,7 @@ class Hand {
   }
 
  private:
-  // The crew's side.
+  // Called by the threads that make runs:
 
   std::optional<std::size_t> next() {
     std::unique_lock lock(guard_);
@@ -112,7 +113,7 @@ class Hand {
     ++made_;
   }
 
-  // The letters' side.
+  // Called by the thread of the letters:
 
   void take(const letters::Letter& letter) {
     const std::lock_guard lock(guard_);
@@ -143,7 +144,7 @@ class Hand {
     moved_.notify_all();
   }
 
-  /// What there is to say, or a pause.
+  /// Sends the pending letters, or pauses.
   void speak() {
     std::unique_lock lock(guard_);
     for (const letters::Question& question : std::exchange(questions_, {})) send(question);
@@ -178,7 +179,7 @@ class Hand {
   std::mutex guard_;
   std::condition_variable moved_, work_came_;
   std::deque<std::uint64_t> ready_;
-  std::set<std::uint64_t> open_;  ///< handed to this process, and no row of them yet
+  std::set<std::uint64_t> open_;  ///< received runs without a row yet
   std::vector<analysis::RunValues> rows_;
   std::vector<letters::Question> questions_;
   std::map<std::uint64_t, std::string> answers_;
@@ -203,7 +204,7 @@ int follow(Cluster& cluster, const Prepare& prepare, const std::function<bool()>
     if (const auto* begin = std::get_if<letters::Begin>(&letter)) {
       if (const std::optional<int> exit = Hand(cluster, *begin).work(prepare, told_to_end)) return *exit;
     } else if (const auto* runs = std::get_if<letters::Runs>(&letter))
-      // Handed out before the leader knew that we had gone.
+      // The leader sent these before it knew that this process has left the plan.
       cluster.send(0, letters::bytes_of(letters::Gone{runs->numbers}));
   }
 }

@@ -20,17 +20,17 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-/// Between two looks for letters: nobody burns a core by waiting.
+/// Pause between two looks for letters, so that waiting does not occupy a core.
 constexpr milliseconds pause{1};
-/// mpirun kills a second after it has told all to end.
+/// mpirun kills the processes a second after it has asked them to end.
 constexpr milliseconds patience{500};
 
-/// Which runs are still to be made, and how many are in the others' hands. From any thread.
+/// The runs still to be made, and the number of those that other processes hold. Callable from any thread.
 class Handout {
  public:
   explicit Handout(const PlanRuns& runs) : runs_(runs), count_(analysis::runs_of(runs.plan)) {}
 
-  /// Of what is left at most `most`, but no more than a fair part, so that all end together.
+  /// At most `most` of the remaining runs, but no more than a fair share, so that all processes end together.
   std::vector<std::uint64_t> hand_out(std::uint64_t idle, std::uint64_t ahead, std::uint64_t processes) {
     const std::lock_guard lock(guard_);
     const std::uint64_t part = (count_ - cursor_ + returned_.size()) / (2 * processes);
@@ -50,7 +50,7 @@ class Handout {
     returned_.insert(returned_.end(), unmade.begin(), unmade.end());
     moved_.notify_all();
   }
-  /// For the leader's own threads. While others hold runs, one of them may come back: it waits.
+  /// For the leader's own threads. Waits while other processes hold runs, because one may be returned.
   std::optional<std::size_t> next() {
     std::unique_lock lock(guard_);
     while (!over_ && !runs_.stop.stop_requested()) {
@@ -88,7 +88,7 @@ class Handout {
   bool over_ = false;
 };
 
-/// The leader's own threads. Ended and joined wherever its other work breaks off.
+/// The leader's own threads. They are ended and joined if the leader's other work fails.
 class Crew {
  public:
   Crew(const PlanRuns& runs, Handout& handout) : handout_(handout), thread_([this, runs] { work(runs); }) {}
@@ -122,7 +122,7 @@ class Crew {
   Handout& handout_;
   std::exception_ptr error_;
   std::atomic<bool> done_{false};
-  std::jthread thread_;  // last: it works on the others
+  std::jthread thread_;  // last member, because it uses the others
 };
 
 class Leader {
@@ -182,9 +182,9 @@ class Leader {
     handout_.came_back(0, gone.unmade);
   }
   template <class Other>
-  void take(unsigned, Other&) {}  // the leader's own letters: nobody sends them here
+  void take(unsigned, Other&) {}  // no process sends letters to the leader that are the leader's own
 
-  /// Who finds nothing left is kept in mind: something may come back.
+  /// A process for which no run is left stays noted, because a run may be returned.
   void feed() {
     for (auto one = hungry_.begin(); one != hungry_.end();) {
       const auto& [rank, hunger] = *one;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Controllers set side by side, on all cores.
+// Runs a comparison of controllers on all cores.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -11,24 +11,25 @@
 namespace batch {
 
 struct ContestOrder {
-  std::size_t drives = 0;  ///< of the tolerances, for each controller
+  std::size_t drives = 0;  ///< drives with tolerances, per controller
   std::uint64_t seed = 1;
   unsigned jobs = 0;  ///< threads; 0: one per core
   analysis::UnitOfKey unit_of{};
   std::function<void(std::size_t done)>
-      progress{};          ///< runs that are made, of nominal_runs() or the drives; from any thread
-  std::stop_token stop{};  ///< ends it early: what comes out then means nothing
+      progress{};          ///< finished runs, of nominal_runs() or of the drives; from any thread
+  std::stop_token stop{};  ///< ends it early; the result is then meaningless
 };
 
-/// Each entry twice: on the course, and as slowly as it goes.
+/// Two runs per entry: on the course, and down through the low speeds (analysis::slow_scenario).
 std::size_t nominal_runs(std::size_t controllers);
 
-/// Each entry nominally, with a trace of the course. Its drives are still to be made, and taken.
+/// Runs each entry nominally, with a trace of the course. The drives with tolerances are still to be made.
 analysis::Contest compare_nominally(analysis::ContestBench bench, std::vector<analysis::ContestEntry> entries,
                                     const ContestOrder& order);
 
-/// The drives of all entries that can run, by their numbers in the contest's plan, each row to `take`, from any thread; those that `has`
-/// names stand already. Drive n strays alike for all entries.
+/// Makes the drives of all entries that can run, numbered as in the contest's plan, and passes each row to
+/// `take`, from any thread. Drives for which `has` is true exist already. Drive n has the same deviations for
+/// all entries.
 void run_drives(const analysis::Contest& contest, const ContestOrder& order,
                 const std::function<bool(std::size_t number)>& has,
                 const std::function<void(analysis::RunRecord&&)>& take);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The torque-speed curve, its points side by side.
+// Computes the points of a torque-speed curve in parallel.
 #pragma once
 #include <functional>
 
@@ -9,8 +9,8 @@
 
 namespace batch {
 
-/// The points as `for_each` takes them, on_threads() for one; the curve has the same bits in whatever order.
-/// Where `keep_going` says no, the points under way end and there is no curve: a Problem "was interrupted".
+/// `for_each` distributes the points, e.g. on_threads(); the curve has the same bits in any order. If
+/// `keep_going` returns false, the running points end and there is no curve: a Problem "was interrupted".
 base::Result<analysis::Curve> torque_speed_curve(const analysis::CurveRequest& request,
                                                  const analysis::ForEach& for_each,
                                                  const std::function<bool()>& keep_going = {});

@@ -15,8 +15,8 @@ namespace {
 template <class T, class Struct>
 concept Is = std::same_as<std::remove_const_t<T>, Struct>;
 
-// The members of each struct in the order of their bytes, for writing and reading. What is not this room's own is taken apart into all
-// of them: a new one stops the compiler here.
+// Lists the members of each struct in the order of their bytes, for writing and reading. Structs of other
+// folders are unpacked completely, so that a new member is a compiler error here.
 
 auto members(Is<analysis::Axis> auto& axis) {
   auto& [key, values, from, to, points, spacing, strays] = axis;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the processes of a cluster tell each other, and each letter as bytes (batch/byte_format.hpp).
+// Defines the messages between the processes of a cluster, and each as bytes (batch/byte_format.hpp).
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -16,14 +16,14 @@ namespace batch::letters {
 
 // From the leader.
 
-/// A plan begins.
+/// Begins a plan.
 struct Begin {
   analysis::Plan plan;
   analysis::PlanColumns columns;
   std::uint64_t jobs = 1;  ///< threads of each process
-  std::string made_of;     ///< Briefing's
+  std::string made_of;     ///< as in Briefing
 };
-/// These are yours.
+/// Numbers of the runs that the receiver has to make.
 struct Runs {
   std::vector<std::uint64_t> numbers;
 };
@@ -31,7 +31,7 @@ struct Answer {
   std::uint64_t to = 0;  ///< number of the question
   std::string bytes;
 };
-/// The plan ends; what is under way is not wanted any more.
+/// Ends the plan; runs in progress are no longer needed.
 struct End {};
 struct Dismissed {
   std::uint64_t exit = 0;
@@ -39,11 +39,12 @@ struct Dismissed {
 
 // To the leader.
 
-/// Rows that are finished, without their points: the plan tells those. The leader sets them under its columns again.
+/// Finished rows without their points, which follow from the plan. The leader puts them under its columns again.
 struct Rows {
   std::vector<analysis::RunValues> rows;
 };
-/// Work is running out. `idle` threads have none; `ahead` more would keep all busy for the next moment.
+/// The sender needs more work: `idle` threads have none; `ahead` more runs would keep all threads busy for the
+/// next moment.
 struct Hungry {
   std::uint64_t idle = 0, ahead = 0;
 };
@@ -51,7 +52,7 @@ struct Question {
   std::uint64_t number = 0;
   std::string bytes;
 };
-/// No more rows of this plan will come from here, and these runs were not made.
+/// No more rows of this plan will come from the sender, and these runs were not made.
 struct Gone {
   std::vector<std::uint64_t> unmade;
 };
@@ -59,7 +60,7 @@ struct Gone {
 using Letter = std::variant<Begin, Runs, Answer, End, Dismissed, Rows, Hungry, Question, Gone>;
 
 std::string bytes_of(const Letter& letter);
-/// Nothing where the bytes are no letter, to the last one.
+/// Empty if the bytes are not exactly one letter.
 std::optional<Letter> read(std::string_view bytes);
 
 }  // namespace batch::letters

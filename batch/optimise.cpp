@@ -21,11 +21,11 @@ namespace {
 using analysis::FigureColumn;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-/// A point that could not run, or a figure that never came: worse than any miss that is one of size.
+/// For a point that could not run, or a figure that has no value: worse than any measurable miss.
 constexpr double hopeless = 1e3;
-constexpr double close = 1e-3;  ///< of a limit's size, and of a range
+constexpr double close = 1e-3;  ///< relative to a limit's size, and to a range
 
-/// How far a figure is beyond its limits, in their own size; negative within.
+/// Distance of a figure beyond its limits, relative to their size; negative within.
 double beyond(const FigureColumn& f, double x) {
   if (!(x - x == 0.0)) return hopeless;
   double miss = -hopeless;
@@ -37,16 +37,16 @@ double beyond(const FigureColumn& f, double x) {
 
 struct Evaluated {
   std::vector<std::string> point;
-  std::vector<double> at, figures;  ///< coordinates 0 to 1; the worst drive's
-  double cost = none;               ///< of the figure, over its size at the first point that has one
-  std::vector<double> misses;       ///< a requirement each
+  std::vector<double> at, figures;  ///< coordinates 0 to 1; figures of the worst drive
+  double cost = none;               ///< the figure, relative to its size at the first point that has one
+  std::vector<double> misses;       ///< one per requirement
   double worst() const {
     return misses.empty() ? -hopeless : *std::max_element(misses.begin(), misses.end());
   }
   bool holds() const { return cost == cost && worst() <= 0.0; }
 };
 
-/// Feasible before infeasible, then the lesser cost, or the lesser miss.
+/// Feasible before infeasible; then the lower cost or the smaller miss.
 bool better(const Evaluated& a, const Evaluated& b) {
   if (a.holds() != b.holds()) return a.holds();
   if (!a.holds()) return a.worst() < b.worst();
@@ -88,7 +88,7 @@ class Search {
     return found == tried_.end() || (*found)->cost != (*found)->cost ? nullptr : found->get();
   }
 
-  /// Nothing where it was stopped.
+  /// Empty if it was stopped.
   std::optional<analysis::RunRecord> row(const std::vector<std::string>& point, std::size_t number,
                                          std::size_t drive) const {
     if (w_.known)
@@ -101,8 +101,8 @@ class Search {
     return made;
   }
 
-  /// The worst of the drives: of each figure that is asked something the one nearest to its limit or farthest beyond, of the
-  /// one that is to be small the largest.
+  /// Evaluates the drives of a point. Each figure is that of its worst drive: if required, the one nearest to its
+  /// limit or farthest beyond; if minimised, the largest.
   const Evaluated& evaluate(const std::vector<double>& u) {
     auto e = std::make_unique<Evaluated>();
     e->at = u;
@@ -185,7 +185,7 @@ class Search {
     nlopt_set_maxeval(o, static_cast<int>(4 * w_.evaluations));
     double least = 0.0;
     const nlopt_result how =
-        nlopt_optimize(o, u.data(), &least);  // the best point is among those tried, however it ended
+        nlopt_optimize(o, u.data(), &least);  // the best point is among those tried, however the search ended
     converged_ = !ended() && (how == NLOPT_XTOL_REACHED || how == NLOPT_FTOL_REACHED || how == NLOPT_SUCCESS);
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The best point of a plan's ranges: least of one figure, with every requirement held by every drive. (NLopt's COBYLA: it takes
-// limits without their slopes, which figures of a switching simulation do not have; M. J. D. Powell 1994, S. G. Johnson.)
+// Finds the best point of a plan's ranges: the least value of one figure while every drive holds every
+// requirement. It uses NLopt's COBYLA, which needs no gradients of the limits: figures of a switching simulation
+// have none (M. J. D. Powell 1994, S. G. Johnson).
 #pragma once
 #include <cstddef>
 #include <functional>
@@ -16,24 +17,25 @@
 namespace batch {
 
 struct Optimisation {
-  const analysis::Plan& plan;  ///< ranges alone; drives at each point
+  const analysis::Plan& plan;  ///< only ranges; with drives at each point
   analysis::TableColumns columns;
-  std::size_t figure = 0;         ///< that is to be small: its column
-  std::size_t evaluations = 200;  ///< of points, at most
+  std::size_t figure = 0;         ///< column of the figure to be minimised
+  std::size_t evaluations = 200;  ///< points at most
   /// The drive of a point. Called on any thread, several at once.
   std::function<base::Result<analysis::PlannedRun>(const std::vector<std::string>& point, std::size_t drive)>
       scenario;
-  /// A row that is known already: evaluation times drives, plus the drive. It counts where its point is the one wanted.
+  /// A stored row, if any; its number is evaluation times drives, plus the drive. It is used if its point is the
+  /// wanted one.
   std::function<std::optional<analysis::RunRecord>(std::size_t number)> known;
-  std::function<void(analysis::RunRecord&&)> take;        ///< each that is new; on any thread
-  std::function<void(std::size_t evaluations)> progress;  ///< how many points have been tried
+  std::function<void(analysis::RunRecord&&)> take;        ///< each new row; from any thread
+  std::function<void(std::size_t evaluations)> progress;  ///< points tried so far
   std::stop_token stop;
   unsigned jobs = 0;
 };
 
-/// Half of the points, but ten for each key at most, are spread evenly over the ranges, then COBYLA goes on from the best. The
-/// same input takes the same way, whatever the number of threads. Empty where it was stopped before its first point was whole, or
-/// none of them could run.
+/// Half of the points, but at most ten per key, are spread evenly over the ranges; then COBYLA continues from
+/// the best. The same input takes the same path, whatever the number of threads. Empty if it was stopped before
+/// its first point was complete, or if no point could run.
 std::optional<analysis::Optimum> optimise(const Optimisation& work);
 
 }  // namespace batch

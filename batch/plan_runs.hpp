@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plan's runs on all cores. Each is what it would be alone, to the bit: nothing is shared between them.
+// Makes a plan's runs on all cores. Each run equals a single one to the bit, because the runs share nothing.
 #pragma once
 #include <cstddef>
 #include <functional>
@@ -17,30 +17,30 @@ namespace batch {
 struct PlanRuns {
   const analysis::Plan& plan;
   analysis::TableColumns columns;
-  /// Run n; Problems are its row. Called on any thread, several at once.
+  /// The scenario of run n; Problems become its row. Several threads call it at once.
   std::function<base::Result<analysis::PlannedRun>(std::size_t n)> scenario;
-  /// Whether run n is to be made; without it all are. Called as `scenario`.
+  /// Whether run n is to be made; empty: all are. Called like `scenario`.
   std::function<bool(std::size_t n)> wanted;
-  /// Each row as its run ends, in whatever order; on any thread, several at once.
+  /// Gets each row when its run ends, in any order; several threads call it at once.
   std::function<void(analysis::RunRecord&&)> take;
-  std::stop_token stop;  ///< ends the runs under way, too: they leave no row
+  std::stop_token stop;  ///< also ends the runs in progress, which leave no row
   unsigned jobs = 0;     ///< threads; 0: one per core
 };
 
-/// Makes a run and its row, if it came to an end before it was stopped.
+/// Makes a run and its row; empty if it was stopped before its end.
 std::optional<analysis::RunRecord> row_of_run(const analysis::TableColumns& columns, std::size_t number,
                                               std::vector<std::string> point,
                                               const base::Result<analysis::PlannedRun>& planned,
                                               const std::stop_token& stop);
 
-/// One run of the plan, as above.
+/// As row_of_run(), for one run of the plan.
 std::optional<analysis::RunRecord> run_one(const PlanRuns& runs, std::size_t n);
 
-/// All that are wanted. An exception of one of the functions is thrown again here.
+/// Makes all wanted runs. An exception of one of the functions is thrown again here.
 void run_plan(const PlanRuns& runs);
 
-/// The runs that `next` names, until it names none or they are stopped, on `threads` threads. Each asks for itself, and may be
-/// let wait. Exceptions as above.
+/// Makes the runs that `next` names, on `threads` threads, until it names none or they are stopped. Each thread
+/// calls `next`, which may block. Exceptions as in run_plan().
 void make_runs(const PlanRuns& runs, unsigned threads,
                const std::function<std::optional<std::size_t>()>& next);
 

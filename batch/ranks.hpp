@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cluster that mpirun or srun starts. MPI where the build has it (SIXSTEP_MPI); without it a process that is one of several
-// says so. MPI is a process's, not an object's: all of this happens once.
+// Joins the cluster that mpirun or srun starts. Uses MPI if the build has it (SIXSTEP_MPI); without it, a
+// process that is one of several reports that. MPI belongs to a process, not to an object: each function is
+// called once.
 #pragma once
 #include <string>
 
@@ -10,17 +11,17 @@
 
 namespace batch {
 
-/// What the launcher's environment says: OMPI_COMM_WORLD_*, PMI_*, or PMIX_RANK with Slurm's count.
+/// From the launcher's environment: OMPI_COMM_WORLD_*, PMI_*, or PMIX_RANK with Slurm's count.
 struct Started {
   unsigned rank = 0, size = 1;
 };
 Started started();
 
-/// Alone where one process was started, and then nothing of MPI is touched.
+/// A cluster of one if one process was started; MPI is then not used at all.
 base::Result<Cluster> join_ranks();
 
-/// The last thing that a process of several does: waits until all have come so far. Without it mpirun takes the process for lost,
-/// and ends the others.
+/// The last call of a process: waits until all processes have come here. Without it mpirun takes the process for
+/// lost and ends the others.
 void part();
 
 }  // namespace batch

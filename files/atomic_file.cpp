@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Calls again what a signal has interrupted; 0, or what errno says.
+/// Repeats a call that a signal has interrupted. Returns 0 or errno.
 template <class Call>
 int persistently(Call call) {
   for (;;) {
@@ -33,8 +33,8 @@ int persistently(Call call) {
   }
 }
 
-/// As much as the kernel takes, until all is written; 0, or what errno says. Who writes to a pipe may have to
-/// wait for its reader, and is waked by a signal that asks the program to end.
+/// Writes all of the text in as many calls as needed. Returns 0 or errno. A write to a pipe may wait for its
+/// reader; a signal that asks the program to end ends the wait.
 int write_all(int descriptor, std::string_view text, bool waits) {
   while (!text.empty()) {
     const ssize_t taken = ::write(descriptor, text.data(), text.size());
@@ -50,23 +50,23 @@ int write_all(int descriptor, std::string_view text, bool waits) {
   return 0;
 }
 
-/// What the chain of links ends at, there or not; where it goes round, the last one looked at.
+/// The end of a chain of links, whether it exists or not; for a circle, the last link visited.
 fs::path end_of_links(fs::path path) {
-  constexpr int most_links = 40;  // as the kernel counts
+  constexpr int most_links = 40;  // the kernel's limit
   std::error_code none;
   for (int n = 0; n < most_links && fs::is_symlink(path, none); ++n)
     path = path.parent_path() / fs::read_symlink(path, none);
   return path;
 }
 
-/// Nothing that two programs share, or that one killed before has left behind.
+/// A name that no other program uses and no killed one has left behind.
 std::string random_name() {
   std::random_device random;
   return fmt::format(".sixstep-{:08x}{:08x}.tmp", random(), random());
 }
 
-/// Why no file may be put there, though the folder could be written. `partial`: what an interrupted run
-/// leaves.
+/// Reasons why no file may be put there although the folder is writable. `partial`: the name for an interrupted
+/// run.
 base::Problems refused(const Destination& to, const std::string& partial) {
   if (ReadLog::has(to.path))
     return {{.where = to.path + ":",
@@ -83,7 +83,7 @@ base::Problems refused(const Destination& to, const std::string& partial) {
   return {};
 }
 
-/// The name is safe on the disk only once its folder is.
+/// A name is safe on the disk only after its folder is synchronised.
 void sync_folder(const fs::path& folder) {
   const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
@@ -123,8 +123,8 @@ void AtomicFile::Remove::operator()(std::string* name) const {
   delete name;
 }
 
-/// Opened as it is, which may wait for a pipe's other end. Written without waiting inside the kernel, where
-/// no signal that comes between two pieces would be noticed.
+/// Opens a device or pipe directly, which may wait for a pipe's other end. Writes do not block in the kernel,
+/// where a signal between two pieces would go unnoticed.
 int AtomicFile::open_device() {
   waits_ = true;
   const int descriptor = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
@@ -132,8 +132,8 @@ int AtomicFile::open_device() {
   return descriptor;
 }
 
-/// Under a name that nothing else has, in the folder of the file that it is to become. `old`: the file whose
-/// place it takes; for no moment may others do more with the new one.
+/// Opens a unique name in the folder of the final file. `old`: the file to be replaced; the new one never has
+/// wider permissions, not even for a moment.
 int AtomicFile::open_beside(const struct stat* old) {
   constexpr mode_t usual = 0666, permission_bits = 0777;
   const mode_t permissions = old ? old->st_mode & permission_bits : usual;
@@ -146,13 +146,13 @@ int AtomicFile::open_beside(const struct stat* old) {
   if (temporary_) note_temporary(temporary_->c_str());
   if (descriptor >= 0 && old) {
     std::ignore = ::fchown(descriptor, old->st_uid, old->st_gid);  // only root may give a file away
-    ::fchmod(descriptor, permissions);                             // the umask may have taken some
+    ::fchmod(descriptor, permissions);                             // the umask may have removed some
   }
   return descriptor;
 }
 
 base::Result<AtomicFile> AtomicFile::create(const Destination& to) {
-  if (to.path == "-")  // of what can go to standard output its own face knows
+  if (to.path == "-")  // the caller decides what can go to standard output
     return base::Problem{.where = "-",
                          .limit = "means standard output elsewhere, and this output must be a file",
                          .cure = "name a file; ./- is one of that name"};
@@ -169,7 +169,7 @@ base::Result<AtomicFile> AtomicFile::create(const Destination& to) {
     descriptor = file.open_device();
   } else {
     file.path_ = end_of_links(to.path).string();
-    // Of now: code of others that a run loads may change the folder that the program is in.
+    // Made absolute now, because foreign code in a run may change the working folder.
     std::error_code unknown;
     const fs::path here = fs::path(file.path_).parent_path();
     file.folder_ = fs::absolute(here.empty() ? "." : here, unknown);
@@ -228,11 +228,11 @@ base::Problems AtomicFile::save_what_is_whole() {
   return {problem};
 }
 
-/// Safely on the disk first, then under its name. 0, or what errno says.
+/// Makes it safe on the disk first, then renames it. Returns 0 or errno.
 int AtomicFile::put_in_place(const std::string& path) {
   if (!temporary_) return 0;
   const int descriptor = *descriptor_;
-  // Beyond what was written whole there may be a piece that failed, or room that was only reserved.
+  // Removes bytes of a failed write, and reserved room, behind the completely written text.
   if (const int failed = persistently([&] { return ::ftruncate(descriptor, static_cast<off_t>(size_)); }))
     return failed;
   if (const int failed = persistently([&] { return ::fsync(descriptor); })) return failed;

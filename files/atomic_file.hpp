@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A file that appears whole or not at all.
+// Writes a file that appears whole or not at all.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -15,51 +15,51 @@ struct stat;
 
 namespace files {
 
-/// Where an output goes.
+/// The path of an output.
 struct Destination {
   std::string path;
-  bool force = false;  ///< over whatever is there; else only over what sixstep has written
+  bool force = false;  ///< replace any file; false: replace only files that sixstep has written
 
   Destination(std::string to, bool over_all = false) : path(std::move(to)), force(over_all) {}
   Destination(const char* to) : path(to) {}
 };
 
-/// Writes to a temporary name in the same folder; commit() puts it in place, going out of scope removes it.
-/// Creating it already proves that the folder can be written, so create all of them before the work begins.
-/// What is not a regular file (a pipe, /dev/null) is written as it is. A file that a ReadLog has noted is
-/// refused: nobody means to lose a scenario to its own report; and so is a file that is_foreign().
-/// What takes another file's place has its permissions. A link keeps its place, and what it names is made or
-/// replaced; other names of the file itself (hard links) keep the old one.
+/// Writes under a temporary name in the same folder. commit() renames it to its own name, the destructor removes
+/// it. Creation already proves that the folder is writable, so create all files before the work begins. A path
+/// that is not a regular file (a pipe, /dev/null) is written directly. Refused are files that a ReadLog has
+/// noted, because nobody wants to overwrite a scenario with its own report, and files that are is_foreign(). A
+/// new file gets the permissions of the one that it replaces. A link stays, and the file that it names is made
+/// or replaced; other names of that file (hard links) keep the old content.
 class AtomicFile {
  public:
   static base::Result<AtomicFile> create(const Destination& to);
 
-  /// All of the text or nothing of it. Where the disk is full or the like, nothing more is written from there
-  /// on, and commit() tells.
+  /// Writes all of the text or nothing. After an error, such as a full disk, nothing more is written, and
+  /// commit() reports it.
   void write(std::string_view text);
 
-  /// Room on the disk for that many bytes in all, so that writing them cannot fail for want of it; 0, or what
-  /// errno says.
+  /// Reserves disk space for that many bytes in all, so that writing them cannot fail for lack of it. Returns 0,
+  /// or errno.
   int reserve(std::uint64_t bytes);
 
-  /// A write failed: there is no sense in going on.
+  /// A write failed; further writes have no effect.
   bool failed() const { return error_ != 0; }
-  /// What errno said of it; 0 where all went well.
+  /// errno of the failed write; 0: none.
   int error() const { return error_; }
-  /// The reader of a pipe has seen enough, or who waits for it has: nobody is to blame.
+  /// The reader of a pipe has closed it, or an interrupt ended the wait for it: no error of the user.
   bool reader_is_gone() const;
-  /// Forgets what was written, and that it failed; a pipe or a device goes on.
+  /// Discards the written text and its error; not for a pipe or a device, which continue.
   void begin_again();
 
-  /// Empty when the file stands under its name, safely on the disk. Where a write failed, what was whole
-  /// before stands under NAME.partial.EXT, and the Problem says so.
+  /// Puts the file under its name, safely on the disk. Problems: a write failed; then the part that was written
+  /// whole is in NAME.partial.EXT, as the Problem says.
   base::Problems commit() { return commit_as(path_); }
 
-  /// What an interrupted work leaves: NAME.partial.EXT.
+  /// Saves the result of interrupted work as NAME.partial.EXT.
   base::Problems commit_partial();
 
   const std::string& path() const { return path_; }
-  /// Where it is written to. Empty where there is no such name.
+  /// The name while writing; empty if there is none.
   std::string temporary() const { return temporary_ ? *temporary_ : std::string(); }
 
  private:
@@ -77,21 +77,21 @@ class AtomicFile {
   int put_in_place(const std::string& path);
 
   std::string path_;
-  std::filesystem::path folder_;                    // whole, of a file that has a temporary name
-  std::unique_ptr<std::string, Remove> temporary_;  // null where the file is written as it is
-  std::unique_ptr<int, Close> descriptor_;          // closed before the name goes
-  std::uint64_t size_ = 0;                          // of what was written whole
+  std::filesystem::path folder_;                    // absolute, if the file has a temporary name
+  std::unique_ptr<std::string, Remove> temporary_;  // null if the file is written directly
+  std::unique_ptr<int, Close> descriptor_;          // closed before the name is removed
+  std::uint64_t size_ = 0;                          // of the completely written text
   bool waits_ = false;                              // a device or a pipe, whose reader may be slow
   int error_ = 0;
 };
 
-/// That the path cannot be written, for what errno says.
+/// The Problem that the path cannot be written, with the reason of errno.
 base::Problem unwritable(const std::string& path, int reason);
 
-/// The cure where an unfinished file stands under its partial name.
+/// The cure if the unfinished file has its partial name.
 std::string saved_instead(const std::string& path);
 
-/// "trace.partial.csv" of "trace.csv".
+/// "trace.partial.csv" for "trace.csv".
 std::string partial_name(const std::string& path);
 
 }  // namespace files

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows in, columns out, with memory for one block of rows: the rest waits in a file without a name beside the
-// one that will be written.
+// Takes rows and returns columns, with memory for only one block of rows. The rest is in an unnamed file beside
+// the final one.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -17,19 +17,20 @@ class ColumnSpool {
  public:
   static constexpr std::size_t block_rows = 2048;
 
-  /// Beside `path`, as the disk that takes the one must take the other; empty: among the temporary files.
+  /// The unnamed file is beside `path`, because the same disk must have room for the final file; if `path` is
+  /// empty, among the temporary files.
   ColumnSpool(const std::string& path, std::size_t columns);
 
-  /// True once a row did not fit on the disk: it and all that follow are lost, those before are not.
+  /// True after a row did not fit on the disk: it and all following rows are lost, earlier ones are not.
   void row(std::span<const double> numbers);
   bool failed() const { return error_ != 0; }
-  /// What errno says; 0 where all went well.
+  /// errno; 0: no error.
   int error() const { return error_; }
 
   std::size_t rows() const { return blocks_ * block_rows + held_; }
   std::size_t columns() const { return columns_; }
 
-  /// The column's numbers in order, in pieces; false where `take` or the disk refuses.
+  /// Passes the column's numbers to `take` in order, in pieces; false if `take` or the disk fails.
   bool column(std::size_t which, const std::function<bool(std::span<const double>)>& take);
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a controller's bytes lie while its code runs: each of config, state and answer ends where a page begins that nobody may touch,
-// so that what is written behind it is told in the instruction that writes it. Less than that page's distance is a pattern that is
-// looked at after the call.
+// Holds a user controller's config, state and answer while its code runs. Each ends where a protected page
+// begins, so that a write behind it is caught at that instruction. A pattern fills the gap before that page and
+// is checked after the call.
 #pragma once
 #include <sys/mman.h>
 
@@ -14,7 +14,8 @@
 
 namespace files {
 
-/// Room for bytes that end where a forbidden page begins, to the sixteen that whatever a compiler makes may be aligned to.
+/// Room for bytes that end at a protected page, aligned to 16 bytes as the largest alignment that a compiler
+/// needs.
 class GuardedRoom {
  public:
   explicit GuardedRoom(std::byte* end) : end_(end) {}
@@ -29,7 +30,7 @@ class GuardedRoom {
   bool holds(const void* bytes, std::size_t count) const {
     return at_ != nullptr && bytes_ == count && std::memcmp(at_, bytes, count) == 0;
   }
-  /// Nothing was written just before or behind the bytes.
+  /// Whether no byte just before or behind the bytes has changed.
   bool is_whole() const {
     const auto untouched = [](std::byte b) { return b == std::byte{pattern}; };
     return std::all_of(at_ - grain, at_, untouched) && std::all_of(at_ + bytes_, end_, untouched);
@@ -43,7 +44,7 @@ class GuardedRoom {
   std::size_t bytes_ = 0;
 };
 
-/// A thread's.
+/// The arena of one thread.
 class ControllerArena {
  public:
   ControllerArena() : begin_(reserved()), config(room(0)), state(room(1)), answer(room(2)) {}
@@ -51,13 +52,13 @@ class ControllerArena {
   ControllerArena(const ControllerArena&) = delete;
   ControllerArena& operator=(const ControllerArena&) = delete;
 
-  /// Its design writes there, and nobody else.
+  /// Only the controller's design function may write the config.
   void let_config_change(bool may) {
     if (may != may_change_)
       ::mprotect(begin_ + forbidden, room_bytes, may ? PROT_READ | PROT_WRITE : PROT_READ);
     may_change_ = may;
   }
-  /// As its steps are to see it; most often it is there since the last one.
+  /// The config for the controller's steps; usually it is unchanged since the last step.
   std::byte* set_config(const void* bytes, std::size_t count) {
     if (may_change_ || !config.holds(bytes, count)) {
       let_config_change(true);

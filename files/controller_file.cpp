@@ -24,7 +24,7 @@ base::Problem unloaded(const std::string& path, std::string why) {
           .cure = "compile it with -shared -fPIC for this machine (docs/howto/write-a-controller.md)"};
 }
 
-/// Its code runs here already, as do the constructors of what it is linked to.
+/// Runs the object's code already, with the constructors of its libraries.
 base::Result<text::NamedText> loaded_from(const std::string& path, const std::string& whole) {
   void* const object = dlopen(whole.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (object == nullptr) {
@@ -58,7 +58,7 @@ base::Result<text::NamedText> load_controller(const std::string& path) {
     return base::Problem{.where = path,
                          .limit = "is not a compiled library: it may be the source",
                          .cure = "compile it and name the result: cc -O2 -shared -fPIC -o NAME.so SOURCE.c"};
-  // A name without a slash would be looked for among the system's libraries.
+  // A name without a slash would be searched among the system's libraries.
   std::error_code ignored;
   const std::string whole = std::filesystem::absolute(path, ignored).string();
   base::Result<text::NamedText> loaded = base::Problem{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shared object of a controller of one's own (sixstep/control/own/own_controller.h).
+// Loads the shared object of a user's own controller (sixstep/control/own/own_controller.h).
 #pragma once
 #include <string>
 
@@ -8,8 +8,8 @@
 
 namespace files {
 
-/// Loads it for as long as the program runs; the same file is loaded once. Its bytes count as read (ReadLog). A Problem tells what
-/// is missing or wrong in what it says of itself; what it does later is watched (controller_guard.hpp).
+/// Loads it until the program ends; the same file is loaded once. Its bytes count as read (ReadLog). Problem: a
+/// part of the interface is missing or wrong. Later mistakes are caught by controller_guard.hpp.
 base::Result<text::NamedText> load_controller(const std::string& path);
 
 }  // namespace files

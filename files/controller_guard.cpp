@@ -24,7 +24,7 @@ ControllerArena& arena() {
   return mine;
 }
 
-/// How the program rounds: to the nearest, with subnormal numbers, and no exception ends it.
+/// The program's rounding mode: to nearest, with subnormal numbers, without traps.
 const femode_t& usual_mode() {
   static const femode_t usual = [] {
     femode_t mode;
@@ -35,10 +35,10 @@ const femode_t& usual_mode() {
   return usual;
 }
 
-/// A controller as it is, and as the program calls it.
+/// A controller as loaded, and as the program calls it.
 struct Guarded {
   std::string path, name, sentence;
-  std::deque<std::string> words;  ///< of its parameters; they stay where they are
+  std::deque<std::string> words;  ///< of its parameters; pointers to them stay valid
   std::vector<sixstep_parameter> parameters;
   sixstep_controller real{}, shown{};
 };
@@ -48,7 +48,7 @@ std::array<Guarded, most_controllers> controllers;
 std::size_t loaded_controllers = 0;
 std::mutex adding;
 
-/// Code of the controller on this thread, until it comes back: whatever does not is told.
+/// Runs the controller's code on this thread, and reports if it does not return normally.
 template <class Work>
 void inside(const char* path, ControllerPlace place, const Work& work) {
   const femode_t& usual = usual_mode();
@@ -73,7 +73,8 @@ void must_be_whole(const ControllerThread& thread, const GuardedRoom& room, cons
 constexpr char beside_state[] = "wrote beside its state", beside_config[] = "wrote beside its config",
                beside_answer[] = "wrote beside its answer";
 
-/// The interface has no word for whom it is called: each controller has its own functions, by its number.
+/// The interface has no argument for the controller itself, so each controller has its own functions, by its
+/// number.
 template <std::size_t N>
 struct Calls {
   static const Guarded& is() { return controllers[N]; }
@@ -150,7 +151,7 @@ void show(std::size_t which, sixstep_controller& as, std::index_sequence<N...>) 
   all[which](as);
 }
 
-/// Its words are read once, here: what they point at may be anything.
+/// Its texts are copied once, here, because their pointers may be wrong.
 void take(Guarded& into, const std::string& path, const sixstep_controller& real) {
   into.path = path;
   into.real = into.shown = real;
@@ -169,20 +170,20 @@ void take(Guarded& into, const std::string& path, const sixstep_controller& real
 }  // namespace
 
 void in_controller(const std::string& path, const std::function<void()>& work) {
-  static std::deque<std::string> paths;  // a name stays, for whoever tells of it later
+  static std::deque<std::string> paths;  // kept, because later messages use the name
   const char* stays = nullptr;
   {
     const std::lock_guard lock(adding);
     stays = paths.emplace_back(path).c_str();
   }
-  usual_mode();  // as it is before anybody could have changed it
+  usual_mode();  // saved before foreign code can change it
   watch_controllers(stays);
   inside(stays, ControllerPlace::loading, [&](const ControllerThread&) { work(); });
 }
 
 namespace {
 
-/// Member by member: what stands between two of them is nobody's.
+/// Compares member by member, because padding between them is undefined.
 bool is_same(const sixstep_controller& a, const sixstep_controller& b) {
   const auto all = [](const sixstep_controller& c) {
     return std::tie(c.interface, c.answers, c.name, c.sentence, c.config_bytes, c.state_bytes, c.parameters,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Between the program and a controller of one's own: the same interface on both sides. Around each call the controller's bytes lie
-// between pages that nobody may touch, what it leaves of the processor's way to round is put back, and the thread is known to be
-// inside of it (controller_watch.hpp).
+// Wraps a user's own controller in the same interface. During each call the controller's data lie between
+// protected pages, afterwards the floating-point mode is restored, and the thread is marked as inside the
+// controller (controller_watch.hpp).
 #pragma once
 #include <functional>
 #include <string>
@@ -13,11 +13,11 @@
 
 namespace files {
 
-/// `work` in the code of `path`, as it is loaded.
+/// Runs `work` as code of the controller in `path`, for loading it.
 void in_controller(const std::string& path, const std::function<void()>& work);
 
-/// The controller as the program may call it; the same one for the same `real`. Called in_controller(): it reads what `real` points
-/// at. A Problem where there are too many.
+/// The wrapped controller; the same one for the same `real`. Call it in_controller(), because it reads the data
+/// of `real`. Problem: too many controllers.
 base::Result<const sixstep_controller*> guarded_controller(const std::string& path,
                                                            const sixstep_controller& real);
 

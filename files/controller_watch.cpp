@@ -24,11 +24,11 @@ constexpr std::size_t most_threads = 1024;
 ControllerThread threads[most_threads];
 std::atomic<bool> watched = false, ours_at_work = false;
 std::atomic<const char*> last_loaded = nullptr;
-char noted_in[4096];  // a path, for a handler to open
+char noted_in[4096];  // a path that a signal handler opens
 
 long this_thread() { return ::syscall(SYS_gettid); }
 
-/// By its number: what a thread keeps for itself may be what was written over.
+/// Finds the record by the thread's number, because thread-local memory may have been overwritten.
 ControllerThread* found_thread() {
   const long me = this_thread();
   for (ControllerThread& t : threads)
@@ -36,7 +36,7 @@ ControllerThread* found_thread() {
   return nullptr;
 }
 
-/// Text without the memory and the locks of the C library, which a handler may not ask for.
+/// Formats text without the C library's memory and locks, which a signal handler must not use.
 class Words {
  public:
   Words& operator<<(std::string_view text) {
@@ -126,7 +126,8 @@ struct sigaction before_us[64];
 extern "C" void on_crash(int signal, siginfo_t*, void*) {
   const ControllerThread* const at = found_thread();
   if (at && at->place != ControllerPlace::outside) end_by_controller(*at, crash_of(signal));
-  // Not in its code, but perhaps in what it has written over: whoever handled this before us goes on.
+  // The crash is not in the controller's code, but it may have overwritten memory: the previous handler
+  // continues.
   Words words;
   words << "sixstep crashed; " << (last_loaded.load() ? last_loaded.load() : "a controller")
         << " runs in this program and may have written over its memory";
@@ -154,7 +155,7 @@ void watch_the_end() {
   std::at_quick_exit(on_exit_of_the_program);
 }
 
-/// A stack that overflowed has no room for the handler that tells it.
+/// A separate stack for the handler, because an overflowed stack has no room for it.
 struct HandlerStack {
   static constexpr std::size_t bytes = 65536;
   std::unique_ptr<char[]> room = std::make_unique<char[]>(bytes);
@@ -171,7 +172,7 @@ struct HandlerStack {
   }
 };
 
-/// What a thread that ends calls last, however it came to end.
+/// The last call of a thread, however it ends.
 extern "C" void on_end_of_thread(void* thread) {
   const auto* const at = static_cast<const ControllerThread*>(thread);
   if (at->place != ControllerPlace::outside) end_by_controller(*at, "ended its thread, as by pthread_exit()");
@@ -185,7 +186,7 @@ pthread_key_t end_of_thread() {
   return key;
 }
 
-/// As long as the thread lives.
+/// Watches the thread as long as it lives.
 struct Membership {
   HandlerStack stack;
   ControllerThread* at = nullptr;
@@ -203,7 +204,7 @@ struct Membership {
     ::pthread_setspecific(end_of_thread(), at);
   }
   ~Membership() {
-    if (at->place != ControllerPlace::outside) return;  // exit() comes by here, too: its handler tells
+    if (at->place != ControllerPlace::outside) return;  // exit() also comes here; its own handler reports it
     at->run = -1;
     at->thread = 0;
   }
@@ -255,15 +256,15 @@ void tell_controllers_that_do_not_come_back() {
   constexpr char what[] = "does not come back";
   for (const ControllerThread& t : threads) {
     if (t.thread == 0 || t.place == ControllerPlace::outside || t.calls != t.calls_at_stop) continue;
-    note_run(t, what);  // before the word that has somebody press again
+    note_run(t, what);  // noted before the message, after which the user may interrupt again
     tell(t, what, "; press Ctrl-C again to end (a second SIGTERM does so, too)");
   }
 }
 
 }  // namespace files
 
-// The C library's own would end the program without a word to anybody. What a shared object calls by these names is what the program
-// has, if it has them.
+// Replaces the C library's functions, which would end the program without a message. A shared object that calls
+// these names gets the program's versions.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 extern "C" {
 __attribute__((noreturn)) void _exit(int code) {

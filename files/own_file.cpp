@@ -15,7 +15,7 @@
 namespace files {
 namespace {
 
-/// How a format begins, and what stands before the version; the second may follow a little later.
+/// The beginning of a format, and the text in front of the version; the second may come a little later.
 struct Mark {
   std::string_view begin, name;
 };
@@ -43,7 +43,7 @@ std::string digest_words(std::string_view text) {
   return fmt::format(", digest {}: ", base::written_hex(text_digest(std::string(text))));
 }
 
-/// Below its first line the text has the digest that stands there.
+/// Whether the digest in the first line is that of the text below it.
 bool is_unchanged(std::string_view text) {
   const std::size_t end = std::min(text.find('\n'), text.size() - 1);
   return text.substr(0, end).find(digest_words(text.substr(end + 1))) != text.npos;

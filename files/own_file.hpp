@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whose file it is: what sixstep writes says so in its first lines, and nothing else is written over unasked.
+// Recognises sixstep's own files by their first lines; other files are replaced only on request.
 #pragma once
 #include <string>
 #include <string_view>
@@ -8,16 +8,16 @@
 
 namespace files {
 
-/// A text that is the user's to go on with: below a comment of TOML that tells by which command it was made
-/// and, by a digest, whether it still is as it was.
+/// A text that the user may edit, below a TOML comment with the command that made it and a digest that shows
+/// later changes.
 std::string with_own_mark(std::string_view command, const std::string& text);
 
-/// The first lines of a table of CSV: by what and by which command it was made.
+/// The first lines of a CSV table: program and command that made it.
 std::string csv_head(std::string_view command);
 
-/// A regular file with something in it that does not begin as one of sixstep's outputs does: "sixstep" and
-/// its version in the words of the format. So is a text with_own_mark() that was changed since, and what
-/// cannot be read.
+/// Whether it is a regular, non-empty file that does not begin as sixstep's outputs do, with "sixstep" and its
+/// version in the format's comment. Also true for a text with_own_mark() that was changed since, and for a file
+/// that cannot be read.
 bool is_foreign(const std::string& path);
 
 }  // namespace files

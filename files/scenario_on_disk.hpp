@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenarios and motors by path, with the files that they name.
+// Reads scenarios and motors by path, with the files that they name.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace files {
 
-/// What a file names lies beside it; a motor also in the data folder, as motors/NAME.toml.
+/// Finds named files beside the file that names them, and motors also in the data folder as motors/NAME.toml.
 text::Resolve on_disk(const std::string& data_dir = {});
 
 struct ReadOptions {
@@ -20,7 +20,8 @@ struct ReadOptions {
 /// text::read_scenario_text() of the file.
 base::Result<study::Scenario> read_scenario(const std::string& path, const ReadOptions& options = {});
 
-/// The same from a text at hand; messages call it `path`, and what it names is looked for beside that.
+/// As read_scenario(), for a given text. `path` is its name in messages, and the place from which named files
+/// are found.
 base::Result<study::Scenario> read_scenario_text(const std::string& path, std::string text,
                                                  const ReadOptions& options = {});
 

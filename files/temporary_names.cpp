@@ -8,7 +8,7 @@
 namespace files {
 namespace {
 
-// A handler may take no lock and no memory.
+// A fixed array, because a signal handler may neither lock nor allocate.
 constexpr int most_temporaries = 512;
 std::atomic<const char*> being_written[most_temporaries];
 static_assert(std::atomic<const char*>::is_always_lock_free);

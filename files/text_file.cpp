@@ -15,7 +15,7 @@
 namespace files {
 namespace {
 
-/// Of the files beside it the one whose name is meant: misspelt, or without its .toml.
+/// The file beside it that was probably meant: misspelt, or without its .toml.
 std::string meant(const std::string& path) {
   namespace fs = std::filesystem;
   const fs::path folder = fs::path(path).parent_path();
@@ -41,7 +41,7 @@ base::Problem unreadable(const std::string& path, int reason) {
                                    : "did you mean " + near + "?"};
 }
 
-constexpr std::size_t most_bytes = std::size_t{128} << 20;  // /dev/zero never ends
+constexpr std::size_t most_bytes = std::size_t{128} << 20;  // a limit, because /dev/zero never ends
 
 thread_local ReadLog* log_in_use = nullptr;
 
@@ -72,7 +72,7 @@ void ReadLog::note(const std::string& path, const std::string& text) {
 std::uint64_t text_digest(const std::string& text, std::uint64_t before) {
   base::Hash hash;
   hash.word(before);
-  hash.word(text.size());  // so that two texts in a row are not their sum
+  hash.word(text.size());  // separates texts, so that two of them differ from their concatenation
   for (std::size_t at = 0; at < text.size(); at += sizeof(std::uint64_t)) {
     std::uint64_t word = 0;
     for (std::size_t n = at; n < text.size() && n < at + sizeof word; ++n)

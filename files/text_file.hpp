@@ -12,8 +12,8 @@ namespace files {
 /// The whole file, byte for byte.
 base::Result<std::string> read_text(const std::string& path);
 
-/// Notes every file that read_text() reads in this thread while it lives: a scenario's own, its motor's, and
-/// whatever they name. One that ends inside another hands on its paths.
+/// Notes every file that read_text() reads in this thread during its life: a scenario's, its motor's, and all
+/// that they name. A log inside another passes its paths on to it when it ends.
 class ReadLog {
  public:
   ReadLog();
@@ -21,16 +21,16 @@ class ReadLog {
   ReadLog(const ReadLog&) = delete;
   ReadLog& operator=(const ReadLog&) = delete;
 
-  /// In the order of reading; those that could not be read too.
+  /// In the order of reading, including files that could not be read.
   const std::vector<std::string>& paths() const { return paths_; }
-  /// Of the contents alone, in the order of reading: where the files lie does not matter.
+  /// Of the contents in the order of reading; paths do not matter.
   std::uint64_t digest() const { return digest_; }
-  /// The first file's. A pipe can be read only once.
+  /// The text of the first file, because a pipe can be read only once.
   const std::string& first_text() const { return first_text_; }
 
   void note(const std::string& path, const std::string& text);
 
-  /// Whether a log of this thread, or one that ended inside it, has noted that file, under whatever name.
+  /// Whether a log of this thread, or one that ended inside it, has noted the file, under any name.
   static bool has(const std::string& path);
 
  private:
@@ -40,9 +40,10 @@ class ReadLog {
   ReadLog* outer_;
 };
 
-/// 64 bits of a text, continued from those of what stands before it. No cryptography.
+/// 64 bits of a text; `before` is the digest of the preceding text. Not cryptographic.
 std::uint64_t text_digest(const std::string& text, std::uint64_t before = 0);
-/// The same of a file that another file names: it must be one, for a device or a pipe need not end.
+/// As read_text(), for a file that another file names. It must be a regular file, because a device or a pipe may
+/// never end.
 base::Result<std::string> read_regular_text(const std::string& path);
 
 }  // namespace files

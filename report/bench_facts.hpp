@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the pages of a bench's measurements have in common.
+// Draws elements that the pages of bench measurements share.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -12,16 +12,16 @@
 
 namespace report {
 
-/// A name and what was found, of a list of facts.
+/// One entry of a list of facts: a name and its value.
 std::string bench_fact(std::string_view name, const std::string& value);
 
-/// A bar from 0 up, or from one value to another: a piece of a curve that breaks behind it.
+/// Appends a bar from 0 or `from` to `to`, as a piece of a curve with a gap behind it.
 inline void add_bar(SvgCurve& curve, double x, double from, double to) {
   curve.x.insert(curve.x.end(), {x, x, NAN});
   curve.y.insert(curve.y.end(), {from, to, NAN});
 }
 
-/// So many points of a long curve that a screen shows no difference.
+/// The stride that leaves enough points of a long curve for a screen.
 inline std::size_t thinned_stride(std::size_t points) {
   constexpr std::size_t enough = 1500;
   return std::max<std::size_t>(1, points / enough);

@@ -21,7 +21,7 @@ namespace {
 using sixstep::analysis::BodeStudy;
 using sixstep::analysis::LoopPoint;
 
-/// Frequencies of the designed curve: those of the lines and enough between them for a smooth one.
+/// Frequencies of the designed curve: those of the lines, and enough between them for a smooth curve.
 std::vector<double> frequencies(const BodeStudy& s) {
   constexpr int between = 8;
   std::vector<double> w;
@@ -33,7 +33,7 @@ std::vector<double> frequencies(const BodeStudy& s) {
   return w;
 }
 
-/// The designed curves, the phase beginning as at the first line and going on without a jump.
+/// Adds the designed curves. Their phase begins as at the first line and continues without jumps.
 void add_designed(const BodeStudy& s, SvgChart& gain, SvgChart& phase) {
   if (!s.designed || s.points.empty()) return;
   SvgCurve g{"designed", "reference", {}, {}}, p{"designed", "reference", {}, {}};
@@ -71,7 +71,7 @@ std::string charts(const BodeStudy& s) {
   return svg_chart(gain) + svg_chart(phase) + svg_chart(closed) + svg_chart(coherence);
 }
 
-/// What a terminal is told in ASCII.
+/// Replaces the terminal's ASCII spellings by printed signs.
 std::string in_print(std::string text) {
   const auto put = [&text](std::string_view from, std::string_view to) {
     for (std::size_t at = text.find(from); at != text.npos; at = text.find(from, at + to.size()))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A loop's measured frequency response as one HTML file, drawn over the designed one.
+// Writes a loop's measured frequency response as one HTML file, drawn over the designed one.
 #pragma once
 #include <string>
 
@@ -8,9 +8,9 @@
 namespace report {
 
 struct BodePage {
-  std::string name;  ///< of the scenario
+  std::string name;  ///< the scenario's
   const sixstep::analysis::BodeStudy& study;
-  std::string command;  ///< what makes this page again
+  std::string command;  ///< the command that makes this page again
   std::string version;
 };
 

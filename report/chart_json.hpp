@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pieces of the JSON that the pages' scripts draw from.
+// Writes the parts of the JSON from which the pages' scripts draw.
 #pragma once
 #include <cstddef>
 #include <map>
@@ -28,7 +28,8 @@ std::string packed(const std::vector<double>& values, const std::vector<std::siz
   return base64(std::span<const To>(chosen));
 }
 
-/// A page's time axes: curves that keep the same rows share one, for it is the largest part of the file.
+/// A page's time axes. Curves with the same rows share one axis, because an axis is the largest part of the
+/// file.
 class Axes {
  public:
   explicit Axes(json& page) : page_(page) {}
@@ -39,22 +40,23 @@ class Axes {
   std::map<std::pair<const std::vector<double>*, std::vector<std::size_t>>, std::size_t> places_;
 };
 
-/// A chart without its curves. `complete`: no envelope stands for any of the `recorded` rows.
+/// A chart without its curves. `complete`: no envelope replaces any of the `recorded` rows.
 json chart_json(const Group& group, bool complete, std::size_t recorded);
 json curve_json(const Curve& curve, std::size_t axis, const std::vector<std::size_t>& rows);
 
-/// Which curve of which chart a packed column belongs to.
+/// The chart and curve to which a packed column belongs.
 struct CurvePlace {
   std::size_t chart = 0, curve = 0;
 };
-/// A column beyond the places is no curve: what conducts.
+/// Columns beyond `places` are not curves: they hold the conduction codes.
 json rows_json(const PackedRows& rows, const std::vector<CurvePlace>& places);
 
 json windows_json(const Windows& windows, const sixstep::study::Scenario& scenario);
-/// Those whose every row the page can carry.
+/// The windows all of whose rows fit into the page.
 std::vector<Interval> kept(const Windows& windows, const std::vector<double>& time, std::size_t most_rows);
 
-/// As text, as the library writes it; what is no UTF-8 is replaced. Its way through a megabyte of base64 is longer.
+/// As text, in the library's format; invalid UTF-8 is replaced. The library itself takes longer for a megabyte
+/// of base64.
 std::string dumped(const json& page);
 
 }  // namespace report

@@ -6,7 +6,8 @@
 
 namespace report {
 
-/// How long the interrupts of a chip took that ran the drive (rig/chip_drive.hpp), each with its histogram; empty where none did.
+/// The times of a chip's interrupts when it ran the drive (rig/chip_drive.hpp), each with its histogram; empty
+/// if none did.
 std::string chip_section(const sixstep::study::Outcome& outcome);
 
 }  // namespace report

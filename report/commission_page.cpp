@@ -36,7 +36,7 @@ std::string facts(const CommissionStudy& s) {
   return out + bench_fact("Verdict", s.holds() ? "all within bounds" : "not all within bounds");
 }
 
-/// When the chip was in these phases, from the first to the last of them.
+/// The time span from the first to the last of these phases.
 CommissionPhase span_of(const CommissionStudy& s, Phase first, Phase last) {
   CommissionPhase out{.phase = first, .from_s = 0.0, .to_s = 0.0};
   bool any = false;
@@ -49,7 +49,7 @@ CommissionPhase span_of(const CommissionStudy& s, Phase first, Phase last) {
   return out;
 }
 
-/// So many points are enough for a picture.
+/// The stride that leaves enough points for a picture.
 std::size_t stride_of(const CommissionStudy& s, const CommissionPhase& span) {
   constexpr double points = 1500.0;
   const double rows = s.rows.empty() ? 0.0

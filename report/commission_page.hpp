@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A drive that found out what hangs at it, as one HTML file: the currents of its test, the rotor's way, and all figures.
+// Writes a commissioning as one HTML file: the currents of its test, the rotor's motion, and all results.
 #pragma once
 #include <string>
 
@@ -9,7 +9,7 @@ namespace report {
 
 struct CommissionPage {
   const sixstep::analysis::CommissionStudy& study;
-  std::string command;  ///< what makes this page again
+  std::string command;  ///< the command that makes this page again
   std::string version;
 };
 

@@ -4,7 +4,8 @@
 
 namespace report {
 
-/// Over one electrical turn: the Hall lines, the phases' back-EMF, and which legs the drive's table has high, low and floating.
+/// Draws over one electrical turn: the Hall lines, the phases' back-EMF, and which legs the drive's table has
+/// high, low and floating.
 Panel commutation_picture(const sixstep::analysis::WiringStudy& study);
 
 }  // namespace report

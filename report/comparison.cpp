@@ -27,7 +27,7 @@ std::string number(std::size_t place) {
                      place + 1);
 }
 
-/// A table with one column a run behind the first.
+/// A table with one column per run behind the first.
 std::string table(const char* first, std::size_t runs, const std::string& rows) {
   std::string head = fmt::format("<th scope=\"col\">{}</th>", first);
   for (std::size_t k = 0; k < runs; ++k)
@@ -71,10 +71,10 @@ std::string difference_table(const std::vector<ComparedRun>& runs) {
                       : table("Key", runs.size(), rows);
 }
 
-/// What one run says of a figure.
+/// One run's value of a figure.
 struct Measured {
   double value = 0.0;
-  std::string css;  ///< "ok", "bad" where it was judged
+  std::string css;  ///< "ok" or "bad" if it was judged
 };
 using Ask = std::function<std::optional<Measured>(const ComparedRun&)>;
 
@@ -83,13 +83,13 @@ const char* mark(const std::string& css) {
   return css == "bad" ? " <b>✗ not met</b>" : "";
 }
 
-/// A figure of all runs; behind the first the difference to it.
+/// A figure of all runs; behind the first run's value the differences to it.
 std::string figure_row(const std::string& name, const std::string& unit, const std::vector<ComparedRun>& runs,
                        const Ask& ask) {
   std::vector<std::optional<Measured>> found;
   found.reserve(runs.size());
   for (const ComparedRun& run : runs) found.push_back(run.outcome ? ask(run) : std::nullopt);
-  // Neither what no run knows nor what is nothing in all of them.
+  // Left out if no run has a value, or all values are zero.
   if (std::ranges::all_of(found, [](const auto& m) { return !m || (m->value == 0.0 && m->css.empty()); }))
     return "";
   std::string html = fmt::format("<tr><th scope=\"row\">{}</th>", with_subscripts(name));
@@ -109,7 +109,7 @@ std::string figure_row(const std::string& name, const std::string& unit, const s
   return html + "</tr>\n";
 }
 
-/// Requirements and comparisons of all runs by name, in the order they first appear.
+/// Requirements and comparisons of all runs by name, in the order of their first appearance.
 std::string named_figures(const std::vector<ComparedRun>& runs) {
   std::vector<std::pair<std::string, std::string>> names;
   const auto meet = [&](const std::string& figure, const std::string& unit) {
@@ -154,7 +154,7 @@ std::string energy_rows(const std::vector<ComparedRun>& runs) {
   return rows;
 }
 
-/// What every run is asked, whatever its scenario asks for.
+/// Figures that are shown for every run, whatever its scenario requires.
 std::string usual_figures(const std::vector<ComparedRun>& runs) {
   const auto of_step = [](const ComparedRun& run) {
     const auto step = largest_step(run.events, run.scenario);
@@ -199,7 +199,7 @@ std::string chips(const std::vector<ComparedRun>& runs) {
   return html;
 }
 
-/// Of a board's log: how far it lies from the simulation. Nothing where there is none.
+/// For a board's log: its difference from the simulation. Empty without a log.
 std::string trace_comparison_table(const ComparisonInput& in) {
   if (in.laid_over.empty()) return "";
   std::string rows;

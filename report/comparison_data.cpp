@@ -22,7 +22,7 @@ constexpr std::size_t difference_rows = 15000;  // drawn without an envelope: be
 
 struct Compared {
   const char *id, *title, *unit, *quantity, *column;
-  double factor = 1.0;  ///< of the column's number
+  double factor = 1.0;  ///< multiplies the column's number
 };
 constexpr Compared of_turning_motors[] = {
     {"position", "Position", "°", "angle", "angle_rad", 180.0 / 3.14159265358979323846},
@@ -44,7 +44,7 @@ constexpr Compared of_linear_motors[] = {
     {"bus", "Bus voltage", "V", "", "bus_V"},
 };
 
-/// In metres where all motors are linear.
+/// In metres if all motors are linear.
 std::span<const Compared> compared_of(const std::vector<ComparedRun>& runs) {
   const bool linear =
       std::ranges::all_of(runs, [](const ComparedRun& r) { return motion_of(r.scenario.sheet).linear; });
@@ -52,7 +52,7 @@ std::span<const Compared> compared_of(const std::vector<ComparedRun>& runs) {
   return of_turning_motors;
 }
 
-/// A column in the unit of its chart; empty where the trace has none.
+/// A column in the unit of its chart; empty if the trace lacks it.
 Values column_of(const sixstep::study::Trace& trace, const Compared& what) {
   const auto* found = find_column(trace, what.column);
   Values out = found ? *found : Values();
@@ -66,7 +66,7 @@ bool moves(const Values& values) {
                              [&](double v) { return std::abs(v - values.front()) > 1e-9 * std::abs(v); });
 }
 
-/// Whatever all runs have and at least one of them changes.
+/// Whether all runs have the column and it changes in at least one.
 bool worth_a_chart(const Compared& what, const std::vector<Values>& columns,
                    const std::vector<ComparedRun>& runs) {
   const bool has = std::ranges::none_of(columns, [](const Values& v) { return v.size() < 2; });
@@ -96,7 +96,7 @@ json overlay(const Compared& what, const std::vector<ComparedRun>& runs, const s
   return chart;
 }
 
-/// On the common grid both values are exact, so is their difference to a rounding.
+/// On the common grid both values are exact, and their difference is exact to a rounding.
 json difference(const Compared& what, const std::vector<ComparedRun>& runs, Axes& axes) {
   Group group{.id = fmt::format("{}-difference", what.id),
               .title = fmt::format("{}, difference to 1", what.title),
@@ -119,7 +119,7 @@ json difference(const Compared& what, const std::vector<ComparedRun>& runs, Axes
   return chart;
 }
 
-/// Every row of the runs that are long enough for an envelope. The overlays are every second chart.
+/// Every row of the runs that are so long that they get an envelope. Every second chart is an overlay.
 json every_row(const std::vector<ComparedRun>& runs, const std::deque<std::vector<Values>>& drawn) {
   const PlotSize size;
   json out = json::array();

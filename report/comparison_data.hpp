@@ -6,10 +6,11 @@
 
 namespace report {
 
-/// Of a run, by its place: the colour of its curves.
+/// The colour of a run's curves, by its place.
 const char* run_style(std::size_t place);
 
-/// What report.js draws: each quantity of all runs in one chart, and below it the differences to the first.
+/// The JSON that report.js draws: each quantity of all runs in one chart, and below it the differences from the
+/// first.
 std::string comparison_data(const std::vector<ComparedRun>& runs);
 
 }  // namespace report

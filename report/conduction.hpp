@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What conducts in each leg of the bridge, from gates and currents of the rows.
+// Finds the conducting devices in each leg of the bridge, from gates and currents of the rows.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -9,17 +9,16 @@
 
 namespace report {
 
-/// From time_s[n] on, to time_s[n + 1] or the end, the legs are connected as code[n] says: a + 5 b + 25 c,
-/// each a plant::Connection. The browser counts on its order (web/bridge.js).
+/// From time_s[n] to time_s[n + 1], or to the end, the legs are connected as code[n] says: a + 5 b + 25 c, each
+/// a plant::Connection. web/bridge.js depends on its order.
 struct Conduction {
   std::vector<double> time_s;
   std::vector<std::uint8_t> code;
   double end_s = 0.0;
 };
 
-/// Every change of the run; empty where the trace has no gates or currents. An IGBT that is on carries one direction, its
-/// diode the other. Leg k carries the current of the phase
-/// phase_at[k] that hangs at it.
+/// Every change in the run; empty if the trace has no gates or currents. An IGBT that is on carries only one
+/// direction, its diode the other. Leg k carries the current of the phase phase_at[k] that is connected to it.
 Conduction conduction(const sixstep::study::Trace& trace, bool igbt = false,
                       const std::array<std::uint8_t, 3>& phase_at = {0, 1, 2});
 

@@ -23,7 +23,8 @@ using analysis::contest_figures;
 using analysis::ContestRow;
 using analysis::ContestTrace;
 
-/// Of those that hold the course the one with the least of a figure; none where none has it.
+/// The controller with the least value of a figure, among those that hold the course; null if none has the
+/// figure.
 const ContestRow* least_of(const Contest& c, std::size_t figure) {
   const ContestRow* least = nullptr;
   for (const ContestRow& row : c.rows)
@@ -39,7 +40,7 @@ std::size_t place_of(const Contest& c, const ContestRow& row) {
 std::string name_of(const Contest& c, const ContestRow& row) {
   return std::string(c.entries[place_of(c, row)].who->name);
 }
-/// What stands at a point, and before the name over its course.
+/// The number at a controller's point, and in front of its name at its curve.
 std::string number_of(const Contest& c, const ContestRow& row) {
   return fmt::format("{}", place_of(c, row) + 1);
 }
@@ -56,7 +57,7 @@ std::string facts(const Contest& c) {
   return out;
 }
 
-/// Nobody has less of both: a front from the least ripple to the least losses.
+/// Whether no controller has less of both: the front from the least ripple to the least losses.
 bool on_front(const Contest& c, const ContestRow& row) {
   const auto ripple = analysis::ripple_figure, loss = analysis::loss_figure;
   return std::none_of(c.rows.begin(), c.rows.end(), [&](const ContestRow& other) {
@@ -90,7 +91,7 @@ SvgChart trade(const Contest& c) {
   return chart;
 }
 
-/// The speed from shortly before the load step until all have settled, or the course goes on.
+/// The speed from shortly before the load step until all controllers have settled, or the course continues.
 SvgCurve load_step_of(const Contest& c, const ContestTrace& trace, const char* label, const char* style) {
   const analysis::Course& course = c.bench.course;
   const double before_s = 0.1 * (course.slow_at_s - course.load_at_s), to_s = course.load_at_s + 5 * before_s;
@@ -103,7 +104,7 @@ SvgCurve load_step_of(const Contest& c, const ContestTrace& trace, const char* l
   return curve;
 }
 
-/// Each controller's answer to the load over that of the usual one.
+/// Each controller's response to the load over that of the usual one.
 std::string load_steps(const Contest& c) {
   const ContestTrace* usual = nullptr;
   for (const ContestRow& row : c.rows)
@@ -129,7 +130,7 @@ std::string html_list(const std::vector<std::string>& lines, std::string_view cl
   return lines.empty() ? std::string() : out + "</ul>\n";
 }
 
-/// Each table below its title; the mark of the least is bold besides.
+/// Each table below its title; the least values are also bold.
 std::string tables(const Contest& c) {
   std::string out;
   for (const text::ContestTable& table : text::contest_tables(c)) {

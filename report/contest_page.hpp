@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Controllers side by side as one HTML file: who has the least of what, torque ripple against losses, each one's answer to the
-// load beside the usual one's.
+// Writes a comparison of controllers as one HTML file: the least value of each figure, torque ripple against
+// losses, and each controller's response to the load beside that of the usual one.
 #pragma once
 #include <string>
 
@@ -10,7 +10,7 @@ namespace report {
 
 struct ContestPage {
   const sixstep::analysis::Contest& contest;
-  std::string command;  ///< what makes this page again
+  std::string command;  ///< the command that makes this page again
   std::string version;
 };
 

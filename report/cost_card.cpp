@@ -23,10 +23,10 @@ std::string entry(const std::string& name, double joule, const std::string& besi
                      name, computed(joule, "J"), beside);
 }
 
-/// What became of the supplied energy; a part may be negative where the motor gave back.
+/// The use of the supplied energy; a part may be negative if the motor returned energy.
 std::string energy_rows_of(const EnergyBook& b) {
   const auto row = [&](const char* name, double joule) {
-    // What went in and came out again leaves a rounding.
+    // Energy that went in and came out again leaves a rounding error.
     if (std::abs(joule) <= 1e-12 * b.moved) return std::string();
     return entry(name, joule, b.supplied > 0.0 ? in_percent(joule / b.supplied) : "");
   };
@@ -35,7 +35,7 @@ std::string energy_rows_of(const EnergyBook& b) {
          row("Iron drag", b.iron) + row("Load", b.load) + row("Stored", b.kinetic + b.magnetic);
 }
 
-/// The mean powers of a run, over all of it.
+/// Switching energy from the run's mean powers.
 double switching_J(const Outcome& outcome) {
   double watt = 0.0;
   for (const sixstep::study::DeviceLoss& d : outcome.devices)

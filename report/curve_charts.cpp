@@ -19,7 +19,7 @@ namespace analysis = sixstep::analysis;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// One place on the axis.
+/// A point and its place on the axis.
 struct OnCurve {
   const analysis::OperatingPoint* point;
   const analysis::NominalPoint* nominal = nullptr;
@@ -135,7 +135,7 @@ class Charts {
     };
   }
 
-  /// What bus and winding allow together: continuously, and for ten seconds.
+  /// Operating regions that bus and winding allow together: continuously, and for ten seconds.
   std::vector<CurveLine> regions() const {
     if (!curve_.thermal) return {};
     const auto below = [per_Nm = units_.per_Nm](double allowed_Nm, const OnCurve& p) {
@@ -149,8 +149,8 @@ class Charts {
              [=](const OnCurve& p) { return below(limit(p).continuous_Nm, p); }, CurveLine::Drawn::region}};
   }
 
-  /// Up to which torque the motor is used: a stalled one shows ten times that, and would squeeze the rest
-  /// into a strip. 0 where nobody says.
+  /// The highest torque of the axis: up to the motor's usual range, because the stall torque may be ten times
+  /// that and would compress the rest. 0 if the range is unknown.
   double corner_Nm() const {
     constexpr double room = 1.1, of_nominal = 3.0, worth_it = 0.7;
     double corner = 0.0;

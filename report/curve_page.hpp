@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A torque-speed curve as one HTML file that opens anywhere, without a network.
+// Writes a torque-speed curve as one HTML file that needs no network.
 #pragma once
 #include <string>
 
@@ -10,7 +10,7 @@ namespace report {
 struct CurvePageInput {
   const sixstep::analysis::CurveRequest& request;
   const sixstep::analysis::Curve& curve;
-  std::string command;  ///< what makes this page again
+  std::string command;  ///< the command that makes this page again
   std::string version;
 };
 

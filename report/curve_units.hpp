@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a curve's page shows speeds and torques in: rpm and mNm, of a linear motor m/s and N.
+// Chooses the units of speed and torque for a curve's page: rpm and mNm, for a linear motor m/s and N.
 #pragma once
 #include <string>
 

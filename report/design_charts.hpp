@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A design's drawings: step, Bode, headroom over speed, ripple over duty.
+// Draws a design: step, Bode, headroom over speed, ripple over duty.
 #pragma once
 #include <string>
 
@@ -8,9 +8,9 @@
 
 namespace report {
 
-/// What was designed over what the simulation recorded, and the current of it.
+/// The designed response over the simulated one, and the current of the latter.
 std::string step_charts(const sixstep::analysis::DesignStudy& study);
-/// Where |L| and its phase are drawn over the frequency, without curves yet.
+/// Empty charts of |L| and its phase over the frequency.
 struct BodeCharts {
   SvgChart gain{
       .title = "Gain |L|", .x_label = "Hz", .y_label = "dB", .log_x = true, .y_tick = 20.0, .levels = {0.0}};
@@ -21,7 +21,7 @@ struct BodeCharts {
                  .y_tick = 45.0,
                  .levels = {-180.0}};
 };
-/// |L| and its phase of each loop, with the delay that was asked for.
+/// |L| and its phase of each loop, with the specified delay.
 std::string loop_charts(const sixstep::analysis::DesignStudy& study);
 std::string limit_charts(const sixstep::analysis::DesignStudy& study);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A design as one HTML file that opens anywhere, without a network and without a script.
+// Writes a design as one HTML file that needs no network and no script.
 #pragma once
 #include <string>
 
@@ -10,8 +10,8 @@ namespace report {
 struct DesignPage {
   const sixstep::analysis::DesignStudy& study;
   std::string verdict;   ///< one line
-  std::string scenario;  ///< the file that was simulated
-  std::string command;   ///< what makes this page again
+  std::string scenario;  ///< text of the simulated file
+  std::string command;   ///< the command that makes this page again
   std::string version;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A measured back-EMF as one HTML file: the recording with its fit, what is left over, harmonics and shape.
+// Writes a measured back-EMF as one HTML file: the recording with its fit, the residual, harmonics and shape.
 #pragma once
 #include <string>
 
@@ -10,7 +10,7 @@ namespace report {
 struct EmfPage {
   const text::MeasuredEmf& measured;
   const sixstep::analysis::EmfRecord& record;
-  std::string command;  ///< what makes this page again
+  std::string command;  ///< the command that makes this page again
   std::string version;
 };
 

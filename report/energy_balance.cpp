@@ -22,7 +22,7 @@ struct Entry {
   double joule;
 };
 
-/// Rounded away, zero has no sign.
+/// A value that is rounded to zero has no sign.
 std::string fixed(double value, int decimals) {
   const std::string text = fmt::format("{:.{}f}", std::abs(value), decimals);
   const bool zero = text.find_first_not_of("0.") == text.npos;
@@ -35,14 +35,14 @@ std::string bar(double joule, double largest) {
                      100.0 * std::abs(joule) / largest);
 }
 
-/// What both accounts are shown with.
+/// Common scales of both accounts.
 struct Yardsticks {
-  double largest;     ///< entry of both
-  double scale;       ///< what the residuals are parts of
-  const char* parts;  ///< of what that is
+  double largest;     ///< largest entry of both accounts
+  double scale;       ///< the residuals are relative to it
+  const char* parts;  ///< name of that scale
 };
 
-/// Far below any rounding of the entries there is nothing.
+/// Zero if the value is far below any rounding of the entries.
 double unless_nothing(double joule, double largest) {
   return std::abs(joule) < 1e-20 * largest ? 0.0 : joule;
 }
@@ -53,12 +53,12 @@ std::string closing(double residual, const Yardsticks& y) {
                      plain(nothing ? 0.0 : std::abs(residual), 2, true), y.parts);
 }
 
-/// One equation as an account: the entries must add up to the total; what they miss is the residual.
+/// One equation as an account: the entries must add up to the total; the residual is the difference.
 std::string account(const Entry& total, const std::vector<Entry>& entries, double residual,
                     const Yardsticks& y) {
   const double largest = y.largest;
   const Scale scale = scale_for(largest, "J");
-  constexpr int decimals = 4;  // the same in both accounts, so that they add up under the reader's eye
+  constexpr int decimals = 4;  // the same in both accounts, so that the printed numbers add up
   const auto row = [&](const Entry& e, const char* css) {
     const double joule = e.joule * scale.factor;
     return fmt::format(
@@ -71,7 +71,7 @@ std::string account(const Entry& total, const std::vector<Entry>& entries, doubl
       scale.unit);
   html += row(total, "total");
   for (const Entry& e : entries) html += row(e, "part");
-  const double missing = residual * y.scale;  // as the book has summed it up, to the last bit
+  const double missing = residual * y.scale;  // the book's own sum, to the last bit
   html += fmt::format(
       "<tr class=\"residual\"><th scope=\"row\">Residual<small>what does not add up</small></th><td "
       "class=\"num\">{}</td><td class=\"share\"></td></tr>\n",
@@ -95,7 +95,7 @@ std::string told_in(const sixstep::base::Motion& motion, std::string html) {
 
 std::string energy_section(const sixstep::study::EnergyBook& b, const sixstep::base::Motion& motion,
                            StoredBeside beside) {
-  // One unit and one length of bar for both accounts: the air gap's energy stands in each.
+  // Both accounts share the unit and the length of bars, because each contains the air-gap energy.
   double largest = 0.0;
   for (const double joule :
        {b.supplied, b.copper, b.devices, b.magnetic, b.air_gap, b.friction, b.load, b.kinetic})

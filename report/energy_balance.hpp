@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the energy went, and how often what happened.
+// Writes the energy balance of a run and the counts of its events.
 #pragma once
 #include <string>
 
@@ -8,14 +8,14 @@
 
 namespace report {
 
-/// What the book counts to the kinetic energy: of an elastic shaft its twist, and what cogging holds.
+/// Energies that the book counts as kinetic: the twist of an elastic shaft, and that of cogging.
 struct StoredBeside {
   bool twist = false, cogging = false;
 };
-/// In the symbols of the motor's kind.
+/// With the symbols of the motor's kind.
 std::string energy_section(const sixstep::study::EnergyBook& book, const sixstep::base::Motion& motion,
                            StoredBeside beside);
-/// What each switch and diode lost, as a table; nothing where the bridge does not say enough.
+/// The losses of each switch and diode as a table; empty if the bridge's data do not suffice.
 std::string device_section(const std::vector<sixstep::study::DeviceLoss>& devices);
 
 std::string event_section(const sixstep::study::Outcome& outcome);

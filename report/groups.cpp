@@ -16,7 +16,7 @@ using sixstep::study::Trace;
 
 constexpr const char* hall_labels[] = {"H1", "H2", "H3"};
 
-/// What a reader sees when hovering over a label: the column's own words.
+/// The text shown when the pointer is over a label: the column's meaning.
 std::string meaning_of(const Trace& trace, std::string_view name) {
   for (const auto& column : trace.columns)
     if (column.name == name)
@@ -38,10 +38,10 @@ std::vector<double> in_degrees(std::vector<double> angles) {
   return times(std::move(angles), 180.0 / 3.14159265358979323846);
 }
 
-/// A field-oriented drive drives no pair; what it holds has a chart of its own.
+/// A field-oriented drive has no driven pair; its currents in the rotor's frame have a chart of their own.
 Group currents(const Trace& trace, bool of_field) {
   Group g{.id = "currents", .title = "Currents", .unit = "A", .height_px = 270, .quantity = "current"};
-  // It is one phase's current or another's at every instant: drawn first, it lies beneath them.
+  // i_m equals one phase's current at every instant: it is drawn first, below them.
   if (!of_field) add(g, trace, "i_m_A", "i_m", "beneath");
   add(g, trace, "i_a_A", "i_a", "a");
   add(g, trace, "i_b_A", "i_b", "b");
@@ -50,7 +50,7 @@ Group currents(const Trace& trace, bool of_field) {
   return g;
 }
 
-/// What a field-oriented drive holds.
+/// The currents that a field-oriented drive controls.
 Group rotor_currents(const Trace& trace) {
   Group g{.id = "rotor-currents",
           .title = "Currents along the magnet and across it",
@@ -74,7 +74,7 @@ Group rotor_voltages(const Trace& trace) {
   return g;
 }
 
-/// Where it takes the magnet to point, less where that points.
+/// The estimated angle of the magnet minus the true one.
 Group rotor_angle(const Trace& trace) {
   Group g{.id = "rotor-angle", .title = "Error of the magnet's angle", .unit = "deg", .height_px = 150};
   add(g, trace, "angle_error_deg", "error", "main");
@@ -148,7 +148,7 @@ Group duty(const Trace& trace) {
   return g;
 }
 
-/// The shaft's angle is of interest where it is controlled; elsewhere it only grows.
+/// The shaft's angle is shown if it is controlled; otherwise it only grows.
 Group position(const Trace& trace, std::deque<std::vector<double>>& derived, bool linear) {
   Group g{.id = "position",
           .title = "Position",
@@ -178,8 +178,8 @@ Group bus(const Trace& trace) {
   return g;
 }
 
-/// Without a curve, or zero throughout as the speed of a held rotor is. Currents stay: that none flows says
-/// something.
+/// Whether a group has no curve, or is zero throughout, as the speed of a held rotor. Currents stay, because
+/// zero current is information.
 bool nothing_to_see(const Group& g) {
   if (g.logic || g.id == "currents") return g.curves.empty();
   return std::ranges::all_of(g.curves, [](const Curve& curve) {

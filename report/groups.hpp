@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which columns share a chart, in which order, under which name.
+// Decides which columns share a chart, their order and their names.
 #pragma once
 #include <deque>
 #include <string>
@@ -12,8 +12,8 @@ namespace report {
 
 struct Curve {
   std::string label;    ///< "i_a"; an underscore starts a subscript
-  std::string style;    ///< a name the style sheet has a colour for
-  std::string meaning;  ///< for the reader who hovers over the label
+  std::string style;    ///< a colour of the style sheet
+  std::string meaning;  ///< shown when the pointer is over the label
   const std::vector<double>* values = nullptr;
 };
 
@@ -21,15 +21,16 @@ struct Group {
   std::string id, title, unit;
   int height_px = 180;
   bool logic = false;  ///< strips of zeros and ones, one below the other
-  bool lanes = false;  ///< one curve above the other, each around its own zero: what would hide each other
-  std::string quantity{};  ///< "speed", "angle", "torque", "current": what the reader may choose the unit of
+  bool lanes = false;  ///< one curve above the other, each with its own zero, because they would hide each
+                       ///< other
+  std::string quantity{};  ///< "speed", "angle", "torque", "current": the reader may choose its unit
   std::vector<Curve> curves{};
 };
 
 struct Groups {
   std::vector<Group> charts;
-  std::vector<double> angle_deg;            ///< of the shaft, counted over turns; empty where not recorded
-  std::deque<std::vector<double>> derived;  ///< columns made here (Hall bits); a deque keeps their addresses
+  std::vector<double> angle_deg;            ///< of the shaft, counted over turns; empty if not recorded
+  std::deque<std::vector<double>> derived;  ///< computed columns (Hall bits); a deque keeps their addresses
 };
 
 /// The controlled quantity comes first. Charts without a curve that holds a number are left out.

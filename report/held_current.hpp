@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which current a report looks at: what the drive holds, or the largest of the phases where none of the columns is that.
+// Chooses the current that a report shows: the controlled one, or the largest of the phases if no column holds
+// that.
 #pragma once
 #include <optional>
 #include <vector>
@@ -9,17 +10,17 @@
 
 namespace report {
 
-/// Of a field-oriented drive that across the magnet, else of the driven pair. By the drive and not by the columns: a trace of every event
-/// has those of all drives.
+/// For a field-oriented drive the current across the magnet, else that of the driven pair. The drive decides,
+/// not the columns, because a trace of every event has the columns of all drives.
 struct HeldCurrent {
   const char *title, *column, *reference, *label, *reference_label;
-  /// The column i_m is of the pair that suits the rotor, and the drive may have another one on: the largest |i| of the phases, and the
-  /// magnitude of the reference. No column then.
+  /// The largest |i| of the phases, and the magnitude of the reference, without a column. Needed because the
+  /// column i_m is that of the pair which suits the rotor, while the drive may have another pair on.
   bool of_phases = false;
 };
 HeldCurrent held_by(const sixstep::study::Scenario& scenario);
 
-/// At each row; empty where the trace does not have it.
+/// One value per row; empty if the trace lacks the column.
 std::optional<std::vector<double>> held_values(const sixstep::study::Trace& trace, const HeldCurrent& held);
 std::optional<std::vector<double>> asked_values(const sixstep::study::Trace& trace, const HeldCurrent& held);
 

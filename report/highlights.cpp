@@ -15,10 +15,10 @@ using sixstep::control::Mode;
 using sixstep::study::Scenario;
 using sixstep::study::Trace;
 
-constexpr double near = 0.1;  ///< of a step: its goal's neighbourhood, wider than most ripple
+constexpr double near = 0.1;  ///< part of a step: the goal's neighbourhood, wider than most ripple
 constexpr double degrees_per_rad = 180.0 / 3.14159265358979323846;
 
-/// What is wanted and what is, in one unit: signal = column * factor.
+/// The reference and the measured signal in one unit: signal = column * factor.
 struct Loop {
   const char *of, *unit, *reference, *signal;
   double factor;
@@ -55,25 +55,26 @@ std::vector<Change> changes_of(const Values& reference, double start) {
   return out;
 }
 
-/// Whether a six-step drive turns its rotor by a current alone until it sees it: its speed's reference is 0 up to the hand-over, and again
-/// where it has lost the rotor.
+/// Whether a six-step drive starts its rotor open-loop by a current alone: the speed reference is then 0 up to
+/// the hand-over, and again after it has lost the rotor.
 bool starts_blindly(const Scenario& s) {
   return s.control.mode == Mode::speed && s.control.drive == sixstep::study::FirmwareKind::sensorless &&
          s.control.sensorless.commutates != sixstep::study::Commutates::hall;
 }
 
-/// A field-oriented drive with an observer does so, too. There the loop has much to do from the speed on that it takes over.
+/// As starts_blindly(), for a field-oriented drive with an observer. There the loop has a real step from the
+/// speed at which it takes over.
 bool takes_over_turning(const Scenario& s) {
   return s.control.mode == Mode::speed && s.control.drive == sixstep::study::FirmwareKind::field &&
          s.control.field.angle == sixstep::study::FieldAngle::observer;
 }
 
-/// How large a step a change is to who looks for one.
+/// The size of a change as a step; 0 for changes from and to 0 in a blind start.
 double step_size(const Change& change, bool blind_start) {
   return blind_start && (change.from == 0.0 || change.to == 0.0) ? 0.0 : change.size();
 }
 
-/// The whole run, where nothing is asked for.
+/// The whole run, if there is no setpoint.
 Step from_start(const Values& time, const Scenario& scenario) {
   return {.of = "start",
           .unit = "",
@@ -113,11 +114,11 @@ std::optional<Step> largest_step(const Trace& trace, const Scenario& scenario) {
       changes, {}, [blind](const Change& change) { return step_size(change, blind); });
   if (largest == changes.end() || step_size(*largest, blind) == 0.0) return from_start(*time, scenario);
   const std::size_t next = largest + 1 == changes.end() ? time->size() - 1 : (largest + 1)->row;
-  std::size_t outside = largest->row;  // last row away from the goal
+  std::size_t outside = largest->row;  // last row outside the goal's neighbourhood
   for (std::size_t n = largest->row; n <= next; ++n)
     if (std::abs((*signal)[n] * loop->factor - largest->to) > near * largest->size()) outside = n;
   const double at = (*time)[largest->row], end = (*time)[next];
-  // A reference that moves all the time has no step that anything could be seen in.
+  // A reference that changes all the time has no step that could be seen.
   constexpr double least_periods = 3.0;
   if (end - at < least_periods * scenario.pwm.period_s && largest + 1 != changes.end())
     return from_start(*time, scenario);
@@ -135,7 +136,7 @@ std::optional<Step> largest_step(const Trace& trace, const Scenario& scenario) {
 
 namespace {
 
-/// Of the line through the rows, over a window: integrals of y and y^2, and between which values it lies.
+/// Integrals over a window of the line through the rows: y and y^2, and its lowest and highest value.
 struct Line {
   double integral = 0.0, square = 0.0, low = INFINITY, high = -INFINITY;
 };
@@ -189,7 +190,7 @@ std::optional<StepCurrent> step_current(const Trace& trace, const Step& step) {
 
 namespace {
 
-/// Of a value that is held from one row to the next: how long it was at the bound or beyond.
+/// How long a value that is held between rows was at the bound or beyond it.
 double seconds_at(const Values& time, const Values& held, double bound, double from_s) {
   double sum = 0.0;
   for (std::size_t n = 1; n < time.size(); ++n)
@@ -198,14 +199,14 @@ double seconds_at(const Values& time, const Values& held, double bound, double f
   return sum;
 }
 
-/// What is asked of the bus, of all it has: a pair's duty, or of three legs the vector against the circle that they reach at
-/// every angle, bus over sqrt 3.
+/// The used part of the bus: a pair's duty, or for three legs the vector relative to the circle that they reach
+/// at every angle, bus over sqrt 3.
 std::optional<Values> part_of_bus(const Trace& trace, const Scenario& scenario) {
   const Values *d = find_column(trace, "v_d_V"), *q = find_column(trace, "v_q_V"),
                *bus = find_column(trace, "bus_V"), *duty = find_column(trace, "duty");
   if (scenario.control.drive != sixstep::study::FirmwareKind::field)
     return duty ? std::optional(*duty) : std::nullopt;
-  // Each state of a finite set is the whole bus, or none of it.
+  // A finite set's states use the whole bus or none of it.
   if (!d || !q || !bus || scenario.control.field.law == sixstep::study::FieldLaw::finite_set)
     return std::nullopt;
   Values part(d->size());
@@ -231,7 +232,7 @@ std::optional<Held> held_back(const Trace& trace, const Scenario& scenario,
            .limit_A = sixstep::study::current_limit_A(scenario, outcome.motor)};
   for (const double d : *duty) out.largest_duty = std::max(out.largest_duty, std::abs(d));
   const auto* reference = find_column(trace, "i_ref_A");
-  // The controller's number may be a float or a fixed one: as near as its coarsest step, 2^-14 of full scale.
+  // The controller's number may be float or fixed-point: compare within the coarsest step, 2^-14 of full scale.
   if (reference && out.limit_A)
     out.limit_s = seconds_at(*time, *reference, *out.limit_A * (1.0 - 1.0 / 8192), from_s);
   return out;

@@ -50,7 +50,7 @@ std::string escaped(std::string_view text) { return text::markup_text(text, text
 
 namespace {
 
-/// K_t, I_stall, tau_m: one underscore behind a short name. resistance_ohm is a key and stays as it is typed.
+/// K_t, I_stall, tau_m: one underscore behind a short name. resistance_ohm is a key and stays as typed.
 std::string word_with_subscript(std::string_view word) {
   constexpr std::size_t longest_name = 3;
   const std::size_t cut = word.find('_');
@@ -106,7 +106,7 @@ std::string typeset(std::string_view formula) {
 }
 
 std::string script_safe(std::string_view json) {
-  // In JSON a '<' stands only inside strings, where \u003c means the same.
+  // In JSON a '<' occurs only inside strings, where \u003c means the same.
   const std::string shown = text::visible(json, text::Lines::kept);
   std::string out;
   out.reserve(shown.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Text on its way into a page: what makes it harmless there, and how a page's gaps are filled.
+// Escapes text for a page and fills in a page's gaps.
 #pragma once
 #include <cstdint>
 #include <initializer_list>
@@ -13,30 +13,29 @@ namespace report {
 /// For element content and quoted attributes.
 std::string escaped(std::string_view text);
 
-/// The same, with "T_reg" set as T and a subscript: a letter, an underscore and what follows up to the next
-/// sign.
+/// escaped(), with "T_reg" as T and a subscript: a letter, an underscore and the letters up to the next sign.
 std::string with_subscripts(std::string_view text);
 
-/// A formula as typed, "w0 sqrt(1 - xi^2)", as printed: ω₀ √(1 − ξ²). Words are left alone.
+/// A typed formula, "w0 sqrt(1 - xi^2)", as printed: ω₀ √(1 − ξ²). Words stay as they are.
 std::string typeset(std::string_view formula);
 
-/// JSON on its way into <script>: "</script>" and "<!--" must not be seen by the HTML parser.
+/// JSON for <script>: the HTML parser must not see "</script>" and "<!--".
 std::string script_safe(std::string_view json);
 
 std::string base64(std::span<const std::uint8_t> bytes);
-/// Little-endian, whatever this machine's order is.
+/// Little-endian on every machine.
 std::string base64(std::span<const float> values);
 std::string base64(std::span<const double> values);
 
-/// A table's cell with a number in it.
+/// A table's cell that holds a number.
 std::string number_cell(const std::string& html);
-/// Its first row; a name that begins with # stands over numbers.
+/// A table's first row; a name that begins with # stands over numbers.
 std::string table_head(std::initializer_list<std::string_view> names);
 
 using Gap = std::pair<std::string_view, std::string_view>;
 
-/// Replaces each {{name}} of the page once; what is filled in is never searched again, so no content can
-/// break it.
+/// Replaces each {{name}} of the page once. The inserted text is not searched again, so that no content can
+/// break the page.
 std::string filled(std::string_view page, std::initializer_list<Gap> gaps);
 
 }  // namespace report

@@ -27,7 +27,7 @@ using sixstep::analysis::EdgePassage;
 using sixstep::analysis::HallIdentity;
 using sixstep::analysis::IdentifiedEdge;
 
-/// 0, 1, 2: the pin that changes.
+/// The pin that changes: 0, 1 or 2.
 std::size_t pin_of(const IdentifiedEdge& e) {
   return 2 - static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(e.before ^ e.after)));
 }
@@ -54,13 +54,13 @@ std::string facts(const HallIdentity& f) {
   return out;
 }
 
-/// Where edges of one kind were passed, over time; a colour for each pin.
+/// Where edges of one kind were passed, over time; one colour per pin.
 SvgChart passages(const HallIdentity& f, bool rising) {
   SvgChart chart{.title = rising ? "Rising edges, as they were passed" : "Falling edges, as they were passed",
                  .x_label = "s",
                  .y_label = "electrical degrees off their place",
                  .levels = {0.0}};
-  // Without voltages the level is nobody's: that of all edges is taken for zero.
+  // Without voltages the absolute level is unknown: the mean of all edges is taken as zero.
   double level = 0.0, count = 0.0;
   for (const EdgePassage& p : f.passages)
     if (!f.place && !p.left_out) level += p.place_deg - f.edges[p.edge].own_deg.value, count += 1.0;

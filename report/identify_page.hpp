@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Identified Hall probes as one HTML file: where each edge was passed, and how the rotor turned.
+// Writes identified Hall probes as one HTML file: where each edge was passed, and how the rotor turned.
 #pragma once
 #include <string>
 
@@ -8,9 +8,9 @@
 namespace report {
 
 struct IdentifyPage {
-  std::string name;  ///< of the log
+  std::string name;  ///< the log's
   const sixstep::analysis::HallIdentity& found;
-  std::string command;  ///< what makes this page again
+  std::string command;  ///< the command that makes this page again
   std::string version;
 };
 

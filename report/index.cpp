@@ -28,7 +28,7 @@ std::string linked(const IndexEntry& entry) {
 
 std::string anchor(std::size_t place) { return fmt::format("e{}", place + 1); }
 
-/// The requirement that is nearest to its limit, and how near.
+/// The requirement nearest to its limit, and its distance.
 std::string closest_cell(const sixstep::study::Outcome& outcome) {
   const sixstep::study::Verdict* tightest = nullptr;
   for (const auto& v : outcome.verdicts)
@@ -38,7 +38,7 @@ std::string closest_cell(const sixstep::study::Outcome& outcome) {
                      *room(*tightest) < 0.0 ? "not met" : escaped(room_words(*tightest)));
 }
 
-/// The comparison that is furthest off, in parts of what the other says.
+/// The comparison with the largest relative deviation.
 std::string furthest(const sixstep::study::Outcome& outcome) {
   const sixstep::study::ComparisonResult* worst = nullptr;
   const auto part = [](const auto& c) { return std::abs(c.measured / c.value - 1.0); };
@@ -50,7 +50,7 @@ std::string furthest(const sixstep::study::Outcome& outcome) {
                      with_subscripts(worst->figure));
 }
 
-/// All on one screen: a line each, with what is nearest to going wrong.
+/// All experiments on one screen: one line each, with the tightest requirement.
 std::string overview(const std::vector<IndexEntry>& entries) {
   std::string rows;
   for (std::size_t n = 0; n < entries.size(); ++n) {
@@ -91,7 +91,7 @@ std::string experiment(const IndexEntry& entry, std::size_t place) {
   return html + "</section>\n";
 }
 
-/// Whoever opens the page after a failure wants to go there at once.
+/// Links to the failed experiments, for readers who open the page after a failure.
 std::string failed_list(const std::vector<IndexEntry>& entries) {
   std::string items;
   for (const IndexEntry& entry : entries)
@@ -99,7 +99,7 @@ std::string failed_list(const std::vector<IndexEntry>& entries) {
   return items.empty() ? items : "<ul class=\"failed\">" + items + "</ul>\n";
 }
 
-/// What was cut short, and what was never begun.
+/// Interrupted runs, and runs that were never begun.
 std::string unfinished_section(const std::vector<IndexEntry>& entries) {
   std::string items;
   for (const IndexEntry& entry : entries)
@@ -110,7 +110,7 @@ std::string unfinished_section(const std::vector<IndexEntry>& entries) {
   return items.empty() ? items : "<h2>Not finished</h2>\n<ul class=\"unfinished\">" + items + "</ul>\n";
 }
 
-/// Of all, or of those that are finished.
+/// The verdict of all experiments, or of the finished ones.
 Standing standing_of(const std::vector<IndexEntry>& entries) {
   const auto finished = std::ranges::count_if(entries, [](const IndexEntry& e) { return e.finished; });
   const auto passed =

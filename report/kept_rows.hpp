@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rows of a run while it goes on, for its report, in bounded memory: every event, until they would take
-// more. Then the older ones give way to an envelope, which keeps each column's lowest and highest values; the
-// latest and those of the largest step stay.
+// Keeps the rows of a run for its report in bounded memory. Every event is kept until memory is full. Then an
+// envelope, with each column's lowest and highest values, replaces the older rows; the latest ones and those of
+// the largest step stay.
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -14,16 +14,16 @@
 
 namespace report {
 
-/// What the rows of a report take at most. With all that is made of them the program stays below 256 MiB.
+/// Most memory for the rows of a report. With everything made from them the program stays below 256 MiB.
 inline constexpr std::size_t most_row_bytes = 160'000'000;
 
 class KeptRows {
  public:
-  /// The scenario must live as long. Where several reports are made at once, each has its part of the memory.
+  /// The scenario must live as long. Reports made at the same time share the memory.
   explicit KeptRows(const sixstep::study::Scenario& scenario, std::size_t most_bytes = most_row_bytes);
 
   void add(sixstep::study::Row row);
-  /// Of all columns at every event; `whole` says where an envelope stands.
+  /// All columns at every event; `whole` gives the intervals without an envelope.
   const sixstep::study::Trace& trace() const { return trace_; }
 
  private:
@@ -36,12 +36,12 @@ class KeptRows {
   const sixstep::study::Scenario* scenario_;
   sixstep::study::Trace trace_;
   std::size_t most_;              // rows
-  std::size_t thinned_ = 0;       // rows of envelope in front
+  std::size_t thinned_ = 0;       // rows of the envelope at the front
   std::optional<Interval> step_;  // kept whole among them
 };
 
-/// What is told where the rows of a run are more than its report keeps: before the run, as far as can be
-/// said, and after it. Empty where they are not.
+/// The message that the report will not keep all rows: before the run an estimate, after it the fact. Empty if
+/// it keeps all.
 std::string rows_foretold(const sixstep::study::Scenario& scenario, std::size_t most_bytes = most_row_bytes);
 std::string rows_told(const sixstep::study::Trace& trace);
 

@@ -13,11 +13,11 @@
 namespace report {
 namespace {
 
-constexpr double highest_count = 65533.0;  // with one to spare for a zero that is a whole count
+constexpr double highest_count = 65533.0;  // one count is spare, for a zero that is a whole count
 constexpr std::uint16_t no_number = 65535;
 
-/// How zlib goes about it. Few bytes of a run come twice in the lower planes of its times: there it only counts how often
-/// each comes. A page that is too large at the quick level may still fit at the thorough one, which takes thrice the time.
+/// zlib's settings. The lower planes of a run's times hardly repeat; there only the frequency of bytes is used.
+/// A page that is too large at the quick level may fit at the thorough one, which takes three times as long.
 struct Effort {
   int level;
   bool count_times;
@@ -25,13 +25,13 @@ struct Effort {
 constexpr Effort quick{4, true}, thorough{6, false};
 constexpr std::size_t time_planes = sizeof(std::uint32_t), noisy_time_planes = 3;
 
-/// zlib's stream of plane after plane.
+/// A zlib stream of plane after plane.
 class Deflated {
  public:
   Deflated(std::size_t rows, std::size_t columns, const Effort& effort, std::size_t most_bytes)
       : effort_(effort), most_(most_bytes) {
     constexpr std::size_t to_change =
-        64;  // bytes, at most, where a plane is gone about otherwise than the one before
+        64;  // bytes at most when a plane's settings differ from the previous plane's
     planes_ = time_planes + 2 * columns;
     const std::size_t room = compressBound(planes_ * rows) + planes_ * to_change;
     bytes_ = std::make_unique_for_overwrite<Bytef[]>(room);
@@ -67,8 +67,8 @@ class Deflated {
   bool sound_ = true, counting_ = false;
 };
 
-/// Bytes of equal weight side by side: the high ones of small differences are zeros, which compress to
-/// nothing.
+/// Puts bytes of equal weight side by side: the high bytes of small differences are zeros, which compress to
+/// almost nothing.
 template <class Count>
 void add_planes(Deflated& out, const std::vector<Count>& counts) {
   const std::size_t rows = counts.size();
@@ -101,7 +101,7 @@ void add_times(Deflated& bytes, const std::vector<double>& time, PackedRows& out
 
 bool finite(double v) { return v - v == 0.0; }
 
-/// Half up, as std::lround() of what is not negative.
+/// Rounds half up, like std::lround() for numbers that are not negative.
 std::uint16_t nearest(double count) {
   const auto whole = static_cast<std::uint16_t>(count);
   return static_cast<std::uint16_t>(whole + (count - whole >= 0.5 ? 1 : 0));
@@ -112,7 +112,7 @@ void add_column(Deflated& bytes, const std::vector<double>& values, PackedRows& 
   for (const double v : values)
     if (finite(v)) low = std::min(low, v), high = std::max(high, v);
   PackedRows::Column column{low <= high ? low : 0.0, low < high ? (high - low) / highest_count : 0.0};
-  // Zero stays zero: a current that has gone out must not come back as a rounding.
+  // Zero stays exactly zero: a current that has ended must not become a rounding error.
   if (low < 0.0 && high > 0.0) column.low = -column.step * std::ceil(-low / column.step);
   std::vector<std::uint16_t> counts(values.size());
   for (std::size_t n = 0; n < values.size(); ++n) {
@@ -140,7 +140,7 @@ std::optional<PackedRows> packed_with(const Effort& effort, const std::vector<do
 std::optional<PackedRows> packed_rows(const std::vector<double>& time,
                                       const std::vector<const std::vector<double>*>& columns,
                                       std::size_t most_bytes) {
-  // Not even a tenth of a byte a value: no use to begin.
+  // Even at a tenth of a byte per value it would be too large.
   if (time.size() < 2 || time.size() * columns.size() / 10 > most_bytes) return std::nullopt;
   auto packed = packed_with(quick, time, columns, most_bytes);
   return packed ? packed : packed_with(thorough, time, columns, most_bytes);

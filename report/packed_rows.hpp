@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every row of a run small enough to send: for the close looks at what an envelope stands for otherwise.
+// Packs every row of a run small enough for the page, for close-ups where an envelope replaces the rows
+// otherwise.
 #pragma once
 #include <optional>
 #include <string>
@@ -7,8 +8,8 @@
 
 namespace report {
 
-/// Columns in 65535 steps of their range, times in whole picoseconds (more where a gap is longer than 4.29
-/// ms), both as differences from row to row, byte by byte of equal weight, compressed (zlib).
+/// Columns in 65535 steps of their range, times in whole picoseconds (a coarser unit if a gap exceeds 4.29 ms).
+/// Both are stored as differences from row to row, in planes of bytes of equal weight, compressed by zlib.
 struct PackedRows {
   struct Column {
     double low = 0.0, step = 0.0;  ///< value = low + step * count; the count 65535 is "no number"
@@ -19,7 +20,7 @@ struct PackedRows {
   std::string bytes{};  ///< compressed: 4 planes of the times, then 2 of each column
 };
 
-/// Empty where the compressed rows are larger than `most_bytes`, or nothing can be compressed.
+/// Empty if the compressed rows exceed `most_bytes`, or if no compression is available.
 std::optional<PackedRows> packed_rows(const std::vector<double>& time,
                                       const std::vector<const std::vector<double>*>& columns,
                                       std::size_t most_bytes);

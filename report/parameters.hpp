@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the run was made of: the sheet's values with frame and source, the model derived from them, the gains.
+// Writes the inputs of a run: the sheet's values with frame and source, the model derived from them, the gains.
 #pragma once
 #include <string>
 
@@ -12,7 +12,7 @@ std::string sheet_section(const sixstep::design::Sheet& sheet);
 std::string model_section(const sixstep::design::MotorModel& motor);
 std::string setup_section(const sixstep::study::Scenario& scenario);
 std::string gains_section(const sixstep::study::Outcome& outcome);
-/// How a design's numbers come about: symbol, formula, value.
+/// The derivation of a design's numbers: symbol, formula, value.
 std::string derivation_table(const std::vector<sixstep::design::DerivationStep>& steps, bool linear);
 
 }  // namespace report

@@ -51,7 +51,7 @@ json plan_json(const PagePlan& plan, std::size_t most) {
            {"repeats", plan.repeats},
            {"grid", plan.story.plan.sampling == analysis::Sampling::grid}};
   out["states"] = base64(std::span<const std::uint8_t>(rows.states));
-  // Numbers that only count are not worth a column.
+  // Consecutive numbers need no column.
   bool counts = true;
   for (std::size_t n = 0; n < rows.numbers.size(); ++n)
     counts = counts && rows.numbers[n] == static_cast<double>(n * rows.every);

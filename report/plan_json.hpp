@@ -7,7 +7,7 @@
 
 namespace report {
 
-/// What the page's scripts draw from.
+/// The JSON from which the page's scripts draw.
 std::string plan_data(const std::vector<PagePlan>& plans);
 
 }  // namespace report

@@ -32,14 +32,14 @@ bool asks(const PagePlan& plan) {
                      [](const analysis::FigureColumn& f) { return f.required; });
 }
 
-/// The plan's name in its colour, where there are two.
+/// The plan's name in its colour, if there are two plans.
 std::string tag(const PlanPageInput& in, std::size_t p) {
   if (in.plans.size() < 2) return "";
   return fmt::format("<span class=\"run\" style=\"border-color: var(--{})\">{}</span> ", plan_colours[p],
                      escaped(in.plans[p].story.name));
 }
 
-/// The same on a line of its own, over what is this plan's.
+/// The same on a line of its own, above this plan's part.
 std::string whose(const PlanPageInput& in, std::size_t p) {
   return in.plans.size() < 2 ? "" : "<p class=\"whose\">" + tag(in, p) + "</p>\n";
 }
@@ -73,7 +73,7 @@ std::string plan_fact(std::string_view name, const std::string& html) {
   return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, html);
 }
 
-/// Numbers with prefix and unit, as the terminal has them; words as they are.
+/// Numbers with prefix and unit, as on the terminal; words as they are.
 std::string words_of(const analysis::Axis& axis, const std::string& unit) {
   std::string words;
   for (const std::string& value : axis.values) {
@@ -155,7 +155,7 @@ std::string statistics(const PlanPageInput& in) {
          "<tbody>\n" + rows + "</tbody></table></div>\n";
 }
 
-/// Figures that several plans have are drawn into one picture, over one axis.
+/// A figure of several plans, drawn into one picture over one axis.
 struct Shared {
   const analysis::FigureColumn* column;
   Span span;
@@ -208,7 +208,7 @@ std::string for_each_plan(const PlanPageInput& in, Section section, bool tagged 
   return html;
 }
 
-/// What the drawings leave out of very many runs.
+/// The note that the drawings show only a part of very many runs.
 std::string left_out(const PlanPageInput& in) {
   for (const PagePlan& plan : in.plans)
     if (plan.story.series.runs > most_rows_on_a_page / in.plans.size())

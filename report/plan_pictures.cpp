@@ -18,7 +18,7 @@ namespace analysis = sixstep::analysis;
 constexpr double plot_width = 360, plot_height = 150, plot_left = 12, plot_right = 12, plot_top = 18,
                  plot_bottom = 24;
 
-/// The histogram's own axis: the span, and a limit that lies not far from it.
+/// The histogram's axis: the span, and a limit that is near it.
 struct Reach {
   double low, high;
   double at(double v) const {
@@ -47,7 +47,7 @@ Reach reach_of(const analysis::FigureColumn& f, const Span& span) {
   return {reach.low - margin, reach.high + margin};
 }
 
-/// Of all runs of its plan: so plans of unlike size compare.
+/// The share of all runs of its plan, so that plans of different size compare.
 double share(const Histogram& h, std::size_t count) {
   const std::size_t all = std::accumulate(h.counts.begin(), h.counts.end(), h.never + h.missing);
   return static_cast<double>(count) / static_cast<double>(std::max<std::size_t>(all, 1));
@@ -69,7 +69,7 @@ std::string bars(const Reach& reach, const Span& span, const DrawnHistogram& dra
   return fmt::format("<path d=\"{}\" style=\"fill: var(--{})\"/>", path, drawn.colour);
 }
 
-/// Five or so round numbers under the axis.
+/// About five round numbers under the axis.
 std::string ticks(const Reach& reach, const Scale& scale) {
   const double rough = (reach.high - reach.low) * scale.factor / 5,
                power = std::pow(10.0, std::floor(std::log10(rough)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What needs no script of a plan's page: how figures are distributed, and which key each hangs on.
+// Draws the parts of a plan's page that need no script: distributions of figures, and the influence of each key.
 #pragma once
 #include <optional>
 #include <string>
@@ -18,11 +18,12 @@ struct DrawnHistogram {
   const Histogram& histogram;
 };
 
-/// A <figure>: bars as high as their share of a plan's runs, from one end of the span to the other, the limits that lie near, and a line on what is no value.
+/// A <figure>: bars with each bin's share of a plan's runs, over the span, the limits nearby, and a line on runs
+/// without a value.
 std::string histogram_picture(const sixstep::analysis::FigureColumn& figure, const Span& span,
                               const std::vector<DrawnHistogram>& drawn);
 
-/// Sobol indices of each figure as bars with their intervals; empty where the plan is not laid out for them.
+/// Sobol indices of each figure as bars with their intervals; empty if the plan is not sampled for them.
 std::string index_section(const PagePlan& plan);
 
 }  // namespace report

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a page takes from a plan's rows: columns of numbers to draw from, how each figure is distributed, the runs to look at first.
+// Reads a plan's rows for a page: columns of numbers for the drawings, the distribution of each figure, and the
+// runs to look at first.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +14,7 @@
 
 namespace report {
 
-/// How a run ended, as its colour tells it.
+/// How a run ended; determines its colour.
 enum class RunState : std::uint8_t { holds, misses, fault, refused };
 
 RunState state_of(const sixstep::analysis::RunRecord& record);
@@ -22,23 +23,24 @@ struct PlanColumn {
   enum class Kind : std::uint8_t { key, strayed, figure } kind = Kind::key;
   std::string name, unit;
   bool logarithmic = false;
-  bool required = false;  ///< of a figure, between these
+  bool required = false;  ///< a figure with a requirement, between these limits
   std::optional<double> min{}, max{};
-  std::vector<std::string> words{};  ///< of a key that is not a number; its values count through them
-  std::vector<float> values{};       ///< a row each; NaN where there is none
+  std::vector<std::string> words{};  ///< of a key whose values are no numbers; its values are indices into
+                                     ///< these
+  std::vector<float> values{};       ///< one per row; NaN: none
 };
 
 struct PlanRows {
-  std::size_t every = 1;  ///< each so manieth run is kept
+  std::size_t every = 1;  ///< every n-th run is kept
   std::vector<double> numbers;
-  std::vector<std::uint8_t> states;  ///< a RunState each
-  std::vector<PlanColumn> columns;   ///< keys, strayed values, figures
+  std::vector<std::uint8_t> states;  ///< a RunState per row
+  std::vector<PlanColumn> columns;   ///< keys, values of the spread, figures
 };
 
 /// At most `most` rows, evenly chosen.
 PlanRows plan_rows(const text::PlanStory& story, std::size_t most);
 
-/// What finite values a figure has, from least to greatest; low > high where there is none.
+/// The finite values of a figure, from least to greatest; low > high if there is none.
 struct Span {
   double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
   bool empty() const { return !(low <= high); }
@@ -46,12 +48,13 @@ struct Span {
   void include(const Span& other);
 };
 
-/// Of all runs, a figure each.
+/// Over all runs, one per figure.
 std::vector<Span> figure_spans(const text::PlanStory& story);
 
 inline constexpr std::size_t histogram_bins = 32;
 
-/// Runs by the value of a figure, between the ends of a span; beside them those that never came to one, and those without.
+/// Runs by the value of a figure, over a span; beside them the runs in which its event never came, and those
+/// without a value.
 struct Histogram {
   std::vector<std::size_t> counts = std::vector<std::size_t>(histogram_bins);
   std::size_t never = 0, missing = 0;

@@ -11,15 +11,15 @@
 namespace report {
 namespace {
 
-/// All changes where they are few enough to carry; a page must stay small enough to send. Where every row
-/// comes along, it says what conducts from there on.
-/// Whether the phases change their legs while the run goes on: then no one drawing is right.
+/// Whether the phases change their legs during the run, so that no single drawing is right.
 bool rewires(const sixstep::study::Scenario& s) {
   return std::any_of(s.at.begin(), s.at.end(), [&](const sixstep::study::At& at) {
     return at.bridge.phases != sixstep::study::AtOrder::same;
   });
 }
 
+/// All changes of conduction if they are few enough for a page. `with_rows`: only the end, because the packed rows
+/// have the codes.
 json conduction_json(const Conduction& c, bool with_rows) {
   constexpr std::size_t most = 400000;
   if (c.code.empty()) return nullptr;
@@ -30,8 +30,8 @@ json conduction_json(const Conduction& c, bool with_rows) {
           {"end", c.end_s}};
 }
 
-/// What conducts from each row on: a column that costs next to nothing, as gates and currents tell when it
-/// changes.
+/// The conduction code at each row: a column that takes almost no space, because gates and currents determine
+/// its changes.
 std::vector<double> by_row(const Conduction& c, const std::vector<double>& time) {
   std::vector<double> codes;
   codes.reserve(time.size());
@@ -43,7 +43,7 @@ std::vector<double> by_row(const Conduction& c, const std::vector<double>& time)
   return codes;
 }
 
-/// Every row of every curve, and behind them of what conducts; null where that is too much to send.
+/// Every row of every curve, and behind the curves the conduction codes; null if that is too large for the page.
 json every_row(const std::vector<double>& time, const Groups& groups, const Conduction& conducts,
                std::size_t most_bytes) {
   std::vector<const std::vector<double>*> columns;
@@ -97,7 +97,7 @@ std::string plot_data(const sixstep::study::Trace& trace, const sixstep::study::
   const json every = time->size() > size.full && trace.whole.empty()
                          ? every_row(*time, groups, conducts, size.packed_bytes)
                          : json();
-  // Where every row is at hand, an envelope needs no close-ups.
+  // If every row is in the page, an envelope needs no close-ups.
   const std::vector<Interval> keep =
       every.is_null() ? kept(windows, *time, size.full) : std::vector<Interval>();
   if (!every.is_null()) out["rows"] = json::array({every});
@@ -111,7 +111,7 @@ std::string plot_data(const sixstep::study::Trace& trace, const sixstep::study::
     out["charts"].push_back(std::move(chart));
   }
   if (!groups.angle_deg.empty()) {
-    // It turns smoothly: between 2000 rows a straight line is as good as the drawing.
+    // The angle is smooth: straight lines between 2000 rows are good enough for the drawing.
     const Thinned rows = thinned(*time, {groups.angle_deg}, {}, 2000, 2000);
     out["angle"] = {{"axis", axes.of(*time, rows.rows)},
                     {"data", packed<float>(groups.angle_deg, rows.rows)}};

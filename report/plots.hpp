@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Trace -> the JSON that report.js draws from.
+// Writes a trace as the JSON from which report.js draws.
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -11,12 +11,12 @@
 
 namespace report {
 
-/// Rows per chart: above `full`, an envelope of at most `cap` rows, and beside it every row, packed; where
-/// that is too much to send, every row of the close-ups.
+/// Rows per chart. Above `full`: an envelope of at most `cap` rows, and every row packed; if that is too large,
+/// every row of the close-ups.
 struct PlotSize {
   std::size_t cap = 6000;
   std::size_t full = 16000;
-  std::size_t packed_bytes = 5'000'000;  ///< of every row, where they are more; text makes it a third more
+  std::size_t packed_bytes = 5'000'000;  ///< limit of all packed rows; base64 adds a third
 };
 
 /// {"run":[t0,t1], "windows":[..], "axes":[base64 float64..], "charts":[{.., "curves":[{.., "data": base64

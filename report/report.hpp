@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run as one HTML file that opens anywhere, without a network: verdict, linked charts, parameters with
-// their sources, gains with their derivation, energy book.
+// Writes a run as one HTML file that needs no network: verdict, linked charts, parameters with their sources,
+// gains with their derivation, energy balance.
 #pragma once
 #include <string>
 #include <string_view>
@@ -15,8 +15,8 @@ namespace report {
 struct ReportInput {
   const sixstep::study::Scenario& scenario;
   const sixstep::study::Outcome& outcome;
-  const sixstep::study::Trace& trace;  ///< of every event, as KeptRows has it; NaN columns are left out
-  std::string command;                 ///< what makes this report again
+  const sixstep::study::Trace& trace;  ///< of every event, as KeptRows has it; columns of NaN are left out
+  std::string command;                 ///< the command that makes this report again
   std::string version;
   std::string scenario_text;  ///< the file as written
 };
@@ -26,13 +26,13 @@ std::string render(const ReportInput& input);
 
 struct IndexEntry {
   std::string title;
-  std::string file;                        ///< of the report, relative to the index; empty: there is none
-  const sixstep::study::Outcome* outcome;  ///< null: it came to none
-  bool finished = true;                    ///< false: cut short, or never begun; nothing is judged then
+  std::string file;                        ///< of the report, relative to the index; empty: none
+  const sixstep::study::Outcome* outcome;  ///< null: none
+  bool finished = true;                    ///< false: interrupted or never started; it is not judged
 };
 
-/// The table of all verdicts of one command, with links to the reports. Where not all experiments are
-/// finished it says so first, and draws no sum of them.
+/// The table of all verdicts of one command, with links to the reports. If an experiment is not finished, it
+/// says so first and gives no total.
 std::string render_index(const std::vector<IndexEntry>& entries, std::string_view command,
                          std::string_view version);
 

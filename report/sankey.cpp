@@ -15,31 +15,31 @@ namespace {
 
 using sixstep::study::EnergyBook;
 
-// Of the drawing, in its own pixels. A label has two lines, and no two may touch. Above all there is room for
+// Sizes of the drawing in its own pixels. A label has two lines, and labels must not touch. The top has room for
 // the nodes' names.
 constexpr double sankey_width = 940, full = 130, label_height = 36, sankey_gap = 10, sankey_margin = 20,
                  sankey_bar = 10;
 constexpr double source_x = 190, first_x = 340, second_x = 560, sink_x = 750;
 constexpr double text_height = 18;
-constexpr double thinnest = 1.0;  // what is there is seen
-constexpr double least = 1e-4;    // of the largest: less is a row of the table below and no line here
+constexpr double thinnest = 1.0;  // every flow is visible
+constexpr double least = 1e-4;    // relative to the largest: smaller flows are only in the table below
 
-/// What flows in at a node, or out of it.
+/// Energy that enters or leaves a node.
 struct Flow {
   const char* name;
   const char* style;  ///< class: "passed", "heat", "kept"
   double joule;
-  double y = 0.0;  ///< of its place in the outer column: the middle
+  double y = 0.0;  ///< middle of its place in the outer column
 };
 
-/// Bridge and windings, or rotor and shaft: what goes in comes out.
+/// Bridge and windings, or rotor and shaft: the inflow equals the outflow.
 struct Node {
   const char* name;
   std::vector<Flow> in, out;
   double y = 0.0;
 };
 
-/// A term of a balance whose sum is zero: giving where it is above zero, with its name for either.
+/// Adds a term of a balance whose sum is zero: a source if positive, else a sink, with a name for either.
 void add(Node& node, double joule, const char* giving, const char* given_style, const char* taking,
          const char* taken_style) {
   if (joule > 0.0) node.in.push_back({giving, given_style, joule});
@@ -52,7 +52,7 @@ double sum(const std::vector<Flow>& flows) {
   return total;
 }
 
-/// From left to right: what stands first hands `between` to the other.
+/// From left to right: the first node passes `between` to the second.
 struct Drawing {
   Node first, second;
   double between = 0.0;
@@ -79,7 +79,7 @@ Node mechanical(const EnergyBook& b) {
   return node;
 }
 
-/// One below the other from `top` on, each with the room that its label needs; the next one's top.
+/// Places the flows below each other from `top` on, each with the room for its label; returns the next top.
 double place(std::vector<Flow>& flows, const Drawing& d, double top) {
   for (Flow& flow : flows) {
     const double room = std::max(d.wide(flow.joule), label_height);
@@ -89,13 +89,14 @@ double place(std::vector<Flow>& flows, const Drawing& d, double top) {
   return top;
 }
 
-/// Sources on the left, sinks on the right, of the second node above those of the first: so nothing crosses.
+/// Sources on the left, sinks on the right; those of the second node above those of the first, so that nothing
+/// crosses.
 void arrange(Drawing& d) {
   d.second.y = sankey_margin;
   d.first.y = place(d.second.in, d, sankey_margin);
   if (!d.second.in.empty()) d.first.y += text_height;  // its name stands below those bands
   const double left = place(d.first.in, d, d.first.y);
-  // What leaves the first node passes below the second one's bar.
+  // The first node's outflow passes below the second node's bar.
   const double below = std::max(place(d.second.out, d, sankey_margin),
                                 sankey_margin + d.wide(sum(d.second.in) + d.between) + sankey_gap);
   const double right = place(d.first.out, d, below);
@@ -117,8 +118,8 @@ std::string label(const Flow& flow, double x, const char* anchor, const Scale& s
       x, flow.y - 4, anchor, flow.name, flow.y + 13, plain(flow.joule * scale.factor, 4) + " " + scale.unit);
 }
 
-/// The bands of one node, and its bar. `incoming` and `outgoing` pass between the nodes: the second node
-/// takes it in below its own sources, the first gives it off above its own sinks.
+/// The bands and the bar of one node. `incoming` and `outgoing` pass between the nodes: the second node takes
+/// its inflow below its own sources, the first gives its outflow above its own sinks.
 std::string bands(const Node& node, const Drawing& d, double x, double outgoing, double incoming,
                   const Scale& scale) {
   std::string html;
@@ -153,7 +154,7 @@ std::string across(const Drawing& d, const Scale& scale) {
   for (const Flow& flow : d.second.in) y += d.wide(flow.joule);
   const Flow flow{"", "passed", d.between};
   const double left = d.first.y + wide / 2, right = y + wide / 2;
-  // On the band, above one that is too thin for it, and where that climbs to the right of it, below.
+  // On the band; above it if it is too thin, and below it if it climbs to the right.
   const bool thin = wide < text_height, climbs = thin && left - right > text_height;
   const double x = (first_x + sankey_bar + second_x) / 2, middle = (left + right) / 2;
   const double base = !thin ? middle + 4 : climbs ? middle + wide / 2 + text_height : middle - wide / 2 - 5;
@@ -162,7 +163,7 @@ std::string across(const Drawing& d, const Scale& scale) {
                      x, base, climbs ? "start" : "middle", plain(d.between * scale.factor, 4), scale.unit);
 }
 
-/// The same in words.
+/// The drawing in words.
 std::string spoken(const Drawing& d, const Scale& scale) {
   const auto list = [&](const std::vector<Flow>& one, const std::vector<Flow>& other) {
     std::string text;

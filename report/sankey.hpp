@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the energy of a run came from and where it went, as one drawing.
+// Draws the energy flow of a run.
 #pragma once
 #include <string>
 
@@ -7,9 +7,8 @@
 
 namespace report {
 
-/// A <figure> with an SVG, from left to right: what gave energy, over the run, on the left, what took it on
-/// the right, whichever it was. Empty where nothing flowed, or where the sums do not close to half a pixel:
-/// then it would show what is not so.
+/// A <figure> with an SVG: on the left the sources of energy over the run, on the right the sinks. Empty if no
+/// energy flowed, or if the sums differ by more than half a pixel, because the picture would then be wrong.
 std::string energy_sankey(const sixstep::study::EnergyBook& book);
 
 }  // namespace report

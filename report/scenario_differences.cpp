@@ -90,7 +90,7 @@ class Flat final : public sixstep::base::Visitor {
     member.walk(*this);
     path_ = outer;
   }
-  /// Of the lists only [[at]] changes a run. What an event leaves alone is not told.
+  /// Only the list [[at]] changes a run. Values that an event does not change are left out.
   void visit_list(std::string_view key, sixstep::base::ListMember& items, const About&) override {
     if (key != sixstep::study::events_list) return;
     Flat plain(motion_);
@@ -111,12 +111,12 @@ class Flat final : public sixstep::base::Visitor {
   std::string path_;
 };
 
-/// What a base said has become the scenario's own.
+/// Values of an extended scenario are already the scenario's own.
 bool changes_no_run(const std::string& key) {
   return key == "title" || key == "notes" || key == "extends" || key.starts_with("record.");
 }
 
-/// In the order of the descriptions; what only a later scenario has stands behind.
+/// In the order of the descriptions; keys that only a later scenario has come last.
 std::vector<std::string> keys_of(const std::vector<Flat>& all) {
   std::vector<std::string> keys;
   for (const Flat& flat : all)

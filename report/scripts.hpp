@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which scripts a page takes, in the order in which they build on each other.
+// Lists the scripts of a page, in the order in which they depend on each other.
 #pragma once
 #include <initializer_list>
 #include <report_assets.hpp>
@@ -7,7 +7,7 @@
 
 namespace report {
 
-/// Of pages whose charts run over time: one run, or several compared.
+/// For pages whose charts run over time: one run, or several compared.
 inline constexpr std::initializer_list<std::string_view> run_scripts = {
     assets::units_js,       assets::curves_js,  assets::chart_js,  assets::rows_js,
     assets::page_js,        assets::instant_js, assets::bridge_js, assets::plane_js,

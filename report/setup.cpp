@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scenario's circumstances in words: what stands around the motor.
+// Describes the surroundings of the motor in a scenario.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ std::string listed(const std::vector<double>& values, const char* unit) {
 
 namespace {
 
-/// "soft chopping", and by its word which switch is chopped where it is not always the upper one.
+/// "soft chopping", and the chopped switch if it is not always the upper one.
 std::string chopping_words(const study::Pwm& p) {
   std::string words = std::string(sixstep::base::word(study::chopping_choices, p.chopping)) + " chopping";
   if (p.pattern != sixstep::control::PwmPattern::upper)
@@ -63,7 +63,7 @@ bool chooses_legs(const study::Control& c) {
   return c.drive == study::FirmwareKind::field && c.field.law == study::FieldLaw::finite_set;
 }
 
-/// The speed loop and what it sets.
+/// The speed loop and its output.
 std::string speed_loop_words(const study::Control& c) {
   static constexpr const char* laws[] = {"speed PI", "speed by state feedback",
                                          "speed by disturbance rejection", "speed by sliding mode"};
@@ -87,7 +87,7 @@ std::string arithmetic(study::Arithmetic a) {
   });
 }
 
-/// A controller of one's own: its name, what it holds, and the numbers that are not as preset.
+/// A user's own controller: its name, the controlled quantity, and the numbers that differ from the defaults.
 std::string own_controller(const study::Scenario& s) {
   const study::Own& own = s.control.own;
   std::string text = fmt::format("{} ({}), {}", own.loaded ? own.loaded->name : "own", own.controller,
@@ -97,7 +97,7 @@ std::string own_controller(const study::Scenario& s) {
   return text;
 }
 
-/// What the library's loops hold.
+/// The quantities that the library's loops control.
 std::string control(const study::Scenario& s) {
   std::string text;
   switch (s.control.mode) {

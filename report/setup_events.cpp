@@ -11,7 +11,7 @@ using namespace sixstep;
 
 namespace {
 
-/// What of the controller an event changes, in a word or two each.
+/// The controller settings that an event changes, in a word or two each.
 std::string tuned(const study::At& at) {
   std::string text;
   const auto add = [&text](bool changed, const std::string& words) {
@@ -29,7 +29,7 @@ std::string tuned(const study::At& at) {
   return text;
 }
 
-/// Wires that are changed, amplifiers that drift, dividers that break.
+/// Wires that change, amplifiers that drift, dividers that break.
 template <class Add>
 void add_wires(const study::At& at, const Add& add) {
   const study::AtSensors& s = at.sensors;
@@ -46,7 +46,7 @@ void add_wires(const study::At& at, const Add& add) {
     add(fmt::format("divider of terminal {} breaks", base::word(study::divider_choices, s.broken_divider)));
 }
 
-/// Encoders and resolvers that fail, or are whole again.
+/// Encoders and resolvers that fail or recover.
 template <class Add>
 void add_shaft_faults(const study::AtSensors& s, const Add& add) {
   const auto shows = [](study::EncoderLevel level) {

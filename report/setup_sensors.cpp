@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A board's sensors in words.
+// Describes a board's sensors.
 #include <fmt/format.h>
 
 #include "report/figures.hpp"
@@ -20,7 +20,7 @@ std::string shaft_sensor(const study::Sensors& s) {
   return "; " + words + (s.shaft == study::SensorShaft::motor ? "" : ", on the load's shaft");
 }
 
-/// What the terminals' dividers and comparators are.
+/// The dividers and comparators at the terminals.
 std::string terminals(const study::Sensors& s) {
   std::string text;
   if (!s.terminal_gain_error.empty())
@@ -35,7 +35,7 @@ std::string terminals(const study::Sensors& s) {
   return text;
 }
 
-/// What of the Hall probes is not where the sectors are.
+/// The deviations of the Hall probes from their sectors.
 std::string probes(const study::Sensors& s) {
   std::string text;
   if (s.hall_spacing != sixstep::control::HallArrangement::degrees_120) text += "; Hall probes 60° apart";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scenario's circumstances in words, a line each: what stands around the motor, and what changes during the run.
+// Describes a scenario's surroundings, one line each: supply, bridge, load, heat, sensors, and the changes
+// during the run.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,11 +12,11 @@ namespace report {
 std::string supply(const sixstep::study::Supply& s);
 std::string bridge(const sixstep::study::Bridge& b);
 std::string shaft(const sixstep::study::Load& load, bool linear);
-/// Empty where no temperature is simulated.
+/// Empty if no temperature is simulated.
 std::string heat(const sixstep::study::Heat& h);
 std::string sensors(const sixstep::study::Sensors& s);
 bool all_ideal(const sixstep::study::Sensors& s);
-/// The first eight, and how many there are.
+/// The first eight values, and how many there are.
 std::string listed(const std::vector<double>& values, const char* unit);
 std::string events(const std::vector<sixstep::study::At>& events, bool linear);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every page has around its own content: head, style, the line that says how it was made, the scripts.
+// Writes the parts that every page has: head, style, the line with its command, the scripts.
 #pragma once
 #include <initializer_list>
 #include <string>
@@ -8,7 +8,7 @@
 namespace report {
 
 struct Shell {
-  std::string title;  ///< of the window, escaped
+  std::string title;  ///< title of the window, escaped
   std::string body;   ///< from the heading on
   std::string_view command;
   std::string_view version;
@@ -19,8 +19,8 @@ struct Shell {
 /// A page without a script.
 std::string in_shell(const Shell& shell);
 
-/// A page with charts: `data` is the JSON its scripts read, `scripts` stand in one scope, in this
-/// order, behind uPlot where they draw with it.
+/// A page with charts. `data` is the JSON that its scripts read. `scripts` share one scope, in this order,
+/// behind uPlot if they draw with it.
 std::string in_shell(const Shell& shell, std::string_view data,
                      std::initializer_list<std::string_view> scripts);
 

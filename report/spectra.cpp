@@ -68,8 +68,8 @@ std::optional<Spectra> spectra(const sixstep::study::Trace& trace, const sixstep
   for (const Wanted& w : wanted) {
     const auto* values = find_column(trace, w.column);
     if (!values) continue;
-    // 64 cells a period: an eighth of their frequency is eight times the PWM's. What would be folded into the
-    // lines lies above 56 times it, where the cells' means leave an eighth.
+    // 64 cells per period: an eighth of their frequency is eight times the PWM's. Frequencies that would fold
+    // into the lines are above 56 times it, where the cells' means leave an eighth.
     Lines lines = lines_of(time, *values, stretch->time, scenario.pwm.period_s / 64);
     if (std::ranges::max(lines.amplitude) >= least_tone)
       out.all.push_back({w.id, w.title, w.quantity, w.unit, w.label, w.style, std::move(lines)});

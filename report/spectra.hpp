@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The spectra a report shows: phase current and torque.
+// Computes the spectra that a report shows: phase current and torque.
 #pragma once
 #include <optional>
 #include <string>
@@ -17,19 +17,19 @@ struct DrawnSpectrum {
 
 struct Spectra {
   Stretch stretch;
-  double period_s = 0.0;  ///< of the PWM; 0 where comparators switch
+  double period_s = 0.0;  ///< of the PWM; 0 if comparators switch
   std::vector<DrawnSpectrum> all;
 };
 
-/// Empty where the run has no steady stretch, or nothing moves there.
+/// Empty if the run has no steady stretch, or nothing changes there.
 std::optional<Spectra> spectra(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario,
                                double pole_pairs);
 
-/// How they were taken, in words, and their strongest lines as tables.
+/// Describes the method, with the strongest lines as tables.
 std::string spectra_section(const std::optional<Spectra>& spectra);
 
-/// The lines a chart draws: frequency in Hz and amplitude, the highest of each of some 1500 equal steps of
-/// the logarithmic axis.
+/// The lines that a chart draws: frequency in Hz and amplitude. Each of about 1500 equal steps of the
+/// logarithmic axis shows its highest line.
 struct Drawn {
   std::vector<double> frequency_Hz, amplitude;
 };

@@ -19,10 +19,10 @@ using std::numbers::pi;
 
 constexpr double fewest_periods = 64.0;
 constexpr double most_periods =
-    4096.0;  // with 64 cells a period as many cells as a transform takes in some 50 ms
+    4096.0;  // with 64 cells per period as many cells as a transform takes in about 50 ms
 constexpr std::size_t fewest_cells = 1024, most_cells = 1u << 18;
 
-/// On the line from row to row.
+/// The value on the line between rows.
 double value_at(const Values& time, const Values& y, double t) {
   const auto after = std::ranges::upper_bound(time, t) - time.begin();
   if (after == 0) return y.front();
@@ -31,7 +31,7 @@ double value_at(const Values& time, const Values& y, double t) {
   return y[n - 1] + (y[n] - y[n - 1]) * (t - time[n - 1]) / (time[n] - time[n - 1]);
 }
 
-/// When a curve that runs from row to row was last at `level` before the row `last`.
+/// The last time, before the row `last`, at which a curve through the rows was at `level`.
 std::optional<double> last_crossing(const Values& time, const Values& y, double level, double not_before) {
   for (std::size_t n = time.size(); n-- > 1 && time[n] >= not_before;) {
     const double a = y[n - 1] - level, b = y[n] - level;
@@ -63,7 +63,8 @@ Values cell_means(const Values& time, const Values& y, const Interval& stretch, 
   return means;
 }
 
-/// The tone behind a highest line, from its higher neighbour: the Hann window's lines of a tone `off` lines away.
+/// The tone of a highest line, from its higher neighbour, by the Hann window's response to a tone `off` lines
+/// away.
 Tone tone_at(const Values& a, std::size_t k) {
   const bool up = a[k + 1] >= a[k - 1];
   const double ratio = (up ? a[k + 1] : a[k - 1]) / a[k];
@@ -72,13 +73,13 @@ Tone tone_at(const Values& a, std::size_t k) {
   return {static_cast<double>(k) + (up ? off : -off), a[k] / window};
 }
 
-/// At most what a Hann window leaves of a tone so many lines away.
+/// Upper bound of the Hann window's leakage of a tone at this distance in lines.
 double leakage(double lines) { return lines > 1.2 ? 1 / (pi * lines * (lines * lines - 1)) : 1.0; }
 
 std::vector<Tone> tones_of(const Values& a) {
   const double floor = a.empty() ? 0.0 : std::max(1e-3 * std::ranges::max(a), least_tone);
   std::vector<Tone> peaks, tones;
-  // Not the first line: a drift over the stretch shows there, too.
+  // Without the first line, because a drift over the stretch appears there too.
   for (std::size_t k = 2; k + 1 < a.size(); ++k)
     if (a[k] > floor && a[k] > a[k - 1] && a[k] >= a[k + 1]) peaks.push_back(tone_at(a, k));
   std::ranges::stable_sort(peaks, [](const Tone& p, const Tone& q) { return p.amplitude > q.amplitude; });
@@ -119,7 +120,7 @@ void transform(std::vector<std::complex<double>>& values) {
     reversed ^= bit;
     if (n < reversed) std::swap(values[n], values[reversed]);
   }
-  // Those of half the size are every second one: a power of two in both changes no bit of the angle.
+  // The factors of half the size are every second one: a power of two does not change the bits of the angle.
   std::vector<std::complex<double>> turns(count / 2), turn(count / 2);
   for (std::size_t k = 0; k < turns.size(); ++k)
     turns[k] = std::polar(1.0, -2 * pi * static_cast<double>(k) / static_cast<double>(count));
@@ -128,7 +129,7 @@ void transform(std::vector<std::complex<double>>& values) {
     for (std::size_t start = 0; start < count; start += size)
       for (std::size_t k = 0; k < size / 2; ++k) {
         const std::complex<double> even = values[start + k], other = values[start + k + size / 2];
-        // Written out: the operator also minds infinities, at three times the time.
+        // Written out, because the operator also checks infinities, which takes three times as long.
         const std::complex<double> odd(turn[k].real() * other.real() - turn[k].imag() * other.imag(),
                                        turn[k].real() * other.imag() + turn[k].imag() * other.real());
         values[start + k] = even + odd;
@@ -145,7 +146,7 @@ Lines lines_of(const Values& time, const Values& values, const Interval& stretch
   const auto window = [count](std::size_t n) {
     return 0.5 - 0.5 * std::cos(2 * pi * static_cast<double>(n) / static_cast<double>(count));
   };
-  // As the window weighs it: what a plain mean leaves of a part of a period would look like a tone of the first line.
+  // Mean weighted by the window: with a plain mean, a part of a period would look like a tone in the first line.
   double mean = 0.0;
   for (std::size_t n = 0; n < count; ++n) mean += means[n] * window(n) / (0.5 * static_cast<double>(count));
   std::vector<std::complex<double>> bins(count);
@@ -155,7 +156,7 @@ Lines lines_of(const Values& time, const Values& values, const Interval& stretch
   out.amplitude.assign(count / 8 + 1, 0.0);
   for (std::size_t k = 1; k < out.amplitude.size(); ++k) {
     const double x = pi * static_cast<double>(k) / static_cast<double>(count);
-    // 2/N for an amplitude, 1/2 for the window's mean; and what the cell's mean damped.
+    // 2/N for an amplitude, 1/2 for the window's mean, and the damping of the cells' means.
     out.amplitude[k] = 4.0 / static_cast<double>(count) * std::abs(bins[k]) * x / std::sin(x);
   }
   out.tones = tones_of(out.amplitude);
@@ -166,7 +167,7 @@ Lines lines_of(const Values& time, const Values& values, const Interval& stretch
 std::string origin_of(double at, long long turns, double periods) {
   constexpr long long highest_side = 12;
   const double electrical = static_cast<double>(turns);
-  constexpr double near = 0.3;  // lines: a tone is placed to less, unless another one is beside it
+  constexpr double near = 0.3;  // in lines: a tone is placed more precisely, unless another one is near
   const auto times = [](double n, const char* what) {
     return n == 1.0 ? std::string(what) : fmt::format("{} × {}", n, what);
   };
@@ -182,7 +183,7 @@ std::string origin_of(double at, long long turns, double periods) {
   }
   if (beat >= 1.0 && turns > 0 && std::abs(at - beat * periods) < electrical / 2)
     return "beside " + times(beat, "PWM");
-  // Far up every line is near some multiple.
+  // At high orders every line is near some multiple.
   if (order >= 1.0 && order <= 60.0 && std::abs(at - order * electrical) <= near)
     return order == 1.0 ? "electrical, the fundamental" : times(order, "electrical");
   return "";

@@ -46,7 +46,7 @@ std::string closest(const Outcome& outcome) {
                 fmt::format("{}: {}", with_subscripts(tightest->figure), escaped(room_words(*tightest))));
 }
 
-/// Where two samples that follow each other never had the whole of it.
+/// The part of the bus in use, if no two consecutive samples used all of it.
 std::string least_of_bus(double largest_duty, bool legs) {
   constexpr double whole = 1.0 - 1e-6;
   if (largest_duty >= whole) return "all of it in use at single samples only";
@@ -93,7 +93,7 @@ std::string loop(const LoopGains& g, bool linear) {
   return text;
 }
 
-/// Of a drive that has no loop with gains.
+/// For a drive without a loop with gains.
 std::string without_gains(const Scenario& scenario) {
   using sixstep::control::Mode;
   if (scenario.control.mode == Mode::off) return "off";
@@ -116,7 +116,7 @@ std::string gains(const Scenario& scenario, const Outcome& outcome) {
   return card("tuned", "Gains", list(text));
 }
 
-/// The current that is held and its reference over the step, in the step's own time.
+/// The controlled current and its reference over the step; time counts from the step.
 std::string step_chart(const Trace& trace, const Step& step) {
   constexpr std::size_t rows_drawn = 600;
   const auto* time = find_column(trace, "t_s");

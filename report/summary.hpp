@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The first screen's answers beside the verdict: what limits it, which gains and from where, what the current
-// does during a step, what it cost in energy and switching.
+// Writes the first screen beside the verdict: the limiting requirement, the gains with their source, the current
+// during a step, the costs in energy and switching.
 #pragma once
 #include <string>
 

@@ -18,7 +18,7 @@ struct Size {
 };
 Size size_of(const SvgChart& chart) { return chart.compact ? Size{400, 210} : Size{640, 280}; }
 
-/// From numbers to places on the drawing.
+/// Converts numbers to places on the drawing.
 class Axis {
  public:
   Axis(bool logarithmic, double from, double to) : logarithmic_(logarithmic), from_(from), to_(to) {}
@@ -29,7 +29,7 @@ class Axis {
     high_ = std::max(high_, v);
   }
   bool empty() const { return !(low_ <= high_); }
-  /// A little room beyond the curves; a flat one gets some of its own.
+  /// Adds a little room beyond the curves; a flat curve also gets some.
   void widen(double part) {
     if (logarithmic_) return;
     const double span = high_ - low_, size = std::max(std::abs(low_), std::abs(high_));
@@ -101,7 +101,7 @@ std::string path(const SvgCurve& c, const Axis& x, const Axis& y) {
   return fmt::format("<path class=\"{0}\" style=\"stroke:var(--{0})\" d=\"{1}\"/>\n", c.style, d);
 }
 
-/// Names stand behind their points; where one stands already, behind that one.
+/// Labels stand behind their points, or behind a label that is already there.
 std::string marks(const SvgChart& chart, const Axis& x, const Axis& y) {
   constexpr double line = 12, letter = 7.5;
   struct Name {

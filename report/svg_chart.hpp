@@ -1,39 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
-// A chart that needs no script: what a design shows has a few hundred points and no zoom.
+// Draws a chart that needs no script: a design's charts have a few hundred points and no zoom.
 #pragma once
 #include <string>
 #include <vector>
 
 namespace report {
 
-/// Of the style sheet, for curves that belong together.
+/// Styles of the style sheet for curves that belong together.
 inline constexpr const char* curve_styles[] = {"a", "b", "c"};
 
 struct SvgCurve {
   std::string label;
   std::string style;  ///< a colour of the style sheet: "a", "b", "c", "main", "reference" (dashed)
   std::vector<double> x{},
-      y{};  ///< points that are not finite, or not positive on a logarithmic axis, break it
+      y{};  ///< a point that is not finite, or not positive on a logarithmic axis, interrupts the curve
 };
 
-/// A point with a name beside it.
+/// A point with a label.
 struct SvgMark {
   double x, y;
   std::string label;
-  std::string style;  ///< as a curve's
+  std::string style;  ///< as of a curve
 };
 
 struct SvgChart {
   std::string title, x_label, y_label{};
   bool log_x = false, log_y = false;
-  double y_tick = 0.0;   ///< distance of the lines; 0: round numbers
-  bool compact = false;  ///< half as large, for a place beside others
+  double y_tick = 0.0;   ///< distance of the grid lines; 0: round numbers
+  bool compact = false;  ///< half the size, for charts side by side
   std::vector<SvgCurve> curves{};
   std::vector<double> levels{};  ///< horizontal lines
   std::vector<SvgMark> marks{};
 };
 
-/// A <figure> with caption, legend and drawing; empty where neither a curve nor a mark has a point.
+/// A <figure> with caption, legend and drawing; empty if no curve and no mark has a point.
 std::string svg_chart(const SvgChart& chart);
 
 }  // namespace report

@@ -9,14 +9,14 @@ namespace {
 
 bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
-/// Whether row n holds what its neighbours hold.
+/// Whether row n has the values of its neighbours.
 bool is_level(const Curves& curves, std::size_t n) {
   for (const auto& y : curves)
     if (!same(y[n - 1], y[n]) || !same(y[n], y[n + 1])) return false;
   return true;
 }
 
-/// Rows whose neighbours hold the same values in every curve lie on a level line: not needed to draw it.
+/// The rows needed for drawing: a row whose neighbours have the same values in every curve lies on a level line.
 std::vector<std::size_t> changing_rows(std::size_t count, const Curves& curves) {
   std::vector<std::size_t> rows;
   rows.reserve(count);
@@ -25,7 +25,7 @@ std::vector<std::size_t> changing_rows(std::size_t count, const Curves& curves) 
   return rows;
 }
 
-/// First, last and each curve's extremes of the rows [begin, end), rising and without repetition.
+/// The first and last rows and each curve's extremes in [begin, end), rising and without repetition.
 void keep_extremes(const std::vector<std::size_t>& rows, std::size_t begin, std::size_t end,
                    const Curves& curves, std::vector<std::size_t>& chosen, std::vector<std::size_t>& kept) {
   chosen.assign({rows[begin], rows[end - 1]});
@@ -71,7 +71,7 @@ Thinned thinned(std::span<const double> time, const Curves& curves, std::span<co
   std::vector<std::size_t> detail;
   for (const std::size_t n : out.rows)
     if (std::ranges::any_of(keep, [&](const Interval& i) { return i.holds(time[n]); })) detail.push_back(n);
-  // Extremes often fall together, so start with many buckets and shrink until the rows fit.
+  // Extremes often coincide, so it starts with many buckets and reduces them until the rows fit.
   std::size_t buckets = std::max<std::size_t>(cap / 3, 1);
   std::vector<std::size_t> coarse = envelope(time, out.rows, curves, buckets);
   while (coarse.size() > cap && buckets > 1) {

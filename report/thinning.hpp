@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fewer rows with the same picture: what is drawn must never lose a peak.
+// Reduces rows without changing the picture: no peak may be lost.
 #pragma once
 #include <cstddef>
 #include <span>
@@ -15,18 +15,18 @@ struct Interval {
 using Curves = std::vector<std::span<const double>>;
 
 struct Thinned {
-  std::vector<std::size_t> rows;  ///< of the original, rising
-  bool complete = true;           ///< false: outside the kept intervals an envelope stands for the rows
+  std::vector<std::size_t> rows;  ///< row numbers of the original, rising
+  bool complete = true;           ///< false: outside the kept intervals an envelope replaces the rows
 };
 
 /// The rows that draw these curves over one time axis. Rows that change nothing are dropped without loss. If
-/// more than `full` are left, time is cut into equal buckets and each keeps, per curve, its first, lowest,
-/// highest and last row, `cap` rows at most; inside `keep` every row stays.
+/// more than `full` are left, time is cut into equal buckets; each keeps, per curve, its first, lowest, highest
+/// and last row, `cap` rows at most. Inside `keep` every row stays.
 Thinned thinned(std::span<const double> time, const Curves& curves, std::span<const Interval> keep,
                 std::size_t cap, std::size_t full);
 
-/// Of these rows the first, lowest, highest and last of each curve in each of `buckets` equal stretches of
-/// time, so 2 + 2 curves rows a stretch at most.
+/// From these rows the first, lowest, highest and last of each curve in each of `buckets` equal stretches of
+/// time: at most 2 + 2 curves rows per stretch.
 std::vector<std::size_t> envelope(std::span<const double> time, const std::vector<std::size_t>& rows,
                                   const Curves& curves, std::size_t buckets);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What was required, what was measured, and how that compares with what others say.
+// Writes the requirements with their measured values, and the comparison with values from other sources.
 #pragma once
 #include <optional>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace report {
 
-/// How a run ended: a run that requires nothing has neither passed nor failed.
+/// The verdict of a run; a run without requirements has neither passed nor failed.
 struct Standing {
   std::string css;   ///< "pass", "fail", "none"
   std::string word;  ///< "PASS", "FAIL", "NO REQUIREMENT"
@@ -16,10 +16,11 @@ struct Standing {
 };
 Standing standing(const sixstep::study::Outcome& outcome);
 
-/// How much of the way from the middle of the limits to the nearer one is left, or from nothing to a single
-/// limit; below zero where it is not met. Empty where that says nothing.
+/// The remaining distance to the nearer limit, relative to half the distance of both limits, or to the single
+/// limit; negative if not met. Empty if this has no meaning.
 std::optional<double> room(const sixstep::study::Verdict& verdict);
-/// "1.5 % below its limit", "0.2 A from the nearer of its limits"; of a verdict that has room, met.
+/// "1.5 % below its limit", "0.2 A from the nearer of its limits"; only for a verdict that is met and has a
+/// room().
 std::string room_words(const sixstep::study::Verdict& verdict);
 
 /// Rows of the requirement table: mark, figure, required, measured, place within the limits.

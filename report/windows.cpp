@@ -42,7 +42,7 @@ std::optional<Interval> switching_periods(const Trace& trace, const sixstep::stu
   const double start = time.front(), end = time.back();
   if (!(period > 0.0) || end - start < 3.0 * period) return std::nullopt;
   const std::vector<double> instants = turn_ons(trace, time);
-  // Hysteresis switches when it likes, so its close-up spans its own rhythm.
+  // Hysteresis has no fixed period, so its close-up spans some of its own cycles.
   const bool free_running = scenario.control.current.type == sixstep::study::CurrentLoopType::hysteresis &&
                             scenario.control.mode >= sixstep::control::Mode::current;
   if (free_running && instants.size() >= 5) {
@@ -54,7 +54,7 @@ std::optional<Interval> switching_periods(const Trace& trace, const sixstep::stu
   for (std::int64_t n = last - 3; n >= 0; n -= 3) {
     const Interval window{at(n), at(n + 3)};
     const auto begin = std::lower_bound(instants.begin(), instants.end(), window.from);
-    if (!is_whole(trace, window)) break;  // nor is any before it
+    if (!is_whole(trace, window)) break;  // no earlier window is complete either
     if (std::upper_bound(instants.begin(), instants.end(), window.to) - begin >= 3) return window;
   }
   return Interval{at(last - 3), at(last)};
@@ -82,7 +82,7 @@ std::optional<Interval> one_commutation(const Trace& trace, double period, const
   for (std::size_t k = edges.size(); k-- > 0;) {
     if (currents[k] < 0.5 * strongest) continue;
     const double edge = time[edges[k]];
-    // A sector may last microseconds or, near standstill, for ever: the close-up follows it within reason.
+    // A sector may last microseconds or, near standstill, for ever: the close-up follows it within bounds.
     const double sector = k > 0 ? edge - time[edges[k - 1]] : 10.0 * period;
     const Interval window{edge - std::clamp(0.5 * sector, 3.0 * period, 8.0 * period),
                           edge + std::clamp(1.1 * sector, 6.0 * period, 14.0 * period)};

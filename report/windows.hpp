@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The close-ups a report offers, chosen from the trace itself.
+// Chooses the close-ups of a report from the trace.
 #pragma once
 #include <optional>
 
@@ -9,19 +9,19 @@
 
 namespace report {
 
-/// A column by name; null where the trace has none or it never holds a number.
+/// A column by name; null if the trace lacks it or it holds no number.
 const std::vector<double>* find_column(const sixstep::study::Trace& trace, std::string_view name);
 
-/// Whether every row of the interval stands in the trace.
+/// Whether the trace has every row of the interval.
 bool is_whole(const sixstep::study::Trace& trace, const Interval& interval);
-/// From when on every row stands; the first row's time where all do.
+/// The time from which the trace has every row; the first row's time if it has all.
 double whole_from_s(const sixstep::study::Trace& trace);
 
 struct Windows {
   std::optional<Interval> periods;  ///< three PWM periods in which the bridge switches, as late as possible
   std::optional<Interval>
       commutation;                 ///< around a Hall edge under considerable current, as late as possible
-  std::optional<Interval> step{};  ///< the largest change of what is asked for
+  std::optional<Interval> step{};  ///< the largest change of the setpoint
 };
 
 Windows choose_windows(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario);

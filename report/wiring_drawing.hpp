@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the pictures of a motor's wirings are drawn with: lines that carry no more points than one sees, the marks and colours of
-// what a wiring does.
+// Draws the elements of the wiring pictures: lines without more points than one sees, and the marks and colours
+// of each behaviour.
 #pragma once
 #include <string>
 #include <string_view>
@@ -20,25 +20,26 @@ struct Place {
   double x = 0.0, y = 0.0;
 };
 
-/// "M..l.." in tenths of a pixel, for a group scaled by 0.1: what lies within 0.3 pixels of a straight line is left out.
+/// "M..l.." in tenths of a pixel, for a group scaled by 0.1; points within 0.3 pixels of a straight line are
+/// left out.
 std::string line_through(const std::vector<Place>& points);
 
-/// The style's class of a wiring: "forward", "rough", "hums", "backward", "unclear".
+/// The style class of a behaviour: "forward", "rough", "hums", "backward", "unclear".
 std::string_view style_of(sixstep::analysis::WiringDoes does);
 
-/// An arrow to where it runs, a wave for what hums, in a box of 12 pixels.
+/// An arrow in the direction of motion, or a wave for humming, in a box of 12 pixels.
 std::string mark_of(sixstep::analysis::WiringDoes does, double x, double y);
 
-/// Lines of text of at most `width` characters, `leading` pixels apart, from the first one's baseline on.
+/// Lines of text of at most `width` characters, `leading` pixels apart, beginning at the first baseline.
 std::string wrapped(std::string_view text, std::size_t width, double x, double y, double leading,
                     std::string_view style = "");
-/// How many lines that makes.
+/// The number of lines that wrapped() makes.
 std::size_t lines_of(std::string_view text, std::size_t width);
 
-/// "×17": the phase current compared with that of straight wires.
+/// "×17": the phase current relative to that with straight wires.
 std::string times_text(double ratio);
 
-/// The rules of all these drawings, in the colours of the page around them.
+/// The style rules of these drawings, in the colours of the page.
 std::string_view wiring_style();
 
 }  // namespace report

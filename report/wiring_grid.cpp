@@ -22,7 +22,7 @@ using analysis::WiringStudy;
 constexpr double grid_left = 102, grid_top = 92, cell_width = 122, cell_height = 106, grid_gap = 6,
                  group_gap = 10;
 constexpr double torque_middle = 43, torque_half = 18, run_middle = 83, run_half = 17, side = 8;
-constexpr double most_torque = 1.15;  // of straight wires' mean
+constexpr double most_torque = 1.15;  // relative to the mean torque with straight wires
 
 double at(std::size_t n, double begin, double size) {
   return begin + static_cast<double>(n) * (size + grid_gap) + (n >= 3 ? group_gap : 0);
@@ -89,7 +89,7 @@ std::string torque(const analysis::PairTorque& of, double straight_Nm_A, const W
                      line_through(theory), line_through(seen));
 }
 
-/// Of what hums a part of a turn fills the height.
+/// For a humming motor this part of a turn fills the height.
 constexpr double humming_turns = 0.4;
 
 std::string runs(const WiringCase& c, double running_turns) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The 36 ways to plug a motor in as one HTML file that opens anywhere, without a network and without a script.
+// Writes the 36 ways to connect a motor as one HTML file that needs no network and no script.
 #pragma once
 #include <string>
 #include <string_view>
@@ -10,7 +10,7 @@ namespace report {
 
 struct WiringPageInput {
   const sixstep::analysis::WiringStudy& study;
-  std::string scenario;  ///< the run with straight wires, as the file that says it
+  std::string scenario;  ///< scenario file of the run with straight wires
   std::string_view command;
   std::string_view version;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The 36 ways to plug a motor in as one picture, in which a person with swapped wires recognises the symptom.
+// Draws the 36 ways to connect a motor as one picture, in which a person with swapped wires finds the symptom.
 #pragma once
 #include <string>
 #include <string_view>
@@ -8,8 +8,8 @@
 
 namespace report {
 
-/// An SVG file that needs nothing else, light or dark as its reader is: all wirings, what each kind looks like at the bench, the
-/// drive's commutation, and what to do. The same study gives the same bytes.
+/// A self-contained SVG file, light or dark like the viewer: all wirings, the symptoms of each behaviour at the
+/// bench, the drive's commutation, and the steps to take. The same study gives the same bytes.
 std::string wiring_picture(const sixstep::analysis::WiringStudy& study, std::string_view version);
 
 /// A panel as a figure of a page.

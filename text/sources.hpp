@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one text names in others, found by whoever knows where these lie: a disk, a list in a browser.
+// Finds the texts that other texts name: on a disk, or in a browser's list.
 #pragma once
 #include <functional>
 #include <string>
@@ -13,29 +13,29 @@
 namespace text {
 
 struct NamedText {
-  std::string name;  ///< what messages call it; what it names in turn lies beside that
+  std::string name;  ///< for messages; names inside the text are relative to it
   std::string text;
-  const sixstep_controller* controller = nullptr;  ///< what was loaded of it, where a controller is meant
+  const sixstep_controller* controller = nullptr;  ///< the loaded controller, if a controller is meant
 };
 
 struct Naming {
   enum class Kind { scenario, motor, rows, controller };
   Kind kind;
   std::string name;  ///< as written
-  std::string from;  ///< of the text that names it; empty: nobody's
+  std::string from;  ///< name of the text that contains the name; empty: none
 };
 
-/// The text that is meant. A Problem's `where` is where it was looked for; its `limit` says what keeps it
-/// from being read, and is empty where nothing is there. An empty Resolve finds nothing.
+/// Returns the named text. A Problem's `where` is the place of the search; its `limit` says why the text cannot
+/// be read, and is empty if it does not exist. An empty Resolve finds nothing.
 using Resolve = std::function<base::Result<NamedText>(const Naming&)>;
 
-/// The text, or a Problem to be told at the name that leads nowhere.
+/// The text, or a Problem to be reported at the name.
 base::Result<NamedText> find_text(const Resolve& resolve, const Naming& naming);
 
-/// Texts at hand, each under its name; a motor's may be left without its .toml.
+/// Finds texts in this list by their names; a motor's name may lack .toml.
 Resolve among(std::vector<NamedText> texts);
 
-/// `name` as it is meant beside `from`, in one spelling: "a/b.toml" for "../b.toml" beside "a/c/d.toml".
+/// `name` relative to the folder of `from`, in one spelling: "a/b.toml" for "../b.toml" in "a/c/d.toml".
 std::string beside(std::string_view from, std::string_view name);
 
 /// "b" of "a/b.toml".

@@ -32,7 +32,7 @@
 namespace cli {
 namespace {
 
-/// What both verbs take.
+/// Arguments of both verbs.
 struct BenchArguments {
   std::string path;
   text::BenchColumns columns;
@@ -41,7 +41,7 @@ struct BenchArguments {
   std::optional<int> pole_pairs;
   bool json = false, quiet = false, force = false;
   std::string write, html;
-  std::string command;  ///< what makes the files again
+  std::string command;  ///< the command that makes the files again
 };
 
 struct EmfArguments : BenchArguments {
@@ -49,7 +49,7 @@ struct EmfArguments : BenchArguments {
   std::optional<double> speed_rpm, tolerance_percent;
 };
 
-/// An option's number within its range, told otherwise.
+/// Adds a Problem if an option's number is out of its range.
 void hold(base::Problems& problems, const char* option, const std::optional<double>& x, base::Range range,
           const char* cure) {
   if (x && !range.holds(*x)) problems.push_back({option, base::written(*x), base::limit_of(range), cure});
@@ -71,7 +71,8 @@ base::Problems check(BenchArguments& a) {
   return problems;
 }
 
-/// What the library and the recording's headings name, as options; the rest belongs to the recording.
+/// Names the library's members and the recording's headings as options; all other problems belong to the
+/// recording.
 base::Problems of_recording(base::Problems problems, const std::string& path) {
   constexpr std::pair<std::string_view, std::string_view> options[] = {
       {"between", "--between"}, {"pole_pairs", "--pole-pairs"}, {"speed", "--speed"}};
@@ -88,7 +89,7 @@ base::Problems of_recording(base::Problems problems, const std::string& path) {
 
 std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
-/// What the reader did not use, and what it took for what: on standard error, for standard output may be JSON.
+/// Prints the reader's notes on standard error, because standard output may be JSON.
 void tell(const BenchArguments& a, const text::Notes& notes) {
   if (a.quiet) return;
   for (const std::string& note : notes)
@@ -101,7 +102,7 @@ base::Result<text::Recording> recording_of(const BenchArguments& a) {
   return text::read_recording(a.path, *text);
 }
 
-/// Files are made before the work begins: one that cannot be written is told at once.
+/// Opened before the work, so that an unwritable path fails at once.
 struct BenchOutputs {
   std::optional<files::AtomicFile> write, html, shape;
 
@@ -150,7 +151,7 @@ Exit identify_command(const BenchArguments& arguments) {
   return problems.empty() ? Exit::ok : Exit::bad_input;
 }
 
-/// A sheet's pole pairs; those that were given beside it must be the same.
+/// The sheet, if there is one; pole pairs given beside it must be equal to its own.
 base::Result<std::optional<design::Sheet>> sheet_of(EmfArguments& a) {
   if (a.motor.empty()) return std::optional<design::Sheet>();
   const base::Result<design::Sheet> sheet = files::read_sheet(a.motor, a.data_dir);
@@ -164,7 +165,7 @@ base::Result<std::optional<design::Sheet>> sheet_of(EmfArguments& a) {
   return std::optional(*sheet);
 }
 
-/// The name by which the motor's file finds the table: beside it.
+/// The path of the shape's table, relative to the motor's file.
 std::string shape_beside(const EmfArguments& a) {
   if (a.shape.empty() || a.write.empty()) return file_name(a.shape);
   std::error_code error;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An option whose value is one of a few words.
+// Reads an option whose value is one of a few words.
 #pragma once
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 
 namespace cli {
 
-/// Adds a Problem where the word is none of the choices.
+/// Adds a Problem if the word is none of the choices.
 template <class Choices, class Enum>
 void choose(const char* option, const std::string& word, const Choices& choices, Enum& into,
             base::Problems& found) {

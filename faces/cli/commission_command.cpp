@@ -30,10 +30,10 @@ struct CommissionArguments {
   std::string phases = "abc", wires = "123", inverted = "none";
   std::string write, html;
   bool json = false, quiet = false, force = false;
-  std::string command;  ///< what makes the files again
+  std::string command;  ///< the command that makes the files again
 };
 
-/// Files are made before the work begins: one that cannot be written is told at once.
+/// Opened before the work, so that an unwritable path fails at once.
 struct CommissionFiles {
   std::optional<files::AtomicFile> write, html;
 
@@ -58,7 +58,7 @@ base::Problems write(const analysis::CommissionStudy& s, const CommissionArgumen
   return found;
 }
 
-/// "--voltage" of voltage_V; the sheet's own keys are told as the motor file's.
+/// Replaces voltage_V by "--voltage"; keys of the sheet are named as those of the motor file.
 base::Problems told(base::Problems problems, const CommissionArguments& a) {
   for (base::Problem& p : problems) {
     if (p.where == "voltage_V")

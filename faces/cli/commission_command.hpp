@@ -4,7 +4,8 @@
 
 namespace cli {
 
-/// `sixstep motor commission MOTOR`: the chip finds out what hangs at it. `failed` where it does not, or a value is out of its bound.
+/// `sixstep motor commission MOTOR`: the chip measures the connected motor. `failed` if it does not succeed, or
+/// if a value is out of its bound.
 Verb declare_commission(CLI::App& motor);
 
 }  // namespace cli

@@ -41,12 +41,13 @@ study::Trace all_columns() {
   return trace;
 }
 
-/// Under the turning motor's names, whatever the motor: what is drawn and what is subtracted are one.
+/// Stores a row in a turning motor's units, because the drawn and the subtracted columns are the same for every
+/// motor.
 void add(study::Trace& trace, study::Row row, const std::vector<study::Column>& columns) {
   for (std::size_t n = 0; n < row.size(); ++n) trace.values[n].push_back(row[n] / columns[n].per_turning);
 }
 
-/// A run that keeps what is drawn and what is subtracted.
+/// A run that keeps the rows for drawing and those for subtraction.
 struct Compared {
   study::Scenario scenario;
   const loop::Core* core = nullptr;
@@ -73,7 +74,7 @@ struct Compared {
   }
 };
 
-/// The same instants for all, every column: what a scenario records for itself is of no use here.
+/// Runs all jobs on the same instants with every column, whatever a scenario records for itself.
 std::vector<Compared> on_one_grid(const std::vector<Job>& jobs) {
   std::vector<const study::Scenario*> scenarios;
   std::vector<Compared> runs;
@@ -84,23 +85,23 @@ std::vector<Compared> on_one_grid(const std::vector<Job>& jobs) {
     Compared& run = runs.emplace_back(Compared{
         .scenario = job.scenario(), .core = job.core(), .most_bytes = report::most_row_bytes / jobs.size()});
     run.scenario.record = {.grid_s = report::common_grid_s(scenarios)};
-    // A column that a mode has no use for is asked for all the same, so that all runs have the same ones.
+    // Also columns without use in a mode, so that all runs have the same columns.
     for (const study::Column& column : study::all_columns(run.scenario.sheet.kind))
       run.scenario.record.columns.push_back(column.name);
   }
   return runs;
 }
 
-/// What a board sent.
+/// A board's log.
 struct Log {
   std::string name;
-  std::optional<double> shift_s;  ///< that was asked for
+  std::optional<double> shift_s;  ///< as requested; empty: fitted
   text::BoardLog read;
   study::Trace grid;
   LogFound found;
 };
 
-/// What the library names, as options.
+/// Names the library's members as options.
 base::Problems of_options(base::Problems problems) {
   for (base::Problem& p : problems)
     if (p.where == "columns") p.where = "--columns";
@@ -126,8 +127,9 @@ base::Result<std::optional<Log>> read_log(const LogArguments& asked, const study
                            .found = {}});
 }
 
-/// All its columns decide how far its clock is off: a board begins to count when it has set itself up. Within twenty PWM periods, in steps
-/// that a ripple stands; whoever knows more says so. Problems: next to nothing of it lies in the simulated time.
+/// Fits the shift of the log's clock by all its columns, because a board begins to count after its own set-up.
+/// The range is twenty PWM periods, in steps of a twentieth of one; --shift replaces the fit. Problems: almost
+/// none of the log is in the simulated time.
 base::Problems lay_over(Log& log, const Compared& run) {
   const study::Trace simulated = run.events->trace();
   study::Trace& trace = log.read.trace;
@@ -152,7 +154,7 @@ base::Problems lay_over(Log& log, const Compared& run) {
   return {};
 }
 
-/// Nothing where no page is wanted.
+/// Empty if no page is wanted.
 base::Result<std::optional<files::AtomicFile>> page_of_runs(const RunArguments& arguments) {
   const std::string& path = arguments.paths.of(page_option);
   if (path.empty()) return std::optional<files::AtomicFile>();

@@ -9,21 +9,23 @@ namespace cli {
 
 struct RunArguments;
 
-/// Several files and one page, nothing else; or one that runs on the host and on a chip (lays_over); or one with a board's log.
+/// Whether the runs are compared: with a board's log; or if --html is the only output, for several files or for
+/// one file on a chip (lays_over).
 bool compares(const RunArguments& arguments);
 
-/// --on names a map of a firmware of one's own.
+/// Whether --on names a map of a user's own firmware.
 bool names_own_firmware(const RunArguments& arguments);
-/// --on names a chip that runs a program of its own.
+/// Whether --on names a chip that runs a program of its own.
 bool on_a_chip(const RunArguments& arguments);
-/// One file on a chip that is no copy of the host's drive: what both do is laid over each other.
+/// Whether one file runs on the host and on a chip whose program is no copy of the host's drive, so that both
+/// results are shown over each other.
 bool lays_over(const RunArguments& arguments);
 
-/// sixstep run A B .. --html FILE: runs them all and lays them over each other on one page. With --compare LOG a board's log lies over
-/// the one run, on the page, where one is wanted, and in numbers.
+/// sixstep run A B .. --html FILE: runs all files and shows them over each other on one page. With --compare LOG
+/// it compares a board's log with the one run, in numbers and, if --html is given, on the page.
 Exit compare_command(const RunArguments& arguments, const std::vector<Job>& jobs);
 
-/// What is wrong with comparing these: too many for a page, or more than a log's.
+/// Problems of such a comparison: too many runs for a page, or more than a log's one.
 base::Problems check_comparison(const RunArguments& arguments);
 
 }  // namespace cli

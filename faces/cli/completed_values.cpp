@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using Candidates = std::vector<Candidate>;
 
-/// Folders, and files of one kind ("" for any), that begin as typed; hidden ones only where a dot was typed.
+/// Folders, and files with one extension ("": any), that begin as typed; hidden ones only after a typed dot.
 Candidates files(const std::string& current, std::string_view extension, bool folders_only = false) {
   const std::size_t cut = current.rfind('/');
   const std::string folder = cut == std::string::npos ? "" : current.substr(0, cut + 1);
@@ -35,8 +35,8 @@ Candidates files(const std::string& current, std::string_view extension, bool fo
   for (const fs::directory_entry& entry : fs::directory_iterator(folder.empty() ? "." : folder, error)) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with(start) || (name.front() == '.' && start.empty())) continue;
-    if (text::visible(name) != name) continue;  // shells show candidates as they are, one a line
-    // What begins as an option does would be read as one.
+    if (text::visible(name) != name) continue;  // shells show candidates unescaped, one per line
+    // A name that begins with - would be read as an option.
     const std::string path = (name.front() == '-' && folder.empty() ? "./" : folder) + name;
     if (entry.is_directory(error))
       found.push_back({path + "/", ""});
@@ -70,7 +70,7 @@ Candidates keys(std::string_view behind, bool tables) {
   return found;
 }
 
-/// "key=" and, behind the =, what a key of words or a flag can be.
+/// "key=" and, behind the =, the words of a key or the values of a flag.
 Candidates settings(const std::string& current) {
   const std::size_t equals = current.find('=');
   if (equals == std::string::npos) return keys("=", false);
@@ -93,7 +93,7 @@ Candidates styles() {
   return found;
 }
 
-/// A verb that drives or designs has nothing to do with all gates off; and a duty needs no design.
+/// Driving or designing verbs have no mode with all gates off, and a duty needs no design.
 Candidates modes(const CLI::App& verb) {
   Candidates found = words(study::mode_choices);
   std::erase_if(found, [&](const Candidate& c) {
@@ -102,7 +102,7 @@ Candidates modes(const CLI::App& verb) {
   return found;
 }
 
-/// Emulated ones, and maps of firmware.
+/// Emulated cores, and maps of firmware.
 Candidates cores(const std::string& current) {
   Candidates found;
   for (const loop::Core& core : loop::cores())
@@ -138,7 +138,7 @@ Candidates values_of(const CLI::App& verb, const CLI::Option& option, const std:
   if (name == "MOTOR" || name == "--motor") return motors(current);
   if (name == "NAME") return verb.get_name() == "new" ? Candidates{} : motors(current);
   if (name == "--data") return files(current, "", true);
-  // CLI11 names the type of a number; the rest is a file to be written.
+  // CLI11 names the type of a number; every other text is an output file.
   return option.get_type_name() == "TEXT" ? files(current, "") : Candidates{};
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The values that an option or argument takes, as far as they can be listed.
+// Lists the values of an option or argument, if they can be listed.
 #pragma once
 #include <string>
 #include <vector>
@@ -12,8 +12,8 @@ class Option;
 
 namespace cli {
 
-/// `current`: what has been typed of the value; for files it says which folder is looked into. Numbers cannot
-/// be listed; of any other text that has no list of its own, files are.
+/// `current`: the part of the value that was typed; for files it determines the folder. Numbers cannot be
+/// listed; for a text without a list of its own, files are listed.
 std::vector<Candidate> values_of(const CLI::App& verb, const CLI::Option& option, const std::string& current);
 
 }  // namespace cli

@@ -7,11 +7,11 @@
 
 namespace cli {
 
-/// `sixstep completion bash|zsh|fish`: what makes the shell ask the program.
+/// `sixstep completion bash|zsh|fish`: a script by which the shell completes command lines.
 Verb declare_completion(CLI::App& app);
 
-/// The word by which that script asks: `sixstep __complete WORD..` answers a candidate a line, its meaning
-/// behind a tab. It is no verb: the words behind it are read by nobody else.
+/// The script calls `sixstep __complete WORD..`, which prints one candidate per line with its meaning behind a
+/// tab. It is not a verb, so that the words behind it are not parsed as options.
 inline constexpr char complete_word[] = "__complete";
 Exit answer_shell(const CLI::App& app, const std::vector<std::string>& words);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What may stand next on the command line: one answer for every shell.
+// Finds the words that may come next on a command line, for every shell.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,13 +11,13 @@ class App;
 namespace cli {
 
 struct Candidate {
-  std::string word;     ///< the whole word; one that ends in = or / is to be continued
+  std::string word;     ///< the whole word; after a final = or / it continues
   std::string meaning;  ///< may be empty
 };
 
-/// Candidates for the last of `words` (which may be empty), given those before it; the program's own name is
-/// not among them. Verbs and options come from their declarations, keys, motors and words from where they are
-/// described; files are looked for in their folders.
+/// Candidates for the last of `words` (which may be empty), given the words before it, without the program's
+/// name. Verbs and options come from their declarations; keys, motors and words from their descriptions; files
+/// from their folders.
 std::vector<Candidate> completions(const CLI::App& app, const std::vector<std::string>& words);
 
 }  // namespace cli

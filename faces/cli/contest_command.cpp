@@ -43,10 +43,10 @@ struct ContestArguments {
   std::string json, csv, html, write, store;
   bool quiet = false, force = false, resume = false;
   unsigned jobs = 0;
-  std::string command;  ///< what makes the files again
+  std::string command;  ///< the command that makes the files again
 };
 
-/// A file per controller: "six-step-soft.toml" of "six-step, soft".
+/// A file name for a controller: "six-step-soft.toml" for "six-step, soft".
 std::string file_name(std::string_view name) {
   std::string out;
   for (const char c : name)
@@ -57,7 +57,7 @@ std::string file_name(std::string_view name) {
   return out + ".toml";
 }
 
-/// Files are made before the work begins: one that cannot be written is told at once.
+/// Opened before the work, so that an unwritable path fails at once.
 struct ContestFiles {
   std::optional<files::AtomicFile> json, csv, html;
   std::vector<files::AtomicFile> scenarios;  ///< of the entries that have one, in their order
@@ -103,7 +103,7 @@ base::Problems write(const analysis::Contest& contest, const ContestArguments& a
   return found;
 }
 
-/// Members are told as options.
+/// Names members as options.
 base::Problems in_contest_options(base::Problems problems) {
   constexpr std::pair<std::string_view, std::string_view> options[] = {
       {"voltage_V", "--voltage"},
@@ -156,7 +156,7 @@ analysis::Contest nominally(const ContestArguments& a, analysis::ContestBench be
                                    .stop = watch.token()});
 }
 
-/// By way of the store, with what it has already.
+/// Runs the drives with the store and the rows that it already has.
 base::Problems over_the_tolerances(const ContestArguments& a, analysis::Contest& contest) {
   if (a.drives == 0) return {};
   base::Result<files::PlanStore> store = store_of(contest, {a.store, a.resume, a.force, a.command});

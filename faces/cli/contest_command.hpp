@@ -4,7 +4,7 @@
 
 namespace cli {
 
-/// sixstep compare MOTOR: controllers designed by their rules, set side by side on one course.
+/// sixstep compare MOTOR: compares controllers, designed by their rules, on one course.
 Verb declare_contest(CLI::App& app);
 
 }  // namespace cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Controllers of one's own that stand in the comparison beside the library's.
+// Adds a user's own controllers to the comparison of the library's controllers.
 #pragma once
 #include <CLI/App.hpp>
 
@@ -15,15 +15,15 @@ namespace cli {
 
 struct OwnArguments {
   std::vector<std::string> files;   ///< shared objects
-  std::vector<std::string> counts;  ///< what tools/own_cost.sh wrote of some of them
+  std::vector<std::string> counts;  ///< files of tools/own_cost.sh, for some of them
 };
 
 void declare_own(CLI::App& verb, OwnArguments& own);
 
-/// The library's rows, and one for each controller of one's own.
+/// The library's rows, and one for each of the user's own controllers.
 struct Contestants {
   std::vector<analysis::Contestant> all;
-  std::deque<std::string> texts;  ///< of the own ones, which the rows look at
+  std::deque<std::string> texts;  ///< texts of the own controllers, to which the rows point
 };
 
 base::Result<Contestants> contestants_of(const OwnArguments& own);

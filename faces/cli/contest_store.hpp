@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The drives of a comparison and the store that their rows go to: the same as a plan's, and resumed like it.
+// Stores the drives of a comparison like the runs of a plan; they are resumed in the same way.
 #pragma once
 #include <string>
 
@@ -10,15 +10,15 @@
 namespace cli {
 
 struct ContestStoring {
-  std::string path;  ///< of the store; empty: one that goes with the program
+  std::string path;  ///< of the store; empty: one that is removed at the program's end
   bool resume = false, force = false;
   std::string command;
 };
 
-/// The store for the drives of these entries. Problems where it is of another comparison.
+/// The store for the drives of these entries. Problem: it belongs to another comparison.
 base::Result<files::PlanStore> store_of(const analysis::Contest& contest, const ContestStoring& storing);
 
-/// Makes the drives that the store has not yet, unless they are stopped, and takes all that it has by then.
+/// Makes the drives that the store lacks, unless they are stopped, and then reads all drives from the store.
 base::Problems take_drives(analysis::Contest& contest, batch::ContestOrder order, files::PlanStore& store);
 
 }  // namespace cli

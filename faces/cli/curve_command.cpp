@@ -32,7 +32,7 @@ namespace {
 
 struct CurveArguments {
   std::string motor, data_dir;
-  std::optional<double> voltage_V;  ///< without it the sheet's nominal voltage
+  std::optional<double> voltage_V;  ///< empty: the sheet's nominal voltage
   std::optional<double> duty, pwm_period_s, on_resistance_ohm, diode_drop_V, ambient_degC, winding_degC,
       housing_degC;
   std::optional<int> points;
@@ -40,10 +40,10 @@ struct CurveArguments {
   std::string csv, json, html;
   bool quiet = false, force = false;
   unsigned jobs = 0;
-  std::string command;  ///< what makes the page again
+  std::string command;  ///< the command that makes the page again
 };
 
-/// Files are made before the work begins: one that cannot be written is told at once.
+/// Opened before the work, so that an unwritable path fails at once.
 struct CurveFiles {
   std::optional<files::CsvWriter> csv;
   std::optional<files::AtomicFile> json, html;
@@ -114,7 +114,7 @@ void refuse_chopping_without_use(const CurveArguments& a, double duty, base::Pro
                           "give a --duty below 1, or leave it out"});
 }
 
-/// "--pwm-period" of pwm_period_s: options are told by their names, without the unit's suffix.
+/// "--pwm-period" for pwm_period_s: an option's name has no unit suffix.
 std::string option_of(std::string member) {
   member.erase(std::min(member.rfind('_'), member.size()));
   std::replace(member.begin(), member.end(), '_', '-');

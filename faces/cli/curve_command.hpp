@@ -4,7 +4,7 @@
 
 namespace cli {
 
-/// `sixstep curve MOTOR`: the torque-speed curve as a table, and as files where asked for.
+/// `sixstep curve MOTOR`: the torque-speed curve as a table and, on request, as files.
 Verb declare_curve(CLI::App& app);
 
 }  // namespace cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `sixstep design` is told.
+// Holds the arguments of `sixstep design`.
 #pragma once
 #include <optional>
 #include <string>
@@ -10,22 +10,22 @@ namespace cli {
 
 struct DesignArguments {
   std::string motor;
-  std::string scenario;  ///< whose board, motor and task are designed for
+  std::string scenario;  ///< the scenario with the board, the motor and the task
   std::optional<std::string> mode, chopping, rotor, currents;
   std::string method = "pole-placement";
   std::optional<double> settle_s, current_settle_s, damping, bandwidth_rad_s, period_s, voltage_V,
       torque_limit_Nm, load_inertia_kg_m2, lowest_speed_rad_s, capture_Hz, step;
-  std::optional<double> force_limit_N, load_mass_kg;  ///< of a linear motor, for torque limit and inertia
+  std::optional<double> force_limit_N, load_mass_kg;  ///< linear motor: replace torque limit and load inertia
   std::optional<int> delay_periods, edges;
-  bool quick = false;  ///< without the tolerances
+  bool quick = false;  ///< without the corners of the tolerances
   bool quiet = false, force = false;
   unsigned jobs = 0;
   std::string json, toml, models, html;  ///< files; json "-": standard output
-  double angle_deg = 30.0;               ///< of the models, electrical
-  std::string optimise, store;           ///< a plan and where its runs are kept
+  double angle_deg = 30.0;               ///< rotor angle of the models, electrical
+  std::string optimise, store;           ///< a plan, and the store of its runs
   bool resume = false;
   std::string data_dir;
-  std::string command;  ///< the command line as it may be typed again
+  std::string command;  ///< the command line as it can be typed again
 };
 
 }  // namespace cli

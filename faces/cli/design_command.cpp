@@ -40,7 +40,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The sensor that is asked for, as the scenario's keys have it, looked at once a period of this design.
+/// The requested sensor, as the scenario's keys describe it, sampled once per period of this design.
 design::RotorSensing rotor_of(const DesignArguments& a, const study::Scenario* scenario,
                               const design::DesignSpec& w, base::Problems& found) {
   design::RotorSensing rotor = w.rotor;
@@ -62,9 +62,9 @@ design::RotorSensing rotor_of(const DesignArguments& a, const study::Scenario* s
   return rotor;
 }
 
-/// Options over what a scenario says, or over what a board has.
+/// Options take precedence over the scenario's values or the board's defaults.
 design::DesignSpec spec_of(const DesignArguments& a, const study::Scenario* scenario, base::Problems& found) {
-  // Only what a design is for: off and duty need none.
+  // Modes that have a design; off and duty have none.
   constexpr base::Choice<sixstep::control::Mode> modes[] = {study::mode_choices[2], study::mode_choices[3],
                                                             study::mode_choices[4]};
   std::optional<sixstep::control::Mode> mode;
@@ -94,7 +94,7 @@ design::DesignSpec spec_of(const DesignArguments& a, const study::Scenario* scen
   return w;
 }
 
-/// The files that were asked for, open before anything runs.
+/// The requested files, opened before anything runs.
 struct DesignFiles {
   std::optional<files::AtomicFile> json, toml, models, html;
 
@@ -127,7 +127,8 @@ base::Problems put(std::optional<files::AtomicFile>& file, const std::string& te
   return file->commit();
 }
 
-/// The scenario that was simulated, with what its board's says of the drive beside the loops. What is lost of that is a warning.
+/// The simulated scenario with the board's settings beside the loops. A warning names the settings that are
+/// lost.
 analysis::CarriedOver designed_scenario(analysis::DesignStudy& s, const study::Scenario* board) {
   study::Scenario scenario = s.scenario;
   analysis::require_swing(s, scenario);
@@ -137,12 +138,12 @@ analysis::CarriedOver designed_scenario(analysis::DesignStudy& s, const study::S
   const auto warn = [&s](std::string what, bool grave) {
     s.warnings.push_back({.what = std::move(what), .cure = "", .grave = grave, .of = design::Concern::board});
   };
-  // Advice is tried on the board's parts, and not with what bounds its drive.
+  // Advice is tried on the board's parts, without the limits of its drive.
   if (!carried.kept.empty() || !carried.lost.empty())
     for (design::Warning& w : s.warnings)
       if (w.cure.starts_with("usable with"))
         w.cure += ", as far as tried: without what bounds the board's drive";
-  // The verdict on the loops of a sensorless drive is not that on its file, which lacks what commutates.
+  // The verdict on a sensorless drive's loops does not cover its file, which lacks the commutation.
   if (!carried.lost.empty()) warn(carried.lost, board->control.drive != study::FirmwareKind::sensorless);
   if (!carried.differs.empty())
     warn(
@@ -193,7 +194,7 @@ std::optional<study::Scenario> board_of(const DesignArguments& a, base::Problems
   return *scenario;
 }
 
-/// The motor that was named, else the scenario's.
+/// The named motor, else the scenario's.
 base::Result<analysis::DesignSubject> subject_of(const DesignArguments& a,
                                                  const std::optional<study::Scenario>& board,
                                                  base::Problems& found) {
@@ -267,7 +268,7 @@ Exit design_command(const DesignArguments& a) {
   if (const base::Problems unwritten = write(*s, board ? &*board : nullptr, a, outputs); !unwritten.empty())
     return refused(unwritten);
   if (a.json == "-") print(text::design_json(*s));
-  std::FILE* to = a.json == "-" ? stderr : stdout;  // standard output is the JSON's alone
+  std::FILE* to = a.json == "-" ? stderr : stdout;  // standard output then holds only the JSON
   if (!a.quiet) print(text::design_text(*s, may_colour(to)), to);
   return s->usable() ? Exit::ok : Exit::failed;
 }

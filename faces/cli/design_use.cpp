@@ -18,14 +18,14 @@ constexpr const char* not_written = "leave it out: --json has all numbers";
 struct Use {
   const char* option;
   bool (*given)(const DesignArguments&);
-  std::string_view member;  ///< of the spec; empty: read by every design of gains
-  const char* in_field;     ///< the cure where a field-oriented drive has no use for it; nullptr: it has
+  std::string_view member;  ///< member of the spec; empty: every design of gains reads it
+  const char* in_field;     ///< the cure if a field-oriented drive does not use it; nullptr: it does
   bool in_optimise;         ///< whether --optimise reads it
 };
 
 using A = DesignArguments;
 
-/// All options but those that only say how: --force, --quiet, --jobs, --data and what --optimise alone has.
+/// All options except --force, --quiet, --jobs, --data, and those of --optimise alone.
 constexpr Use uses[] = {
     {"MOTOR", [](const A& a) { return !a.motor.empty(); }, "", "leave it out: the scenario names its motor",
      false},

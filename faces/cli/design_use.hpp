@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which options of `sixstep design` enter which kind of design. One that does not is refused by name: it was meant to do something.
+// Checks which options of `sixstep design` each kind of design uses. An option without effect is refused by
+// name, because the user expects an effect.
 #pragma once
 #include "faces/cli/design_arguments.hpp"
 #include "sixstep/base/problem.hpp"
@@ -8,16 +9,16 @@
 
 namespace cli {
 
-/// Of gains for a spec: what its mode, method and sensor do not read.
+/// Options that a design of gains does not use in its mode, method and sensor.
 base::Problems unread_by(const design::DesignSpec& spec, const DesignArguments& a);
 
-/// Options that only the other kind of motor has: one that turns, or one that moves along a line.
+/// Options that only the other kind of motor has (turning or linear).
 base::Problems of_other_motion(const design::Sheet& sheet, const DesignArguments& a);
 
-/// Of a field-oriented drive, of which the scenario says all.
+/// Options besides the scenario, which determines a field-oriented design.
 base::Problems unread_by_field_design(const DesignArguments& a);
 
-/// Of --optimise, of which the plan says all.
+/// Options besides the plan, which determines --optimise.
 base::Problems unread_by_optimise(const DesignArguments& a);
 
 }  // namespace cli

@@ -9,7 +9,8 @@
 
 namespace cli {
 
-/// Options with the files they name, "" and "-" left out: the same file twice, in whatever spelling.
+/// Problems of options that name the same file, in any spelling. `outputs`: options with their files; "" and "-"
+/// are ignored.
 base::Problems duplicate_outputs(const std::vector<std::pair<std::string, std::string>>& outputs);
 
 }  // namespace cli

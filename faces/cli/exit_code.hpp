@@ -7,18 +7,18 @@
 
 namespace cli {
 
-/// What the shell is told; of several runs the gravest.
+/// The program's exit code; for several runs the gravest.
 enum class Exit : int {
   ok = 0,         ///< all requirements hold
   failed = 1,     ///< a requirement failed
   bad_input = 2,  ///< also a file that cannot be read or written
   fault = 3,      ///< a fault stopped a run, or the drive in it
   internal = 4,   ///< a mistake of the program
-  // What ended it from outside, as shells count: 128 and the signal's number.
-  hung_up = 129,      ///< SIGHUP: the terminal has gone
+  // Signals, as shells count them: 128 and the signal's number.
+  hung_up = 129,      ///< SIGHUP: the terminal was closed
   interrupted = 130,  ///< SIGINT: by the user
   quit = 131,         ///< SIGQUIT
-  reader_gone = 141,  ///< of a pipe that was written to
+  reader_gone = 141,  ///< SIGPIPE: the reader closed the pipe
   terminated = 143,   ///< SIGTERM
   out_of_time = 152   ///< SIGXCPU
 };
@@ -28,7 +28,7 @@ struct ExitMeaning {
   std::string_view meaning;
 };
 
-/// For help and manual.
+/// Texts for help and manual.
 inline constexpr ExitMeaning exit_meanings[] = {
     {Exit::ok, "all requirements hold"},
     {Exit::failed, "a requirement failed"},
@@ -43,7 +43,7 @@ inline constexpr ExitMeaning exit_meanings[] = {
     {Exit::out_of_time, "ended by SIGXCPU at its limit of processor time"},
 };
 
-/// Of a run that came to its end or to a fault.
+/// For a run that came to its end or to a fault.
 inline Exit exit_of(const study::Outcome& outcome) {
   if (outcome.fault) return Exit::fault;
   return outcome.passed() ? Exit::ok : Exit::failed;

@@ -32,8 +32,8 @@ struct ExportArguments {
   std::string name_space = "exported";
   std::string data_dir;
   bool single_header = false, force = false;
-  std::optional<std::string> despite;  ///< why it is written although it is not clear
-  std::string command;                 ///< the command line as it may be typed again
+  std::optional<std::string> despite;  ///< the reason for writing it although it is not clear
+  std::string command;                 ///< the command line as it can be typed again
 };
 
 std::string meant(const std::string& word, const std::vector<std::string>& known) {
@@ -54,7 +54,7 @@ std::optional<study::Arithmetic> arithmetic_of(const std::string& word, base::Pr
   return {};
 }
 
-/// A number above 0, plausible in its unit, that is all of the text; else 0.
+/// The number if the whole text is one above 0 and plausible in its unit; else 0.
 double positive(const std::string& text, std::string_view unit) {
   double x = 0.0;
   const auto end = std::from_chars(text.data(), text.data() + text.size(), x);
@@ -94,7 +94,7 @@ design::OperatingRange range_of(const ExportArguments& a, base::Problems& proble
   return range;
 }
 
-/// The drive as it is to be on the chip, or what is wrong with the words.
+/// The drive for the chip, or the problems of the arguments.
 base::Result<study::Scenario> scenario_of(const ExportArguments& a) {
   base::Problems problems;
   const std::optional<study::Arithmetic> arithmetic = arithmetic_of(a.arithmetic, problems);
@@ -119,7 +119,7 @@ base::Problems within(const std::string& file, base::Problems problems) {
   return problems;
 }
 
-/// The run that is to clear it, watched.
+/// Makes the run that is to clear the drive, with its progress shown.
 base::Result<study::Clearance> cleared(const study::Scenario& scenario) {
   Progress progress({.seconds = {scenario.duration_s}}, false);
   const auto keep_going = [&progress](double t_s) {
@@ -131,11 +131,11 @@ base::Result<study::Clearance> cleared(const study::Scenario& scenario) {
       {.on_record = {}, .on_event = {}, .on_logic = {}, .keep_going = keep_going, .keep_books = false});
 }
 
-/// All that stands against it, at once.
+/// Reports all reasons against clearance at once.
 Exit not_cleared(const ExportArguments& a, const study::Control& control, const study::Clearance& c) {
   complain(within(a.file, c.unmeasured));
   complain(within(a.file, c.unheld));
-  // Where the sensor goes, so do the loops that were laid out for it.
+  // Loops that were designed for the sensor go with it.
   const bool of_sensor = std::any_of(c.unmeasured.begin(), c.unmeasured.end(),
                                      [](const base::Problem& p) { return p.where == "sensors.rotor"; });
   using Mode = sixstep::control::Mode;
@@ -164,7 +164,7 @@ Exit export_header(const ExportArguments& a) {
                             .command = a.command,
                             .clearance = nullptr,
                             .despite = a.despite.value_or("")};
-  // What the format does not hold, or a file that cannot be written, is told before anything runs.
+  // Reported before the run: values that do not fit the format, and an unwritable file.
   if (const auto unrun = text::config_header(wanted); !unrun)
     return refused(within(a.file, unrun.problems()));
   catch_interrupts();

@@ -23,7 +23,7 @@ Exit design_field(const DesignArguments& a, const study::Scenario& scenario) {
     if (found = file->commit(); !found.empty()) return refused(found);
   }
   if (a.json == "-") print(json);
-  std::FILE* to = a.json == "-" ? stderr : stdout;  // standard output is the JSON's alone
+  std::FILE* to = a.json == "-" ? stderr : stdout;  // standard output then holds only the JSON
   if (!a.quiet) print(text::field_design_text(*s, may_colour(to)), to);
   return s->usable() ? Exit::ok : Exit::failed;
 }

@@ -6,7 +6,7 @@
 
 namespace cli {
 
-/// `sixstep design --scenario` of a field-oriented drive: its own loops, of the gains that its run has.
+/// `sixstep design --scenario` of a field-oriented drive: its loops with the gains of its run.
 Exit design_field(const DesignArguments& arguments, const study::Scenario& scenario);
 
 }  // namespace cli

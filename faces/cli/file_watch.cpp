@@ -32,7 +32,7 @@ bool FileWatch::wait_for_a_change() const {
   while (!interrupted()) {
     std::this_thread::sleep_for(pause);
     std::vector<Stamp> now = look();
-    if (now != seen_ && now == before) return true;  // nobody is still writing
+    if (now != seen_ && now == before) return true;  // the file has stopped changing
     before = std::move(now);
   }
   return false;

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// sixstep run --watch: waits until one of the files that were read is saved.
+// Waits until one of the files that were read is saved (sixstep run --watch).
 #pragma once
 #include <string>
 #include <vector>
 
 namespace cli {
 
-/// How the files looked when they were read. A file's time, size and identity are asked for ten times a
-/// second: that works on every disk, on shared folders, and with editors that write another file and rename
-/// it.
+/// The state of the files when they were read. Time, size and identity of each file are compared ten times a
+/// second. This works on every disk, on shared folders, and with editors that write another file and rename it.
 class FileWatch {
  public:
   explicit FileWatch(std::vector<std::string> paths);
 
-  /// Returns once a file differs and all have stayed as they are for a moment; false where Ctrl-C came first.
+  /// Returns true once a file differs and no file has changed for a moment; false after Ctrl-C.
   bool wait_for_a_change() const;
 
  private:

@@ -18,7 +18,7 @@ namespace {
 
 std::string json_text(const files::RunStory& s) { return text::json_summary(s.scenario, s.outcome); }
 
-/// The rows look into a scenario that stays where it is.
+/// The rows refer to the scenario, which must stay where it is.
 struct Kept {
   explicit Kept(const study::Scenario& s) : scenario(s), events(scenario) {}
   study::Scenario scenario;
@@ -37,7 +37,7 @@ base::Result<files::Sink> report_sink(const files::Destination& to, const study:
   return sink;
 }
 
-/// What a chip sent over its serial line, below a remark that says of which run.
+/// The output of a chip's serial line, below a comment that names the run.
 std::string sent_text(const files::RunStory& s) {
   if (!s.outcome.chip) return "";
   return fmt::format("# sixstep {}: what an emulated {} sent; {}\n{}", SIXSTEP_VERSION, s.outcome.chip->chip,
@@ -49,7 +49,7 @@ base::Result<files::Sink> uart_sink(const files::Destination& to, const study::S
   return files::page_sink(to, sent_text);
 }
 
-/// Of rows on a grid: how many, and how large they are, where that is more than a disk is asked for without a word.
+/// The number and size of rows on a grid; empty unless larger than a disk should get without notice.
 std::string grid_foretold(const study::Scenario& s, double bytes_a_number) {
   constexpr double many_bytes = 5e8;
   const base::Result<std::vector<study::Column>> columns = study::record_columns(s);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The formats that `sixstep run` writes: one list, which options, help, completions, --out, messages, guards
-// and interruptions read.
+// Lists the formats that `sixstep run` writes, for options, help, completions, --out, messages, checks and
+// interruptions.
 #pragma once
 #include <span>
 #include <string>
@@ -13,20 +13,20 @@ namespace cli {
 
 struct Format {
   std::string_view option;   ///< "--csv"
-  std::string_view meaning;  ///< of the option, for its help
+  std::string_view meaning;  ///< help text of the option
   files::OpenSink open;
-  std::string_view in_folder;  ///< what --out DIR puts behind the scenario's name; empty: not written there
-  /// What - as the file's name prints; null: - is a name as any other.
+  std::string_view in_folder;  ///< what --out DIR appends to the scenario's name; empty: not written there
+  /// The text that - as the file's name prints; null: - is a file name.
   std::string (*printed)(const files::RunStory&) = nullptr;
-  /// What of the run will not fit into it, said before it runs; null: all does.
+  /// A message before the run about the parts that will not fit into the format; null: everything fits.
   std::string (*foretold)(const study::Scenario&) = nullptr;
 };
 
 std::span<const Format> formats();
 
-/// The one for people: it may also compare several runs, and the index of --out links to it.
+/// The format for people: it can also compare several runs, and the index of --out links to it.
 inline constexpr std::string_view page_option = "--html";
-/// The one that a chip has to run for.
+/// The format that needs a chip to run.
 inline constexpr std::string_view uart_option = "--uart";
 
 /// "--csv, --mat, .."

@@ -63,7 +63,7 @@ std::string of_key(const KeyEntry& entry) {
   return text;
 }
 
-/// The key by its last word, where only one has it.
+/// The key with this last word, if only one key has it.
 const KeyEntry* by_name(const std::vector<KeyEntry>& entries, const std::string& key) {
   const KeyEntry* found = nullptr;
   for (const KeyEntry& entry : entries) {
@@ -95,8 +95,8 @@ std::string with_word(const std::vector<KeyEntry>& entries, std::string_view wor
   return text;
 }
 
-/// Who asks for a command's help here means `sixstep COMMAND --help`; where a key has that name too, the
-/// command comes first and the key below it.
+/// The verb of this name, because `sixstep help COMMAND` means `sixstep COMMAND --help`. If a key has that name
+/// too, the command comes first and the key below it.
 const CLI::App* command_of(const CLI::App& app, const std::string& name) {
   const auto found = app.get_subcommands([&](const CLI::App* verb) { return verb->get_name() == name; });
   return found.empty() ? nullptr : found.front();
@@ -134,7 +134,7 @@ Exit help_command(const CLI::App& app, const std::string& key) {
   for (const std::vector<KeyEntry>* entries : {&scenario, &sheet, &plan})
     for (const KeyEntry& entry : *entries) known.push_back(entry.path);
   std::string near = text::nearest(key, known);
-  for (const std::string& path : known)  // "voltage_V" stands in a table; so may a misspelt one
+  for (const std::string& path : known)  // "voltage_V" is in a table; a misspelt key may be too
     if (near.empty() && text::edit_distance(path.substr(path.rfind('.') + 1), key) <= 1) near = path;
   constexpr std::size_t shortest_word = 3;
   if (near.empty() && key.size() >= shortest_word) {

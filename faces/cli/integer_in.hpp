@@ -6,7 +6,7 @@
 
 namespace cli {
 
-/// Lets an option take whole numbers of a range; what it says of any other is the limit of a Problem.
+/// Checks that an option is a whole number in a range; its message is the limit of a Problem.
 CLI::Validator integer_in(std::int64_t least, std::int64_t most);
 
 }  // namespace cli

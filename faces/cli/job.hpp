@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One scenario from file to files. Everything that can be refused is refused before the run begins.
+// Runs one scenario from its file to its outputs. Everything that can be refused is refused before the run
+// begins.
 #pragma once
 #include <functional>
 #include <optional>
@@ -16,19 +17,19 @@ class Job {
   Job(study::Scenario scenario, files::TraceOrigin origin)
       : scenario_(std::move(scenario)), origin_(std::move(origin)) {}
 
-  /// Opens every output; Problems mean that nothing was written and nothing must run.
+  /// Opens every output. Problems: nothing was written, and the run must not start.
   base::Problems prepare(const OutputPaths& paths) {
     foretold_ = Outputs::foretold(paths, scenario_);
     return outputs_.open(paths, scenario_, origin_);
   }
 
-  /// Runs its drive on a core too; null: on the host alone. Problems: a drive that none can run.
+  /// Sets the core that also runs the drive; null: only the host. Problems: a drive that no core can run.
   base::Problems take_core(const loop::Core* core);
   const loop::Core* core() const { return core_; }
-  /// One of two runs of a file: `where` follows its name.
+  /// For one of two runs of a file: `where` is appended to its name.
   void tell_where(std::string where) { where_ = std::move(where); }
 
-  /// Runs and puts the outputs in place. `reached` hears the simulated time now and then.
+  /// Runs and puts the outputs in place. `reached` is called now and then with the simulated time.
   void run(const std::function<void(double t_s)>& reached);
 
   Exit exit_code() const;
@@ -36,19 +37,20 @@ class Job {
   const study::Scenario& scenario() const { return scenario_; }
   const study::Outcome* outcome() const { return outcome_ ? &*outcome_ : nullptr; }
   bool begun() const { return outcome_ || !problems_.empty(); }
-  /// It ran to its end, or to a fault.
+  /// Whether it ran to its end or to a fault.
   bool finished() const { return outcome_ && !interrupted_ && !broken_; }
-  /// The path of its page, or of what a run that was cut short left of one; empty where there is none.
+  /// The path of its page, or of the partial page of an interrupted run; empty: none.
   const std::string& page() const { return outputs_.page(); }
   const base::Problems& problems() const { return problems_; }
-  /// Where an output does not hold all of it: said before it runs, about, and after it. Empty else.
+  /// Messages if an output does not hold the whole run: an estimate before the run, the fact after it. Empty
+  /// otherwise.
   std::string foretold() const;
   std::string left_out() const;
-  /// Of a run that was ended before its time: when, and what stands where. Empty else.
+  /// The message about an interrupted run: the time, and the files with its results. Empty otherwise.
   std::string cut_short() const;
 
  private:
-  /// With the file in front: of many, which.
+  /// Prefixes each problem with the scenario file's name.
   base::Problems told(base::Problems problems) const;
   void fail(const base::Problems& problems);
 
@@ -61,8 +63,8 @@ class Job {
   const loop::Core* core_ = nullptr;
   std::string where_;
   bool interrupted_ = false;
-  bool broken_ = false;       // an output could be written no longer
-  bool reader_gone_ = false;  // a pipe was closed at its other end
+  bool broken_ = false;       // an output could not be written any more
+  bool reader_gone_ = false;  // the reader closed a pipe
 };
 
 }  // namespace cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// sixstep on the command line: reads arguments, calls one command, tells the shell how it went.
+// Runs sixstep on the command line: reads the arguments, calls one command, returns its exit code.
 #include <unistd.h>
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -36,7 +36,7 @@
 namespace cli {
 namespace {
 
-/// The command line as a shell would take it again. The program is called by its name: its path says nothing.
+/// The command line as a shell reads it back. The program appears by its name without the path.
 std::string retyped(int count, const char* const* words) {
   std::string text = "sixstep";
   for (int n = 1; n < count; ++n) text += " " + text::shell_word(words[n]);
@@ -54,7 +54,7 @@ std::string exit_codes() {
 struct Listed {
   std::string_view name;
   Verb (*declare)(CLI::App& app);
-  bool looks_at_all = false;  ///< it tells of the other verbs, too
+  bool looks_at_all = false;  ///< it needs all verbs
 };
 constexpr Listed listed[] = {{"new", declare_new},         {"run", declare_run},
                              {"design", declare_design},   {"compare", declare_contest},
@@ -63,7 +63,7 @@ constexpr Listed listed[] = {{"new", declare_new},         {"run", declare_run},
                              {"schema", declare_schema},   {"completion", declare_completion, true},
                              {"man", declare_man, true}};
 
-/// The verb that was asked for, or all of them: to declare the options of each takes longer than many a verb does.
+/// The requested verb, or all of them: declaring the options of all takes longer than many a verb.
 std::vector<Verb> declared(CLI::App& app, std::string_view word) {
   for (const Listed& verb : listed)
     if (verb.name == word && !verb.looks_at_all) return {verb.declare(app)};
@@ -87,25 +87,27 @@ Exit run_program(int count, const char* const* words) {
   } catch (const CLI::ParseError& error) {
     return usage_error(app, error, count > 1 ? words[count - 1] : "");
   }
-  const files::ReadLog inputs;  // no output takes the place of an input
+  const files::ReadLog inputs;  // refuses outputs that would replace an input
   const auto chosen = std::find_if(verbs.begin(), verbs.end(), [](const Verb& v) { return v.app->parsed(); });
   return exit_after_stop(chosen->call(retyped(count, words)));
 }
 
-/// Without asking for more of it.
+/// Without allocating memory.
 Exit out_of_memory() {
   print("sixstep is out of memory; make room, or ask for less: fewer --jobs, a shorter run\n", stderr);
   return Exit::bad_input;
 }
 
-/// At once, where memory is asked for: streams swallow std::bad_alloc, and a value that was read in one is then called wrong.
+/// Ends the program at the failed allocation: streams swallow std::bad_alloc, and a value read from one would be
+/// reported as wrong.
 [[noreturn]] void end_without_memory() {
   const Exit exit = out_of_memory();
   files::remove_temporary_files();
   ::_exit(static_cast<int>(exit));
 }
 
-/// What nobody catches: memory that a thread of the program's own did not get, or a mistake, whose trace the abort keeps.
+/// For exceptions that no code catches: lack of memory in one of the program's own threads, or an internal
+/// error, for which abort() keeps the trace.
 [[noreturn]] void end_uncaught() {
   try {
     if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
@@ -116,7 +118,7 @@ Exit out_of_memory() {
   std::abort();
 }
 
-/// Before the program's own constants are made, which takes memory, too.
+/// Installed before the program's constants are initialised, which allocates memory too.
 [[gnu::constructor(101)]] void take_terminations() {
   std::set_terminate(end_uncaught);
   std::set_new_handler(end_without_memory);

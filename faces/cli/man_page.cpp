@@ -15,8 +15,8 @@
 namespace cli {
 namespace {
 
-/// Text as roff takes it: a hyphen that is typed, a backslash, no line that would be a command, and none that
-/// is longer than editors of such pages like.
+/// Escapes text for roff: hyphens and backslashes, no line that begins as a command, and no line longer than
+/// usual in such pages.
 std::string roff(std::string_view text) {
   constexpr std::size_t longest_line = 78;
   std::string out;
@@ -44,7 +44,7 @@ std::string roff(std::string_view text) {
 std::string bold(std::string_view text) { return fmt::format("\\fB{}\\fR", roff(text)); }
 std::string italic(std::string_view text) { return fmt::format("\\fI{}\\fR", roff(text)); }
 
-/// A term and what it means.
+/// A term and its meaning.
 std::string entry(const std::string& term, std::string_view meaning) {
   return fmt::format(".TP\n{}\n{}\n", term, roff(meaning));
 }
@@ -80,7 +80,7 @@ std::string synopsis(const std::string& path, const CLI::App& verb) {
 
 using Verbs = std::vector<std::pair<std::string, const CLI::App*>>;
 
-/// Every command line there is: a verb, or a verb's verb.
+/// Adds every command line: the verbs and their subcommands.
 void add_verbs(const std::string& path, const CLI::App& app, Verbs& out) {
   const auto inner = app.get_subcommands([](const CLI::App*) { return true; });
   if (inner.empty()) out.emplace_back(path, &app);
@@ -98,7 +98,7 @@ std::string commands(const CLI::App& app, const Verbs& verbs) {
   return text;
 }
 
-/// Its keys and tables at the root.
+/// A file's keys and tables at the root.
 std::string keys_of_file(const std::vector<text::KeyEntry>& keys) {
   std::string text;
   for (const text::KeyEntry* key : text::keys_in(keys, "")) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The manual page, written from what the verbs declare and the keys describe.
+// Writes the manual page from the declarations of the verbs and the descriptions of the keys.
 #pragma once
 #include <string>
 

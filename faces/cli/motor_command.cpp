@@ -34,7 +34,7 @@ struct Checked {
   design::SheetCheck check;
 };
 
-/// Nothing where the sheet cannot be read or judged, which has been told.
+/// Empty if the sheet cannot be read or judged; the problems have been printed.
 std::optional<Checked> checked(const MotorArguments& a) {
   base::Result<design::Sheet> sheet = files::read_sheet(a.name, a.data_dir);
   if (!sheet) {

@@ -4,8 +4,8 @@
 
 namespace cli {
 
-/// `sixstep motor list|show|check|new|wiring|commission`: the motors compiled in, one sheet with its model, a sheet held
-/// against itself (`failed` where it contradicts itself), a template to fill in; the 36 ways to plug it in
+/// `sixstep motor list|show|check|new|wiring|commission`: the motors compiled in; one sheet with its model; the
+/// check of a sheet (`failed` if it contradicts itself); a template to fill in; the 36 ways to connect it
 /// (wiring_command.hpp, commission_command.hpp).
 Verb declare_motor(CLI::App& app);
 

@@ -36,7 +36,7 @@ struct NewArguments {
 base::Result<study::Scenario> scenario_of(const NewArguments& a, const std::string& path) {
   base::Problems found;
   analysis::FirstScenarioSpec spec;
-  // Something is to be driven: off is none of them.
+  // A first scenario drives something, so off is not among the modes.
   constexpr base::Choice<sixstep::control::Mode> modes[] = {study::mode_choices[3], study::mode_choices[2],
                                                             study::mode_choices[4], study::mode_choices[1]};
   choose("--mode", a.mode, modes, spec.mode, found);
@@ -52,7 +52,8 @@ base::Result<study::Scenario> scenario_of(const NewArguments& a, const std::stri
   return scenario;
 }
 
-/// The schema lies beside the scenario, where its first line looks for it; one that is there already stays, and is told if another.
+/// Writes the schema beside the scenario, where its first line refers to it. An existing schema stays; a message
+/// says so if it differs.
 base::Result<std::string> write_schema(const std::string& path) {
   if (taken(path).empty()) {
     const base::Problems problems = write_new(path, text::scenario_schema());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that are made once and then belong to the user.
+// Writes new files that then belong to the user.
 #pragma once
 #include <string>
 
@@ -8,16 +8,16 @@
 
 namespace cli {
 
-/// `name` as the file's name: with .toml behind it where it has none.
+/// The file name for `name`, with .toml appended if it has no extension.
 std::string toml_path(const std::string& name);
 
-/// Told where something of that name is there already.
+/// A Problem if a file of that name exists.
 base::Problems taken(const std::string& path);
 
-/// Writes it whole, and never over what is there.
+/// Writes the whole file; never replaces an existing one.
 base::Problems write_new(const std::string& path, const std::string& text);
 
-/// A motor given by path as a scenario at `toml` has to name it; a built-in's name stays as it is.
+/// The motor's path as a scenario at `toml` has to name it; the name of a motor compiled in stays as it is.
 std::string motor_beside(const std::string& motor, const std::string& toml);
 
 }  // namespace cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files are made before the work begins: one that cannot be written is told at once.
+// Opens output files before the run, so that an unwritable path fails at once.
 #pragma once
 #include <optional>
 #include <utility>
@@ -9,7 +9,7 @@
 
 namespace cli {
 
-/// The file, or what is wrong with it.
+/// Stores the file, or adds its problems.
 template <class File>
 void open_or_report(std::optional<File>& into, base::Result<File> file, base::Problems& problems) {
   if (file)

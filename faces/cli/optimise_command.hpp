@@ -9,13 +9,14 @@ namespace cli {
 
 struct OptimiseArguments {
   std::string plan;   ///< a file with `minimise`
-  std::string store;  ///< of every evaluation; empty: none is kept
+  std::string store;  ///< for every evaluation; empty: none
   bool resume = false, force = false, quiet = false;
   std::string toml, json, data_dir, command;
   unsigned jobs = 0;
 };
 
-/// `sixstep design --optimise PLAN`: the point of its ranges at which a figure is least and every drive holds, and what limits it.
+/// `sixstep design --optimise PLAN`: the point of its ranges with the least value of a figure at which every
+/// drive holds, and the requirements that limit it.
 Exit optimise_command(const OptimiseArguments& arguments);
 
 }  // namespace cli

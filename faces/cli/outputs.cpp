@@ -25,7 +25,8 @@ files::Sink stdout_sink(const Format& format) {
   return sink;
 }
 
-/// Of a period that no board has, and that makes a run last: each takes 0.3 us to 3 us, by what runs in it.
+/// A message about a period so short that no board has it and that the run takes long: each period takes 0.3 us
+/// to 3 us of computing time.
 std::string length_foretold(const study::Scenario& s) {
   constexpr double short_s = 1e-6, many = 1e7, one_s = 1e-6;
   const double periods = s.duration_s / s.pwm.period_s;
@@ -38,7 +39,7 @@ std::string length_foretold(const study::Scenario& s) {
                                       : fmt::format("some {:.2g} hours", minutes / 60.0));
 }
 
-/// One function for all that are not empty; itself empty where none is.
+/// One function that calls all those that are not empty; empty if all are.
 template <class... Arguments>
 std::function<void(Arguments...)> one_of_all(std::vector<std::function<void(Arguments...)>> all) {
   std::erase_if(all, [](const auto& function) { return !function; });
@@ -131,7 +132,7 @@ base::Problems Outputs::publish(const files::RunStory& story, bool whole) {
     append(problems, failed);
     if (output.sink.left_out) left_out_ += output.sink.left_out();
     if (!failed.empty() || output.path.empty()) continue;
-    // What is not a regular file has no such name.
+    // A path that is not a regular file has no partial name.
     const std::string partial = files::partial_name(output.path);
     const bool is_partial = !whole && std::filesystem::exists(partial);
     if (is_partial) partial_files_.push_back(partial);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The outputs of one run in every format that was asked for: opened before it begins, filled while it goes
-// on, put in place at its end.
+// Manages the outputs of one run in every requested format: opened before it begins, filled during it, put in
+// place at its end.
 #pragma once
 #include <string>
 #include <string_view>
@@ -12,43 +12,43 @@
 
 namespace cli {
 
-/// For --out.
+/// Makes the folder of --out.
 base::Problems make_folder(const std::string& out);
 
 struct OutputPaths {
   std::vector<std::string> of_formats = std::vector<std::string>(formats().size());  ///< empty: not wanted
-  bool force = false;  ///< over whatever is there
+  bool force = false;                                                                ///< replace any file
 
   const std::string& of(std::string_view option) const;
-  /// Each that is wanted with its option, standard output left out.
+  /// Each wanted output with its option, without standard output.
   std::vector<std::pair<std::string, std::string>> files() const;
-  /// Standard output is that of a format alone.
+  /// Whether a format is printed to standard output, which then has nothing else.
   bool prints() const;
   bool any() const { return prints() || !files().empty(); }
 };
 
 class Outputs {
  public:
-  /// Problems mean that nothing was written and nothing must run.
+  /// Problems: nothing was written, and the run must not start.
   base::Problems open(const OutputPaths& paths, const study::Scenario& scenario,
                       const files::TraceOrigin& origin);
 
   void listen(study::Listeners& listeners) const;
 
-  /// What of the run will not fit into one of them, and what did not, once it is published.
+  /// The parts of the run that will not fit into an output, and, after publish(), those that did not.
   static std::string foretold(const OutputPaths& paths, const study::Scenario& scenario);
   const std::string& left_out() const { return left_out_; }
 
-  /// One of them can be written no longer: a disk is full, or the reader of a pipe has gone.
+  /// An output cannot be written any more: the disk is full, or the reader closed a pipe.
   bool failed() const;
 
-  /// A run that was cut short leaves NAME.partial.EXT of each, and nothing on standard output.
+  /// An interrupted run leaves NAME.partial.EXT of each, and prints nothing to standard output.
   base::Problems publish(const files::RunStory& story, bool whole);
 
-  /// Where the page for people stands in the end; empty where there is none.
+  /// The final path of the page for people; empty: none.
   const std::string& page() const { return page_; }
 
-  /// The names under which a cut run's files stand.
+  /// Names of an interrupted run's files.
   const std::vector<std::string>& partial_files() const { return partial_files_; }
 
  private:

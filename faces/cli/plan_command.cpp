@@ -53,7 +53,7 @@ batch::PlanRuns runs_of(const RunArguments& a, const ReadPlan& plan, files::Plan
           .jobs = a.jobs};
 }
 
-/// Whether this program still makes of a stored run what it made of it then.
+/// Problems if this program computes other values for a stored run than the store has.
 base::Problems same_program(const batch::PlanRuns& runs, files::PlanStore& store) {
   std::optional<analysis::RunRecord> before;
   base::Problems problems = store.each([&](const analysis::RunRecord& record) {
@@ -68,7 +68,7 @@ base::Problems same_program(const batch::PlanRuns& runs, files::PlanStore& store
            .cure = "finish it with that version, or begin anew with --force"}};
 }
 
-/// A plan whose runs have been made: what stands in its store, and what it comes to. It stays where it is.
+/// A plan whose runs have been made: its store's rows and their results. It must not move.
 class MadePlan {
  public:
   MadePlan(const ReadPlan& plan, files::PlanStore store)
@@ -85,9 +85,9 @@ class MadePlan {
   MadePlan& operator=(const MadePlan&) = delete;
 
   const text::PlanStory& story() const { return story_; }
-  /// What kept rows from being read.
+  /// The reasons why rows could not be read.
   const base::Problems& problems() const { return problems_; }
-  /// Runs that the store has beyond those of the plan, in words; empty where there are none.
+  /// Message about runs in the store beyond those of the plan; empty: none.
   std::string beyond() const {
     if (beyond_ == 0) return "";
     return fmt::format("{}: holds {} run{} beyond the {} that are asked for; ask for more to see them\n",
@@ -95,22 +95,22 @@ class MadePlan {
                        analysis::runs_of(plan_.scenarios->plan()));
   }
   Exit exit() const { return exit_of_series(series_); }
-  /// How many runs were stopped or refused, and why the first.
+  /// How many runs were stopped or refused, and the reason of the first.
   std::string stopped() const {
     const std::string lines = text::stopped_text(series_, plan_.scenarios->plan());
     return lines.empty() ? "" : text::visible(plan_.name) + ":\n" + lines;
   }
-  /// Its table says so.
+  /// The table says so too.
   bool cut_short() const { return series_.runs < analysis::runs_of(plan_.scenarios->plan()); }
   text::JunitSuite verdicts() const { return text::junit_suite(plan_.name, series_); }
 
  private:
-  /// Those of the plan that is asked for, with their points as it has them.
+  /// Visits the rows of the requested plan, with its points.
   void each(const std::function<void(const analysis::RunRecord&)>& visit) {
     const analysis::Plan& p = plan_.scenarios->plan();
     beyond_ = 0;
     const base::Problems unread = store_.each([&](const analysis::RunRecord& record) {
-      if (record->number >= analysis::runs_of(p)) return void(++beyond_);  // of a sitting that wanted more
+      if (record->number >= analysis::runs_of(p)) return void(++beyond_);  // from a sitting with more runs
       analysis::RunValues values = *record;
       values.point = analysis::point_of_run(p, record->number);
       if (const auto whole = analysis::RunRecord::of(plan_.columns, std::move(values)))
@@ -130,7 +130,7 @@ class MadePlan {
                          [this](const auto& visit) { each(visit); }};
 };
 
-/// All runs of a plan that its store does not have yet, or as many as there was time for.
+/// Makes the runs that the store lacks, until all are made or an interrupt comes.
 base::Result<files::PlanStore> make_runs(const RunArguments& a, const ReadPlan& plan) {
   base::Result<files::PlanStore> store = store_of(a, plan, text::plan_identity(plan.scenarios->plan()));
   if (!store) return store;
@@ -159,14 +159,14 @@ base::Result<files::PlanStore> make_runs(const RunArguments& a, const ReadPlan& 
   return store;
 }
 
-/// The table, or of a quiet run what stopped runs or kept them from starting.
+/// Prints the table; a quiet run prints only which runs stopped or could not start.
 void tell(const RunArguments& a, const MadePlan& made) {
   if (a.quiet) return print(made.stopped(), stderr);
   print(text::plan_table(made.story()), a.paths.prints() ? stderr : stdout);
   if (made.cut_short()) stop_is_told();
 }
 
-/// A build server is told of it, too: a suite without cases would look as if all were well.
+/// Also reports to the build server, because a suite without cases would look successful.
 Exit refused_plan(const std::string& name, const base::Problems& problems,
                   std::vector<text::JunitSuite>& suites) {
   suites.push_back(text::junit_suite(name, problems));
@@ -194,7 +194,7 @@ Exit run_plan(const RunArguments& a, const ReadPlan& plan, std::vector<text::Jun
   return problems.empty() ? made.exit() : graver(made.exit(), Exit::bad_input);
 }
 
-/// Two plans on one page.
+/// Shows two plans on one page.
 Exit compare_plans(const RunArguments& a, const std::vector<ReadPlan>& plans,
                    std::vector<text::JunitSuite>& suites) {
   base::Result<files::AtomicFile> file = files::AtomicFile::create({a.paths.of(page_option), a.paths.force});
@@ -236,7 +236,7 @@ Exit run_plans(const RunArguments& a, const std::vector<ReadPlan>& plans,
   junit->write(text::junit_xml(suites));
   const base::Problems unwritten = interrupted() ? junit->commit_partial() : junit->commit();
   complain(unwritten);
-  // What is not a regular file has no such name.
+  // A path that is not a regular file has no partial name.
   const std::string partial = files::partial_name(junit->path());
   if (interrupted() && unwritten.empty() && std::filesystem::exists(partial))
     tell_stop("the verdicts of what was finished are in " + text::visible(partial));

@@ -4,7 +4,8 @@
 
 namespace cli {
 
-/// Runs the plans that the words behind `sixstep run` make of its files: rows into a store, tables, files. --runs is one of them.
+/// Runs the plans that the arguments of `sixstep run` make of its files: rows into a store, tables, files.
+/// --runs is one of these arguments.
 Exit plan_command(const RunArguments& arguments);
 
 }  // namespace cli

@@ -19,7 +19,8 @@ namespace {
 using std::chrono::duration;
 using std::chrono::steady_clock;
 
-/// Of a row in the store: number, words, digest and checksum, and eight bytes a number with what SQLite adds.
+/// Bytes of a row in the store: number, words, digest and checksum; and per column eight bytes for the number
+/// plus SQLite's overhead.
 constexpr double row_bytes = 79, column_bytes = 9;
 
 std::string time_text(double s) {
@@ -42,7 +43,7 @@ std::string axis_text(const analysis::Axis& axis, const std::string& unit, bool 
               : fmt::format("{}: {}{}", axis.key, ends, spaced);
 }
 
-/// A few runs spread over the plan, for a second or so; seconds of one on one core.
+/// A few runs spread over the plan, for about a second; time of one run on one core.
 struct Sample {
   std::size_t runs = 0;
   double each_s = 0.0;
@@ -55,7 +56,7 @@ Sample sample_of(const batch::PlanRuns& runs) {
   Sample sample;
   double spent_s = 0.0;
   for (std::size_t k = 0; k < std::min<std::size_t>(all, 16) && spent_s < 2.0 && !interrupted(); ++k) {
-    // Golden section: spread evenly, however many there will be.
+    // Golden section: evenly spread for any number of runs.
     const auto n =
         static_cast<std::size_t>(static_cast<double>(k) * 0.6180339887498949 * static_cast<double>(all)) %
         all;

@@ -5,7 +5,7 @@
 
 namespace cli {
 
-/// What a plan would take, without making it: its runs, the time of a few of them, and the store's size.
+/// Estimates a plan without running it: number of runs, time (from a few of them), size of the store.
 Exit estimate(const RunArguments& arguments, const ReadPlan& plan);
 
 }  // namespace cli

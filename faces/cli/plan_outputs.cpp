@@ -60,7 +60,7 @@ base::Problems PlanOutputs::open(const RunArguments& arguments, const ReadPlan& 
   return {};
 }
 
-/// In a folder the page has reports of the worst runs beside it.
+/// If the page goes into a folder, it has reports of the worst runs beside it.
 std::string PlanOutputs::page(const text::PlanStory& story, const ReadPlan& plan,
                               base::Problems& problems) const {
   WorstReports worst;
@@ -79,11 +79,11 @@ base::Problems PlanOutputs::publish(const text::PlanStory& story, const ReadPlan
     if (open.option == "--csv") write_csv(open.file, story, plan);
     if (open.option == "--json") open.file.write(json);
     if (open.option == page_option) open.file.write(page(story, plan, problems));
-    // Reports of the worst runs may be missing from the page of who was told to end just now.
+    // After an interrupt at this moment, the page may lack reports of the worst runs.
     const bool in_place = whole && !interrupted();
     const base::Problems unwritten = in_place ? open.file.commit() : open.file.commit_partial();
     append(problems, unwritten);
-    // What is not a regular file has no such name.
+    // A path that is not a regular file has no partial name.
     const std::string partial = files::partial_name(open.file.path());
     if (!in_place && unwritten.empty() && fs::exists(partial)) partial_files_.push_back(partial);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a plan's runs leave in files: opened before the first of them, put in place after the last.
+// Manages the output files of a plan: opened before its first run, put in place after its last.
 #pragma once
 #include <optional>
 #include <string>
@@ -11,14 +11,14 @@
 
 namespace cli {
 
-/// Rows and page of a plan, in the formats that it has.
+/// Rows and page of a plan, in all requested formats.
 class PlanOutputs {
  public:
-  /// Problems mean that nothing was written and nothing must run. The arguments stay where they are.
+  /// Problems: nothing was written, and no run must start. `arguments` must outlive this object.
   base::Problems open(const RunArguments& arguments, const ReadPlan& plan);
-  /// Of a plan that was cut short under partial names.
+  /// Under partial names if the plan was interrupted.
   base::Problems publish(const text::PlanStory& story, const ReadPlan& plan, bool whole);
-  /// Those names, after publish().
+  /// The partial names, after publish().
   const std::vector<std::string>& partial_files() const { return partial_files_; }
 
  private:

@@ -20,10 +20,10 @@
 namespace cli {
 namespace {
 
-/// Which this process belongs to. There is one MPI in a process.
+/// The cluster of this process. A process has only one MPI.
 struct Ranks {
   batch::Cluster cluster;
-  bool whole = true;  ///< nobody left without a word
+  bool whole = true;  ///< no process ended without notice
 };
 
 Ranks& ranks() {
@@ -31,7 +31,7 @@ Ranks& ranks() {
   return all;
 }
 
-// What faces tell each other, as bytes. The others open no file: what a text names, they ask for.
+// Messages between the processes, as bytes. Only the leader opens files; the others ask it for named texts.
 
 std::string bytes_of(const text::PlannedText& of) {
   batch::ByteWriter w;
@@ -88,7 +88,7 @@ std::string answer(const text::Resolve& resolve, const std::string& question) {
   return bytes_of(resolve({r.choice<text::Naming::Kind>(4), r.text(), r.text()}));
 }
 
-/// What turns a number into a run, in a process that has nothing but what it was told.
+/// The function that turns a number into a run, in a process that has only the leader's messages.
 decltype(batch::PlanRuns::scenario) planned_scenario(const std::string& made_of, const analysis::Plan& plan,
                                                      batch::Ask ask) {
   text::PlannedText of = planned_text(made_of);
@@ -112,12 +112,12 @@ Exit among_ranks(const std::function<Exit()>& program) {
     return Exit::bad_input;
   }
   batch::Cluster& cluster = ranks().cluster = std::move(*joined);
-  // mpirun gives the first process a terminal of its own, wherever what it prints goes then.
+  // mpirun gives the first process a terminal of its own, wherever its output goes afterwards.
   if (cluster.size > 1) ::setenv("NO_COLOR", "1", 1);
   Exit exit = Exit::ok;
   if (cluster.rank == 0) {
     exit = program();
-    if (!ranks().whole) return exit;  // the launcher ends who is left
+    if (!ranks().whole) return exit;  // the launcher ends the remaining processes
     batch::dismiss(cluster, static_cast<int>(exit));
   } else {
     catch_interrupts();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// sixstep as one of several processes that mpirun started: the first is the program, the others make the runs that it hands them.
+// Runs sixstep as one of several processes that mpirun started: the first is the program, the others make the
+// runs that it sends them.
 #pragma once
 #include <functional>
 
@@ -8,13 +9,14 @@
 
 namespace cli {
 
-/// The program's exit, in all of them: only the first calls `program`, reads, prints and writes.
+/// Returns the program's exit code in all processes. Only the first one calls `program`, reads, prints and
+/// writes.
 Exit among_ranks(const std::function<Exit()>& program);
 
-/// Threads that make runs, of all processes there are; `jobs` as in batch::PlanRuns.
+/// Threads that make runs, summed over all processes; `jobs` as in batch::PlanRuns.
 unsigned threads_for_runs(unsigned jobs);
 
-/// The plan's runs, made by all processes there are; by this one alone on its threads as batch::run_plan() does.
+/// Makes the plan's runs with all processes; if there is only one, like batch::run_plan().
 void make(const batch::PlanRuns& runs, const ReadPlan& plan);
 
 }  // namespace cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the words behind `sixstep run`, or from a plan file, to the runs that are to be made.
+// Reads the arguments of `sixstep run`, or a plan file, as runs to be made.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -16,7 +16,7 @@ namespace cli {
 struct ReadPlan {
   std::string name;  ///< the file's stem
   std::string title, notes;
-  std::string minimise;  ///< of a plan that is to be optimised
+  std::string minimise;  ///< the figure to be minimised; empty: none
   std::size_t evaluations = 0;
   std::unique_ptr<text::PlannedScenarios> scenarios;
   study::Scenario nominal;
@@ -24,16 +24,17 @@ struct ReadPlan {
   files::TraceOrigin origin;
 };
 
-/// Many runs are asked for: by an option, or by a file that is a plan.
+/// Whether many runs are requested: by an option, or because the file is a plan.
 bool plans(const RunArguments& arguments, const std::string& file);
 
-/// The file is a scenario, or a plan that names one.
+/// `file` is a scenario, or a plan that names one.
 base::Result<ReadPlan> read_plan(const std::string& file, const RunArguments& arguments);
 
-/// Of one run of the plan alone; its command is the plan's.
+/// For one run of the plan; its command is the plan's.
 files::TraceOrigin origin_of_run(const ReadPlan& plan, std::uint64_t number);
 
-/// The store that the runs go into: --store, or one beside the other outputs of --out; empty: one that goes with the program.
+/// The store of the runs: --store, or one beside the other outputs of --out; empty: one that is removed at the
+/// program's end.
 std::string store_path(const RunArguments& arguments, const std::string& name);
 
 }  // namespace cli

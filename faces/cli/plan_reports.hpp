@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a plan's page to the runs on it: the command that makes one of them alone, and reports of those to look at first.
+// Links a plan's page with its runs: the command that repeats one run, and reports of the runs to look at first.
 #pragma once
 #include <cstddef>
 #include <map>
@@ -11,19 +11,20 @@
 
 namespace cli {
 
-/// A command line that a run's number completes: "sixstep run a.toml --vary pwm.period_s=20us:100us:9 --only".
+/// A command line to which a run's number is appended: "sixstep run a.toml --vary pwm.period_s=20us:100us:9
+/// --only".
 std::string repeating_command(const RunArguments& arguments, const ReadPlan& plan);
 
-/// What a page has of a plan; `reports` as WorstReports::files.
+/// The input of a plan's page; `reports` as in WorstReports::files.
 report::PagePlan page_of(const RunArguments& arguments, const ReadPlan& plan, const text::PlanStory& story,
                          std::map<std::size_t, std::string> reports);
 
 struct WorstReports {
-  std::map<std::size_t, std::string> files;  ///< by the run's number; beside the page
+  std::map<std::size_t, std::string> files;  ///< by the run's number; relative to the page
   base::Problems problems;
 };
 
-/// The worst few runs once more, each with its whole report, in the folder of --out.
+/// Repeats the worst few runs and writes a complete report of each into the folder of --out.
 WorstReports write_worst_reports(const RunArguments& arguments, const ReadPlan& plan,
                                  const text::PlanStory& story);
 

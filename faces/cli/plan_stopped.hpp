@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs of a plan in which a controller of one's own has ended the program. Beside the store stands which they were, so that whoever
-// goes on with it (--resume) does not come to the same end again.
+// Handles runs of a plan in which a user's own controller ended the program. A file beside the store lists them,
+// so that --resume does not fail at the same run again.
 #pragma once
 #include <set>
 #include <string>
@@ -10,12 +10,12 @@
 
 namespace cli {
 
-/// From here on such a run is noted beside the store; of one that begins anew what was noted before is forgotten.
+/// From now on such a run is noted beside the store. Unless the plan `goes_on`, earlier notes are deleted.
 void note_stopped_runs(const files::PlanStore& store, bool goes_on);
-/// Those of earlier sittings become rows of the store: stopped by a fault, with what happened. Which these are: the rows may still be
-/// on their way.
+/// Stores the runs noted in earlier sittings as rows: stopped by a fault, with the reason. Returns their
+/// numbers, because the rows may not be in the file yet.
 std::set<std::size_t> take_stopped_runs(const ReadPlan& plan, files::PlanStore& store);
-/// The rows stand in the store.
+/// Deletes the notes; call it when the rows are in the store.
 void forget_stopped_runs(const files::PlanStore& store);
 
 }  // namespace cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The store that the rows of a plan go to.
+// Opens the store for the rows of a plan.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,19 +8,20 @@
 
 namespace cli {
 
-/// As --store, --resume and --force say. `identity` is what must not change between two sittings.
+/// As --store, --resume and --force say. `identity` is the text that must not change between two sittings.
 base::Result<files::PlanStore> store_of(const RunArguments& arguments, const ReadPlan& plan,
                                         std::string identity);
 
-/// That rows stand in a store, and how to go on with them, for whoever was told to end; empty where none was named or begun.
+/// The message that rows are kept in the store, and how to continue, after an interrupt; empty if there is no
+/// store.
 std::string kept_in(const std::string& store);
-/// The same beside the files that lie under partial names; empty where nothing is left.
+/// kept_in(), and the files with partial names; empty if nothing is left.
 std::string left_behind(const std::vector<std::string>& partial_files, const std::string& store);
 
-/// The unit of a scenario's key; empty where it has none.
+/// The unit of a scenario's key; empty if it has none.
 std::string unit_of(const std::string& key);
 
-/// A new one, or one to go on with; what the store says of itself names these options.
+/// A new store, or an existing one to continue; its Problems name these options.
 base::Result<files::PlanStore> store_at(const std::string& path, bool resume, bool force,
                                         files::StoredPlan plan);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One line on the error stream while work goes on: a bar, what is done, how fast, and how long it will take.
+// Shows one line on standard error during the work: a bar, the finished part, the speed and the remaining time.
 #pragma once
 #include <atomic>
 #include <chrono>
@@ -10,15 +10,15 @@
 
 namespace cli {
 
-/// What there is to do: runs with their simulated time, or pieces that are all alike.
+/// The work: runs with their simulated time, or equal pieces.
 struct Work {
   std::vector<double> seconds;
   std::size_t pieces = 0;
-  const char* of = "drives";  ///< what the pieces are
-  std::size_t before = 0;     ///< pieces that were done when the work began
+  const char* of = "drives";  ///< name of the pieces
+  std::size_t before = 0;     ///< pieces finished before the work began
 };
 
-/// Shows itself on a terminal alone, and not before half a second has gone; it leaves nothing behind.
+/// Appears only on a terminal, after half a second, and removes its line at the end.
 class Progress {
  public:
   Progress(Work work, bool quiet);
@@ -26,7 +26,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // From any thread.
+  // May be called from any thread.
   void reached(std::size_t run, double t_s) { at_s_[run].store(t_s, std::memory_order_relaxed); }
   void finished(std::size_t run);
   void pieces_done(std::size_t count) { pieces_.store(count, std::memory_order_relaxed); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one seam between the command line and the report.
+// Connects the command line to the report; no other file does.
 #pragma once
 #include <string>
 #include <vector>
@@ -18,8 +18,8 @@ struct ReportSource {
   const study::Scenario& scenario;
   const study::Outcome& outcome;
   const study::Trace& events;  ///< every event, both sides of each jump
-  const std::string& text;     ///< of the scenario's file
-  const std::string& command;  ///< what makes this report again
+  const std::string& text;     ///< text of the scenario's file
+  const std::string& command;  ///< the command that makes this report again
 };
 
 std::string report_page(const ReportSource& source);
@@ -34,20 +34,20 @@ struct ComparedSource {
   const study::Trace& grid;  ///< the same instants for all runs
 };
 
-/// How far a board's log lies from its simulation.
+/// The difference between a board's log and its simulation.
 struct LogFound {
   std::vector<analysis::TraceComparison> columns;
   double shift_s = 0.0;
 };
 
-/// With a log, which comes last, what was found of it.
+/// `log`: results for a log, which is then the last run.
 std::string comparison_page(const std::vector<ComparedSource>& runs, const LogFound& log,
                             const std::string& command);
 
 /// One plan, or two over each other.
 std::string plan_page(const std::vector<report::PagePlan>& plans, const std::string& command);
 
-/// Numbers of the runs of a plan to look at first.
+/// Numbers of the plan's runs to look at first.
 std::vector<std::size_t> worst_runs(const text::PlanStory& story, std::size_t most);
 
 }  // namespace cli

@@ -42,12 +42,12 @@ OutputPaths paths_of(const RunArguments& arguments, const Job& job) {
   return paths;
 }
 
-/// What speaks of all runs; written last.
+/// Files about all runs; written last.
 struct Lists {
   std::optional<files::AtomicFile> index, junit;
 };
 
-/// Opens all outputs before anything runs. The index proves the folder now.
+/// Opens all outputs before anything runs. Opening the index proves that the folder is writable.
 base::Problems prepare(const RunArguments& arguments, std::vector<Job>& jobs, Lists& lists) {
   base::Problems problems;
   if (!arguments.out.empty()) {
@@ -79,7 +79,8 @@ void run_all(std::vector<Job>& jobs, const RunArguments& arguments) {
   });
 }
 
-/// Of all, or under its partial name of what is finished, which is then told.
+/// Writes the index of all runs; after an interrupt that of the finished runs, under its partial name, with a
+/// message.
 base::Problems write_index(const RunArguments& arguments, const std::vector<Job>& jobs,
                            files::AtomicFile& index) {
   std::vector<report::IndexEntry> entries;
@@ -101,13 +102,13 @@ base::Problems write_index(const RunArguments& arguments, const std::vector<Job>
 
 void print_table(const std::vector<Job>& jobs, const RunArguments& arguments) {
   std::vector<text::TableEntry> entries;
-  for (const Job& job : jobs)  // what was cut short has met or missed nothing yet
+  for (const Job& job : jobs)  // an interrupted run has met or missed nothing yet
     if (job.finished()) entries.push_back({job.name(), job.outcome()});
   if (arguments.quiet) return print(text::faults_text(entries), stderr);
-  std::FILE* to = arguments.paths.prints() ? stderr : stdout;  // standard output is that format's alone
+  std::FILE* to = arguments.paths.prints() ? stderr : stdout;  // standard output then holds only that format
   if (entries.empty()) return;
   std::string text = text::verdict_table(entries, may_colour(to));
-  // Of runs that were cut short or never began no sum is drawn.
+  // Without a summary if runs were interrupted or never began.
   if (!interrupted() && entries.size() == jobs.size()) text += text::verdict_summary(entries, may_colour(to));
   print(text, to);
 }
@@ -116,13 +117,13 @@ std::string verdicts_xml(const std::vector<Job>& jobs) {
   std::vector<text::JunitSuite> suites;
   suites.reserve(jobs.size());
   for (const Job& job : jobs)
-    // One that an output has stopped did not run to its end, whatever it came to by then.
+    // A run that an output stopped did not run to its end, whatever its results.
     suites.push_back(job.outcome() && job.problems().empty() ? text::junit_suite(job.name(), *job.outcome())
                                                              : text::junit_suite(job.name(), job.problems()));
   return text::junit_xml(suites);
 }
 
-/// What went wrong, what was cut short, the table, the index.
+/// Prints problems, interrupted runs and the table, and writes the index.
 Exit tell(const std::vector<Job>& jobs, const RunArguments& arguments, Lists& lists) {
   Exit exit = interrupted() ? exit_of_interrupt() : Exit::ok;
   for (const Job& job : jobs) {
@@ -238,7 +239,7 @@ void declare_options(CLI::App& run, RunArguments& a) {
   CLI::Option* runs =
       run.add_option("--runs", a.runs, "that many drives of the series that [[spread]] describes");
   runs->excludes(watch)->check(integer_in(1, 1'000'000'000));
-  // A minus would come round as a large number.
+  // A minus would be read as a large number.
   const CLI::Validator whole = integer_in(0, std::numeric_limits<std::int64_t>::max());
   run.add_option("--seed", a.seed, "another series of drives; without it 1")->check(whole);
   run.add_option("--drive", a.drive, "drive N of the series alone, with all its outputs")

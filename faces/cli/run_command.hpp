@@ -11,47 +11,47 @@
 
 namespace cli {
 
-/// Of many runs.
+/// Arguments of many runs.
 struct PlanArguments {
   std::vector<std::string> vary;  ///< "key=from:to:points" or "key=value,value"
-  std::string sampling;           ///< one of analysis::sampling_choices; empty: the plan's own
+  std::string sampling;           ///< one of analysis::sampling_choices; empty: as in the plan
   std::size_t points = 0;
-  bool tolerances = false;  ///< drives stray in what the sheet does not promise, too
+  bool tolerances = false;  ///< drives also differ within the sheet's tolerances
   std::string store;
   bool resume = false, dry_run = false;
-  std::optional<std::uint64_t> only;  ///< the run that is made alone, as any other scenario
+  std::optional<std::uint64_t> only;  ///< number of the single run to make, like any other scenario
 };
 
-/// What a board sent over its serial line while it ran, or what somebody recorded of it.
+/// Arguments of a board's log, sent over its serial line during a run, or of another recording.
 struct LogArguments {
   std::string path;                  ///< empty: none
-  std::optional<double> shift_s;     ///< that is added to its times; without it they are fitted
+  std::optional<double> shift_s;     ///< added to its times; empty: fitted
   std::vector<std::string> columns;  ///< "speed=erpm*2*pi/60/7"; empty: by the headings
-  std::optional<double> interval_s;  ///< of its rows, where none is a time
+  std::optional<double> interval_s;  ///< of its rows, if no column is a time
 };
 
 struct RunArguments {
   std::vector<std::string> files;
-  std::string out;                ///< folder for the outputs of each file, and index.html of scenarios
+  std::string out;                ///< folder for the outputs of each file, and for index.html of scenarios
   OutputPaths paths;              ///< for one file only
   std::vector<std::string> sets;  ///< "key=value"
   std::string data_dir;
   bool quiet = false;
   bool watch = false;
   unsigned jobs = 0;     ///< 0: one per core
-  std::size_t runs = 0;  ///< of a series; 0: the nominal run alone
+  std::size_t runs = 0;  ///< of a series; 0: only the nominal run
   std::optional<std::uint64_t> seed;
-  std::optional<std::uint64_t> drive;  ///< the one of the series that is run alone
+  std::optional<std::uint64_t> drive;  ///< the only drive of the series that is run
   PlanArguments plan;
-  bool bode = false;                ///< the loop's frequency response, instead of a run
-  std::optional<double> amplitude;  ///< of its multisine, in the mode's unit
+  bool bode = false;                ///< measure the loop's frequency response instead of a run
+  std::optional<double> amplitude;  ///< of the multisine, in the mode's unit
   std::string junit;                ///< verdicts for build servers
-  std::string on;       ///< the core that runs the drive, beside the host or in its place; empty: none
-  LogArguments log;     ///< to lay over the run
-  std::string command;  ///< the command line as it may be typed again
+  std::string on;       ///< core that runs the drive, beside the host or instead of it; empty: none
+  LogArguments log;     ///< log to compare with the run
+  std::string command;  ///< the command line as it can be typed again
 };
 
-/// `sixstep run FILE ..`: runs scenarios, judges them, writes what is asked for.
+/// `sixstep run FILE ..`: runs scenarios, judges them, writes the requested outputs.
 Verb declare_run(CLI::App& app);
 
 }  // namespace cli

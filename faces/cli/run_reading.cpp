@@ -21,7 +21,7 @@ namespace {
 
 std::string place(const std::string& file) { return fmt::format("{}:", file); }
 
-/// Of what is read for a scenario and of what the command line sets in it.
+/// Digest of all files read for a scenario and of the values that the command line sets.
 std::uint64_t inputs_digest(const files::ReadLog& log, const RunArguments& a) {
   std::uint64_t digest = log.digest();
   for (const std::string& set : a.sets) digest = files::text_digest(set, digest);
@@ -46,7 +46,7 @@ std::optional<Job> read_job(const std::string& file, const RunArguments& argumen
   return Job(std::move(*scenario), std::move(origin));
 }
 
-/// One run of a plan alone, with all that can be had of a scenario's.
+/// One run of a plan alone, with all outputs of a scenario.
 std::optional<Job> read_one_of_a_plan(const std::string& file, const RunArguments& arguments,
                                       JobsRead& into) {
   const files::ReadLog log;
@@ -100,7 +100,7 @@ struct NamedCore {
   const loop::Core* value;
 };
 
-/// Null: on the host alone.
+/// Null: only the host.
 const loop::Core* core_of(const RunArguments& arguments, JobsRead& read) {
   const loop::Core* core = nullptr;
   if (names_own_firmware(arguments)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the words behind `sixstep run` to jobs, or to everything that is wrong with them.
+// Makes jobs of the arguments of `sixstep run`, or reports everything that is wrong with them.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,14 +9,14 @@
 
 namespace cli {
 
-/// Contradictions of the arguments themselves.
+/// Problems of arguments that contradict each other.
 base::Problems contradictions(const RunArguments& arguments);
 
 struct JobsRead {
-  std::unique_ptr<loop::Core> own_core;  ///< of --on MAP, which its jobs point to
+  std::unique_ptr<loop::Core> own_core;  ///< the core of --on MAP, to which the jobs point
   std::vector<Job> jobs;
   base::Problems problems;
-  std::vector<std::string> files;  ///< all that were read, or could not be
+  std::vector<std::string> files;  ///< files that were read, or could not be read
 };
 
 JobsRead read_jobs(const RunArguments& arguments);

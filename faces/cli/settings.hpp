@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Words of the command line that are a key and a value.
+// Reads words of the command line that are a key and a value.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace cli {
 
-/// "--set table.key=value" for each word; what is none is a Problem.
+/// Takes each word as "--set table.key=value"; any other form is a Problem.
 files::ReadOptions read_options(const std::string& data_dir, const std::vector<std::string>& sets,
                                 base::Problems& problems);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A specification's members as the options that set them: the library says settle_s, who typed --settle reads
-// that.
+// Replaces a specification's members in texts by the options that set them: the library prints settle_s, the
+// user typed --settle.
 #pragma once
 #include <string>
 #include <string_view>
@@ -11,9 +11,8 @@
 
 namespace cli {
 
-/// Each member's name with a unit ("settle_s"), and each choice ("chopping = complementary"), as one would
-/// type it
-/// ("--settle", "--chopping complementary"). Keys within tables, as control.current.settle_s, stay.
+/// Replaces each member's name with a unit ("settle_s") and each choice ("chopping = complementary") by the
+/// option ("--settle", "--chopping complementary"). Keys within tables, such as control.current.settle_s, stay.
 std::string in_options(std::string_view text);
 base::Problems in_options(base::Problems problems);
 void put_in_options(analysis::DesignStudy& study);

@@ -15,8 +15,8 @@ namespace {
 
 struct StopSignal {
   int number;
-  /// The user's second one is meant to end the program at once. A terminal that goes sends SIGHUP twice, by the kernel and by the
-  /// shell, and a limit of processor time is told once a second.
+  /// A second such signal comes from the user and ends the program at once. SIGHUP comes twice when a terminal
+  /// closes, from the kernel and from the shell; SIGXCPU comes once a second.
   bool again_ends_at_once;
 };
 constexpr StopSignal stop_signals[] = {
@@ -28,7 +28,7 @@ std::atomic<bool> stop_told = false, as_asked = false;
 void end_at_once(int signal) {
   files::remove_temporary_files();
   std::signal(signal, SIG_DFL);
-  std::raise(signal);  // delivered when the handler comes back
+  std::raise(signal);  // delivered when the handler returns
 }
 
 extern "C" void on_stop_signal(int signal) {
@@ -39,7 +39,7 @@ extern "C" void on_stop_signal(int signal) {
   if (again) return end_at_once(signal);
   asked_to_end = signal;
   if (!files::controllers_are_watched()) return;
-  // Whatever else runs has ended a second later.
+  // All other code ends within a second.
   files::mark_controller_calls();
   ::alarm(1);
 }
@@ -52,9 +52,9 @@ void take_stop_signals() {
   struct sigaction ask {
   }, before{};
   ask.sa_handler = on_stop_signal;
-  // Not SA_RESTART: who waits for the other end of a pipe is to hear of it.
+  // Without SA_RESTART, so that a wait for the other end of a pipe ends.
   for (const StopSignal& stop : stop_signals) {
-    // nohup has SIGHUP ignored, and a shell's job in the background the keyboard's SIGQUIT.
+    // nohup ignores SIGHUP, and a shell's background job ignores the keyboard's SIGQUIT.
     const bool may_be_ignored = stop.number == SIGHUP || stop.number == SIGQUIT;
     if (may_be_ignored && ::sigaction(stop.number, nullptr, &before) == 0 && before.sa_handler == SIG_IGN)
       continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Signals that ask the program to end: Ctrl-C, SIGTERM, a terminal that has gone, a limit of processor time.
+// Handles signals that ask the program to end: Ctrl-C, SIGTERM, a closed terminal, a limit of processor time.
 #pragma once
 #include <string>
 
@@ -7,27 +7,27 @@
 
 namespace cli {
 
-/// From here on such a signal leaves no temporary file behind; it still ends the program at once.
+/// From now on such a signal also removes temporary files; it still ends the program at once.
 void take_stop_signals();
-/// From here on it asks runs to end instead; Ctrl-C, SIGTERM or SIGQUIT a second time end the program at once. For every verb that
-/// has more to put in order than temporary files.
+/// From now on such a signal asks runs to end; a second Ctrl-C, SIGTERM or SIGQUIT ends the program at once. For
+/// every verb that must clean up more than temporary files.
 void catch_interrupts();
 
 bool interrupted();
 /// 128 and the signal's number, as shells count.
 Exit exit_of_interrupt();
 
-/// Says on standard error what a verb that was told to end has come to.
+/// Prints the state of an interrupted verb on standard error.
 void tell_stop(const std::string& line);
-/// Standard output says it already.
+/// Tells exit_after_stop() that standard output has reported the interrupt.
 void stop_is_told();
-/// Of work that leaves nothing behind where it is cut short, which is told; `kept` says what it does leave.
+/// For work that leaves nothing when it is interrupted: prints that. `kept` names anything that it does leave.
 Exit told_interrupted(const std::string& what, const std::string& kept = "");
-/// Of work that goes on until it is told to end: `exit` stands.
+/// For work that continues until it is interrupted: `exit` stays the exit code.
 Exit ended_as_asked(Exit exit);
 
-/// The exit code of a verb that has come back. One that was told to end never says that all went well, whatever it found: its
-/// answer may lack what it left out. A verb that has said nothing of it is spoken for.
+/// The exit code of a verb that has returned. An interrupted verb never returns success, because its result may
+/// be incomplete. If the verb has not reported the interrupt, it is reported here.
 Exit exit_after_stop(Exit exit);
 
 }  // namespace cli

@@ -6,7 +6,8 @@
 
 namespace cli {
 
-/// Carries Ctrl-C, of which a signal handler may only leave a note, and what `also` tells to the runs under way.
+/// Stops the running simulations after Ctrl-C or when `also` returns true. A signal handler can only set a flag,
+/// so a thread polls both.
 class StopWatch {
  public:
   explicit StopWatch(std::function<bool()> also = [] { return false; });

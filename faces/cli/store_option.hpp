@@ -6,7 +6,7 @@
 
 namespace cli {
 
-/// --store, of every verb that keeps rows: a file, for a store is read from again.
+/// The option --store of every verb that keeps rows. It must be a file, because a store is read again.
 CLI::Option* take_store(CLI::App& verb, std::string& path, const std::string& meaning);
 
 }  // namespace cli

@@ -18,18 +18,19 @@
 namespace cli {
 namespace {
 
-int unprinted = 0;  // what errno said when standard output took no more
+int unprinted = 0;  // errno of the failed standard output
 
 }  // namespace
 
 void print(std::string_view text, std::FILE* to) {
   if (to == stdout && unheard()) return;
-  // In one call, as far as the kernel takes it: a reader of the first line alone closes no pipe in between.
+  // In one call if the kernel takes it: a reader that needs only the first line then does not close the pipe in
+  // between.
   while (!text.empty()) {
     const ssize_t taken = ::write(::fileno(to), text.data(), text.size());
     if (taken >= 0) {
       text.remove_prefix(static_cast<std::size_t>(taken));
-    } else if (errno == EAGAIN) {  // whoever reads has made the pipe so that it does not wait: we do
+    } else if (errno == EAGAIN) {  // the reader has made the pipe non-blocking: wait here
       pollfd ready{::fileno(to), POLLOUT, 0};
       ::poll(&ready, 1, -1);
     } else if (errno != EINTR) {
@@ -78,8 +79,8 @@ std::size_t terminal_width(std::FILE* stream) {
 void take_write_errors() {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-  // open() takes the lowest number that is free: without these a file of the run's would get to hear what is
-  // printed. Opened the wrong way round, they refuse what is written or read, as a closed stream does.
+  // open() returns the lowest free number: without these, one of the run's files would get the printed text.
+  // Opened in the wrong direction, they refuse reads or writes as a closed stream does.
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }

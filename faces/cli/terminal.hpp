@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the program says, and what the terminal may be asked.
+// Prints the program's texts and queries the terminal.
 #pragma once
 #include <cstdio>
 #include <string>
@@ -11,28 +11,27 @@
 
 namespace cli {
 
-/// What standard output could not take is remembered, and nothing more is sent there.
+/// After standard output has failed, the error is kept and nothing more is written there.
 void print(std::string_view text, std::FILE* to = stdout);
-/// Standard output takes nothing more.
+/// Whether standard output has failed.
 bool unheard();
-/// The last word of every command: what standard output could not take is told and is bad input; a reader who
-/// has seen enough is told nothing, and `reader_gone` stands for an `ok` that nobody heard.
+/// The last call of every command. A failed standard output is reported and is bad input. If the reader of a
+/// pipe closed it, nothing is reported, and `reader_gone` replaces an `ok`.
 Exit exit_after_printing(Exit exit);
 
-/// One complaint a line, on the error stream.
+/// Prints one complaint per line on standard error.
 void complain(const base::Problems& problems);
-/// Bad input, told; but who was told to end while waiting for the other end of a pipe has nothing to complain
-/// of.
+/// Reports bad input; not after an interrupt while it waited for the other end of a pipe.
 Exit refused(const base::Problems& problems);
 
-/// A terminal, and NO_COLOR not set (no-color.org).
+/// Whether the stream is a terminal and NO_COLOR is not set (no-color.org).
 bool may_colour(std::FILE* stream);
 
-/// Columns of the terminal; 0 where the stream is none, or one that cannot go back to the line's begin.
+/// Columns of the terminal; 0 if the stream is no terminal, or one that cannot move to the line's beginning.
 std::size_t terminal_width(std::FILE* stream);
 
-/// A pipe's reader that has gone, a file that may not grow and a stream that was closed (>&-) are errors of a
-/// write, not the program's end, and no file takes the stream's place.
+/// A closed pipe, a file at its size limit and a closed stream (>&-) become write errors instead of the
+/// program's end, and no file gets a standard stream's number.
 void take_write_errors();
 
 }  // namespace cli

@@ -22,7 +22,7 @@ namespace {
 
 using base::Problem;
 
-/// The innermost verb that was read, and the words that lead there.
+/// The innermost verb that was read, and the words that lead to it.
 struct Called {
   CLI::App* verb;
   std::string path = "sixstep";
@@ -50,7 +50,7 @@ std::vector<std::string> options_of(const CLI::App& verb) {
   return names;
 }
 
-/// Short words differ in a letter or two by a slip: nearest() asks for more likeness.
+/// Short words differ in one or two letters by a typing error; nearest() requires more similarity.
 std::string nearest_verb(const std::string& word, const std::vector<std::string>& verbs) {
   for (int distance = 1; distance <= 2; ++distance)
     for (const std::string& verb : verbs)
@@ -85,8 +85,8 @@ Problem unknown_word(const Called& called, const std::string& word) {
           .cure = near.empty() ? called.path + " --help lists them" : fmt::format("did you mean {}?", near)};
 }
 
-// What is wrong with an option is read from the options as they were parsed: the exception says of which kind
-// it is, and its words are the library's.
+// The error's details come from the options as they were parsed: the exception gives only its kind and the
+// library's own text.
 
 std::string meaning(const Called& called, const CLI::Option* option) {
   return option ? "it means: " + option->get_description() : called.help();
@@ -101,7 +101,7 @@ std::optional<Problem> missing(const Called& called) {
   return {};
 }
 
-/// An option takes the next word for its value, whatever that is: only the last one can lack it.
+/// An option takes the next word as its value, whatever it is, so only the last option can lack one.
 std::optional<Problem> wrong_count(const Called& called, const std::string& last_word) {
   for (const CLI::Option* option : called.verb->get_options())
     if (static_cast<int>(option->results().size()) > option->get_items_expected_max())
@@ -117,7 +117,7 @@ bool reads(const std::string& word) {
   return CLI::detail::lexical_cast(word, number);
 }
 
-/// By the type that the option has.
+/// By the option's type.
 std::optional<Problem> no_number(const Called& called) {
   for (const CLI::Option* option : called.verb->get_options()) {
     if (option->count() == 0) continue;
@@ -141,7 +141,7 @@ std::optional<Problem> out_of_range(const Called& called) {
       try {
         limit = (*option->get_validator(0))(word);
       } catch (const CLI::OptionNotFound&) {
-        break;  // it takes anything
+        break;  // it takes any value
       }
       if (!limit.empty())
         return Problem{.where = option->get_name(), .value = word, .limit = limit, .cure = called.help()};
@@ -161,7 +161,7 @@ std::optional<Problem> excluded(const Called& called) {
 
 Problem problem_of(const Called& called, const CLI::ParseError& error, const std::string& last_word) {
   const std::vector<std::string> left = called.verb->remaining(true);
-  // What nobody takes explains what is missing.
+  // An unknown word explains what is missing.
   if (!left.empty()) return unknown_word(called, left.front());
   if (!verbs_of(*called.verb).empty())
     return {.where = called.path,
@@ -185,7 +185,7 @@ Exit usage_error(CLI::App& app, const CLI::ParseError& error, const std::string&
     return Exit::ok;
   }
   const Called called(app);
-  // Who calls the program without a word wants to know what it is.
+  // A call without arguments gets the help.
   if (called.verb == &app && app.remaining(true).empty()) {
     print(app.help(), stderr);
     return Exit::bad_input;

@@ -11,8 +11,8 @@ class ParseError;
 
 namespace cli {
 
-/// A command line that calls no verb: help or the version that was asked for; else what is wrong with it, in
-/// the form of all other messages, with the nearest word for one that nobody takes.
+/// Handles a command line that calls no verb: prints the requested help or version; otherwise reports the error
+/// in the form of all other messages, with the nearest word for an unknown one.
 Exit usage_error(CLI::App& app, const CLI::ParseError& error, const std::string& last_word);
 
 }  // namespace cli

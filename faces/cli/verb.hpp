@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A verb of the command line: its options and what it does stand side by side in its own file; main.cpp lists
-// the verbs.
+// Declares a verb of the command line: its options and its function stand in its own file; main.cpp lists the
+// verbs.
 #pragma once
 #include <functional>
 #include <memory>
@@ -17,12 +17,12 @@ class App;
 namespace cli {
 
 struct Verb {
-  const CLI::App* app;  ///< true once its word was read
-  /// Called with the command line as a shell would take it again.
+  const CLI::App* app;  ///< converts to true if the verb's word was given
+  /// Called with the command line in a form that a shell reads back.
   std::function<Exit(const std::string& command)> call;
 };
 
-/// What `arguments`, which the options write into, asks for. They remember the command that they came from.
+/// Calls `verb` with the arguments into which the options were written, and stores the command line in them.
 template <class Arguments>
 std::function<Exit(const std::string&)> calling(Exit (*verb)(const Arguments&),
                                                 std::shared_ptr<Arguments> arguments) {
@@ -32,7 +32,7 @@ std::function<Exit(const std::string&)> calling(Exit (*verb)(const Arguments&),
   };
 }
 
-// Options that several verbs have.
+// Options shared by several verbs:
 void take_data(CLI::App& verb, std::string& folder);             ///< --data
 void take_sets(CLI::App& verb, std::vector<std::string>& sets);  ///< --set
 void take_force(CLI::App& verb, bool& force);                    ///< --force

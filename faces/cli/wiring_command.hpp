@@ -4,7 +4,8 @@
 
 namespace cli {
 
-/// `sixstep motor wiring MOTOR`: what the motor does plugged in in each of the 36 ways. `failed` where simulation and theory differ.
+/// `sixstep motor wiring MOTOR`: the motor's behaviour for each of the 36 ways to connect it. `failed` if
+/// simulation and theory differ.
 Verb declare_wiring(CLI::App& motor);
 
 }  // namespace cli

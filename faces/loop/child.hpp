@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A program that is run as a process of its own and never outlives whoever started it, however that ends.
+// Runs a program as a process that never outlives this one, however this one ends.
 #pragma once
 #include <sys/types.h>
 
@@ -13,21 +13,21 @@
 
 namespace loop {
 
-/// Where PATH finds a program; empty: nowhere.
+/// The program's path on PATH; empty: not found.
 std::string on_path(const std::string& program);
-/// That it does so nowhere, and what brings it.
+/// The Problem that the program is not on PATH, with the package that has it.
 base::Problem not_here(const std::string& program);
 
-/// A descriptor of ours and the number under which the program finds it.
+/// A descriptor here, and its number in the program.
 struct Given {
   int ours, theirs;
 };
 
 struct Command {
-  std::vector<std::string> words;  ///< the first is looked for on PATH
-  std::vector<Given> given;        ///< standard streams that are not among them lead nowhere
-  std::string temporary;           ///< its TMPDIR, where it says one
-  bool outlives = false;           ///< ends by itself instead of with us
+  std::vector<std::string> words;  ///< the first is searched on PATH
+  std::vector<Given> given;        ///< standard streams that are not listed go to /dev/null
+  std::string temporary;           ///< its TMPDIR; empty: unchanged
+  bool outlives = false;           ///< ends by itself, not with this process
 };
 
 class Child {
@@ -36,12 +36,12 @@ class Child {
   static base::Result<Child> start(const Command& command);
   Child(Child&& other) noexcept;
   Child& operator=(Child&& other) noexcept;
-  /// Ends it at once.
+  /// Kills it.
   ~Child();
 
-  /// Its exit status, 128 and more: a signal's. Empty: it still runs.
+  /// Its exit status; 128 and more: a signal. Empty: still running.
   std::optional<int> ended_within(std::chrono::milliseconds time);
-  /// Waits for one that ends by itself.
+  /// Waits until it ends by itself.
   void wait();
 
  private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A chip in its emulator, register by register: it runs a firmware of its own in the drive's place (rig/chip_drive.hpp).
+// Runs a chip in its emulator, register by register, with its own firmware in place of the drive
+// (rig/chip_drive.hpp).
 #pragma once
 #include <memory>
 #include <optional>
@@ -12,16 +13,16 @@
 
 namespace loop {
 
-/// Of the thread that starts it.
+/// Only the thread that started it may use it.
 class Chip {
  public:
-  /// Loads the image; the chip stands at its reset. Problems: an emulator that is missing or does not start.
+  /// Loads the image; the chip is in reset. Problems: the emulator is missing or does not start.
   static base::Result<std::unique_ptr<Chip>> start(const Core& core, const std::string& image);
 
-  /// Stays valid as long as this does.
+  /// Valid as long as this object.
   rig::ChipPort port();
   double clock_Hz() const { return greeting_.clock_Hz; }
-  /// What its interrupts took until now; of a chip that is gone nothing.
+  /// The times of its interrupts so far; nothing if the chip has ended.
   rig::ChipTimes times();
 
  private:

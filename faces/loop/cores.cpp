@@ -7,7 +7,8 @@ namespace loop {
 
 namespace {
 
-/// Virtual time goes by instructions alone, and never waits: the same run each time, however busy the machine is.
+/// Virtual time advances with instructions only and never waits, so that a run is the same however busy the
+/// machine is.
 constexpr const char* deterministic = "shift=10,sleep=off";
 
 std::vector<std::string> qemu(const char* program, const char* board) {
@@ -41,9 +42,9 @@ Core cortex(std::string_view name, std::string_view title, const char* cpu, cons
   return core;
 }
 
-/// clang 14 to 16 compile wrongly for it (docs/reference/core-bits.md). Its flags stand beside its program, for whoever makes an image to flash too:
-/// branches are to stay branches there, and a switch none of tables, for what LLVM makes of them takes a fifth more cycles of a chip that
-/// shifts bit by bit.
+/// clang 14 to 16 miscompile for it (docs/reference/core-bits.md). Its flags are in a file beside its program,
+/// so that an image to flash has the same ones. They keep branches as branches, and switches without tables,
+/// because LLVM's replacements cost a fifth more cycles on a chip that shifts bit by bit.
 Core avr() {
   return {.name = "avr",
           .title = "ATmega2560",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A file descriptor that is closed once, and a pipe of two of them.
+// Closes a file descriptor exactly once, and makes a pipe of two of them.
 #pragma once
 #include <fcntl.h>
 #include <unistd.h>
@@ -29,12 +29,12 @@ class Descriptor {
   int number_ = -1;
 };
 
-/// Neither end is handed on to programs that are started, but for those that are given it.
+/// A started program inherits neither end, unless it is given one.
 struct Pipe {
   Descriptor read, write;
 };
 
-/// Without ends where the system has no more.
+/// Empty ends if the system has no more descriptors.
 inline Pipe made_pipe() {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) return {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A core in its emulator, call by call: it runs the drive beside the host (rig/lockstep_core.hpp).
+// Runs a core in its emulator, call by call: it computes the drive beside the host (rig/lockstep_core.hpp).
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -12,13 +12,13 @@
 
 namespace loop {
 
-/// Of the thread that starts it.
+/// Only the thread that started it may use it.
 class Emulator {
  public:
-  /// Loads the image and waits until its program runs. Problems: an emulator that is missing or does not start.
+  /// Loads the image and waits until its program runs. Problems: the emulator is missing or does not start.
   static base::Result<std::unique_ptr<Emulator>> start(const Core& core, const std::string& image);
 
-  /// Stays valid as long as this does.
+  /// Valid as long as this object.
   rig::CorePort port();
   std::uint64_t calls() const { return calls_; }
 
@@ -28,7 +28,7 @@ class Emulator {
 
   OneProcessor processor_;
   std::optional<Talk> talk_;
-  rig::CoreGreeting greeting_{.word = 0};  ///< until the program has said its own
+  rig::CoreGreeting greeting_{.word = 0};  ///< until the program has sent its own
   std::uint64_t calls_ = 0;
 };
 

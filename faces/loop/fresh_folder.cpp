@@ -12,7 +12,7 @@ namespace loop {
 
 namespace {
 
-/// A compiler that was killed may have left a part of it at work, which writes for a moment longer.
+/// A killed compiler may leave a child process that still writes for a moment.
 constexpr const char* waits_and_cleans =
     R"(PATH=/usr/bin:/bin; read -r _; n=0; while [ -e "$0" ] && [ $n -lt 200 ]; do rm -rf -- "$0" 2>/dev/null; n=$((n+1)); [ ! -e "$0" ] || sleep 0.1; done)";
 
@@ -30,7 +30,7 @@ base::Result<FreshFolder> FreshFolder::make() {
   std::error_code none;
   const std::string path = (std::filesystem::temp_directory_path(none) / fresh_name()).string();
   Pipe life = made_pipe();
-  // First who cleans, then what is to be cleaned: no instant lies between at which it could be left behind.
+  // The cleaner starts before the folder exists, so that the folder can never be left behind.
   base::Result<Child> cleaner = Child::start({.words = {"/bin/sh", "-c", waits_and_cleans, path},
                                               .given = {{life.read.number(), 0}},
                                               .temporary = {},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A folder of one run's own that is gone when the run is, also where the program is killed: a shell waits for its end.
+// Makes a temporary folder for one run. A shell removes it when the run ends, even if the program is killed.
 #pragma once
 #include <string>
 
@@ -10,10 +10,10 @@ namespace loop {
 
 class FreshFolder {
  public:
-  /// Problems: there is no room for one.
+  /// Problems: it cannot be made.
   static base::Result<FreshFolder> make();
   FreshFolder(FreshFolder&&) noexcept = default;
-  /// With all that is in it.
+  /// Removes the folder with its content.
   ~FreshFolder();
 
   const std::string& path() const { return path_; }
@@ -24,7 +24,7 @@ class FreshFolder {
 
   std::string path_;
   Child cleaner_;
-  Descriptor held_;  ///< what the shell reads from: its other end closes with this program
+  Descriptor held_;  ///< write end of the pipe that the shell reads; it closes with this program
 };
 
 }  // namespace loop

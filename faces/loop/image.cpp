@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A core's program is made of the library's own headers.
+/// The library's headers, from which a core's program is made.
 base::Result<fs::path> sources() {
   const fs::path root = sources_folder();
   std::error_code none;
@@ -45,12 +45,12 @@ using Words = std::vector<std::string>;
 
 void add(Words& words, const Words& more) { words.insert(words.end(), more.begin(), more.end()); }
 
-/// Where the compiler looks.
+/// The compiler's include paths.
 Words include_paths(const fs::path& root, const fs::path& folder) {
   return {"-I" + (root / "faces/firmware/bare").string(), "-I" + root.string(), "-I" + folder.string()};
 }
 
-/// Which of the drives of core/main.cpp.
+/// The macro that selects the drive in core/main.cpp.
 const char* drive_of(const study::Scenario& scenario) {
   using study::FirmwareKind;
   switch (scenario.control.drive) {
@@ -68,7 +68,7 @@ const char* drive_of(const study::Scenario& scenario) {
   return "-DSIXSTEP_LEAN_DRIVE";
 }
 
-/// A core that is called: compiled and linked at once.
+/// For a core that is called: compile and link at once.
 Words called_core(const Core& core, const study::Scenario& scenario, const fs::path& root,
                   const fs::path& folder, const fs::path& image) {
   const fs::path bare = root / "faces/firmware/bare";
@@ -84,7 +84,8 @@ Words called_core(const Core& core, const study::Scenario& scenario, const fs::p
   return words;
 }
 
-/// A whole chip: its program as tools/firmware_image.sh compiles it, then its C library's start code before it.
+/// For a whole chip: compile its program as tools/firmware_image.sh does, then link it behind its C library's
+/// start code.
 std::vector<Words> whole_chip(const Core& core, const fs::path& root, const fs::path& folder,
                               const fs::path& image) {
   const fs::path example = root / "faces/firmware/example/avr";
@@ -93,7 +94,7 @@ std::vector<Words> whole_chip(const Core& core, const fs::path& root, const fs::
   add(compile, {"@" + (example / "compile.flags").string()});
   add(compile, include_paths(root, folder));
   add(compile,
-      {"-DSIXSTEP_DESPITE", "-c", (example / "main.cpp").string(), "-o", object});  // no bridge is at it
+      {"-DSIXSTEP_DESPITE", "-c", (example / "main.cpp").string(), "-o", object});  // no bridge is connected
   Words link = core.linker;
   add(link, {object, "-o", image.string()});
   return {compile, link};
@@ -105,7 +106,7 @@ std::vector<Words> commands_for(const Core& core, const study::Scenario& scenari
   return {called_core(core, scenario, root, folder, image)};
 }
 
-/// The first complaint, or the first line.
+/// The first error in the compiler's output, or its first line.
 std::string complaint_in(const fs::path& log) {
   std::ifstream in(log);
   std::string line, first;
@@ -129,7 +130,7 @@ base::Problems carried_out(const Core& core, const Words& words, const fs::path&
            "please report it with the scenario file"}};
 }
 
-/// All at once, and before the compiler is kept waiting for.
+/// Reports all missing programs at once, before the compiler takes time.
 base::Problems missing_programs(const Core& core) {
   base::Problems missing;
   for (const Words* words : {&core.compiler, &core.linker, &core.emulator})

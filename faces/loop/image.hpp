@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scenario's drive as a program for a core: its exported header, compiled with faces/loop/core/.
+// Compiles a scenario's drive into a program for a core: its exported header, with faces/loop/core/.
 #pragma once
 #include <string>
 
@@ -10,7 +10,7 @@
 
 namespace loop {
 
-/// The image's path in `folder`. Problems: what no header can be made of; a compiler that is missing or complains.
+/// The image's path in `folder`. Problems: no header can be made; the compiler is missing or reports an error.
 base::Result<std::string> compiled_image(const Core& core, const study::Scenario& scenario,
                                          const std::string& folder);
 

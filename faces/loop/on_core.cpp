@@ -17,7 +17,7 @@ namespace loop {
 
 namespace {
 
-/// One that runs it beside the host, or a chip in the drive's place.
+/// A core that runs beside the host, or a chip in place of the drive.
 using Running = std::variant<std::unique_ptr<Emulator>, std::unique_ptr<Chip>>;
 
 template <class Of>
@@ -42,7 +42,7 @@ base::Result<Running> loaded(const Core& core, const study::Scenario& scenario, 
   return core.by_registers ? started_chip(core, *image, folder) : started<Emulator>(core, *image);
 }
 
-/// Lines that it sent whole.
+/// Only complete lines of the serial line.
 std::string sent_by(const FreshFolder& folder) {
   std::ifstream in(serial_file(folder), std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run of a scenario with its drive on a core.
+// Runs a scenario with its drive on a core.
 #pragma once
 #include "faces/loop/cores.hpp"
 #include "faces/loop/rooms.hpp"
@@ -7,11 +7,11 @@
 
 namespace loop {
 
-/// What stands against it, before anything is compiled.
+/// Reasons why the core cannot run the scenario, found before anything is compiled.
 base::Problems stands_against(const Core& core, const study::Scenario& scenario);
 
-/// study::run() with the drive on a core, too or in its place; null: on the host alone. No file is left of it. Problems: what stands
-/// against it, a compiler's complaint, an emulator that is missing.
+/// study::run() with the drive also on a core, or on a chip in its place; null: only on the host. Leaves no
+/// file. Problems: those of stands_against(), an error of the compiler, a missing emulator.
 base::Result<study::Outcome> run(const Core* core, const study::Scenario& scenario,
                                  const study::Listeners& listeners);
 

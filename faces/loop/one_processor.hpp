@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps a thread, and what it starts, on one processor: who takes turns with another waits for it either way, and a processor that
-// has gone to sleep takes longer to wake than a switch (loop_benchmark: twice the calls a second).
+// Keeps a thread and the processes that it starts on one processor. Two programs that take turns wait for each
+// other anyway, and waking a sleeping processor takes longer than a switch (loop_benchmark: twice the calls per
+// second).
 #pragma once
 #include <sched.h>
 
@@ -10,7 +11,7 @@ namespace loop {
 
 class OneProcessor {
  public:
-  /// Another one each time, of those that the thread may use.
+  /// Takes another processor each time, among those that the thread may use.
   OneProcessor() {
     static std::atomic<unsigned> turn{0};
     if (::sched_getaffinity(0, sizeof before_, &before_) != 0) return;
@@ -26,7 +27,7 @@ class OneProcessor {
   }
   OneProcessor(const OneProcessor&) = delete;
   OneProcessor& operator=(const OneProcessor&) = delete;
-  /// In the same thread.
+  /// Call it in the same thread.
   ~OneProcessor() {
     if (kept_) ::sched_setaffinity(0, sizeof before_, &before_);
   }

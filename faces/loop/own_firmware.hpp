@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A firmware that is none of ours, as a core to run a scenario on.
+// Describes a user's own firmware as a core that runs a scenario.
 #pragma once
 #include <string>
 
@@ -9,7 +9,7 @@
 
 namespace loop {
 
-/// Of a map's path and text (text/firmware_map/). Problems: what is wrong with it, or a program that is not there.
+/// From a map's path and text (text/firmware_map/). Problems: mistakes in the map, or a missing program.
 base::Result<Core> own_firmware(const std::string& path, const std::string& text);
 
 }  // namespace loop

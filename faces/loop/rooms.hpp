@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The library's rooms by their short names, for code in loop.
+// Short names for the library's namespaces, for code in loop.
 #pragma once
 
 namespace sixstep {

@@ -9,17 +9,17 @@ namespace loop {
 
 namespace {
 
-/// A program that has not answered by then hangs; an emulator on a busy machine starts within less.
+/// A program that has not answered by then hangs. An emulator on a busy machine starts within the second limit.
 constexpr int answer_limit_ms = 5000, start_limit_ms = 30000;
 
-/// Under which numbers it finds the pipes.
+/// The pipes' descriptor numbers in the program.
 constexpr int calls_there = 3, answers_there = 4;
 
 }  // namespace
 
 base::Result<Talk> Talk::begin(std::vector<std::string> emulator, const std::string& image, void* greeting,
                                std::size_t bytes) {
-  // Of both pipes our child alone holds the other end: so each side is told when the other is gone.
+  // Only the child holds the other ends, so that each side is notified when the other ends.
   Pipe calls = made_pipe(), answers = made_pipe();
   if (!calls.read || !answers.read)
     return base::Problem{emulator.front(), "", "cannot be talked to: this program has too many files open",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Another program at the ends of two pipes: calls go to it by one, answers come by the other. It finds them as descriptors 3 and 4.
+// Exchanges calls and answers with another program over two pipes; there they are descriptors 3 and 4.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -13,19 +13,20 @@
 
 namespace loop {
 
-/// The program that uses it ignores SIGPIPE, as `sixstep` does: that the other has gone is an answer.
+/// The program must ignore SIGPIPE, as `sixstep` does, because the end of the other program is reported as a
+/// CoreTrouble.
 class Talk {
  public:
-  /// Starts the emulator with an image and waits for what the program there says of itself first, half a minute at most. Problems: no
-  /// such program, too many files open, or nothing said.
+  /// Starts the emulator with an image and waits for the program's greeting, half a minute at most. Problems: no
+  /// such program, too many open files, or no greeting.
   static base::Result<Talk> begin(std::vector<std::string> emulator, const std::string& image, void* greeting,
                                   std::size_t bytes);
 
-  /// All of it, or that the other has gone.
+  /// Sends all bytes, or reports that the other program has ended.
   rig::CoreTrouble say(const void* from, std::size_t bytes);
-  /// All of it within so long, for each part that comes.
+  /// Reads all bytes; each part must come within `limit_ms`.
   rig::CoreTrouble hear(void* to, std::size_t bytes, int limit_ms);
-  /// One and then the other, an answer within five seconds: a program that has not answered by then hangs.
+  /// Sends a call and reads the answer within five seconds; a program that needs longer hangs.
   rig::CoreTrouble ask(const void* call, std::size_t call_bytes, void* answer, std::size_t answer_bytes);
 
  private:
@@ -36,7 +37,7 @@ class Talk {
   Descriptor to_, from_;
 };
 
-/// That it did not say what it should, after so much trouble.
+/// The Problem that the greeting did not come, because of `trouble`.
 base::Problem no_greeting(const std::string& program, rig::CoreTrouble trouble);
 
 }  // namespace loop

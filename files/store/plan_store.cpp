@@ -17,14 +17,14 @@
 namespace files {
 namespace {
 
-/// One file while nobody writes, and no other program in it while somebody does. Nothing is forced to the disk at each
-/// transaction: only a power cut takes the last ones back, and leaves a whole store all the same.
+/// One file when no program writes, and only one program at a time. Transactions are not forced to the disk:
+/// only a power failure loses the last ones, and the store stays intact.
 constexpr char modes[] = "PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;";
 
 }  // namespace
 
-/// Rows wait for the writer, which writes all that wait in one transaction: few while runs are long, many while they are short.
-/// What a kill can take is what has not been counted yet.
+/// Rows wait for the writer thread, which writes all waiting rows in one transaction: few if runs are long, many
+/// if they are short. A kill can only lose rows that are not counted yet.
 struct PlanStore::Inside {
   static constexpr std::size_t most_waiting = 4096;
 
@@ -35,7 +35,7 @@ struct PlanStore::Inside {
         begin_of_checksums(checksum_begin(stored)) {}
   ~Inside() { end(); }
 
-  /// All tables of a new store come in one transaction.
+  /// Creates all tables of a new store in one transaction.
   base::Problems bear() {
     if (base::Problems wrong = db.run(fmt::format("BEGIN; PRAGMA application_id={}; PRAGMA user_version={}",
                                                   0x53495853, store_format));  // store_mark
@@ -95,7 +95,7 @@ struct PlanStore::Inside {
     if (insert->failed()) return {db.problem()};
     return {};
   }
-  /// The row that a SELECT stands at, if it is the one that was written.
+  /// The present row of a SELECT, if its checksum is right.
   base::Result<analysis::RunRecord> row_at(const Statement& select) {
     std::vector<Cell> cells;
     cells.reserve(cells_in_row(*plan.columns));
@@ -124,7 +124,7 @@ struct PlanStore::Inside {
 
   Database db;
   StoredPlan plan;
-  StoredPlan stored;  ///< the same as it stands in the file
+  StoredPlan stored;  ///< as it is in the file
   std::uint64_t begin_of_checksums;
   std::optional<Statement> insert;
   mutable std::mutex guard;
@@ -133,14 +133,14 @@ struct PlanStore::Inside {
   std::vector<bool> there;
   std::size_t count = 0;
   base::Problems problems;
-  std::jthread writer;  // last: it ends before what it works on
+  std::jthread writer;  // last member: it ends before those that it uses
 };
 
 namespace {
 
 enum class Standing { nothing, store, other };
 
-/// By SQLite's header, so that a store that somebody is writing is known as one, too.
+/// Recognised by SQLite's header, so that a store being written is recognised too.
 Standing standing_at(const std::string& path) {
   std::error_code error;
   if (path.empty() || !std::filesystem::exists(path, error)) return Standing::nothing;
@@ -152,8 +152,8 @@ Standing standing_at(const std::string& path) {
   return begin.starts_with("SQLite format 3") && id == store_mark ? Standing::store : Standing::other;
 }
 
-/// Its tables come in one transaction: who was killed in it left a file that is empty once SQLite has looked at it. (A damaged one
-/// still has its pages.)
+/// Tables are made in one transaction: a program killed in it leaves a file that is empty after SQLite's
+/// recovery. (A damaged one still has its pages.)
 bool was_killed_at_birth(const std::string& path) {
   base::Result<Database> db = Database::open(path);
   base::Result<Statement> pages =
@@ -161,7 +161,7 @@ bool was_killed_at_birth(const std::string& path) {
   return pages && pages->step() && pages->whole(0) == 0;
 }
 
-/// SQLite's own look at every page: that rows are there and in their order. What stands in them the checksums tell.
+/// SQLite's check of every page: whether rows exist and are in order. The checksums cover their content.
 base::Problems check_pages(Database& db) {
   base::Result<Statement> check = db.prepare("PRAGMA quick_check(1)");
   if (!check) return check.problems();
@@ -233,7 +233,7 @@ base::Result<PlanStore> PlanStore::resume(const std::string& path, StoredPlan pl
     return refuse(
         "holds runs of a scenario that was changed since: " + before.scenario + " or a file that it names",
         "name another store, or overwrite this one (force)");
-  // The columns are told with their names as they are, not as they stand in the file.
+  // Messages name the columns as in the plan, not as in the file.
   store->inside_->plan = std::move(plan);
   if (base::Problems wrong = store->inside_->begin(); !wrong.empty()) return wrong;
   return store;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The finished runs of a plan in one SQLite file. A row is there whole or not at all, whatever kills the program; docs/howto/run-many.md
-// has the tables.
+// Stores the finished runs of a plan in one SQLite file. A row is stored whole or not at all, even if the
+// program is killed; docs/howto/run-many.md describes the tables.
 #pragma once
 #include <condition_variable>
 #include <cstddef>
@@ -17,25 +17,25 @@
 
 namespace files {
 
-/// What a store says of itself. The first three must not change between two sittings, and neither may the columns.
+/// The description of a store. The first three members and the columns must not change between two sittings.
 struct StoredPlan {
-  std::string sixstep{};  ///< the version that made all of its rows; empty: this one
-  std::string plan;       ///< which runs, in one line (text::plan_identity)
+  std::string sixstep{};  ///< version that made all of its rows; empty: this one
+  std::string plan;       ///< the plan in one line (text::plan_identity)
   std::string
-      inputs;  ///< digest of all that was read for the scenario and of what the command line set in it
+      inputs;  ///< digest of all files read for the scenario and of the values that the command line set
   std::string title, motor, scenario, command;
-  std::string scenario_text;  ///< whole, as a file
+  std::string scenario_text;  ///< the complete scenario, as a file
   analysis::TableColumns columns;
 };
 
 class PlanStore {
  public:
-  /// A new store at a path where nothing is, or nothing but a store if `force`; at an empty path one without a name, which goes
-  /// with the program.
+  /// Creates a store. `path` must not exist, unless `force` is set and it is a store. An empty path makes an
+  /// unnamed store that is removed at the program's end.
   static base::Result<PlanStore> create(const std::string& path, StoredPlan plan, bool force);
-  /// One that is there, to go on with. Problems where it is damaged, or of another plan or version.
+  /// Opens a store to continue it. Problems: it is damaged, or of another plan or version.
   static base::Result<PlanStore> resume(const std::string& path, StoredPlan plan);
-  /// One that is there, for whoever looks into it. Problems where it is damaged: every row is held against its checksum.
+  /// Opens a store to read it. Problems: it is damaged; every row is compared with its checksum.
   static base::Result<PlanStore> read(const std::string& path);
 
   PlanStore(PlanStore&&) noexcept;
@@ -44,19 +44,20 @@ class PlanStore {
 
   const StoredPlan& plan() const;
   const std::string& path() const;
-  /// Rows that stand in the file.
+  /// Rows in the file.
   std::size_t rows() const;
   bool has(std::size_t number) const;
 
-  /// A row to be written: it stands in the file a moment later, and `rows()` then counts it. From any thread. A row of other columns
-  /// is not written, and the store has failed.
+  /// Queues a row, from any thread; it is in the file a moment later, and rows() then counts it. A row with
+  /// other columns is not written, and the store has failed.
   void add(analysis::RunRecord&& record);
-  /// A row could not be written, and none will be any more: there is no sense in going on.
+  /// A row could not be written, and no further ones will be.
   bool failed() const;
-  /// Waits until all rows stand in the file. What kept one from it.
+  /// Waits until all rows are in the file. Problems: the reason why one is not.
   base::Problems finish();
 
-  /// In the order of the runs' numbers; what kept one from being read. Of a row's `point` numbers are as they were, words without their quotes.
+  /// Visits the rows in the order of the runs' numbers. Problems: why one could not be read. In a row's `point`
+  /// numbers are as given, words without their quotes.
   base::Problems each(const std::function<void(const analysis::RunRecord&)>& visit);
 
  private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// SQLite's handles as values: closed where they end, every failure a Problem. (SQLite: one file, transactions that survive any
-// kill, and a language to ask it in that everybody has.)
+// Wraps SQLite's handles as values that close themselves and report failures as Problems. SQLite was chosen
+// because it has one file, transactions that survive any kill, and a query language that is available
+// everywhere.
 #pragma once
 #include <sqlite3.h>
 
@@ -16,10 +17,10 @@
 
 namespace files {
 
-/// A value as SQLite has it: nothing, a whole number, a number, a text. (A BLOB is none of them.)
+/// A value of SQLite: null, whole number, number, text. (BLOBs are not used.)
 using Cell = std::variant<std::monostate, std::int64_t, double, std::string>;
 
-/// A statement that is run many times. Places count from 1, columns from 0, as SQLite has them.
+/// A statement that is run many times. As in SQLite, places count from 1, columns from 0.
 class Statement {
  public:
   explicit Statement(sqlite3_stmt* statement) : statement_(statement) {}
@@ -28,7 +29,7 @@ class Statement {
   void bind(int place, std::string_view text) {
     sqlite3_bind_text(statement_.get(), place, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT);
   }
-  /// A number that is none is NULL; an infinite one is itself.
+  /// NaN becomes NULL; infinity is stored.
   void bind(int place, double x) { sqlite3_bind_double(statement_.get(), place, x); }
   void bind_cell(int place, const Cell& cell) {
     sqlite3_bind_null(statement_.get(), place);
@@ -37,7 +38,7 @@ class Statement {
     if (const auto* text = std::get_if<std::string>(&cell)) bind(place, std::string_view(*text));
   }
 
-  /// True while there is a row. After the last one it can be bound and run again.
+  /// True while there is a row. After the last row the statement can be bound and run again.
   bool step() {
     code_ = sqlite3_step(statement_.get());
     if (code_ == SQLITE_ROW) return true;
@@ -82,7 +83,7 @@ class Statement {
 
 class Database {
  public:
-  /// An empty path is a file without a name that goes when it is closed.
+  /// An empty path means an unnamed file that is removed when it is closed.
   static base::Result<Database> open(const std::string& path);
 
   /// Any number of statements without results.
@@ -90,7 +91,7 @@ class Database {
   base::Result<Statement> prepare(const std::string& sql);
 
   const std::string& path() const { return path_; }
-  /// That it cannot be read or written, for what SQLite says.
+  /// The Problem that the database cannot be read or written, with SQLite's reason.
   base::Problem problem() const;
 
  private:
@@ -101,7 +102,7 @@ class Database {
   std::string path_;
 };
 
-/// Of a store that does not hold what was written into it; `how` is a clause.
+/// The Problem that a store does not hold the data written into it; `how` is a clause.
 base::Problem damaged(const std::string& path, const std::string& how);
 
 /// "a name" for SQL, with its quotes.

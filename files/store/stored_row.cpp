@@ -18,7 +18,7 @@ namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t fixed_cells = 5;
 
-/// SQLite keeps no sign of a zero and no NaN.
+/// SQLite keeps neither the sign of zero nor NaN.
 Cell number_cell(double x) { return x == x ? Cell(x + 0.0) : Cell(); }
 
 /// A number as a number, "soft" without its quotes.
@@ -27,7 +27,7 @@ Cell value_cell(const std::string& written) {
   return text::visible(analysis::bare(written));
 }
 
-/// Reads cells one after another, as long as they are of the kind that is asked for.
+/// Reads cells one after another, as long as each has the expected kind.
 class CellReader {
  public:
   explicit CellReader(const std::vector<Cell>& cells) : cells_(cells) {}

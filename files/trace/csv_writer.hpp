@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The trace as text: lines of comment behind #, one header line of column names, then rows of numbers that
-// read back bit for bit.
+// Writes a trace as text: comment lines behind #, one line of column names, then rows of numbers that read back
+// bit for bit.
 #pragma once
 #include <span>
 #include <string>
@@ -30,7 +30,7 @@ class CsvWriter {
   std::string pending_;
 };
 
-/// Appends a number in as few digits as let it come back as itself, at most 17.
+/// Appends a number with the fewest digits that read back as the same number, at most 17.
 void append_number(std::string& text, double x);
 
 }  // namespace files

@@ -6,7 +6,7 @@
 namespace files {
 namespace {
 
-// Table 1-1 and "miMATRIX": an element is a tag of type and bytes, then the bytes, filled up to eight.
+// Table 1-1 and "miMATRIX": an element is a tag with type and length, then the bytes, padded to eight.
 enum : std::uint32_t {
   mi_int8 = 1,
   mi_int32 = 5,
@@ -16,7 +16,7 @@ enum : std::uint32_t {
   mi_utf16 = 17
 };
 enum : std::uint32_t { class_struct = 2, class_char = 4, class_double = 6 };
-/// Of a field with its closing zero, as MATLAB writes it, or as its longest names need it.
+/// Bytes of a field name with its final zero: MATLAB's usual length, and that for longer names.
 constexpr std::size_t usual_field = 32, long_field = 64;
 
 std::uint32_t n32(std::size_t n) { return static_cast<std::uint32_t>(n); }

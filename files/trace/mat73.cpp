@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// "HDF5 File Format Specification Version 3.0" of The HDF Group: superblock version 0 (II.A), groups by a B-tree of names (III.A1,
-// III.B to III.D), object headers version 1 (IV.A1.a). They are the oldest of each, which every reader knows, and MATLAB's own.
+// Follows "HDF5 File Format Specification Version 3.0" of The HDF Group: superblock version 0 (II.A), groups by
+// a B-tree of names (III.A1, III.B to III.D), object headers version 1 (IV.A1.a). They are the oldest versions,
+// which every reader supports, and those of MATLAB.
 #include "files/trace/mat73.hpp"
 
 #include <algorithm>
@@ -11,9 +12,9 @@ namespace {
 
 using Address = std::uint64_t;
 constexpr Address nowhere = ~Address{0};
-constexpr std::size_t user_block = 512;  // before the address 0
+constexpr std::size_t user_block = 512;  // in front of address 0
 
-// Types of messages, and MATLAB's code of texts as characters.
+// Types of messages, and MATLAB's code for text as characters.
 enum : std::uint16_t {
   is_dataspace = 1,
   is_datatype = 3,
@@ -24,7 +25,7 @@ enum : std::uint16_t {
 };
 constexpr std::int32_t decode_as_text = 2;
 
-// Datatypes: class and version, bits, size, and where the number's parts lie (IV.A2.d).
+// Datatypes: class and version, bits, size, and the places of the number's parts (IV.A2.d).
 std::string float64() {
   std::string d("\x11\x20\x3f\x00", 4);
   put_bytes(d, std::uint32_t{8}, std::uint16_t{0}, std::uint16_t{64}, std::uint8_t{52}, std::uint8_t{11},
@@ -48,7 +49,7 @@ std::string words_of_any_length() {
   return d + fixed_words(1);
 }
 
-/// None: a single value.
+/// Empty: a single value.
 std::string dataspace(std::initializer_list<std::uint64_t> sizes) {
   std::string d;
   put_bytes(d, std::uint8_t{1}, static_cast<std::uint8_t>(sizes.size()), std::uint16_t{0}, std::uint32_t{0});
@@ -84,10 +85,10 @@ struct Named {
   Address at = 0;
 };
 
-/// Objects in a file that grows; where the numbers of columns will lie is put in at the end.
+/// Appends objects to a file; the addresses of the columns' numbers are inserted at the end.
 class Objects {
  public:
-  /// `most_names` that a group may have: a node of its B-tree has room for all of them.
+  /// `most_names`: of a group; one node of its B-tree has room for all of them.
   explicit Objects(std::size_t most_names) : half_a_node_((std::max<std::size_t>(most_names, 8) + 1) / 2) {
     bytes_.resize(superblock_bytes);
   }
@@ -97,7 +98,7 @@ class Objects {
   Address group(std::vector<Named> members, const std::string& attributes);
   Address struct_of(const MatFields& fields);
 
-  /// The whole, with the root group's address in its superblock.
+  /// The complete bytes, with the root group's address in the superblock.
   std::string ended(Address root, std::size_t rows);
 
  private:
@@ -116,7 +117,7 @@ class Objects {
 
   std::string bytes_;
   std::size_t half_a_node_;
-  std::vector<std::size_t> columns_;  ///< where their addresses are to stand
+  std::vector<std::size_t> columns_;  ///< places where their addresses are inserted
 };
 
 Address Objects::object(std::size_t messages, const std::string& all) {
@@ -126,7 +127,7 @@ Address Objects::object(std::size_t messages, const std::string& all) {
   return add(head + all);
 }
 
-/// Four messages: what it is, how large, no fill value, and where its bytes lie in one piece, which comes last.
+/// Four messages: type, size, no fill value, and the address of its contiguous bytes, which comes last.
 std::string Objects::dataset(const std::string& type, const std::string& space, Address at,
                              std::size_t bytes) {
   std::string layout("\x03\x01", 2);
@@ -135,7 +136,7 @@ std::string Objects::dataset(const std::string& type, const std::string& space, 
          message(is_fill, std::string("\x02\x02\x02\x00", 4)) + message(is_layout, layout);
 }
 
-/// MATLAB's sizes run the other way round. Of what is empty the sizes themselves are kept.
+/// MATLAB's sizes are in reverse order. An empty text is stored as its sizes.
 Address Objects::text(const std::string& words) {
   const std::vector<std::uint16_t> units = mat_units(words);
   std::string bytes, decode;
@@ -161,12 +162,12 @@ Address Objects::column(std::size_t rows) {
   const std::string said = class_attribute("double");
   const std::string set = dataset(float64(), dataspace({1, rows}), nowhere, rows * sizeof(double));
   const Address at = object(5, said + set);
-  // The layout's message stands last: eight bytes of its head, two of version and class, then the address.
+  // The layout's message is last: eight bytes of header, two of version and class, then the address.
   columns_.push_back(bytes_.size() - 24 + 2);
   return at;
 }
 
-/// Their names in a heap, a table of names and addresses in the order of the names, and a tree of one node above it.
+/// A heap of the names, a table of names and addresses sorted by name, and a tree with one node above it.
 Address Objects::group(std::vector<Named> members, const std::string& attributes) {
   std::sort(members.begin(), members.end(), [](const Named& a, const Named& b) { return a.name < b.name; });
   std::string names(8, '\0'), table("SNOD\x01\x00", 6);
@@ -204,7 +205,7 @@ Address Objects::names_of(const MatFields& fields) {
     pad_to_eight(heap);
   }
   const std::size_t size = std::max(least, heap.size() + 16);
-  put_bytes(heap, std::uint64_t{0}, std::uint64_t{size - heap.size()});  // object 0: the room that is left
+  put_bytes(heap, std::uint64_t{0}, std::uint64_t{size - heap.size()});  // object 0: the free space
   heap.resize(size);
   const std::uint64_t told = size;
   std::copy_n(reinterpret_cast<const char*>(&told), sizeof told, heap.begin() + 8);

@@ -18,7 +18,7 @@ std::vector<std::uint16_t> mat_units(const std::string& text) {
 std::string mat_header(const char* version, std::uint16_t number) {
   std::string text = std::string("MATLAB ") + version + " MAT-file, sixstep " SIXSTEP_VERSION;
   text.resize(116, ' ');
-  text.resize(124, '\0');  // no data of a subsystem
+  text.resize(124, '\0');  // no subsystem data
   put_bytes(text, number, std::uint16_t{'M' << 8 | 'I'});
   return text;
 }

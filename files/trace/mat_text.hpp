@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the writers of both MAT versions share.
+// Holds the parts that the writers of both MAT versions share.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -11,11 +11,11 @@ namespace files {
 /// A struct whose fields are texts, in their order.
 using MatFields = std::vector<std::pair<std::string, std::string>>;
 
-/// MATLAB counts 16-bit units, others count characters: where these differ, beyond U+FFFF, no reader is sure of the sizes, and the
-/// replacement stands.
+/// Text as 16-bit units. MATLAB counts such units, other readers count characters. A character beyond U+FFFF
+/// would make the sizes ambiguous and becomes the replacement character.
 std::vector<std::uint16_t> mat_units(const std::string& text);
 
-/// Bytes of a number, in this machine's order, as both versions may have them.
+/// Bytes of a number in this machine's order, which both versions allow.
 template <class... Number>
 void put_bytes(std::string& into, Number... numbers) {
   (into.append(reinterpret_cast<const char*>(&numbers), sizeof numbers), ...);
@@ -23,7 +23,7 @@ void put_bytes(std::string& into, Number... numbers) {
 
 inline void pad_to_eight(std::string& bytes) { bytes.resize((bytes.size() + 7) / 8 * 8); }
 
-/// The first 128 bytes of a file: words for people, then version and order of bytes.
+/// The first 128 bytes of a file: a readable text, then version and byte order.
 std::string mat_header(const char* version, std::uint16_t number);
 
 }  // namespace files

@@ -45,10 +45,10 @@ void MatWriter::row(std::span<const double> numbers) {
   spool_.row(numbers);
 }
 
-/// Room for the file itself before a block of rows is kept: a disk that fills up stops the run while all that
-/// it has kept still fits.
+/// Reserves room for the final file before a block of rows is kept, so that a full disk stops the run while all
+/// kept rows still fit.
 void MatWriter::reserve() {
-  constexpr std::size_t per_column = 4096;  // heads, units and meanings; in HDF5 also its tables
+  constexpr std::size_t per_column = 4096;  // headers, units and meanings; in HDF5 also its tables
   const std::size_t rows = spool_.rows() + ColumnSpool::block_rows;
   too_long_ = version_ == MatVersion::v5 && rows > most_rows_;
   if (!too_long_)
@@ -73,7 +73,7 @@ std::vector<std::pair<std::string, MatFields>> MatWriter::structs(std::uint64_t 
           {"meanings", std::move(meanings)}};
 }
 
-/// What is small, then the columns: of version 5 each behind its head, of 7.3 as numbers alone.
+/// Writes the small parts, then the columns: in version 5 each behind its header, in 7.3 only numbers.
 bool MatWriter::assemble(std::uint64_t digest) {
   file_.begin_again();
   std::vector<std::string> names;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The trace as a MAT file: each column a vector of its name, `units` and `meanings` by column, `sixstep` with
-// where it comes from. Rows wait on the disk (ColumnSpool), so memory does not grow with the run.
+// Writes a trace as a MAT file: each column as a vector with its name, `units` and `meanings` by column,
+// `sixstep` with its origin. Rows wait on the disk (ColumnSpool), so memory does not grow with the run.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -18,7 +18,7 @@ namespace files {
 
 class MatWriter {
  public:
-  /// A variable of version 5 stays below 2 GiB in all: many read the sizes in its tags as signed.
+  /// A variable of version 5 must stay below 2 GiB, because many readers take its sizes as signed.
   static constexpr std::size_t v5_most_rows = ((std::size_t{1} << 31U) - 1024) / sizeof(double);
 
   static base::Result<MatWriter> create(const Destination& to, std::span<const study::Column> columns,
@@ -28,7 +28,7 @@ class MatWriter {
   void row(std::span<const double> numbers);
   bool failed() const { return too_long_ || error_ != 0 || spool_.failed() || file_.failed(); }
 
-  /// `digest`: of the run, which only its end knows.
+  /// `digest`: the run's, known only at its end.
   base::Problems commit(std::uint64_t digest);
   base::Problems commit_partial(std::uint64_t digest);
 
@@ -37,7 +37,7 @@ class MatWriter {
             std::size_t most_rows_of_v5);
   void reserve();
   std::vector<std::pair<std::string, MatFields>> structs(std::uint64_t digest) const;
-  /// Begins anew: of a file that could not be written to its end nothing is left.
+  /// Starts the file anew. After a failure nothing of it is kept.
   bool assemble(std::uint64_t digest);
   base::Problems save_what_fits(std::uint64_t digest);
 
@@ -48,7 +48,7 @@ class MatWriter {
   std::size_t most_rows_;
   ColumnSpool spool_;
   bool too_long_ = false;
-  int error_ = 0;  // what errno said when room was asked for
+  int error_ = 0;  // errno of the reservation
 };
 
 }  // namespace files

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One output of a run, whatever its format: opened before the run begins, filled while it goes on, put in
-// place at its end.
+// Represents one output of a run in any format: opened before the run, filled during it, finished at its end.
 #pragma once
 #include <functional>
 #include <string>
@@ -11,7 +10,7 @@
 
 namespace files {
 
-/// A run and what it came to, as the outputs that are written at its end tell it.
+/// A run and its results, for outputs that are written at its end.
 struct RunStory {
   const study::Scenario& scenario;
   const study::Outcome& outcome;
@@ -19,15 +18,15 @@ struct RunStory {
 };
 
 struct Sink {
-  std::function<void(study::Row)> on_record, on_event;  ///< empty: it needs none
+  std::function<void(study::Row)> on_record, on_event;  ///< empty: not needed
   study::LogicSink on_logic;                            ///< likewise
-  std::function<bool()> failed;                         ///< it can be written no longer; empty: never
-  /// Puts it in place; of a run that was cut short under its partial name.
+  std::function<bool()> failed;                         ///< it cannot be written any more; empty: never
+  /// Puts the file under its name; under its partial name if the run was interrupted.
   std::function<base::Problems(const RunStory&, bool whole)> finish;
-  std::function<std::string()> left_out;  ///< what it has not of the run, once finished; empty: nothing
+  std::function<std::string()> left_out;  ///< parts of the run that it lacks, once finished; empty: none
 };
 
-/// Problems mean that it cannot be written: nothing must run.
+/// Problems: it cannot be written; the run must not start.
 using OpenSink = base::Result<Sink> (*)(const Destination&, const study::Scenario&, const TraceOrigin&);
 
 }  // namespace files

@@ -13,7 +13,7 @@
 namespace files {
 namespace {
 
-/// What all files have in common; `facts` of the run are handed on to what puts the file in place.
+/// The common parts of all files; `facts` of the run are passed to commit().
 template <class File, class... Facts>
 Sink sink_of(const std::shared_ptr<File>& file, Facts (*... facts)(const RunStory&)) {
   Sink sink;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The formats that a run is written in, each as an OpenSink.
+// Lists the output formats of a run, each as an OpenSink.
 #pragma once
 #include "files/trace/sink.hpp"
 
@@ -19,7 +19,7 @@ base::Result<Sink> vcd_sink(const Destination& to, const study::Scenario& scenar
 base::Result<Sink> json_sink(const Destination& to, const study::Scenario& scenario,
                              const TraceOrigin& origin);
 
-/// A file that is written as a whole once the run is over.
+/// A file that is written as a whole after the run.
 base::Result<Sink> page_sink(const Destination& to, std::function<std::string(const RunStory&)> page);
 
 }  // namespace files

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a trace comes from, in the words that every trace file begins with.
+// Describes the origin of a trace in the words at the top of every trace file.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -11,7 +11,7 @@ namespace files {
 
 struct TraceOrigin {
   std::string scenario;      ///< the file's name
-  std::uint64_t digest = 0;  ///< of everything that was read for it, and of what the command line set
+  std::uint64_t digest = 0;  ///< of all files read and of the values that the command line set
   std::string title, motor;
   std::string command;  ///< makes the trace again
   std::string text;     ///< the scenario file's, as it was read

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Logic signals as a value change dump (IEEE 1364, clause 18), which GTKWave, PulseView and Surfer open.
-// Times are the rig's own whole picoseconds.
+// Writes logic signals as a value change dump (IEEE 1364, clause 18), for GTKWave, PulseView and Surfer. Times
+// are the rig's whole picoseconds.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -19,7 +19,7 @@ class VcdWriter {
   static base::Result<VcdWriter> create(const Destination& to, std::span<const study::LogicSignal> signals,
                                         const TraceOrigin& origin);
 
-  /// One row at an instant; instants must not fall.
+  /// Adds the row of an instant; instants must not decrease.
   void change(std::int64_t ps, std::span<const std::uint32_t> row);
   bool failed() const { return file_.failed(); }
   base::Problems commit();

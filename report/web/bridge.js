@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bridge as a drawing: what conducts lights up in its phase's colour, an arrow says which way the current runs.
+// Draws the bridge: conducting devices have their phase's colour, an arrow shows the direction of the current.
 
 const LEG_STATES = ['floating', 'upper switch', 'lower switch', 'upper diode', 'lower diode'];
 

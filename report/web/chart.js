@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// One chart: data in, uPlot and its caption out. Knows nothing of the other charts but their common cursor.
+// Draws one chart with its caption from its data, with uPlot. Charts share only the cursor.
 
 const GUTTER = {left: 62, right: 56};  // the same for all, so that one instant stands on one vertical line
 
-// The colours live in the style sheet alone; they are read once per theme.
+// The colours are only in the style sheet; they are read once per theme.
 let palette = {};
 function readPalette() {
   const style = getComputedStyle(document.documentElement);
   const names = ['ink', 'quiet', 'grid', 'line', 'paper', 'a', 'b', 'c', 'a-soft', 'b-soft', 'c-soft', 'main', 'beneath', 'reference', 'accent'];
-  // A canvas does not know color-mix(): let the browser compute it.
+  // A canvas does not support color-mix(), so the browser computes the colour.
   const probe = document.body.appendChild(document.createElement('i'));
   palette = Object.fromEntries(names.map((name) => {
     probe.style.color = `var(--${name})`;
@@ -58,7 +58,7 @@ function labelNode(label) {
   return span;
 }
 
-const STRIP = 0.66;  // height of a logic one, of its strip
+const STRIP = 0.66;  // height of a logic one, relative to its strip
 
 /** Strips stand one below the other: the first on top. */
 function stripped(values, index, count) {
@@ -88,11 +88,11 @@ function inLanes(chart, raw) {
 
 function curveOptions(curve, index, chart, count) {
   const color = () => palette[curve.style];
-  // A pale band lies beneath curves that it is one with at times, so that both are seen there.
+  // A pale band lies below curves that coincide with it at times, so that both are visible.
   const width = {beneath: 5, main: 1.8}[curve.style] ?? 1.3;
   const options = {label: curve.label, stroke: color, width, points: {show: false}, spanGaps: chart.joined};
   if (curve.style === 'reference') Object.assign(options, {dash: [6, 4], width: 1.6});
-  // What lies below the curve, without a line of its own.
+  // The area below the curve, without a line.
   if (curve.region) Object.assign(options, {stroke: 'transparent', width: 0, fill: () => translucent(color(), 0.16), fillTo: () => 0});
   // Single points: nothing is drawn between them.
   if (curve.points) Object.assign(options, {paths: () => null, points: {show: true, size: 11, width: 2, stroke: color, fill: () => palette.paper}});
@@ -185,7 +185,7 @@ function chartOptions(chart, width, time, hooks) {
     scales: {x: chart.log ? {time: false, distr: 3, range: (u, min, max) => [min, max]} : {time: false}, y: chart.logic ? {range: () => [-0.12, count - 0.1]} : chart.lanes ? {range: () => chart.axis.range} : {range, distr: chart.log ? 3 : 1}},
     axes: [x, ...valueAxes(chart)],
     series: [{}, ...chart.curves.map((c, i) => curveOptions(c, i, chart, count))],
-    // Of two regions the wider one is filled down to the narrower, so that their colours do not mix.
+    // The wider of two regions is filled down to the narrower, so that their colours do not mix.
     bands: chart.curves.flatMap((c, i) => (c.region && chart.curves[i + 1]?.region ? [{series: [i + 1, i + 2]}] : [])),
     cursor: {
       y: false, points: {show: !chart.logic && !chart.joined, size: 6, width: 0, fill: (u, i) => palette[chart.curves[i - 1].style]},

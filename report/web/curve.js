@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The curve's charts over one speed axis: one zoom, one cursor, the theme, the printer.
+// Draws the curve's charts over one speed axis, with one zoom and one cursor; follows theme and printer.
 
 const data = JSON.parse(document.getElementById('data').textContent);
 const axis = unpack(data.axis, Float64Array);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Curves as numbers: unpacked, read at an instant, put on one axis, told in words.
+// Handles curves as numbers: unpacks them, reads them at an instant, puts them on one axis, prints them.
 
 /** Little-endian numbers; every machine with a browser keeps them that way. */
 function unpack(text, Type) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is at one instant: all curves at the cursor and at two marks, and what lies between these.
+// Shows the values of all curves at the cursor and at two marks, and what lies between the marks.
 
 /** The marks in a chart: a line with its letter on top. */
 function drawMarks(u, marks) {
@@ -59,7 +59,7 @@ function readout(table, entries, named) {
     return logic ? String(v) : figure(turn ? v * factor - turn * Math.floor((v * factor) / turn) : v * factor);
   };
   return (instants) => {
-    table.hidden = instants.every((t) => t == null);  // rows without a number tell nothing
+    table.hidden = instants.every((t) => t == null);  // neither cursor nor mark: nothing to show
     for (const {entry, curve, unit, cells} of rows) {
       const values = instants.map((t) => (t == null ? null : valueAt(curve.full ?? curve, t)));
       values.forEach((v, n) => { cells[n].textContent = text(entry, v); });

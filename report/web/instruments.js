@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands beside the charts of a run: the bridge, the currents' locus, the table of all curves, the units.
+// Builds the parts beside a run's charts: the bridge, the currents' locus, the table of all curves, the units.
 
 /** The rotor's angle, which grows with every turn: shown within one. Not a chart, but read out like one. */
 function rotorEntry(axisOf) {
@@ -40,7 +40,7 @@ function makeInstruments(axisOf) {
     const t = instants.cursor;
     fill([t, instants.A, instants.B]);
     if (drawBridge) {
-      // Until somebody points at a chart: the middle of what the charts show.
+      // Before the pointer is over a chart: the middle of the time shown.
       const at = t ?? (view[0] + view[1]) / 2, factor = currents.chart.factor ?? 1;
       const now = phases.map((c) => (valueAt(c.full ?? c, at) ?? 0) * factor);
       drawBridge(conductionAt(conduction, data.conduction.end, at), now, currents.chart.unit, t == null ? at : null);

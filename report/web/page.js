@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Charts follow the page: its width, the theme, the printer.
+// Adapts charts to the page: its width, the theme, the printer.
 
 function watchPage(charts, changed, parent = document.getElementById('charts')) {
   const repaint = () => {

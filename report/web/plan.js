@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plan's page: what its drawings share, which runs are picked, which one is chosen, the theme, the printer.
+// Runs a plan's page: data that its drawings share, the selected runs, the chosen one, the theme, the printer.
 
 const table = planTable(JSON.parse(document.getElementById('data').textContent));
 

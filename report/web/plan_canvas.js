@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the drawings of a plan share: a canvas of the screen's own grain, axes, colours of runs.
+// Shared by the drawings of a plan: a canvas in the screen's resolution, axes, colours of runs.
 
 const FRAME = {left: 64, right: 16, top: 12, bottom: 42};
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs as points: any column over any other.
+// Draws runs as points: any column over any other.
 
 /** A run that holds is a square, one that misses a triangle, a fault a cross: colour alone is not for everybody. */
 function drawRun(ctx, x, y, size, state) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The best trades of two figures: runs that no other is better than in one figure without being worse in the other.
+// Draws the best trade-offs of two figures: no other run is better in one figure without being worse in the other.
 
 /** Rows of the front, from the best across to the best up; `signs` are 1 where higher is better, -1 where lower. Of equal runs each
  *  is on it. Rows without a value are not. */
@@ -62,7 +62,7 @@ function frontView(page) {
   bests.y.value = likesHigh(y) ? '1' : '-1';
   const extra = (f) => {
     const signs = [Number(bests.x.value), Number(bests.y.value)];
-    // Runs that stopped or could not run are no trade.
+    // Runs that stopped or could not run are left out.
     const fronts = page.table.plans.filter((plan) => f.across.of[plan.index] && f.up.of[plan.index]).map((plan) => ({plan,
       front: paretoFront(f.across.of[plan.index], f.up.of[plan.index], signs, (n) => plan.states[n] < 2 && page.picked(plan, n))}));
     for (const {plan, front} of fronts) drawFront(f, plan, front);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A figure over two columns: cells of a grid, or of a range cut in even parts, each in the colour of its mean.
+// Draws a figure over two columns: cells of a grid, or of a range cut in even parts, each in the colour of its mean.
 
 const MOST_CELLS = 60;
 
@@ -106,7 +106,7 @@ function heatView(page) {
   const over = places.length > 1 ? places : page.choices;
   fillSelect(element('x'), over, over[0]);
   fillSelect(element('y'), over, over[1] ?? over[0]);
-  // Not a column of any run, but what a designer looks for first.
+  // Not a column of the runs, but the first one that a designer looks for.
   const held = {id: String(table.columns.length), kind: 'figure', name: 'runs that hold', unit: '%', limits: table.plans.map(() => null),
     of: table.plans.map((plan) => Float32Array.from(plan.states, (s) => (s === 3 ? NaN : s === 0 ? 100 : 0)))};
   const judged = table.columns.some((c) => c.limits.some((l) => l));

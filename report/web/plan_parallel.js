@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All columns at once: an axis each, a line per run, and ranges that pick runs for the whole page.
+// Draws all columns at once: an axis each, a line per run, and ranges that select runs for the whole page.
 
 const PARALLEL = {top: 40, bottom: 12, side: 56, grain: 3, shades: 5};
 
@@ -20,7 +20,7 @@ function bundled(left, right, plan, wanted, height) {
 function drawBundle(ctx, {counts, steps}, [x1, x2], top, strength) {
   let most = 1;
   for (const count of counts.values()) most = Math.max(most, count);
-  const crowd = Math.min(1, 20 / Math.sqrt(counts.size));  // many lines let each other shine through
+  const crowd = Math.min(1, 20 / Math.sqrt(counts.size));  // many lines are transparent
   for (let shade = 1; shade <= PARALLEL.shades; ++shade) {
     ctx.globalAlpha = strength * crowd * (most > 1 ? (shade / PARALLEL.shades) ** 1.5 : 1);
     ctx.beginPath();
@@ -43,7 +43,7 @@ function drawAxis(ctx, axis, x, top, height, room, brush) {
   for (const {v, text} of axis.scale.ticks(6)) {
     const y = top + (1 - axis.scale.at(v)) * height;
     line(ctx, x - 3, y, x, y);
-    // On the lines' colours numbers need a ground of their own.
+    // Numbers need a background over the lines' colours.
     const shown = fitted(ctx, text, room - 12), wide = ctx.measureText(shown).width;
     ctx.fillStyle = translucent(palette.paper, 0.75);
     ctx.fillRect(x - 7 - wide, y - 7, wide + 4, 14);
@@ -103,7 +103,7 @@ function parallelView(page) {
     view = {axes, places, height};
     ctx.lineWidth = 1;
     const down = (axis, plan) => (n) => 1 - axis.scale.at(axis.column.of[plan.index]?.[n] ?? NaN);
-    const layers = [[0, 0], [0, 1], [1, 0], [1, 1]].filter(([on]) => on || brushes.size);  // what is not picked lies under the rest
+    const layers = [[0, 0], [0, 1], [1, 0], [1, 1]].filter(([on]) => on || brushes.size);  // runs not selected lie below the others
     for (const [on, bad] of layers) for (const plan of table.plans) for (let k = 0; k + 1 < axes.length; ++k) {
       const wanted = (n) => (plan.states[n] !== 0) === Boolean(bad) && page.picked(plan, n) === Boolean(on);
       ctx.strokeStyle = on ? runColour(plan.index, bad) : palette.line;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plan's runs as columns of numbers, and the scales that they are drawn on.
+// Holds a plan's runs as columns of numbers, and the scales of the drawings.
 
 const STATES = ['holds', 'misses a requirement', 'stopped by a fault', 'could not run'];
 

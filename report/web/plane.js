@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The alpha-beta locus of the currents: alpha = (2 a - b - c)/3 against beta = (b - c)/sqrt 3, both axes in one scale.
+// Draws the alpha-beta locus of the currents: alpha = (2 a - b - c)/3 against beta = (b - c)/sqrt 3, both axes in one scale.
 
 const clarke = (a, b, c) => [(2 * a - b - c) / 3, (b - c) / Math.sqrt(3)];
 

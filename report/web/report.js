@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The charts' common time axis: one zoom, one cursor, two marks, the close-ups, the units, the address.
+// Connects the charts by their common time axis: one zoom, one cursor, two marks, the close-ups, the units, the address.
 
 const data = JSON.parse(document.getElementById('data').textContent);
 const [runStart, runEnd] = data.run.length ? data.run : [0, 0];

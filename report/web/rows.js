@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every row of the run, for close looks: unpacked after the page stands, drawn where few enough are in view.
+// Unpacks every row of the run after the page is shown, and draws the rows if few enough are in view.
 
 const ROWS_IN_VIEW = 12000;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The spectra: charts over frequency, both axes logarithmic, with a zoom and a cursor of their own.
+// Draws the spectra: charts over frequency, both axes logarithmic, with a zoom and a cursor of their own.
 
 function buildSpectra(axisOf) {
   const frequency = {name: 'frequency', unit: 'Hz'};

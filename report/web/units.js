@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The units an engineer reads a quantity in: shown = data times factor, and times the pole pairs where electrical.
+// Converts quantities to an engineer's units: shown = data times factor, and times the pole pairs if electrical.
 
 const UNITS = {
   speed: [{id: 'rad_s', unit: 'rad/s', factor: 1}, {id: 'rpm', unit: 'rpm', factor: 30 / Math.PI}],

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Independent pieces of work, handed to whoever has cores for them.
+// Runs independent pieces of work, on several cores where the caller has them.
 #pragma once
 #include <cstddef>
 #include <functional>
 
 namespace sixstep::analysis {
 
-/// Calls work(0) .. work(count - 1), each once, side by side or one after the other.
+/// Calls work(0) .. work(count - 1), each once, in parallel or one after the other.
 using ForEach = std::function<void(std::size_t count, const std::function<void(std::size_t)>& work)>;
 
 inline void one_after_the_other(std::size_t count, const std::function<void(std::size_t)>& work) {

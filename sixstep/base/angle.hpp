@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mechanical and electrical angle are different types; only the number of pole pairs bridges them.
+// Mechanical and electrical angle are different types; only the number of pole pairs converts them.
 #pragma once
 
 namespace sixstep::base {
@@ -16,7 +16,7 @@ struct ElectricalAngle {
   bool operator==(const ElectricalAngle&) const = default;
 };
 
-/// Of a linear motor pi/tau, which need not be whole.
+/// For a linear motor pi/tau, which need not be an integer.
 struct PolePairs {
   double count = 1;
   constexpr ElectricalAngle electrical(MechanicalAngle m) const { return {m.rad * count}; }

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Printed decimals in another unit, rounded once.
+// Converts printed decimals to another unit with one rounding.
 #pragma once
 #include <cmath>
 
 namespace sixstep::base {
 
-/// No sheet prints more than ten digits: longer numbers are products of arithmetic, and rounded as such.
+/// No sheet prints more than ten digits: longer numbers are results of arithmetic, and are rounded as such.
 inline constexpr double more_than_printed = 1e10;
 
 /// A printed number times a power of ten, as the double nearest to the decimal product: 0.572 mH becomes
-/// 0.000572 and 135 g cm^2 1.35e-5, to the bit, as if they had been written so. The digits as an integer
-/// times or over one exact power of ten are rounded once; dividing 0.572 itself would round twice. `ten` lies
-/// in -22..22, the powers that are doubles.
+/// 0.000572 and 135 g cm^2 1.35e-5, to the bit, as if they had been written so. The digits as an integer, times
+/// or over one exact power of ten, are rounded once; dividing 0.572 itself would round twice. `ten` is in
+/// -22..22: these powers are exact doubles.
 inline double times_ten_to(double printed, int ten) {
   const auto scaled = [](double x, int power) {
     double exact = 1.0;
@@ -28,7 +28,7 @@ inline double times_ten_to(double printed, int ten) {
 }
 
 /// Weight of the last digit of the shortest decimal that reads back as the same double: 0.01 for 1.03, 1 for
-/// 24, 0 for a number that no sheet prints. Zeros behind the last other digit are not in a double.
+/// 24, 0 for a number that no sheet prints. A double does not show trailing zeros.
 inline double last_digit_of(double printed) {
   double scale = 1.0;
   for (int decimals = 0; decimals <= 22; ++decimals, scale *= 10.0) {
@@ -39,7 +39,7 @@ inline double last_digit_of(double printed) {
   return 0.0;
 }
 
-/// To so many digits, towards the larger or the smaller number: what one likes to read, to type, to change.
+/// Rounds up or down to so many digits, for numbers that a user reads, types or changes.
 enum class Towards : bool { down, up };
 inline double shortened(double x, int digits, Towards towards) {
   if (x == 0.0 || !(x - x == 0.0)) return x;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A number as the unevaluated sum of two doubles, about 106 bits: what the elementary functions need to round
-// right. Exact only without contraction and extended precision (-ffp-contract=off, SSE or better), as
-// everything here is built.
+// A number as the unevaluated sum of two doubles, about 106 bits; the elementary functions need it to round
+// correctly. It is exact only without contraction and extended precision (-ffp-contract=off, SSE or better), as
+// the whole library is built.
 #pragma once
 
 namespace sixstep::base {
@@ -17,20 +17,21 @@ constexpr DoubleDouble two_sum(double a, double b) {
   return {s, (a - (s - b_seen)) + (b - b_seen)};
 }
 
-/// a + b exactly where |a| >= |b| or a = 0 (Dekker 1971).
+/// a + b exactly if |a| >= |b| or a = 0 (Dekker 1971).
 constexpr DoubleDouble fast_two_sum(double a, double b) {
   const double s = a + b;
   return {s, b - (s - a)};
 }
 
-/// a in two halves of at most 26 bits (Veltkamp); overflows above 2^996, nobody here comes near.
+/// a in two halves of at most 26 bits (Veltkamp); overflows above 2^996, which no caller reaches.
 constexpr DoubleDouble split(double a) {
   const double scaled = 134217729.0 * a;  // 2^27 + 1
   const double high = scaled - (scaled - a);
   return {high, a - high};
 }
 
-/// a b exactly (Dekker 1971). A fused multiply-add would give the same two numbers, but not on every target.
+/// a b exactly (Dekker 1971). A fused multiply-add would give the same two numbers, but not every target has
+/// one.
 constexpr DoubleDouble two_prod(double a, double b) {
   const double p = a * b;
   const DoubleDouble x = split(a), y = split(b);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// exp, log, pow. Each reduces its argument exactly, sums a Taylor series whose first omitted term is below
-// 2^-60 of the result, and keeps what the last rounding needs in double-double.
+// Computes exp, log, pow. Each reduces its argument exactly, sums a Taylor series whose first omitted term is
+// below 2^-60 of the result, and keeps in double-double the bits that the last rounding needs.
 #include "sixstep/base/elementary.hpp"
 
 #include <bit>
@@ -16,7 +16,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 constexpr DoubleDouble ln_2{0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-56};
-// ln 2 again: 42 bits, whose product with any exponent of a double is exact, and the rest.
+// ln 2 in two parts: 42 bits, whose product with any exponent of a double is exact, and the rest.
 constexpr double ln_2_short = 0x1.62e42fefa38p-1;
 constexpr double ln_2_rest = 0x1.ef35793c7673p-45;
 constexpr double log2_e = 0x1.71547652b82fep+0;
@@ -28,7 +28,7 @@ double power_of_two(std::int64_t n) {
   return std::bit_cast<double>(static_cast<std::uint64_t>(n + 1023) << 52);
 }
 
-/// y 2^n, rounded once even where the result is subnormal. y in [1/2, 2), n in [-1080, 1024].
+/// y 2^n, rounded once even if the result is subnormal. y in [1/2, 2), n in [-1080, 1024].
 double scale(double y, std::int64_t n) {
   if (n > 1023) return y * 2.0 * power_of_two(n - 1);
   if (n >= -1021) return y * power_of_two(n);
@@ -70,7 +70,7 @@ DoubleDouble log_sum(double x) {
     k = -54;
   }
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(x);
-  // Adding the distance from sqrt(1/2)'s bits to those of 1 carries into the exponent exactly from sqrt 2 on.
+  // Adding the difference of the bits of 1 and sqrt(1/2) carries into the exponent exactly from sqrt 2 on.
   constexpr std::uint64_t half_octave = 0x3ff0000000000000u - 0x3fe6a09e667f3bcdu;
   const std::int64_t octave = static_cast<std::int64_t>((bits + half_octave) >> 52) - 1023;
   k += octave;
@@ -89,7 +89,7 @@ DoubleDouble log_sum(double x) {
   p = p * h + 1.0 / 13;
   p = p * h + 1.0 / 11;
   p = p * h + 1.0 / 9;
-  // From here down the terms are large enough for their rounding to show: double-double.
+  // From here on the terms are so large that their rounding matters: double-double.
   DoubleDouble sum = q * p + DoubleDouble{0x1.2492492492492p-3, 0x1.2492492492492p-57};  // 1/7
   sum = q * sum + DoubleDouble{0x1.999999999999ap-3, -0x1.999999999999ap-57};            // 1/5
   sum = q * sum + DoubleDouble{0x1.5555555555555p-2, 0x1.5555555555555p-56};             // 1/3
@@ -98,7 +98,7 @@ DoubleDouble log_sum(double x) {
   return k == 0 ? log_m : ln_2 * static_cast<double>(k) + log_m;
 }
 
-/// Is y an integer, and an odd one? Every double from 2^53 on is an even integer.
+/// Whether y is an integer, and an odd one. Every double from 2^53 on is an even integer.
 enum class Parity { fraction, even, odd };
 Parity parity(double y) {
   const double size = y < 0.0 ? -y : y;

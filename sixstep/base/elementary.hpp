@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Elementary functions with the same bits on every platform. The C library's differ in the last digit from
-// one system to the next, so nothing that can influence a trajectory calls them. Made of + - * / and integer
-// operations only; error below 1 ulp over the whole range (measured: tests/base/elementary_test.cpp),
-// subnormals included. Special values as in C's annex F; every NaN that comes out is the same quiet NaN.
+// Elementary functions with the same bits on every platform. Nothing that can influence a trajectory calls the
+// C library's, because their last digit differs between systems. These use only + - * / and integer operations.
+// Their error is below 1 ulp over the whole range, subnormals included (measured:
+// tests/base/elementary_test.cpp). Special values are as in C's annex F; each resulting NaN is the same quiet
+// NaN.
 #pragma once
 
 namespace sixstep::base {
@@ -21,7 +22,7 @@ SinCos sin_cos(double rad);
 inline double sin(double rad) { return sin_cos(rad).sin; }
 inline double cos(double rad) { return sin_cos(rad).cos; }
 
-/// Angle of the point (x, y) in [-pi, pi]; the zeros' signs tell the side of the cut.
+/// Angle of the point (x, y) in [-pi, pi]; the zeros' signs determine the side of the cut.
 double atan2(double y, double x);
 
 }  // namespace sixstep::base

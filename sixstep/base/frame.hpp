@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames are types with their own member names, so that a phase is never mistaken for an axis.
+// Frames are types with their own member names, so that a phase quantity cannot be used as an axis quantity.
 #pragma once
 
 namespace sixstep::base {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A linear motor is the turning one with v for w, m for J, F for T and pi/tau for p (model.md 7): the library computes with the
-// symbols of the turning one, 1 rad standing for 1 m, and files and results speak of metres. This is the one table of both.
+// Words and units of linear motors. A linear motor has the rotary motor's equations with v for w, m for J, F
+// for T and pi/tau for p (model.md 7). The library computes with the rotary motor's symbols, 1 rad standing for
+// 1 m; files and results use metres. This file has the only table of both.
 #pragma once
 #include <string>
 #include <string_view>
@@ -12,7 +13,8 @@
 
 namespace sixstep::base {
 
-/// A unit of a turning motor, what stands for it where the motor is linear, and how many of the latter one of the former is.
+/// A rotary motor's unit, the linear motor's unit that replaces it, and how many of the latter equal one of the
+/// former.
 struct LinearUnit {
   std::string_view turning, linear;
   double factor = 1.0;
@@ -43,14 +45,14 @@ inline constexpr LinearUnit linear_units[] = {
     {"rpm/mNm", "m/s/N", 1e3 * pi / 30},
 };
 
-/// The row of a unit; one that is the same for both stands for itself.
+/// The row of a unit; a unit that both motors share maps to itself.
 constexpr LinearUnit in_linear(std::string_view unit) {
   for (const LinearUnit& row : linear_units)
     if (row.turning == unit) return row;
   return {unit, unit, 1.0};
 }
 
-/// A word or a unit in a text about a turning motor, and what is said of a linear one.
+/// A word or a unit in a text about a rotary motor, and its replacement for a linear one.
 struct LinearWord {
   std::string_view turning, linear;
 };
@@ -81,7 +83,7 @@ inline constexpr LinearWord linear_word_table[] = {
     {"K\u209c", "K_f"},
 };
 
-/// Units of which one stands for one, in prose and in keys; they begin and end at no letter.
+/// Units that are replaced one for one, in prose and in keys; a letter must neither precede nor follow them.
 inline constexpr LinearWord linear_unit_words[] = {
     {"rad/s", "m/s"}, {"rad_s", "m_s"},  {"kg m2", "kg"}, {"kg_m2", "kg"},  {"N m/A", "N/A"}, {"Nm/A", "N/A"},
     {"Nm_A", "N_A"},  {"Nm_s", "N_s_m"}, {"Nm", "N"},     {"V_s", "V_s_m"}, {"N m", "N"},
@@ -106,15 +108,16 @@ inline void replace(std::string& text, const LinearWord& word, bool whole) {
 
 }  // namespace linear_text
 
-/// What a text about a turning motor, or a name, says of a linear one: force for torque, mass for inertia, position for angle.
-/// Its numbers stay what they are: those in degrees, turns or thousandths are not told by a change of words.
+/// Replaces a rotary motor's words in a text or a name by a linear motor's: force for torque, mass for inertia,
+/// position for angle. Numbers are not converted: texts with numbers in degrees, turns or thousandths need
+/// another text.
 inline std::string linear_words(std::string text) {
   for (const LinearWord& word : linear_word_table) linear_text::replace(text, word, false);
   for (const LinearWord& unit : linear_unit_words) linear_text::replace(text, unit, true);
   return text;
 }
 
-/// How a motor is told of: a turning one as it is computed, a linear one in its own words and units.
+/// Chooses the words and units of results: a rotary motor's as computed, or a linear motor's.
 struct Motion {
   bool linear = false;
 
@@ -124,20 +127,20 @@ struct Motion {
   std::string words(std::string text) const { return linear ? linear_words(std::move(text)) : text; }
 };
 
-/// A number written under another spelling in the key's own unit, and back.
+/// Converts a number written with another spelling to the key's own unit, and back.
 inline double in_own_unit(double written, const Spelling& s) {
   return times_ten_to(written, s.ten) * s.factor;
 }
 inline double as_spelled(double own, const Spelling& s) { return times_ten_to(own / s.factor, -s.ten); }
 
-/// The spelling that a linear motor's file has; null for a key that is the same for both.
+/// The spelling in a linear motor's file; null if the key is the same for both.
 inline const Spelling* linear_spelling(const About& about) {
   for (const Spelling& s : about.also)
     if (s.linear) return &s;
   return nullptr;
 }
 
-/// The word of a value in a file of such a motor; empty for a value that has none.
+/// The word of a value in this motor's files; empty if there is none.
 template <class Choices, class Enum>
 constexpr std::string_view word_in(const Motion& motion, const Choices& choices, Enum value) {
   const std::string_view turning = word(choices, value);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a number in a drive can be at all, by its unit: the one table that every number is held to which
-// enters, from a file, the command line, a table of rows or another program. It is as wide as physics on a
-// bench, so that it refuses only slips (1e308, a unit forgotten), and narrow enough that no product of a few
-// such numbers leaves what a double holds. Where a key knows better, its own range is the narrower one.
+// The table of plausible numbers for each unit. Every number that enters is checked against it, from a file,
+// the command line, a table of rows or another program. The ranges are so wide that only mistakes are refused
+// (1e308, a forgotten unit), and so narrow that products of a few such numbers stay within a double. A key can
+// have a narrower range of its own.
 #pragma once
 #include <string_view>
 
@@ -12,11 +12,11 @@ namespace sixstep::base {
 
 struct Plausible {
   std::string_view unit;
-  double least;  ///< of what must be above 0
-  double most;   ///< of either sign
+  double least;  ///< for numbers that must be above 0
+  double most;   ///< magnitude
 };
 
-/// Between any two lie more than three powers of ten of what has been built.
+/// Each interval is more than three powers of ten wide, around values that have been built.
 inline constexpr Plausible plausible_numbers[] = {
     {"V", 1e-6, 1e5},         {"A", 1e-9, 1e6},          {"mA", 1e-6, 1e9},        {"ohm", 1e-6, 1e6},
     {"mH", 1e-6, 1e6},        {"F", 1e-12, 1e4},         {"s", 1e-12, 9e6},        {"ms", 1e-9, 9e9},
@@ -35,10 +35,10 @@ inline constexpr Plausible plausible_numbers[] = {
     {"m/s3", 1e-9, 1e18},
 };
 
-/// Gains, ratios and what is in a unit of its own.
+/// Gains, ratios, and numbers with a unit of their own.
 inline constexpr Plausible any_number = {"", 1e-12, 1e12};
 
-/// Below it a number is 0 to every formula here, but its inverse or its square is none any more.
+/// All formulas treat a smaller number like 0, but its inverse or its square would leave the range of a double.
 inline constexpr double nearly_nothing = 1e-30;
 
 constexpr Plausible plausible(std::string_view unit) {
@@ -47,7 +47,7 @@ constexpr Plausible plausible(std::string_view unit) {
   return any_number;
 }
 
-/// A range with its open ends closed by what is plausible in the unit.
+/// The range, with open ends replaced by the plausible limits of the unit.
 constexpr Range allowed(Range range, std::string_view unit) {
   const Plausible number = plausible(unit);
   constexpr double endless = std::numeric_limits<double>::infinity();
@@ -57,7 +57,7 @@ constexpr Range allowed(Range range, std::string_view unit) {
   return range;
 }
 
-/// What a key's number may be. Where its unit follows from other keys, any number may stand there.
+/// The allowed range of a key's number. If its unit follows from other keys, any_number's limits apply.
 constexpr Range allowed(const About& about) { return allowed(about.range, about.unit); }
 
 }  // namespace sixstep::base

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What went wrong, as a value: the library never throws and never terminates.
+// Errors as values: the library never throws and never terminates.
 #pragma once
 #include <string>
 #include <utility>
@@ -7,11 +7,11 @@
 
 namespace sixstep::base {
 
-/// One mistake, told so that the reader alone can mend it.
+/// One error, described so that the user can correct it without further help.
 struct Problem {
   std::string where{};  ///< the key or place, e.g. "supply.voltage_V"; text adds file, line and column
-  std::string value{};  ///< what stood there, as written; empty where nothing did
-  std::string limit{};  ///< what is allowed or what rule is broken, as a clause: "must be above 0"
+  std::string value{};  ///< the wrong value as written; empty if none was given
+  std::string limit{};  ///< the allowed values or the broken rule, as a clause: "must be above 0"
   std::string cure{};   ///< what to do: "give the bus voltage in volts"
 
   bool operator==(const Problem&) const = default;
@@ -19,7 +19,7 @@ struct Problem {
 
 using Problems = std::vector<Problem>;
 
-/// All that is wrong is told at once.
+/// Appends problems, because all of them are reported together.
 inline void append(Problems& to, const Problems& more) { to.insert(to.end(), more.begin(), more.end()); }
 
 /// "supply.voltage_V = -3 must be above 0; give the bus voltage in volts"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random numbers without a state: the number is a function of where it stands, so that a run draws the same
-// values whatever was drawn before it, on however many threads, on every platform.
+// Random numbers without a state. Each number is a function of its place, so that a run draws the same values
+// regardless of earlier draws, of the number of threads and of the platform.
 //
 // Generator: Philox4x32-10 (J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw, "Parallel random numbers: as
 // easy as 1, 2, 3", SC11, 2011). Ten rounds pass all of TestU01's BigCrush; the authors' known answers are in
@@ -30,11 +30,11 @@ constexpr PhiloxBlock philox(PhiloxBlock x, PhiloxKey key) {
   return x;
 }
 
-/// Where a number stands. Two places that differ in any of the three give independent numbers.
+/// The place of a number. Places that differ in any of the three members give independent numbers.
 struct RandomPlace {
   std::uint64_t seed = 0;
-  std::uint64_t stream = 0;   ///< what is drawn: one per quantity
-  std::uint64_t counter = 0;  ///< which of its draws
+  std::uint64_t stream = 0;   ///< the quantity: one stream for each
+  std::uint64_t counter = 0;  ///< the number of the draw
 };
 
 /// The 128 random bits of a place, as two words.
@@ -46,13 +46,13 @@ constexpr std::array<std::uint64_t, 2> random_bits(const RandomPlace& at) {
   return {std::uint64_t{out[1]} << 32 | out[0], std::uint64_t{out[3]} << 32 | out[2]};
 }
 
-/// The middle of one of 2^52 equal parts of (0, 1): never 0 or 1, exact, and as often above 1/2 as below.
+/// The middle of one of 2^52 equal parts of (0, 1): never 0 or 1, exact, and equally often above and below 1/2.
 constexpr double open_unit(std::uint64_t bits) { return (static_cast<double>(bits >> 12) + 0.5) * 0x1p-52; }
 
 /// Uniform in (0, 1).
 constexpr double uniform(const RandomPlace& at) { return open_unit(random_bits(at)[0]); }
 
-/// Mean 0, standard deviation 1 (Box and Muller, 1958). None lies beyond sqrt(2 ln 2^53) = 8.57.
+/// Mean 0, standard deviation 1 (Box and Muller, 1958). No value lies beyond sqrt(2 ln 2^53) = 8.57.
 inline double normal(const RandomPlace& at) {
   constexpr double two_pi = 6.283185307179586;
   const std::array<std::uint64_t, 2> bits = random_bits(at);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ranges in words, for messages and help.
+// Writes ranges in words, for messages and help.
 #pragma once
 #include <string>
 
@@ -11,10 +11,11 @@ namespace sixstep::base {
 /// "must be above 0 and at most 1"; "must be a finite number" for a range open on both ends.
 std::string limit_of(const Range& range);
 
-/// What the number x of a key breaks: its own range, or what is plausible in its unit.
+/// The limit that the number x of a key breaks: of its own range, or the plausible one of its unit.
 std::string limit_of(const Range& own, const Range& allowed, double x);
 
-/// The Problem of a number in this unit that is out of its own range or not plausible; empty for one that is.
+/// The Problem of a number that is outside its own range or not plausible in its unit; empty if the number is
+/// allowed.
 Problems out_of_range(const char* where, double x, const Range& own, std::string_view unit, const char* cure);
 
 }  // namespace sixstep::base

@@ -17,13 +17,13 @@ class [[nodiscard]] Result {
 
   explicit operator bool() const { return content_.index() == 0; }
 
-  /// Only where the result holds a value (test it first): anything else is a null dereference.
+  /// Requires that the result holds a value (test it first); otherwise this dereferences null.
   T& operator*() { return *std::get_if<0>(&content_); }
   const T& operator*() const { return *std::get_if<0>(&content_); }
   T* operator->() { return std::get_if<0>(&content_); }
   const T* operator->() const { return std::get_if<0>(&content_); }
 
-  /// Only where the result holds no value.
+  /// Requires that the result holds no value.
   const Problems& problems() const { return *std::get_if<1>(&content_); }
 
  private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// sin, cos, atan2: exact reduction, then a short Taylor series with the leading terms in double-double.
+// Computes sin, cos and atan2: exact reduction, then a short Taylor series with the leading terms in
+// double-double.
 #include <array>
 #include <bit>
 #include <cmath>
@@ -20,14 +21,14 @@ constexpr DoubleDouble half_pi{0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
 constexpr double half_pi_third = -0x1.f1976b7ed8fbcp-110;
 constexpr double two_over_pi = 0x1.45f306dc9c883p-1;
 
-/// An angle as quarter turns (mod 4) and a rest of at most 45 degrees (and a rounding).
+/// An angle as quarter turns (mod 4) and a rest of at most 45 degrees (plus rounding).
 struct Reduced {
   unsigned quarters = 0;
   DoubleDouble rest;
 };
 
-/// |x| < 2^20: x - n pi/2 with pi/2 in three doubles, each product exact. No double below 2^20 comes nearer
-/// to a multiple of pi/2 than 2^-60, what is left out is below 2^-140.
+/// |x| < 2^20: x - n pi/2 with pi/2 in three doubles; each product is exact. No double below 2^20 is nearer
+/// than 2^-60 to a multiple of pi/2, and the omitted part is below 2^-140.
 Reduced reduce_small(double x) {
   const double turns = x * two_over_pi;
   const std::int64_t n = static_cast<std::int64_t>(turns + (turns < 0.0 ? -0.5 : 0.5));
@@ -48,8 +49,8 @@ constexpr std::array<std::uint32_t, 39> two_over_pi_words{
     0xef2f118b, 0x5a0a6d1f, 0x6d367ecf, 0x27cb09b7, 0x4f463f66, 0x9e5fea2d, 0x7527bac7, 0xebe5f17b,
     0x3d0739f7, 0x8a5292ea, 0x6bfb5fb1, 0x1f8d5d08, 0x56033046, 0xfc7b6bab, 0xf0cfbc20};
 
-/// x >= 2^20: x 2/pi modulo 4 in integers (Payne and Hanek 1983). x = M 2^E; words of 2/pi whose product with
-/// x is a multiple of 4 are left out, seven words (224 bits) from there reach 2^-137.
+/// x >= 2^20: x 2/pi modulo 4 in integers (Payne and Hanek 1983). x = M 2^E. Words of 2/pi whose product with x
+/// is a multiple of 4 are left out; seven words (224 bits) from there reach 2^-137.
 Reduced reduce_large(double x) {
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(x);
   const std::int64_t E = static_cast<std::int64_t>(bits >> 52) - 1075;
@@ -67,14 +68,14 @@ Reduced reduce_large(double x) {
     }
     product[m + 7] += carry;
   }
-  const std::int64_t point = 32 * (first + 7) - E;  // bits behind the binary point, at least 191
+  const std::int64_t point = 32 * (first + 7) - E;  // bits after the binary point, at least 191
   const std::size_t top = static_cast<std::size_t>(point / 32), shift = static_cast<std::size_t>(point % 32);
   unsigned quarters = static_cast<unsigned>(((product[top] | (product[top + 1] << 32)) >> shift) & 3u);
   product[top] &= (std::uint64_t{1} << shift) - 1;
   const std::uint64_t half_bit =
       shift > 0 ? (product[top] >> (shift - 1)) & 1u : (product[top - 1] >> 31) & 1u;
   double sign = 1.0;
-  if (half_bit != 0) {  // nearer to the next quarter: that one, and what is missing to it, exactly
+  if (half_bit != 0) {  // nearer to the next quarter turn: use that one and the exact distance to it
     ++quarters;
     sign = -1.0;
     std::uint64_t carry = 1;
@@ -85,14 +86,14 @@ Reduced reduce_large(double x) {
       carry = i < top ? sum >> 32 : 0;
     }
   }
-  DoubleDouble fraction;  // least first, so that nothing is lost
+  DoubleDouble fraction;  // smallest term first, so that no bit is lost
   double weight = std::bit_cast<double>(static_cast<std::uint64_t>(1023 - point) << 52);
   for (std::size_t i = 0; i <= top; ++i, weight *= 0x1p32)
     fraction = fraction + static_cast<double>(product[i]) * weight;
   return {quarters & 3u, fraction * half_pi * sign};
 }
 
-/// sin(r) = r - r^3/3! + ..., |r| <= pi/4; the low part enters by its derivative.
+/// sin(r) = r - r^3/3! + ..., |r| <= pi/4; the low part is added through the derivative.
 double sin_rest(DoubleDouble r) {
   const double q = r.high * r.high;
   double p = 0x1.952c77030ad4ap-49;  // 1/17!
@@ -106,7 +107,7 @@ double sin_rest(DoubleDouble r) {
   return r.high + (r.low * (1.0 - 0.5 * q) + q * p * r.high);
 }
 
-/// cos(r) = 1 - r^2/2 + r^4/4! - ...; r^2 exact to the end.
+/// cos(r) = 1 - r^2/2 + r^4/4! - ...; r^2 is kept exactly.
 double cos_rest(DoubleDouble r) {
   const DoubleDouble square = two_prod(r.high, r.high);
   const double q = square.high;
@@ -159,10 +160,10 @@ double absolute(double x) {
 double first_quadrant(double y, double x, bool mirrored) {
   const double big = y > x ? y : x, small = y > x ? x : y;
   DoubleDouble angle;
-  if (small < big * 0x1p-60) {  // atan of the ratio is the ratio, and next to pi/2 it is nothing
+  if (small < big * 0x1p-60) {  // atan of the ratio is the ratio; beside pi/2 it is negligible
     if (y <= x && !mirrored) return y / x;
   } else {
-    // A power of two that brings the larger one into [1, 2); in two factors, either of which is a double.
+    // A power of two that brings the larger one into [1, 2); as two factors, each of which is a double.
     const std::int64_t exponent = static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(big) >> 52) - 1023;
     const double half = std::bit_cast<double>(static_cast<std::uint64_t>(1023 - exponent / 2) << 52);
     const double other =
@@ -202,7 +203,7 @@ double atan2(double y, double x) {
   if (y_size == infinity || x_size == infinity) {  // only the directions count: 0, 45 or 90 degrees
     y_size = y_size == infinity ? 1.0 : 0.0;
     x_size = x_size == infinity ? 1.0 : 0.0;
-  } else if (y_size < 0x1p-900 && x_size < 0x1p-900) {  // subnormals: a common factor away from the bottom
+  } else if (y_size < 0x1p-900 && x_size < 0x1p-900) {  // subnormals: scaled by a common factor
     y_size *= 0x1p110;
     x_size *= 0x1p110;
   }

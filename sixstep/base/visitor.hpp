@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What walks over the members of described structs (base/describe.hpp). Descriptions are compiled once, for this class; a visitor sees
-// a member through a small handle that hides its type where a struct or an enumeration has its own.
+// Visitors of the members of described structs (base/describe.hpp). Descriptions are compiled once, for class
+// Visitor. A struct or an enumeration of its own type reaches the visitor through a small handle that hides the
+// type.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -21,38 +22,38 @@ using ValueMember = std::variant<double*, int*, bool*, std::string*, std::vector
                                  std::vector<std::string>*, std::optional<double>*, std::optional<int>*,
                                  std::optional<bool>*, std::optional<std::string>*>;
 using QuantityMember = std::variant<Quantity*, std::optional<Quantity>*>;
-/// The quantity of the member; null where it is left out.
+/// The quantity of the member; null if it is left out.
 Quantity* quantity_in(const QuantityMember& member);
 
 /// A member whose value is one word of a list.
 class WordMember {
  public:
   struct Word {
-    std::string_view word, meaning, turning;  ///< as Choice has them
+    std::string_view word, meaning, turning;  ///< as in Choice
   };
   virtual std::size_t size() const = 0;
   virtual Word at(std::size_t n) const = 0;
-  /// Which of the words the member has; size() where none says its value.
+  /// Index of the member's word; size() if no word has its value.
   virtual std::size_t chosen() const = 0;
   virtual void choose(std::size_t n) = 0;
-  /// The word that it has; empty where none says its value.
+  /// The member's word; empty if no word has its value.
   std::string_view word() const;
-  /// The same in a file of a linear motor: what stands for a word of the turning one.
+  /// The same in a linear motor's file, where some words replace the rotary motor's.
   std::string_view linear_word() const;
 
  protected:
   ~WordMember() = default;
 };
 
-/// A member that is a described struct, or may be one.
+/// A member that is a described struct, or an optional one.
 class TableMember {
  public:
   virtual bool is_optional() const = 0;
   virtual bool is_there() const = 0;
   virtual void emplace() = 0;
-  /// Walks over the struct that is there.
+  /// Visits the present struct.
   virtual void walk(Visitor& visitor) = 0;
-  /// Walks over one as a default leaves it.
+  /// Visits a default-constructed one.
   virtual void walk_usual(Visitor& visitor) const = 0;
 
  protected:
@@ -71,7 +72,7 @@ class ListMember {
   ~ListMember() = default;
 };
 
-/// Derive from it and override what is of interest: what is not overridden is passed over.
+/// Base of all visitors. Override the calls of interest; the others do nothing.
 class Visitor {
  public:
   template <class T>

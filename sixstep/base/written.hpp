@@ -7,14 +7,14 @@
 
 namespace sixstep::base {
 
-/// The shortest decimal that reads back as the same double, whatever the locale.
+/// The shortest decimal that reads back as the same double, independent of the locale.
 inline std::string written(double x) {
   char text[32];
   const std::to_chars_result end = std::to_chars(text, text + sizeof text, x);
   return {text, end.ptr};
 }
 
-/// To so many significant digits.
+/// Rounded to so many significant digits.
 inline std::string rounded(double x, int digits) {
   char text[32];
   const std::to_chars_result end =
@@ -22,9 +22,9 @@ inline std::string rounded(double x, int digits) {
   return {text, end.ptr};
 }
 
-/// As a sentence names what need not be exact.
+/// For numbers in sentences that need not be exact.
 inline std::string three_digits(double x) { return rounded(x, 3); }
-/// As one names what was given, or comes out of a formula.
+/// For given numbers, and for results of a formula.
 inline std::string six_digits(double x) { return rounded(x, 6); }
 
 /// Sixteen hexadecimal digits.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ADC counts -> signal, with the offset measured while the bridge is off.
+// Converts ADC counts to a signal, with the offset measured while the bridge is off.
 //
 //   x = per_count (counts - offset),   offset = mean of 2^n counts, kept in eighths of a count
 //
-// A mean that lies too far from where the circuit puts it reveals a broken amplifier: calibration fails.
+// Calibration fails if the mean is too far from the offset that the circuit has: the amplifier is broken.
 #pragma once
 #include <cstdint>
 
@@ -17,21 +17,21 @@ template <class Scalar>
 struct AdcConfig {
   Gain<Scalar> per_eighth{};           ///< signal per eighth of a count; negative for an inverting amplifier;
                                        ///< fixed: raw units
-  std::uint16_t offset_counts = 0;     ///< where no current reads, by the circuit
-  std::uint16_t offset_tolerance = 0;  ///< counts that the measured offset may be off
-  std::uint8_t log2_samples = 6;       ///< of one calibration, at most 12
+  std::uint16_t offset_counts = 0;     ///< counts at no current, by the circuit
+  std::uint16_t offset_tolerance = 0;  ///< largest deviation of the measured offset, counts
+  std::uint8_t log2_samples = 6;       ///< 2^n samples in one calibration, n at most 12
   bool operator==(const AdcConfig&) const = default;
 };
 
 struct AdcState {
-  std::int32_t offset_eighths = -1;  ///< measured; below 0 not yet, then the circuit's own counts
+  std::int32_t offset_eighths = -1;  ///< measured; below 0: not measured yet, offset_counts is used
   std::uint32_t sum = 0;
   std::uint16_t samples = 0;
 };
 
 enum class Calibration : std::uint8_t { running, done, failed };
 
-/// One sample with the bridge off and the current gone.
+/// Takes one sample while the bridge is off and no current flows.
 template <class Scalar>
 constexpr Calibration adc_calibrate(const AdcConfig<Scalar>& config, AdcState& state, std::uint16_t counts) {
   const std::uint8_t n = config.log2_samples > 12 ? std::uint8_t{12} : config.log2_samples;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commutation ahead of the Hall edge: the pair changes when the rotor has come within the advance angle of
-// the next edge, judged by the interpolated angle. It makes up for the current's lag L/R and for filters at
-// speed.
+// Commutates ahead of the Hall edge: the pair changes once the interpolated angle is within the advance angle
+// of the next edge. This compensates the current's lag L/R, and the lag of filters at speed.
 //
 //   advance = fixed + per_speed |w|, at most limit;    switch early where fraction >= 1 - advance
 //
@@ -30,7 +29,8 @@ constexpr Scalar advance_angle(const AdvanceConfig<Scalar>& config, Scalar speed
   return between(wanted, Scalar{}, config.limit);
 }
 
-/// The sector to commutate for; `direction` is -1, 0 or 1, `fraction` the way since the last edge in it.
+/// The sector to commutate for. `direction`: -1, 0 or 1; `fraction`: distance since the last edge in that
+/// direction, in sectors.
 template <class Scalar>
 constexpr std::uint8_t advanced_sector(const AdvanceConfig<Scalar>& config, std::uint8_t sector,
                                        std::int8_t direction, Scalar fraction, Scalar speed_rad_s) {

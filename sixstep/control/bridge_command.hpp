@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// The chip boundary: what a controller is given and what it answers. Plain structs, the same on the virtual
-// board and on a real one.
+// The interface between controller and chip: measurement and setpoint in, bridge command out. Plain structs,
+// the same on the simulated board and on a real one.
 #pragma once
 #include <cstdint>
 
 namespace sixstep::control {
 
-/// The thesis's modes (model.md 13): what the setpoint means.
+/// The thesis's modes (model.md 13). The mode defines the meaning and the unit of the setpoint.
 enum class Mode : std::uint8_t { off, duty, current, speed, position };
 
-/// How the off part of a PWM period looks (model.md 3).
+/// State of the switches in the off part of a PWM period (model.md 3).
 enum class Chopping : std::uint8_t { soft, hard, complementary };
 
-/// Which switch of the pair the duty chops, the other one being on; of hard chopping both.
+/// The switch of the pair that the duty chops while the other one is on. Hard chopping chops both.
 enum class ChoppedSwitch : std::uint8_t { upper, lower };
 
 /// A leg of the bridge, by the phase it feeds.
@@ -25,12 +25,12 @@ struct Pair {
   bool operator==(const Pair&) const = default;
 };
 
-/// The one that is in no pair.
+/// The leg that is in no pair.
 constexpr Leg free_leg(Pair pair) {
   return static_cast<Leg>(3 - static_cast<int>(pair.source) - static_cast<int>(pair.sink));
 }
 
-/// What the sensors said at the sample instant. Currents are positive into the motor.
+/// Measurements at the sample instant. Currents are positive into the motor.
 template <class Scalar>
 struct Measurement {
   Scalar i_a_A{}, i_b_A{}, i_c_A{};
@@ -40,16 +40,15 @@ struct Measurement {
   std::uint8_t hall = 0;  ///< H1 H2 H3 as bits 2, 1, 0
 };
 
-/// What is wanted, in the unit of the mode: duty 1 (signed, -1..1), current A, speed rad/s, position deg
-/// (mechanical).
+/// Setpoint in the unit of the mode: duty 1 (signed, -1..1), current A, speed rad/s, position deg (mechanical).
 template <class Scalar>
 struct Setpoint {
   Scalar value{};
 };
 
-/// What the board's event comparators watch, where a controller arms them (event hysteresis).
+/// Current that the board's event comparators watch, if a controller arms them (event hysteresis).
 enum class Watch : std::uint8_t {
-  none,   ///< comparators not armed: the duty rules
+  none,   ///< comparators not armed: the duty applies
   motor,  ///< one comparator on (i_source - i_sink)/2
   phase  ///< one per driven phase: +i_source for the upper switch, -i_sink for the lower (hard chopping only)
 };
@@ -62,8 +61,9 @@ struct BridgeCommand {
   Chopping chopping = Chopping::soft;
   ChoppedSwitch chopped = ChoppedSwitch::upper;
   Watch watch = Watch::none;
-  Scalar
-      overlap{};  ///< of the leg in no pair, whose current has not left yet: its upper switch (below 0: its lower one) chopped
+  /// Duty of the leg in no pair while its old current has not ended, -1..1: its upper switch is chopped, below
+  /// 0 its lower one.
+  Scalar overlap{};
   Scalar on_below_A{};   ///< a comparator switches on strictly below this
   Scalar off_above_A{};  ///< and off strictly above this
   bool fault = false;    ///< an impossible Hall code was seen; the bridge is off

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The commutation table: the only place where Hall codes, sectors and driven pairs meet (model.md 3).
+// Holds the commutation table. Only this file relates Hall codes, sectors and driven pairs (model.md 3).
 #pragma once
 #include <cstdint>
 
@@ -11,8 +11,8 @@ namespace sixstep::control {
 
 inline constexpr std::uint8_t no_sector = 0xff;
 
-/// Sector 0..5 (60 electrical degrees each) of a Hall code H1 H2 H3 (bits 2, 1, 0); no_sector for 000 and
-/// 111, which probes 120 degrees apart can never give: a broken wire or probe.
+/// Sector 0..5 (60 electrical degrees each) of a Hall code H1 H2 H3 (bits 2, 1, 0). no_sector for 000 and 111,
+/// which probes 120 degrees apart never give: a wire or probe is broken.
 constexpr std::uint8_t sector_of_hall(std::uint8_t code) {
   switch (code) {
     case 0b100:
@@ -32,7 +32,7 @@ constexpr std::uint8_t sector_of_hall(std::uint8_t code) {
   }
 }
 
-/// The other way round: the code of probes 120 degrees apart; 000 where there is no sector.
+/// The inverse: the code of probes 120 degrees apart; 000 if there is no sector.
 constexpr std::uint8_t hall_of_sector(std::uint8_t sector) {
   constexpr std::uint8_t codes[6] = {0b100, 0b110, 0b010, 0b011, 0b001, 0b101};
   return sector < 6 ? codes[sector] : std::uint8_t{0};
@@ -71,13 +71,14 @@ constexpr Scalar motor_current(const Measurement<Scalar>& m, Pair positive) {
                                                phase_current(m, positive.sink));
 }
 
-/// The phase that conducts before and after a commutation.
+/// The phase that conducts both before and after a commutation.
 struct StayingPhase {
   std::uint8_t sector = no_sector;  ///< of the last sample
   Leg leg = Leg::a;
 };
 
-/// Its leg. Where pairs have no leg in common, or none was before: that of the positive pair's source.
+/// The staying phase's leg. If the pairs have no leg in common, or there was no pair before: the source of the
+/// positive pair.
 constexpr Leg staying_leg(StayingPhase& state, std::uint8_t sector) {
   if (sector == state.sector) return state.leg;
   const Pair now = positive_pair(sector),
@@ -87,8 +88,8 @@ constexpr Leg staying_leg(StayingPhase& state, std::uint8_t sector) {
   return state.leg;
 }
 
-/// i_m by that phase alone. It makes the torque while the others hand over, T_e w = 2 E i where all shapes are flat, and is
-/// the pair's current otherwise.
+/// i_m from the staying phase alone. During a commutation this current makes the torque, T_e w = 2 E i where
+/// all shapes are flat; otherwise it equals the pair's current.
 template <class Scalar>
 constexpr Scalar staying_current(StayingPhase& state, const Measurement<Scalar>& m, std::uint8_t sector) {
   const Leg leg = staying_leg(state, sector);

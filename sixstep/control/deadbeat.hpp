@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// Deadbeat current control with compensation of the delay: the voltage after which the current is its reference, on the
-// driven pair as a winding of R and L held over a time t (zero-order hold),
+// Deadbeat current control with compensation of the delay: computes the voltage with which the current reaches
+// its reference one period later. The driven pair is a winding of R and L; with a voltage held over a time t
+// (zero-order hold)
 //
 //   i(t) = a(t) i + b(t) (u - e),   a(t) = exp(-R t/L),   b(t) = (1 - a(t))/R
 //
-// What was sampled is answered `wait` later, with the last voltage until then, so that
+// The voltage computed from a sample begins `wait` later, and the last voltage acts until then, so that
 //
-//   i_w    = a(wait) i + b(wait) (u[n-1] - e)        where the answer begins
+//   i_w    = a(wait) i + b(wait) (u[n-1] - e)        where the new voltage begins
 //   u[n]   = (i* - a(T) i_w)/b(T) + e                reaches i* a period later
 //
-// and e is K_t w, and what the predictions miss: at each sample e moves by g/b(T) times (predicted - measured). Of a constant
-// voltage that the model lacks (drop, dead time, R) the part (1 - g)^n is left after n samples.
+// e is K_t w plus a correction of the predictions: at each sample e moves by g/b(T) times (predicted -
+// measured). If the model lacks a constant voltage (drop, dead time, R), the part (1 - g)^n of it is left after
+// n samples.
 //
-// Without a limit the current follows i*[n] one period after the answer begins; with an inductance that is m of the model's
-// the loop has its poles at 1 - 1/m, and is stable from m = 1/2 on (no wait).
+// Without a limit the current follows i*[n] one period after the new voltage begins. With an inductance of m
+// times the model's the loop has its poles at 1 - 1/m, and is stable from m = 1/2 on (no wait).
 #pragma once
 #include "sixstep/control/fixed.hpp"
 #include "sixstep/control/scalar.hpp"
 
 namespace sixstep::control {
 
-/// The winding over a time: i' = decay i + A_per_V (u - e). The default is over no time but for its decay.
+/// The winding over a time: i' = decay i + A_per_V (u - e). By default both factors are 0; a time of 0 has decay 1.
 template <class Scalar>
 struct HeldWinding {
   Gain<Scalar> decay{};
@@ -28,24 +30,24 @@ struct HeldWinding {
   bool operator==(const HeldWinding&) const = default;
 };
 
-/// Defaults give no output at all.
+/// With the defaults the output is 0.
 template <class Scalar>
 struct DeadbeatConfig {
-  HeldWinding<Scalar> wait{};         ///< from a sample to its answer
+  HeldWinding<Scalar> wait{};         ///< from a sample until its voltage begins
   HeldWinding<Scalar> rest{};         ///< from there to the next sample
   Gain<Scalar> decay{};               ///< a(T)
   Gain<Scalar> V_per_A{};             ///< 1/b(T)
   Gain<Scalar> correction_V_per_A{};  ///< g/b(T)
   Gain<Scalar> K_t_V_s{};             ///< V per mechanical rad/s
-  Scalar limit{};                     ///< V: |u|, and what e may come to
+  Scalar limit{};                     ///< V: bound of |u| and |e|
   bool operator==(const DeadbeatConfig&) const = default;
 };
 
 template <class Scalar>
 struct DeadbeatState {
-  Scalar u{};          ///< last answer, V, clamped
-  Scalar predicted{};  ///< of the next sample, A
-  Scalar missed{};     ///< V that e has beside K_t w
+  Scalar u{};          ///< last output, V, clamped
+  Scalar predicted{};  ///< the next sample, A
+  Scalar missed{};     ///< part of e beside K_t w, V
 };
 
 template <class Scalar>
@@ -54,7 +56,7 @@ constexpr Scalar held_current(const HeldWinding<Scalar>& over, Scalar current, S
   return T::product(current, over.decay) + T::product(voltage, over.A_per_V);
 }
 
-/// One tick: the voltage between the driven terminals. The prediction knows what the limit cut off.
+/// One tick: the voltage between the driven terminals. The prediction uses the clamped voltage.
 template <class Scalar>
 constexpr Scalar deadbeat_step(const DeadbeatConfig<Scalar>& config, DeadbeatState<Scalar>& state,
                                Scalar reference, Scalar current, Scalar speed_rad_s) {

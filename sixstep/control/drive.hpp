@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The composition that firmware calls: position P -> speed PI -> current loop -> six-step, as deep as the
-// mode asks, or speed PI -> duty (thesis 6.2.2). Two entries: step() once per control tick, on_hall() in the
-// Hall interrupt.
+// Computes the bridge command of a six-step drive: position P -> speed PI -> current loop -> commutation,
+// beginning at the loop that the mode names, or speed PI -> duty (thesis 6.2.2). Firmware calls step() once per
+// control tick and on_hall() in the Hall interrupt.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/control/commutation.hpp"
@@ -13,7 +13,7 @@ namespace sixstep::control {
 
 enum class CurrentControl : std::uint8_t { pi, hysteresis };
 
-/// What a speed loop sets: the current reference of a loop within, or the duty itself.
+/// Output of the speed loop: the reference of an inner current loop, or the duty itself.
 enum class SpeedControl : std::uint8_t { cascade, duty };
 
 /// Every default leaves the bridge off.
@@ -27,9 +27,9 @@ struct DriveConfig {
   Divisor<Scalar> nominal_bus_V{};  ///< d = u / nominal_bus_V
   PiConfig<Scalar> speed{};         ///< rad/s -> fraction of the torque limit; SpeedControl::duty: -> duty
   Gain<Scalar> current_at_full_torque_A{};  ///< torque limit / K_t: i_ref = y * this
-  Scalar current_limit_A{};      ///< of the reference a speed loop gives; give speed.limit the same
+  Scalar current_limit_A{};  ///< bound of the speed loop's current reference; give speed.limit the same bound
   Gain<Scalar> position_gain{};  ///< degrees -> rad/s
-  Scalar speed_limit_rad_s{};    ///< of the reference a position loop gives
+  Scalar speed_limit_rad_s{};    ///< bound of the position loop's speed reference
   SpeedControl speed_control = SpeedControl::cascade;
   DriveExtras<Scalar> extras{};
   bool operator==(const DriveConfig&) const = default;
@@ -40,11 +40,11 @@ struct DriveState {
   PiState<Scalar> current{}, speed{};
   HysteresisState<Scalar> hysteresis{};
   bool reversed = false;            ///< sign of the last command
-  BridgeCommand<Scalar> command{};  ///< the last answer; on_hall moves it to the new pair
+  BridgeCommand<Scalar> command{};  ///< last result; on_hall moves it to the new pair
   DriveExtrasState<Scalar> extras{};
 };
 
-/// What the loops had in hand; nobody reads it back.
+/// Intermediate values of the loops, for logs; the drive never reads them.
 template <class Scalar>
 struct Telemetry {
   Scalar motor_current_A{};
@@ -89,7 +89,7 @@ constexpr void arm_hysteresis(const DriveConfig<Scalar>& config, DriveState<Scal
   }
 }
 
-/// The setpoint of a speed loop: the position loop's answer, or what was asked.
+/// Reference of the speed loop: the setpoint, or the position loop's output in Mode::position.
 template <class Scalar>
 constexpr Scalar speed_reference(const DriveConfig<Scalar>& config, const DriveState<Scalar>& state,
                                  Mode mode, Scalar setpoint, const Measurement<Scalar>& measured) {
@@ -111,7 +111,7 @@ constexpr Scalar speed_output(const DriveConfig<Scalar>& config, DriveState<Scal
                            bounded ? &window : nullptr);
 }
 
-/// u/U_s; without a nominal bus voltage there is no duty.
+/// Duty u/U_s with the measured or the nominal bus voltage; 0 if neither is configured.
 template <class Scalar>
 constexpr Scalar duty_for(const DriveConfig<Scalar>& config, Scalar u, const Measurement<Scalar>& measured) {
   const DriveExtras<Scalar>& extras = config.extras;
@@ -133,7 +133,8 @@ constexpr Scalar current_to_duty(const DriveConfig<Scalar>& config, DriveState<S
   return duty_for(config, u, measured);
 }
 
-/// The part of the bus that a voltage of the staying phase is (commutation_step.hpp).
+/// A voltage of the staying phase as a fraction of the bus: 0 to 1/2, to 1 if legs may overlap
+/// (commutation_step.hpp).
 template <class Scalar>
 constexpr Scalar holding_part(const DriveConfig<Scalar>& config, Scalar u,
                               const Measurement<Scalar>& measured) {
@@ -141,8 +142,8 @@ constexpr Scalar holding_part(const DriveConfig<Scalar>& config, Scalar u,
   return between(duty_for(config, u, measured), Scalar{}, overlaps ? one<Scalar> : half_of_one<Scalar>());
 }
 
-/// What the duty steps to, known before the commutation: it goes by the last tick's speed and current. Without a current
-/// loop nothing is held.
+/// Computes at each tick the duty to which the next commutation steps, from this tick's speed and current:
+/// on_hall has no measurement. Without a current loop nothing is held.
 template <class Scalar>
 constexpr void look_at_commutation(Mode mode, const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
                                    const Measurement<Scalar>& measured, std::uint8_t sector) {
@@ -155,13 +156,14 @@ constexpr void look_at_commutation(Mode mode, const DriveConfig<Scalar>& config,
   s.part = holding_part(config, s.volts, measured);
 }
 
-/// While the others hand over, the staying phase is held, and its loop with it.
+/// True while the leaving phase still carries current: the staying phase's current is held and the current loop
+/// rests.
 template <class Scalar>
 constexpr bool holds_current(const DriveConfig<Scalar>& config, const DriveState<Scalar>& state) {
   return config.extras.on && config.extras.steps_commutation && state.extras.commutation.hands_over;
 }
 
-/// The pair goes on, and the staying phase towards its reference.
+/// Sets the new pair, and drives the staying phase's current towards its reference.
 template <class Scalar>
 constexpr void hold_towards(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
                             const Measurement<Scalar>& measured, Pair positive, Scalar i_ref) {
@@ -171,7 +173,7 @@ constexpr void hold_towards(const DriveConfig<Scalar>& config, DriveState<Scalar
   s.part = between(holding_part(config, u, measured), Scalar{}, greatest_part(s.part));
 }
 
-/// The command of a pair that is known, with what holds the staying phase meanwhile.
+/// Sets the duty and the overlap that hold the staying phase's current with the pair of state.command.
 template <class Scalar>
 constexpr void hold_current(const DriveConfig<Scalar>& config, DriveState<Scalar>& state) {
   const CommutationStepState<Scalar>& held = state.extras.commutation;
@@ -181,7 +183,7 @@ constexpr void hold_current(const DriveConfig<Scalar>& config, DriveState<Scalar
   state.command.overlap = holding_overlap(held, state.command.pair);
 }
 
-/// What a slewed setpoint starts from: the measurement in the unit of the mode.
+/// Start value of a slewed setpoint: the measurement in the unit of the mode.
 template <class Scalar>
 constexpr Scalar measured_value(Mode mode, const Measurement<Scalar>& measured, Scalar motor_current) {
   return mode == Mode::current    ? motor_current
@@ -190,7 +192,7 @@ constexpr Scalar measured_value(Mode mode, const Measurement<Scalar>& measured, 
                                   : Scalar{};
 }
 
-/// All gates off until the next tick; the loops keep what they have in hand.
+/// All gates off until the next tick; the loops keep their state.
 template <class Scalar>
 constexpr void coast(DriveState<Scalar>& state) {
   state.command.enabled = false;
@@ -198,7 +200,7 @@ constexpr void coast(DriveState<Scalar>& state) {
   state.command.watch = Watch::none;
 }
 
-/// The loops of one tick, as deep as the mode asks: sets pair and duty, or arms the comparators.
+/// Runs the loops of one tick, from the mode's loop inwards: sets pair and duty, or arms the comparators.
 template <class Scalar>
 constexpr void run_loops(Mode mode, const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
                          const Measurement<Scalar>& measured, Pair positive, Scalar value, Scalar i_m,
@@ -221,7 +223,7 @@ constexpr void run_loops(Mode mode, const DriveConfig<Scalar>& config, DriveStat
     i_ref = between(i_ref, window.low, window.high);
   }
   telemetry.current_reference_A = i_ref;
-  // The current loop has nothing that it could act on, and would only gather what the sensor is off by.
+  // The current loop would have no effect, and would only integrate the sensor's offset.
   if (limits && must_coast(config.extras.limits, i_ref, measured.speed_rad_s, measured.bus_V))
     return coast(state);
   if (config.current_control == CurrentControl::hysteresis)
@@ -235,9 +237,10 @@ constexpr void run_loops(Mode mode, const DriveConfig<Scalar>& config, DriveStat
 
 }  // namespace detail
 
-/// One control tick in a mode that may differ from the configured one (braking, say). A cascade runs outer to
-/// inner from one sample (model.md 4). An impossible Hall code turns the bridge off and reports a fault. The answer
-/// lies in `state`, up to the next call: on a chip a copy would cost as much as the current loop.
+/// One control tick in a mode that may differ from the configured one (for example to brake). A cascade runs
+/// from the outer to the inner loop on one sample (model.md 4). An impossible Hall code turns the bridge off
+/// and reports a fault. Returns a reference into `state`, valid until the next call: on a chip a copy would
+/// cost as much as the current loop.
 template <class Scalar>
 constexpr const BridgeCommand<Scalar>& step_in(Mode mode, const DriveConfig<Scalar>& config,
                                                DriveState<Scalar>& state, const Measurement<Scalar>& measured,
@@ -286,8 +289,9 @@ constexpr const BridgeCommand<Scalar>& step(const DriveConfig<Scalar>& config, D
   return step_in(config.mode, config, state, measured, setpoint, telemetry);
 }
 
-/// The Hall interrupt: the present state moves to the new pair at once; duty and sign stay (model.md 3), which of its
-/// switches is chopped goes by the pattern, and where the commutation is stepped the duty goes to what it holds.
+/// The Hall interrupt: moves the bridge to the new pair at once; duty and sign stay (model.md 3). The PWM
+/// pattern selects the chopped switch. With a commutation step the duty becomes the one that holds the staying
+/// phase.
 template <class Scalar>
 constexpr const BridgeCommand<Scalar>& on_hall(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
                                                std::uint8_t code) {

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a product adds inside the drive's loops: a slewed setpoint, a window for the current reference,
-// back-EMF feed-forward, the measured bus, chopping that is smooth through zero, a speed loop by another law than
-// the PI in velocity form, a current loop that predicts, the current of the phase that does not commutate, a duty
-// that holds it while the others hand over, and a position setpoint by a profile. All of
-// it stands behind one flag, so that a drive without extras pays one branch per tick.
+// Adds optional parts to the drive's loops. All are behind one flag, so that a drive without them costs one
+// branch per tick:
+//   a slewed setpoint, or a position setpoint by a profile
+//   a window for the current reference
+//   back-EMF feed-forward and compensation of the measured bus
+//   chopping that is smooth through zero, and PWM patterns
+//   other laws of the speed loop than the PI in velocity form
+//   a deadbeat current loop
+//   the current of the phase that does not commutate, and a duty that holds it during a commutation
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/control/commutation.hpp"
@@ -23,11 +27,11 @@
 
 namespace sixstep::control {
 
-/// What computes the speed loop's output: pi.hpp, or pi_positional.hpp with derivative.hpp and a setpoint weight, or the
-/// header of its name.
+/// Law of the speed loop. pi: pi.hpp; positional: pi_positional.hpp with derivative.hpp and a setpoint weight;
+/// observed: observed_speed.hpp; sliding: sliding_speed.hpp.
 enum class SpeedLaw : std::uint8_t { pi, positional, observed, sliding };
 
-/// What of the laws is there in floating point only takes no memory in fixed point.
+/// Laws that exist in floating point only; in fixed point they take no memory.
 template <class Scalar>
 struct SpeedLaws {
   ObservedSpeedConfig<Scalar> observed{};
@@ -48,7 +52,7 @@ struct SpeedLawsState<Fixed<Storage, FractionBits>> {};
 
 template <class Scalar>
 struct DriveExtras {
-  bool on = false;  ///< false: none of the below
+  bool on = false;  ///< false: nothing below is used
   bool slews_setpoint = false;
   SlewConfig<Scalar> slew{};  ///< in the unit of the mode, per tick
   bool limits_current = false;
@@ -59,19 +63,17 @@ struct DriveExtras {
   bool smooth_chopping = false;  ///< else DriveConfig::chopping
   SmoothChoppingConfig<Scalar> chopping{};
   PwmPatternConfig<Scalar> pwm{};  ///< which switch of the pair is chopped
-  bool predicts_current = false;   ///< the current loop by the next one, else by DriveConfig::current
+  bool predicts_current = false;   ///< current loop by `deadbeat`, else by DriveConfig::current
   DeadbeatConfig<Scalar> deadbeat{};
-  bool staying_phase =
-      false;  ///< i_m is the current of the phase that the last commutation left where it was
+  bool staying_phase = false;  ///< i_m is the current of the phase that the last commutation did not change
   bool steps_commutation = false;  ///< the current loop rests while a commutation lasts
   CommutationStepConfig<Scalar> commutation{};
-  SpeedLaw speed_law = SpeedLaw::pi;  ///< pi: by DriveConfig::speed; positional: by the next three
+  SpeedLaw speed_law = SpeedLaw::pi;  ///< pi: DriveConfig::speed; positional: the next three members
   PiPositionalConfig<Scalar> speed{};
-  DerivativeConfig<Scalar> speed_derivative{};  ///< of the measured speed, taken off the output
-  Gain<Scalar> speed_weight_off{};  ///< (1 - b) K with a weight b of the setpoint in the proportional part
-  SpeedLaws<Scalar> laws{};         ///< within the limit of DriveConfig::speed
-  [[no_unique_address]] ProfiledPositionConfig<Scalar>
-      position{};  ///< in Mode::position, in the slew's place
+  DerivativeConfig<Scalar> speed_derivative{};  ///< of the measured speed, subtracted from the output
+  Gain<Scalar> speed_weight_off{};  ///< (1 - b) K; b: weight of the setpoint in the proportional part
+  SpeedLaws<Scalar> laws{};         ///< limited by DriveConfig::speed
+  [[no_unique_address]] ProfiledPositionConfig<Scalar> position{};  ///< replaces the slew in Mode::position
   bool operator==(const DriveExtras&) const = default;
 };
 
@@ -87,7 +89,7 @@ struct DriveExtrasState {
   DerivativeState<Scalar> speed_derivative{};
   SpeedLawsState<Scalar> laws{};
   [[no_unique_address]] ProfiledPositionState<Scalar> position{};
-  Mode slewing = Mode::off;  ///< the mode whose setpoint is shaped: a new one starts at what is measured
+  Mode slewing = Mode::off;  ///< mode whose setpoint is shaped; a new mode starts at the measurement
 };
 
 namespace detail {
@@ -119,7 +121,7 @@ constexpr void tell_profile(const DriveExtras<Scalar>& extras, const DriveExtras
   }
 }
 
-/// Whether this tick's motion is told ahead.
+/// True if the profile's speed and torque are fed forward in this tick.
 template <class Scalar>
 constexpr bool tells_ahead(const DriveExtras<Scalar>& extras, const DriveExtrasState<Scalar>& state) {
   if constexpr (requires { extras.position.profile; })
@@ -128,7 +130,7 @@ constexpr bool tells_ahead(const DriveExtras<Scalar>& extras, const DriveExtrasS
     return false;
 }
 
-/// The speed that a position loop asks for, and the profile's beside it.
+/// Speed reference of the position loop, with the profile's speed if it is fed forward.
 template <class Scalar>
 constexpr Scalar with_speed_ahead(const DriveExtras<Scalar>& extras, const DriveExtrasState<Scalar>& state,
                                   Scalar w) {
@@ -157,7 +159,8 @@ constexpr Scalar positional_speed(const DriveExtras<Scalar>& extras, DriveExtras
   return pi_positional_step(extras.speed, state.speed, error, known, low, high);
 }
 
-/// The speed controller, in a cascade within the window: it cannot wind up against a limit that it does not see.
+/// One tick of the speed controller. In a cascade its output stays within the window, so that its integral
+/// cannot wind up against the window's limits.
 template <class Scalar>
 constexpr Scalar speed_with_extras(const DriveExtras<Scalar>& extras, DriveExtrasState<Scalar>& state,
                                    const PiConfig<Scalar>& config, PiState<Scalar>& pi, Scalar error,
@@ -185,8 +188,8 @@ constexpr Scalar speed_with_extras(const DriveExtras<Scalar>& extras, DriveExtra
                            : pi_beside(config, pi, error, ahead, low, high);
 }
 
-/// u = u_PI + e, both together within the limit of the PI. At an end of it u is that end itself: (limit - e)
-/// + e may round to one digit less, and a duty just below 1 chops.
+/// u = u_PI + e; the sum stays within the limit of the PI. At the limit u is exactly the limit: (limit - e) + e
+/// may round to one digit less, and a duty just below 1 chops.
 template <class Scalar>
 constexpr Scalar voltage_with_feed_forward(const DriveExtras<Scalar>& extras, const PiConfig<Scalar>& config,
                                            PiState<Scalar>& state, Scalar error, Scalar speed_rad_s) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fault monitor: watches the measurements, latches what it saw with its reason, and lets go only on command
-// when the cause is gone. It answers within the tick; what must be faster is the comparator of the board.
+// Monitors the measurements for faults: latches each fault with its reason, and clears it only on request once
+// the cause is gone. It reacts within the tick; a faster reaction is left to the board's comparator.
 #pragma once
 #include <cstdint>
 
@@ -10,7 +10,7 @@
 
 namespace sixstep::control {
 
-/// Bits of a set of reasons.
+/// Bits of a set of faults.
 enum Fault : std::uint16_t {
   fault_none = 0,
   fault_over_current = 1,
@@ -19,11 +19,11 @@ enum Fault : std::uint16_t {
   fault_over_speed = 8,
   fault_hall = 16,         ///< an impossible code, a jump, or an edge that makes the speed impossible
   fault_stall = 32,        ///< current without movement for too long
-  fault_calibration = 64,  ///< the offset of a current amplifier is not where it must be
-  fault_align = 128        ///< the rotor did not come to the sector it was pulled to
+  fault_calibration = 64,  ///< the offset of a current amplifier is out of tolerance
+  fault_align = 128        ///< the rotor did not reach the sector to which it was pulled
 };
 
-/// Every default trips at once or never lets current flow: what is not set is not trusted.
+/// With all defaults the monitor trips at any bus voltage or current: a limit that is not set is not trusted.
 template <class Scalar>
 struct FaultConfig {
   Scalar over_current_A{};         ///< |i| of a phase strictly above
@@ -39,22 +39,22 @@ struct FaultConfig {
 struct FaultState {
   std::uint16_t present = 0;  ///< causes seen in the last tick
   std::uint16_t latched = 0;  ///< all causes since the last clearing
-  std::uint16_t first = 0;    ///< those of the tick that stopped the drive: the reason to tell
+  std::uint16_t first = 0;    ///< causes in the tick that stopped the drive
   std::uint32_t still = 0;    ///< ticks with stall current and no edge
   std::uint8_t over = 0, under = 0;
-  std::uint8_t hall_line = 0;  ///< 1..3: the Hall line to blame, where it can be told
+  std::uint8_t hall_line = 0;  ///< 1..3: the faulty Hall line; 0: unknown
 };
 
 struct FaultEvents {
   bool hall = false;            ///< impossible code or jump, now
-  std::uint8_t hall_line = 0;   ///< of hall, 0 where it cannot be told
+  std::uint8_t hall_line = 0;   ///< 1..3: the line of that fault; 0: unknown
   bool moved = false;           ///< a Hall edge since the last tick
-  std::uint8_t false_edge = 0;  ///< 1..3: the line whose edge came sooner than a rotor brings it
-  std::uint16_t other = 0;      ///< what else is wrong: calibration, alignment
+  std::uint8_t false_edge = 0;  ///< 1..3: line with an edge that a steady rotor cannot make; 0: none
+  std::uint16_t other = 0;      ///< other faults: calibration, alignment
 };
 
-/// Returns the latched set: anything but 0 must turn the bridge off. A comparison with what is not a number
-/// fails, and each is written so that failing trips.
+/// Returns the latched set; unless it is 0 the bridge must be turned off. A comparison with a value that is not
+/// a number fails, and each comparison is written so that failing trips.
 template <class Scalar>
 constexpr std::uint16_t fault_step(const FaultConfig<Scalar>& config, FaultState& state,
                                    const Measurement<Scalar>& m, const FaultEvents& events) {
@@ -73,8 +73,8 @@ constexpr std::uint16_t fault_step(const FaultConfig<Scalar>& config, FaultState
   if (lasting(!(m.bus_V <= config.over_voltage_V), state.over)) now |= fault_over_voltage;
   if (lasting(!(m.bus_V >= config.under_voltage_V), state.under)) now |= fault_under_voltage;
   const bool too_fast = !within(m.speed_rad_s, config.over_speed_rad_s);
-  // A false edge and a rotor that truly runs away look the same from here: both are told, and the line only
-  // where a code proves it.
+  // A false edge and a real overspeed look the same here, so both faults are reported; the line is reported
+  // only if a code proves it.
   if (too_fast) now |= fault_over_speed;
   if (too_fast && events.false_edge != 0) now |= fault_hall;
   if (events.hall) now |= fault_hall;
@@ -86,7 +86,7 @@ constexpr std::uint16_t fault_step(const FaultConfig<Scalar>& config, FaultState
   return state.latched;
 }
 
-/// The way out: works only while no cause is present. Says whether the drive is free.
+/// Clears the latched faults, but only while no cause is present. True if they are cleared.
 constexpr bool fault_clear(FaultState& state) {
   if (state.present != 0) return false;
   state = FaultState{};

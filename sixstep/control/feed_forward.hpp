@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the current loop need not find out by itself: the back-EMF it works against and the bus it works with.
+// Feeds the back-EMF and the measured bus voltage forward to the current loop, which then need not correct them.
 //
 //   u = u_PI + K_t w          back-EMF between the driven terminals on flat tops (model.md 1: e = K_t w)
 //   d = u/U_s                 measured bus in place of the nominal one (model.md 4)
@@ -24,7 +24,7 @@ constexpr Scalar back_emf_voltage(const FeedForwardConfig<Scalar>& config, Scala
 /// The default does not compensate.
 template <class Scalar>
 struct BusCompensationConfig {
-  Scalar lowest_bus_V{};  ///< divides by this where the measurement is lower (a lost sensor); 0: off
+  Scalar lowest_bus_V{};  ///< smallest divisor, used if the measurement is lower (a lost sensor); 0: off
   bool operator==(const BusCompensationConfig&) const = default;
 };
 

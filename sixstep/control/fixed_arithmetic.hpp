@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole-number arithmetic under fixed.hpp: saturation and rounding to nearest, ties away from zero. Signs are
-// taken off first and put back last, so only unsigned numbers are shifted and divided.
+// removed first and restored last, so that only unsigned numbers are shifted and divided.
 #pragma once
 #include <cstdint>
 
 namespace sixstep::control::detail {
 
-/// What holds a product of two storages. int8_t is there for the exhaustive test.
+/// The integer types by width: Wide holds a product of two storages. int8_t is there for the exhaustive test.
 template <class Int>
 struct Widths;
 template <>
@@ -80,7 +80,7 @@ constexpr Narrow saturated(Wide x) {
   return static_cast<Narrow>(x);
 }
 
-/// The same in half the width.
+/// with_sign() into half the width.
 template <class Narrow, class Unsigned>
 constexpr Narrow narrow_with_sign(Unsigned magnitude, bool negative) {
   if (magnitude > static_cast<Unsigned>(greatest<Narrow>)) return negative ? least<Narrow> : greatest<Narrow>;
@@ -95,8 +95,8 @@ struct Magnitude {
   bool negative = false;
 };
 
-/// Of 16 bits by 16, where int has no more: a product of 32-bit factors would be a library call, and these four
-/// of 8 bits are a quarter of it.
+/// 16 by 16 bits where int has 16 bits: a product of 32-bit factors would be a library call, and these four
+/// products of 8 bits cost a quarter of it.
 constexpr std::uint32_t product_by_bytes(std::uint16_t a, std::uint16_t b) {
   const auto part = [](std::uint16_t x, std::uint16_t y) {
     return static_cast<std::uint16_t>(static_cast<std::uint16_t>(x & 0xffu) *
@@ -108,7 +108,7 @@ constexpr std::uint32_t product_by_bytes(std::uint16_t a, std::uint16_t b) {
          (static_cast<std::uint32_t>(part(a, b_high)) << 8);
 }
 
-/// a b, where |a| has no more bits than Storage without its sign, and one.
+/// a b; |a| may have one bit more than Storage has without its sign.
 template <class Storage>
 constexpr auto product(typename Widths<Storage>::Wide a, Storage b) {
   using Wide = typename Widths<Storage>::Wide;
@@ -121,7 +121,7 @@ constexpr auto product(typename Widths<Storage>::Wide a, Storage b) {
   }
 }
 
-/// u/2^n, 0 <= n; at n = 2 bits - 2 of a product nothing but a rounded last digit is left.
+/// u/2^n rounded, 0 <= n; at n = 2 bits - 2 of a product only a rounded last digit is left.
 template <class Unsigned>
 constexpr Unsigned magnitude_down(Unsigned u, int n) {
   if (n == 0) return u;
@@ -147,7 +147,7 @@ constexpr Int shifted_up(Int x, int n) {
   return magnitude_up<Int>(absolute(x), x < 0, n);
 }
 
-/// a/b to nearest, ties up; a at most 2^(width-1), b below that or a + b/2 does not fit.
+/// a/b to nearest, ties up. a is at most 2^(width-1) and b is below that; otherwise a + b/2 does not fit.
 template <class Unsigned>
 constexpr Unsigned divided_unsigned(Unsigned a, Unsigned b) {
   return static_cast<Unsigned>((a + static_cast<Unsigned>(b >> 1)) / b);

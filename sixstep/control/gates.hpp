@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A bridge command as the six gates of one instant, for firmware that sets pins or the output modes of a
-// timer. Within the on-time of a PWM period both driven switches are on; in its off-time (model.md 3)
+// Converts a bridge command to the six gates of one instant, for firmware that sets pins or the output modes of
+// a timer. In the on-time of a PWM period both driven switches are on; in its off-time (model.md 3)
 //   soft           the switch that is not chopped stays on: the sink's lower one, or the source's upper one
 //   hard           none
 //   complementary  as soft, and the chopped leg's other switch, after the dead time that the timer inserts
@@ -20,7 +20,7 @@ constexpr std::uint8_t lower_gate(Leg leg) {
   return static_cast<std::uint8_t>(2u << (2u * static_cast<unsigned>(leg)));
 }
 
-/// Never both switches of a leg: source and sink differ, or nothing is on.
+/// Gates of a six-step command. Never both switches of a leg: source and sink differ, or nothing is on.
 template <class Scalar>
 constexpr std::uint8_t gates(const BridgeCommand<Scalar>& command, bool on_time) {
   if (!command.enabled || command.pair.source == command.pair.sink) return 0;
@@ -33,7 +33,7 @@ constexpr std::uint8_t gates(const BridgeCommand<Scalar>& command, bool on_time)
   return static_cast<std::uint8_t>((lower ? upper_gate(sink) : lower_gate(source)) | on);
 }
 
-/// Of one leg, within its pulse or in the rest of the period.
+/// Gates of one leg, in its pulse or in the rest of the period.
 template <class Scalar>
 constexpr std::uint8_t gates(const LegCommand<Scalar>& command, Leg leg, bool pulse) {
   const LegSides sides = sides_of(command);

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Speed, angle within the sector and position from the times of Hall edges.
+// Computes speed, angle within the sector and position from the times of Hall edges.
 //
 //   w = +-k (pi/3)/p timer_Hz/(ticks over the last k edges)
 //   |w| <= (pi/3)/p timer_Hz/(ticks since the last edge)     the next edge has not come yet
 //   fraction = ticks since the last edge/ticks of the mean sector, at most 1
 //
-// Times are readings of a free-running 32-bit counter that may wrap (widen a 16-bit capture register by its
-// overflow count). The first edge, a reversal and a time-out start the history anew, with speed 0: one edge
-// alone says nothing about speed.
+// Times are readings of a free-running 32-bit counter that may wrap (extend a 16-bit capture register by its
+// overflow count). The first edge, a reversal and a time-out restart the history with speed 0, because one edge
+// alone gives no speed.
 //
-// A speed over k edges is k/2 sectors old, and up to one more until the next edge: (k + 1)/2 sectors in the
-// mean, (k + 1)/2 (pi/3)/(p w). Faults of the probes' placement cancel over k = 6, one electrical turn, but
-// at low speed a speed loop cannot stand so old a speed. With a window the speed is taken over `edges` where
-// these came within it, and over one edge where the rotor is too slow for that.
+// A speed over k edges is k/2 sectors old, and up to one more until the next edge: (k + 1)/2 sectors on
+// average, (k + 1)/2 (pi/3)/(p w). Placement errors of the probes cancel over k = 6, one electrical turn, but
+// at low speed a speed loop is not stable with so old a speed. With a window the speed is taken over `edges` if
+// these came within it, and over one edge if the rotor is too slow for that.
 #pragma once
 #include <cstdint>
 
@@ -29,13 +29,13 @@ struct HallSpeedConfig {
   std::uint32_t timeout_ticks = 0;  ///< no edge for so long is standstill; below 2^32 less one control period
   std::uint8_t edges = 1;           ///< k, 1..6
   std::uint32_t window_ticks = 0;   ///< k = 1 where `edges` took longer than this; 0: always `edges`
-  std::uint32_t grain_ticks = 1;    ///< an edge's time is known to: 1 by capture, a control period by looking
+  std::uint32_t grain_ticks = 1;  ///< resolution of an edge's time: 1 by capture, a control period by polling
   bool operator==(const HallSpeedConfig&) const = default;
 };
 
 struct HallSpeedState {
   std::uint32_t times[7]{};   ///< of the last edges, the latest first
-  std::uint8_t known = 0;     ///< how many of them belong to this turn in this direction
+  std::uint8_t known = 0;     ///< how many of them are valid, all in one direction
   std::int8_t direction = 0;  ///< of the last edge
 };
 
@@ -45,7 +45,7 @@ constexpr std::uint8_t hall_speed_edges(std::uint8_t wanted, std::uint8_t known)
   return intervals < most ? intervals : most;
 }
 
-/// Over how many sectors the speed is taken now; 0: nothing is known yet.
+/// Number of sectors over which the speed is taken now; 0: not known yet.
 template <class Scalar>
 constexpr std::uint8_t hall_speed_sectors(const HallSpeedConfig<Scalar>& config,
                                           const HallSpeedState& state) {
@@ -65,7 +65,8 @@ constexpr void hall_speed_edge(HallSpeedState& state, std::uint32_t now, std::in
   if (state.known < 7) ++state.known;
 }
 
-/// Speed at counter reading `now`, mechanical rad/s. Call it at least once per time-out: it ends the history.
+/// Speed at counter reading `now`, mechanical rad/s. Call it at least once per time-out, because it ends the
+/// history.
 template <class Scalar>
 constexpr Scalar hall_speed(const HallSpeedConfig<Scalar>& config, HallSpeedState& state, std::uint32_t now) {
   using T = ScalarTraits<Scalar>;
@@ -88,24 +89,23 @@ constexpr Scalar hall_speed(const HallSpeedConfig<Scalar>& config, HallSpeedStat
   return state.direction < 0 ? -w : w;
 }
 
-/// Whether two sectors took the same time to a quarter.
+/// True if two sectors took the same time within a quarter.
 constexpr bool alike(std::uint32_t later, std::uint32_t earlier) {
   return later <= earlier + earlier / 4 && later >= earlier - earlier / 4;
 }
 
-/// How long the present sector lasts, from the fifth edge in one direction on, where each of the last sectors
-/// took as long as the one before to a quarter. A rotor that starts from rest at a constant torque (sectors
-/// of 1, 0.41, 0.32, 0.27, 0.24) brings no edge that is `soon` from then on; one that slows down so brings
-/// none that is `twice`, nor two sectors `within`.
-/// Times known to a grain tell nothing of a sector shorter than eight: of a steady rotor (T - g)/(T + g) is
-/// at least 3/4 then.
+/// Compares the present sector's time with the last ones. It is known from the fifth edge in one direction on,
+/// if each of the last sectors took as long as the one before within a quarter. A rotor that starts from rest
+/// at a constant torque (sectors of 1, 0.41, 0.32, 0.27, 0.24) makes no edge that is `soon` from then on; one
+/// that slows down likewise makes none that is `twice`, nor two sectors `within`.
+/// A sector shorter than eight grains is unknown: from eight on (T - g)/(T + g) of a steady rotor is at least 3/4.
 constexpr SectorTime sector_time(const HallSpeedState& state, std::uint32_t grain, std::uint32_t now) {
   if (state.known < 5) return SectorTime::unknown;
   const std::uint32_t since = static_cast<std::uint32_t>(now - state.times[0]);
   std::uint32_t sector[3]{};
   for (int n = 0; n < 3; ++n) {
     sector[n] = static_cast<std::uint32_t>(state.times[n] - state.times[n + 1]);
-    if (sector[n] > 0x3fffffff) return SectorTime::unknown;  // 2 1/2 of it would not fit
+    if (sector[n] > 0x3fffffff) return SectorTime::unknown;  // 2 1/2 times it would not fit
   }
   const std::uint32_t last = sector[0];
   if (last / 8 < grain) return SectorTime::unknown;
@@ -116,7 +116,7 @@ constexpr SectorTime sector_time(const HallSpeedState& state, std::uint32_t grai
   return twice ? SectorTime::twice : SectorTime::unknown;
 }
 
-/// Way since the last edge, 0..1 of a sector in the direction of turning; the middle where nothing is known.
+/// Distance since the last edge, 0..1 of a sector in the direction of rotation; 1/2 while no speed is known.
 template <class Scalar>
 constexpr Scalar sector_fraction(const HallSpeedConfig<Scalar>& config, const HallSpeedState& state,
                                  std::uint32_t now) {
@@ -127,11 +127,11 @@ constexpr Scalar sector_fraction(const HallSpeedConfig<Scalar>& config, const Ha
   return T::fraction(static_cast<std::uint32_t>(now - state.times[0]), ticks / k);
 }
 
-/// Position by counting edges. The default stands at 0.
+/// Position by counted edges. The default stays at 0.
 template <class Scalar>
 struct HallPositionConfig {
-  Gain<Scalar> per_sector{};    ///< position per sector counted: 60/p degrees mechanical; fixed: raw units
-  Gain<Scalar> per_fraction{};  ///< position per whole sector interpolated: the same; fixed: of 1
+  Gain<Scalar> per_sector{};    ///< position per counted sector: 60/p degrees mechanical; fixed: raw units
+  Gain<Scalar> per_fraction{};  ///< position per interpolated sector: the same; fixed: relative to 1.0
   bool operator==(const HallPositionConfig&) const = default;
 };
 
@@ -141,8 +141,8 @@ struct HallPositionState {
 
 constexpr void hall_position_edge(HallPositionState& state, std::int8_t moved) { state.sectors += moved; }
 
-/// Degrees, mechanical. Forward the way since the edge is added to the lower edge of the sector, backward it
-/// is taken from the upper one.
+/// Mechanical degrees. Forward, the distance since the edge is added to the lower edge of the sector; backward,
+/// it is subtracted from the upper one.
 template <class Scalar>
 constexpr Scalar hall_position(const HallPositionConfig<Scalar>& config, const HallPositionState& state,
                                std::int8_t direction, Scalar fraction) {

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two-level current control: on below |i_ref| - h, off above |i_ref| + h, kept between, starts on (model.md
-// 4).
+// Controls the current between two levels: on below |i_ref| - h, off above |i_ref| + h, unchanged between;
+// starts on (model.md 4).
 #pragma once
 
 #include "sixstep/control/bridge_command.hpp"
 
 namespace sixstep::control {
 
-/// Where the comparators sit: on the board (an event, no sampling) or here, once per control tick.
+/// The comparators are on the board (events, no sampling), or hysteresis_step() replaces them once per control
+/// tick.
 template <class Scalar>
 struct HysteresisConfig {
   Scalar band_A{};             ///< h, half the width of the band
-  Watch watch = Watch::motor;  ///< what the board's comparators look at; Watch::none: sampled here, on i_m
+  Watch watch = Watch::motor;  ///< current that the board's comparators watch; Watch::none: i_m, sampled here
   bool operator==(const HysteresisConfig&) const = default;
 };
 
@@ -20,8 +21,7 @@ struct HysteresisState {
   bool on = true;
 };
 
-/// The sampled form; `current` and `reference` are taken in the direction of the reference, so both are
-/// positive.
+/// The sampled form. `current` and `reference` are counted positive in the direction of the reference.
 template <class Scalar>
 constexpr bool hysteresis_step(const HysteresisConfig<Scalar>& config, HysteresisState<Scalar>& state,
                                Scalar current, Scalar reference) {

@@ -1,32 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-// Jerk-limited profile: a position setpoint that keeps limits of speed, acceleration and jerk, and stands still exactly
-// on its target, which may move at any tick. It tells speed and acceleration beside the position, for feed-forward.
+// Makes a jerk-limited profile: a position setpoint within limits of speed, acceleration and jerk that stops
+// exactly on its target, which may move at any tick. The profile also gives speed and acceleration, for
+// feed-forward.
 //
-// A trapezoid of speed, taken as its mean over the last M strides, is the profile whose acceleration has ramps (Biagiotti
-// and Melchiorri, Trajectory Planning for Automatic Machines and Robots, 2008, 4.5; Lambrechts et al., Trajectory planning and
-// feedforward design, 2005): with a the trapezoid's change of speed per stride,
+// The mean of a trapezoidal speed over the last M strides is a profile whose acceleration has ramps (Biagiotti
+// and Melchiorri, Trajectory Planning for Automatic Machines and Robots, 2008, 4.5; Lambrechts et al.,
+// Trajectory planning and feedforward design, 2005): with a the trapezoid's change of speed per stride,
 //
 //   v = 1/M sum of the trapezoid's speeds       so |v| and |change of v| keep the trapezoid's limits
-//   change of acceleration = (a[n] - a[n-M])/M  so it keeps a/M where a never has both signs M strides apart
+//   change of acceleration = (a[n] - a[n-M])/M  so it keeps a/M if a never has both signs M strides apart
 //
-// The trapezoid waits with another sign for M strides at a speed that stands. That is no loss: where the jerk is
-// limited, acceleration goes through 0. Each stride takes the fastest v that still stops on the target after c = M strides
-// of it, if it gains speed, after c = 0, if it loses some (profile.hpp, with c strides more):
+// Before its acceleration changes sign the trapezoid keeps its speed for M strides. That costs nothing, because
+// with limited jerk the acceleration passes through 0 anyway. Each stride takes the fastest v that still stops
+// on the target: after c = M strides at v if it gains speed, after c = 0 if it loses speed (profile.hpp, with c
+// strides more):
 //
 //   c v + v + (v - a) + .. = R,   v = (R + a m (m + 1)/2)/(m + 1 + c),   m the largest with a m (2 c + m + 1)/2 <= R
 //
-// A move of d takes d/v + v/a + a/j where it is long enough for its speed, and its acceleration, and is the fastest there
-// is; else it is a little slower than that. A target set nearer than the stopping distance is passed and returned to.
+// A move over d takes d/v + v/a + a/j if it is long enough to reach its speed and its acceleration, and no
+// profile is faster; a shorter move takes a little longer than the fastest one. A target nearer than the
+// stopping distance is passed and returned to.
 //
-// A stride is one control tick, or so many that M is at most 64: what has to be remembered is 64 numbers for any jerk. Between
-// two strides runs the cubic B-spline of the means: position, speed and acceleration are continuous, and as its
-// derivatives are B-splines of their differences, each limit holds at every instant. It lies three strides behind.
+// A stride is one control tick, or so many ticks that M is at most 64: then 64 stored numbers suffice for any
+// jerk. Between two strides runs the cubic B-spline of the means: position, speed and acceleration are
+// continuous. The spline's derivatives are B-splines of the differences, so that each limit holds at every
+// instant. It lies three strides behind.
 //
-// Speeds and ways are whole counts, 2^26 for a stride of full speed: sums are exact, nothing drifts, and what has landed is
-// the target's own number. A new target moves the setpoint by at most half a count at once, 2^-27 of a stride at full speed;
-// from rest, a way of at most M counts is gone in one stride. One beyond 2^28 strides of full speed is gone in parts.
+// Speeds and distances are whole counts, 2^26 for a stride at full speed: sums are exact, nothing drifts, and
+// the final position is exactly the target's number. A new target moves the setpoint at once by at most half a
+// count, 2^-27 of a stride at full speed; from rest, a distance of at most M counts takes one stride. A
+// distance beyond 2^28 strides at full speed is covered in parts.
 //
-// For float and double. Not for fixed point: a fixed-point position in degrees has no room for what a tick adds.
+// For float and double only: a fixed-point position in degrees cannot hold the increment of one tick.
 #pragma once
 #include <cstdint>
 
@@ -35,23 +40,23 @@
 
 namespace sixstep::control {
 
-inline constexpr int jerk_profile_cells = 64;  ///< most M
+inline constexpr int jerk_profile_cells = 64;  ///< largest M
 inline constexpr std::int32_t jerk_profile_speed = std::int32_t{1}
-                                                   << 26;  ///< the limit, in counts per stride
-inline constexpr std::int64_t jerk_profile_farthest = std::int64_t{1} << 54;  ///< way in counts
+                                                   << 26;  ///< the speed limit, in counts per stride
+inline constexpr std::int64_t jerk_profile_farthest = std::int64_t{1} << 54;  ///< largest distance, in counts
 
-inline constexpr double jerk_profile_longest = 64.0 * 65535;  ///< ticks of M strides
+inline constexpr double jerk_profile_longest = 64.0 * 65535;  ///< most ticks of M strides
 
-/// Made by jerk_profile(); a part is a count over M. The default never moves.
+/// Made by jerk_profile(). A part is 1/M of a count. The default never moves.
 template <class Scalar>
 struct JerkProfileConfig {
   Scalar counts_per_deg{};
   Scalar deg_per_part{};
-  Scalar rad_s_per_part{};      ///< of a part per stride
-  Scalar rad_s2_per_part{};     ///< of a part per stride^2
+  Scalar rad_s_per_part{};      ///< speed of a part per stride
+  Scalar rad_s2_per_part{};     ///< acceleration of a part per stride^2
   Scalar stride_per_tick{};     ///< 1/ticks
   std::int32_t acceleration{};  ///< counts per stride^2
-  std::uint16_t ticks = 1;      ///< control ticks of a stride
+  std::uint16_t ticks = 1;      ///< control ticks in a stride
   std::uint8_t cells = 1;       ///< M
   bool operator==(const JerkProfileConfig&) const = default;
 };
@@ -64,34 +69,34 @@ struct ProfiledMotion {
 template <class Scalar>
 struct JerkProfileState {
   ProfiledMotion<Scalar> now{};
-  Scalar target_deg{};      ///< as the strides know it
-  std::int64_t way{};       ///< counts that the trapezoid has to go
-  std::int64_t rest{};      ///< parts that the mean has to go
-  std::int64_t mean[3]{};   ///< its last speeds, parts per stride, the newest first
-  std::int32_t velocity{};  ///< the trapezoid's, counts per stride
-  std::int32_t begun{};     ///< what it was before it began: the cells that are not filled
+  Scalar target_deg{};      ///< the target that the strides use
+  std::int64_t way{};       ///< counts that the trapezoid has still to go
+  std::int64_t rest{};      ///< parts that the mean has still to go
+  std::int64_t mean[3]{};   ///< the mean's last speeds, parts per stride, the newest first
+  std::int32_t velocity{};  ///< the trapezoid's speed, counts per stride
+  std::int32_t begun{};     ///< speed before the begin, for cells that are not filled
   std::int32_t cell[jerk_profile_cells]{};
-  Scalar
-      spline[4]{};  ///< of what is left in this stride: parts, its speed, its acceleration, what that gains
+  /// Polynomial of this stride: distance left in parts, speed, acceleration, change of acceleration.
+  Scalar spline[4]{};
   std::uint16_t tick{};           ///< within the stride
   std::uint8_t next{}, filled{};  ///< cells
-  std::uint8_t waits{};           ///< strides until an acceleration may have another sign
-  std::int8_t sign{};             ///< of the last one
+  std::uint8_t waits{};           ///< strides until the acceleration may change its sign
+  std::int8_t sign{};             ///< of the last acceleration
 };
 
-/// What a profile is asked for.
+/// Limits of a profile.
 struct JerkProfileLimits {
   double speed_rad_s = 0.0;
   double acceleration_rad_s2 = 0.0;
-  double smoothing_s = 0.0;  ///< a/j: the time in which the acceleration rises; rounded up to whole strides
+  double smoothing_s = 0.0;  ///< a/j: time in which the acceleration rises; rounded up to whole strides
 };
 
-/// Computed in double, while compiling or on a host.
+/// Computed in double, at compile time or on a host. A limit that is not above 0 gives the default.
 template <class Scalar = double>
 constexpr JerkProfileConfig<Scalar> jerk_profile(const JerkProfileLimits& limits, double period_s) {
   constexpr double degrees = 57.295779513082320877;
   if (!(limits.speed_rad_s > 0) || !(limits.acceleration_rad_s2 > 0) || !(period_s > 0)) return {};
-  // What is a whole number of periods but for its last digits is not one period more.
+  // A whole number of periods, but for its last digits, is not rounded up to one more.
   const double wanted = between(limits.smoothing_s / period_s * (1 - 1e-12), 0.0, jerk_profile_longest);
   const auto whole = static_cast<std::int32_t>(wanted);
   const std::int32_t smooth = static_cast<double>(whole) < wanted ? whole + 1 : whole < 1 ? 1 : whole;
@@ -113,7 +118,7 @@ constexpr JerkProfileConfig<Scalar> jerk_profile(const JerkProfileLimits& limits
 
 namespace detail {
 
-/// By halves: cores with single precision convert 32 bits at once, and 64 with a library.
+/// In halves, because cores with single precision convert 32 bits at once but need a library for 64.
 template <class Scalar>
 constexpr Scalar scalar_of(std::int64_t n) {
   constexpr Scalar half = Scalar(4294967296.0);
@@ -124,7 +129,7 @@ constexpr Scalar scalar_of(std::int64_t n) {
   return below ? -x : x;
 }
 
-/// To nearest, at most jerk_profile_farthest.
+/// To the nearest count, at most jerk_profile_farthest either way.
 template <class Scalar>
 constexpr std::int64_t counts_of(Scalar x) {
   constexpr Scalar half = Scalar(4294967296.0), most = half * Scalar(4194304.0);
@@ -137,7 +142,8 @@ constexpr std::int64_t counts_of(Scalar x) {
   return below ? -n : n;
 }
 
-/// n/d rounded down, 0 <= n, below 2^27: by digits, for cores divide 64 bits with a library.
+/// n/d rounded down, for 0 <= n and a quotient below 2^27. Digit by digit, because cores need a library to
+/// divide 64 bits.
 constexpr std::int32_t quotient_27(std::int64_t n, std::int64_t d) {
   std::int32_t q = 0;
   for (std::int8_t bit = 26; bit >= 0; --bit) {
@@ -148,7 +154,7 @@ constexpr std::int32_t quotient_27(std::int64_t n, std::int64_t d) {
   return q;
 }
 
-/// The fastest v from which c strides of it and the braking behind them end within R.
+/// The fastest v with which c strides at v and the braking behind them end within R.
 constexpr std::int32_t fastest_within(std::int64_t R, std::int64_t a, std::int64_t c) {
   const auto way = [a, c](std::int64_t m) { return m * a * (2 * c + m + 1) / 2; };
   std::int64_t low = 0, high = jerk_profile_speed / static_cast<std::int32_t>(a) + 1;
@@ -161,7 +167,8 @@ constexpr std::int32_t fastest_within(std::int64_t R, std::int64_t a, std::int64
   return v < jerk_profile_speed ? v : jerk_profile_speed;
 }
 
-/// The trapezoid's next speed towards a target R ahead. `gains`, `loses`: whether its sign allows that.
+/// The trapezoid's next speed towards a target R ahead. `gains`, `loses`: whether its sign allows to gain or
+/// lose speed.
 constexpr std::int32_t next_speed(std::int64_t R, std::int32_t last, std::int32_t a, std::int32_t cells,
                                   bool gains, bool loses) {
   const std::int32_t gained = fastest_within(R, a, cells);
@@ -174,7 +181,7 @@ constexpr std::int32_t next_speed(std::int64_t R, std::int32_t last, std::int32_
 template <class Scalar>
 constexpr void trapezoid_stride(const JerkProfileConfig<Scalar>& config, JerkProfileState<Scalar>& state) {
   const bool back = state.way < 0;
-  // A mean of so little has no acceleration to speak of, and R/(M + 1) is no count.
+  // So short a distance needs no acceleration worth limiting, and R/(M + 1) is not a whole count.
   const std::int64_t least = config.cells < config.acceleration ? config.cells : config.acceleration;
   if (state.velocity == 0 && state.waits == 0 && state.way <= least && state.way >= -least) {
     state.velocity = static_cast<std::int32_t>(state.way);
@@ -207,7 +214,7 @@ constexpr void mean_stride(const JerkProfileConfig<Scalar>& config, JerkProfileS
   state.rest -= state.mean[0];
 }
 
-/// The B-spline's piece between the last means but one, in the powers of the part of the stride that is gone.
+/// The B-spline's piece between the last means but one, as a polynomial of the elapsed part of the stride.
 template <class Scalar>
 constexpr void spline_stride(JerkProfileState<Scalar>& state) {
   const std::int64_t *S = state.mean, six_times = 6 * (state.rest + S[0]) + 5 * S[1] + S[2];
@@ -217,7 +224,7 @@ constexpr void spline_stride(JerkProfileState<Scalar>& state) {
   state.spline[3] = scalar_of<Scalar>(S[0] - 2 * S[1] + S[2]);
 }
 
-/// What it has to go is told in counts, once for each target.
+/// Adds the distance to a new target in counts, once for each target.
 template <class Scalar>
 constexpr void take_target(const JerkProfileConfig<Scalar>& config, JerkProfileState<Scalar>& state,
                            Scalar target_deg) {
@@ -236,7 +243,7 @@ constexpr void take_target(const JerkProfileConfig<Scalar>& config, JerkProfileS
 
 }  // namespace detail
 
-/// From a motion without acceleration.
+/// Begins at a given position and speed, without acceleration.
 template <class Scalar>
 constexpr void begin_profile(const JerkProfileConfig<Scalar>& config, JerkProfileState<Scalar>& state,
                              Scalar position_deg, Scalar speed_rad_s) {

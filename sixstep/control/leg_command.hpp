@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The second answer of a controller: one command per leg, as a timer's channel takes it (model.md 11).
-// Six-step answers with a pair and one duty (bridge_command.hpp); that struct knows nothing of this one, so
-// that a six-step chip carries and copies no more than it needs. How six-step reads as three legs is stated
-// here.
+// Defines the commands of the three legs of the bridge, one per leg, as a timer's channels take them (model.md
+// 11). This is the second kind of controller output. Six-step gives a pair and one duty (bridge_command.hpp);
+// that struct does not depend on this one, so that a six-step chip stores and copies no more than it needs.
+// as_legs() converts it.
 #pragma once
 #include <cstdint>
 
@@ -10,14 +10,14 @@
 
 namespace sixstep::control {
 
-/// What a leg does for a PWM period.
+/// State of a leg during a PWM period.
 enum class LegState : std::uint8_t { off, low, high, pwm };
 
-/// What the pulse of a pwm leg, `duty` of the period long, turns on.
+/// Switches of a pwm leg in its pulse, which lasts `duty` of the period, and in the rest of the period.
 enum class PwmSwitches : std::uint8_t {
   complementary,  ///< the upper switch; the lower one for the rest of the period, each after the dead time
-  upper,          ///< the upper switch alone: none for the rest
-  lower,          ///< the lower switch alone, as a channel does whose complementary output alone is enabled
+  upper,          ///< the upper switch alone; none for the rest
+  lower,          ///< the lower switch alone, as a timer channel with only its complementary output enabled
   lower_first     ///< the lower switch; the upper one for the rest of the period, each after the dead time
 };
 
@@ -25,22 +25,22 @@ template <class Scalar>
 struct LegCommand {
   LegState state = LegState::off;
   PwmSwitches switches = PwmSwitches::complementary;
-  Scalar duty{};  ///< 0..1, length of the pulse over the PWM period; ignored but for pwm
+  Scalar duty{};  ///< 0..1, length of the pulse over the PWM period; used only for pwm
   bool operator==(const LegCommand&) const = default;
 };
 
 template <class Scalar>
 struct LegCommands {
   bool enabled = false;         ///< false: all six gates off
-  bool fault = false;           ///< the controller gave up; the bridge is off
+  bool fault = false;           ///< the controller has stopped the drive; the bridge is off
   LegCommand<Scalar> leg[3]{};  ///< of a, b, c
   bool operator==(const LegCommands&) const = default;
 };
 
-/// The switch of a leg that is to be on.
+/// The switch of a leg that must be on.
 enum class LegSide : std::uint8_t { none, low, high };
 
-/// Within the pulse and in the rest of the period.
+/// The switch that is on in the pulse, and the one in the rest of the period.
 struct LegSides {
   LegSide pulse = LegSide::none, rest = LegSide::none;
 };
@@ -62,7 +62,8 @@ constexpr LegSides sides_of(const LegCommand<Scalar>& command) {
   return {};
 }
 
-/// The leg that the current of a driven pair enters by (model.md 3): its upper switch chops, or is on throughout.
+/// The leg by which the current of a driven pair enters (model.md 3): its upper switch is chopped, or is on
+/// throughout.
 template <class Scalar>
 constexpr LegCommand<Scalar> source_leg(Chopping chopping, ChoppedSwitch chopped, Scalar duty) {
   if (chopping != Chopping::hard && chopped == ChoppedSwitch::lower)
@@ -71,7 +72,7 @@ constexpr LegCommand<Scalar> source_leg(Chopping chopping, ChoppedSwitch chopped
           chopping == Chopping::complementary ? PwmSwitches::complementary : PwmSwitches::upper, duty};
 }
 
-/// The leg that it leaves by: its lower switch is on throughout, or chops too.
+/// The leg by which it leaves: its lower switch is on throughout, or is chopped.
 template <class Scalar>
 constexpr LegCommand<Scalar> sink_leg(Chopping chopping, ChoppedSwitch chopped, Scalar duty) {
   if (chopping == Chopping::hard) return {LegState::pwm, PwmSwitches::lower, duty};
@@ -81,14 +82,14 @@ constexpr LegCommand<Scalar> sink_leg(Chopping chopping, ChoppedSwitch chopped, 
   return {LegState::low, PwmSwitches::complementary, Scalar{}};
 }
 
-/// The leg that is in no pair, while it keeps up a part of the current that leaves it.
+/// The leg in no pair, while it maintains a part of its old current.
 template <class Scalar>
 constexpr LegCommand<Scalar> overlapping_leg(Scalar overlap) {
   const bool upper = Scalar{} < overlap;
   return {LegState::pwm, upper ? PwmSwitches::upper : PwmSwitches::lower, upper ? overlap : -overlap};
 }
 
-/// Six-step as three leg commands: a duty's, for comparators have none.
+/// Six-step as three leg commands. Armed comparators have no duty: then all legs are off.
 template <class Scalar>
 constexpr LegCommands<Scalar> as_legs(const BridgeCommand<Scalar>& command) {
   LegCommands<Scalar> legs{};

@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits of what is asked for, and what happens where asking for less does not help.
+// Limits the current reference, and turns all gates off where a smaller reference does not help.
 //
-// A window for the current reference, which each limit narrows:
+// The window of allowed current references, which each limit narrows:
 //
 //   current       |i| <= limit
 //   torque        |i| <= T_limit/K_t                                (model.md 1: T_e = K_t i_m)
 //   speed         i <= K (w_limit - w) forward, i >= -K (w_limit + w) backward, both at least 0 A
 //   regeneration  braking current <= g (U_limit - U_s), at least 0 A
 //
-// Regeneration: braking, i w < 0, the bridge returns current to the bus, and where the supply cannot take it,
-// the bus rises: C dU/dt <= |i|. With |i| <= g (U_limit - U) it comes to rest below U_limit, as
-// exp(-g t/C), for a tick short against C/g.
+// Regeneration: while braking, i w < 0, the bridge returns current to the bus. If the supply cannot take it,
+// the bus voltage rises: C dU/dt <= |i|. With |i| <= g (U_limit - U) the voltage settles below U_limit, as
+// exp(-g t/C), if a tick is short against C/g.
 //
-// A reference of 0 is no limit yet: a loop that holds the sampled valley of a chopped current at 0 leaves its
-// mean above 0, and reversed pulses that begin and end between two samples are seen by none. So at a limit
-// all gates are off until the next sample, whatever chopping and loop would do:
+// A reference of 0 is not enough: a loop that holds the sampled valley of a chopped current at 0 leaves its
+// mean above 0, and no sample shows reversed pulses that begin and end between two samples. So beyond a limit
+// all gates are off until the next sample, whatever chopping and current loop would do:
 //
 //   current       a phase above 5/4 of the limit
 //   speed         |w| above the limit, and the reference does not brake
 //   regeneration  U_s above the limit, and the reference does not drive
 //
-// With all gates off a current only falls, as long as the bus is above the back-EMF. What flows, turns and
-// charges beyond a limit is therefore what one control period can add: design/loops/limit_bounds.hpp. Faults
-// (faults.hpp) stand behind these.
+// With all gates off a current only falls, as long as the bus is above the back-EMF. So current, speed and bus
+// voltage exceed a limit at most by what one control period adds: design/loops/limit_bounds.hpp. Faults
+// (faults.hpp) are the second protection.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/control/fixed.hpp"
@@ -30,20 +30,20 @@
 
 namespace sixstep::control {
 
-/// Defaults allow no current; what is not wanted is switched off by its flag.
+/// With the defaults no current is allowed; each other limit is off until its flag is set.
 template <class Scalar>
 struct LimitsConfig {
   Scalar current_A{};  ///< torque limit/K_t and the thermal limit, whichever is less; fixed: below 4/5 of 1.0
   bool limits_speed = false;
-  Scalar speed_rad_s{};        ///< not to be passed by own torque
-  Gain<Scalar> A_per_rad_s{};  ///< K: full current down to current_A/K below the limit
+  Scalar speed_rad_s{};        ///< largest |w| that the drive's own torque may reach
+  Gain<Scalar> A_per_rad_s{};  ///< K: full current up to current_A/K below the limit
   bool limits_regeneration = false;
   Scalar bus_V{};          ///< U_limit
-  Gain<Scalar> A_per_V{};  ///< g: full braking current down to current_A/g below the limit
+  Gain<Scalar> A_per_V{};  ///< g: full braking current up to current_A/g below the limit
   bool operator==(const LimitsConfig&) const = default;
 };
 
-/// The references that are allowed, low <= 0 <= high.
+/// The allowed current references, low <= 0 <= high.
 template <class Scalar>
 struct CurrentWindow {
   Scalar low{}, high{};
@@ -56,7 +56,7 @@ constexpr Scalar current_of_torque(Scalar torque_Nm, Gain<Scalar> A_per_Nm) {
 }
 
 namespace detail {
-/// K room, between 0 and most.
+/// K room, clamped to 0..most.
 template <class Scalar>
 constexpr Scalar folded_back(Scalar room, Gain<Scalar> per_room, Scalar most) {
   return room > Scalar{} ? between(ScalarTraits<Scalar>::product(room, per_room), Scalar{}, most) : Scalar{};
@@ -79,8 +79,8 @@ constexpr CurrentWindow<Scalar> current_window(const LimitsConfig<Scalar>& confi
   return window;
 }
 
-/// A sampled phase current that no reference within the limit explains, ripple and a loop's overshoot
-/// included.
+/// True if a sampled phase current is above 5/4 of the limit: no reference within the limit explains that,
+/// ripple and the loop's overshoot included.
 template <class Scalar>
 constexpr bool over_limit(const LimitsConfig<Scalar>& config, const Measurement<Scalar>& m) {
   constexpr Gain<Scalar> five_quarters(1.25);
@@ -88,7 +88,7 @@ constexpr bool over_limit(const LimitsConfig<Scalar>& config, const Measurement<
   return magnitude(m.i_a_A) > most || magnitude(m.i_b_A) > most || magnitude(m.i_c_A) > most;
 }
 
-/// Whether a limit is passed that `reference_A` does not lead away from.
+/// True if speed or bus voltage is beyond its limit and `reference_A` does not reduce it.
 template <class Scalar>
 constexpr bool must_coast(const LimitsConfig<Scalar>& config, Scalar reference_A, Scalar speed_rad_s,
                           Scalar bus_V) {

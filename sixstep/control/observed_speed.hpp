@@ -1,50 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
-// A speed controller that observes speed and load and feeds both back. Its model of a sample, in fractions of the torque
-// limit: the torque t follows what is asked for, u, by a lag, and a load l stands that nobody measures,
+// Controls the speed with an observer for speed and load, and feeds both back. Its model of a sample, in
+// fractions of the torque limit: the torque t follows the output u with a lag, and a constant load l is not
+// measured,
 //
 //   t[n] = c t[n-1] + (1 - c) u[n],   w[n+1] = a w[n] + b (t[n] - l)
 //
-// The observer corrects what it foretold by the speed that is measured, in current form (Franklin, Powell and Workman,
-// Digital Control of Dynamic Systems, 8.2.2), and the controller asks for what holds its setpoint r and for a share of
-// what is missing:
+// The measured speed corrects the observer's prediction, in current form (Franklin, Powell and Workman, Digital
+// Control of Dynamic Systems, 8.2.2). The output is the torque that holds the setpoint r, plus a share of the
+// missing speed:
 //
 //   e = y - w[n|n-1],   w[n|n] = w[n|n-1] + L_w e,   l[n] = l[n-1] - L_l e
 //   u_r = l + f r,      u = u_r + K (r - w[n|n] + g (u_r - t[n-1]))
 //
-// g is the speed that the torque still on its way will bring: w + g t behaves as if there were no lag
-// (design/loops/speed_laws.hpp). The load is the integral: at rest y = r whatever it is. The observer is told the u that
-// the limit leaves, so that nothing winds up.
+// g is the speed that the delayed torque will still add: w + g t behaves as if there were no lag
+// (design/loops/speed_laws.hpp). The load is the integral: at rest y = r for any load. The observer uses the
+// limited u, so that nothing winds up.
 //
-// With c = f = g = 0 and a = 1 it is linear active disturbance rejection (Gao, Scaling and bandwidth-parameterization
-// based controller tuning, ACC 2003; current form: Miklosovic, Radke and Gao, ACC 2006): b_0 = b/T, z_2 = -b_0 l, friction
-// and whatever else the model lacks are part of l.
+// With c = f = g = 0 and a = 1 it is linear active disturbance rejection (Gao, Scaling and
+// bandwidth-parameterization based controller tuning, ACC 2003; current form: Miklosovic, Radke and Gao, ACC
+// 2006): b_0 = b/T, z_2 = -b_0 l; friction and everything else that the model lacks is part of l.
 //
-// Floating point only: of fixed point nothing is proved.
+// Floating point only: nothing is proved for fixed point.
 #pragma once
 #include "sixstep/control/scalar.hpp"
 
 namespace sixstep::control {
 
-/// Defaults give no output at all.
+/// With the defaults the output is 0.
 template <class Scalar>
 struct ObservedSpeedConfig {
-  Scalar a{};    ///< what a sample leaves of the speed
-  Scalar b{};    ///< rad/s that a sample of full torque adds
-  Scalar c{};    ///< what a sample leaves of a torque that is not asked for any more
+  Scalar a{};    ///< part of the speed that is left after a sample
+  Scalar b{};    ///< rad/s that full torque adds in a sample
+  Scalar c{};    ///< part of the old torque that is left after a sample
   Scalar L_w{};  ///< correction of the speed
   Scalar L_l{};  ///< correction of the load, per rad/s
   Scalar K{};    ///< output per rad/s
-  Scalar f{};    ///< output per rad/s: what friction takes
-  Scalar g{};    ///< rad/s per output: what is on its way
+  Scalar f{};    ///< output per rad/s that balances friction
+  Scalar g{};    ///< rad/s that the delayed torque will still add, per output
   bool operator==(const ObservedSpeedConfig&) const = default;
 };
 
 template <class Scalar>
 struct ObservedSpeedState {
-  Scalar w{};            ///< foretold for the next sample, rad/s
-  Scalar l{};            ///< load, of the torque limit; before the first sample: the output to begin with
+  Scalar w{};            ///< predicted for the next sample, rad/s
+  Scalar l{};            ///< load, of the torque limit; before the first sample: the initial output
   Scalar t{};            ///< torque, of the torque limit
-  bool started = false;  ///< the first sample is where the observer begins
+  bool started = false;  ///< the first sample initialises the observer
 };
 
 template <class Scalar>

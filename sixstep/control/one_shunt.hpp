@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motor current from one shunt in the DC link. What the shunt carries is the sum of the legs connected high
-// (model.md 3): within the on-time the source phase's current, and zero or the returned current in the
-// off-time. So a sample counts only if it was taken in the on-time and the amplifier had time to settle.
+// Measures the motor current with one shunt in the DC link. The shunt carries the sum of the currents of the
+// legs connected high (model.md 3): in the on-time the source phase's current, in the off-time zero or the
+// returned current. So a sample counts only if it was taken in the on-time and the amplifier had time to
+// settle.
 //
-// Around a commutation one phase keeps its current i_k, one comes in and one runs out through a diode:
-//   sink changes: the outgoing sink feeds the upper rail, the shunt sees i_k less that: the incoming current
-//   source changes: the outgoing source runs through a lower diode, the shunt sees the incoming source
-// Either way it shows the incoming phase, and i_m = (i_k + i_in)/2 with i_k near its last value. The block
-// uses that until the incoming current has reached the kept one, or for a stated number of samples.
+// During a commutation one phase keeps its current i_k, one current rises and one decays through a diode:
+//   sink changes: the old sink feeds the upper rail; the shunt shows i_k less that current, the rising current
+//   source changes: the old source conducts through a lower diode; the shunt shows the new source's current
+// In both cases it shows the rising current, and i_m = (i_k + i_in)/2 with i_k near its last value. The block
+// uses this until the rising current has reached the kept one, or for a configured number of samples.
 //
-// Where the on-time is too short nothing is visible: the last value fades by a stated factor per tick.
+// If the on-time is too short no sample counts: the last value decays by a configured factor per tick.
 #pragma once
 #include <cstdint>
 
@@ -19,25 +20,25 @@
 
 namespace sixstep::control {
 
-/// The default believes no sample: the current reads 0.
+/// The default rejects every sample: the current reads 0.
 template <class Scalar>
 struct OneShuntConfig {
   Scalar least_duty = one<Scalar>;       ///< (delay of the sample + settling)/T_s; visible strictly above
-  std::uint8_t commutation_samples = 0;  ///< longest commutation that is corrected for
-  Scalar fade{};                         ///< of the kept value per hidden tick: exp(-T_s R/L), 1 holds it
+  std::uint8_t commutation_samples = 0;  ///< longest commutation that is corrected
+  Scalar fade{};  ///< decay of the kept value per hidden tick: exp(-T_s R/L); 1 holds it
   bool operator==(const OneShuntConfig&) const = default;
 };
 
 template <class Scalar>
 struct OneShuntState {
   Scalar driven_A{};             ///< estimate in the direction of the command
-  Scalar kept_A{};               ///< phase that keeps its current through the commutation
+  Scalar kept_A{};               ///< current of the phase that conducts throughout the commutation
   std::uint8_t commutating = 0;  ///< samples left
-  std::uint8_t hidden = 255;     ///< ticks since a sample counted, saturating
+  std::uint8_t hidden = 255;     ///< ticks since the last sample that counted, saturating
   bool reversed = false;
 };
 
-/// The pair moved on in a Hall edge, command and sign staying: call it before the next sample.
+/// Call it when a Hall edge has changed the pair at the same command and sign, before the next sample.
 template <class Scalar>
 constexpr void one_shunt_commutation(const OneShuntConfig<Scalar>& config, OneShuntState<Scalar>& state) {
   state.kept_A = state.driven_A;
@@ -70,7 +71,7 @@ constexpr Scalar one_shunt_step(const OneShuntConfig<Scalar>& config, OneShuntSt
   return reversed ? -state.driven_A : state.driven_A;
 }
 
-/// Phase currents as a Measurement wants them: the pair carries i_m, the third phase nothing.
+/// Sets the phase currents of a Measurement: the pair carries i_m, the third phase none.
 template <class Scalar>
 constexpr void set_phase_currents(Measurement<Scalar>& measured, Pair positive, Scalar motor_current_A) {
   const auto of = [&](Leg leg) {

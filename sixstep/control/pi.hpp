@@ -6,7 +6,7 @@
 
 namespace sixstep::control {
 
-/// Defaults give no output at all: a forgotten gain is safe.
+/// With the defaults the output is 0: a forgotten gain is safe.
 template <class Scalar>
 struct PiConfig {
   Gain<Scalar> d1{};  ///< output per input: the proportional gain K
@@ -22,7 +22,8 @@ struct PiState {
 };
 
 /// u[n] = u[n-1] + d1 e[n] + d0 e[n-1], clamped; the clamped u is the state, so the integral cannot wind up.
-/// Here between any two ends, for what is added to u afterwards (feed-forward) and shares its limit.
+/// This overload clamps to any two ends, for a term that is added to u afterwards (feed-forward) and shares its
+/// limit.
 template <class Scalar>
 constexpr Scalar pi_step(const PiConfig<Scalar>& config, PiState<Scalar>& state, Scalar error, Scalar low,
                          Scalar high) {
@@ -31,8 +32,8 @@ constexpr Scalar pi_step(const PiConfig<Scalar>& config, PiState<Scalar>& state,
   return state.u;
 }
 
-/// The same without a limit, while the integral waits: u[n] = u[n-1] + d1 (e[n] - e[n-1]), for a loop that knows that its output is not
-/// reached.
+/// The same without a limit and without the integral part: u[n] = u[n-1] + d1 (e[n] - e[n-1]). For a loop whose
+/// output is not reached.
 template <class Scalar>
 constexpr Scalar pi_wait(const PiConfig<Scalar>& config, PiState<Scalar>& state, Scalar error) {
   state.u = state.u + config.d1 * (error - state.e);
@@ -40,8 +41,8 @@ constexpr Scalar pi_wait(const PiConfig<Scalar>& config, PiState<Scalar>& state,
   return state.u;
 }
 
-/// Fixed point keeps K_i itself: d1 and d0 nearly cancel, and of their rounded difference little would be
-/// left. The same sum, written u[n] = u[n-1] + d1 (e[n] - e[n-1]) + K_i e[n-1].
+/// Fixed point stores K_i itself: d1 and d0 nearly cancel, and their rounded difference would keep few digits
+/// of it. The sum is the same, written u[n] = u[n-1] + d1 (e[n] - e[n-1]) + K_i e[n-1].
 template <class Storage, int FractionBits>
 struct PiConfig<Fixed<Storage, FractionBits>> {
   using Scalar = Fixed<Storage, FractionBits>;
@@ -50,9 +51,9 @@ struct PiConfig<Fixed<Storage, FractionBits>> {
   Scalar limit{};
 };
 
-/// The sum has guard bits: increments below a signal's last bit count. In Q15 an increment must reach 2^-13
-/// of that bit, so an error of 1 bit is integrated while K_i >= 2^-13 (2^-29 in 32 bits); design/scaling
-/// checks.
+/// The sum has guard bits, so that increments below a signal's last bit count. In Q15 an increment must reach
+/// 2^-13 of that bit: an error of 1 bit is integrated while K_i >= 2^-13 (2^-29 in 32 bits); design/scaling
+/// checks this.
 template <class Storage, int FractionBits>
 struct PiState<Fixed<Storage, FractionBits>> {
   using Scalar = Fixed<Storage, FractionBits>;
@@ -60,7 +61,7 @@ struct PiState<Fixed<Storage, FractionBits>> {
   Scalar e{};
 };
 
-/// An increment saturates at 16 times the signal's range, far beyond any limit it could be clamped to.
+/// An increment saturates at 16 times the signal's range, far beyond any limit.
 template <class Storage, int FractionBits>
 constexpr Fixed<Storage, FractionBits> pi_step(const PiConfig<Fixed<Storage, FractionBits>>& config,
                                                PiState<Fixed<Storage, FractionBits>>& state,

@@ -4,16 +4,16 @@
 //   v[n] = K e[n] + I[n] + feed_forward,   u[n] = v[n] within the limit
 //   I[n+1] = I[n] + K_i e[n] + K_b (u[n] - v[n])
 //
-// Where the limit cuts, u - v is written out, since K e may be larger than any number here:
+// At the limit u - v is expanded, because K e may be larger than any number here:
 //
 //   I[n+1] = I[n] + (K_i - K_b K) e[n] + K_b (u[n] - feed_forward - I[n])
 //
-// so that K e alone may saturate (16 times the signal's range): u is at its limit then, and the integral does
-// not know of it. It stays below limit + |feed_forward| + |K_i/K_b - K| |e|; design/scaling proves that this
-// fits.
+// so that K e alone may saturate (at 16 times the signal's range): u is at its limit then, and the integral
+// does not depend on K e. The integral stays below limit + |feed_forward| + |K_i/K_b - K| |e|; design/scaling
+// proves that this fits.
 //
-// Beside the velocity form: after saturation it loses no proportional kick, and K_b sets how fast the
-// integral follows the limit: 0 not at all (it winds up), 1 at once. Free of saturation both forms have one
+// Compared with the velocity form, no proportional kick is lost after saturation, and K_b sets how fast the
+// integral follows the limit: 0 not at all (it winds up), 1 at once. Without saturation both forms have one
 // transfer function: d1 = K, d0 = K_i - K.
 #pragma once
 #include "sixstep/control/fixed.hpp"
@@ -21,18 +21,18 @@
 
 namespace sixstep::control {
 
-/// Defaults give no output at all.
+/// With the defaults the output is 0.
 template <class Scalar>
 struct PiPositionalConfig {
   Gain<Scalar> K{};    ///< output per input
   Gain<Scalar> K_i{};  ///< output per input and sample
   Gain<Scalar> K_b{};  ///< 0..1 per sample; K_i/K is usual
   Scalar limit{};      ///< |u| never exceeds it
-  Gain<Scalar> K_c{};  ///< K_i - K_b K: what the integral still sees of e where the limit cuts; 0 is usual
+  Gain<Scalar> K_c{};  ///< K_i - K_b K: gain from e to the integral at the limit; 0 is usual
   bool operator==(const PiPositionalConfig&) const = default;
 };
 
-/// Of a rounded K_i/K next to nothing is left: nothing.
+/// K_c = K_i - K_b K; 0 if only the rounding of K_i/K is left of it.
 constexpr double gain_beyond_limit(double K, double K_i, double K_b) {
   const double K_c = K_i - K_b * K, least = 1e-9 * (K_i < 0 ? -K_i : K_i);
   return K_c < least && K_c > -least ? 0.0 : K_c;
@@ -43,8 +43,8 @@ struct PiPositionalState {
   Accumulator<Scalar> integral{};
 };
 
-/// Between any two ends instead of the limit's: for a bound that moves. What is fed forward may be larger
-/// than a signal.
+/// Clamps to any two ends instead of the limit, for a bound that moves. The feed-forward may be larger than a
+/// signal.
 template <class Scalar>
 constexpr Scalar pi_positional_step(const PiPositionalConfig<Scalar>& config,
                                     PiPositionalState<Scalar>& state, Scalar error,

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Trapezoid profile: a position setpoint that keeps a speed and an acceleration limit and stands still
-// exactly on its target, in discrete time and without a root. Velocity v is travel per tick, acceleration a
-// its change per tick. Whoever moves on at v = (m + r) a, m whole, 0 <= r < 1, and slows by a each tick needs
+// Makes a trapezoidal profile: a position setpoint within limits of speed and acceleration that stops exactly
+// on its target, in discrete time and without a square root. The velocity v is the travel per tick, the
+// acceleration a its change per tick. From v = (m + r) a, m whole, 0 <= r < 1, braking by a in each tick needs
+// the distance
 //
 //   v + (v - a) + .. + r a = (m + 1)(v - m a/2)
 //
-// until rest. So the fastest v that can still stop within R has the largest m with a m (m + 1)/2 <= R, and is
-// v = R/(m + 1) + m a/2 = (R + a m (m + 1)/2)/(m + 1). Each tick takes that v, within one a of the last and
-// within the limit: it accelerates, cruises, brakes and lands with its last step, at least as fast as the
-// continuous profile of the same limits. A target set nearer than the stopping distance is passed and
-// returned to.
+// until rest. So the fastest v that can still stop within R has the largest m with a m (m + 1)/2 <= R, and is v
+// = R/(m + 1) + m a/2 = (R + a m (m + 1)/2)/(m + 1). Each tick takes that v, within one a of the last and
+// within the limit: the profile accelerates, cruises, brakes and lands with its last step, at least as fast as
+// the continuous profile of the same limits. A target nearer than the stopping distance is passed and returned
+// to.
 //
 // Fixed point: v and a are whole raw steps per tick, so give the profile enough bits (32), or a slower tick.
 #pragma once
@@ -35,7 +36,7 @@ struct ProfileState {
 
 namespace detail {
 
-/// Largest m with a m (m + 1)/2 <= R; bisection up to the m that the speed limit needs, at most 31 rounds.
+/// Largest m with a m (m + 1)/2 <= R, by bisection up to the m that the speed limit needs: at most 31 rounds.
 /// In whole numbers m a <= fastest + a keeps the product within W.
 template <class W>
 constexpr std::int32_t braking_ticks(W R, W a, W fastest) {

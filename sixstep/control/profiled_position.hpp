@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The position loop's setpoint by a profile, with what the profile knows told ahead to the loops within:
+// Takes the position loop's setpoint from a profile, and feeds its speed and acceleration forward to the inner
+// loops:
 //
-//   w_ref = K_p (x_ref - x) + v_ref            else the loop lags by v/K_p behind whatever moves
+//   w_ref = K_p (x_ref - x) + v_ref            without v_ref the loop lags by v/K_p
 //   y = y_speed + J' a_ref + B' v_ref + c' sgn v_ref
 //
-// y is the speed controller's output, a part of the full torque, or a duty. J', B' and c' are the shaft's inertia, friction
-// and Coulomb torque over the full torque; for a duty their current over the bus's, R/(K_t U), and K_t/U more in B' for the
-// back-EMF (Ellis, Control System Design Guide, 2012, 8). What is not known, a load say, is left to the speed controller, which
-// is a PI: the observers of other laws would take the torque ahead for a load, and are not given it.
+// y is the speed controller's output, a fraction of the full torque, or a duty. J', B' and c' are the shaft's
+// inertia, friction and Coulomb torque over the full torque; for a duty these torques times R/(K_t U), and
+// K_t/U more in B' for the back-EMF (Ellis, Control System Design Guide, 2012, 8). An unknown torque, a load
+// for example, is left to the speed controller. Only PI laws get the feed-forward: the observers of other laws
+// would take it for a load.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/control/jerk_profile.hpp"
@@ -32,16 +34,16 @@ constexpr Scalar torque_ahead(const MotionFeedForwardConfig<Scalar>& config,
   return config.per_rad_s2 * motion.acceleration_rad_s2 + config.per_rad_s * v + coulomb;
 }
 
-/// A drive has room for it where SIXSTEP_POSITION_PROFILE is defined ahead of the first header, as sixstep is built, and as an exported
-/// header does whose drive has a profile: 2 KB of flash and 352 bytes of RAM in `float`, which nobody else is to pay. All that is
-/// linked into one program has it defined, or nothing.
+/// A drive contains the profile if SIXSTEP_POSITION_PROFILE is defined before the first header. sixstep's own
+/// build defines it, and an exported header does if its drive has a profile. It takes 2 KB of flash and 352
+/// bytes of RAM in `float`, which other drives save. All parts of one program must define it, or none.
 #ifdef SIXSTEP_POSITION_PROFILE
 inline constexpr bool position_profile_is_there = true;
 #else
 inline constexpr bool position_profile_is_there = false;
 #endif
 
-/// What of the position loop is there in floating point only takes no memory in fixed point.
+/// Parts of the position loop that exist in floating point only; in fixed point they take no memory.
 template <class Scalar, bool there = position_profile_is_there>
 struct ProfiledPositionConfig {
   bool on = false;
@@ -60,14 +62,14 @@ struct ProfiledPositionConfig<Scalar, false> {
 template <class Scalar, bool there = position_profile_is_there>
 struct ProfiledPositionState {
   JerkProfileState<Scalar> profile{};
-  bool runs = false;  ///< in this tick
+  bool runs = false;  ///< the profile runs in this tick
 };
 template <class Storage, int FractionBits>
 struct ProfiledPositionState<Fixed<Storage, FractionBits>, true> {};
 template <class Scalar>
 struct ProfiledPositionState<Scalar, false> {};
 
-/// Of the last tick, in telemetry.
+/// Position reference of the last tick, for telemetry.
 template <class Scalar, bool there = position_profile_is_there>
 struct ProfiledReference {
   bool profiled = false;  ///< else the setpoint is the reference
@@ -80,8 +82,8 @@ struct ProfiledReference<Scalar, false> {};
 
 namespace detail {
 
-/// The setpoint of this tick. `shaped`: the mode whose setpoint was shaped before; a new one begins where the shaft is, as fast
-/// as it turns.
+/// The setpoint of this tick. `shaped`: the mode whose setpoint was shaped before. After another mode the
+/// profile begins at the shaft's position and speed.
 template <class Scalar>
 constexpr Scalar profiled_setpoint(const ProfiledPositionConfig<Scalar>& config,
                                    ProfiledPositionState<Scalar>& state, Mode shaped, Scalar setpoint,
@@ -91,7 +93,7 @@ constexpr Scalar profiled_setpoint(const ProfiledPositionConfig<Scalar>& config,
   return jerk_profile_step(config.profile, state.profile, setpoint).position_deg;
 }
 
-/// u_PI + ahead, both together within the window; at an end of it u is that end itself.
+/// u_PI + ahead; the sum stays within the window. At an end of the window u is exactly that end.
 template <class Scalar>
 constexpr Scalar pi_beside(const PiConfig<Scalar>& config, PiState<Scalar>& state, Scalar error, Scalar ahead,
                            Scalar low, Scalar high) {

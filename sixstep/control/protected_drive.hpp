@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The drive of a product: registers in, bridge command out. Around the lean drive.hpp it converts ADC counts,
-// decodes the Hall pins, measures speed and position by them, watches for faults and runs the state machine.
-// Two entries as there: protected_step() once per control tick, protected_on_hall() in the Hall interrupt.
+// The complete drive of a product: registers in, bridge command out. It extends drive.hpp: it converts ADC
+// counts, decodes the Hall pins, measures speed and position from them, monitors faults and runs the state
+// machine. Firmware calls protected_step() once per control tick and protected_on_hall() in the Hall interrupt.
 #pragma once
 #include <cstdint>
 
@@ -18,15 +18,15 @@ namespace sixstep::control {
 
 enum class CurrentSensing : std::uint8_t { phases, one_shunt };
 
-/// Before it runs, the rotor may be pulled by a fixed pair to prove that phases and probes are wired as told.
-/// The pair of sector s holds the rotor where its torque vanishes, 90 degrees past the middle of s: on the
-/// edge between sectors s + 1 and s + 2. The default leaves it out.
+/// Alignment before the run: a fixed pair pulls the rotor, to prove that phases and Hall probes are wired as
+/// configured. The pair of sector s holds the rotor where its torque is 0, 90 degrees past the middle of s: on
+/// the edge between sectors s + 1 and s + 2. By default there is no alignment.
 template <class Scalar>
 struct AlignConfig {
   Scalar current_A{};
-  std::uint32_t ticks = 0;          ///< longest; 0: no alignment
-  std::uint32_t settled_ticks = 0;  ///< in one of the two sectors for so long
-  std::uint8_t sector = 0;          ///< s
+  std::uint32_t ticks = 0;          ///< longest duration; 0: no alignment
+  std::uint32_t settled_ticks = 0;  ///< the rotor must stay in one of the two sectors for so long
+  std::uint8_t sector = 0;          ///< s: its pair pulls
   bool operator==(const AlignConfig&) const = default;
 };
 
@@ -34,24 +34,25 @@ struct AlignConfig {
 template <class Scalar>
 struct ProtectedConfig {
   DriveConfig<Scalar> drive{};
-  Scalar setpoint_limit{};  ///< |setpoint| never passes it, in the unit of the mode
+  Scalar setpoint_limit{};  ///< bound of |setpoint|, in the unit of the mode
   CurrentSensing sensing = CurrentSensing::phases;
   AdcConfig<Scalar> current_adc[3]{};  ///< of phases a, b, c; one shunt: the first
   AdcConfig<Scalar> bus_adc{};         ///< its offset is not measured
   OneShuntConfig<Scalar> shunt{};
-  HallConfig hall{};  ///< above 1 stable sample, edges count at the tick, not in the interrupt
+  HallConfig hall{};  ///< above 1 stable sample, edges are evaluated at the tick, not in the interrupt
   HallSpeedConfig<Scalar> speed{};
   HallPositionConfig<Scalar> position{};
   AdvanceConfig<Scalar> advance{};
   FaultConfig<Scalar> faults{};
   AlignConfig<Scalar> align{};
-  Scalar brake_current_A{};    ///< held against the turning; 0: coasts
-  Scalar short_below_rad_s{};  ///< |w| from which on the windings are shorted: below brake_current_A R_tt/K_t
-  Scalar standing_rad_s{};     ///< |w| at most: let go
+  Scalar brake_current_A{};  ///< braking current against the rotation; 0: coasts
+  /// Up to this |w| the windings are shorted: choose it below brake_current_A R_tt/K_t. 0: never.
+  Scalar short_below_rad_s{};
+  Scalar standing_rad_s{};  ///< |w| up to which the brake releases
   bool operator==(const ProtectedConfig&) const = default;
 };
 
-/// What the registers say.
+/// Register values at one tick.
 struct BoardInput {
   std::uint16_t current_counts[3]{};  ///< phases a, b, c; one shunt: the first
   std::uint16_t bus_counts = 0;
@@ -68,14 +69,14 @@ struct ProtectedState {
   HallSpeedState speed{};
   HallPositionState position{};
   FaultState faults{};
-  FaultEvents events{};  ///< gathered since the last tick
+  FaultEvents events{};  ///< collected since the last tick
   ActivityState activity{};
   std::uint8_t pair_of = 0;  ///< code whose pair carried the last sample
   bool calibrated = false;
   std::uint32_t align_ticks = 0, align_settled = 0;
 };
 
-/// For a display or a log; nobody reads it back.
+/// For a display or a log; the drive never reads it.
 template <class Scalar>
 struct ProtectedTelemetry {
   Telemetry<Scalar> drive{};
@@ -83,7 +84,7 @@ struct ProtectedTelemetry {
   Activity activity = Activity::off;
   std::uint16_t faults = 0;       ///< latched, bits of Fault
   std::uint16_t first_fault = 0;  ///< the reason of the stop
-  std::uint8_t hall_line = 0;     ///< 1..3: the Hall line to blame
+  std::uint8_t hall_line = 0;     ///< 1..3: the faulty Hall line; 0: unknown
 };
 
 namespace detail {
@@ -101,8 +102,8 @@ constexpr void take_hall(const ProtectedConfig<Scalar>& config, ProtectedState<S
   hall_position_edge(state.position, reading.moved);
 }
 
-/// Counts -> Measurement. `hall` is the code to commutate for: that of the sector ahead within the advance
-/// angle, and 000 where there is none.
+/// Converts counts to a Measurement. `hall` is the code to commutate for: that of the next sector within the
+/// advance angle, and 000 if the sector is unknown.
 template <class Scalar>
 constexpr Measurement<Scalar> measure(const ProtectedConfig<Scalar>& config, ProtectedState<Scalar>& state,
                                       const BoardInput& input) {
@@ -145,7 +146,7 @@ constexpr void calibrate(const ProtectedConfig<Scalar>& config, ProtectedState<S
   state.calibrated = done;
 }
 
-/// True once the rotor has stayed where the pair pulls it; too late is a fault.
+/// True once the rotor has stayed long enough where the pair pulls it; a time-out is a fault.
 template <class Scalar>
 constexpr bool aligned(const ProtectedConfig<Scalar>& config, ProtectedState<Scalar>& state) {
   const AlignConfig<Scalar>& align = config.align;
@@ -160,7 +161,7 @@ constexpr bool aligned(const ProtectedConfig<Scalar>& config, ProtectedState<Sca
   return false;
 }
 
-/// Faults, their clearing, and the next activity.
+/// Updates and clears faults, and returns the next activity.
 template <class Scalar>
 constexpr Activity decide(const ProtectedConfig<Scalar>& config, ProtectedState<Scalar>& state,
                           const Measurement<Scalar>& m, const Request& request) {
@@ -183,20 +184,21 @@ constexpr Activity decide(const ProtectedConfig<Scalar>& config, ProtectedState<
   return now;
 }
 
-/// What is not a number counts as 0.
+/// Clamps the setpoint; 0 if it is not a number.
 template <class Scalar>
 constexpr Scalar limited_setpoint(Scalar x, Scalar limit) {
   return x >= -limit && x <= limit ? x : x > limit ? limit : x < -limit ? -limit : Scalar{};
 }
 
-/// Against the turning with a held current; slow, where Hall edges come too seldom to tell when it stands, by
-/// shorting the driven pair (both lower switches), whose torque vanishes with the speed and never reverses.
+/// Brakes with a constant current against the rotation. At low speed Hall edges come too seldom to detect
+/// standstill; there both lower switches short the driven pair, whose torque vanishes with the speed and never
+/// reverses.
 template <class Scalar>
 constexpr const BridgeCommand<Scalar>& brake(const ProtectedConfig<Scalar>& config,
                                              ProtectedState<Scalar>& state, const Measurement<Scalar>& m,
                                              Telemetry<Scalar>& telemetry) {
   const Scalar slow = config.short_below_rad_s;
-  telemetry = {};  // of the loops that ran before
+  telemetry = {};  // discards the values of the loops that ran before
   if (slow > Scalar{} && magnitude(m.speed_rad_s) <= slow) {
     step_in(Mode::duty, config.drive, state.drive, m, Setpoint<Scalar>{}, telemetry);
     state.drive.command.duty = Scalar{};
@@ -237,8 +239,8 @@ constexpr const BridgeCommand<Scalar>& act(const ProtectedConfig<Scalar>& config
 
 }  // namespace detail
 
-/// One control tick. Any fault turns the bridge off in this very tick and is kept until cleared. The answer lies in
-/// `state`, up to the next call.
+/// One control tick. Any fault turns the bridge off in the same tick and stays latched until it is cleared.
+/// Returns a reference into `state`, valid until the next call.
 template <class Scalar>
 constexpr const BridgeCommand<Scalar>& protected_step(const ProtectedConfig<Scalar>& config,
                                                       ProtectedState<Scalar>& state, const BoardInput& input,
@@ -257,8 +259,8 @@ constexpr const BridgeCommand<Scalar>& protected_step(const ProtectedConfig<Scal
   return detail::act(config, state, activity, m, setpoint.value, telemetry.drive);
 }
 
-/// The Hall interrupt: the pins after the edge and the counter captured at it. Moves the running bridge to
-/// the new pair; a bad code or a jump turns it off at once, and the next tick reports it.
+/// The Hall interrupt. `pins`: after the edge; `captured`: the counter at the edge. Moves the running bridge to
+/// the new pair. A bad code or a jump turns it off at once; the next tick reports the fault.
 template <class Scalar>
 constexpr const BridgeCommand<Scalar>& protected_on_hall(const ProtectedConfig<Scalar>& config,
                                                          ProtectedState<Scalar>& state, std::uint8_t pins,

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which of the pair's two switches the duty chops, while the other one is on: the patterns of six-step's unipolar PWM, named
-// by what a switch does in the 120 degrees for which it carries current: H_PWM-L_ON, H_ON-L_PWM, PWM-ON, ON-PWM, and
-// PWM-ON-PWM (Wei, Hu and Zhang, A novel PWM scheme to eliminate the diode freewheeling of the inactive phase in BLDC
-// motor, IEEE PESC 2004).
+// Selects which of the pair's two switches the duty chops while the other one is on: the patterns of six-step's
+// unipolar PWM. They are named by the use of a switch in the 120 degrees for which it carries current:
+// H_PWM-L_ON, H_ON-L_PWM, PWM-ON, ON-PWM, and PWM-ON-PWM (Wei, Hu and Zhang, A novel PWM scheme to eliminate
+// the diode freewheeling of the inactive phase in BLDC motor, IEEE PESC 2004).
 //
-// Of a pair two legs were in the pair before: one of them stays, the other has just entered. So PWM-ON is "the entering
-// leg chops", ON-PWM "the staying one", and PWM-ON-PWM the first until the middle of the sector and the second from there.
+// One leg of a pair was in the pair before and stays, the other has just entered. PWM-ON chops the entering
+// leg, ON-PWM the staying one, and PWM-ON-PWM the entering leg until the middle of the sector and the staying
+// one from there.
 //
-// What it is for: the free phase stands at the star point's voltage and its own back-EMF. In the gaps of the upper switch
-// the star point lies at the lower rail, and a back-EMF below zero sends a current through the free leg's lower diode; in
-// those of the lower switch it lies at the upper rail, and one above zero does. The back-EMF of the phase that has just
-// been left passes zero in the middle of the sector, from the sign that the entering leg's switch allows to the one that
-// the staying leg's does: with PWM-ON-PWM the free phase of a motor that drives conducts in no gap. Each pattern but the
-// first two warms all six switches alike.
+// Purpose: the free phase's terminal has the star point's voltage plus its own back-EMF. In the gaps of the
+// upper switch the star point is at the lower rail, and a back-EMF below zero drives a current through the free
+// leg's lower diode; in the gaps of the lower switch it is at the upper rail, and a back-EMF above zero does.
+// The back-EMF of the phase that has just been left crosses zero in the middle of the sector, from the sign
+// that the entering leg's switch allows to the one that the staying leg's switch allows. So with PWM-ON-PWM the
+// free phase of a driving motor conducts in no gap. Each pattern but the first two heats all six switches
+// alike.
 #pragma once
 #include "sixstep/control/commutation.hpp"
 #include "sixstep/control/fixed.hpp"
@@ -26,17 +28,18 @@ inline constexpr std::uint8_t pwm_patterns = 5;
 template <class Scalar>
 struct PwmPatternConfig {
   PwmPattern pattern = PwmPattern::upper;
-  Gain<Scalar> half_sector_per_rad_s{};  ///< 6 p T/pi: of 30 electrical degrees, per tick of T at 1 rad/s
+  Gain<Scalar> half_sector_per_rad_s{};  ///< 6 p T/pi: part of 30 electrical degrees per tick T and rad/s
   bool operator==(const PwmPatternConfig&) const = default;
 };
 
 template <class Scalar>
 struct PwmPatternState {
   StayingPhase staying{};
-  Accumulator<Scalar> passed{};  ///< of the sector's first half, since it was entered
+  Accumulator<Scalar> passed{};  ///< part of the sector's first half since its entry
 };
 
-/// After every commutation and command. Before the first commutation the rotor is taken to have come the way of the command.
+/// Call it after every commutation and command. Before the first commutation the rotor is assumed to have
+/// turned in the command's direction.
 template <class Scalar>
 constexpr ChoppedSwitch chopped_switch(const PwmPatternConfig<Scalar>& config, PwmPatternState<Scalar>& state,
                                        std::uint8_t sector, Pair pair) {
@@ -54,7 +57,7 @@ constexpr ChoppedSwitch chopped_switch(const PwmPatternConfig<Scalar>& config, P
   return lower ? ChoppedSwitch::lower : ChoppedSwitch::upper;
 }
 
-/// Once per tick, before chopped_switch(): how far the rotor has come in its sector. It stops at the middle.
+/// Once per tick, before chopped_switch(): adds the rotor's motion in its sector, up to the middle.
 template <class Scalar>
 constexpr void move_in_sector(const PwmPatternConfig<Scalar>& config, PwmPatternState<Scalar>& state,
                               std::uint8_t sector, Scalar speed_rad_s) {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Another configuration while the drive runs, taken over between two ticks: gains, limits, chopping, mode.
+// Replaces the configuration while the drive runs, between two ticks: gains, limits, chopping, mode.
 //
-//   same mode   every state stays. A PI in velocity form goes on from its last output and its last error: with
-//               the new gains the next tick adds d1 (e[n] - e[n-1]) + K_i e[n-1], so that at no error nothing
-//               moves. The positional form keeps its integral; its output moves by the change of K times the
-//               error. An observer and a sliding surface go on from where they are.
-//   other law   of the speed loop: the new one begins at the output that the old one holds, at no error nothing moves
-//               (of a positional form whose setpoint is not weighted).
-//   other mode  a loop that both modes run keeps its state; one that only the new mode runs begins at rest,
-//               its output 0. A setpoint that slews or has a profile starts at what is measured (drive_extras.hpp).
-//               The bridge keeps the last command until the next tick.
-//   other limits of a position profile: it goes on from where it is and as fast, without acceleration.
+//   same mode   all states stay. A PI in velocity form continues from its last output and its last error: with the new
+//               gains the next tick adds d1 (e[n] - e[n-1]) + K_i e[n-1], so that at zero error nothing moves. The
+//               positional form keeps its integral; its output moves by the change of K times the error. An observer
+//               and a sliding surface continue from their states.
+//   other law   of the speed loop: the new one begins at the output that the old one holds; at zero error nothing
+//               moves (for a positional form only if its setpoint is not weighted).
+//   other mode  a loop of both modes keeps its state; one of the new mode only begins at rest, with output 0. A
+//               setpoint that slews or has a profile starts at the measurement (drive_extras.hpp). The bridge keeps
+//               the last command until the next tick.
+//   other limits of a position profile: it continues from its position and speed, without acceleration.
 #pragma once
 #include "sixstep/control/protected_drive.hpp"
 
@@ -28,7 +28,7 @@ constexpr bool runs_current_loop(const DriveConfig<Scalar>& config) {
          (runs_speed_loop(config) && config.speed_control == SpeedControl::cascade);
 }
 
-/// What the old mode did not run begins at rest.
+/// Resets the loops that the old mode did not run.
 template <class Scalar>
 constexpr void rest_idle_loops(const DriveConfig<Scalar>& config, DriveState<Scalar>& state) {
   if (!runs_current_loop(config)) {
@@ -44,7 +44,7 @@ constexpr void rest_idle_loops(const DriveConfig<Scalar>& config, DriveState<Sca
   }
 }
 
-/// What the speed loop holds at no error.
+/// Output of the speed loop at zero error.
 template <class Scalar>
 constexpr Scalar held_by_speed_law(const DriveConfig<Scalar>& config, const DriveState<Scalar>& state) {
   using T = ScalarTraits<Scalar>;
@@ -59,7 +59,7 @@ constexpr Scalar held_by_speed_law(const DriveConfig<Scalar>& config, const Driv
   return T::signal(T::accumulator(Scalar{}) + state.speed.u);
 }
 
-/// A law that takes over begins with what the one before it held.
+/// Starts a new law with the output that the old one held.
 template <class Scalar>
 constexpr void hand_speed_over(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
                                const DriveConfig<Scalar>& next) {
@@ -79,7 +79,7 @@ constexpr void hand_speed_over(const DriveConfig<Scalar>& config, DriveState<Sca
   }
 }
 
-/// Its counts are of its limits.
+/// Restarts the profile at its position and speed, because its counts depend on its limits.
 template <class Scalar>
 constexpr void hand_profile_over(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
                                  const DriveConfig<Scalar>& next) {
@@ -106,7 +106,7 @@ constexpr void retune(DriveConfig<Scalar>& config, DriveState<Scalar>& state,
   config = next;
 }
 
-/// Thresholds, limits and the drive within. Braking and alignment run loops of their own; they keep theirs.
+/// Replaces thresholds, limits and the drive within. The loops that braking and alignment run keep their state.
 template <class Scalar>
 constexpr void retune(ProtectedConfig<Scalar>& config, ProtectedState<Scalar>& state,
                       const ProtectedConfig<Scalar>& next) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Square roots without a library, and the two that a vector asks for:
+// Computes square roots without a library, and two functions of vectors:
 //
 //   vector_length   sqrt(a^2 + b^2)
-//   circle_rest     sqrt(r^2 - x^2): what a circle of radius r leaves to the other axis; 0 where x has left it
+//   circle_rest     sqrt(r^2 - x^2): the other axis on a circle of radius r; 0 if x is outside of the circle
 //
-// Floating point by Newton's y <- (y + x/y)/2 from above, which falls until it is there: + - * / alone, so that every
-// core has the same bits, to a digit or two of the root. Fixed point takes the whole part of the root of whole
-// numbers, bit by bit: to a digit, and never above the circle.
+// Floating point uses Newton's y <- (y + x/y)/2 from above, which falls until it has converged: + - * / alone,
+// so that every core gives the same bits, exact to a digit or two. Fixed point takes the whole part of the root
+// of whole numbers, bit by bit: exact to a digit, and never outside of the circle.
 #pragma once
 #include <cstdint>
 
@@ -31,7 +31,7 @@ constexpr Unsigned whole_root(Unsigned x) {
   return found;
 }
 
-/// Of what is not above 0, and of no number: 0.
+/// 0 if x is not above 0, infinite or not a number.
 template <class Scalar>
 constexpr Scalar root(Scalar x) {
   constexpr Scalar quarter(0.25), half(0.5), four(4);
@@ -56,13 +56,13 @@ constexpr Fixed<Storage, FractionBits> vector_length(Fixed<Storage, FractionBits
     const auto size = static_cast<UnsignedWide>(detail::absolute(raw));
     return static_cast<UnsignedWide>(size * size);
   };
-  // Two squares of 2^30 are 2^31: they fit where nothing has a sign.
+  // Two squares of 2^30 sum to 2^31, which fits in an unsigned number.
   const UnsignedWide length = whole_root(static_cast<UnsignedWide>(square(a.raw) + square(b.raw)));
   constexpr auto end = static_cast<UnsignedWide>(detail::greatest<Storage>);
   return Fixed<Storage, FractionBits>::from_raw(static_cast<Storage>(length < end ? length : end));
 }
 
-/// Of a radius below 0 nothing is left.
+/// 0 also for a radius below 0.
 template <class Scalar>
 constexpr Scalar circle_rest(Scalar radius, Scalar x) {
   const Scalar size = magnitude(x);

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a block must know about the number it computes with. The blocks are templates over one Scalar; signals
-// are Scalars, and three things that a fixed-point number cannot be have types of their own here:
+// Arithmetic that the control blocks require of their number type. The blocks are templates over one Scalar,
+// and signals are Scalars. Four quantities that a fixed-point signal cannot hold have types of their own:
 //
-//   Gain         output per input, which may exceed the range of a signal
-//   Divisor      what a signal is divided by once per tick, where a chip would rather multiply
+//   Gain         output per input; may exceed the range of a signal
+//   Divisor      a constant that divides a signal once per tick; a chip multiplies by its reciprocal
 //   Accumulator  a sum over many ticks, whose increments may be far below the signal's last bit
 //   TickRatio    a signal times timer counts, to be divided by timer counts
 //
-// For float and double all of them are the Scalar itself, and every function below is the plain expression:
-// the same bits as writing it. fixed.hpp says what they are for fixed point.
+// For float and double all of them are the Scalar itself, and every function below gives the same bits as the
+// plain expression. fixed.hpp defines them for fixed point.
 //
-// Compilers: C++20. For the AVR clang 19 or later; clang 14 to 16 compile a drive wrongly there, without a warning, and 17 and 18 were
-// never asked. avr-gcc 5 and 7, which Debian 12 and the Arduino IDE have, know no C++20. SIXSTEP_ANY_COMPILER lets any through: define
-// it for a compiler that tools/check_target.sh proof, or a test of yours on the chip, has found right.
+// Compilers: C++20. For the AVR use clang 19 or later: clang 14 to 16 compile a drive wrongly there, without a
+// warning; 17 and 18 were never tested. avr-gcc 5 and 7, of Debian 12 and the Arduino IDE, have no C++20.
+// SIXSTEP_ANY_COMPILER disables the check: define it for a compiler that tools/check_target.sh proof, or your
+// own test on the chip, has proved right.
 #pragma once
 #if __cplusplus < 201709L && !defined(_MSC_VER)
 #error \
@@ -26,7 +27,7 @@
 
 namespace sixstep::control {
 
-/// Specialised for fixed point in fixed.hpp; this is the one for floating point.
+/// The version for floating point; fixed.hpp specialises it for fixed point.
 template <class Scalar>
 struct ScalarTraits {
   using Gain = Scalar;
@@ -68,7 +69,7 @@ using TickRatio = typename ScalarTraits<Scalar>::TickRatio;
 template <class Scalar>
 using Wide = typename ScalarTraits<Scalar>::Wide;
 
-/// The largest duty, fraction or flag: 1, or the last number below it where the format ends there (Q15, Q31).
+/// The largest duty, fraction or flag: 1, or the largest number below it where the format has no 1 (Q15, Q31).
 template <class Scalar>
 inline constexpr Scalar one = Scalar(1);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Slew limiter: a setpoint that changes by at most so much per tick and stops exactly on its target.
+// Slew limiter: the setpoint changes by at most one step per tick and stops exactly on its target.
 //
 //   y[n] = y[n-1] + clamp(x[n] - y[n-1], step)
 #pragma once

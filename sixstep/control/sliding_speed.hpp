@@ -1,39 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
-// A speed controller by sliding mode with an integral surface (Utkin and Shi, Integral sliding mode in systems operating
-// under uncertainty conditions, CDC 1996) and a boundary layer (Slotine and Li, Applied Nonlinear Control, 7.2):
+// Controls the speed by sliding mode with an integral surface (Utkin and Shi, Integral sliding mode in systems
+// operating under uncertainty conditions, CDC 1996) and a boundary layer (Slotine and Li, Applied Nonlinear
+// Control, 7.2):
 //
 //   m[n+1] = m[n] + q (r - y),   s = m - y,   u = (q/b) (r - y) + R sat(s/P)
 //
-// m is the speed that a drive without load would have, an error e of which each sample leaves (1 - q) e; it begins where
-// the speed is, so that a setpoint is followed on the surface from the first sample on. b is what a sample of full torque
-// adds to the speed, l the load in parts of it. Then, short of the limit,
+// m is the speed that a drive without load would have: each sample leaves the part 1 - q of its error. It
+// begins at the measured speed, so that the setpoint is followed on the surface from the first sample on. b is
+// the speed that full torque adds in a sample, l the load as a fraction of full torque. Then, inside of the
+// limit,
 //
 //   |s| > P   s moves by b (R - l) a sample: from s_0 the layer is reached after (|s_0| - P)/(b (R - l)) samples
 //   |s| < P   s[n+1] = (1 - b R/P) s[n] + b l: it rests at P l/R, where R sat(s/P) is the load, and y = r
 //
-// At a limit m is moved to where u is just that limit, as far as the layer goes, and outside of the layer it goes no
-// further from the speed: nothing winds up.
+// At a limit m is moved so that u is just that limit, as far as the layer allows; outside of the layer m moves
+// no further away from the speed: nothing winds up.
 //
-// Floating point only: of fixed point nothing is proved.
+// Floating point only: nothing is proved for fixed point.
 #pragma once
 #include "sixstep/control/scalar.hpp"
 
 namespace sixstep::control {
 
-/// Defaults give no output at all.
+/// With the defaults the output is 0.
 template <class Scalar>
 struct SlidingSpeedConfig {
-  Scalar q{};      ///< of the error, that a sample takes away
+  Scalar q{};      ///< part of the error that a sample removes
   Scalar f{};      ///< q/b, output per rad/s
-  Scalar reach{};  ///< R, the load that it bears, of the torque limit
+  Scalar reach{};  ///< R, the largest load that it balances, of the torque limit
   Scalar layer{};  ///< P, rad/s
   bool operator==(const SlidingSpeedConfig&) const = default;
 };
 
 template <class Scalar>
 struct SlidingSpeedState {
-  Scalar m{};     ///< rad/s; before the first sample: the output to begin with
-  Scalar held{};  ///< R sat(s/P), what would be the output at no error
+  Scalar m{};     ///< rad/s; before the first sample: the initial output
+  Scalar held{};  ///< R sat(s/P), the output at zero error
   bool started = false;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a drive is doing: off, calibrate, align, run, brake, fault. Transitions only; what is done in each
-// state is the composition's (protected_drive.hpp).
+// Selects the operating state of a drive: off, calibrate, align, run, brake, fault. This file has the
+// transitions only; protected_drive.hpp does the work of each state.
 //
 //   off --start--> calibrate --offsets measured--> align --rotor in place--> run
 //   run --stop--> brake --standing--> off;  brake --start--> run;  calibrate, align --stop--> off
@@ -14,8 +14,8 @@ namespace sixstep::control {
 
 enum class Activity : std::uint8_t { off, calibrate, align, run, brake, fault };
 
-/// What the user asks for, as levels, except clear: it acts on the change from false to true, so that a held
-/// button does not start a faulty drive over and over.
+/// Requests of the user, as levels. Only `clear` acts on its change from false to true, so that a held button
+/// does not restart a faulty drive again and again.
 struct Request {
   bool run = false;
   bool clear = false;
@@ -24,18 +24,19 @@ struct Request {
 struct ActivityInput {
   Request request{};
   bool calibrated = false;  ///< offsets are known
-  bool aligned = false;     ///< the rotor stands where it was pulled to, or alignment is not wanted
-  bool standing = false;    ///< slow enough to let go
-  bool faulty = false;      ///< anything is latched
+  bool aligned = false;     ///< the rotor is where it was pulled, or there is no alignment
+  bool standing = false;    ///< slow enough to end the braking
+  bool faulty = false;      ///< a fault is latched
 };
 
 struct ActivityState {
   Activity activity = Activity::off;
   bool clear_was = false;
-  bool run_released = true;  ///< after a fault the request to run must go away once before it counts
+  bool run_released = true;  ///< after a fault `run` must be false once before it counts
 };
 
-/// Is a fault to be cleared now? Ask before activity_step and pass on what is latched afterwards.
+/// True if a fault must be cleared now. Call it before activity_step, and pass that one the faults left after
+/// clearing.
 constexpr bool clear_requested(ActivityState& state, const Request& request) {
   const bool rising = request.clear && !state.clear_was;
   state.clear_was = request.clear;
@@ -54,7 +55,7 @@ constexpr Activity after(Activity activity, bool run, const ActivityInput& in) {
     case Activity::brake:
       return run ? Activity::run : in.standing ? Activity::off : Activity::brake;
     case Activity::fault:
-      return Activity::off;  // only reached with nothing latched
+      return Activity::off;  // reached only if no fault is latched
   }
   return Activity::off;
 }

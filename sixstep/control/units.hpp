@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What 1.0 of a signal means in A, V, rad/s and degrees, and constants of a board turned into that while
-// compiling: x in SI becomes x/base, rounded once. In floating point every base is 1. The same quotients as
-// design/scaling/product_scaling.hpp, so a converter or threshold written in firmware has the bits proved
-// there. (Where double has 32 bits, AVR, the last of 16 bits may round the other way; an exported drive is
-// whole numbers.)
+// Converts a board's constants from SI units to signals at compile time: x becomes x/base, rounded once. A base
+// is the value of 1.0 of a signal in A, V, rad/s or degrees; in floating point every base is 1. The quotients
+// are those of design/scaling/product_scaling.hpp, so that a converter or threshold written in firmware has the
+// bits proved there. (On the AVR, where double has 32 bits, the last of 16 bits may round the other way; an
+// exported drive consists of whole numbers.)
 //
-// A chip never divides by a base: all functions are consteval, and what the format does not hold does not
+// A chip never divides by a base: all functions are consteval. A value that the format does not hold does not
 // compile ("does_not_fit").
 #pragma once
 #include "sixstep/control/fixed.hpp"
@@ -16,10 +16,10 @@ namespace sixstep::control {
 
 namespace detail {
 
-void does_not_fit();  // nowhere defined and not constexpr: a compiler that gets here stops
+void does_not_fit();  // not constexpr and defined nowhere: a call stops the compiler
 
 template <class Scalar>
-struct FormatEnds {  // of floating point: none that an SI number reaches
+struct FormatEnds {  // of floating point: no SI number reaches them
   static constexpr double digit = 1.0;
   static constexpr bool holds(double) { return true; }
   static constexpr bool holds_gain(double) { return true; }
@@ -30,7 +30,7 @@ template <class Storage, int FractionBits>
 struct FormatEnds<Fixed<Storage, FractionBits>> {
   using Scalar = Fixed<Storage, FractionBits>;
   static constexpr double digit = static_cast<double>(Scalar::from_raw(1));
-  /// A whole base counts as held where the format ends one digit below it (Q15, Q31).
+  /// The number one digit above the largest is accepted: 1.0 in Q15 and Q31.
   static constexpr bool holds(double x) {
     return x <= static_cast<double>(Scalar::max()) + digit && x >= static_cast<double>(Scalar::min());
   }
@@ -56,15 +56,14 @@ struct Units {
   consteval Scalar volts(double x) const { return signal(x / voltage_V); }
   consteval Scalar rad_per_s(double x) const { return signal(x / speed_rad_s); }
   consteval Scalar degrees(double x) const { return signal(x / position_deg); }
-  /// A duty, a fraction, sectors: the base is 1 in every format.
+  /// A number without unit, such as a duty, a fraction or sectors: its base is 1 in every format.
   consteval Scalar plain(double x) const { return signal(x); }
 
-  /// AdcConfig::per_eighth of a converter that reads so many A or V per count.
+  /// AdcConfig::per_eighth of a converter with x A or V per count.
   consteval Gain<Scalar> amperes_per_count(double x) const { return per_eighth(x, current_A); }
   consteval Gain<Scalar> volts_per_count(double x) const { return per_eighth(x, voltage_V); }
 
-  /// Speed by Hall edges against a free-running timer (hall_speed.hpp); `edges` 1..6, 6 is an electrical
-  /// turn.
+  /// Speed by Hall edges against a free-running timer (hall_speed.hpp). `edges`: 1..6; 6 is an electrical turn.
   consteval HallSpeedConfig<Scalar> hall_speed(int pole_pairs, double timer_Hz, std::uint32_t timeout_ticks,
                                                std::uint8_t edges) const {
     constexpr double pi = 3.14159265358979323846;

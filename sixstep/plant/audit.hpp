@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The audit holds a run to the laws of every run (model.md 5): energy balances, currents sum to zero, no
-// diode conducts backwards. It integrates the segments' own polynomials, so its residuals are rounding.
+// Checks each run against the laws of every run (model.md 5): the energy balances close, the currents sum to
+// zero, no diode conducts backwards. It integrates the segments' own polynomials: its residuals are rounding.
 #pragma once
 #include <algorithm>
 
@@ -8,7 +8,7 @@
 
 namespace sixstep::plant {
 
-/// Energy over a run, J. The residuals are what does not close, as parts of `scale`.
+/// Energy over a run, J. A residual is the error of its balance as a part of `scale`.
 struct EnergyBook {
   double supplied = 0.0;  ///< integral U_s i_dc dt, into the bridge
   double copper = 0.0;
@@ -16,14 +16,13 @@ struct EnergyBook {
   double magnetic = 0.0;  ///< change of (1/2) L_s sum i^2
   double air_gap = 0.0;   ///< integral T_e w dt
   double friction = 0.0;
-  double iron =
-      0.0;  ///< what of friction is the motor's iron, where somebody tells it apart (study/measure/iron_gauge.hpp)
+  double iron = 0.0;  ///< iron losses, a part of friction; only study/measure/iron_gauge.hpp computes them
   double load = 0.0;
   double kinetic = 0.0;  ///< change of (1/2) J w^2
   double brake_resistor =
-      0.0;             ///< heat of the resistor across the bus: beside the books, which begin at the bridge
+      0.0;  ///< heat of the resistor across the bus; not in the balances, which begin at the bridge
   double moved = 0.0;  ///< sum of |U_s i_dc|, |T_e w|, |T_load w| and |T_cogging w|, integrated per segment
-  double scale = 0.0;  ///< what moved, or what was stored where that is more: the residuals' unit
+  double scale = 0.0;  ///< the larger of `moved` and the stored energy; unit of the residuals
   double electrical_residual = 0.0;
   double mechanical_residual = 0.0;
 };
@@ -39,20 +38,20 @@ template <class Real>
 class Audit {
  public:
   void segment(const Plant<Real>& plant, Real s) { take(plant, segment_energy(plant, s)); }
-  /// The same with the segment's energies at hand.
+  /// The same for a segment whose energies are already computed.
   [[gnu::always_inline]] void take(const Plant<Real>& plant, const SegmentEnergy<Real>& e);
   EnergyBook energy() const;
   const Laws& laws() const { return laws_; }
 
  private:
-  /// What the balance needs of an instant, currents in the order of the legs' law: the stored energies are made of it
-  /// once, at the end.
+  /// Currents (in the order of the legs' law) and speed at an instant. The stored energies are computed from them
+  /// only once, at the end.
   struct Point {
     PerLeg<Real> i{};
     Real w = 0;
   };
   using Pair = series::Pair<Real>;
-  /// Side by side, each with what its rounding has left.
+  /// Two sums side by side, each with its rounding remainder.
   struct TwoSums {
     Pair value{}, low{};
     void add(Real first, Real second) { series::add_compensated(value, low, Pair{first, second}); }
@@ -69,7 +68,7 @@ class Audit {
 
   bool begun_ = false;
   Real inv_L_ = 1, inv_J_ = 1;
-  Real noise_ = 0;  ///< energy of a current and a speed at their noise: less than that cannot be balanced
+  Real noise_ = 0;  ///< energy of a current and a speed at noise level: a smaller energy cannot be balanced
   Point start_, end_;
   TwoSums supplied_copper_, devices_air_gap_, friction_load_;
   Real moved_ = 0;
@@ -93,7 +92,7 @@ inline typename Audit<Real>::Point Audit<Real>::begin_of(const Expansion<Real>& 
   return {{y.i[law.leg[0]][0], y.i[law.leg[1]][0], y.i[law.leg[2]][0]}, y.w[0]};
 }
 
-/// The expansion knows where the segment ends, and the state goes on from there (Plant::advance()).
+/// The expansion has the increments until the segment's end, from which the state continues (Plant::advance()).
 template <class Real>
 inline typename Audit<Real>::Point Audit<Real>::end_of(const Expansion<Real>& y, const LegsLaw<Real>& law,
                                                        const Point& begin) {
@@ -110,7 +109,7 @@ inline void Audit<Real>::check_laws(const LegsLaw<Real>& law, const Point& begin
   const auto raise = [](double& worst, Real v) { worst = std::max(worst, static_cast<double>(v)); };
   const auto sum = [](const Point& p) { return detail::abs(p.i[0] + p.i[1] + p.i[2]); };
   raise(laws_.current_sum_A, std::max(sum(begin), sum(end)));
-  // What floats stands last, and has not moved.
+  // A floating leg stands last, and its current has not changed.
   if (law.connected < 3) raise(laws_.floating_current_A, detail::abs(begin.i[2]));
   if (law.connected < 2)
     raise(laws_.floating_current_A, std::max(detail::abs(begin.i[0]), detail::abs(begin.i[1])));
@@ -125,8 +124,8 @@ inline void Audit<Real>::take(const Plant<Real>& plant, const SegmentEnergy<Real
   const Expansion<Real>& y = plant.expansion();
   const Constants<Real>& c = plant.constants();
   if (!begun_) begin(plant);
-  // A shaft that was clamped while it turned has left its kinetic energy in the clamp, also where that let it
-  // go at the same instant. What standstill snaps to zero is noise.
+  // A shaft that was clamped while it turned has left its kinetic energy in the clamp, even if the clamp opened
+  // at the same instant. A speed within noise that standstill sets to zero does not count.
   const bool stopped = y.w[0] == 0 && (c.locked || detail::abs(end_.w) > c.speed_noise);
   // mutant: stopped && end_.w != 0 => false
   if (stopped && end_.w != 0) friction_load_.add(kinetic_energy(end_), Real(0));
@@ -145,7 +144,7 @@ EnergyBook Audit<Real>::energy() const {
   const Real magnetic_start = magnetic_energy(start_), magnetic_end = magnetic_energy(end_);
   const Real kinetic_start = kinetic_energy(start_), kinetic_end = kinetic_energy(end_);
   const Real magnetic = magnetic_end - magnetic_start, kinetic = kinetic_end - kinetic_start;
-  // A motor that coasts moves no energy through bridge or load; what it stored is then the yardstick.
+  // A coasting motor moves no energy through bridge or load; the scale is then its stored energy.
   const Real scale =
       std::max({moved_, magnetic_start + kinetic_start, magnetic_end + kinetic_end, noise_, Real(1e-300)});
   const Real supplied = supplied_copper_.value[0], copper = supplied_copper_.value[1];
@@ -166,8 +165,8 @@ EnergyBook Audit<Real>::energy() const {
           .mechanical_residual = d((air_gap - friction - load - kinetic) / scale)};
 }
 
-// Compiled once for processors with AVX, the energies inlined (plant/audit_avx.cpp): one segment after the other is what a run is. Others
-// call the energies that all share.
+// Compiled once for processors with AVX, with the energies inlined (plant/audit_avx.cpp), because a run consists of
+// segments. Other processors use the shared function segment_energy().
 template <>
 void Audit<double>::segment(const Plant<double>& plant, double s);
 #ifdef __x86_64__

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Back-EMF shapes as f_k = alpha_k phi0 + beta_k phi1 in each piece of a sector, so that two (or four) series
-// products serve all three phases. x is the angle since the sector's start, electrical rad.
+// Tables of the back-EMF's shape: f_k = alpha_k phi0 + beta_k phi1 in each piece of a sector, so that two (or four)
+// series products serve all three phases. x is the angle since the sector's start, electrical rad.
 //   trapezoid of any flat width: (phi0, phi1) = (1, x), up to three pieces per sector
 //   sine:                        (phi0, phi1) = (cos x, sin x), one piece
 #pragma once
@@ -16,10 +16,10 @@ template <class Real>
 struct EmfPiece {
   Real from = 0, to = 0;  ///< x within the sector
   PerLeg<Real> alpha{}, beta{};
-  PerLeg<Real> alpha_above{}, beta_above{};  ///< the same above the mean of the other two legs
+  PerLeg<Real> alpha_above{}, beta_above{};  ///< the same minus the mean of the other two legs
 };
 
-/// From a shape to a machine's back-EMF.
+/// Scales a shape to a machine's back-EMF.
 template <class Real>
 constexpr void scale(EmfPiece<Real>& piece, Real K_e) {
   for (int k = 0; k < 3; ++k) piece.alpha[k] *= K_e, piece.beta[k] *= K_e;
@@ -31,7 +31,7 @@ constexpr void scale(EmfPiece<Real>& piece, Real K_e) {
   }
 }
 
-/// The pieces of one sector in order of x; unused ones stand behind `count`.
+/// The pieces of one sector in order of x; entries from `count` on are unused.
 template <class Real>
 struct EmfSector {
   std::array<EmfPiece<Real>, 3> piece{};
@@ -43,7 +43,7 @@ using EmfTable = std::array<EmfSector<Real>, 6>;
 
 namespace detail {
 
-/// Angle of sector start against the top's centre of phase k, degrees in (-180, 180]: 60 s - 60 - 120 k.
+/// Angle from the centre of phase k's top to the sector's start, degrees in (-180, 180]: 60 s - 60 - 120 k.
 constexpr int centre_distance_deg(int sector, int k) {
   int d = (60 * sector - 60 - 120 * k) % 360;
   if (d <= -180) d += 360;
@@ -51,8 +51,8 @@ constexpr int centre_distance_deg(int sector, int k) {
   return d;
 }
 
-/// f = 1 on the top, -1 on the bottom, (90 - |phi|)/(90 - w/2) on the ramps (model.md 1), linear over one
-/// piece whose middle lies `middle_deg` behind the sector's start.
+/// f = 1 on the top, -1 on the bottom, (90 - |phi|)/(90 - w/2) on the ramps (model.md 1). It is linear over one
+/// piece, whose middle is `middle_deg` after the sector's start.
 template <class Real>
 constexpr void trapezoid_line(int start_deg, Real middle_deg, Real flat_deg, Real& alpha, Real& beta) {
   Real phi = Real(start_deg) + middle_deg;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// These pure functions are the circuit law of the three-leg bridge on a star winding (model.md 2): the
-// connection of each leg, its pole voltage against the negative rail, and the star point's voltage.
-// settle.hpp decides the connections.
+// Circuit law of the three-leg bridge on a star winding as pure functions (model.md 2): the connection of each
+// leg, its pole voltage against the negative rail, and the star point's voltage. settle.hpp decides the
+// connections that gates and currents leave open.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -12,13 +12,13 @@
 
 namespace sixstep::plant {
 
-/// What a phase's terminal hangs on. A leg has exactly one of these at any time.
+/// How a phase's terminal is connected. A leg has exactly one of these connections at any time.
 enum class Connection : std::uint8_t { floating, high_switch, low_switch, high_diode, low_diode };
 
 /// The connections of legs a, b, c.
 using Legs = std::array<Connection, 3>;
 
-/// Phase quantities by index, for loops over the legs.
+/// Quantities of the three phases by index, for loops over the legs.
 template <class Real>
 using PerLeg = std::array<Real, 3>;
 
@@ -31,11 +31,11 @@ constexpr int connected_count(const Legs& legs) {
   return int{!is_floating(legs[0])} + int{!is_floating(legs[1])} + int{!is_floating(legs[2])};
 }
 
-/// model.md 2's table for a MOSFET leg: the gated channel carries both directions alone; without a gate the
-/// current's sign names the diode, and no current, up to `noise`, leaves the leg floating (whether it stays
-/// so is a question of the voltages). Both gates on is shoot-through and has no connection: shoots_through()
-/// comes first. Written with branches: foreseen, they let a segment's series begin before the currents' signs
-/// are known.
+/// Table of model.md 2 for a MOSFET leg. A gated channel carries both directions alone. Without a gate, the
+/// current's sign selects the diode; a current of at most `noise` leaves the leg floating, and settle() decides
+/// from the voltages whether it stays so. Both gates on is a shoot-through and has no connection: call
+/// shoots_through() first. Branches are used because the processor predicts them: a segment's series can begin
+/// before the currents' signs are computed.
 template <class Real>
 constexpr Connection connection_of(bool gate_high, bool gate_low, Real current, Real noise = 0) {
   if (gate_high) return Connection::high_switch;
@@ -44,7 +44,7 @@ constexpr Connection connection_of(bool gate_high, bool gate_low, Real current, 
   return current < -noise ? Connection::high_diode : Connection::floating;
 }
 
-/// v of a leg on its low diode, -v on its high one: a current that the diode carries is positive then.
+/// v for a leg on its low diode, -v on its high one, so that a current in the diode's direction is positive.
 template <class Real>
 constexpr Real along_diode(Connection diode, Real v) {
   return diode == Connection::low_diode ? v : -v;
@@ -78,7 +78,7 @@ constexpr PoleTerms<Real> pole_terms(Connection c, const Devices& devices) {
   return {};
 }
 
-/// By Connection.
+/// Pole terms of each Connection.
 template <class Real>
 using PoleTable = std::array<PoleTerms<Real>, 5>;
 
@@ -97,8 +97,8 @@ constexpr Real pole_voltage(const PoleTerms<Real>& terms, Real U_s, Real i) {
 }
 
 /// Star point's voltage against the negative rail (model.md (5)): u_n = (1/|S|) sum_{k in S} (u_k - e_k).
-/// With |S| = 0 it is free; it is then put where the highest and the lowest terminal keep the same distance
-/// from their rails, so that "a floating terminal beyond a rail" says max e - min e > U_s + 2 V_f there too.
+/// With |S| = 0 it is undefined. It is then set so that the highest and the lowest terminal are equally far from
+/// their rails: "a floating terminal beyond a rail" then means max e - min e > U_s + 2 V_f.
 template <class Real>
 constexpr Real star_voltage(const Legs& legs, const PoleTable<Real>& poles, Real U_s, const PerLeg<Real>& i,
                             const PerLeg<Real>& e) {
@@ -115,7 +115,7 @@ constexpr Real star_voltage(const Legs& legs, const PoleTable<Real>& poles, Real
   return (U_s - highest - lowest) / Real(2);
 }
 
-/// All three pole voltages: the connected legs by their devices, the floating ones at u_n + e_k (model.md 2).
+/// All three pole voltages: connected legs by their devices, floating ones at u_n + e_k (model.md 2).
 template <class Real>
 constexpr PerLeg<Real> pole_voltages(const Legs& legs, const PoleTable<Real>& poles, Real U_s,
                                      const PerLeg<Real>& i, const PerLeg<Real>& e) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each of the six switches and six diodes loses (model.md 8): conduction from the segment's series, and the energies of
-// switching, which act on nothing but temperatures and efficiency. Seen from outside, segment by segment, of either kernel.
+// Losses of each of the six switches and six diodes (model.md 8): conduction from the segment's series, and switching
+// energies, which affect only temperatures and efficiency. Computed segment by segment from either kernel's plant.
 //
-// A switch that takes over a current from the other switch's diode costs E_on, and that diode E_rr; one that turns off a
-// current costs E_off; nothing at no current, or where the current runs in the switch's own diode's direction. A channel
-// that carries its diode's direction counts as that diode: any pause between the two leaves the current there.
+// A switch that takes over a current from the other switch's diode loses E_on, and that diode E_rr; a switch that
+// turns off a current loses E_off. Nothing is lost without current, or where the current flows in the direction of
+// the switch's own diode. A channel that carries its own diode's direction counts as that diode, because any pause
+// between the two leaves the current there.
 #pragma once
 #include <array>
 
@@ -12,25 +13,25 @@
 
 namespace sixstep::plant {
 
-/// J per volt of the bus and ampere of the current, and J per volt whatever the current.
+/// J per volt of the bus and ampere of the current (_J_VA), and J per volt independent of the current (_J_V).
 struct SwitchingLaw {
   double on_J_VA = 0.0, off_J_VA = 0.0, recovery_J_VA = 0.0, on_J_V = 0.0;
   bool any() const { return on_J_VA > 0 || off_J_VA > 0 || recovery_J_VA > 0 || on_J_V > 0; }
 };
 
-/// J, of one switch with its diode.
+/// Energy lost in one switch with its diode, J.
 struct DeviceEnergy {
   double conduction = 0.0, turn_on = 0.0, turn_off = 0.0;  ///< the transistor's
   double diode = 0.0, recovery = 0.0;                      ///< its antiparallel diode's
 
   double switching() const { return turn_on + turn_off + recovery; }
-  /// What warms the switch's junction: a MOSFET's body diode is in the same crystal, an IGBT's diode is not.
+  /// Energy that heats the switch's junction: a MOSFET's body diode is in the same crystal, an IGBT's diode is not.
   double in_crystal(bool igbt) const {
     return conduction + turn_on + turn_off + (igbt ? 0.0 : diode + recovery);
   }
 };
 
-/// By leg; T1, T3, T5 are the upper ones.
+/// Devices of one leg: upper T1, T3, T5; lower T2, T4, T6.
 struct LegDevices {
   DeviceEnergy upper{}, lower{};
 };
@@ -40,8 +41,8 @@ class DeviceLosses {
  public:
   explicit DeviceLosses(const SwitchingLaw& law = {}) : law_(law) {}
 
-  /// A segment begins: what changed of the legs since the one before has switched `i` at the bus voltage U. With `counts` false
-  /// nothing is counted, and the legs are noted.
+  /// Begins a segment: each leg whose connection has changed since the last segment has switched current i at bus
+  /// voltage U. With `counts` false no energy is counted; the connections are only stored.
   template <class Real>
   void begin(const Legs& legs, const PerLeg<Real>& i, Real U, bool counts = true) {
     if (known_ && counts)
@@ -51,7 +52,7 @@ class DeviceLosses {
     legs_ = legs;
     known_ = true;
   }
-  /// What leg k lost over a segment in its device, J.
+  /// Adds the energy, J, that leg k lost in its device over a segment.
   void conducted(std::size_t k, Connection by, double energy) {
     LegDevices& leg = energies_[k];
     if (is_floating(by)) return;
@@ -68,13 +69,13 @@ class DeviceLosses {
   void clear() { energies_ = {}; }
 
  private:
-  /// Which rail the current hangs on: where it goes from `before` to `after`, the upper switch carries a positive one forward.
+  /// Counts a change of connection. A positive current is carried forward by the upper switch, a negative one by the
+  /// lower.
   void switched(Connection before, Connection after, double i, double U, LegDevices& leg) const {
     if (i == 0.0) return;
     const bool from_high = is_high(before), to_high = is_high(after), positive = i > 0;
-    DeviceEnergy& forward =
-        positive ? leg.upper : leg.lower;  // whose transistor carries this current forward
-    DeviceEnergy& backward = positive ? leg.lower : leg.upper;  // whose diode carries it
+    DeviceEnergy& forward = positive ? leg.upper : leg.lower;   // its transistor carries this current forward
+    DeviceEnergy& backward = positive ? leg.lower : leg.upper;  // its diode carries this current
     const double VA = U * (positive ? i : -i);
     const bool carried = !is_floating(before) && from_high == positive && !is_diode(before);
     const bool carries = !is_floating(after) && to_high == positive && !is_diode(after);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoders on a shaft (model.md 10), of an angle that is counted in sectors so that no turn is ever too many.
+// Encoders on a shaft (model.md 10). The angle is counted in sectors, so that it stays exact over any number of turns.
 //
 //   A = [frac(N theta/2 pi) < 1/2], B the same a quarter of a line later, Z over the first line of a turn
 //   counted x4: floor(4 N theta/2 pi);   absolute: the Gray code of floor(2^n frac(theta/2 pi))
@@ -11,7 +11,7 @@
 
 namespace sixstep::plant {
 
-/// theta = (60 deg sector + x)/p, mechanical: of a State its sector, x and the machine's pole pairs.
+/// theta = (60 deg sector + x)/p, mechanical: sector and x of a State, and the machine's pole pairs.
 template <class Real>
 struct ShaftAngle {
   std::int64_t sector = 0;
@@ -19,10 +19,10 @@ struct ShaftAngle {
   std::int64_t pole_pairs = 1;
 };
 
-/// floor(parts theta/2 pi): in which of equal parts of a turn a shaft stands, counted over all turns.
+/// floor(parts theta/2 pi): number of the equal part of a turn in which the shaft is, counted over all turns.
 template <class Real>
 std::int64_t parts_of_turn(const ShaftAngle<Real>& at, std::int64_t parts) {
-  // Whole sectors in whole numbers: theta/2 pi = (sector + x/60 deg)/(6 p), and x adds less than two parts' worth of sectors.
+  // Whole sectors are computed in integers: theta/2 pi = (sector + x/60 deg)/(6 p); x adds less than one sector.
   const std::int64_t per_turn = 6 * at.pole_pairs, turns = at.sector / per_turn, rest = at.sector % per_turn;
   const std::int64_t whole = parts * rest / per_turn, left = parts * rest % per_turn;
   const Real more = (static_cast<Real>(left) + static_cast<Real>(parts) * (at.x / Real(base::sector_rad))) /
@@ -30,26 +30,26 @@ std::int64_t parts_of_turn(const ShaftAngle<Real>& at, std::int64_t parts) {
   return turns * parts + whole + static_cast<std::int64_t>(std::floor(more));
 }
 
-/// In which quarter of a line an incremental encoder of N lines shows the shaft, counted over all turns.
+/// Quarter of a line at which an incremental encoder of N lines is, counted over all turns.
 template <class Real>
 std::int64_t encoder_quarter(const ShaftAngle<Real>& at, std::int64_t lines) {
   return parts_of_turn(at, 4 * lines);
 }
 
-/// The three lines of one of N lines in a quarter of a line, as bits A 4, B 2, Z 1.
+/// Output of an encoder of N lines in a quarter of a line: bits A 4, B 2, Z 1.
 inline std::uint8_t encoder_lines_in(std::int64_t quarter, std::int64_t lines) {
   const std::int64_t in_turn = ((quarter % (4 * lines)) + 4 * lines) % (4 * lines), in_line = in_turn % 4;
   const bool a = in_line < 2, b = in_line == 1 || in_line == 2, z = in_turn < 4;
   return static_cast<std::uint8_t>(a << 2 | b << 1 | static_cast<int>(z));
 }
 
-/// The same of an angle.
+/// The same for an angle.
 template <class Real>
 std::uint8_t encoder_lines(const ShaftAngle<Real>& at, std::int64_t lines) {
   return encoder_lines_in(encoder_quarter(at, lines), lines);
 }
 
-/// What an absolute encoder of `bits` shows.
+/// Output of an absolute encoder of `bits` bits, in Gray code.
 template <class Real>
 std::uint32_t gray_code(const ShaftAngle<Real>& at, int bits) {
   const std::int64_t parts = std::int64_t{1} << bits;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Taylor kernel computes all coefficients of a segment, order by order, until rounding level is reached.
+// Computes the Taylor coefficients of a segment, order by order, until rounding level is reached.
 #pragma once
 #include <type_traits>
 #include <utility>
@@ -12,15 +12,15 @@ namespace sixstep::plant {
 
 namespace detail {
 
-/// Any finite excess is gone after fewer: the last two terms fall by 2^15 at least with each halving.
+/// Bound of the halvings. Each divides the last two terms by at least 2^15, so any finite excess ends sooner.
 inline constexpr int most_halvings = 2000;
 
-/// Halves the length until the last two terms are below rounding; exact, since only powers of two are used.
+/// Halves the length until the last two terms are below rounding. Exact, since only powers of two are used.
 template <class Real>
 void shorten(Expansion<Real>& out, Real excess_last, Real excess_before) {
   int halvings = 0;
   const int n = out.degree;
-  // A term that is infinite stays so: the length then ends at nothing, and the run without progress.
+  // An infinite term stays infinite: the length then becomes 0, and the run stops for lack of progress.
   for (Real a = excess_last, b = excess_before; (a > 1 || b > 1) && halvings < most_halvings; ++halvings) {
     for (int j = 0; j < n; ++j) a /= 2;
     // mutant: n - 1 => n
@@ -36,12 +36,12 @@ void shorten(Expansion<Real>& out, Real excess_last, Real excess_before) {
   out.h *= half;
 }
 
-/// One pass for the four series that always move; in even and odd powers, so that the sums wait less for each
-/// other.
+/// Increments over the segment until s. One pass for the four series that always change, split into even and odd
+/// powers, so that the sums depend less on each other.
 template <class Real>
 Increments<Real> increments(const Expansion<Real>& y, const LegsLaw<Real>& law, Real s) {
   const std::array<const Real*, 4> c{y.i[law.leg[0]].data(), y.i[law.leg[1]].data(), y.w.data(), y.x.data()};
-  std::array<Real, 4> near, far;  // near: the powers that the loop ends beside
+  std::array<Real, 4> near, far;  // near: the powers at whose low end the loop stops
   const int n = y.degree;
   for (int k = 0; k < 4; ++k) far[k] = c[k][n], near[k] = c[k][n - 1];
   for (int j = n - 2; j >= 2; j -= 2)
@@ -59,13 +59,13 @@ Increments<Real> increments(const Expansion<Real>& y, const LegsLaw<Real>& law, 
   return {sum[0], sum[1], sum[2], sum[3]};
 }
 
-/// How far the last two terms stand above the rounding level of their states, 1 = at it.
+/// Size of the last two terms relative to the rounding level of their states; 1 is that level.
 template <class Real>
 struct Convergence {
   Real amp_limit, speed_limit, volt_limit;
   Real before = 0, last = 0;
-  /// From rest and without current, torque and current in turn may leave the terms 1, 4, 7, 10 alone: no zero
-  /// says anything then, and all orders are taken.
+  /// At rest and without current. Torque and current may then alternate so that only the terms 1, 4, 7, 10 are
+  /// nonzero: a zero term proves nothing, and all orders are computed.
   bool from_nothing;
 
   Convergence(const Constants<Real>& c, const Expansion<Real>& y)
@@ -74,8 +74,8 @@ struct Convergence {
         volt_limit(c.volt_limit),
         from_nothing(y.w[0] == 0 && y.i[0][0] == 0 && y.i[1][0] == 0) {}
 
-  /// A sine's shape counts too: without current it alone decides how far a floating terminal's voltage is
-  /// known.
+  /// The sine's shape counts too: without current it alone decides how exactly a floating terminal's voltage is
+  /// computed.
   template <bool sine, bool bus>
   void look(const SeriesBuilder<Real>& y, int n, Real currents, Real speed) {
     before = last;
@@ -83,14 +83,14 @@ struct Convergence {
     if constexpr (bus) last += abs(y.bus[n]) * volt_limit;
     if constexpr (sine) last += (abs(y.phi0[n]) + abs(y.phi1[n])) * terms_per_scale<Real>;
   }
-  /// Of a linear system y' = A y term n + 1 is at most h |A|/(n + 1) of term n, and useful_length() keeps
-  /// h |A| <= 1/2: behind a term of 8 levels all others together are below one. One small term may be a
-  /// symmetry's zero; a small one after one not much larger is the end of the series.
+  /// For a linear system y' = A y, term n + 1 is at most h |A|/(n + 1) of term n, and useful_length() keeps
+  /// h |A| <= 1/2: after a term of 8 levels, all later terms together are below one level. A single small term may
+  /// be a zero by symmetry; a small term after one that is not much larger is the end of the series.
   // mutant: !from_nothing => true
   bool reached() const { return last < 8 && before < 4096 && !from_nothing; }
 };
 
-/// What one segment's recurrence works with: all in registers or on the stack.
+/// Working data of one segment's recurrence, all in registers or on the stack.
 template <bool bus, class Currents, class Real>
 struct Recurrence {
   Rotor<Real> rotor;
@@ -114,12 +114,12 @@ struct Recurrence {
     currents.start(out, y);
   }
 
-  /// The increments over the whole length: the first terms last, which are the largest.
+  /// The increments over the whole length. The first terms are added last because they are the largest.
   void add_up(Expansion<Real>& out) const {
     // mutant: y.later_i => Real(0)
     out.end = {y.i[1] + y.later_i, y.i_2[1] + y.later_i_2, y.w[1] + y.later_w, y.x[1] + y.later_x};
   }
-  /// Terms n + 1 of all series from terms n; true where that was enough.
+  /// Computes terms n + 1 of all series from terms n; true if the series has converged.
   template <int n>
   [[gnu::always_inline]] inline bool take_order(Expansion<Real>& out) {
     const Real f = y.h * Real(1.0L / (n + 1));
@@ -132,7 +132,7 @@ struct Recurrence {
       y.later_w += y.w[n + 1];
       y.later_x += y.x[n + 1];
     }
-    if constexpr (n < 4) return false;  // no segment worth taking needs fewer, and each look costs
+    if constexpr (n < 4) return false;  // nearly every segment needs more terms, and each check costs time
     convergence.template look<Currents::sine_shape, bus>(y, n + 1, size, size_w);
     if (n < 5 || !convergence.reached()) return false;
     out.degree = n + 1;
@@ -144,7 +144,7 @@ struct Recurrence {
     out.w[n + 1] = y.w[n + 1];
     out.x[n + 1] = y.x[n + 1];
     out.torque[n] = y.torque[n];
-    if constexpr (bus) out.bus[n + 1] = y.bus[n + 1];  // of a stiff bus all but the first stay zero
+    if constexpr (bus) out.bus[n + 1] = y.bus[n + 1];  // for a stiff bus all terms but the first stay zero
     if constexpr (Currents::sine_shape) {
       out.phi0[n + 1] = y.phi0[n + 1];
       out.phi1[n + 1] = y.phi1[n + 1];
@@ -152,7 +152,7 @@ struct Recurrence {
   }
 };
 
-/// Order by order until the last two terms are below rounding, or the degree is used up.
+/// Computes order by order until the last two terms are below rounding, or the highest degree is reached.
 template <bool bus, class Currents, class Shape, class Real>
 [[gnu::always_inline]] inline void recurrence_with(const Constants<Real>& c, const Mode& mode,
                                                    const LegsLaw<Real>& law, const Shape& shape,
@@ -175,9 +175,8 @@ template <bool bus, class Currents, class Shape, class Real>
   out.end = increments(out, law, Real(1));
 }
 
-/// For which processors a recurrence is compiled: for all of its kind, or for those x86-64 with AVX, whose
-/// instructions name three operands and move a fifth less about. The same operations in the same order, hence
-/// the same bits.
+/// Processors for which a recurrence is compiled: all, or x86-64 with AVX, whose three-operand instructions save a
+/// fifth of the moves. Both do the same operations in the same order, so the bits are the same.
 enum class Build : std::uint8_t { any, avx };
 
 template <Build build, bool bus, class Currents, class Shape, class Real>
@@ -232,8 +231,8 @@ void expand_sine(const Constants<Real>& c, const Mode& mode, Expansion<Real>& y)
   expand_shape<true, Build::any>(c, mode, y);
 }
 
-// Unrolled, this is most of what a plant costs to compile: for double it is compiled once, in expand.cpp,
-// which also chooses the build.
+// The unrolled code is most of the time to compile a plant: for double it is compiled once, in expand.cpp, which
+// also chooses the build.
 void expand_trapezoid(const Constants<double>& c, const Mode& mode, Expansion<double>& y);
 void expand_sine(const Constants<double>& c, const Mode& mode, Expansion<double>& y);
 extern template void expand_shape<false, Build::any>(const Constants<double>&, const Mode&,
@@ -241,7 +240,7 @@ extern template void expand_shape<false, Build::any>(const Constants<double>&, c
 extern template void expand_shape<true, Build::any>(const Constants<double>&, const Mode&,
                                                     Expansion<double>&);
 #ifdef __x86_64__
-/// Of this processor, asked once as the program starts.
+/// True if this processor has AVX; checked once at program start.
 extern const bool has_avx;
 extern template void expand_shape<false, Build::avx>(const Constants<double>&, const Mode&,
                                                      Expansion<double>&);
@@ -251,7 +250,7 @@ extern template void expand_shape<true, Build::avx>(const Constants<double>&, co
 
 }  // namespace detail
 
-/// Expands the state in the given mode over `wanted` seconds, or over as much of it as full accuracy allows.
+/// Expands the state in the given mode over `wanted` seconds, or over less where full accuracy requires it.
 template <class Real>
 void expand(const Constants<Real>& c, const State<Real>& state, const Mode& mode, Real wanted,
             Expansion<Real>& y) {
@@ -270,8 +269,8 @@ void expand(const Constants<Real>& c, const State<Real>& state, const Mode& mode
   }
 }
 
-/// `wanted`, or less where that would be too long for one series: about half of the fastest time constant
-/// present. A segment within it, as nearly all are, does not wait for the division.
+/// `wanted`, or less where one series cannot cover it: about half of the fastest time constant. Nearly all
+/// segments are shorter and need no division.
 template <class Real>
 Real useful_length(const Constants<Real>& c, const State<Real>& state, Real wanted) {
   const Real rate = c.steady_rate + c.pole_pairs * detail::abs(state.w);

@@ -12,12 +12,12 @@
 
 namespace sixstep::plant {
 
-/// Parameters as the recurrence wants them, and the scales that say what rounding noise is.
+/// Parameters in the form that the recurrence uses, and the scales that define rounding noise.
 template <class Real>
 struct Constants {
   Real R, inv_L, inv_J, B, pole_pairs, inv_pole_pairs, coulomb, breakaway;
   Real V_0, inv_R_b, inv_C;  // inv_C = 0: stiff bus
-  Real load = 0;             // T_load at present
+  Real load = 0;             // T_load now
   Devices devices;
   PoleTable<Real> poles;
   LegsLaws<Real> legs;
@@ -25,17 +25,17 @@ struct Constants {
   bool sine = false, locked = false, dry_friction = false, source_sinks = true;
   Real volt_scale, amp_scale, speed_scale, torque_scale;
   Real volt_noise, amp_noise, speed_noise, torque_noise;  // noise_of() these scales
-  Real steady_rate;                         // the part of the fastest rate that does not change, 1/s
-  Real amp_limit, speed_limit, volt_limit;  // 1 / rounding level of a term of the series
+  Real steady_rate;                                       // constant part of the fastest rate, 1/s
+  Real amp_limit, speed_limit, volt_limit;                // 1 / rounding level of a term of the series
   Real K_e;
 };
 
-/// A term of a series is nothing once it is this many times smaller than its state's natural scale: well
-/// below the last bit, so that truncation never adds up.
+/// A term of a series counts as zero when it is this many times smaller than its state's natural scale: well
+/// below the last bit, so that truncation errors never add up.
 template <class Real>
 inline constexpr Real terms_per_scale = Real(1LL << 53) * (sizeof(Real) > 8 ? 2048 : 1);
 
-/// What moves until a segment's end; currents of the first and second connected leg.
+/// Changes until a segment's end: currents of the first and second connected leg, A; speed; angle.
 template <class Real>
 struct Increments {
   Real i = 0, i_2 = 0, w = 0, x = 0;
@@ -50,14 +50,14 @@ struct Expansion {
   series::Coefficients<Real> w, x, bus, torque;
   series::Coefficients<Real> phi0, phi1;  ///< sine only: cos x, sin x
   Increments<Real> end;
-  PerLeg<Real> reach_i;  ///< no series moves further from its first value than this
+  PerLeg<Real> reach_i;  ///< bound: no series moves further from its first value than this
   Real reach_w = 0, reach_x = 0;
-  Real later_x = 0;  ///< the same of x without its first term
+  Real later_x = 0;  ///< the bound of x without its first term
 };
 
 namespace detail {
 
-/// One instruction; written as a comparison it would cost a branch, to keep the sign of zero.
+/// One instruction. A comparison would need a branch, to keep the sign of zero.
 template <class Real>
 inline Real abs(Real v) {
   return std::fabs(v);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A guard stays >= 0 as long as the present mode holds. Each is a polynomial of the same series as the
-// dynamics, with the rounding level below which its coefficients say nothing. The order is that of ties:
+// Guards of a mode: each stays >= 0 as long as the present mode holds. It is a polynomial of the same series as
+// the dynamics, with the rounding level below which its coefficients have no meaning. Their order decides ties:
 // current zero, standstill, sector edge, then rails and the rest (model.md 4b).
 #pragma once
 #include "sixstep/plant/expand.hpp"
@@ -9,7 +9,7 @@
 
 namespace sixstep::plant {
 
-/// Guard identities; k is the leg. The rig numbers its own from `first_free`.
+/// Guard identities; k is the leg. The rig's own guards begin at `first_free`.
 namespace guard {
 inline constexpr int current_zero = 0;  // + k
 inline constexpr int standstill = 3;
@@ -21,20 +21,19 @@ inline constexpr int floating_star = 12;  // + 3 j + k: e_j - e_k against the ra
 inline constexpr int breakaway_forward = 21;
 inline constexpr int breakaway_backward = 22;
 inline constexpr int source = 23;
-inline constexpr int brake = 24;       // of the general kernel, and the next
+inline constexpr int brake = 24;       // this and the next ones: general kernel only
 inline constexpr int load_turns = 25;  // the load's speed changes its sign
-inline constexpr int gear_turns = 26;  // the torque through a lossy gear does
-inline constexpr int faster = 27;      // the load's speed passes a point of its torque's table, and
+inline constexpr int gear_turns = 26;  // the torque through a lossy gear changes its sign
+inline constexpr int faster = 27;      // the load's speed passes a point of its torque's table upwards
 inline constexpr int slower = 28;
-inline constexpr int fuller = 29;  // the charge one of its voltage's
+inline constexpr int fuller = 29;  // the charge passes a point of its voltage's table upwards
 inline constexpr int emptier = 30;
 inline constexpr int pulse = 31;      // the mains' next pulse begins
-inline constexpr int saturated = 32;  // + 1: the current along the magnet's axis is where the model ends
+inline constexpr int saturated = 32;  // + 1: the current along the magnet's axis reaches the model's bound
 inline constexpr int first_free = 34;
 }  // namespace guard
 
-/// Noise = 64 eps x natural scale (pitfall 6), widened by `slack` where rounding left no mode
-/// consistent.
+/// Noise = 64 eps x natural scale (pitfall 6), times `slack` where rounding made every mode inconsistent.
 template <class Real>
 constexpr Real noise_of(Real scale, Real slack) {
   constexpr Real eps =
@@ -44,8 +43,8 @@ constexpr Real noise_of(Real scale, Real slack) {
 
 namespace detail {
 
-/// What is not zero now has a sign: snap() left nothing within the plain noise. Only what is about to leave
-/// zero is doubted further; else a slow rotor would be neither moving nor at rest.
+/// Factor on the noise. A nonzero value has a sign: snap() left nothing within the plain noise. Only a value that
+/// starts at zero gets `slack`; otherwise a slow rotor would be neither moving nor at rest.
 template <class Real>
 Real doubt(const series::Coefficients<Real>& c, Real slack) {
   return c[0] != 0 ? Real(1) : slack;
@@ -60,7 +59,7 @@ series::Coefficients<Real> affine(const series::Coefficients<Real>& c, int degre
   return out;
 }
 
-/// Few segments bring a terminal near a rail: what they need stands by itself, so that the others stay short.
+/// Visits the guards of a terminal near a rail. Few segments need them: not inlined, so that the others stay short.
 template <class Real, class Visit>
 [[gnu::noinline]] void near_rail(const Constants<Real>& c, const PoleLaw<Real>& law, const Expansion<Real>& y,
                                  int k, bool low, bool high, Real noise, Visit&& visit) {
@@ -131,7 +130,7 @@ void rotor_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Re
   }
 }
 
-/// Of a current that names a diode: it goes on in its direction.
+/// Guard of a leg whose current selects its diode: the current keeps its direction.
 template <class Real, class Visit>
 [[gnu::always_inline]] inline void diode_guard(Connection diode, const Expansion<Real>& y, int k, Real noise,
                                                Visit&& visit) {
@@ -146,7 +145,7 @@ template <class Real, class Visit>
 
 }  // namespace detail
 
-/// Guards of the conduction, motion and supply modes: what settle() judges a mode by.
+/// Guards of the conduction, motion and supply modes, by which settle() checks a mode.
 template <class Real, class Visit>
 void mode_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Real>& y, Real slack,
                  Visit&& visit) {
@@ -175,7 +174,7 @@ void mode_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Rea
           y.degree, volt_noise);
 }
 
-/// The rotor stays within the present piece of the back-EMF.
+/// Guards of the present piece of the back-EMF: the rotor stays within it.
 template <class Real, class Visit>
 void edge_guards(const EmfPiece<Real>& piece, const Expansion<Real>& y, Visit&& visit) {
   const Real noise = noise_of(Real(base::sector_rad), Real(1));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Hall probes stand 120 electrical degrees apart, or 60; each is high over half a turn. The controller decodes
-// them by a table of its own, so that a wrong entry cannot cancel itself.
+// Codes of Hall probes that stand 120 or 60 electrical degrees apart; each is high over half a turn. The controller
+// decodes them with a separate table, so that a wrong entry cannot cancel itself.
 #pragma once
 #include <cstdint>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hall probes as they are mounted (model.md 10). Edge n, between sectors n - 1 and n, lies at
+// Hall probes with their mounting errors (model.md 10). Edge n, between sectors n - 1 and n, lies at
 //
-//   60 deg n + offset + own[n mod N],   N = 6 by the electrical turn, or 6 p by the mechanical one (magnets stray)
+//   60 deg n + offset + own[n mod N],   N = 6 per electrical turn, or 6 p per mechanical turn (magnets differ)
 //
-// and is shown h/2 further in the direction of motion. The start sector is that of the edges without hysteresis.
+// and appears h/2 later in the direction of motion. The start sector follows from the edges without hysteresis.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -13,11 +13,11 @@
 
 namespace sixstep::plant {
 
-/// Electrical degrees. Neighbouring edges must stay apart, hysteresis included.
+/// Electrical degrees. Neighbouring edges must not overlap, including hysteresis.
 struct HallPlacement {
   double offset_deg = 0.0;        ///< of all edges
-  double hysteresis_deg = 0.0;    ///< between an edge's places in either direction
-  std::vector<double> own_deg{};  ///< of each edge beside that, the edge at 0 degrees first; none, 6, or 6 p
+  double hysteresis_deg = 0.0;    ///< distance between an edge's positions in the two directions
+  std::vector<double> own_deg{};  ///< of each edge in addition, the edge at 0 degrees first; none, 6, or 6 p
 
   bool as_sectors() const { return offset_deg == 0.0 && hysteresis_deg == 0.0 && own_deg.empty(); }
 };
@@ -32,7 +32,7 @@ class HallProbes {
       : half_(rad(placement.hysteresis_deg) / 2) {
     for (const double own : placement.own_deg) edge_.push_back(rad(placement.offset_deg + own));
     if (edge_.empty()) edge_.push_back(rad(placement.offset_deg));
-    // A turn-round on an edge without hysteresis must leave what located it.
+    // Without hysteresis, a reversal on an edge must still leave the range in which the edge was located.
     const Real least = 4 * noise_of(Real(base::sector_rad), Real(1));
     if (half_ < least) half_ = least;
     shown_ = at.sector;
@@ -40,10 +40,11 @@ class HallProbes {
     while (edge(shown_ + 1, at.sector) <= at.x) ++shown_;
   }
 
-  /// The sector that the probes show, counted over all turns as State::sector is.
+  /// Sector according to the probes, counted over all turns as State::sector is.
   std::int64_t shown() const { return shown_; }
 
-  /// visit(ProbeEdge, series, degree, noise): each falls through zero where that edge is shown. `sector` is the rotor's own.
+  /// visit(ProbeEdge, series, degree, noise): each series falls through zero where that edge appears. `sector` is the
+  /// rotor's.
   template <class Visit>
   void guards(const Expansion<Real>& y, std::int64_t sector, Visit&& visit) const {
     const Real noise = noise_of(Real(base::sector_rad), Real(1));
@@ -57,14 +58,14 @@ class HallProbes {
 
  private:
   static Real rad(double deg) { return Real(deg) * Real(base::pi) / 180; }
-  /// Edge n, seen from the start of `sector`.
+  /// Angle of edge n from the start of `sector`.
   Real edge(std::int64_t n, std::int64_t sector) const {
     const auto edges = static_cast<std::int64_t>(edge_.size());
     const auto which = static_cast<std::size_t>((n % edges + edges) % edges);
     return static_cast<Real>(n - sector) * Real(base::sector_rad) + edge_[which];
   }
 
-  std::vector<Real> edge_;  ///< of each edge, less its 60 deg n
+  std::vector<Real> edge_;  ///< position of each edge minus its 60 deg n
   Real half_;
   std::int64_t shown_ = 0;
 };

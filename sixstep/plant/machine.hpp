@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The star machine's parameters in the frame of its equations (model.md 1): per phase, SI.
+// Parameters of the star machine, its shaft, devices and supply in the frame of the equations (model.md 1): per
+// phase, SI.
 #pragma once
 #include <cstdint>
 
@@ -11,39 +12,39 @@ struct Machine {
   double R_ohm = 0.0;     ///< phase resistance R_s
   double L_H = 0.0;       ///< phase inductance L_s = L - M
   double K_e_V_s = 0.0;   ///< peak phase EMF per mechanical rad/s, also N m/A per phase
-  double pole_pairs = 1;  ///< of a linear motor pi/tau, tau its pole pitch in m (model.md 7)
+  double pole_pairs = 1;  ///< for a linear motor pi/tau, tau its pole pitch in m (model.md 7)
   BackEmf back_emf = BackEmf::trapezoid;
   double flat_deg = 120.0;  ///< flat width of the trapezoid, electrical degrees, in (0, 180)
 };
 
-/// What turns: J dw/dt = T_e - B w - T_c(w) - T_load (model.md (4)).
+/// The mechanical side: J dw/dt = T_e - B w - T_c(w) - T_load (model.md (4)).
 struct Shaft {
   double J_kg_m2 = 0.0;
   double B_Nm_s = 0.0;      ///< viscous friction
   double coulomb_Nm = 0.0;  ///< T_c0 while turning
-  double static_Nm = 0.0;   ///< breakaway torque; counts where larger than coulomb_Nm
+  double static_Nm = 0.0;   ///< breakaway torque; used where larger than coulomb_Nm
   bool locked = false;      ///< the rotor is held
 };
 
-/// B w + T_c sign(w) at a speed, N m: positive against a forward rotation (a run's: torques.hpp).
+/// B w + T_c sign(w) at a speed, N m, positive against a forward rotation. For a run see torques.hpp.
 inline double friction_Nm(const Shaft& shaft, double speed_rad_s) {
   const double sign = speed_rad_s > 0 ? 1.0 : speed_rad_s < 0 ? -1.0 : 0.0;
   return shaft.B_Nm_s * speed_rad_s + sign * shaft.coulomb_Nm;
 }
 
-/// Switches and diodes (model.md 2), MOSFET: the gated channel carries both directions alone.
+/// Switches and diodes (model.md 2). As in a MOSFET, the gated channel carries both directions alone.
 struct Devices {
   double R_on_ohm = 0.0;
   double V_f_V = 0.0;
   double r_d_ohm = 0.0;
 };
 
-/// Stiff (C_F = 0) or a source V_0 behind R_b feeding C (model.md 2).
+/// Stiff supply (C_F = 0), or a source V_0 behind R_b that feeds the capacitor C_F (model.md 2).
 struct Supply {
   double V_0_V = 0.0;
   double R_b_ohm = 0.0;
   double C_F = 0.0;
-  bool sinks = true;  ///< false: a rectifier, the source cannot take current back
+  bool sinks = true;  ///< false: a rectifier; the source cannot take current back
 };
 
 }  // namespace sixstep::plant

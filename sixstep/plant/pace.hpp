@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// These rates say how fast a motor, its bridge and its bus answer and how fast its field turns, and with that
-// how many steps a simulated second takes. The bounds lie well above what is built: a number beyond them has
-// slipped.
+// Rates of a motor, its bridge, its bus and its field: they determine how many steps a simulated second takes.
+// The bounds are well above those of built drives: a value beyond them is an input error.
 #pragma once
 #include <algorithm>
 
@@ -9,30 +8,30 @@
 
 namespace sixstep::plant {
 
-/// A time constant of 100 ns. Its segments of 50 ns are some 600 in a PWM period of 30 us, which has five of
-/// its own.
+/// A time constant of 100 ns. Its segments of 50 ns are some 600 in a PWM period of 30 us, which otherwise has
+/// five.
 inline constexpr double fastest_answer_1_s = 1e7;
 
-/// Electrical; 160 000 turns a second. The fastest motors built turn their field 12 000 times.
+/// Electrical; 160 000 turns per second. The fields of the fastest motors turn 12 000 times per second.
 inline constexpr double fastest_field_rad_s = 1e6;
 
-/// From rest to there in 100 us. A drone's motor without its propeller takes a thousand times as long.
+/// From rest to that speed in 100 us. A drone's motor without propeller takes a thousand times as long.
 inline constexpr double fastest_field_rad_s2 = 1e10;
 
-/// Of winding and switches, 1/s.
+/// Rate of winding and switches, 1/s.
 inline double winding_rate(const Machine& m, const Devices& d) {
   return (m.R_ohm + std::max(d.R_on_ohm, d.r_d_ohm)) / m.L_H;
 }
 
-/// Of the bus capacitor behind the source and against the windings, 1/s; 0 for a stiff bus.
+/// Rate of the bus capacitor with source and windings, 1/s; 0 for a stiff bus.
 inline double bus_rate(const Machine& m, const Supply& s) {
   return s.C_F > 0.0 ? (1.0 / s.R_b_ohm + 1.0 / m.R_ohm) / s.C_F : 0.0;
 }
 
-/// Of the speed where only viscous friction acts, 1/s.
+/// Rate of the speed when only viscous friction acts, 1/s.
 inline double friction_rate(const Shaft& shaft) { return shaft.B_Nm_s / shaft.J_kg_m2; }
 
-/// Where the back-EMF between two terminals is that voltage, electrical rad/s.
+/// Speed at which the back-EMF between two terminals has that voltage, electrical rad/s.
 inline double field_at(const Machine& m, double voltage_V) {
   return m.pole_pairs * voltage_V / (2.0 * m.K_e_V_s);
 }

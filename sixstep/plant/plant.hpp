@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motor, bridge with diodes, shaft and supply as one system between events (model.md 1, 2, 4b). The rig sets
-// gates and load; the run loop expands, advances and hands back located events.
+// Simulates motor, bridge with diodes, shaft and supply as one system between events (model.md 1, 2, 4b). The rig
+// sets gates and load; the run loop expands, advances and applies located events.
 #pragma once
 #include <algorithm>
 
@@ -15,7 +15,7 @@ struct Start {
   double bus_V = 0.0;
 };
 
-/// What one instant looks like; pole voltages of a fully floating star are centred between the rails.
+/// Values at one instant, SI. The pole voltages of a fully floating star are centred between the rails.
 template <class Real>
 struct Snapshot {
   PerLeg<Real> i{}, emf{}, pole{};
@@ -30,7 +30,7 @@ class Plant {
   Plant(const Machine& machine, const Shaft& shaft, const Devices& devices, const Supply& supply,
         const Start& start);
 
-  /// False: both switches of a leg on, a shoot-through; nothing is changed then.
+  /// False for a shoot-through, both switches of a leg on; nothing is changed then.
   bool set_gates(const Gates& gates) {
     if (shoots_through(gates)) return false;
     if (gates == gates_) return true;
@@ -42,12 +42,12 @@ class Plant {
     constants_.load = static_cast<Real>(torque_Nm);
     stale_ = true;
   }
-  // What a scenario may change besides (plant_changes.hpp).
+  // Other changes that a scenario may make (plant_changes.hpp).
   void set_locked(bool locked);
   void set_source_voltage(double V_0_V);
   void set_source_sinks(bool sinks);
 
-  /// Settles the mode where it is stale and expands; returns the length covered, negative where no mode is
+  /// Settles the mode if it is out of date, and expands. Returns the length covered, s; negative if no mode is
   /// consistent.
   double expand(double wanted);
   template <class Visit>
@@ -55,13 +55,13 @@ class Plant {
     mode_guards(constants_, mode_, y_, slack_, visit);
     edge_guards(constants_.emf[mode_.sector].piece[mode_.piece], y_, visit);
   }
-  /// Once per expansion: its segment ends at the fraction s of its length, and `end` is what has moved until there.
+  /// Once per expansion: the segment ends at the fraction s of its length; `end` gets the increments until there.
   void end_at(Real s) {
     if (s != 1) y_.end = detail::increments(y_, constants_.legs[legs_index(mode_.legs)], s);
   }
-  /// Takes the state there.
+  /// Advances the state to the fraction s.
   void advance(Real s);
-  /// The located event `id`; true where the rotor passed into another sector.
+  /// Applies the located event `id`; true if the rotor entered another sector.
   bool apply(int id);
 
   const State<Real>& state() const { return state_; }
@@ -69,8 +69,8 @@ class Plant {
   const Gates& gates() const { return gates_; }
   const Constants<Real>& constants() const { return constants_; }
   const Expansion<Real>& expansion() const { return y_; }
-  /// What rounding takes for zero in this mode, as a multiple of the constants' noises: 1 but where no mode
-  /// was consistent at that.
+  /// Factor on the constants' noise levels in this mode. 1, or more where no mode was consistent at the plain
+  /// noise.
   Real slack() const { return slack_; }
   int sector() const { return mode_.sector; }
   /// How often a floating leg began to conduct by a diode.
@@ -93,7 +93,7 @@ class Plant {
   Real slack_ = 1;
   std::int64_t diodes_started_ = 0;
   bool stale_ = true;
-  bool doubted_ = false;  ///< the last located event came without progress: settle by series only
+  bool doubted_ = false;  ///< the last located event made no progress: settle by series only
   int last_event_ = -1;
 };
 
@@ -134,8 +134,8 @@ Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices,
   mode_.sector = static_cast<std::uint8_t>(sector_in_turn(state_.sector));
   const EmfSector<Real>& pieces = c.emf[mode_.sector];
   while (mode_.piece + 1 < pieces.count && state_.x >= pieces.piece[mode_.piece].to) ++mode_.piece;
-  // Turning backwards it has just passed that edge: the located event comes before the first tick (model.md
-  // 4b).
+  // A rotor that turns backwards has just passed that edge: the located event comes before the first tick
+  // (model.md 4b).
   // mutant: on_edge && state_.w < 0 => false
   if (on_edge && state_.w < 0) pass_edge(false);
 }
@@ -154,7 +154,7 @@ bool Plant<Real>::resettle(Real wanted, bool& expanded) {
   return true;
 }
 
-/// With snapped state, by enumeration, and with noise widened as far as rounding makes that necessary.
+/// With snapped state, by enumeration. The noise is widened as far as rounding makes that necessary.
 template <class Real>
 bool Plant<Real>::settle_fully(Real wanted, bool& expanded) {
   snap();
@@ -206,7 +206,7 @@ template <class Real>
 Snapshot<Real> Plant<Real>::at(Real s) const {
   using series::evaluate;
   Snapshot<Real> now;
-  // One pass for the five series that always move; at the segment's start there is nothing to sum.
+  // One pass for the five series that always change; at the segment's start there is nothing to sum.
   Real a = 0, b = 0, c = 0, w = 0, x = 0;
   for (int j = s != 0 ? y_.degree : 0; j >= 1; --j) {
     a = (a + y_.i[0][j]) * s;
@@ -218,7 +218,7 @@ Snapshot<Real> Plant<Real>::at(Real s) const {
   now.i = {y_.i[0][0] + a, y_.i[1][0] + b, y_.i[2][0] + c};
   now.speed = y_.w[0] + w;
   now.bus = constants_.inv_C > 0 ? evaluate(y_.bus, y_.degree, s) : y_.bus[0];
-  State<Real> unit;  // at speed 1 the back-EMF is its shape, and so is torque at current 1
+  State<Real> unit;  // speed 1 gives the back-EMF's shape, and current 1 the torque's
   unit.w = 1;
   unit.x = y_.x[0] + x;
   const PerLeg<Real> shape = detail::back_emf(constants_, unit, mode_);

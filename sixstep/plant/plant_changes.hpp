@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plant that runs can be changed: the clamp on its shaft and its source, with the scales that follow from
-// them. Part of plant.hpp.
+// Changes to a running plant: the clamp on its shaft, its source, and the noise scales that follow from them. Part
+// of plant.hpp.
 #pragma once
 #include "sixstep/plant/plant.hpp"
 
 namespace sixstep::plant {
 
-/// The scales by which rounding noise is told from a signal.
+/// Sets the scales that distinguish rounding noise from a signal.
 template <class Real>
 void Plant<Real>::set_scales(Real volt_scale) {
   Constants<Real>& c = constants_;
@@ -24,7 +24,7 @@ void Plant<Real>::set_steady_rate() {
   c.steady_rate = winding + electromechanical + c.inv_C * (c.inv_R_b + 1 / c.R);
 }
 
-/// A clamp stops the shaft at once and takes its kinetic energy; let go, it starts from rest.
+/// A closing clamp stops the shaft at once and takes its kinetic energy; a released shaft starts from rest.
 template <class Real>
 void Plant<Real>::set_locked(bool locked) {
   constants_.locked = locked;
@@ -35,8 +35,8 @@ void Plant<Real>::set_locked(bool locked) {
   stale_ = true;
 }
 
-/// The source's voltage; a stiff bus follows at once. The noise level may only rise: what was rounded at a
-/// higher voltage stays so.
+/// Sets the source's voltage; a stiff bus follows at once. The noise level may only rise, because values rounded at
+/// a higher voltage keep their error.
 template <class Real>
 void Plant<Real>::set_source_voltage(double V_0_V) {
   Constants<Real>& c = constants_;

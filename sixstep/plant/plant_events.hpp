@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a located event does to the state, and what rounding is taken for nothing before a mode is sought. Part
-// of plant.hpp.
+// Applies a located event to the state, and sets values within rounding of zero to zero before the mode is settled.
+// Part of plant.hpp.
 #pragma once
 #include <utility>
 
@@ -8,13 +8,13 @@
 
 namespace sixstep::plant {
 
-/// Currents within rounding of zero in legs without gate, and speeds within rounding of rest where friction
-/// may hold the rotor, are zero: what is consistent there is decided by settle(), not by a rounding error.
+/// Sets to zero the currents within rounding of zero in legs without gate, and the speed within rounding of rest where
+/// friction may hold the rotor. So settle() decides which mode is consistent there, not a rounding error.
 template <class Real>
 void Plant<Real>::snap() {
   // mutant: constants_.amp_noise => 1000 * constants_.amp_noise
   const Real amp_noise = constants_.amp_noise;
-  // Balancing may bring another one below the noise: of 1.1, 1.2 and -2.3 where 1.2 is noise, all are zero.
+  // Balancing may bring another current below the noise: of 1.1, 1.2 and -2.3, where 1.2 is noise, all are zero.
   for (bool snapped = true; snapped;) {
     snapped = false;
     for (unsigned k = 0; k < 3; ++k) {
@@ -46,7 +46,8 @@ bool Plant<Real>::apply(int id) {
     return leaves;
   }
   if (id < guard::standstill) {
-    // Two legs share one current and reach zero together; of three, the other two then carry one current.
+    // Two legs share one current and reach zero together. When one of three reaches zero, the other two carry one
+    // current.
     state_.i[id] = state_.i_low[id] = 0;
     if (connected_count(mode_.legs) == 2) state_.i = state_.i_low = {};
     detail::balance(state_);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// One order of the Taylor recurrence for the currents, for each number of connected legs (model.md 1 and 2).
+// One order of the Taylor recurrence for the currents, by the number of connected legs (model.md 1 and 2).
 #pragma once
 #include "sixstep/plant/series_builder.hpp"
 
 namespace sixstep::plant::detail {
 
-/// Fewer than two legs connected: no current; the rotor coasts and the floating terminals are watched.
+/// Fewer than two legs connected: no current. The rotor coasts and the floating terminals are guarded.
 template <bool sine, class Real>
 struct NoCurrent {
   static constexpr bool sine_shape = sine;
@@ -27,8 +27,8 @@ struct NoCurrent {
   void reach(const SeriesBuilder<Real>&, PerLeg<Real>& of) const { of = {}; }
 };
 
-/// Two legs share one current: one recurrence. Coefficients are multiplied out beforehand and the newest
-/// terms enter last: the orders follow from each other, so what counts is the length of that chain.
+/// Two legs share one current: one recurrence. Each order needs the one before, so the length of that chain decides the
+/// time: coefficients are multiplied out beforehand, and the newest terms enter last.
 template <bool sine, class Real>
 struct PairLaw {
   int j, k, floating;
@@ -59,7 +59,7 @@ struct PairLaw {
     out.i[k][n] = -y.i[n];
     out.i[floating][n] = 0;
   }
-  /// Adds the term to the series' reach and sum, and tells its size over all legs.
+  /// Adds the term to the series' reach and sum; returns its size over all legs.
   Real reached(SeriesBuilder<Real>& y, int n) const {
     const Real size = abs(y.i[n]);
     y.reach_i += size;
@@ -76,7 +76,7 @@ template <bool sine, class Real>
 struct OneCurrent {
   static constexpr bool sine_shape = sine;
   PairLaw<sine, Real> pair;
-  Real from_square;  // w (x - x(0)) = ((x - x(0))^2)'/2 over p h, and a square has half the products
+  Real from_square;  // w (x - x(0)) = ((x - x(0))^2)'/2 over p h; a square needs half the products
 
   OneCurrent(const Rotor<Real>&, const Constants<Real>& c, const LegsLaw<Real>& law,
              const ShapeLine<sine, Real>& f)
@@ -109,10 +109,9 @@ struct OneCurrent {
   }
 };
 
-/// Both connected phases on their flat tops, and torques that are a line over the speed: current and speed
-/// are a linear system of two, (i, w)' = M (i, w) + const, free of products. Its terms come two orders at a
-/// time from M^2, so that even and odd ones are two chains side by side. A bus that moves joins the chain of
-/// the plain form.
+/// Both connected phases on their flat tops, and torques linear in the speed: current and speed are a linear system
+/// of two, (i, w)' = M (i, w) + const, without products. M^2 gives its terms two orders at a time, so that even and
+/// odd ones are two independent chains. A bus that changes uses the chain of the plain form.
 template <class Real>
 struct FlatPair {
   static constexpr bool sine_shape = false;
@@ -122,7 +121,7 @@ struct FlatPair {
   FlatPair(const Rotor<Real>& rotor, const Constants<Real>&, const LegsLaw<Real>& law,
            const ShapeLine<false, Real>& f)
       : pair(law, f) {
-    // Of the rotor's law the terms that multiply i and w: M has no others, and what is steady is in order 1.
+    // Only the rotor's terms that multiply i and w enter M; the constant ones enter at order 1.
     [[maybe_unused]] const auto& [inv_J, pole_pairs, steady, per_speed] = rotor;
     const Real a = pair.slope.i, b = pair.from_w0;
     // mutant: -per_speed * inv_J => Real(0)
@@ -156,7 +155,7 @@ struct FlatPair {
   }
 };
 
-/// All three legs: two recurrences, the third current follows. Coefficients multiplied out as above, i_c
+/// All three legs: two recurrences; the third current follows. Coefficients are multiplied out as above, with i_c
 /// eliminated.
 template <bool sine, class Real>
 struct TwoCurrents {
@@ -173,7 +172,7 @@ struct TwoCurrents {
               const ShapeLine<sine, Real>& f) {
     const Real mean_0 = (f.now[0] + f.now[1] + f.now[2]) * Real(1.0L / 3);
     const Real mean_1 = (f.rise[0] + f.rise[1] + f.rise[2]) * Real(1.0L / 3);
-    // w (x - x(0)) = ((x - x(0))^2)'/2 over p h, and a square has half the products.
+    // w (x - x(0)) = ((x - x(0))^2)'/2 over p h; a square needs half the products.
     const Real rate_1 = sine ? law.emf_rate : law.emf_rate * c.inv_pole_pairs;
     a = {law.slope, -law.emf_rate * (f.now[0] - mean_0), -rate_1 * (f.rise[0] - mean_1)};
     // mutant: f.rise[1] - mean_1 => f.rise[1]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A resolver of p_r pole pairs (model.md 10), at an instant t:
+// Output voltages of a resolver with p_r pole pairs (model.md 10), at an instant t:
 //
 //   V_1 = k V_R sin(w_x t + d_1) cos(p_r theta)
 //   V_2 = k (1 + a) V_R sin(w_x t + d_2) sin(p_r theta + q) + noise on both
@@ -17,12 +17,12 @@ struct Resolver {
   int pole_pairs = 1;                           ///< p_r
   double imbalance = 0.0;                       ///< a
   double quadrature_rad = 0.0;                  ///< q
-  double phase_1_rad = 0.0, phase_2_rad = 0.0;  ///< d_1, d_2: the windings lag, or the cable
+  double phase_1_rad = 0.0, phase_2_rad = 0.0;  ///< d_1, d_2: phase of windings and cable
 };
 
 namespace detail {
 
-/// p_r theta, rad, of the resolver's own turn: whole turns are left away.
+/// p_r theta, rad, within the resolver's own turn: whole turns are dropped.
 template <class Real>
 double resolver_angle_rad(const Resolver& r, const ShaftAngle<Real>& at) {
   const std::int64_t per_turn = 6 * at.pole_pairs;
@@ -34,26 +34,27 @@ double resolver_angle_rad(const Resolver& r, const ShaftAngle<Real>& at) {
 
 }  // namespace detail
 
-/// What a resolver suffers during a run.
+/// Faults of a resolver during a run.
 struct ResolverFaults {
-  std::uint8_t broken = 0;  ///< bit 0: the cosine's winding gives nothing; bit 1: the sine's
-  double excitation = 1.0;  ///< as a part of the full one
+  std::uint8_t broken = 0;  ///< bit 0: the cosine winding gives no signal; bit 1: the sine winding
+  double excitation = 1.0;  ///< relative to full excitation
 
-  /// What is left of both windings' signals. Noise is not of the excitation, but a broken winding picks none up.
+  /// Signals of both windings with the faults. Noise does not depend on the excitation, but a broken winding has none.
   std::array<double, 2> leave(const std::array<double, 2>& whole, const std::array<double, 2>& noise) const {
     return {(broken & 1) != 0 ? 0.0 : excitation * whole[0] + noise[0],
             (broken & 2) != 0 ? 0.0 : excitation * whole[1] + noise[1]};
   }
 };
 
-/// Both windings behind an ideal demodulator, over the cosine's amplitude: cos(p_r theta), (1 + a) sin(p_r theta + q).
+/// Both windings after an ideal demodulator, relative to the cosine's amplitude: cos(p_r theta), (1 + a) sin(p_r
+/// theta + q).
 template <class Real>
 std::array<double, 2> resolver_envelope(const Resolver& r, const ShaftAngle<Real>& at) {
   const double angle = detail::resolver_angle_rad(r, at);
   return {base::cos(angle), (1 + r.imbalance) * base::sin(angle + r.quadrature_rad)};
 }
 
-/// V_1 and V_2 in V, without noise. Turns of the excitation are counted: only their fraction goes into a sine.
+/// V_1 and V_2, V, without noise. The excitation's turns are counted, so that only their fraction enters a sine.
 template <class Real>
 std::array<double, 2> resolver_V(const Resolver& r, const ShaftAngle<Real>& at, std::int64_t t_ps) {
   const double angle = detail::resolver_angle_rad(r, at);

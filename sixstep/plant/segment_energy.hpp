@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// SegmentEnergy integrates what moves through bridge, winding and shaft over one segment, from the segment's
-// own series: the terms of the energy balance (model.md 5). Where nothing can flow, it computes nothing.
+// Integrates the energies of bridge, winding and shaft over one segment from the segment's own series: the terms of
+// the energy balance (model.md 5). Terms that are zero are not computed.
 #pragma once
 #include "sixstep/plant/plant.hpp"
 #include "sixstep/series/quadrature.hpp"
 
 namespace sixstep::plant {
 
-/// J over one segment; friction is viscous and dry. `travel` is the shaft's way in rad; `load_viscous` what of `viscous`
-/// acts at a load's side of its own.
+/// J over one segment; friction is viscous and dry. `travel`: angle that the shaft turned, rad; `load_viscous`: the
+/// part of `viscous` that acts at the load's own side.
 template <class Real>
 struct SegmentEnergy {
   Real supplied = 0, copper = 0, devices = 0, air_gap = 0, viscous = 0, dry = 0, load = 0, travel = 0,
@@ -19,31 +19,33 @@ namespace detail {
 
 inline namespace SIXSTEP_LANES {
 
-/// What is integrated, at the nodes: currents of the first and second connected leg, speed and torque.
+/// Integrated quantities at the nodes: currents of the first and second connected leg, speed and torque.
 template <int points, class Real>
 struct Moving {
   series::Nodes<points, Real> i_1{}, i_2{}, w{}, torque{};
 };
 
-/// Integrals in units of the segment's length: squares and currents of the connected legs in the law's order, what turns.
+/// Integrals in units of the segment's length: squares and currents of the connected legs in the law's order, and
+/// speed terms.
 template <class Real>
 struct Integrals {
   PerLeg<Real> square{}, charge{};
   Real turn = 0, turn_square = 0, air_gap = 0;
 };
 
-/// Which of the terms there are: where a number below is one that the compiler knows, what it does not ask for is left out.
+/// Terms that exist in a segment. Where a member is a constant for the compiler, the code of absent terms is left out.
 template <class Real>
 struct Moves {
   unsigned connected;  ///< legs
   bool turning;
-  bool steady;        ///< the torque is in proportion to the first leg's current
-  Real torque_per_A;  ///< where it is
+  bool steady;        ///< the torque is proportional to the first leg's current
+  Real torque_per_A;  ///< that factor, if `steady`
 
   [[gnu::always_inline]] bool conducts() const { return connected >= 2; }
 };
 
-/// i_c = -(i_a + i_b), or i_b = -i_a where two legs are connected: one or two series say all. Four sums cost little more than two.
+/// i_c = -(i_a + i_b), or i_b = -i_a for two connected legs: one or two series suffice. Four sums cost little more
+/// than two.
 template <int points, class Real>
 [[gnu::always_inline]] inline Integrals<Real> integrals(const Moves<Real>& moves,
                                                         const Moving<points, Real>& at) {
@@ -71,14 +73,14 @@ template <int points, class Real>
   return out;
 }
 
-/// Copper, devices and supply: what the currents do. `dt` is the length in seconds.
+/// Energies that follow from the currents: copper, devices and supply. `dt` is the length in seconds.
 template <int points, class Real>
 [[gnu::always_inline]] inline void electrical_energy(const Constants<Real>& c, const LegsLaw<Real>& law,
                                                      const Expansion<Real>& y, Real dt,
                                                      const series::Nodes<points, Real>& s,
                                                      const Moving<points, Real>& at,
                                                      const Integrals<Real>& legs, SegmentEnergy<Real>& out) {
-  // Of a floating leg in the third place both integrals are zero.
+  // For a floating leg in the third place both integrals are zero.
   const PerLeg<PoleTerms<Real>>& pole = law.pole;
   const auto device = [&](int n) {
     // mutant: pole[n].r_ohm * legs.square[n] - pole[n].offset_V * legs.charge[n] => pole[n].r_ohm * legs.square[n] + pole[n].offset_V * legs.charge[n]
@@ -96,7 +98,7 @@ template <int points, class Real>
   out.supplied = dt * series::weighted_sum<points>(series::values_at<points>(y.bus, y.degree, s), dc);
 }
 
-/// What turns, and what it takes from the air gap where currents flow.
+/// Energies that follow from the rotation, and the air-gap energy if currents flow.
 template <class Real>
 [[gnu::always_inline]] inline void shaft_energy(const Constants<Real>& c, const Mode& mode, Real dt,
                                                 const Integrals<Real>& of, SegmentEnergy<Real>& out) {
@@ -109,7 +111,7 @@ template <class Real>
   out.air_gap = dt * of.air_gap;
 }
 
-/// Only what is asked for, in one pass.
+/// Values at the nodes in one pass, only those that `moves` needs.
 template <int points, class Real>
 [[gnu::always_inline]] inline Moving<points, Real> moving_at(const LegsLaw<Real>& law,
                                                              const Moves<Real>& moves,
@@ -144,7 +146,8 @@ template <int points, class Real>
   return out;
 }
 
-/// Torque per current of the first leg, N m/A, where two legs share one and neither back-EMF per speed moves; else 0.
+/// Torque per current of the first leg, N m/A, if two legs share one current and their back-EMF per speed is
+/// constant; else 0.
 template <class Real>
 [[gnu::always_inline]] inline Real steady_torque_per_A(const Constants<Real>& c, const Mode& mode,
                                                        const LegsLaw<Real>& law) {
@@ -155,8 +158,8 @@ template <class Real>
   return piece.beta[j] == piece.beta[k] ? piece.alpha[j] - piece.alpha[k] : Real(0);
 }
 
-/// A turning rotor with two legs on their flat tops or three connected is what nearly all segments are: each of these without a
-/// branch of its own.
+/// Nearly all segments have a turning rotor with two legs on their flat tops, or with three connected: each of these
+/// two cases has code without further branches.
 template <class Real>
 [[gnu::always_inline]] inline SegmentEnergy<Real> segment_energy_here(const Plant<Real>& plant, Real to) {
   const Constants<Real>& c = plant.constants();
@@ -180,13 +183,14 @@ template <class Real>
 
 }  // namespace detail
 
-/// Over [0, to] of the expansion at hand. Each integral to about 2^-53 of its natural scale: see
+/// Energies over [0, to] of the present expansion. Each integral is exact to about 2^-53 of its natural scale: see
 /// series/quadrature.hpp.
 template <class Real>
 SegmentEnergy<Real> segment_energy(const Plant<Real>& plant, Real to) {
   return detail::segment_energy_here(plant, to);
 }
-/// Of doubles compiled once, for any processor. The audit's, for processors with AVX, has the same bits (plant/audit_avx.cpp).
+/// For double compiled once, for any processor. The audit's version for processors with AVX gives the same bits
+/// (plant/audit_avx.cpp).
 SegmentEnergy<double> segment_energy(const Plant<double>& plant, double to);
 
 }  // namespace sixstep::plant

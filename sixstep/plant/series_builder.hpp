@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The series of one segment while they grow, and what every conduction mode has in common: the rotor, the bus
-// and the shape of the back-EMF (model.md 1).
+// Builds the series of one segment: the parts that all conduction modes share, which are rotor, bus and shape of the
+// back-EMF (model.md 1).
 #pragma once
 #include "sixstep/plant/torques.hpp"
 
@@ -9,8 +9,8 @@ namespace sixstep::plant::detail {
 // The order n of a term is a template argument: the whole recurrence is unrolled, products of short series
 // included (model.md 12: an unrolled kernel takes a quarter of the time of one with counted loops).
 
-/// The series while they grow: a local of the recurrence, so that the newest terms stay in registers and no
-/// store has to be waited for. What a law does not use is never made.
+/// The series while they grow: a local variable of the recurrence, so that the newest terms stay in registers and no
+/// store delays them. Series that a law does not use are not computed.
 template <class Real>
 struct SeriesBuilder {
   Real h;
@@ -21,12 +21,12 @@ struct SeriesBuilder {
   series::Coefficients<Real> phi0, phi1;  ///< sine only
 };
 
-/// The motion's share of the recurrence, the same for every conduction mode.
+/// The rotor's part of the recurrence, the same for every conduction mode.
 template <class Real>
 struct Rotor {
   Real inv_J;  ///< zero for a rotor at rest
   Real pole_pairs;
-  Real steady, per_speed;  ///< against the turning: what does not change with the speed, and what does
+  Real steady, per_speed;  ///< torque against the rotation: constant part, and part per speed
 
   Rotor(const Constants<Real>& c, Motion motion)
       // mutant: turns(motion) => motion != Motion::locked
@@ -45,7 +45,7 @@ struct Rotor {
   }
 };
 
-/// w phi0 and w phi1 of a sine at order n; cos x and sin x grow along with them.
+/// w phi0 and w phi1 of a sine at order n; also computes the next terms of cos x and sin x.
 template <int n, class Real>
 inline void sine_products(const Rotor<Real>& rotor, SeriesBuilder<Real>& y, Real f, Real& w0, Real& w1) {
   w0 = series::product_term<n>(y.w, y.phi0);
@@ -55,9 +55,9 @@ inline void sine_products(const Rotor<Real>& rotor, SeriesBuilder<Real>& y, Real
   y.phi1[n + 1] = f * rotor.pole_pairs * w0;
 }
 
-/// The back-EMF of a leg over w: now + rise (x - x(0)) for a trapezoid, now cos x + rise sin x for a sine. A
-/// trapezoid taken from where it stands leaves the recurrence without its longest chain: the newest terms are
-/// multiplied by constants alone.
+/// Back-EMF of a leg over w: now + rise (x - x(0)) for a trapezoid, now cos x + rise sin x for a sine. Because the
+/// trapezoid is written relative to its present value, the newest terms are multiplied only by constants: the longest
+/// chain of dependent operations is avoided.
 template <bool sine, class Real>
 struct ShapeLine {
   PerLeg<Real> now, rise;
@@ -67,7 +67,7 @@ struct ShapeLine {
   }
 };
 
-/// U_s: C dU_s/dt = (V_0 - U_s)/R_b - i_dc while the source feeds; i_dc as shares of the growing currents.
+/// U_s: C dU_s/dt = (V_0 - U_s)/R_b - i_dc while the source feeds; i_dc as a combination of the growing currents.
 template <class Real>
 struct BusLaw {
   Real inv_C, feed, V_0, dc_i, dc_i_2;

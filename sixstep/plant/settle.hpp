@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// settle() finds the consistent mode. Switches and nonzero currents name most connections; legs without gate
-// and current, the rotor at rest and the bus at the source's voltage are enumerated. Exactly one combination
-// is right; where rounding makes several look right, it is the one with most legs off (model.md 2, 4b). Plain
-// values decide first, series only ties.
+// settle() finds the consistent mode. Switches and nonzero currents determine most connections. Three things are
+// enumerated: legs without gate and current, the rotor at rest, and the bus at the source's voltage. Exactly one
+// combination is right; where rounding makes several look right, it is the one with most legs off (model.md 2,
+// 4b). Plain values decide first, series only ties.
 #pragma once
 #include <span>
 
@@ -35,7 +35,7 @@ PerLeg<Real> back_emf(const Constants<Real>& c, const State<Real>& s, const Mode
   return e;
 }
 
-/// Electromagnetic torque at w's limit: K_e sum f_k i_k, exact also at standstill (model.md (3)).
+/// Electromagnetic torque in the limit of w: K_e sum f_k i_k, exact also at standstill (model.md (3)).
 template <class Real>
 Real torque(const Constants<Real>& c, const State<Real>& s, const Mode& m) {
   State<Real> unit = s;
@@ -44,8 +44,8 @@ Real torque(const Constants<Real>& c, const State<Real>& s, const Mode& m) {
   return f[0] * s.i[0] + f[1] * s.i[1] + f[2] * s.i[2];
 }
 
-/// Legs by plain values: floating ones within the rails, diodes that just switched on driven in their
-/// direction.
+/// Checks the legs by plain values: floating ones are within the rails, and diodes that just switched on are driven
+/// in their direction.
 template <class Real>
 Judgement judge_legs(const Constants<Real>& c, const State<Real>& s, const PerLeg<Real>& e, const Mode& m,
                      Real slack) {
@@ -71,8 +71,8 @@ Judgement judge_motion(const Constants<Real>& c, const State<Real>& s, const Mod
   const auto [load, dry, per_speed] = torques(c, Motion::stuck);  // at rest: no B w, and dry as breakaway
   const Real noise = c.torque_noise * slack, excess = torque(c, s, m) - load;
   if (m.motion == Motion::stuck) return judge(c.breakaway - abs(excess), noise);
-  // A breakaway torque above the sliding friction leaves a range in which only sticking is asked; slipping
-  // must overcome it.
+  // A breakaway torque above the sliding friction leaves a range in which only sticking is allowed; a slipping rotor
+  // must overcome the breakaway torque.
   const Real push = m.motion == Motion::forward ? excess : -excess;
   return judge(push - c.breakaway, noise);
 }
@@ -84,7 +84,7 @@ Judgement judge_source(const Constants<Real>& c, const State<Real>& s, const Mod
   return judge(m.source_feeds ? -above : above, noise);
 }
 
-/// Lexicographic: no guard of the mode may leave its start downwards.
+/// Lexicographic check of the series: no guard of the mode may fall at its start.
 template <class Real>
 bool holds_in_series(const Constants<Real>& c, const Mode& m, const Expansion<Real>& y, Real slack) {
   bool ok = true;
@@ -95,8 +95,8 @@ bool holds_in_series(const Constants<Real>& c, const Mode& m, const Expansion<Re
   return ok;
 }
 
-/// All ways in which up to three undecided legs may float or conduct by a diode, those with fewest legs on
-/// first; one table per number of legs.
+/// All ways in which up to three undecided legs may float or conduct by a diode, those with fewest legs on first; one
+/// table per number of legs.
 struct Combination {
   std::array<Connection, 3> leg{};
   std::uint8_t on = 0;
@@ -133,15 +133,14 @@ constexpr std::span<const Combination> combinations_of(int legs) {
 
 }  // namespace detail
 
-/// What settle() is asked: gates, state without what snap() takes for zero, and whether plain values may
-/// decide alone.
+/// Input of settle(): gates, the state after snap(), and whether plain values may decide alone.
 template <class Real>
 struct Question {
   const Constants<Real>& constants;
   const State<Real>& state;
   const Gates& gates;
   Real h;            ///< length over which series are judged
-  bool series_only;  ///< after an event without progress: plain values have been wrong once
+  bool series_only;  ///< after an event without progress, because plain values have failed once
   Real slack = 1;
 };
 
@@ -162,7 +161,7 @@ bool accepts(const Question<Real>& q, const PerLeg<Real>& emf, const Mode& mode,
   return holds_in_series(q.constants, mode, scratch, q.slack);
 }
 
-/// All combinations of the open legs, those with fewest legs on first.
+/// Tries all combinations of the open legs, those with fewest legs on first.
 template <class Real>
 bool settle_by_trial(const Question<Real>& q, const PerLeg<Real>& emf, unsigned open, Mode& mode,
                      Expansion<Real>& scratch, bool& expanded) {
@@ -172,7 +171,7 @@ bool settle_by_trial(const Question<Real>& q, const PerLeg<Real>& emf, unsigned 
     if (open >> k & 1) undecided[count++] = k;
   for (const Combination& tried : combinations_of(count)) {
     for (int u = 0; u < count; ++u) mode.legs[undecided[u]] = tried.leg[u];
-    if (tried.on == 1 && connected_count(mode.legs) == 1) continue;  // one leg alone carries nothing
+    if (tried.on == 1 && connected_count(mode.legs) == 1) continue;  // one leg alone carries no current
     if (accepts(q, emf, mode, scratch, expanded)) return true;
   }
   return false;
@@ -201,8 +200,8 @@ bool settle_source(const Question<Real>& q, Mode& mode, Expansion<Real>& scratch
 
 }  // namespace detail
 
-/// Finds the consistent mode and writes it; `expanded` tells whether `scratch` already holds its expansion
-/// over q.h. False: none is consistent at this rounding level.
+/// Finds the consistent mode and writes it; `expanded` says whether `scratch` already has its expansion over q.h.
+/// False: no mode is consistent at this rounding level.
 template <class Real>
 bool settle(const Question<Real>& q, Mode& mode, Expansion<Real>& scratch, bool& expanded) {
   using enum Motion;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// settle_fast() answers where nothing has to be tried (model.md 2): gates and currents name the
-// connections, and what they leave open stands clear of the rails. Nearly every event is of this kind;
-// settle.hpp answers the rest.
+// Settles the mode where nothing has to be tried (model.md 2): gates and currents determine the connections, and the
+// open legs are clearly away from the rails. Nearly every event is of this kind; settle.hpp settles the others.
 #pragma once
 #include "sixstep/plant/guards.hpp"
 
@@ -9,7 +8,7 @@ namespace sixstep::plant {
 
 namespace detail {
 
-/// The back-EMF's shape where the rotor stands (back_emf.hpp).
+/// The back-EMF's shape at the rotor's position (back_emf.hpp).
 template <class Real>
 void shape_at(const Constants<Real>& c, const State<Real>& s, Real& phi0, Real& phi1) {
   phi0 = 1;
@@ -20,7 +19,7 @@ void shape_at(const Constants<Real>& c, const State<Real>& s, Real& phi0, Real& 
   }
 }
 
-/// The connections that gates and currents name; returns the legs that they leave open, as a mask.
+/// Connections that gates and currents determine. Returns a mask of the legs that they leave open.
 template <class Real>
 unsigned named_legs(const State<Real>& s, const Gates& gates, Real noise, Legs& legs) {
   unsigned open = 0;
@@ -31,9 +30,9 @@ unsigned named_legs(const State<Real>& s, const Gates& gates, Real noise, Legs& 
   return open;
 }
 
-/// One open leg k beside two that conduct: it floats where u_n + e_k stands within the rails, and conducts by
-/// the diode of the rail it stands beyond: with the third leg on, L di_k/dt is two thirds of what it stands
-/// beyond. False: too close to a rail to say.
+/// One open leg k beside two that conduct: it floats if u_n + e_k is within the rails. Beyond a rail it conducts by
+/// that rail's diode: with the third leg on, L di_k/dt is two thirds of the excess voltage. False: too close to a
+/// rail to decide.
 template <class Real>
 bool settle_third_leg(const Constants<Real>& c, const State<Real>& s, const EmfPiece<Real>& piece, unsigned k,
                       Legs& legs) {
@@ -53,8 +52,8 @@ bool settle_third_leg(const Constants<Real>& c, const State<Real>& s, const EmfP
   return true;
 }
 
-/// Two open legs beside one switch: both float where both stand clear within the rails. One beyond may take
-/// the other along: not for here.
+/// Two open legs beside one switch: both float if both are clearly within the rails. Otherwise false, because a leg
+/// beyond a rail may make the other conduct too.
 template <class Real>
 [[gnu::noinline]] bool two_legs_float(const Constants<Real>& c, const State<Real>& s, const Mode& m,
                                       unsigned open) {
@@ -74,9 +73,9 @@ template <class Real>
 
 }  // namespace detail
 
-/// The commonest questions, without enumeration: gates and currents name all connections but at most that of
-/// one leg beside two that conduct. False, and nothing is written: something is too close to zero or to a
-/// rail to say, or more is open.
+/// The most frequent cases, without enumeration: gates and currents determine all connections except at most that of
+/// one leg beside two that conduct. False, with nothing written: a value is too close to zero or to a rail, or more
+/// legs are open.
 template <class Real>
 bool settle_fast(const Constants<Real>& c, const State<Real>& s, const Gates& gates, Mode& mode) {
   Motion motion = c.locked ? Motion::locked : Motion::free;
@@ -85,15 +84,15 @@ bool settle_fast(const Constants<Real>& c, const State<Real>& s, const Gates& ga
     if (detail::abs(s.w) <= c.speed_noise) return false;
     motion = motion_at(s.w);
   }
-  // Straight to where they are read: a copy would wait until the bytes that it is made of have left for
-  // memory.
+  // The connections are written directly into `mode`: a copy would be read before its single bytes have reached
+  // memory, and wait.
   Legs& legs = mode.legs;
   const unsigned open = detail::named_legs(s, gates, c.amp_noise, legs);
   if ((open & (open - 1)) != 0) {
     // mutant: open == 7 || !detail::two_legs_float(c, s, mode, open) => open == 7
     if (open == 7 || !detail::two_legs_float(c, s, mode, open)) return false;
   } else if (open != 0) {
-    const unsigned k = open >> 1;  // of one leg, its number
+    const unsigned k = open >> 1;  // number of the one open leg
     // mutant: s.i[k] != 0 => false
     if (s.i[k] != 0) return false;
     if (!detail::settle_third_leg(c, s, c.emf[mode.sector].piece[mode.piece], k, legs)) return false;

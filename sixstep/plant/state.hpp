@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plant's memory: the continuous state with the rounding errors of its running sums, and the discrete
-// mode.
+// State of the plant: the continuous state with the rounding remainders of its running sums, and the discrete mode.
 #pragma once
 #include <bitset>
 #include <cstdint>
@@ -17,19 +16,19 @@ struct Gates {
 
 inline bool shoots_through(const Gates& g) { return (g.high & g.low).any(); }
 
-/// How the rotor may move. `free`: no dry friction, w passes zero like any other value.
+/// Motion of the rotor. `free`: no dry friction, w passes zero like any other value.
 enum class Motion : std::uint8_t { free, forward, backward, stuck, locked };
 
 constexpr bool turns(Motion motion) { return motion != Motion::locked && motion != Motion::stuck; }
 
-/// v against a forward rotation, -v against a backward one; 0 where dry friction has no direction.
+/// v for a forward rotation, -v for a backward one; 0 where dry friction has no direction.
 template <class Real>
 constexpr Real against(Motion motion, Real v) {
   // mutant: -v => v
   return motion == Motion::forward ? v : motion == Motion::backward ? -v : Real(0);
 }
 
-/// Of a rotor with dry friction that is not at rest.
+/// Motion of a rotor with dry friction that is not at rest.
 template <class Real>
 constexpr Motion motion_at(Real speed) {
   return speed > 0 ? Motion::forward : Motion::backward;
@@ -47,9 +46,9 @@ struct State {
 struct Mode {
   Legs legs{};
   Motion motion = Motion::free;
-  bool source_feeds = true;  ///< a source that cannot sink: false while the bus is above it
+  bool source_feeds = true;  ///< false while the bus is above a source that cannot sink
   std::uint8_t sector = 0;   ///< 0..5 within the electrical turn
-  std::uint8_t piece = 0;    ///< of the back-EMF within the sector
+  std::uint8_t piece = 0;    ///< piece of the back-EMF within the sector
   bool operator==(const Mode&) const = default;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What both kernels do to a state at an instant, each once: where a rotor is put down, how it passes an edge of a sector or of
-// a piece of the back-EMF, which currents are left where one has gone, and what rounding is.
+// Changes of a state at an instant, shared by both kernels: setting the rotor's angle, passing the edge of a sector
+// or of a piece of the back-EMF, the currents after one has become zero, and the noise scales.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace sixstep::plant::detail {
 
-/// After a current was set to zero: one left alone is zero too, two left are one current.
+/// After a current was set to zero: a single remaining current is zero too, and two remaining ones are one current.
 template <class Real>
 void balance(State<Real>& state) {
   PerLeg<Real>& i = state.i;
@@ -28,8 +28,8 @@ void balance(State<Real>& state) {
   }
 }
 
-/// Puts the state on the far side of the edge of its piece; true where the rotor leaves its sector. pieces(sector) are those
-/// of a sector in order of x, as many as count(sector).
+/// Moves the state to the far side of its piece's edge; true if the rotor leaves its sector. pieces(sector) are a
+/// sector's pieces in order of x, count(sector) their number.
 template <class Real, class Mode, class Pieces, class Count>
 bool pass_edge(State<Real>& state, Mode& mode, bool ahead, Pieces&& pieces, Count&& count) {
   const int before = static_cast<int>(count(mode.sector));
@@ -50,17 +50,16 @@ bool pass_edge(State<Real>& state, Mode& mode, bool ahead, Pieces&& pieces, Coun
   return leaves;
 }
 
-/// A rotor at rest on an edge, which a bridge that follows the sectors drives back from either side, would pass
-/// it for ever at one instant. It is put down inside, by what rounding may have moved it: then time goes on.
+/// A rotor at rest on an edge that the bridge drives back from either side would pass the edge for ever at one instant.
+/// It is moved inside the piece by the possible rounding error, so that time proceeds.
 template <class Real>
 void clear_edge(State<Real>& state, bool ahead) {
-  const Real inside =
-      4 * noise_of(Real(base::sector_rad), Real(1));  // beyond what edge_guards() take for the edge
+  const Real inside = 4 * noise_of(Real(base::sector_rad), Real(1));  // more than the noise of edge_guards()
   state.x += ahead ? inside : -inside;
 }
 
-/// Puts the rotor to a mechanical angle; true where that is the edge of a sector. An edge named in degrees or radians of the
-/// shaft has been rounded up to four times on its way here.
+/// Sets the rotor to an angle; true if that is the edge of a sector. An edge given in degrees or radians of the shaft
+/// has been rounded up to four times before.
 template <class Real>
 bool set_rotor_angle(State<Real>& state, double electrical_rad) {
   const double edge = std::floor(electrical_rad / base::sector_rad + 0.5);
@@ -73,7 +72,7 @@ bool set_rotor_angle(State<Real>& state, double electrical_rad) {
   return on_edge;
 }
 
-/// The scales by which rounding noise is told from a signal, in the constants of either kernel.
+/// Sets the scales that distinguish rounding noise from a signal, in the constants of either kernel.
 template <class Real, class Constants>
 void set_scales(Constants& c, Real volt_scale, Real R, Real K_e) {
   c.volt_scale = volt_scale;

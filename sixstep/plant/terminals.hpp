@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The three terminals' voltages against the negative rail, floating ones included: what a board's dividers hang at. With all
-// legs floating centred between the rails (circuit.hpp).
+// Voltages of the three terminals against the negative rail, including floating ones: the inputs of the board's
+// dividers. If all legs float, they are centred between the rails (circuit.hpp).
 #pragma once
 #include "sixstep/plant/general/plant.hpp"
 #include "sixstep/plant/plant.hpp"
 
 namespace sixstep::plant {
 
-/// As the plant stands now, before the gates of this instant follow.
+/// In the plant's present state, before the gates of this instant take effect.
 template <class Real>
 PerLeg<Real> terminal_voltages(const Plant<Real>& plant) {
   const State<Real>& now = plant.state();
@@ -15,8 +15,8 @@ PerLeg<Real> terminal_voltages(const Plant<Real>& plant) {
   return pole_voltages(plant.mode().legs, plant.constants().poles, now.bus, now.i, e);
 }
 
-/// Saliency and harmonics put the star point where only the series know: a copy is expanded. Whoever looks at terminals
-/// once per control tick pays for it.
+/// With saliency and harmonics the star point's voltage follows only from the series, so a copy of the plant is
+/// expanded. The cost is accepted because terminals are read once per control tick.
 template <class Real>
 PerLeg<Real> terminal_voltages(const general::Plant<Real>& plant) {
   general::Plant<Real> now = plant;
@@ -30,8 +30,8 @@ using TerminalSeries = PerLeg<series::Coefficients<Real>>;
 
 namespace detail {
 
-/// u[k] = e_k of a star that hangs at nothing: which are the highest and the lowest is judged in the middle of [0, s]; `dead` is the
-/// mask of broken wires.
+/// Centres u[k] = e_k of an unconnected star between the rails. The highest and the lowest are chosen in the middle
+/// of [0, s]; `dead` is the mask of broken wires.
 template <class Real>
 void centre(const Expansion<Real>& y, Real s, TerminalSeries<Real>& u, unsigned dead = 0) {
   PerLeg<Real> middle;
@@ -45,7 +45,7 @@ void centre(const Expansion<Real>& y, Real s, TerminalSeries<Real>& u, unsigned 
 
 }  // namespace detail
 
-/// Over the part s of the segment that was expanded last: behind it the star may be another one.
+/// Series over the part s of the segment that was expanded last; after it the connections may differ.
 template <class Real>
 TerminalSeries<Real> terminal_series(const Plant<Real>& plant, Real s) {
   const Constants<Real>& c = plant.constants();

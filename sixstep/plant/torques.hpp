@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The torques that act on the rotor stand here, each once (model.md (4)). The recurrences, the guards, the
-// energy balance and the figures of merit take them from here.
+// Torques that act on the rotor, each defined once (model.md (4)). The recurrences, the guards, the energy balance
+// and the figures of merit use them.
 #pragma once
 #include "sixstep/plant/expansion.hpp"
 
 namespace sixstep::plant {
 
-/// J dw/dt = T_e - load - dry - per_speed w. Whoever uses the torques binds all of them, as in
+/// J dw/dt = T_e - load - dry - per_speed w. Code that uses the torques binds all of them, as in
 ///   const auto [load, dry, per_speed] = torques(c, motion);
-/// so that a new one stops the compiler wherever it has to be taken into account.
+/// so that an additional torque is a compile error wherever it has to be considered.
 template <class Real>
 struct Torques {
   Real load;       ///< T_load
@@ -21,8 +21,8 @@ Torques<Real> torques(const Constants<Real>& c, Motion motion) {
   return {c.load, against(motion, c.coulomb), c.B};
 }
 
-/// Whether their sum is a line over the speed, as FlatPair takes it to be (recurrences.hpp). Each of these
-/// is; a torque that is not says so here.
+/// True if their sum is linear in the speed, as FlatPair requires (recurrences.hpp). Each of these torques is; a new
+/// one that is not must return false here.
 template <class Real>
 constexpr bool is_line_over_speed(const Torques<Real>& all) {
   [[maybe_unused]] const auto& [load, dry, per_speed] = all;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two bodies that exchange heat, winding and housing (model.md 8, (11)), as the linear system that they are: solved exactly by
-// its two eigenvalues, whatever their signs.
+// Solves two bodies that exchange heat, winding and housing (model.md 8, (11)), as a linear system: exactly by its
+// two eigenvalues, whatever their signs.
 #pragma once
 #include <cmath>
 
@@ -8,8 +8,8 @@
 
 namespace sixstep::plant {
 
-/// Where the straight line of magnets and temperature ends: what has lost nine tenths is no magnet, and a K_e of the other
-/// sign no motor.
+/// Lower bound of K_e's factor over temperature, which is a straight line: a magnet that has lost nine tenths is
+/// none, and a K_e of the other sign is not a motor's.
 inline constexpr double least_on_K_e = 0.1;
 
 /// Temperatures above the ambient, K: w' = ww w + wh h + b_w, h' = hw w + hh h + b_h, wh and hw positive.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What observers see of a plant, whichever kernel it is: most is the same for both; what is not has its kernel's plant beside
-// it. One type, so that figures and recorders are compiled once.
+// Read access to the plant of either kernel, for observers. Most values are common; for the others the view has a
+// pointer to the kernel's plant. There is one type, so that figures and recorders are compiled once.
 #pragma once
 #include "sixstep/plant/general/segment_energy.hpp"
 #include "sixstep/plant/segment_energy.hpp"
@@ -27,7 +27,7 @@ class View {
   Motion motion() const { return common_.motion; }
   int sector() const { return common_.sector; }
   double pole_pairs() const { return common_.pole_pairs; }
-  /// Of a connected leg.
+  /// Pole terms of a connected leg.
   const PoleTerms<double>& terms(int k) const {
     const auto leg = static_cast<std::size_t>(k);
     return lean ? lean->constants().poles[static_cast<std::size_t>(legs()[leg])]
@@ -54,7 +54,7 @@ class View {
   const general::Plant<double>* general = nullptr;
 };
 
-/// Of the load's side: what a scenario's load asks for at this instant of the segment, N m.
+/// Torque of the scenario's load at its own side, at this instant of the segment, N m.
 inline double load_torque(const Plant<double>& plant, double) { return plant.constants().load; }
 inline double load_torque(const general::Plant<double>& plant, double s) {
   return series::evaluate(plant.series().load, plant.expansion().degree, s);

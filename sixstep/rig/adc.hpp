@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An analogue path and its converter: amplifier with offset, gain error and noise, then so many bits over a
-// range. What the counts mean is the firmware's business (control/adc.hpp).
+// Converts an analogue input: amplifier with offset, gain error and noise, then a converter with so many bits over a
+// range. The firmware converts the counts back (control/adc.hpp).
 //
 //   counts = round(((1 + gain_error) x + offset + noise)/lsb) + zero, held to 0..2^bits - 1
 //   both signs:  lsb = 2 range/2^bits, zero = 2^(bits - 1)         one sign:  lsb = range/2^bits, zero = 0
@@ -14,8 +14,8 @@ namespace sixstep::rig {
 
 struct AdcPath {
   int bits = 12;           ///< at most 16
-  double range = 0.0;      ///< full scale in the unit of what is measured
-  bool both_signs = true;  ///< from -range, else from 0
+  double range = 0.0;      ///< full scale, in the unit of the measured quantity
+  bool both_signs = true;  ///< true: from -range; false: from 0
   double offset = 0.0;     ///< in the same unit
   double gain_error = 0.0;
   double noise = 0.0;  ///< root mean square, in the same unit, white and normal
@@ -26,7 +26,7 @@ struct AdcPath {
   }
 };
 
-/// `place` says which draw of which input this is.
+/// `place` identifies the input and the number of its random draw.
 inline std::uint16_t converted(const AdcPath& path, double x, const base::RandomPlace& place) {
   double seen = (1.0 + path.gain_error) * x + path.offset;
   if (path.noise > 0) seen += path.noise * base::normal(place);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any firmware behind one interface: the rig is compiled for what a firmware commands, a pair or three legs, and not once for each
-// firmware in each arithmetic. Everything that passes is in SI or a register. One call a control period, and one per interrupt.
+// One interface for all firmwares: the rig is compiled once per kind of command, a pair or three legs, and not for
+// each firmware in each arithmetic. All values that pass are in SI or register counts. There is one call per control
+// period and one per interrupt.
 //
 //   Rig -> AnyDrive<Command> -> DriveInterface<Command> <- DriveOf<Firmware> (drive_of.hpp)
 #pragma once
@@ -15,18 +16,18 @@
 
 namespace sixstep::rig {
 
-/// What a firmware left behind at its last tick or interrupt.
+/// Result of a firmware's last tick or interrupt.
 template <class Command>
 struct DriveAnswer {
   Command command{};
   bool reversed = false;  ///< six-step: sign of the command
   bool moved_on = false;  ///< the tick found a commutation that was due already
-  sim::Instant next_commutation = sim::Instant::never();  ///< compare match that it waits for
+  sim::Instant next_commutation = sim::Instant::never();  ///< awaited compare match
   control::Telemetry<double> told{};
-  FieldTelemetry field{};  ///< of a field-oriented drive
+  FieldTelemetry field{};  ///< only of a field-oriented drive
 };
 
-/// What changes only where a firmware is made or retuned.
+/// Properties that change only when a firmware is made or retuned.
 struct DriveTraits {
   control::Mode mode = control::Mode::off;
   bool open_loop = false;
@@ -59,18 +60,18 @@ class DriveInterface {
   virtual void break_divider(std::size_t leg) = 0;
   virtual void request_run(bool run) = 0;
   virtual void request_clear() = 0;
-  /// With a configuration of the same firmware.
+  /// `config` must be of the same firmware.
   virtual void retune(const DriveConfig<Command>& config, double setpoint_unit) = 0;
   virtual Diagnosis diagnosis() const = 0;
   virtual bool fault_ends_run() const = 0;
-  virtual Registers* registers() = 0;     ///< none: it is told what is
-  virtual ShaftPorts* shaft_ports() = 0;  ///< none: it looks at no shaft
+  virtual Registers* registers() = 0;     ///< null: the firmware has ideal measurements
+  virtual ShaftPorts* shaft_ports() = 0;  ///< null: the firmware has no shaft sensor
 
  protected:
   DriveInterface(const DriveInterface&) = default;
 };
 
-/// A configuration, of whichever firmware: it makes the drive that it is for.
+/// Configuration of any firmware; made() returns the drive with it.
 template <class Command>
 class DriveConfig {
  public:
@@ -83,7 +84,7 @@ class DriveConfig {
   virtual bool decodes_arrangement() const = 0;
 };
 
-/// The firmware that the rig sees. A copy is a drive of its own in the same state.
+/// The firmware that the rig uses. A copy is an independent drive in the same state.
 template <class CommandType>
 class AnyDrive {
  public:
@@ -151,7 +152,7 @@ class AnyDrive {
   DriveAnswer<Command> answer_{};
 };
 
-/// Six-step, and three legs.
+/// For six-step commands, and for three leg commands.
 using PairDrive = AnyDrive<control::BridgeCommand<double>>;
 using LegDrive = AnyDrive<control::LegCommands<double>>;
 

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Conversion between SI and the controller's number: floating point computes in SI, fixed point in parts of a
-// base.
+// Converts between SI and the controller's numbers: floating point computes in SI, fixed point relative to a base.
 #pragma once
 #include <type_traits>
 
 namespace sixstep::rig {
 
-/// What the controller's 1.0 stands for (design::Bases). Floating point has 1 of each.
+/// SI values that the controller's number 1.0 stands for (design::Bases). For floating point each is 1.
 struct Bases {
   double current_A = 1.0;
   double voltage_V = 1.0;
   double speed_rad_s = 1.0;
   double position_deg = 1.0;
-  double setpoint = 1.0;  ///< that of the mode: one of the above, a duty's is 1
+  double setpoint = 1.0;  ///< base of the mode's setpoint: one of the above; 1 for a duty
 };
 
 /// SI -> controller. Fixed point rounds to nearest and saturates (fixed.hpp).

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// BoardConfig configures the virtual board; PowerUp is what a firmware may know before its first sample.
+// Configuration of the virtual board, and the data that a firmware has before its first sample.
 #pragma once
 #include "sixstep/control/hall.hpp"
 #include "sixstep/rig/bases.hpp"
@@ -13,22 +13,22 @@ namespace sixstep::rig {
 
 struct BoardConfig {
   ModulatorConfig modulator;
-  bool commutate_at_sample = false;  ///< else at the Hall edge itself
+  bool commutate_at_sample = false;  ///< false: at the Hall edge itself
   bool delayed = false;              ///< a command takes effect one period after its sample
   bool sampled_in_middle = false;    ///< of the period; the answer takes effect at the next one's start
-  Bases bases{};                     ///< of the controller's number
+  Bases bases{};                     ///< bases of the controller's numbers
   SensorsConfig sensors{};
   FrontEndConfig front_end{};
-  /// Of the probes: what the board makes of their codes for drives that know one arrangement alone.
+  /// Arrangement of the probes, from which the board converts codes for drives that decode 120 degrees only.
   control::HallArrangement hall_arrangement = control::HallArrangement::degrees_120;
-  CorePort core{};  ///< that runs the drive beside the host
-  ChipPort chip{};  ///< that runs a firmware of its own in the drive's place
+  CorePort core{};  ///< optional core that runs the drive beside the host
+  ChipPort chip{};  ///< optional chip that runs its own firmware instead of the drive
 };
 
-/// What a firmware may know before its first sample.
+/// Data that a firmware has before its first sample.
 struct PowerUp {
   double pole_pairs = 1.0;
-  std::int64_t sector = 0;  ///< counted from angle 0
+  std::int64_t sector = 0;  ///< electrical sectors since angle 0
   std::uint8_t pins = 0;
   plant::ShaftAngle<double> shaft{};
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The free-running counter that captures Hall edges: counts(t) = floor(t f), in whole numbers. In floating
-// point t f falls short of counts that are reached exactly: at 48 MHz of a twelfth of them.
+// The free-running counter that captures Hall edges: counts(t) = floor(t f), in integers. In floating point, t f can
+// be just below a count that is reached exactly: at 48 MHz this happens for a twelfth of the counts.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace sixstep::rig {
 
 class CaptureClock {
  public:
-  /// Of 1 Hz to 1 GHz, whole or not: f = numerator/2^n exactly, as any double is.
+  /// 1 Hz to 1 GHz, also fractions: f = numerator/2^n exactly, as for any double.
   explicit CaptureClock(double Hz) {
     while (Hz != std::floor(Hz)) {
       Hz *= 2;
@@ -33,7 +33,7 @@ class CaptureClock {
   __extension__ typedef unsigned __int128 Wide;  // g++ and clang have it on every host
 
   std::uint64_t numerator_ = 0;
-  Wide per_count_ = static_cast<Wide>(sim::ticks_per_second);  ///< ticks x numerator in one count
+  Wide per_count_ = static_cast<Wide>(sim::ticks_per_second);  ///< (ticks x numerator) per count
 };
 
 }  // namespace sixstep::rig

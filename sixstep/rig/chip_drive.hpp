@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The firmware that is none of ours: a chip runs it, register by register, in an emulator (chip_port.hpp), and keeps its own time. The
-// board turns it on at t = 0, shows it Hall pins and what its converter samples, and does what its gates say.
+// A foreign firmware as a drive: a chip runs it register by register in an emulator with a clock of its own
+// (chip_port.hpp). The board turns the chip on at t = 0, sets its Hall pins and converter inputs, and applies the
+// gates that it sets.
 //
-//               a sample is given                           a Hall edge   a fault            it tells
-//   ChipDrive   counts at the converter's inputs: currents  its pins      what it makes of   cycles of its interrupts
-//               of the legs, the setpoint's potentiometer                 it by itself
+//               input at a sample                           a Hall edge   a fault            reports
+//   ChipDrive   counts at the converter's inputs: currents  its pins      handled by the     cycles of its interrupts
+//               of the legs, the setpoint's potentiometer                 firmware itself
 //
-// The plant cannot know before what the chip will do, nor the chip when a Hall edge comes. So the chip runs ahead of the plant for a
-// stretch in which none comes, and stops where it acts; an edge that comes all the same is shown at the stop that follows.
+// The plant cannot compute in advance when the chip acts, nor the chip when a Hall edge comes. So the chip runs ahead
+// of the plant over a time in which no edge is expected, and stops when it acts. The pins show an edge that comes
+// nevertheless at the next stop.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -19,12 +21,12 @@
 
 namespace sixstep::rig {
 
-/// Which input of its converter is what: legs a, b, c first.
+/// Channels of the converter: legs a, b, c, then the setpoint's potentiometer.
 constexpr std::size_t potentiometer_input = 3;
 
 struct ChipConfig {
   control::Mode mode = control::Mode::off;
-  double setpoint_range = 1.0;  ///< in the mode's unit: the potentiometer's ends are this and its negative
+  double setpoint_range = 1.0;  ///< in the mode's unit: the potentiometer goes from minus this to this
   std::uint32_t full_counts = 1024;
   bool operator==(const ChipConfig&) const = default;
 };
@@ -46,15 +48,15 @@ class ChipDrive {
             patient_periods * static_cast<double>(board.modulator.period_ticks) / sim::ticks_per_second)),
         pins_(power_up.pins) {}
 
-  /// Where it stands next, for the plant to come there too.
+  /// Instant of the chip's next stop, to which the plant must advance.
   const sim::Instant& next_stop() const { return stop_; }
   bool samples() const { return answer_.event == ChipEvent::sample; }
-  /// Of a current: a control sample, one a period.
+  /// True at the sample of a current: a control sample, one per period.
   bool samples_current() const { return samples() && answer_.channel < potentiometer_input; }
   bool lost() const { return trouble_ != CoreTrouble::none; }
   ChipGates gates() const { return {answer_.gates}; }
 
-  /// At a stop that samples: what stands at the converter's inputs.
+  /// At a stop that samples: sets the counts at the converter's inputs.
   template <class Real>
   void sample(const SampleInstant<Real>& instant, double setpoint) {
     const Sample s = sample_of(instant);
@@ -70,7 +72,7 @@ class ChipDrive {
                                control::positive_pair(control::sector_of_hall(instant.pins)));
     if (config_.mode == control::Mode::current) telemetry_.current_reference_A = setpoint;
   }
-  /// From the stop at hand to the next one, `quiet_s` at most.
+  /// Runs the chip from this stop to the next one, at most `quiet_s` seconds.
   void go_on(double quiet_s) {
     const double cycles = std::clamp(quiet_s * port_.clock_Hz, least_cycles, most_cycles);
     run_.until = answer_.cycle + static_cast<std::uint64_t>(cycles);
@@ -97,13 +99,15 @@ class ChipDrive {
   bool follows_setpoint_at_once() const { return false; }
   const control::Telemetry<double>& telemetry() const { return telemetry_; }
   Diagnosis diagnosis() const { return {.at = stop_, .core = trouble_}; }
-  /// By how much later than the rotor's an edge was shown at worst, in s.
+  /// Largest delay from the rotor's edge to the pins' edge, s.
   double latest_edge_s() const { return latest_edge_s_; }
 
  private:
-  /// Half a microsecond of an AVR is enough near an edge; far from one, a period's tenth keeps pins in step.
+  /// Near an edge, steps of half a microsecond of an AVR suffice; far from one, steps of a tenth of a period keep the
+  /// pins up to date.
   static constexpr double least_cycles = 8, most_cycles = 400;
-  /// Without a sample for so long, it hangs or has given up: longer than the shortest watchdog takes, and the start behind its reset.
+  /// A chip without a sample for this time has stalled: it is longer than the shortest watchdog time plus the restart
+  /// after its reset.
   static constexpr double patient_periods = 50, least_patience_s = 30e-3;
 
   sim::Instant at_cycle(std::uint64_t cycle) const {
@@ -126,7 +130,7 @@ class ChipDrive {
   ChipAnswer answer_{};
   CoreTrouble trouble_ = CoreTrouble::none;
   double patience_s_;
-  sim::Instant stop_{};  ///< first at t = 0
+  sim::Instant stop_{};  ///< the first is at t = 0
   sim::Instant sampled_{};
   std::uint8_t pins_;
   bool edge_waits_ = false;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What goes between the plant and a chip that runs a firmware of its own, register by register, with all its interrupts: the plant lets
-// it run for so many of its cycles with so much at its pins; the chip stops where its gates move, where its converter samples, or where
-// they end. Plain structs, for both sides of a pipe on one machine. What carries them stands outside the library (faces/loop/).
+// Messages between the plant and a chip that runs its own firmware register by register, with all its interrupts. The
+// plant has the chip run for a number of cycles with given values at its pins. The chip stops at the end of these,
+// when its gates change or when its converter samples. Plain structs, the same for both sides of a pipe on one
+// machine; their transport is outside the library (faces/loop/).
 #pragma once
 #include <cstdint>
 
@@ -9,59 +10,59 @@
 
 namespace sixstep::rig {
 
-constexpr int chip_inputs = 8;  ///< of the converter
+constexpr int chip_inputs = 8;  ///< channels of the converter
 
-/// Run on. Pins change at the cycle that was reached last; counts are read where the last answer was a sample.
+/// Command to run on. Pins change at the cycle reached last; counts are read if the last answer was a sample.
 struct ChipRun {
-  std::uint64_t until = 0;              ///< cycle since the reset
-  std::uint16_t counts[chip_inputs]{};  ///< at the converter's inputs, by its channels
+  std::uint64_t until = 0;              ///< last cycle, counted since the reset
+  std::uint16_t counts[chip_inputs]{};  ///< at the converter's inputs, by channel
   std::uint32_t hall_pins = 0;          ///< H1 H2 H3 as bits 2, 1, 0
-  std::uint32_t asks_for_times = 0;     ///< runs nothing: a ChipTimes is the answer
+  std::uint32_t asks_for_times = 0;     ///< nonzero: nothing runs, and the answer is a ChipTimes
 };
 
 enum class ChipEvent : std::uint32_t {
-  ran,     ///< up to `until`
-  gates,   ///< they moved
-  sample,  ///< the converter holds an input: the next ChipRun says what stood there
-  ended    ///< it ran into an instruction that there is not, or stopped for good
+  ran,     ///< ran up to `until`
+  gates,   ///< the gates changed
+  sample,  ///< the converter samples an input: the next ChipRun gives its counts
+  ended    ///< the chip met an invalid instruction, or stopped for good
 };
 
 struct ChipAnswer {
-  std::uint64_t cycle = 0;  ///< at which it happened, never above `until`
+  std::uint64_t cycle = 0;  ///< cycle of the event, at most `until`
   ChipEvent event = ChipEvent::ran;
   std::uint32_t gates =
-      0;  ///< now: bits 0..5 upper a, lower a, upper b, lower b, upper c, lower c (control/gates.hpp)
-  std::uint32_t channel = 0;  ///< sampled; 4 to 6: a current of 0 to 2 that is no control sample
+      0;  ///< present gates, bits 0..5: upper a, lower a, upper b, lower b, upper c, lower c (control/gates.hpp)
+  std::uint32_t channel = 0;  ///< sampled channel; 4 to 6: a current of 0 to 2 that is no control sample
   std::uint32_t unused = 0;
 };
 
-/// Cycles that one interrupt took, from what asked for it to the instruction behind its return.
+/// Cycles of one interrupt, from its request to the instruction after its return.
 struct InterruptTimes {
   static constexpr int bins = 64;
   std::uint64_t count = 0, sum = 0;
   std::uint32_t least = 0, most = 0;
-  std::uint32_t bin_cycles = 0;  ///< width of each bin, from 0 on; the last one holds all above
+  std::uint32_t bin_cycles = 0;  ///< width of each bin, from 0 on; the last bin has all larger values
   std::uint32_t bin[bins]{};
   std::uint32_t unused = 0;
 };
 
 struct ChipTimes {
   InterruptTimes control, hall;
-  std::uint64_t periods = 0;  ///< of the PWM timer, since it runs
+  std::uint64_t periods = 0;  ///< of the PWM timer since its start
   std::uint64_t conversions =
-      0;  ///< that the timer started: fewer than periods where the control interrupt overran
+      0;  ///< started by the timer; fewer than periods if the control interrupt overran
 };
 
-/// Whoever carries a ChipRun to a chip and its answer back; none: `run` is null.
+/// Transport of a ChipRun to a chip and of its answer; `run` is null if there is no chip.
 struct ChipPort {
   void* chip = nullptr;
   CoreTrouble (*run)(void* chip, const ChipRun& run, ChipAnswer& answer) = nullptr;
-  std::uint32_t clock_Hz = 0;  ///< of its cycles
+  std::uint32_t clock_Hz = 0;  ///< clock of the cycles
 
   explicit operator bool() const { return run != nullptr; }
 };
 
-/// What a chip says first.
+/// First message of a chip, by which both sides check that they have the same structs.
 struct ChipGreeting {
   std::uint32_t word = 0x73697863;  ///< "sixc"
   std::uint32_t run_bytes = sizeof(ChipRun), answer_bytes = sizeof(ChipAnswer),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What goes between the plant and a core that runs the drive (lockstep_core.hpp): with what an entry of it is called, and what it
-// answers. Plain structs of words and scalars, laid out alike by all compilers of cores with 32 bits and by a host with the same
-// order of bytes; the core's program (faces/loop/core/) includes this file too.
+// Messages between the plant and a core that runs the drive (lockstep_core.hpp): arguments of its entries, and their
+// answers. Plain structs of words and scalars, with the same layout in all compilers for cores with 32 bits and on a
+// host with the same byte order; the core's program (faces/loop/core/) includes this file too.
 #pragma once
 #include <cstdint>
 
@@ -12,16 +12,16 @@
 
 namespace sixstep::rig {
 
-/// The entries of a drive, and what it knows from the start.
+/// Entries of a drive.
 enum class CoreEntry : std::uint32_t {
   tick,
   hall,
-  start,      ///< of the product drive, once: `now` is the sector in which the rotor stands
-  commutate,  ///< of the sensorless drive: its timer's compare match
-  capture     ///< and an edge of the comparators at the terminals
+  start,      ///< product drive, once: `now` is the rotor's sector at the start
+  commutate,  ///< sensorless drive: compare match of its timer
+  capture     ///< sensorless drive: an edge of the comparators at the terminals
 };
 
-/// Of control/drive.hpp: step() and on_hall().
+/// Calls of control/drive.hpp: step() and on_hall().
 template <class Scalar>
 struct LeanCall {
   CoreEntry entry = CoreEntry::tick;
@@ -30,7 +30,7 @@ struct LeanCall {
   control::Setpoint<Scalar> setpoint{};
 };
 
-/// Of control/protected_drive.hpp: protected_step() and protected_on_hall(), which is given pins and counter of the input.
+/// Calls of control/protected_drive.hpp: protected_step(), and protected_on_hall() with pins and counter of the input.
 template <class Scalar>
 struct ProductCall {
   CoreEntry entry = CoreEntry::tick;
@@ -40,12 +40,13 @@ struct ProductCall {
   control::Setpoint<Scalar> setpoint{};
 };
 
-/// Of control/field/field_drive.hpp: field_drive_step(). Of an angle that was decoded the core makes the directions itself.
+/// Call of control/field/field_drive.hpp: field_drive_step(). From a decoded angle the core computes the directions
+/// itself.
 template <class Scalar>
 struct FieldCall {
   CoreEntry entry = CoreEntry::tick;
-  std::uint32_t decoded = 0;            ///< else `magnet` is what an ideal sensor tells
-  control::BinaryAngle electrical = 0;  ///< of the rotor, where it was decoded
+  std::uint32_t decoded = 0;            ///< 0: `magnet` is the output of an ideal sensor
+  control::BinaryAngle electrical = 0;  ///< of the rotor, if decoded
   std::uint32_t unused = 0;
   control::Measurement<Scalar> measured{};
   control::Setpoint<Scalar> setpoint{};
@@ -64,7 +65,7 @@ constexpr ProductCall<Scalar> call_of(const control::BoardInput& in, const contr
           .hall_pins = in.hall_pins,
           .setpoint = setpoint};
 }
-/// And back, on the core.
+/// The inverse, on the core.
 template <class Scalar>
 constexpr control::BoardInput input_of(const ProductCall<Scalar>& call) {
   control::BoardInput in{.bus_counts = static_cast<std::uint16_t>(call.bus_counts),
@@ -74,7 +75,8 @@ constexpr control::BoardInput input_of(const ProductCall<Scalar>& call) {
   return in;
 }
 
-/// A control::BridgeCommand, its choices as numbers: what a broken program sends is no choice that there is not.
+/// A control::BridgeCommand with its choices as numbers, so that a faulty program's answer is never an invalid
+/// enumerator.
 template <class Scalar>
 struct CoreAnswer {
   std::uint8_t enabled = 0, fault = 0, source = 0, sink = 0, chopping = 0, chopped = 0, watch = 0, unused = 0;
@@ -98,7 +100,7 @@ constexpr CoreAnswer<Scalar> answer_of(const control::BridgeCommand<Scalar>& c) 
           .off_above_A = c.off_above_A};
 }
 
-/// The same of control::LegCommands.
+/// The same for control::LegCommands.
 template <class Scalar>
 struct CoreLegs {
   std::uint8_t enabled = 0, fault = 0, state[3]{}, switches[3]{};
@@ -117,7 +119,7 @@ constexpr CoreLegs<Scalar> answer_of(const control::LegCommands<Scalar>& c) {
   return out;
 }
 
-/// What a core says first: both sides mean the same structs.
+/// First message of a core, by which both sides check that they have the same structs.
 struct CoreGreeting {
   std::uint32_t word = 0x73697873;  ///< "sixs"
   std::uint32_t call_bytes = 0, answer_bytes = 0;

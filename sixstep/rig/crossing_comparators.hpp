@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Comparators that hold each filtered terminal against a virtual star point or half the bus (model.md 4). Between two events
-// the filtered voltages are polynomials as the circuit's are, so that an edge is an event like any other:
+// Comparators of each filtered terminal with a virtual star point or half the bus (model.md 4). Between two events
+// the filtered voltages are polynomials like those of the circuit, so that an edge is an event like any other:
 //
 //   dx/dt = (u - x)/tau:   x_(n+1) = (h/tau) (u_n - x_n)/(n + 1),   h <= tau/2
 //
@@ -14,13 +14,13 @@ namespace sixstep::rig {
 
 class Crossings {
  public:
-  /// As the lines stand where the run begins; on its very level a line is low.
+  /// Lines at the start of the run; at exactly its level a line is low.
   Crossings(const FrontEndConfig& config, const FrontEndReading& at) : config_(config) {
     for (std::size_t k = 0; k < 3; ++k) gain_[k] = 1.0 + config.divider_gain_error[k];
     for (std::size_t k = 0; k < 3; ++k)
       if (above(at, k) > 0) turn_over(k);
   }
-  /// The divider of a leg shows 0 from now on: lines that no longer stand by their levels turn over.
+  /// The divider of a leg shows 0 from now on; lines that contradict their levels then change.
   void break_divider(std::size_t leg, const FrontEndReading& at) {
     gain_[leg] = 0.0;
     const double half = config_.comparators.hysteresis_V / 2;
@@ -29,13 +29,14 @@ class Crossings {
   }
 
   bool fitted() const { return config_.has_comparators(); }
-  /// No segment may be longer: behind it 16 orders of the lag do not reach rounding.
+  /// Bound of a segment's length: beyond it, 16 orders of the lag do not reach rounding.
   double longest_s() const { return config_.comparators.lag_s / 2; }
-  /// Of legs a, b, c as bits 2, 1, 0, as a Hall code has its lines.
+  /// Lines of legs a, b, c as bits 2, 1, 0, as in a Hall code.
   std::uint8_t lines() const { return lines_; }
   void turn_over(std::size_t leg) { lines_ ^= static_cast<std::uint8_t>(4U >> leg); }
 
-  /// visit(leg, series, degree, noise): each falls through zero where its line turns over. `of` is to be expanded, not passed.
+  /// visit(leg, series, degree, noise): each series falls through zero where its line changes. `of` must be expanded,
+  /// but not yet passed.
   template <class Real, class Visit>
   void guards(const FrontEndSegment<Real>& of, const plant::TerminalSeries<Real>& u,
               const FrontEndReading& now, Real volt_scale, Visit&& visit) const {
@@ -46,7 +47,7 @@ class Crossings {
     }
     const Coefficients<Real> bus = lagged(of, of.y.bus, now.comparator_bus_V);
     const Real noise = plant::noise_of(volt_scale, Real(1));
-    // Behind an edge the line must stand clear of it by more than rounding.
+    // After an edge the line must be clear of its level by more than rounding.
     const Real half = std::max(Real(config_.comparators.hysteresis_V) / 2, 4 * noise);
     for (std::size_t k = 0; k < 3; ++k) {
       const Real sign = (lines_ & (4U >> k)) != 0 ? Real(1) : Real(-1);
@@ -59,7 +60,7 @@ class Crossings {
   }
 
  private:
-  /// Beyond its level without hysteresis.
+  /// Voltage above the level, without hysteresis.
   double above(const FrontEndReading& at, std::size_t leg) const {
     plant::PerLeg<double> x{};
     for (std::size_t k = 0; k < 3; ++k) x[k] = gain_[k] * at.comparator_V[k];
@@ -90,7 +91,7 @@ class Crossings {
   std::uint8_t lines_ = 0;
 };
 
-/// Of a firmware that captures none.
+/// For a firmware that captures no edges of comparators.
 struct NoCrossings {};
 
 }  // namespace sixstep::rig

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A firmware behind the interface of any_drive.hpp: its numbers become SI, and what it lacks does nothing.
+// Adapts a firmware to the interface of any_drive.hpp: its numbers are converted to SI, and functions that it lacks
+// do nothing.
 #pragma once
 #include "sixstep/rig/any_drive.hpp"
 #include "sixstep/rig/fault.hpp"
@@ -39,7 +40,7 @@ void tell_in_si(const control::Telemetry<Scalar>& of, const Bases& bases, contro
   }
 }
 
-/// The command of a firmware in SI.
+/// A firmware's command in SI.
 template <class Firmware>
 using SiCommand = decltype(in_si(std::declval<const typename Firmware::Command&>(), Bases{}));
 

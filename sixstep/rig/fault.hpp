@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Why a run of the virtual board ends before its time.
+// Reasons why a run of the virtual board ends early.
 #pragma once
 #include <cstdint>
 
@@ -19,7 +19,7 @@ enum class Fault : std::uint8_t {
   core
 };
 
-/// Why a firmware answered one.
+/// Reason why a firmware answered a fault.
 inline Fault fault_of(const Diagnosis& found) {
   if (found.core != CoreTrouble::none) return Fault::core;
   if (found.shaft.lost()) return Fault::shaft_sensor;
@@ -28,7 +28,7 @@ inline Fault fault_of(const Diagnosis& found) {
   return found.own != OwnWrong::none ? Fault::own_controller : Fault::impossible_hall;
 }
 
-/// Whether the run ends with a fault that a firmware answered; else the drive is off and the motor coasts on.
+/// True if the run ends with a fault that a firmware answered. Otherwise the drive is off and the motor coasts.
 template <class Firmware>
 bool ends_run([[maybe_unused]] const Firmware& firmware) {
   if constexpr (requires { firmware.ends_run_by_fault(); })

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The firmware of a field-oriented drive (control/field/), beside those of firmware.hpp:
+// The firmware of a field-oriented drive (control/field/); compare firmware.hpp:
 //
-//                a tick is given                              a Hall edge    a fault         it tells
-//   FieldDrive   what is, or what [sensors] say, and where    captured       ends the run    lost sensor
-//                the magnet points
+//                input of a tick                              a Hall edge    a fault         reports
+//   FieldDrive   ideal values, or those of [sensors], and     captured       ends the run    lost sensor
+//                the magnet's direction
 //
-// It answers three legs throughout. An ideal sensor tells cosine and sine of the magnet's direction as they are; from
-// an encoder, a resolver or Hall edges they are made of the angle that was decoded, as the chip does it
+// Its answer is always three legs. An ideal sensor gives cosine and sine of the magnet's direction exactly; with an
+// encoder, a resolver or Hall edges they are computed from the decoded angle, as on the chip
 // (field_direction.hpp).
 #pragma once
 #include "sixstep/control/field/sensorless_field_drive.hpp"
@@ -58,7 +58,7 @@ class FieldDrive {
   }
 
   control::Mode mode() const { return config_.field.drive.mode; }
-  /// Asks nothing of a tick but the setpoint.
+  /// True if a tick needs nothing but the setpoint.
   bool open_loop() const { return config_.field.drive.mode == control::Mode::off; }
   bool follows_setpoint_at_once() const { return false; }
   const control::Telemetry<Scalar>& telemetry() const { return telemetry_; }
@@ -79,7 +79,7 @@ class FieldDrive {
     found.certain = static_cast<double>(config_.estimator.north.certain);
     return found;
   }
-  /// What its converters and timers are fed with.
+  /// Inputs of the firmware's converters and timers.
   Registers& registers() { return sensors_.registers(); }
   ShaftPorts& shaft_ports() { return sensors_.shaft_ports(); }
   const ShaftPorts& shaft_ports() const { return sensors_.shaft_ports(); }
@@ -90,7 +90,7 @@ class FieldDrive {
   }
   /// Currents and voltages of the last tick, in the rotor's frame.
   const control::FieldDriveState<Scalar>& state() const { return state_.field; }
-  /// What is known of the magnet where no sensor tells it.
+  /// Estimate of the magnet's angle for a drive without a rotor sensor.
   const control::EstimatorState<Scalar>& estimator() const { return state_.estimator; }
   FieldTelemetry field_held() const {
     const auto si = [](const control::Dq<Scalar>& x, double unit) {
@@ -112,7 +112,7 @@ class FieldDrive {
     }
     state_.field.command = core_.held(call, state_.field.command, at);
   }
-  /// Of what the last tick went by.
+  /// Error of the angle that the last tick used, electrical degrees; 0 for an ideal sensor.
   template <class Real>
   double error_deg(const plant::State<Real>& s) const {
     if (!config_.estimator.on && !sensors_.tells_angle()) return 0.0;

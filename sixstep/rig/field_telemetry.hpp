@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a field-oriented drive holds from one sample to the next, in SI: what figures and recorders see of it, whatever it
-// computes in.
+// Values that a field-oriented drive holds from one sample to the next, in SI whatever its arithmetic; for figures
+// and recorders.
 #pragma once
 #include "sixstep/control/frames.hpp"
 
@@ -8,11 +8,11 @@ namespace sixstep::rig {
 
 struct FieldTelemetry {
   control::Dq<double> measured_A{}, reference_A{};
-  control::Dq<double> voltage_V{};  ///< of a phase, as asked for
-  double angle_error_deg = 0.0;     ///< electrical: where the magnet is taken to point, less where it does
+  control::Dq<double> voltage_V{};  ///< commanded voltage of a phase
+  double angle_error_deg = 0.0;     ///< electrical: assumed angle of the magnet minus the true one
 };
 
-/// That of a firmware that has it; of any other zeros.
+/// Values of a field-oriented firmware; zeros for any other.
 template <class Firmware>
 FieldTelemetry field_held(const Firmware& firmware) {
   if constexpr (requires { firmware.field_held(); })

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every firmware for the virtual board is given and tells. The rig sees it behind the interface of any_drive.hpp; a test may give it
-// to the rig itself. These are the library's six-step drives:
+// Inputs and results of all firmwares for the virtual board. The rig uses a firmware through the interface of
+// any_drive.hpp; a test may also use one directly. The library's six-step drives:
 //
-//                 a tick is given                    a Hall edge           a fault              it tells
-//   LeanDrive     what is, in the controller's unit  on_hall               ends the run         -
+//                 input of a tick                    a Hall edge           a fault              reports
+//   LeanDrive     ideal values in controller units   on_hall               ends the run         -
 //   SensedDrive   the same through [sensors]         captured, on_hall     ends the run         broken line,
 //                                                                                               lost sensor
 //   ProductDrive  registers: counts, pins, counter   protected_on_hall     bridge off, goes on  reason, line,
 //                                                                                               when
 //
 // LeanDrive and SensedDrive (lean_drive.hpp) run control/drive.hpp; ProductDrive (product_drive.hpp) runs
-// control/protected_drive.hpp, offset calibration, Hall decoding, fault monitor and state machine included.
+// control/protected_drive.hpp, including offset calibration, Hall decoding, fault monitor and state machine.
 //
-// What a firmware answers, its Command, chooses the modulator (modulator.hpp). One that answers three legs
-// needs neither hall_interrupt() nor reversed(): both are six-step's.
+// The type of a firmware's answer, its Command, determines the modulator (modulator.hpp). A firmware that answers
+// three legs needs neither hall_interrupt() nor reversed(): both are for six-step only.
 #pragma once
 #include "sixstep/base/angle.hpp"
 #include "sixstep/control/sensorless/lock.hpp"
@@ -24,7 +24,7 @@
 
 namespace sixstep::rig {
 
-/// The instant that a firmware's tick looks at.
+/// State of plant and board at a firmware's sample.
 template <class Real>
 struct SampleInstant {
   const plant::State<Real>& state;
@@ -34,35 +34,35 @@ struct SampleInstant {
   std::uint64_t number = 0;  ///< of the sample
   std::uint8_t pins = 0;
   bool reversed = false;  ///< sign of the six-step command in effect
-  double duty = 0.0;      ///< and its duty: what a shunt in the DC link goes by
+  double duty = 0.0;      ///< duty of that command, from which the DC link's shunt is evaluated
   const FrontEndReading* seen =
-      nullptr;  ///< what the converters' inputs stand at, where the board's front end lags
+      nullptr;  ///< values at the converters' inputs, if the board's front end lags; else null
 };
 
-/// What a firmware has found out about a fault.
+/// Findings of a firmware about a fault.
 struct Diagnosis {
   std::uint16_t faults = 0;    ///< bits of control::Fault that stopped the drive
-  std::uint8_t hall_line = 0;  ///< 1..3: the line that made an impossible code; 0: none, or it cannot be told
-  sim::Instant at{};           ///< the tick that latched them, or lost the rotor last
-  int losses = 0;              ///< how often a sensorless drive lost the rotor, or did not get it turning
-  control::LockLoss lost = control::LockLoss::none;  ///< why, the last time
-  bool gave_up = false;                              ///< for good
-  int unseen = 0;                                    ///< how often pulses did not show how the rotor stands
-  double north = 0.0;                                ///< the last time, over its noise
-  double certain = 0.0;                              ///< and what would have been enough
-  ShaftFinding shaft{};                              ///< of an encoder or a resolver that is lost
-  OwnWrong own = OwnWrong::none;                     ///< what a controller of one's own answered
-  CoreTrouble core = CoreTrouble::none;              ///< of a core beside the host
+  std::uint8_t hall_line = 0;  ///< 1..3: the line that made an impossible code; 0: none, or unknown
+  sim::Instant at{};           ///< tick that latched the faults, or last lost the rotor
+  int losses = 0;              ///< how often a sensorless drive lost the rotor, or failed to start it
+  control::LockLoss lost = control::LockLoss::none;  ///< reason of the last loss
+  bool gave_up = false;                              ///< true: it does not start again
+  int unseen = 0;                                    ///< how often pulses did not determine the rotor's angle
+  double north = 0.0;                                ///< last result of the pulses, relative to its noise
+  double certain = 0.0;                              ///< result that would have been enough
+  ShaftFinding shaft{};                              ///< finding of a lost encoder or resolver
+  OwnWrong own = OwnWrong::none;                     ///< error in the answer of a user's controller
+  CoreTrouble core = CoreTrouble::none;              ///< trouble of a core beside the host
 };
 
-/// What a chip is given while it runs (control/retune.hpp).
+/// New configuration of a running chip (control/retune.hpp).
 template <class Config>
 struct Tuning {
   Config config;
-  double setpoint_unit = 1.0;  ///< that of its mode
+  double setpoint_unit = 1.0;  ///< base of the mode's setpoint
 };
 
-/// Everything as it is.
+/// Measurements without any error.
 template <class Scalar, class Real>
 control::Measurement<Scalar> ideal_measurement(const SampleInstant<Real>& instant, const Bases& u) {
   const plant::State<Real>& s = instant.state;
@@ -77,7 +77,8 @@ control::Measurement<Scalar> ideal_measurement(const SampleInstant<Real>& instan
           .hall = instant.pins};
 }
 
-/// Whether it knows how its Hall probes are arranged; a drive that does not is given codes of probes 120 degrees apart.
+/// True if the firmware's configuration has the arrangement of its Hall probes; otherwise it is given codes of probes
+/// 120 degrees apart.
 template <class Firmware>
 bool reads_arrangement([[maybe_unused]] const typename Firmware::Config& config) {
   if constexpr (requires { Firmware::reads_arrangement(config); })
@@ -86,7 +87,7 @@ bool reads_arrangement([[maybe_unused]] const typename Firmware::Config& config)
     return requires { requires Firmware::decodes_arrangement; };
 }
 
-/// What converters and shunt are exposed to.
+/// Values at the inputs of converters and shunt.
 template <class Real>
 Sample sample_of(const SampleInstant<Real>& instant) {
   const plant::State<Real>& s = instant.state;

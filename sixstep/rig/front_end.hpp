@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The analogue front end between circuit and converters (model.md 4): amplifiers of the currents with a bandwidth and a delay,
-// dividers of bus and terminals with a capacitor across. Each is a first-order lag that is taken along every segment exactly,
-// so that a sample shows all switching before it. A board without any of these pays one branch per segment.
+// The analogue front end between circuit and converters (model.md 4): current amplifiers with a bandwidth and a
+// delay, dividers of bus and terminals with a capacitor. Each is a first-order lag that is integrated exactly over
+// every segment, so that a sample contains the effect of all switching before it. A board without lags costs one
+// branch per segment.
 #pragma once
 #include <limits>
 
@@ -12,19 +13,19 @@
 
 namespace sixstep::rig {
 
-/// The inputs over one segment of length h, of which s in (0, 1] passes.
+/// The inputs over one segment of length h, of which the part s in (0, 1] is used.
 template <class Real>
 struct FrontEndSegment {
   const plant::Expansion<Real>& y;
-  plant::PerLeg<std::size_t> phase{0, 1, 2};  ///< at each leg
-  plant::Legs legs{};                         ///< of the phases
+  plant::PerLeg<std::size_t> phase{0, 1, 2};  ///< connected to each leg
+  plant::Legs legs{};                         ///< connections of the phases
   Real s = 1;
   sim::Instant from{}, to{}, next_sample{};
 };
 
 class FrontEnd {
  public:
-  /// It stood for long at these before the run, without current.
+  /// The front end had settled to these voltages before the run, without current.
   FrontEnd(const FrontEndConfig& config, double bus_V, const plant::PerLeg<double>& terminal_V)
       : config_(config),
         reading_{.terminal_V = terminal_V,
@@ -57,7 +58,7 @@ class FrontEnd {
       reading_.comparator_bus_V = comparator_bus_.value;
     }
   }
-  /// Where voltages lag, or comparators' do: the terminals' series, by phases.
+  /// If voltages or comparators lag: integrates the terminals' series, by phases.
   template <class Real>
   void follow_terminals(const FrontEndSegment<Real>& of, const plant::TerminalSeries<Real>& u);
 
@@ -97,7 +98,8 @@ class FrontEnd {
   FrontEndReading reading_{};
 };
 
-/// With a delay the converters see what the amplifiers stood at so long before the sample, on the left side of a jump.
+/// With a delay, the converters get the amplifiers' value that much earlier than the sample; at a jump, the value
+/// before it.
 template <class Real>
 void FrontEnd::follow_currents(const FrontEndSegment<Real>& of) {
   const series::Coefficients<Real> link = dc_link(of);
@@ -143,7 +145,7 @@ void FrontEnd::follow_terminals(const FrontEndSegment<Real>& of, const plant::Te
     follow_legs(config_.comparators.lag_s, of, u, comparator_, reading_.comparator_V);
 }
 
-/// Of a firmware that is told what is.
+/// For a firmware with ideal measurements.
 struct NoFrontEnd {};
 
 }  // namespace sixstep::rig

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bridge of a board whose chip sets the gates itself (chip_drive.hpp): what its pins say, it does. Duty and pair are read off them, as
-// a measuring instrument would: over the period that went by last.
+// The bridge of a board whose chip sets the gates itself (chip_drive.hpp). Duty and pair are measured from the gates
+// over the last period, as an instrument would do.
 #pragma once
 #include "sixstep/plant/state.hpp"
 #include "sixstep/rig/pulse.hpp"
@@ -27,7 +27,7 @@ class GateModulator {
 
   static Command before_first() { return {}; }
 
-  /// The pins move.
+  /// The pins change.
   void take(const sim::Instant& t, const Command& command) {
     note(t);
     for (unsigned k = 0; k < 3; ++k) {
@@ -40,7 +40,7 @@ class GateModulator {
       gates_.low[k] = (command.bits >> (2 * k + 1) & 1U) != 0;
     }
   }
-  /// A sample: a period has gone by.
+  /// A control sample: the end of a period.
   void end_period(const sim::Instant& t) {
     note(t);
     const double period = sim::seconds_between(begun_, t);
@@ -49,20 +49,20 @@ class GateModulator {
     begun_ = t;
   }
 
-  /// No edge is known beforehand: the chip's next stop is.
+  /// No edge is scheduled: the chip's next stop takes this place.
   sim::Instant next_edge() const { return sim::Instant::never(); }
   bool act(const sim::Instant&) { return false; }
   bool steady() const { return false; }
-  /// A dead time is the firmware's.
+  /// The dead time is the firmware's.
   void set_dead_time(double) {}
 
   const plant::Gates& gates() const { return gates_; }
   std::int64_t turn_ons() const { return turn_ons_; }
   std::int64_t turn_ons_before(const sim::Instant&) const { return turn_ons_; }
-  /// The bus stands between two legs.
+  /// True if the bus is connected to two legs.
   bool drives() const { return gates_.high.any() && gates_.low.any(); }
   bool enabled() const { return gates_.high.any() || gates_.low.any(); }
-  /// Part of the last whole period over which it did, and the leg whose upper switch was turned on last.
+  /// Part of the last whole period with drives(); and the leg whose upper switch was turned on last.
   double duty() const { return duty_; }
   int source() const { return source_; }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Speed and position from Hall edges by the angle that runs on between them (control/sensing/hall_angle.hpp), and by edges
-// whose places the drive has learned as it turns (hall_calibration.hpp). What is commutated at a sample is what is seen.
+// Speed and position from Hall edges, with the angle extrapolated between edges (control/sensing/hall_angle.hpp) and
+// optionally with edge positions that the drive learns while it turns (hall_calibration.hpp). A drive that commutates
+// at samples does so by this angle.
 //
-// Hysteresis and delay of the probes are taken as the data sheet's. Until the edges are learned a speed is taken over six of
-// them, over which their faults cancel, where these come within the window; then over as many as were asked for.
+// Hysteresis and delay of the probes are those of the data sheet. Until the positions are learned, a speed is taken
+// over six edges, whose errors then cancel, if these come within the window; afterwards over as many as configured.
 #pragma once
 #include <cmath>
 
@@ -21,16 +22,16 @@ class HallInterpolator {
  public:
   HallInterpolator(const SensorsConfig& config, const Bases& bases, const PowerUp& power_up);
 
-  /// What the decoder read in the interrupt of an edge.
+  /// Reading of the decoder in an edge's interrupt.
   void edge(const control::HallReading& reading, std::uint32_t now);
   void measure(control::Measurement<Scalar>& m, std::uint32_t now);
   bool learned() const { return learned_; }
-  /// That of the last sample; the middle of the sector where no speed is known.
+  /// Angle at the last sample; the middle of the sector if no speed is known.
   control::BinaryAngle electrical_angle() const { return seen_.angle; }
   const control::HallEdges& edges() const { return config_.edges; }
 
  private:
-  /// Sectors for the speed that the next edge tells.
+  /// Number of sectors over which the next edge gives the speed.
   std::uint8_t span() const;
   void learn(std::int8_t moved, std::uint32_t now);
 
@@ -60,7 +61,7 @@ HallInterpolator<Scalar>::HallInterpolator(const SensorsConfig& config, const Ba
   config_.timeout_ticks = static_cast<std::uint32_t>(config.timeout_s * config.capture_Hz);
   config_.delay_ticks = static_cast<std::uint32_t>(std::floor(config.hall_delay_s * config.capture_Hz + 0.5));
   config_.edges.half_hysteresis = control::binary_degrees(config.hall_hysteresis_deg / 2);
-  // A unit short of the next edge: no sector is entered before its edge is seen or its angle is due.
+  // One unit short of the next edge: a sector is entered only at its edge or when its angle is due.
   config_.margin = ~control::BinaryAngle{0};
   calibration_config_.turns = config.calibration_turns;
   per_sector_ = control::Gain<Scalar>(sector_deg / raw_unit<Scalar>());
@@ -85,7 +86,7 @@ void HallInterpolator<Scalar>::edge(const control::HallReading& reading, std::ui
   if (learns_ && !learned_ && reading.moved != 0) learn(reading.moved, now);
 }
 
-/// A run that was refused, as of a rotor that speeds up, begins anew with this edge.
+/// A series of edges that was refused, for example because the rotor accelerated, starts again with this edge.
 template <class Scalar>
 void HallInterpolator<Scalar>::learn(std::int8_t moved, std::uint32_t now) {
   using control::HallCalibration;
@@ -101,7 +102,7 @@ void HallInterpolator<Scalar>::learn(std::int8_t moved, std::uint32_t now) {
   control::hall_calibrate(calibration_config_, calibration_, state_.edge, moved, now);
 }
 
-/// Where no speed is known, as at the start, the probes' own code commutates.
+/// While no speed is known, as at the start, the code of the probes commutates.
 template <class Scalar>
 void HallInterpolator<Scalar>::measure(control::Measurement<Scalar>& m, std::uint32_t now) {
   using T = control::ScalarTraits<Scalar>;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The firmwares that run control/drive.hpp: its loops alone, told what is (LeanDrive) or what a board's sensors say (SensedDrive).
+// Firmwares that run the loops of control/drive.hpp alone, with ideal measurements (LeanDrive) or those of a board's
+// sensors (SensedDrive).
 #pragma once
 #include "sixstep/control/retune.hpp"
 #include "sixstep/rig/firmware.hpp"
@@ -7,7 +8,7 @@
 
 namespace sixstep::rig {
 
-/// The loops alone, told what is.
+/// The loops alone with ideal measurements.
 template <class Scalar>
 class LeanDrive {
  public:
@@ -23,7 +24,7 @@ class LeanDrive {
   const control::BridgeCommand<Scalar>& tick(const SampleInstant<Real>& instant, double setpoint) {
     return step(ideal_measurement<Scalar>(instant, bases_), setpoint);
   }
-  /// The command where it stands: a copy would have to wait for the fields that were just set.
+  /// Returns a reference to the stored command: a copy would wait until the fields just set are written.
   const control::BridgeCommand<Scalar>& step(const control::Measurement<Scalar>& measured, double setpoint) {
     control::step(config_, state_, measured, wanted(setpoint), telemetry_);
     return state_.command;
@@ -45,10 +46,10 @@ class LeanDrive {
   control::Mode mode() const { return config_.mode; }
   /// Sign of the last command.
   bool reversed() const { return state_.reversed; }
-  /// Asks nothing of a tick but the setpoint.
+  /// True if a tick needs nothing but the setpoint.
   bool open_loop() const { return config_.mode == control::Mode::off || config_.mode == control::Mode::duty; }
-  /// An event hysteresis on the setpoint itself has no sample to wait for (model.md 4). One that slews has:
-  /// it moves once a tick.
+  /// True for an event hysteresis on the setpoint itself, which waits for no sample (model.md 4). With a slew rate it
+  /// does wait, because the reference changes once per tick.
   bool follows_setpoint_at_once() const {
     return config_.mode == control::Mode::current &&
            config_.current_control == control::CurrentControl::hysteresis &&
@@ -66,7 +67,7 @@ class LeanDrive {
   control::Telemetry<Scalar> telemetry_{};
 };
 
-/// The loops alone, told what a board's sensors say.
+/// The loops alone with the measurements of a board's sensors.
 template <class Scalar>
 class SensedDrive {
  public:
@@ -115,12 +116,12 @@ class SensedDrive {
             .shaft = sensors_.shaft_found(),
             .core = core_.trouble()};
   }
-  /// What its converters and timers are fed with.
+  /// Inputs of the firmware's converters and timers.
   Registers& registers() { return sensors_.registers(); }
   ShaftPorts& shaft_ports() { return sensors_.shaft_ports(); }
   const ShaftPorts& shaft_ports() const { return sensors_.shaft_ports(); }
   const Sensors<Scalar>& sensors() const { return sensors_; }
-  /// Whether an encoder's timer counts between samples, or a code is latched there.
+  /// True if an encoder's timer counts between samples, or a code is latched there.
   bool follows_shaft() const { return sensors_.follows_shaft(); }
   template <class Real>
   void follow(const ShaftMotion<Real>& motion) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rig of the thesis's experiments: ideal measurement, the loops alone.
+// The rig of the thesis's experiments: ideal measurements and the loops alone.
 #pragma once
 #include "sixstep/rig/lean_drive.hpp"
 #include "sixstep/rig/rig.hpp"

@@ -52,7 +52,7 @@ LegTimer::Switches LegTimer::asked() const {
 void LegTimer::set_dead_time(double ticks) {
   dead_ticks_ = config_.in_counts(ticks);
   if (waits_ || !(dead_ticks_ > 0)) return;
-  waits_ = true;  // from now on: what was turned off before has waited for nothing
+  waits_ = true;  // from now on: switches turned off before have no wait
   for (unsigned k = 0; k < 3; ++k) legs_[k] = LegChannel(side_of(told_, k));
 }
 
@@ -82,7 +82,7 @@ void LegTimer::update(const Instant& t, int late) {
   next_edge_ = first_edge();
 }
 
-/// Which of them wait, and until when the first one does.
+/// Determines the legs that wait, and the end of the first wait.
 void LegTimer::look_at_legs() {
   static constexpr Instant never = Instant::never();
   const Instant* end = &never;
@@ -96,7 +96,7 @@ void LegTimer::look_at_legs() {
   wait_end_ = *end;
 }
 
-/// By its place: one that was just written and is copied would wait until both halves have left for memory.
+/// By reference, because a copy of a value just written would wait until both halves are in memory.
 const Instant& LegTimer::first_edge() const {
   const Instant* first = &wait_end_;
   for (unsigned left = chopping_; left != 0; left &= left - 1) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A core beside the board's own drive: each call of an entry also goes to it, the plant stands still until it has answered, and
-// its answer must be the host's, to the bit. What carries calls and answers stands outside the library (faces/loop/).
+// A core beside the board's own drive: each call of an entry also goes to the core. The plant stands still until the
+// core has answered, and its answer must equal the host's to the bit. The transport of calls and answers is outside
+// the library (faces/loop/).
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -10,16 +11,16 @@
 
 namespace sixstep::rig {
 
-/// What is wrong with a core.
+/// Trouble with a core or chip.
 enum class CoreTrouble : std::uint8_t {
   none,
   silent,   ///< it did not answer in time
   gone,     ///< it ended
   differs,  ///< its answer is not the host's
-  stalled   ///< of a chip that keeps its own time: it samples no longer
+  stalled   ///< a chip with its own clock no longer samples
 };
 
-/// Whoever carries calls to a core and answers back; none: `ask` is null.
+/// Transport of calls to a core and of its answers; `ask` is null if there is no core.
 struct CorePort {
   void* core = nullptr;
   /// Sends `call`, waits, fills `answer`.
@@ -34,7 +35,8 @@ class LockstepCore {
   explicit LockstepCore(const CorePort& port) : port_(port) {}
 
   bool there() const { return static_cast<bool>(port_); }
-  /// Where the core is in trouble, or gets into it now, an answer that turns the bridge off and is a fault.
+  /// The host's command if the core agrees. If the core is or gets in trouble: a command with a fault that turns the
+  /// bridge off.
   template <class Call, class Command>
   Command held(const Call& call, const Command& host, const sim::Instant& at) {
     if (agrees(call, answer_of(host), at)) return host;
@@ -42,7 +44,7 @@ class LockstepCore {
     off.fault = true;
     return off;
   }
-  /// Whether the core is in order, and answers that.
+  /// True if the core is in order and its answer equals `wanted`.
   template <class Call, class Answer>
   bool agrees(const Call& call, const Answer& wanted, const sim::Instant& at) {
     if (trouble_ != CoreTrouble::none) return false;

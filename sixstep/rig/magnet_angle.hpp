@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the magnet points as it is: 150 electrical degrees behind the angle from phase a's axis (control/frames.hpp).
+// True direction of the magnet: 150 electrical degrees behind the angle from phase a's axis (control/frames.hpp).
 #pragma once
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/elementary.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a controller answers, as the board's timer takes it, and which modulator does: a driven pair with one
-// duty, or three legs. A firmware that answers three legs shares nothing with six-step but the timer; one that sets
-// the gates itself not even that.
+// Converts a controller's answer to the board's command and selects its modulator: a driven pair with one duty, or
+// three legs. A three-leg modulator shares only the timer with six-step; a firmware that sets the gates itself does
+// not use it either.
 #pragma once
 #include "sixstep/rig/bases.hpp"
 #include "sixstep/rig/gate_modulator.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a controller of one's own answered, as a command that a timer can carry out, or what no timer could.
+// Converts the answer of a user's controller to a command for the timer, or finds why no timer can execute it.
 #pragma once
 #include <cstdint>
 
@@ -8,16 +8,16 @@
 
 namespace sixstep::rig {
 
-/// Why an answer was not carried out.
+/// Reason why an answer was not executed.
 enum class OwnWrong : std::uint8_t {
   none,
-  gave_up,  ///< it said so itself
-  duty,     ///< no number of 0 to 1
-  leg,      ///< a leg that there is not, or source and sink are one
-  choice,   ///< a chopping, a switch or a state that has no meaning
+  gave_up,  ///< the controller itself reports a fault
+  duty,     ///< not a number from 0 to 1
+  leg,      ///< an invalid leg, or source and sink are the same leg
+  choice,   ///< an invalid chopping, switch or state
 };
 
-// The C interface names the same in the same order.
+// The C interface has the same names in the same order.
 static_assert(SIXSTEP_LEG_C == static_cast<int>(control::Leg::c) &&
               SIXSTEP_SOFT == static_cast<int>(control::Chopping::soft) &&
               SIXSTEP_HARD == static_cast<int>(control::Chopping::hard) &&
@@ -56,7 +56,7 @@ constexpr OwnWrong wrong_in(const sixstep_answer& a) {
   }
 }
 
-/// Of one in which nothing is wrong.
+/// Command of a valid answer.
 template <class Command>
 constexpr Command command_of(const sixstep_answer& a) {
   Command command{};

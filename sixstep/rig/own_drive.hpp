@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The firmware that runs a controller of one's own (control/own/own_controller.h), beside those of firmware.hpp:
+// The firmware that runs a user's controller (control/own/own_controller.h); compare firmware.hpp:
 //
-//              a tick is given                         a Hall edge          a fault         it tells
-//   OwnDrive   what is, or what [sensors] say, and     captured, its hall   ends the run    lost sensor, what it
-//              where the magnet points                                                      answered
+//              input of a tick                         a Hall edge          a fault         reports
+//   OwnDrive   ideal values, or those of [sensors],    captured, its hall   ends the run    lost sensor, invalid
+//              and the magnet's direction                                                   answer
 //
-// It answers a pair or three legs, as its Command says. What no timer could do is not passed on: the run ends there and
-// tells what was answered.
+// Its answer is a pair or three legs, according to its Command. An answer that no timer can execute is not passed on:
+// the run ends there, and the diagnosis has the reason.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -22,7 +22,7 @@
 
 namespace sixstep::rig {
 
-/// A controller with its config as it designed it; none: `is` is null.
+/// A controller with the configuration from its design function; `is` is null if there is none.
 struct OwnConfig {
   const sixstep_controller* is = nullptr;
   std::vector<std::uint64_t> config;
@@ -30,7 +30,7 @@ struct OwnConfig {
   bool operator==(const OwnConfig&) const = default;
 };
 
-/// Room for so many bytes, all zero, and aligned as operator new aligns whatever it makes.
+/// Memory of so many bytes, all zero, aligned as by operator new.
 inline std::vector<std::uint64_t> zero_bytes(std::size_t bytes) {
   return std::vector<std::uint64_t>(bytes / 8 + 1);
 }
@@ -86,11 +86,11 @@ class OwnDrive {
   }
   void request_run(bool) {}
   void request_clear() {}
-  /// Its state stays.
+  /// The controller's state is kept.
   void retune(const Tuning<Config>& tuning) { config_ = tuning.config; }
 
   control::Mode mode() const { return config_.mode; }
-  /// Whether the pair of the last answer is that of a negative torque.
+  /// True if the last answer's pair is that of a negative torque.
   bool reversed() const { return reversed_; }
   bool open_loop() const { return false; }
   bool follows_setpoint_at_once() const { return false; }
@@ -109,13 +109,13 @@ class OwnDrive {
   }
 
  private:
-  /// By itself: GCC 12 ends with an internal error where a member is set to Command{}.
+  /// A separate function because GCC 12 stops with an internal error where a member is set to Command{}.
   static Command given_up() {
     Command command{};
     command.fault = true;
     return command;
   }
-  /// As decoded; by Hall codes alone the middle of the sector; as it is where nothing senses it.
+  /// Decoded direction; with Hall codes alone the middle of the sector; without sensors the true direction.
   template <class Real>
   control::Direction<double> magnet_direction(const plant::State<Real>& s, std::uint8_t hall) {
     if (sensors_.tells_angle())
@@ -146,7 +146,7 @@ class OwnDrive {
   Sensors<double> sensors_;
   bool ideal_, by_hall_;
   bool reversed_ = false;
-  std::uint8_t sector_ = 0;  ///< that the last possible code showed
+  std::uint8_t sector_ = 0;  ///< from the last possible code
   sixstep_answer answer_{};
   Command command_{};
   control::Telemetry<double> telemetry_{};

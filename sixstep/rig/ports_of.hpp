@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parts of a chip that some firmwares have and others have not: where one has none, null.
+// Access to parts of a chip that only some firmwares have; null for the others.
 #pragma once
 #include <type_traits>
 
@@ -8,7 +8,7 @@
 
 namespace sixstep::rig {
 
-/// Of an encoder or a resolver.
+/// Ports of an encoder or a resolver.
 template <class Firmware>
 auto shaft_ports_of([[maybe_unused]] Firmware& firmware)
     -> std::conditional_t<std::is_const_v<Firmware>, const ShaftPorts*, ShaftPorts*> {
@@ -20,7 +20,7 @@ auto shaft_ports_of([[maybe_unused]] Firmware& firmware)
     return nullptr;
 }
 
-/// What converters and timers are fed with.
+/// Inputs of converters and timers.
 template <class Firmware>
 Registers* registers_of([[maybe_unused]] Firmware& firmware) {
   if constexpr (requires { *firmware.registers(); })

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Hall probes between rotor and wires (model.md 10): which code their lines carry now. On the general kernel they can be
-// mounted askew, stand 60 degrees apart, answer late and glitch; on the lean one they show the rotor's own sector, and cost
-// nothing.
+// The Hall probes between rotor and wires (model.md 10): the present code of their lines. On the general kernel they
+// can have mounting errors, 60 degrees spacing, delays and glitches. On the lean kernel they follow the rotor's
+// sectors exactly, at no cost.
 #pragma once
 #include <array>
 #include <optional>
@@ -17,14 +17,14 @@ class Plant;
 
 namespace sixstep::rig {
 
-/// How the probes of a motor are built in.
+/// Mounting of a motor's probes.
 struct ProbeGiven {
   plant::HallPlacement placement{};
   bool spaced_60 = false;
   std::int64_t delay_ticks = 0;  ///< of each edge, ps
 };
 
-/// Exactly where the sectors are.
+/// Probes whose edges are exactly those of the sectors.
 template <class Real>
 class SectorProbes {
  public:
@@ -39,7 +39,7 @@ class SectorProbes {
 template <class Real>
 class MountedProbes {
  public:
-  /// Mounted where anything about them differs from the sectors.
+  /// The probes count as mounted() if they differ from the sectors in any way.
   MountedProbes(const ProbeGiven& given, const plant::State<Real>& at)
       : delay_ticks_(given.delay_ticks), spaced_60_(given.spaced_60) {
     if (given.placement.as_sectors() && given.delay_ticks == 0) return;
@@ -47,22 +47,22 @@ class MountedProbes {
     shown_ = probes_->shown();
   }
 
-  /// Their edges are their own, not the sectors'.
+  /// True if the edges are separate from those of the sectors.
   bool mounted() const { return probes_.has_value(); }
-  /// What the lines carry while the rotor is in `sector`, 0 to 5.
+  /// Code of the lines while the rotor is in `sector`, 0 to 5.
   std::uint8_t code(int sector) const {
     const int shown = mounted() ? static_cast<int>((shown_ % 6 + 6) % 6) : sector;
     const std::uint8_t code = spaced_60_ ? plant::hall_code_60(shown) : plant::hall_code(shown);
     return code ^ glitch_;
   }
-  /// What they show of the rotor's sector, both counted over all turns.
+  /// Sector according to the probes for the rotor's sector `own`, both counted over all turns.
   std::int64_t sector(std::int64_t own) const { return mounted() ? shown_ : own; }
 
   template <class Visit>
   void guards(const plant::Expansion<Real>& y, std::int64_t sector, Visit&& visit) const {
     if (mounted()) probes_->guards(y, sector, visit);
   }
-  /// An edge was passed; its lines change now, or when its delay is over.
+  /// An edge was passed; its lines change now or after its delay.
   void pass(plant::ProbeEdge which, const sim::Instant& now) {
     probes_->pass(which);
     if (delay_ticks_ == 0 || count_ == late_.size()) {
@@ -71,9 +71,9 @@ class MountedProbes {
     }
     late_[(first_ + count_++) % late_.size()] = {{now.ticks + delay_ticks_, now.offset}, probes_->shown()};
   }
-  /// When the lines change next by an edge that is on its way.
+  /// Instant of the next change of the lines by a delayed edge.
   sim::Instant next() const { return count_ == 0 ? sim::Instant::never() : late_[first_].at; }
-  /// Shows what is due; false where nothing was.
+  /// Shows the edge that is due; false if there was none.
   bool show(const sim::Instant& now) {
     if (count_ == 0 || now < late_[first_].at) return false;
     shown_ = late_[first_].sector;
@@ -81,7 +81,7 @@ class MountedProbes {
     --count_;
     return true;
   }
-  /// Turns lines over, as bits of a code: a glitch begins, or ends.
+  /// Inverts lines, a mask of a code's bits: a glitch begins or ends.
   void glitch(std::uint8_t lines) { glitch_ ^= lines; }
 
  private:
@@ -91,14 +91,14 @@ class MountedProbes {
   };
 
   std::optional<plant::HallProbes<Real>> probes_;
-  std::array<Late, 64> late_{};  ///< a ring: more edges than any delay holds
+  std::array<Late, 64> late_{};  ///< a ring, larger than the number of edges within any delay
   std::size_t first_ = 0, count_ = 0;
   std::int64_t shown_ = 0, delay_ticks_ = 0;
   bool spaced_60_ = false;
   std::uint8_t glitch_ = 0;
 };
 
-/// The probes of a rig, by its plant.
+/// Type of a rig's probes, by its plant.
 template <class Plant>
 struct ProbesFor {
   using type = SectorProbes<typename Plant::Real>;

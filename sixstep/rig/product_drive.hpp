@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The firmware that runs control/protected_drive.hpp, as it is flashed.
+// The firmware that runs control/protected_drive.hpp, as on the chip.
 #pragma once
 #include "sixstep/control/protected_drive.hpp"
 #include "sixstep/control/retune.hpp"
@@ -8,7 +8,7 @@
 
 namespace sixstep::rig {
 
-/// What is flashed: registers in, command out. The request to run is a level that the timeline sets.
+/// The flashed program: registers in, command out. The timeline sets the request to run as a level.
 template <class Scalar>
 class ProductDrive {
  public:
@@ -16,9 +16,9 @@ class ProductDrive {
   using Command = control::BridgeCommand<Scalar>;
   using Config = control::ProtectedConfig<Scalar>;
   static constexpr bool fault_ends_run = false;
-  static constexpr bool decodes_arrangement = true;  ///< its configuration names that of its probes
+  static constexpr bool decodes_arrangement = true;  ///< its configuration has the arrangement of its probes
 
-  /// It knows its turn: position counts on from where the rotor stands.
+  /// The rotor's turn is known at power-up: the position counts from there.
   ProductDrive(const Config& config, const BoardConfig& board, const PowerUp& power_up)
       : config_(config), registers_(board.sensors), bases_(board.bases), core_(board.core) {
     state_.position.sectors = static_cast<std::int32_t>(power_up.sector);
@@ -36,7 +36,7 @@ class ProductDrive {
     return held(ProductCall<Scalar>{.entry = CoreEntry::hall, .now = now, .hall_pins = pins}, answer, at);
   }
   void request_run(bool run) { request_.run = run; }
-  /// Seen by the next tick alone: clearing acts on the rise.
+  /// Only the next tick reads it: a fault is cleared on the rising edge.
   void request_clear() { request_.clear = true; }
   void retune(const Tuning<Config>& tuning) {
     control::retune(config_, state_, tuning.config);
@@ -50,7 +50,7 @@ class ProductDrive {
   const control::Telemetry<Scalar>& telemetry() const { return telemetry_.drive; }
   control::Activity activity() const { return telemetry_.activity; }
   const Diagnosis& diagnosis() const { return diagnosis_; }
-  /// Where it ends, a fault ends the run: nothing is left to go on with.
+  /// A lost core ends the run, because nothing remains that could continue.
   bool core_lost() const { return diagnosis_.core != CoreTrouble::none; }
   Registers& registers() { return registers_; }
 
@@ -89,7 +89,7 @@ control::BridgeCommand<Scalar> ProductDrive<Scalar>::tick(const SampleInstant<Re
   request_.clear = false;
   if (telemetry_.first_fault != 0 && diagnosis_.faults == 0)
     diagnosis_ = {.faults = telemetry_.first_fault, .at = instant.at};
-  // The line may be told later than the fault: by the first impossible code of the coasting rotor.
+  // The line may be found later than the fault: by the first impossible code of the coasting rotor.
   if ((diagnosis_.faults & control::fault_hall) != 0) diagnosis_.hall_line = telemetry_.hall_line;
   return answer;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One compare unit of the timer: when the pulse of a PWM period begins and ends (model.md 3).
+// One compare unit of the timer: begin and end of the pulse in a PWM period (model.md 3).
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -13,8 +13,8 @@ struct ModulatorConfig {
   bool centre_aligned = false;
   double dead_ticks = 0.0;
   bool dead_time_at_commutation = false;
-  double timer_ticks = 0.0;          ///< ps per count of the timer; 0: edges anywhere
-  double minimum_pulse_ticks = 0.0;  ///< a pulse or a gap shorter than this is left out; 0: none
+  double timer_ticks = 0.0;          ///< ps per count of the timer; 0: edges are not rounded
+  double minimum_pulse_ticks = 0.0;  ///< a shorter pulse or gap is left out; 0: none
 
   /// Rounded to counts of the timer.
   double in_counts(double ticks) const {
@@ -29,13 +29,13 @@ struct Pulse {
   sim::Instant on_edge = sim::Instant::never(), off_edge = sim::Instant::never();
 
   const sim::Instant& next() const { return on_edge < off_edge ? on_edge : off_edge; }
-  // Each by itself: a copy of the one just written would wait until both its halves have left for memory.
+  // Set one by one: a copy of the first would wait until both its halves are in memory.
   void cancel() {
     on_edge = sim::Instant::never();
     off_edge = sim::Instant::never();
   }
-  /// Whether it is on as the period begins, and the edges to come. |duty| = 1 has no gap, 0 no pulse. One
-  /// that is too short for the gate drivers does not come; a gap that is too short closes.
+  /// Sets the pulse's state at the start of the period and its edges. |duty| = 1 has no gap, 0 no pulse. A pulse that
+  /// is too short for the gate drivers is left out; a gap that is too short is closed.
   bool begin(const sim::Instant& t, double duty, const ModulatorConfig& c) {
     const auto period = static_cast<double>(c.period_ticks);
     const double on_time = duty * period;

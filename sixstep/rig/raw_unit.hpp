@@ -4,7 +4,8 @@
 
 namespace sixstep::rig {
 
-/// Of a gain whose output is counted in raw units (adc.hpp, hall_speed.hpp): the last bit of a fixed format.
+/// Unit of a gain whose output is in raw units (adc.hpp, hall_speed.hpp): the last bit of a fixed format, 1 in
+/// floating point.
 template <class Scalar>
 double raw_unit() {
   if constexpr (std::is_arithmetic_v<Scalar>)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Registers are the counts that a firmware finds in its chip: converters and capture timer make them of the
-// plant.
+// Registers of a chip: the counts of its converters and capture timer, computed from the plant.
 #pragma once
 #include "sixstep/rig/adc.hpp"
 #include "sixstep/rig/capture_clock.hpp"
@@ -11,46 +10,46 @@ namespace sixstep::rig {
 
 enum class CurrentMeasurement : std::uint8_t { ideal, phases, dc_link };
 
-/// Where speed and position between Hall edges come from.
+/// Source of speed and position between Hall edges.
 enum class HallAngleFrom : std::uint8_t {
-  sectors,        ///< sectors of 60 degrees, passed one by one
-  angle,          ///< an angle that runs on from edge to edge
-  learned_edges,  ///< the same, by edges whose places were learned as the rotor turned
+  sectors,        ///< sectors of 60 degrees, counted one by one
+  angle,          ///< an angle extrapolated from edge to edge
+  learned_edges,  ///< the same with edge positions learned while turning
 };
 
 struct SensorsConfig {
   AdcPath current{};  ///< of each phase, or of the shunt
   AdcPath bus{};
-  double least_duty = 1.0;  ///< DC link: a sample counts above this duty (one_shunt.hpp)
-  double fade = 1.0;        ///< of a hidden current per period, exp(-R T_s/L)
+  double least_duty = 1.0;  ///< DC link: a sample is valid above this duty (one_shunt.hpp)
+  double fade = 1.0;        ///< factor on an unmeasured current per period, exp(-R T_s/L)
   double capture_Hz = 1e6;  ///< of the timer that captures the edges
-  double timeout_s = 0.05;  ///< no edge for so long is standstill
+  double timeout_s = 0.05;  ///< standstill after this time without an edge
   std::uint64_t seed = 0;   ///< of the noise
   CurrentMeasurement currents = CurrentMeasurement::ideal;
   bool calibrated = true;  ///< offsets were measured, with their noise, before the run
   bool measures_bus = false;
   bool rotor_from_hall = false;  ///< speed and position from captured edges
-  bool decodes_hall = false;     ///< follow the lines, to name a broken one
+  bool decodes_hall = false;     ///< decode the lines to find a broken one
   std::uint8_t commutation_samples = 0;
-  std::uint8_t edges = 6;  ///< that a speed is taken over
+  std::uint8_t edges = 6;  ///< over which a speed is taken
   HallAngleFrom hall_angle = HallAngleFrom::sectors;
-  bool commutates_by_angle = false;     ///< at a sample, by the angle seen
-  std::uint8_t learned_edges = 1;       ///< that a speed is taken over once their places are known
-  std::uint16_t calibration_turns = 8;  ///< electrical ones that edges are learned from
-  double hall_delay_s = 0.0;            ///< by which edges are seen late, as the data sheet says
+  bool commutates_by_angle = false;     ///< at a sample, by the measured angle
+  std::uint8_t learned_edges = 1;       ///< over which a speed is taken once their positions are learned
+  std::uint16_t calibration_turns = 8;  ///< electrical turns over which edges are learned
+  double hall_delay_s = 0.0;            ///< delay of the edges by the data sheet
   double hall_hysteresis_deg = 0.0;
-  double window_s = 0.0;      ///< one edge where these take longer; 0: always `edges`
-  ShaftSensorConfig shaft{};  ///< an encoder or a resolver in the place of the Hall probes
+  double window_s = 0.0;      ///< one edge suffices if `edges` take longer than this; 0: always `edges`
+  ShaftSensorConfig shaft{};  ///< an encoder or a resolver instead of the Hall probes
   double period_s = 0.0;      ///< of the control ticks
 
-  /// The controller is told what is.
+  /// True if all measurements are ideal.
   bool ideal() const {
     return currents == CurrentMeasurement::ideal && !measures_bus && !rotor_from_hall && !decodes_hall &&
            shaft.kind == ShaftSensor::none;
   }
 };
 
-/// The window in counts of the timer: at least one where there is one.
+/// The window in counts of the timer, at least one; 0: no window.
 inline std::uint32_t window_ticks(const SensorsConfig& config) {
   if (!(config.window_s > 0.0)) return 0;
   const double ticks = config.window_s * config.capture_Hz;
@@ -75,29 +74,29 @@ class Registers {
   explicit Registers(const SensorsConfig& config)
       : current_(config.current), bus_(config.bus), capture_(config.capture_Hz), seed_(config.seed) {}
 
-  /// Of input 0 to 2: a phase current each, or the shunt as input 0.
+  /// Counts of inputs 0 to 2: one phase current each, or the shunt as input 0.
   std::uint16_t current_counts(std::size_t input, double i_A, std::uint64_t sample) const {
     return converted(current_, i_A, {seed_, stream + input, sample});
   }
   std::uint16_t bus_counts(const Sample& s) const {
     return converted(bus_, s.bus_V, {seed_, stream + bus_input, s.number});
   }
-  /// Of terminal 0 to 2, behind the bus's divider and converter.
+  /// Counts of terminals 0 to 2, through divider and converter like the bus's.
   std::uint16_t terminal_counts(std::size_t leg, double u_V, std::uint64_t sample) const {
     return converted(bus_, u_V, {seed_, stream + terminals + leg, sample});
   }
-  /// A sample before the run, with the bridge off and no current.
+  /// Counts of a sample before the run, with the bridge off and no current.
   std::uint16_t calibration_counts(std::size_t input, std::uint64_t sample) const {
     return converted(current_, 0.0, {seed_, stream + calibration + input, sample});
   }
-  /// In the unit of the current, from now on.
+  /// In the unit of the current; takes effect from now on.
   void set_current_offset(double offset_A) { current_.offset = offset_A; }
   void set_current_gain_error(double part) { current_.gain_error = part; }
   /// The free-running counter.
   std::uint32_t counter(const sim::Instant& t) const { return capture_.counts(t); }
 
  private:
-  // Which input a random number belongs to; far from the streams of a series' spread.
+  // Streams of random numbers by input; far from the streams of a series' spread.
   static constexpr std::uint64_t stream = std::uint64_t{0x5e5} << 32, calibration = 8, terminals = 16;
   static constexpr std::size_t bus_input = 3;
 

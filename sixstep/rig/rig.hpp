@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The virtual board around the plant: samples, runs the controller, modulates, and plays the scenario's
-// timeline. It is the System that sim::run drives; the order of things at one instant is act()'s (model.md
-// 4b). What its chip runs is a template parameter (firmware.hpp).
+// The virtual board around the plant: it samples, runs the controller, modulates, and executes the scenario's
+// timeline. It is the System of sim::run; act() has the order of actions at one instant (model.md 4b). The firmware
+// of its chip is a template parameter (firmware.hpp).
 #pragma once
 #include <algorithm>
 #include <array>
@@ -33,8 +33,8 @@ class Rig {
   using Wires = typename WiringFor<Plant>::type;
   using Probes = typename ProbesFor<Plant>::type;
 
-  /// `tunings`: what the timeline's retune actions name. `wires`: how the motor hangs at the board at the start. `probes`: how
-  /// its Hall probes are built in. A copy of a rig is its snapshot.
+  /// `tunings`: configurations of the timeline's retune actions. `wires`: connection of motor and board at the start.
+  /// `probes`: mounting of the Hall probes. A copy of a rig is its snapshot.
   Rig(const Plant& plant, const Config& chip, const BoardConfig& board, Timeline timeline,
       Tunings tunings = {}, const Wires& wires = {}, const ProbeGiven& probes = {})
       : plant_(plant),
@@ -84,18 +84,18 @@ class Rig {
   }
   void apply(int id);
 
-  /// Another future. What is done up to now begins the new timeline as it began the old one, and the
-  /// configuration in effect may differ in nothing that has been felt.
+  /// Replaces the future. The new timeline must begin with all actions done so far, and the configuration in effect
+  /// may differ only in values that have had no effect yet.
   void replace_future(Timeline timeline, const Tuning<Config>& first, Tunings tunings);
 
   const Plant& plant() const { return plant_; }
   const Modulator& modulator() const { return modulator_; }
   const Firmware& firmware() const { return firmware_; }
-  /// Of the segment at hand, up to its part s: that the encoder or the resolver stands on.
+  /// Motion of the sensor's shaft over the present segment, up to its part s.
   ShaftMotion<Real> shaft_motion(Real s, const sim::Instant& to) const;
-  /// Of a firmware that has converters.
+  /// Only for a firmware that has converters.
   const auto& front_end() const { return front_end_; }
-  /// Of a firmware that captures the edges of comparators at the terminals.
+  /// Only for a firmware that captures the edges of comparators at the terminals.
   const auto& crossings() const { return crossings_; }
   const auto& telemetry() const { return firmware_.telemetry(); }
   double current_reference_A() const {
@@ -111,22 +111,22 @@ class Rig {
   }
   double setpoint() const { return setpoint_; }
   Fault fault() const { return fault_; }
-  /// H1 H2 H3 as the board's pins have them: those of the probes that are wired to them, but for a line that is stuck.
+  /// H1 H2 H3 at the board's pins: those of the probes wired to them, except for stuck lines.
   std::uint8_t pins() const {
     return static_cast<std::uint8_t>((wires_.at_pins(probes_.code(plant_.sector())) & ~stuck_low_) |
                                      stuck_high_);
   }
   const Wires& wires() const { return wires_; }
-  /// The gates of the board's legs: those of the phases that hang at them.
+  /// Gates of the board's legs: those of the phases connected to them.
   decltype(auto) leg_gates() const { return wires_.at_legs(plant_.gates()); }
-  /// The sector that the board takes the rotor to be in; the rotor's own where the lines show none.
+  /// Rotor's sector according to the board's pins; the true one if their code is impossible.
   int board_sector() const {
     if constexpr (std::is_same_v<Wires, StraightWiring>) return plant_.sector();
     const std::uint8_t seen = control::sector_of_hall(
         control::as_120_degrees(board_.hall_arrangement, wires_.at_pins(probes_.code(plant_.sector()))));
     return seen == control::no_sector ? plant_.sector() : seen;
   }
-  /// The sector that the motor's probes show, whatever their wires do to it: by it the motor current is named.
+  /// Sector according to the motor's probes, regardless of their wires: the motor current is defined by it.
   int probe_sector() const {
     if constexpr (can_be_askew) return static_cast<int>((probes_.sector(plant_.state().sector) % 6 + 6) % 6);
     return plant_.sector();
@@ -134,15 +134,15 @@ class Rig {
   std::int64_t event_count(EventKind what) const { return event_counts_[static_cast<std::size_t>(what)]; }
   /// True between a control tick and the segment that follows it.
   bool ticked() const { return ticked_; }
-  /// When the chip looks next; in open loop at a steady bridge that may be never.
+  /// Instant of the chip's next tick; in open loop with a steady bridge it may be never.
   const sim::Instant& next_tick() const { return next_tick_; }
 
  private:
-  /// What only six-step has: a sign, a pair that moves on at Hall edges, comparators.
+  /// Only six-step has a sign, a pair that changes at Hall edges, and comparators.
   static constexpr bool six_step = std::is_same_v<Modulator, SixStepModulator>;
   using BoardAnswer = typename Modulator::Command;
   static constexpr bool can_be_askew = requires(Probes probes) { probes.next(); };
-  /// A chip that keeps its own time, and stops where the plant is to look at it (chip_drive.hpp).
+  /// True for a chip with its own clock, which stops where the plant must evaluate it (chip_drive.hpp).
   static constexpr bool keeps_time = requires(const Firmware& firmware) { firmware.next_stop(); };
   static constexpr bool has_front_end = requires(Firmware firmware) { firmware.registers(); };
   static constexpr bool looks_at_terminals = six_step && requires(Firmware firmware) {
@@ -162,7 +162,7 @@ class Rig {
   static constexpr int probe_ahead = plant::guard::first_free + 2, probe_behind = probe_ahead + 1,
                        crossing = probe_behind + 1;  // + leg
 
-  /// A drive that knows no arrangement is given codes of probes 120 degrees apart.
+  /// For a drive without the arrangement: codes of probes 120 degrees apart.
   std::uint8_t read_by_chip(std::uint8_t pins, [[maybe_unused]] bool knows_arrangement) const {
     if constexpr (can_be_askew)
       if (!knows_arrangement) return control::as_120_degrees(board_.hall_arrangement, pins);
@@ -176,11 +176,11 @@ class Rig {
           pins(), requires { requires Firmware::decodes_arrangement; });
   }
   static constexpr bool has_load_side = requires(const Plant& p) { p.series().load_w; };
-  /// To the turn that a sensor on the motor's shaft has.
+  /// Pole pairs per turn of a sensor on the motor's shaft.
   std::int64_t sensor_pole_pairs() const {
     return board_.sensors.shaft.linear ? 1 : static_cast<std::int64_t>(plant_.constants().pole_pairs);
   }
-  /// Of the shaft that a sensor stands on, at the start.
+  /// Angle of the sensor's shaft at the start.
   plant::ShaftAngle<double> shaft_angle() const {
     if constexpr (has_load_side)
       if (board_.sensors.shaft.on_load)
@@ -191,7 +191,7 @@ class Rig {
     return {plant_.state().sector, static_cast<double>(plant_.state().x), sensor_pole_pairs()};
   }
   bool listens() const;
-  /// By itself: few boards have anything that looks between two samples.
+  /// Not inlined, because few boards have a part that follows the plant between two samples.
   [[gnu::noinline]] void show_segment(Real s, const sim::Instant& to);
   void show_terminals();
   void show_signals(Real s, const sim::Instant& to);
@@ -221,7 +221,7 @@ class Rig {
     if constexpr (six_step) return watching() && compare();
     return false;
   }
-  /// By itself, so that the run loop around act() keeps its registers.
+  /// Not inlined, so that the run loop around act() keeps its registers.
   [[gnu::noinline]] bool act_on_due();
   bool compare();
   bool do_timeline();
@@ -230,7 +230,7 @@ class Rig {
   bool do_tick();
   bool do_half_tick();
   bool do_chip();
-  /// For how long surely no Hall edge comes.
+  /// Time in which no Hall edge is expected, s.
   double quiet_s() const;
   void set_hall_line(double line, bool stuck_high, bool stuck_low);
   void rewire(const Action& action);
@@ -260,7 +260,7 @@ class Rig {
   void commutate();
   template <class Answer>
   void move_pair(const Answer& answer);
-  /// A timer's interrupt between two ticks: of a firmware that asks for one.
+  /// True for a firmware that requests a timer's interrupt between two ticks.
   static constexpr bool has_commutation_clock = six_step && requires(const Firmware& f) {
     f.next_commutation();
   };
@@ -271,7 +271,7 @@ class Rig {
   void let_go();
   void count(EventKind what) { ++event_counts_[static_cast<std::size_t>(what)]; }
 
-  // Small fields last: the plant begins on a cache line, and each gap might cost a whole one.
+  // Small members last: the plant begins on a cache line, and each gap might cost a whole line.
   Plant plant_;
   Timeline timeline_;
   Tunings tunings_;
@@ -284,19 +284,19 @@ class Rig {
   sim::Instant due_{};  ///< the earliest of all clocks
   std::size_t next_action_ = 0;
   double setpoint_ = 0.0;
-  std::size_t waveform_ = 0;  ///< the action whose waveform the setpoint follows, where moving_
-  BoardAnswer pending_ = Modulator::before_first();  ///< waits for its period
-  BoardAnswer loaded_{};                             ///< sampled in the middle: what the timer takes up next
+  std::size_t waveform_ = 0;  ///< index of the action whose waveform the setpoint follows, if moving_
+  BoardAnswer pending_ = Modulator::before_first();  ///< takes effect in the next period
+  BoardAnswer loaded_{};                             ///< sampled in the middle: the timer's next command
   std::array<std::int64_t, static_cast<std::size_t>(EventKind::count)> event_counts_{};
   Firmware firmware_;
   [[no_unique_address]] std::conditional_t<has_front_end, FrontEnd, NoFrontEnd> front_end_;
   [[no_unique_address]] std::conditional_t<has_crossings, Crossings, NoCrossings> crossings_;
-  bool listens_ = false;  ///< a port or the front end looks between two samples
-  bool moved_ = true;     ///< a located event changed what the board drives
+  bool listens_ = false;  ///< a port or the front end follows the plant between two samples
+  bool moved_ = true;     ///< a located event changed the circuit
   bool moving_ = false;
   bool pending_reversed_ = false,
-       reversed_ = false;                        ///< sign of the command that waits, and of the one in effect
-  bool loaded_reversed_ = false, half_ = false;  ///< half_: the next tick is a middle
+       reversed_ = false;                        ///< sign of the waiting command, and of the one in effect
+  bool loaded_reversed_ = false, half_ = false;  ///< half_: the next sample is a middle
   bool ticked_ = false;
   Fault fault_ = Fault::none;
   std::uint8_t stuck_high_ = 0, stuck_low_ = 0;  ///< Hall lines, as bits of a code

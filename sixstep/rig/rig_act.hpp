@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the rig does at one instant, in the order of model.md 4b: late Hall edge, scenario step, control tick, PWM edge,
-// comparator. Part of rig.hpp.
+// Executes the rig's actions at one instant, in the order of model.md 4b: late Hall edge, scenario step, control
+// tick, PWM edge, comparator. Part of rig.hpp.
 #pragma once
 #include "sixstep/rig/rig.hpp"
 
 namespace sixstep::rig {
 
-/// All that is due now, decided by the clocks alone: late Hall edge, scenario step, control tick, PWM edge, comparator,
-/// repeated until nothing is due. The gates follow at the end, so that a leg never sees an order of things at
-/// one instant.
+/// Executes all that is due now by the clocks alone: late Hall edge, scenario step, control tick, PWM edge,
+/// comparator, repeated until nothing is due. The gates are set at the end, so that no leg depends on the order of
+/// actions at one instant.
 template <class Real, class Firmware, class Plant>
 bool Rig<Real, Firmware, Plant>::act() {
   ticked_ = false;
@@ -78,7 +78,8 @@ void Rig<Real, Firmware, Plant>::control_step(bool starts_period) {
     std::swap(command, pending_);
     // mutant: std::swap(reversed, pending_reversed_); => nothing
     std::swap(reversed, pending_reversed_);
-    // The pair moves on in what waits, as at a compare match: the next sample is to find the leg that is looked for.
+    // The pair also changes in the waiting command, as at a compare match: the next sample must find the leg for
+    // which the drive waits.
     if constexpr (has_commutation_clock)
       if (firmware_.moved_on())
         command.pair = firmware_.reversed() == reversed ? answer.pair : control::swapped(answer.pair);

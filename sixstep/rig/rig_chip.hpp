@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the rig does for a chip that keeps its own time (chip_drive.hpp): it comes where the chip has stopped, does what the chip did
-// there, and lets it go on. Part of rig.hpp.
+// Runs a chip with its own clock (chip_drive.hpp) beside the rig: when the plant reaches the chip's stop, its actions
+// are applied and it runs on. Part of rig.hpp.
 #pragma once
 #include "sixstep/rig/rig.hpp"
 
@@ -34,8 +34,9 @@ bool Rig<Real, Firmware, Plant>::do_chip() {
   return false;
 }
 
-/// Half of the way to the next edge, at the present speed and with twice what it gains now: each stretch halves what is left of it, down
-/// to the shortest. A rotor so slow that it may turn round has an edge on either side.
+/// Time to half of the way to the next edge, at the present speed and twice its present acceleration. Each step
+/// halves the rest of the way, down to the shortest step. A rotor that is so slow that it may reverse can reach the
+/// edge on either side.
 template <class Real, class Firmware, class Plant>
 double Rig<Real, Firmware, Plant>::quiet_s() const {
   constexpr double longest_s = 25e-6;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rig's clocks and inputs: the scenario's timeline, the ticks that it lets be skipped, the Hall lines, wires and amplifiers that
-// change, and the sample in the middle of a period. Part of rig.hpp.
+// The rig's clocks and inputs: the scenario's timeline, skipped ticks, changes of Hall lines, wires and amplifiers,
+// and the sample in the middle of a period. Part of rig.hpp.
 #pragma once
 #include "sixstep/rig/rig.hpp"
 
@@ -13,7 +13,7 @@ bool Rig<Real, Firmware, Plant>::do_timeline() {
   return true;
 }
 
-/// What only the general kernel's plant has.
+/// Actions that only the general kernel's plant has.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::act_on_general(const Action& action) {
   if constexpr (requires { plant_.fail_switch(0, false, false); }) {
@@ -86,7 +86,7 @@ void Rig<Real, Firmware, Plant>::do_action(const Action& action) {
     if (firmware_.follows_setpoint_at_once() && !board_.delayed) control_step(false);
 }
 
-/// The tick that sees the next action which is the chip's: a setpoint or a tuning; never where none is left.
+/// First tick at or after the chip's next action, a setpoint or a tuning; never if none is left.
 template <class Real, class Firmware, class Plant>
 sim::Instant Rig<Real, Firmware, Plant>::told_next() const {
   const std::int64_t period = board_.modulator.period_ticks;
@@ -97,8 +97,7 @@ sim::Instant Rig<Real, Firmware, Plant>::told_next() const {
   return sim::Instant::never();
 }
 
-/// Open loop with a steady bridge asks nothing of the coming ticks until the chip is told something: they are
-/// not simulated.
+/// In open loop with a steady bridge, ticks have no effect until the chip's next action: they are not simulated.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::skip_idle_ticks() {
   if constexpr (requires { plant_.warms(); })
@@ -110,7 +109,7 @@ void Rig<Real, Firmware, Plant>::skip_idle_ticks() {
   if (const sim::Instant told = told_next(); told > now_) next_tick_ = told;
 }
 
-/// Ticks that were skipped since nothing was to come are due again where something is.
+/// Ticks that were skipped because nothing was to come are due again if the new timeline has an action.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::replace_future(Timeline timeline, const Tuning<Config>& first,
                                                 Tunings tunings) {
@@ -125,7 +124,7 @@ void Rig<Real, Firmware, Plant>::replace_future(Timeline timeline, const Tuning<
   moved_ = true;
 }
 
-/// Where the setpoint stands at this tick.
+/// Sets the setpoint to its waveform's value at this tick.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::follow_waveform() {
   // mutant: waveform_ => 0
@@ -136,15 +135,15 @@ void Rig<Real, Firmware, Plant>::follow_waveform() {
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::sector_edge() {
   count(EventKind::sector_edge);
-  if (probes_.mounted()) return;  // what the lines show has edges of its own
+  if (probes_.mounted()) return;  // mounted probes have edges of their own
   const std::uint8_t stuck = stuck_high_ | stuck_low_;
-  // The one line that changes between this sector and its neighbour behind is stuck: no edge on the pins.
+  // No edge on the pins if the one line that differs between this sector and the one before is stuck.
   const int s = plant_.sector(), behind = (s + (plant_.state().w < Real(0) ? 1 : 5)) % 6;
   if ((wires_.at_pins(probes_.code(s)) ^ wires_.at_pins(probes_.code(behind))) & stuck) return;
   hall_edge();
 }
 
-/// The tick that comes next, or the middle behind it.
+/// The next tick, or the middle of the period after it.
 template <class Real, class Firmware, class Plant>
 sim::Instant Rig<Real, Firmware, Plant>::next_sample() const {
   sim::Instant sample = next_tick_;
@@ -171,7 +170,7 @@ void Rig<Real, Firmware, Plant>::pass_probe_edge(plant::ProbeEdge which) {
   }
 }
 
-/// A Hall edge whose delay is over; several may be due at once.
+/// Shows a Hall edge whose delay is over; several may be due at once.
 template <class Real, class Firmware, class Plant>
 bool Rig<Real, Firmware, Plant>::show_probes() {
   if constexpr (can_be_askew) {
@@ -183,7 +182,7 @@ bool Rig<Real, Firmware, Plant>::show_probes() {
   return false;
 }
 
-/// A glitch begins or ends: the probe's own line, wherever it is wired to.
+/// A glitch begins or ends on the probe's own line, wherever it is wired to.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::glitch(const Action& action) {
   if constexpr (can_be_askew) {
@@ -193,7 +192,7 @@ void Rig<Real, Firmware, Plant>::glitch(const Action& action) {
   }
 }
 
-/// A line breaks or is whole again: where it stood the other way, that is an edge on the pins.
+/// A line breaks or is repaired: if its level changes, that is an edge on the pins.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::set_hall_line(double line, bool stuck_high, bool stuck_low) {
   const std::uint8_t before = pins(), bit = static_cast<std::uint8_t>(8 >> static_cast<int>(line));
@@ -205,8 +204,8 @@ void Rig<Real, Firmware, Plant>::set_hall_line(double line, bool stuck_high, boo
   if (pins() != before) hall_edge();
 }
 
-/// Wires are crossed in no time: each phase keeps its current, through the leg at which it now hangs. Lines that change are
-/// one edge on the pins.
+/// Wires are exchanged instantly: each phase keeps its current, through the leg to which it is now connected. All
+/// lines that change are one edge on the pins.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::rewire(const Action& action) {
   if constexpr (std::is_same_v<Wires, Wiring>) {
@@ -219,7 +218,7 @@ void Rig<Real, Firmware, Plant>::rewire(const Action& action) {
   }
 }
 
-/// The amplifiers show something else from now on. A firmware that is told what is has none.
+/// Changes the amplifiers' errors from now on. A firmware with ideal measurements has no amplifiers.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::drift(const Action& action) {
   Registers* const registers = registers_of(firmware_);
@@ -228,7 +227,7 @@ void Rig<Real, Firmware, Plant>::drift(const Action& action) {
   if (action.kind == ActionKind::current_gain) registers->set_current_gain_error(action.value);
 }
 
-/// Of a firmware that looks at a shaft.
+/// Only for a firmware with a shaft sensor.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::fail_shaft_sensor(const Action& action) {
   ShaftPorts* const ports = shaft_ports_of(firmware_);
@@ -244,7 +243,7 @@ void Rig<Real, Firmware, Plant>::fail_shaft_sensor(const Action& action) {
   if (action.kind == ActionKind::excitation) ports->excite(action.value);
 }
 
-/// Of a firmware that looks at the terminals.
+/// Only for a firmware that samples the terminals.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::break_divider(std::size_t leg) {
   if constexpr (requires { firmware_.break_divider(leg); }) {
@@ -259,7 +258,7 @@ void Rig<Real, Firmware, Plant>::break_divider(std::size_t leg) {
   }
 }
 
-/// Sampled in the middle of a period: the answer waits in the timer's buffer for the next start.
+/// Samples in the middle of a period: the answer waits in the timer's buffer for the next period.
 template <class Real, class Firmware, class Plant>
 bool Rig<Real, Firmware, Plant>::do_half_tick() {
   const std::int64_t period = board_.modulator.period_ticks, first = period / 2;
@@ -290,7 +289,7 @@ sim::Instant Rig<Real, Firmware, Plant>::next_due() const {
   return next;
 }
 
-/// Turning off waits for no register: neither for a delayed command nor for one that the timer has loaded.
+/// Turning off is immediate: neither a delayed command nor one loaded in the timer delays it.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::let_go() {
   modulator_.turn_off(now_);

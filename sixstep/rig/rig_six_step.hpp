@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a rig does for six-step alone: the pair that moves on at a Hall edge, and the comparators that switch
-// its legs. Part of rig.hpp.
+// Actions of the rig for six-step alone: the pair that changes at a Hall edge, and the comparators that switch its
+// legs. Part of rig.hpp.
 #pragma once
 #include "sixstep/rig/rig.hpp"
 
 namespace sixstep::rig {
 
-/// The Hall interrupt of six-step: the pair moves on, in what is in effect and in what waits.
+/// The Hall interrupt of six-step: the pair changes in the command in effect and in the waiting one.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::commutate() {
   move_pair(firmware_.hall_interrupt(chip_pins(), now_));
 }
 
-/// Between two ticks: of a firmware that commutates by a clock of its own.
+/// Commutation between two ticks, of a firmware with its own commutation clock.
 template <class Real, class Firmware, class Plant>
 bool Rig<Real, Firmware, Plant>::do_commutation() {
   if constexpr (has_commutation_clock) {
@@ -48,7 +48,7 @@ void Rig<Real, Firmware, Plant>::move_pair(const Answer& answer) {
     modulator_.commutate(now_, control::swapped(answer.pair));
 }
 
-/// Comparators beyond their level; true where one switched.
+/// Switches by comparators beyond their level; true if one switched.
 template <class Real, class Firmware, class Plant>
 bool Rig<Real, Firmware, Plant>::compare() {
   const int switched = modulator_.compare(now_, wires_.at_legs(plant_.state().i));
@@ -57,8 +57,8 @@ bool Rig<Real, Firmware, Plant>::compare() {
   return switched > 0;
 }
 
-/// With two legs conducting, both phases carry one current and two comparators reach their levels together:
-/// whether the second one switches too must not be left to a rounding error.
+/// With two legs conducting, both phases carry one current and two comparators reach their levels together: rounding
+/// must not decide whether the second one switches too.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::trip(int which) {
   const ArmedComparator other = modulator_.comparator(1 - which);

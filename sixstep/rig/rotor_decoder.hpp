@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a chip makes of an encoder or a resolver by the controller's own blocks (control/sensing/): speed, position, and the
-// Hall code of the sector that it takes the rotor to be in. What is commutated is what is seen; of a sensor on the load's side
-// that is what the Hall probes show, and speed and position are told times the gear, as those of the motor's shaft. Where it is
-// asked to, it looks at what a whole sensor cannot show: a resolver's sum of squares, and an index that comes where the count is
-// off by more than a sector, by which the wrong pair was driven.
+// Decodes an encoder or a resolver with the controller's own blocks (control/sensing/): speed, position, and the Hall
+// code of the measured sector. A sensor on the motor's shaft determines the commutation. With a sensor on the load's
+// side the Hall probes commutate, and speed and position are multiplied by the gear ratio to be those of the motor's
+// shaft. If `watched`, two things are checked that an intact sensor cannot show: a resolver's sum of squares out of
+// its limits, and an index at which the count is wrong by more than a sector, so that the wrong pair was driven.
 #pragma once
 #include "sixstep/base/angle.hpp"
 #include "sixstep/control/commutation.hpp"
@@ -25,9 +25,9 @@ class RotorDecoder {
 
   /// `now` is the capturing timer's count.
   void sense(control::Measurement<Scalar>& m, const Sample& s, ShaftPorts& ports, std::uint32_t now);
-  /// What the last samples told about the sensor itself.
+  /// Finding of the last samples about the sensor itself.
   const ShaftFinding& found() const { return found_; }
-  /// That of the last sample; 0 before the first, and of a sensor on the load's shaft.
+  /// Angle at the last sample; 0 before the first sample, and for a sensor on the load's shaft.
   control::BinaryAngle electrical_angle() const { return electrical_; }
 
  private:
@@ -35,7 +35,7 @@ class RotorDecoder {
   void of_absolute(control::Measurement<Scalar>& m, const ShaftPorts& ports);
   void of_resolver(control::Measurement<Scalar>& m, const Sample& s, ShaftPorts& ports);
   void of_converter(control::Measurement<Scalar>& m, const TrackingConverter& converter);
-  /// Of turns and the angle in the last one: 2^-16 turn to a unit.
+  /// Sets the position from turns and the angle in the last one, in units of 2^-16 turn.
   void place(control::Measurement<Scalar>& m, const control::UnwrappedAngle& at);
   void commutate_at(control::Measurement<Scalar>& m, control::BinaryAngle electrical) {
     if (on_load_) return;
@@ -64,17 +64,17 @@ class RotorDecoder {
   control::Gain<Scalar> resolver_speed_{};
   control::UnwrappedAngle seen_{};
   control::BinaryAngle electrical_ = 0;
-  std::int32_t per_peak_ = 0;  ///< of the resolver's angle, in units of 2^-32 turn
+  std::int32_t per_peak_ = 0;  ///< change of the resolver's angle per peak, in units of 2^-32 turn
   std::uint8_t per_turn_ = 1, bits_ = 32;
   std::int64_t samples_per_peak_ = 1, period_ticks_ = 1;
-  std::int64_t first_ticks_ = -1, last_peak_ = -1;  ///< -1: none yet
+  std::int64_t first_ticks_ = -1, last_peak_ = -1;  ///< -1: none so far
   bool positive_peak_ = true;
   ShaftFinding found_{};
 };
 
 namespace detail {
 
-/// A turn's beginnings and the angle in it of a shaft, `times` of which make one turn of the shaft.
+/// Number of turns and the angle within the last one, for a turn of which `times` make one turn of the shaft.
 inline control::UnwrappedAngle unwrapped(const plant::ShaftAngle<double>& at, std::int64_t times) {
   const std::int64_t fine = plant::parts_of_turn(at, std::int64_t{1} << 32);
   const std::int64_t all = fine * times;
@@ -131,10 +131,10 @@ void RotorDecoder<Scalar>::set_speeds(const SensorsConfig& config, const Bases& 
       control::Gain<Scalar>(unit_rad / step_s / per_turn_ / bases.speed_rad_s / raw_unit<Scalar>());
 }
 
-/// A resolver's signals at the amplitude expected.
+/// Number that stands for a resolver's signals at the expected amplitude.
 inline constexpr double full_signal = 0.6;
 
-/// The loop has followed the shaft before the run.
+/// The loop has settled to the shaft's angle before the run.
 template <class Scalar>
 void RotorDecoder<Scalar>::set_resolver(const SensorsConfig& config, const Bases&,
                                         const control::UnwrappedAngle& at) {
@@ -159,7 +159,7 @@ void RotorDecoder<Scalar>::set_resolver(const SensorsConfig& config, const Bases
   period_ticks_ = sim::to_instant(config.period_s).ticks;
 }
 
-/// A limit that its number cannot hold is none.
+/// A limit that the number format cannot hold is not checked.
 template <class Scalar>
 void RotorDecoder<Scalar>::set_watch(const ShaftSensorConfig& given) {
   constexpr double unit = full_signal * full_signal;
@@ -191,7 +191,7 @@ void RotorDecoder<Scalar>::place(control::Measurement<Scalar>& m, const control:
   m.position_deg = control::AngleTraits<Scalar>::scaled(units, deg_per_unit_);
 }
 
-/// Before the index is passed the Hall probes say where the rotor is; each later one mends what was missed.
+/// Until the index is passed, the Hall probes give the rotor's sector; each later index corrects missed counts.
 template <class Scalar>
 void RotorDecoder<Scalar>::of_encoder(control::Measurement<Scalar>& m, ShaftPorts& ports, std::uint32_t now) {
   const auto moved = static_cast<std::int32_t>(ports.quarters() - counted_);
@@ -228,7 +228,7 @@ void RotorDecoder<Scalar>::of_absolute(control::Measurement<Scalar>& m, const Sh
   commutate_at(m, control::electrical_angle(reading.position.angle, pole_pairs_));
 }
 
-/// The chip's loop has followed the windings up to when it was read.
+/// The chip's loop has followed the windings until the reading.
 template <class Scalar>
 void RotorDecoder<Scalar>::of_converter(control::Measurement<Scalar>& m, const TrackingConverter& converter) {
   found_ = converter.found();
@@ -238,7 +238,7 @@ void RotorDecoder<Scalar>::of_converter(control::Measurement<Scalar>& m, const T
   commutate_at(m, control::electrical_angle(seen_.angle, static_cast<std::uint8_t>(pole_pairs_ / per_turn_)));
 }
 
-/// Which of them it is, of the last peak and the one before.
+/// Determines the lost winding from the last peak and the one before.
 template <class Scalar>
 void RotorDecoder<Scalar>::look_at_windings(const ShaftSensorConfig& given,
                                             const control::ResolverCounts& before, bool positive_peak) {
@@ -248,8 +248,8 @@ void RotorDecoder<Scalar>::look_at_windings(const ShaftSensorConfig& given,
       given.watch.finding(static_cast<double>(x.c) / full_signal, static_cast<double>(x.s) / full_signal);
 }
 
-/// What a peak tells belongs to the middle between it and the peak before: half a step further is now. Between peaks the
-/// angle goes on at its speed. A setpoint that is answered at once, between two samples, is no peak.
+/// A peak gives the angle in the middle between it and the peak before; the angle now is half a step further. Between
+/// peaks the angle advances with its speed. A setpoint that is answered at once, between two samples, is not a peak.
 template <class Scalar>
 void RotorDecoder<Scalar>::of_resolver(control::Measurement<Scalar>& m, const Sample& s, ShaftPorts& ports) {
   if (first_ticks_ < 0) first_ticks_ = s.at.ticks;
@@ -265,7 +265,7 @@ void RotorDecoder<Scalar>::of_resolver(control::Measurement<Scalar>& m, const Sa
     per_peak_ = reading.speed;
     control::unwrap(seen_, resolver_.loop.angle);
   }
-  // loop.angle is that of the next middle, a whole step behind the one just told.
+  // loop.angle is that of the next middle, a whole step after the one just measured.
   const std::int64_t since = passed / period_ticks_ % samples_per_peak_;
   const std::int32_t on = per_peak_ / static_cast<std::int32_t>(samples_per_peak_);
   control::UnwrappedAngle at = seen_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What goes between the plant and a core that runs the drive without a rotor sensor (control/commissioning/pulse_start.hpp): the
-// same as core_call.hpp, of a drive that has entries for its timer and its comparators too.
+// Messages between the plant and a core that runs the drive without a rotor sensor
+// (control/commissioning/pulse_start.hpp): like core_call.hpp, with additional entries for its timer and its
+// comparators.
 #pragma once
 #include "sixstep/control/commissioning/pulse_start.hpp"
 #include "sixstep/rig/core_call.hpp"
@@ -10,7 +11,7 @@ namespace sixstep::rig {
 template <class Scalar>
 struct SensorlessCall {
   CoreEntry entry = CoreEntry::tick;
-  std::uint32_t now = 0;   ///< the timer
+  std::uint32_t now = 0;   ///< count of the timer
   std::uint32_t pins = 0;  ///< of Hall probes; in `capture` the comparators' lines
   std::uint32_t on = 0, on_ticks = 0;
   std::uint32_t terminal_counts[3]{}, bus_counts = 0, current_counts[3]{};
@@ -35,7 +36,7 @@ constexpr SensorlessCall<Scalar> call_of(const control::PulsedDriveInput<Scalar>
   }
   return call;
 }
-/// And back, on the core.
+/// The inverse, on the core.
 template <class Scalar>
 constexpr control::PulsedDriveInput<Scalar> input_of(const SensorlessCall<Scalar>& call) {
   const auto counts = [](std::uint32_t n) { return static_cast<std::uint16_t>(n); };
@@ -54,7 +55,7 @@ constexpr control::PulsedDriveInput<Scalar> input_of(const SensorlessCall<Scalar
   return input;
 }
 
-/// What the bridge does, and when the timer is to ask for the next commutation.
+/// The bridge's command, and the time of the timer's next commutation.
 template <class Scalar>
 struct SensorlessCoreAnswer {
   std::uint32_t commutes = 0, next = 0;

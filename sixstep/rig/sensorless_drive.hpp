@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The firmware of a drive without a rotor sensor (control/sensorless/): beside those of firmware.hpp it looks at the three
-// terminals at each sample, and asks the rig for a timer's interrupt between two ticks.
+// The firmware of a drive without a rotor sensor (control/sensorless/). Unlike those of firmware.hpp it samples the
+// three terminals, and requests a timer's interrupt between two ticks.
 //
-//                     a tick is given                         a compare match         a fault
+//                     input of a tick                         a compare match         a fault
 //   SensorlessDrive   terminals and bus as counts, currents   sensorless_drive_       bridge off, starts again; after so
 //                     as SensedDrive                          commutate               many losses in a row off for good
 //
-// Comparators at the terminals have their edges captured by the same timer (crossing_comparators.hpp).
-// Terminals and bus hang at like dividers and converters: sensors.bus says which. The timer is sensors.capture_Hz. Where pulses
-// are to ask how the rotor stands (control/commissioning/pulse_start.hpp), it reads the counts of the currents, too.
+// The same timer captures the edges of comparators at the terminals (crossing_comparators.hpp). Terminals and bus
+// have equal dividers and converters: sensors.bus. The timer runs at sensors.capture_Hz. If pulses determine the
+// rotor's angle at the start (control/commissioning/pulse_start.hpp), the drive also reads the counts of the
+// currents.
 #pragma once
 #include "sixstep/control/commissioning/pulse_start.hpp"
 #include "sixstep/rig/firmware.hpp"
@@ -24,7 +25,7 @@ class SensorlessDrive {
   using Command = control::BridgeCommand<Scalar>;
   using Config = control::PulsedDriveConfig<Scalar>;
   static constexpr bool fault_ends_run = false;
-  /// Part of the period that the pair must be on for its terminals to be held against the command.
+  /// Part of the period for which the pair must be on before its terminals are compared with the command.
   static constexpr double surely_on = 0.05;
 
   SensorlessDrive(const Config& config, const BoardConfig& board, const PowerUp& power_up)
@@ -37,12 +38,12 @@ class SensorlessDrive {
     for (std::size_t k = 0; k < 3; ++k) gain_[k] = 1.0 + board.front_end.divider_gain_error[k];
   }
 
-  /// The terminals as they are at the sample that is about to come, V.
+  /// Terminal voltages at the coming sample, V.
   template <class Real>
   void look_at_terminals(const plant::PerLeg<Real>& u) {
     for (std::size_t k = 0; k < 3; ++k) terminal_V_[k] = gain_[k] * static_cast<double>(u[k]);
   }
-  /// The upper resistor of a leg's divider breaks: the lower one holds it at 0 from now on.
+  /// The upper resistor of a leg's divider breaks: the lower one keeps the input at 0 from now on.
   void break_divider(std::size_t leg) { gain_[leg] = 0.0; }
 
   template <class Real>
@@ -77,7 +78,7 @@ class SensorlessDrive {
     find_next(instant.at);
     return command();
   }
-  /// An edge of the comparators at the terminals, their lines as bits 2, 1, 0 of legs a, b, c.
+  /// An edge of the comparators at the terminals; lines of legs a, b, c as bits 2, 1, 0.
   void captured_crossing(std::uint8_t lines, const sim::Instant& at) {
     const std::uint32_t now = sensors_.registers().counter(at);
     control::sensorless_capture(state_.drive.sensorless, lines, now);
@@ -91,9 +92,9 @@ class SensorlessDrive {
     find_next(at);
     return command();
   }
-  /// Whether the last tick found a commutation that was due already.
+  /// True if the last tick found a commutation that was already due.
   bool moved_on() const { return moved_on_; }
-  /// When the timer's compare match comes.
+  /// Instant of the timer's compare match.
   const sim::Instant& next_commutation() const { return next_; }
   const Command& commutation_interrupt(const sim::Instant& at) {
     const std::uint32_t now = rotor().clock.next;
@@ -127,13 +128,13 @@ class SensorlessDrive {
             .north = state_.found.north_16 / 16.0,
             .certain = static_cast<double>(config_.pulses.certain)};
   }
-  /// Where it ends, a fault ends the run: nothing is left to go on with.
+  /// A lost core ends the run, because nothing remains that could continue.
   bool core_lost() const { return core_.trouble() != CoreTrouble::none; }
   Registers& registers() { return sensors_.registers(); }
-  /// What it knows of the rotor, and who commutates.
+  /// The drive's state of the rotor, and the present source of commutation.
   const control::SensorlessState& rotor() const { return state_.drive.sensorless; }
   const control::PositionSourceState& source() const { return state_.drive.source; }
-  /// What the pulses said, and whether they are at work.
+  /// Results of the pulses, and whether they are active.
   const control::PulsedDriveState<Scalar>& start() const { return state_; }
 
  private:
@@ -144,7 +145,7 @@ class SensorlessDrive {
     off.fault = true;
     state_.drive.drive.command = off;
   }
-  /// lock.losses counts those in a row, and begins anew.
+  /// lock.losses counts losses in a row and restarts from 0; this counts all.
   void note_losses(const sim::Instant& now) {
     const int in_a_row = rotor().lock.losses;
     if (in_a_row > in_a_row_) {

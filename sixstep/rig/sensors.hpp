@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sensors measure for the lean drive by the controller's own blocks: phase currents or one shunt in the DC
-// link, the bus, speed and position by captured Hall edges, an encoder or a resolver. Every input is ideal until its part is switched
-// on.
+// Measures with the controller's own blocks for the lean drive: phase currents or one shunt in the DC link, the bus,
+// speed and position by captured Hall edges, an encoder or a resolver. Every input is ideal until its part is
+// switched on.
 #pragma once
 #include "sixstep/base/angle.hpp"
 #include "sixstep/control/adc.hpp"
@@ -22,21 +22,21 @@ class Sensors {
 
   /// A Hall line changed.
   void hall_edge(std::uint8_t pins, const sim::Instant& at);
-  /// The driven pair moved on.
+  /// The driven pair has changed.
   void commutated() {
     if (config_.currents == CurrentMeasurement::dc_link)
       control::one_shunt_commutation(shunt_config_, shunt_);
   }
-  /// Puts what was sensed in the place of what is.
+  /// Replaces ideal values by measured ones.
   void sense(control::Measurement<Scalar>& measured, const Sample& sample);
   Registers& registers() { return registers_; }
   ShaftPorts& shaft_ports() { return ports_; }
   const ShaftPorts& shaft_ports() const { return ports_; }
   const HallInterpolator<Scalar>& interpolator() const { return interpolator_; }
   bool follows_shaft() const { return config_.shaft.kind != ShaftSensor::none; }
-  /// Whether there is an angle between two Hall edges: of a sensor on the shaft, or one that runs on.
+  /// True if there is an angle between two Hall edges: from a shaft sensor, or extrapolated.
   bool tells_angle() const { return follows_shaft() || interpolates(); }
-  /// That of the last sample.
+  /// Angle at the last sample.
   control::BinaryAngle electrical_angle() const {
     return follows_shaft() ? rotor_.electrical_angle() : interpolator_.electrical_angle();
   }
@@ -44,9 +44,9 @@ class Sensors {
   void follow(const ShaftMotion<Real>& motion) {
     ports_.follow(motion);
   }
-  /// Of an encoder or a resolver.
+  /// Finding about an encoder or a resolver.
   const ShaftFinding& shaft_found() const { return rotor_.found(); }
-  /// 1..3: the line that made an impossible code; 0: none, or it cannot be told.
+  /// 1..3: the line that made an impossible code; 0: none, or it cannot be determined.
   std::uint8_t broken_line() const { return broken_line_; }
 
  private:
@@ -111,7 +111,7 @@ control::AdcConfig<Scalar> Sensors<Scalar>::decoding(const AdcPath& path, double
           .offset_tolerance = 0x7fff};
 }
 
-/// Before a run the bridge is off and no current flows; the bus has no zero to be found.
+/// Before a run the bridge is off and no current flows. The bus needs no offset calibration.
 template <class Scalar>
 void Sensors<Scalar>::calibrate() {
   if (config_.currents == CurrentMeasurement::ideal) return;
@@ -136,7 +136,7 @@ void Sensors<Scalar>::hall_edge(std::uint8_t pins, const sim::Instant& at) {
 
 template <class Scalar>
 void Sensors<Scalar>::sense(control::Measurement<Scalar>& m, const Sample& s) {
-  // First: one shunt shows the current of the pair that the sector seen stands for.
+  // First, because one shunt measures the current of the pair that belongs to the measured sector.
   if (follows_shaft()) rotor_.sense(m, s, ports_, registers_.counter(s.at));
   if (interpolates()) interpolator_.measure(m, registers_.counter(s.at));
   if (config_.currents == CurrentMeasurement::phases) {

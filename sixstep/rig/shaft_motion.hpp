@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the shaft that a sensor stands on turns within one segment: the rotor's own, or the load's behind gear and coupling.
+// Motion of the sensor's shaft within one segment: the rotor's, or the load's behind gear and coupling.
 #pragma once
 #include <cmath>
 
@@ -9,22 +9,23 @@
 
 namespace sixstep::rig {
 
-/// The load's shaft as the general kernel has it: theta_m/n - twist. Without a speed the sensor is on the rotor.
+/// The load's shaft in the general kernel: theta_m/n - twist. `speed` is null if the sensor is on the rotor.
 template <class Real>
 struct LoadSide {
   const series::Coefficients<Real>* speed = nullptr;
-  const series::Coefficients<Real>* twist = nullptr;  ///< of an elastic shaft
+  const series::Coefficients<Real>* twist = nullptr;  ///< only of an elastic shaft
   Real inv_gear = 1;
 };
 
-/// One angle in rad, over all turns, as whole sixths and the rest. A double keeps 1e-12 rad over a thousand turns.
+/// An angle in rad, over all turns, as whole sixths of a turn and the rest. A double keeps 1e-12 rad over a thousand
+/// turns.
 template <class Real>
 plant::ShaftAngle<Real> in_sixths(Real theta_rad) {
   const Real whole = std::floor(theta_rad / Real(base::sector_rad));
   return {static_cast<std::int64_t>(whole), theta_rad - whole * Real(base::sector_rad), 1};
 }
 
-/// The shaft over one segment, of which s in (0, 1] passes.
+/// The shaft over one segment, of which the part s in (0, 1] is used.
 template <class Real>
 struct ShaftMotion {
   const plant::Expansion<Real>& y;
@@ -45,13 +46,13 @@ struct ShaftMotion {
   Real speed(Real at) const {
     return series::evaluate(load.speed == nullptr ? y.w : *load.speed, y.degree, at);
   }
-  /// Which part of the segment an instant within it is.
+  /// Part of the segment that an instant within it stands for.
   Real part(const sim::Instant& at) const {
     return y.h > 0 ? static_cast<Real>(sim::seconds_between(from, at)) / y.h : Real(0);
   }
 };
 
-/// Where a shaft turns round within the segment, which it does once at most; 0: it does not.
+/// Part of the segment at which a shaft reverses, which happens at most once; 0: it does not reverse.
 template <class Real>
 Real turning_part(const ShaftMotion<Real>& m) {
   const Real start = m.speed(Real(0)), end = m.speed(m.s);
@@ -64,7 +65,8 @@ Real turning_part(const ShaftMotion<Real>& m) {
   return high;
 }
 
-/// When a shaft that goes one way from `low` to `high` comes to a count; `count_at` says which one stands at an angle.
+/// Part of the segment at which a shaft that turns one way from `low` to `high` reaches a count; `count_at` gives the
+/// count at an angle.
 template <class Real, class CountAt>
 Real part_of_count(const ShaftMotion<Real>& m, const CountAt& count_at, Real low, Real high,
                    std::int64_t count, int way) {

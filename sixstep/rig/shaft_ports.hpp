@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a board's peripherals make of an encoder or a resolver on the shaft (model.md 10), until the next sample asks:
+// Peripherals of the board for an encoder or a resolver on the shaft (model.md 10), between two samples:
 //
-//   incremental   the timer counts the quarters of lines by itself, captures the time of the last one, and latches its count
-//                 where the index passes; edges that it misses are not counted. It knows of the pins alone: with A or B stuck
-//                 each edge of the other line looks like the one before passed back
+//   incremental   the timer counts the quarters of lines by itself, captures the time of the last one, and latches its
+//                 count where the index passes; edges that it misses are not counted. It evaluates the pins alone:
+//                 with A or B stuck, each edge of the other line looks like a step back after the one before
 //   absolute      the code is latched some time before it is read; a track may stick
 //   resolver      both windings through converters, at the peaks of the excitation; or a chip that follows them
 #pragma once
@@ -16,7 +16,7 @@
 
 namespace sixstep::rig {
 
-/// That of both windings: its range leaves a quarter of room above their amplitude.
+/// Converter of both windings: its range is a quarter larger than their amplitude.
 inline AdcPath resolver_adc(const ShaftSensorConfig& given) {
   return {.bits = 12, .range = 1.25 * given.resolver.amplitude_V, .noise = given.resolver.noise_V};
 }
@@ -38,77 +38,77 @@ class ShaftPorts {
 
   /// Quarters of lines as the timer counted them, over all turns.
   std::int64_t quarters() const { return counted_; }
-  /// Of the last quarter counted: the counter's reading, and which way.
+  /// The counter's reading at the last quarter counted, and its direction below.
   std::uint32_t edge_time() const { return edge_time_; }
   int edge_direction() const { return edge_direction_; }
-  /// Whether the index was passed since the last call.
+  /// True if the index was passed since the last call.
   bool index_passed() {
     const bool passed = index_;
     index_ = false;
     return passed;
   }
-  /// Counts since the last index: those by which the rotor is behind the start of its turn.
+  /// Counts since the last index: the rotor's distance from the start of its turn.
   std::int64_t since_index() const { return counted_ - at_index_; }
   std::uint32_t code() const { return shown(code_); }
-  /// Of both windings, at a peak; `at` is where the rotor stands.
+  /// Counts of both windings at a peak, for a rotor at `at`.
   control::ResolverCounts resolver_counts(const plant::ShaftAngle<double>& at, const sim::Instant& t,
                                           std::uint64_t number);
   const TrackingConverter& converter() const { return converter_; }
 
-  /// What the pins show in a quarter of a line, bits as plant::encoder_lines has them.
+  /// Levels of the pins in a quarter of a line, bits as in plant::encoder_lines.
   std::uint8_t pins_in(std::int64_t quarter) const {
     const unsigned elsewhere =
-        given_.linear && (quarter < 0 || quarter > 3) ? 1 : 0;  // the scale's one index is at 0
+        given_.linear && (quarter < 0 || quarter > 3) ? 1 : 0;  // a linear scale has one index, at 0
     const unsigned shown = plant::encoder_lines_in(quarter, given_.encoder.lines) & ~elsewhere;
     return static_cast<std::uint8_t>((shown | lines_high_) & ~unsigned{lines_low_});
   }
-  /// The same where the shaft stands at the end of the last segment.
+  /// The same for the shaft at the end of the last segment.
   std::uint8_t pins() const { return pins_in(quarters_); }
-  /// In which quarter of a line the encoder shows a shaft.
+  /// Quarter of a line at which the encoder shows a shaft.
   template <class Real>
   std::int64_t quarter_at(const plant::ShaftAngle<Real>& at) const {
     return encoder_quarter(given_, at);
   }
-  /// The Gray code of a shaft, tracks that stick included.
+  /// The Gray code of a shaft, with stuck tracks.
   std::uint32_t code_at(const plant::ShaftAngle<double>& at) const {
     return shown(absolute_code(given_, at));
   }
-  /// Of cosine and sine, without noise. A drive that samples them by itself begins to excite them at its first sample; a chip
-  /// has done so at t = 0.
+  /// Voltages of cosine and sine winding, without noise. A drive that samples them itself starts the excitation at
+  /// its first sample; a tracking chip has excited them since t = 0.
   std::array<double, 2> windings_V(const plant::ShaftAngle<double>& at, const sim::Instant& t) const {
     if (!excited_ && given_.resolver.reading == ResolverReading::sampled) return {};
     return windings_.leave(plant::resolver_V(resolver_, at, t.ticks - excited_ticks_), {});
   }
 
-  /// The next so many edges are not counted.
+  /// The next `edges` edges are not counted.
   void miss(std::int64_t edges) { missing_ += edges; }
   /// A track of the Gray code shows one level from now on, bit 0 the finest.
   void stick_track(int bit, bool high) { (high ? stuck_high_ : stuck_low_) |= std::uint32_t{1} << bit; }
-  /// It shows what it is again.
+  /// The track works again.
   void free_track(int bit) {
     stuck_high_ &= ~(std::uint32_t{1} << bit);
     stuck_low_ &= ~(std::uint32_t{1} << bit);
   }
-  /// Line 1 to 3, A, B or Z, shows one level from now on; where it stood the other way that is an edge.
+  /// Line 1 to 3, A, B or Z, keeps one level from now on; if its level changes, that is an edge.
   void stick_line(int line, bool high, const sim::Instant& now) {
     const std::uint8_t bit = static_cast<std::uint8_t>(8 >> line);
     set_lines(static_cast<std::uint8_t>(high ? lines_high_ | bit : lines_high_ & ~bit),
               static_cast<std::uint8_t>(high ? lines_low_ & ~bit : lines_low_ | bit), now);
   }
-  /// It shows what the encoder says again.
+  /// The line works again.
   void free_line(int line, const sim::Instant& now) {
     const std::uint8_t rest = static_cast<std::uint8_t>(~(8 >> line));
     set_lines(lines_high_ & rest, lines_low_ & rest, now);
   }
-  /// A pulse on a free Z, so short that only the timer sees it: where Z is low, it rises.
+  /// A pulse on an intact Z, so short that only the timer detects it: if Z is low, it rises.
   void pulse_index() {
     if ((pins_in(quarters_) & 1) == 0 && (lines_low_ & 1) == 0) latch_index(counted_);
   }
-  /// 1: the cosine's winding gives nothing from now on; 2: the sine's; 0: both are whole.
+  /// 1: the cosine winding has no signal from now on; 2: the sine winding; 0: both are intact.
   void break_winding(int which) {
     windings_.broken = static_cast<std::uint8_t>(which == 0 ? 0 : windings_.broken | which);
   }
-  /// As a part of the full excitation.
+  /// `part`: relative to full excitation.
   void excite(double part) { windings_.excitation = part; }
 
  private:
@@ -144,11 +144,11 @@ class ShaftPorts {
   TrackingConverter converter_{};
   plant::ShaftAngle<double> stands_{};  ///< the load's shaft at the end of the last segment
   std::uint64_t seed_ = 0;
-  std::int64_t quarters_ = 0;  ///< the shaft's own
+  std::int64_t quarters_ = 0;  ///< true count of the shaft
   std::int64_t counted_ = 0, at_index_ = 0, missing_ = 0, excited_ticks_ = 0;
   std::uint32_t edge_time_ = 0, code_ = 0, stuck_high_ = 0, stuck_low_ = 0;
   int edge_direction_ = 0;
-  std::uint8_t lines_high_ = 0, lines_low_ = 0;  ///< of an incremental encoder's that stick
+  std::uint8_t lines_high_ = 0, lines_low_ = 0;  ///< stuck lines of an incremental encoder
   plant::ResolverFaults windings_{};
   bool index_ = false, excited_ = false;
 };
@@ -164,7 +164,7 @@ inline ShaftPorts::ShaftPorts(const ShaftSensorConfig& given, double capture_Hz,
   if (given.resolver.reading == ResolverReading::tracking) converter_ = TrackingConverter(given, seed, at);
 }
 
-/// Within a segment the shaft may turn round once: then each way by itself.
+/// Within a segment the shaft may reverse once: then each direction is counted separately.
 template <class Real>
 void ShaftPorts::count(const ShaftMotion<Real>& m) {
   const Real turns = turning_part(m);
@@ -179,7 +179,7 @@ void ShaftPorts::count_one_way(const ShaftMotion<Real>& m, Real from, Real to) {
   if (((lines_high_ | lines_low_) & 6) != 0) return count_by_pins(m, from, to, end);
   const int direction = end > quarters_ ? 1 : -1;
   const std::int64_t passed = direction * (end - quarters_);
-  // Of the edges passed the first ones are missed.
+  // The first of the passed edges are missed.
   const std::int64_t missed = missing_ < passed ? missing_ : passed, not_missed = passed - missed;
   missing_ -= missed;
   counted_ += direction * not_missed;
@@ -187,7 +187,7 @@ void ShaftPorts::count_one_way(const ShaftMotion<Real>& m, Real from, Real to) {
   quarters_ = end;
   if (not_missed == 0) return;
   edge_direction_ = direction;
-  capture(m, from, to, end, direction);  // the last border: where the count of the end begins to stand
+  capture(m, from, to, end, direction);  // the last border: where the end's count begins
 }
 
 template <class Real>
@@ -197,7 +197,7 @@ void ShaftPorts::capture(const ShaftMotion<Real>& m, Real low, Real high, std::i
   edge_time_ = capture_.counts(m.from.plus_seconds(static_cast<double>(at * m.y.h)));
 }
 
-/// The timer's rule: which way a line turned over, and how the other one stands. Whether the count moved.
+/// The timer's rule: direction by which line changed and the level of the other one. True if the count changed.
 inline bool ShaftPorts::counts_edge(std::uint8_t before, std::uint8_t after) {
   const auto quarter = [](std::uint8_t pins) {
     return static_cast<int>(control::quarter_of_line((pins & 4) != 0, (pins & 2) != 0));
@@ -210,7 +210,7 @@ inline bool ShaftPorts::counts_edge(std::uint8_t before, std::uint8_t after) {
   return true;
 }
 
-/// Edge by edge, as the pins show them.
+/// Edge by edge, according to the pins.
 template <class Real>
 void ShaftPorts::count_by_pins(const ShaftMotion<Real>& m, Real from, Real to, std::int64_t end) {
   const int way = end > quarters_ ? 1 : -1;
@@ -227,7 +227,7 @@ void ShaftPorts::count_by_pins(const ShaftMotion<Real>& m, Real from, Real to, s
   if (last != begin) capture(m, from, to, last, way);
 }
 
-/// Pins that change are edges; Z that so rises is an index to the timer.
+/// Changed pins are edges; if Z rises, the timer takes it as an index.
 inline void ShaftPorts::set_lines(std::uint8_t high, std::uint8_t low, const sim::Instant& now) {
   const std::uint8_t before = pins_in(quarters_);
   lines_high_ = high;
@@ -237,8 +237,8 @@ inline void ShaftPorts::set_lines(std::uint8_t high, std::uint8_t low, const sim
   if ((before & 1) == 0 && (after & 1) != 0) latch_index(counted_);
 }
 
-/// The index stands where a turn begins, a border of turns between both counts. What was counted behind it is taken off: so
-/// the timer latches its count there, that of the border's upper side.
+/// Latches the count at the index, which is a border between two turns, if the shaft passed it. Counts after the
+/// border are subtracted, so that the latched count is that of the border's upper side.
 inline void ShaftPorts::look_for_index(std::int64_t end, std::int64_t not_missed) {
   const auto turn_of = [&](std::int64_t n) { return n >= 0 ? n / parts() : -((-n + parts() - 1) / parts()); };
   const std::int64_t last = turn_of(end), first = turn_of(quarters_);
@@ -257,7 +257,7 @@ void ShaftPorts::latch(const ShaftMotion<Real>& m) {
   code_ = absolute_code(given_, m.angle(m.part(at)));
 }
 
-/// The chip begins its excitation so that samples fall on peaks.
+/// The chip starts its excitation so that samples fall on peaks.
 inline control::ResolverCounts ShaftPorts::resolver_counts(const plant::ShaftAngle<double>& at,
                                                            const sim::Instant& t, std::uint64_t number) {
   if (!excited_) {

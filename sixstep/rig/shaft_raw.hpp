@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an encoder or a resolver gives at an instant, on its way to the board: what a probe on its wires would show (model.md 10).
+// Output of an encoder or a resolver at an instant, before the board: as a probe on its wires would show it (model.md
+// 10).
 #pragma once
 #include "sixstep/rig/shaft_motion.hpp"
 #include "sixstep/rig/shaft_ports.hpp"
 
 namespace sixstep::rig {
 
-/// Of the kind that is fitted; the others' members are 0.
+/// Members of the installed kind of sensor; the others are 0.
 struct ShaftRaw {
-  std::uint8_t lines = 0;  ///< A 4, B 2, Z 1 at the pins, stuck ones included
-  std::uint32_t code = 0;  ///< Gray code, tracks that stick included
+  std::uint8_t lines = 0;  ///< A 4, B 2, Z 1 at the pins, including stuck lines
+  std::uint32_t code = 0;  ///< Gray code, including stuck tracks
   std::array<double, 2>
-      winding_V{};  ///< cosine's and sine's, without noise; 0 before the first sample excites them
+      winding_V{};  ///< cosine and sine, without noise; 0 before the first sample excites them
 };
 
 inline ShaftRaw shaft_raw(const ShaftPorts& ports, const plant::ShaftAngle<double>& at,
@@ -31,7 +32,7 @@ inline ShaftRaw shaft_raw(const ShaftPorts& ports, const plant::ShaftAngle<doubl
 
 namespace detail {
 
-/// The quarters of lines passed on a way without a turn, each with the part of the segment where it begins to stand.
+/// Visits the quarters of lines passed without a reversal, each with the part of the segment at which it begins.
 template <class Real, class Visit>
 void for_each_quarter_one_way(const ShaftMotion<Real>& m, const ShaftPorts& ports, Real from, Real to,
                               Visit&& visit) {
@@ -49,7 +50,7 @@ void for_each_quarter_one_way(const ShaftMotion<Real>& m, const ShaftPorts& port
 
 }  // namespace detail
 
-/// In the order of time, as often as the shaft passes each.
+/// In the order of time, each as often as the shaft passes it.
 template <class Real, class Visit>
 void for_each_quarter(const ShaftMotion<Real>& m, const ShaftPorts& ports, Visit&& visit) {
   const Real turns = turning_part(m);

@@ -1,40 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a drive finds out about an encoder or a resolver that shows what a whole one cannot.
+// Checks an encoder or a resolver for values that an intact sensor cannot show.
 #pragma once
 #include <cmath>
 #include <cstdint>
 
 namespace sixstep::rig {
 
-/// What is wrong, as far as signals tell.
+/// Kind of the fault, as far as the signals determine it.
 enum class ShaftLoss : std::uint8_t {
   none,
-  excitation,  ///< neither winding of a resolver shows anything
-  cosine,      ///< one winding shows nothing, the other one does
+  excitation,  ///< no signal from either winding of a resolver
+  cosine,      ///< no signal from one winding, while the other has one
   sine,
-  weak,    ///< both show less than full excitation leaves of them
-  strong,  ///< or more
-  index    ///< an encoder's index came where the count is further off than a sector
+  weak,    ///< both signals are weaker than the excitation allows
+  strong,  ///< or stronger
+  index    ///< at an encoder's index the count is wrong by more than a sector
 };
 
 struct ShaftFinding {
   ShaftLoss loss = ShaftLoss::none;
-  double shown = 0.0;       ///< of a resolver: sqrt(c^2 + s^2) as a part of what is expected
-  std::int32_t counts = 0;  ///< of an encoder: missing, says the index
+  double shown = 0.0;       ///< of a resolver: sqrt(c^2 + s^2) relative to the expected value
+  std::int32_t counts = 0;  ///< of an encoder: missing counts according to the index
 
   bool lost() const { return loss != ShaftLoss::none; }
 };
 
-/// Limits of a resolver's c^2 + s^2, as parts of the amplitude expected (design/loops/resolver_watch.hpp).
+/// Limits of a resolver's c^2 + s^2, relative to the expected amplitude (design/loops/resolver_watch.hpp).
 struct ResolverWatch {
-  double least_square = 0.0, greatest_square = 0.0;  ///< 0: not looked at
-  double silent = 0.0;                               ///< a signal within it is nothing but noise and rounding
-  int in_a_row = 1;                                  ///< results outside
+  double least_square = 0.0, greatest_square = 0.0;  ///< 0: not checked
+  double silent = 0.0;                               ///< a smaller signal is only noise and rounding
+  int in_a_row = 1;                                  ///< number of results outside the limits
 
   bool outside(double square) const {
     return square < least_square || (greatest_square > 0 && square > greatest_square);
   }
-  /// Of signals that were outside.
+  /// Finding for signals that were outside the limits.
   ShaftFinding finding(double c, double s) const {
     const double square = c * c + s * s;
     const bool no_c = std::fabs(c) <= silent, no_s = std::fabs(s) <= silent;

@@ -16,8 +16,8 @@ unsigned index(control::Leg leg) { return static_cast<unsigned>(leg); }
 
 }  // namespace
 
-/// The leg that a new pair brought in; none_late where it brought none, or took none away: a change of sign
-/// moves nothing, each leg keeps its own.
+/// Returns the leg that a new pair brings in, and hands over the leaving leg's state. Returns none_late if the set of
+/// legs is the same: at a change of sign each leg keeps its state.
 int SixStepModulator::hand_over(control::Pair to) {
   const auto legs_of = [](control::Pair pair) { return 1u << index(pair.source) | 1u << index(pair.sink); };
   const unsigned before = legs_of(command_.pair), after = legs_of(to);
@@ -32,8 +32,8 @@ int SixStepModulator::take(const Instant& t, const BoardCommand& command) {
   // mutant: command.enabled && !command_.enabled => command.enabled
   const bool wakes = command.enabled && !command_.enabled;
   const int entered = hand_over(command.pair);
-  // Field by field, as it was written: a copy in wider pieces would wait until the fields have left for
-  // memory. A field more or less does not compile.
+  // Field by field, as the source was written: a copy in wider pieces would wait until the fields are in memory. A
+  // field more or less is a compile error.
   const auto& [enabled, pair, duty, chopping, chopped, watch, overlap, on_below_A, off_above_A] = command;
   command_.enabled = enabled;
   command_.pair = pair;
@@ -45,7 +45,7 @@ int SixStepModulator::take(const Instant& t, const BoardCommand& command) {
   command_.on_below_A = on_below_A;
   command_.off_above_A = off_above_A;
   if (!wakes) return entered;
-  // The first command is a change of every leg: nobody knows what it did before.
+  // The first command changes every leg, because the legs' previous states are unknown.
   timer_.wake(t);
   timer_.preset_pulse(sink_pulse, true);
   if (watch != Watch::none) timer_.switch_pulse(source_pulse, true);  // hysteresis starts on (model.md 4)
@@ -74,7 +74,7 @@ void SixStepModulator::turn_off(const Instant& t) {
   fill_legs(t, LegTimer::none_late);
 }
 
-/// Six-step's three leg commands (model.md 3): within the pair they follow one pulse, but for the sink that
+/// Sets six-step's three leg commands (model.md 3): the legs of the pair follow one pulse, except for the sink that
 /// hard chopping's second comparator switches.
 void SixStepModulator::fill_legs(const Instant& t, int entered) {
   timer_.disconnect();
@@ -83,7 +83,7 @@ void SixStepModulator::fill_legs(const Instant& t, int entered) {
     const control::ChoppedSwitch chopped = command_.chopped;
     // mutant: sink_pulse => source_pulse
     const unsigned sink = command_.watch == Watch::phase ? sink_pulse : source_pulse;
-    if (command_.pair.source != command_.pair.sink)  // else gates() says what is asked
+    if (command_.pair.source != command_.pair.sink)  // otherwise gates() has the commanded switches
       timer_.connect(index(command_.pair.source), sides_of(control::source_leg(chopping, chopped, 0.0)),
                      source_pulse);
     timer_.connect(index(command_.pair.sink), sides_of(control::sink_leg(chopping, chopped, 0.0)), sink);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Six-step on the board's timer (model.md 3): a pair and one duty, or armed comparators, fill three legs. The
-// legs of the pair share one pulse; where the pair moves on, the pulse goes on in the leg that takes the role
-// over, and the leg that leaves hands what it does, waits and all, to the one that enters.
+// Six-step on the board's timer (model.md 3): a pair and one duty, or armed comparators, set three legs. The legs of
+// the pair share one pulse. When the pair changes, the pulse continues in the leg that takes over the role, and the
+// leg that leaves passes its state, including a wait, to the leg that enters.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/rig/leg_timer.hpp"
@@ -20,10 +20,10 @@ struct BoardCommand {
   double on_below_A = 0.0, off_above_A = 0.0;
 };
 
-/// A level that a comparator waits for: `current` of a role against a threshold.
+/// Level at which a comparator switches: `current` of a role against a threshold.
 struct ArmedComparator {
   bool armed = false;
-  bool switches_off = false;  ///< waits for the current to rise above, else to fall below
+  bool switches_off = false;  ///< true: waits for the current to rise above; false: to fall below
   double level_A = 0.0;
 };
 
@@ -33,16 +33,16 @@ class SixStepModulator {
 
   explicit SixStepModulator(const ModulatorConfig& config) : timer_(config) {}
 
-  /// In effect in period 0 of a board that answers a period later: nothing.
+  /// Command in period 0 of a board with a delay of one period: nothing.
   static BoardCommand before_first() { return {}; }
 
   /// A PWM period begins at t with this command. |duty| = 1 has no off gap, 0 no on-time.
   void start_period(const sim::Instant& t, const BoardCommand& command);
-  /// The pair changes at a Hall edge: PWM is not restarted, duty not resampled, no leg overlaps until the next period.
+  /// Changes the pair at a Hall edge: PWM is not restarted, duty not resampled, no leg overlaps until the next period.
   void commutate(const sim::Instant& t, control::Pair pair, control::ChoppedSwitch chopped);
-  /// And the switch that the duty chops stays.
+  /// The same with the chopped switch unchanged.
   void commutate(const sim::Instant& t, control::Pair pair) { commutate(t, pair, command_.chopped); }
-  /// New thresholds between periods (the setpoint of an event hysteresis jumped).
+  /// Sets new thresholds between periods, after the setpoint of an event hysteresis jumped.
   void rearm(const sim::Instant& t, const BoardCommand& command) {
     const int entered = take(t, command);
     fill_legs(t, entered);
@@ -51,22 +51,23 @@ class SixStepModulator {
   void set_dead_time(double ticks) { timer_.set_dead_time(ticks); }
 
   const sim::Instant& next_edge() const { return timer_.next_edge(); }
-  /// Does the edges due at `now`; false where none was.
+  /// Executes the edges due at `now`; false if there were none.
   bool act(const sim::Instant& now) { return timer_.act(now); }
-  /// Comparators are armed.
+  /// True if comparators are armed.
   bool watching() const { return command_.watch != control::Watch::none; }
-  /// Switches where a comparator's current is beyond its level; how many did.
+  /// Switches where a comparator's current is beyond its level; returns how many switched.
   template <class Real>
   int compare(const sim::Instant& now, const plant::PerLeg<Real>& i);
   /// A comparator reached its level (0: motor or source leg, 1: sink leg).
   void comparator_tripped(const sim::Instant& now, int which);
 
-  /// What comparator `which` waits for now.
+  /// Level for which comparator `which` now waits.
   ArmedComparator comparator(int which) const;
-  /// Its current as a combination of the phase currents.
+  /// The comparator's current as a combination of the phase currents.
   plant::PerLeg<double> comparator_weights(int which) const;
 
-  /// A pair of one leg asks for both its switches: what no leg of the timer does, the plant is to refuse.
+  /// A pair of one leg commands both its switches. No leg of the timer does that, so the gates are set here for the
+  /// plant to refuse.
   plant::Gates gates() const {
     plant::Gates gates = timer_.gates();
     if (command_.enabled && command_.pair.source == command_.pair.sink) gates.high |= gates.low;
@@ -74,13 +75,13 @@ class SixStepModulator {
   }
   const BoardCommand& command() const { return command_; }
   bool source_on() const { return timer_.pulse_on(source_pulse); }
-  /// No edge will come before the next command: duty 0 or 1, or off.
+  /// True if no edge comes before the next command: duty 0 or 1, or off.
   bool steady() const { return timer_.steady(); }
   std::int64_t turn_ons() const { return timer_.turn_ons(); }
   std::int64_t turn_ons_before(const sim::Instant& t) const { return timer_.turn_ons_before(t); }
 
  private:
-  /// The second pulse is that of hard chopping's second comparator, the third that of the leg in no pair.
+  /// The second pulse is for hard chopping's second comparator, the third for the leg in no pair.
   static constexpr unsigned source_pulse = 0, sink_pulse = 1, overlap_pulse = 2;
 
   int take(const sim::Instant& t, const BoardCommand& command);

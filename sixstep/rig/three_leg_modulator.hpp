@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three leg commands on the board's timer (model.md 11): each leg on a pulse of its own. A Hall edge asks
-// nothing of it.
+// Three leg commands on the board's timer (model.md 11): each leg has its own pulse. Hall edges have no effect.
 #pragma once
 #include "sixstep/rig/leg_timer.hpp"
 
@@ -8,12 +7,12 @@ namespace sixstep::rig {
 
 class ThreeLegModulator {
  public:
-  /// As the board holds it: duties widened to double.
+  /// The board's form of the commands: duties widened to double.
   using Command = control::LegCommands<double>;
 
   explicit ThreeLegModulator(const ModulatorConfig& config) : timer_(config) {}
 
-  /// In effect in period 0 of a board that answers a period later: no voltage, from legs that switch.
+  /// Command in period 0 of a board with a delay of one period: no voltage, from legs that switch.
   static Command before_first() {
     constexpr control::LegCommand<double> half{control::LegState::pwm, control::PwmSwitches::complementary,
                                                0.5};
@@ -25,7 +24,7 @@ class ThreeLegModulator {
   void set_dead_time(double ticks) { timer_.set_dead_time(ticks); }
 
   const sim::Instant& next_edge() const { return timer_.next_edge(); }
-  /// Does the edges due at `now`; false where none was.
+  /// Executes the edges due at `now`; false if there were none.
   bool act(const sim::Instant& now) {
     const plant::Gates before = timer_.gates();
     const bool acted = timer_.act(now);
@@ -36,7 +35,7 @@ class ThreeLegModulator {
   const plant::Gates& gates() const { return timer_.gates(); }
   const Command& command() const { return command_; }
   bool steady() const { return timer_.steady(); }
-  /// Of the three upper switches, whatever makes them: a pulse, or a whole period's command.
+  /// Turn-ons of the three upper switches, by a pulse or by a whole period's command.
   std::int64_t turn_ons() const { return turn_ons_; }
   std::int64_t turn_ons_before(const sim::Instant& t) const {
     return timer_.began_at(t) ? before_period_ : turn_ons_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The timeline is all that a scenario does to a run: one sorted list of typed actions at known instants.
+// The timeline: all actions of a scenario on a run, as one sorted list of typed actions at known instants.
 #pragma once
 #include <cmath>
 #include <cstddef>
@@ -44,9 +44,9 @@ enum class ActionKind : std::uint8_t {
   divider_breaks
 };
 
-/// How a setpoint moves from its action on: t seconds later it stands at
+/// Motion of a setpoint from its action on: after t seconds its value is
 ///   value + rate t + curvature t^2/2 + amplitude sin(2 pi (frequency_Hz t + phase_turns)).
-/// A control tick looks at it; between two ticks the chip holds what it saw.
+/// A control tick evaluates it; between two ticks the chip keeps that value.
 struct Waveform {
   double rate = 0.0;       ///< per s
   double curvature = 0.0;  ///< per s^2
@@ -55,7 +55,7 @@ struct Waveform {
   double phase_turns = 0.0;
 
   bool moves() const { return rate != 0.0 || curvature != 0.0 || amplitude != 0.0; }
-  /// Turns are counted, not summed: only their fraction goes into the sine.
+  /// Turns are counted, so that only their fraction enters the sine.
   double after(double value, double t_s) const {
     // mutant: curvature / 2 * t_s => 0.0
     const double straight = value + (rate + curvature / 2 * t_s) * t_s;
@@ -77,7 +77,7 @@ struct Action {
                        ///< 1 + the bit of a Gray code, stuck low where negative; a resolver's winding 1 or 2,
   ///< 0 both whole; A, B, Z as 1 to 3, stuck low where negative; a part of the excitation;
   ///< the leg, 0 to 2, whose divider breaks
-  Waveform waveform{};  ///< of a setpoint; of a load torque and a shaft's speed the rate alone
+  Waveform waveform{};  ///< of a setpoint; for a load torque and a shaft's speed only the rate
 };
 
 /// Sorted by time, stable where times are equal.

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// A resolver-to-digital converter: a chip whose loop of type 2 follows the windings by itself, at its own clock, and gives out
-// an angle of so many bits and the speed of its integrator (model.md 10).
+// A resolver-to-digital converter: a chip whose type 2 loop follows the windings with its own clock, and outputs an
+// angle of so many bits and the speed of its integrator (model.md 10).
 //
 //   detected   tan(phi - theta) of both demodulated windings; beyond 45 degrees 1 in the direction of the shorter way
 //   followed   control/sensing/tracking.hpp, per clock of the chip
-//   given out  the angle that was foretold for this clock, not the one due at the next: no lag at constant speed,
+//   output     the angle predicted for this clock, not for the next: no lag at constant speed,
 //              a T^2/K_i behind a constant acceleration
 //
-// The chip watches the sum of both squares by itself, and keeps what it found.
+// The chip itself checks the sum of both squares and keeps its finding.
 //
-// Its demodulator is taken as ideal: the ripple at twice the excitation, which chips filter, is not there, and a phase of the
-// windings against the excitation, which they have in common, cancels.
+// Its demodulator is ideal: the ripple at twice the excitation, which chips filter, is not modelled, and a common
+// phase of both windings against the excitation cancels.
 #pragma once
 #include "sixstep/base/random.hpp"
 #include "sixstep/control/sensing/resolver.hpp"
@@ -22,7 +22,7 @@ namespace sixstep::rig {
 class TrackingConverter {
  public:
   TrackingConverter() = default;
-  /// It has followed the shaft before the run.
+  /// The loop has settled to the shaft's angle before the run.
   TrackingConverter(const ShaftSensorConfig& given, std::uint64_t seed, const plant::ShaftAngle<double>& at)
       : loop_{given.tracking},
         resolver_(windings_of(given.resolver)),
@@ -54,7 +54,7 @@ class TrackingConverter {
     if (latches) read_ = shown_;
   }
 
-  /// Of the resolver's own turn, as it was read last.
+  /// Angle within the resolver's own turn, from the last reading.
   control::BinaryAngle angle() const { return control::quantised(read_.angle, bits_); }
   const ShaftFinding& found() const { return found_; }
   /// Units of 2^-32 turn of the resolver per clock of the chip.
@@ -87,7 +87,7 @@ class TrackingConverter {
 
   control::TrackingConfig loop_{};
   control::TrackingState state_{};
-  control::TrackingState shown_{};  ///< what the chip's register holds since its last clock
+  control::TrackingState shown_{};  ///< content of the chip's register since its last clock
   control::TrackingState read_{};
   plant::Resolver resolver_{};
   ResolverWatch watch_{};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The wires between board and motor: which phase hangs at each leg, which Hall probe at each pin (model.md 7).
-// The board names legs a, b, c and pins H1, H2, H3; the motor its phases and probes: crossed wires change neither of them.
-// Only a rig on the general kernel has wires that can be crossed; on the lean one they are straight, and cost nothing.
+// The wires between board and motor: the phase at each leg, the Hall probe at each pin (model.md 7). The board has
+// its legs a, b, c and pins H1, H2, H3, the motor its phases and probes; crossed wires do not change these names.
+// Only a rig on the general kernel can have crossed wires; on the lean kernel they are straight and cost nothing.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -16,7 +16,7 @@ class Plant;
 
 namespace sixstep::rig {
 
-/// Which of three ends hang at the first, the second and the third place: of phases as of probes 1, 2, 3.
+/// Ends at the first, second and third place, for phases as for probes 1, 2, 3.
 enum class WireOrder : std::uint8_t { abc, bca, cab, acb, cba, bac };
 
 /// The index of the end at each place.
@@ -26,15 +26,15 @@ constexpr std::array<std::uint8_t, 3> ends_of(WireOrder order) {
   return ends[static_cast<std::size_t>(order)];
 }
 
-/// What is at phases, as the legs have it, and the other way round; likewise probes and pins.
+/// Converts between phases and legs, and between probes and pins.
 struct Wiring {
   WireOrder phases = WireOrder::abc;  ///< at legs a, b, c
   WireOrder probes = WireOrder::abc;  ///< at pins H1, H2, H3
-  std::uint8_t inverted = 0;          ///< pins that read their probe inverted, as bits of a Hall code
+  std::uint8_t inverted = 0;  ///< mask of the pins, as bits of a Hall code, that read their probe inverted
 
   bool operator==(const Wiring&) const = default;
 
-  /// Of the motor at this leg.
+  /// Phase of the motor at this leg.
   std::size_t phase(std::size_t leg) const { return ends_of(phases)[leg]; }
 
   /// Quantities of the phases, ordered by legs.
@@ -50,7 +50,7 @@ struct Wiring {
     }
     return legs;
   }
-  /// The motor with its currents as the board's legs carry them; speed, angle and bus as they are.
+  /// The motor's state with its currents ordered by the board's legs; speed, angle and bus are unchanged.
   template <class Real>
   plant::State<Real> at_legs(const plant::State<Real>& state) const {
     plant::State<Real> seen = state;
@@ -66,7 +66,7 @@ struct Wiring {
     }
     return phases_gates;
   }
-  /// H1 H2 H3 as bits 2, 1, 0, of probes as of pins.
+  /// H1 H2 H3 as bits 2, 1, 0, for probes and for pins.
   std::uint8_t at_pins(std::uint8_t probe_code) const {
     unsigned pins = 0;
     for (unsigned pin = 0; pin < 3; ++pin)
@@ -75,7 +75,7 @@ struct Wiring {
   }
 };
 
-/// Each leg at its phase, each pin at its probe: nothing is turned into anything.
+/// Each leg at its phase, each pin at its probe: nothing is converted.
 struct StraightWiring {
   static constexpr std::size_t phase(std::size_t leg) { return leg; }
   template <class T>
@@ -86,7 +86,7 @@ struct StraightWiring {
   static constexpr std::uint8_t at_pins(std::uint8_t probe_code) { return probe_code; }
 };
 
-/// The wires of a rig, by its plant.
+/// Type of a rig's wires, by its plant.
 template <class Plant>
 struct WiringFor {
   using type = StraightWiring;

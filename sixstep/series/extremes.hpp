@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All sign changes and the extremes of a polynomial over [0, 1]: for figures of merit, not for the hot loop.
+// Finds all sign changes and the extremes of a polynomial over [0, 1], for figures of merit. The hot loop does
+// not use it.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,7 @@
 
 namespace sixstep::series {
 
-/// Sum of the coefficients' magnitudes: a bound of |y| over [0, 1].
+/// Sum of the coefficients' magnitudes: an upper bound of |y| over [0, 1].
 template <class Real>
 Real magnitude_of(const Coefficients<Real>& c, int degree) {
   Real sum = 0;
@@ -40,7 +41,7 @@ struct Extremes {
   Real low, high;
 };
 
-/// Lowest and highest value over [0, 1]: the ends and the derivative's sign changes.
+/// Lowest and highest value over [0, 1], from the ends and the derivative's sign changes.
 template <class Real>
 Extremes<Real> extremes(const Coefficients<Real>& c, int degree) {
   const Real a = c[0], b = evaluate(c, degree, Real(1));

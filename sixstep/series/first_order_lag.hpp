@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A first-order lag over one segment, exactly: dx/dt = (u - x)/tau with u a polynomial in s (model.md 4).
+// Solves a first-order lag over one segment exactly: dx/dt = (u - x)/tau with u a polynomial in s (model.md 4).
 //
 //   x(s) - x(0) = w_0 (u_0 - x(0)) + sum_(j >= 1) w_j u_j s^j
 //   w_j = z integral_0^1 exp(-z (1 - r)) r^j dr,   z = s h/tau
 //
-// Each w_j lies in [0, 1], so that nothing cancels, be the segment a billionth of tau or tau one of the segment. One set of
-// weights serves all inputs that share tau.
+// Each w_j lies in [0, 1], so that nothing cancels, whether the segment is a billionth of tau or tau a
+// billionth of the segment. One set of weights serves all inputs with the same tau.
 #pragma once
 #include "sixstep/base/elementary.hpp"
 #include "sixstep/series/polynomial.hpp"
@@ -14,19 +14,21 @@ namespace sixstep::series {
 
 using LagWeights = Coefficients<double>;
 
-/// By parts w_j = 1 - (j/z) w_(j-1), which damps its error where j <= z; the other way round it does so where j > z. So it
-/// is taken up to z, and down from an order that no error comes through from. z may be infinite: no lag, all weights 1.
+/// Integration by parts gives w_j = 1 - (j/z) w_(j-1). Upwards this damps its error if j <= z, downwards if j >
+/// z. Therefore it runs upwards to z, and downwards from an order so high that the error of its first guess
+/// vanishes. z may be infinite: no lag, all weights 1.
 inline LagWeights lag_weights(double z, int degree) {
   LagWeights w{};
   const int up = z < degree ? static_cast<int>(z) : degree;
-  int last = -1;  // of the orders found from below
+  int last = -1;  // highest order found upwards
   if (up > 0) {
     w[0] = 1 - base::exp(-z);
     for (int j = 1; j <= up; ++j) w[j] = 1 - j / z * w[j - 1];
     last = up;
   }
   if (last == degree) return w;
-  // The first guess is right to 1e-3 of itself; z^n/((d + 1)...(d + n)) of that is left, below 1e-18 for all z < d <= 16.
+  // The first guess has a relative error of 1e-3; the recurrence multiplies it by z^n/((d + 1)...(d + n)), to
+  // below 1e-18 for all z < d <= 16.
   const int from = max_degree + 10 + static_cast<int>(2.5 * z);
   double next = z / (z + from + 1);
   for (int j = from; j > last + 1; --j) {
@@ -37,7 +39,7 @@ inline LagWeights lag_weights(double z, int degree) {
   return w;
 }
 
-/// How far a lag that stands at x moves while its input runs over [0, s]; the weights are those of z = s h/tau.
+/// The change over [0, s] of a lag that starts at x; the weights are those of z = s h/tau.
 template <class Real>
 inline double lag_increment(const Coefficients<Real>& u, int degree, double s, const LagWeights& w,
                             double x) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where does a guard that should stay >= 0 first go below? Exact to rounding, and no root is missed: a cheap
-// bound first, Newton where the guard is strictly monotone, Bernstein subdivision for the rest.
+// Finds where a guard that should stay >= 0 first goes below zero. The root is exact to rounding and none is
+// missed: first a cheap bound, then Newton if the guard is strictly monotone, else Bernstein subdivision.
 #pragma once
 #include <array>
 #include <cmath>
@@ -9,12 +9,13 @@
 
 namespace sixstep::series {
 
-/// Behind every segment's end: the guard holds. A number, since an optional one costs the run loop 2 %.
+/// The guard holds: a value after every segment's end. It is a number, because an optional costs the run loop
+/// 2 %.
 template <class Real>
 inline constexpr Real no_root = 2;
 
-/// The sign with which a guard leaves its start: coefficients within `noise` count as zero, the first real
-/// one decides. `order` is its index (degree + 1 where every coefficient is noise: the guard rests on zero).
+/// The sign with which a guard leaves its start. Coefficients within `noise` count as zero, and the first other
+/// one decides. `order` is its index (degree + 1 if all coefficients are noise: the guard stays at zero).
 struct Leading {
   int order = 0;
   int sign = 0;
@@ -31,14 +32,14 @@ inline Leading leading(const Coefficients<Real>& c, int degree, Real noise) {
 
 namespace detail {
 
-/// What says whether a polynomial falls, rises or stays away from zero over [0, length].
+/// Bounds that decide whether a polynomial falls, rises or stays away from zero over [0, length].
 template <class Real>
 struct Outline {
-  Real at_end = 0, tail = 0;  ///< value there; sum of |q_j| length^j without the first
+  Real at_end = 0, tail = 0;  ///< value at length; sum of |q_j| length^j except the first
   Real slope_rest = 0;        ///< sum_{j >= 2} j |q_j| length^(j-1)
 };
 
-/// Over the whole of [0, 1], without products.
+/// The same over the whole of [0, 1], without products.
 template <class Real>
 Outline<Real> outline(const Real* q, int n) {
   Outline<Real> of;
@@ -48,7 +49,7 @@ Outline<Real> outline(const Real* q, int n) {
     of.slope_rest += of.tail;
   }
   // mutant: of.slope_rest += of.tail; => nothing
-  of.slope_rest += of.tail;  // with this, term j has been counted j times
+  of.slope_rest += of.tail;  // now term j has been counted j times
   of.tail += std::fabs(q[1]);
   of.at_end = q[0] + (q[1] + of.at_end);
   return of;
@@ -69,13 +70,13 @@ Outline<Real> outline(const Real* q, int n, Real length) {
   return of;
 }
 
-/// A polynomial at one place, to second order.
+/// A polynomial's second-order expansion at one point.
 template <class Real>
 struct Local {
   Real value = 0, slope = 0, bend = 0;  ///< bend: half the second derivative
 };
 
-/// In even and odd powers, y = e(s^2) + s o(s^2): two chains side by side, half as long.
+/// Evaluates even and odd powers separately, y = e(s^2) + s o(s^2): two chains in parallel, half as long.
 template <class Real>
 inline Local<Real> local(const Real* c, int degree, Real s) {
   const Real t = s * s;
@@ -101,12 +102,12 @@ inline Local<Real> local(const Real* c, int degree, Real s) {
           e.slope + 4 * (t * e.bend) + s * (3 * o.slope + 4 * (t * o.bend))};
 }
 
-/// A root known to lie alone in (low, high], with c(low) > 0 >= c(high): Newton from `guess`, kept inside by
-/// bisection. The last step takes the curvature along: it leaves about 2 (bend/slope step)^2 of itself.
+/// Finds the only root in (low, high], with c(low) > 0 >= c(high): Newton from `guess`, kept inside by
+/// bisection. The last step includes the curvature; its error is about 2 (bend/slope step)^2 of the step.
 template <class Real>
 Real bracketed_root(const Real* c, int degree, Real low, Real high, Real guess) {
-  // A step this small, and turned by the curvature this little, leaves nothing above rounding for another
-  // one.
+  // After a step this small, with so small a correction by the curvature, another step would change only
+  // rounding.
   constexpr Real small = Real(sizeof(Real) > 8 ? 3e-7L : 4e-6L);
   const Real last_step = small * (high - low);
   Real s = guess > low && guess < high ? guess : low + (high - low) / 2;
@@ -129,8 +130,8 @@ Real bracketed_root(const Real* c, int degree, Real low, Real high, Real guess) 
   return s;
 }
 
-/// The root of a falling polynomial that is nearly straight, to fourth order: with it one round of Newton is
-/// enough. Reversion of a series: Abramowitz and Stegun 3.6.25.
+/// The root of a falling, nearly straight polynomial to fourth order; one Newton step then suffices. Reversion
+/// of a series: Abramowitz and Stegun 3.6.25.
 template <class Real>
 Real near_root(const Real* c, int degree) {
   const Real inverse = 1 / c[1], straight = -c[0] * inverse;
@@ -142,7 +143,8 @@ Real near_root(const Real* c, int degree) {
 
 template <class Real>
 Coefficients<Real> to_bernstein(const Real* c, int degree, Real length) {
-  // b_i = sum_{j <= i} C(i, j)/C(degree, j) c_j length^j, by repeated differences: no binomials are stored.
+  // b_i = sum_{j <= i} C(i, j)/C(degree, j) c_j length^j, by repeated differences, so that no binomials are
+  // stored.
   Coefficients<Real> scaled{}, b{};
   Real power = 1, choose = 1;
   for (int j = 0; j <= degree; ++j) {
@@ -173,7 +175,7 @@ int sign_changes(const Coefficients<Real>& b, int degree) {
   return changes;
 }
 
-/// Splits at the middle by de Casteljau: `b` becomes the left half, the right half is returned.
+/// Splits in the middle by de Casteljau: `b` becomes the left half; the right half is returned.
 template <class Real>
 Coefficients<Real> split_half(Coefficients<Real>& b, int degree) {
   Coefficients<Real> right{};
@@ -185,8 +187,8 @@ Coefficients<Real> split_half(Coefficients<Real>& b, int degree) {
   return right;
 }
 
-/// Left-first subdivision of [0, length]; a piece with one sign change holds one root, with none it holds
-/// none (Descartes). Pieces too narrow to split further touch zero to rounding: that counts as the root.
+/// Subdivides [0, length], left part first. A piece with one sign change holds one root, a piece with none
+/// holds none (Descartes). Pieces too narrow for another split touch zero to rounding; this counts as the root.
 template <class Real>
 Real subdivide(const Real* c, int degree, Real length) {
   constexpr int depth_limit = 50;
@@ -217,7 +219,7 @@ Real subdivide(const Real* c, int degree, Real length) {
 
 }  // namespace detail
 
-/// |y(s) - y(0)| is nowhere in [0, 1] larger. Two sums, so that they overlap.
+/// Upper bound of |y(s) - y(0)| over [0, 1]. Two sums, because the processor computes them in parallel.
 template <class Real>
 inline Real tail_bound(const Coefficients<Real>& c, int degree) {
   Real even = 0, odd = 0;
@@ -227,22 +229,22 @@ inline Real tail_bound(const Coefficients<Real>& c, int degree) {
   return even + odd;
 }
 
-/// A guard that first_root() would clear, told by its first two terms and a bound of all others together:
-/// neither end of the straight line comes near zero, or it leaves zero upwards so steeply that nothing can
-/// turn it. False says nothing.
+/// Whether a guard surely stays above zero, from its first two terms and a bound of the sum of all others:
+/// either both ends of the straight line stay away from zero, or the line leaves zero upwards so steeply that
+/// the other terms cannot turn it. False means undecided.
 template <class Real>
 inline bool stays_above(Real start, Real slope, Real rest, Real noise) {
   const Real lowest = slope < 0 ? start + slope : start, margin = rest + 2 * noise;
   return lowest > margin || (2 * start > -noise && slope > margin);
 }
 
-/// First s in [0, length], length <= 1, at which the polynomial goes below zero; 0 where it does so from the
-/// start, no_root where it never does. `noise` is the rounding level of the guard: leading coefficients
-/// within it are taken as zero and divided out, so a restart on the boundary neither repeats the event nor
-/// needs a dead time.
+/// First s in [0, length], length <= 1, at which the polynomial goes below zero; 0 if it does so from the
+/// start, no_root if it never does. `noise` is the rounding level of the guard: leading coefficients within it
+/// count as zero and are divided out, so that a restart on the boundary neither repeats the event nor needs a
+/// dead time.
 template <class Real>
 Real first_root(const Coefficients<Real>& c, int degree, Real length, Real noise) {
-  // The commonest answer first: the value cannot be used up by all other terms together.
+  // The most frequent case first: all other terms together are smaller than the value.
   if (c[0] > noise && c[0] > tail_bound(c, degree)) return no_root<Real>;
 
   const Leading start = leading(c, degree, noise);

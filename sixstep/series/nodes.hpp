@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A number at each node of a rule of integration, two of them to an instruction; four where there are four nodes and a file, compiled
-// for AVX, asks for it (SIXSTEP_FOUR_LANES): sums over nodes do not wait for each other, and each number is worked out by the same
-// operations in the same order as it would be alone, so that the bits are those of plain numbers.
+// Numbers at the nodes of a quadrature rule, two per instruction. A file compiled for AVX can define
+// SIXSTEP_FOUR_LANES for four per instruction at four nodes. Sums over nodes do not wait for each other. Each
+// number results from the same operations in the same order as a single one, so that the bits are those of
+// plain numbers.
 #pragma once
 
-// What depends on it has a name of its own in each of the two, so that a program may hold both.
+// Code that depends on the number of lanes has a different name in each case, so that a program can hold both.
 #ifdef SIXSTEP_FOUR_LANES
 #define SIXSTEP_LANES four_lanes
 #else
@@ -13,8 +14,8 @@
 
 namespace sixstep::series {
 
-/// Two numbers side by side, of any scalar; of double it is one register (the vector extension of GCC and clang, which
-/// takes it apart again where a processor has none).
+/// Two numbers of any scalar side by side. For double it is one register (the vector extension of GCC and
+/// clang, which splits it on processors without such registers).
 template <class Real>
 struct PlainPair {
   Real lane[2];
@@ -57,7 +58,7 @@ template <class Real>
 
 inline namespace SIXSTEP_LANES {
 
-/// One number per node. An odd count leaves the last lane over; what stands in it is in no sum.
+/// One number per node. With an odd count the last lane is unused: no sum includes it.
 template <int points, class Real>
 struct Nodes {
   static constexpr int pairs = (points + 1) / 2;
@@ -88,7 +89,7 @@ struct Nodes {
     const Pair<Real> two = both(v);
     return each([&](int) { return two; });
   }
-  /// What `of(k)` says of pair k.
+  /// Pair k is `of(k)`.
   template <class Of>
   [[gnu::always_inline]] static Nodes each(Of of) {
     Nodes out;
@@ -98,7 +99,7 @@ struct Nodes {
   }
 };
 
-/// The sum over all lanes, the one left over included: of even and odd nodes apart, and then of the two.
+/// The sum over all lanes, including the unused one: first even and odd nodes separately, then their sum.
 template <int points, class Real>
 [[gnu::always_inline]] inline Real total(const Nodes<points, Real>& v) {
   Pair<Real> sum = v.pair[0];
@@ -107,7 +108,7 @@ template <int points, class Real>
   return sum[0] + sum[1];
 }
 
-/// Two such sums side by side.
+/// Two such sums in parallel.
 template <int points, class Real>
 [[gnu::always_inline]] inline Pair<Real> totals(const Nodes<points, Real>& a, const Nodes<points, Real>& b) {
   Pair<Real> sum_a = a.pair[0], sum_b = b.pair[0];
@@ -133,7 +134,7 @@ template <int points, class Real>
 
 #ifdef SIXSTEP_FOUR_LANES
 
-/// The commonest count, in one register.
+/// The most frequent count, in one register.
 template <>
 struct Nodes<4, double> {
   typedef double Row __attribute__((vector_size(32)));

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Taylor coefficients of one segment, in the segment's own time: s in [0, 1] is the fraction of its length h,
-// so that coefficient j is (h^j/j!) d^j y/dt^j. All series of a segment share one degree.
+// Taylor coefficients of one segment in the segment's own time: s in [0, 1] is the fraction of its length h, so
+// that coefficient j is (h^j/j!) d^j y/dt^j. All series of a segment have the same degree.
 #pragma once
 #include <array>
 
 namespace sixstep::series {
 
-/// 16 reaches rounding level over about half a time constant; more costs time and gains no length (model.md
-/// 12).
+/// Degree 16 reaches rounding level over about half a time constant; a higher one costs time and does not
+/// lengthen segments (model.md 12).
 inline constexpr int max_degree = 16;
 
 template <class Real>
@@ -26,8 +26,8 @@ inline Real evaluate(const Coefficients<Real>& c, int degree, Real s) {
   return c[0] + increment(c, degree, s);
 }
 
-/// Coefficient n of the product of two series (Cauchy); n is known at compile time and the sum unrolled. The
-/// newest coefficients come last, so that in a recurrence all else is summed while they are still being
+/// Coefficient n of the product of two series (Cauchy); n is a compile-time constant and the sum is unrolled.
+/// The newest coefficients come last, so that a recurrence sums all others while the newest are still being
 /// computed.
 template <int n, class Real>
 inline Real product_term(const Coefficients<Real>& a, const Coefficients<Real>& b) {
@@ -41,9 +41,9 @@ inline Real product_term(const Coefficients<Real>& a, const Coefficients<Real>& 
   }
 }
 
-/// Coefficient n >= 1 of (a - a[0]) b: of b only what stands before its newest coefficient, so that in a
-/// recurrence nothing waits for this sum. It begins with a product: adding to a zero is one more term to wait
-/// for.
+/// Coefficient n >= 1 of (a - a[0]) b. It does not use the newest coefficient of b, so that a recurrence never
+/// waits for this sum. The sum begins with a product, because an addition to zero would be one more term to
+/// wait for.
 template <int n, class Real>
 inline Real increment_product_term(const Coefficients<Real>& a, const Coefficients<Real>& b) {
   if constexpr (n == 1) {
@@ -62,7 +62,7 @@ inline Real increment_product_term(const Coefficients<Real>& a, const Coefficien
   }
 }
 
-/// Half of coefficient n >= 2 of (a - a[0])^2: each pair of factors once.
+/// Half of coefficient n >= 2 of (a - a[0])^2; each pair of factors counts once.
 template <int n, class Real>
 inline Real half_increment_square_term(const Coefficients<Real>& a) {
   Real sum = n % 2 == 0 ? a[n / 2] * a[n / 2] * Real(0.5) : a[n / 2] * a[n / 2 + 1];
@@ -72,7 +72,7 @@ inline Real half_increment_square_term(const Coefficients<Real>& a) {
   return sum;
 }
 
-/// The same with n known only at run time.
+/// The same if n is known only at run time.
 template <class Real>
 inline Real product_term(const Coefficients<Real>& a, const Coefficients<Real>& b, int n) {
   Real sum = 0;
@@ -88,7 +88,7 @@ inline Real integral(const Coefficients<Real>& c, int degree, Real to) {
   return sum * to;
 }
 
-/// Integral of the product of two polynomials, exact up to rounding: all 2 degree + 1 terms are taken.
+/// Integral of the product of two polynomials, exact to rounding: all 2 degree + 1 terms are summed.
 template <class Real>
 inline Real product_integral(const Coefficients<Real>& a, const Coefficients<Real>& b, int degree, Real to) {
   Real sum = 0;
@@ -103,7 +103,7 @@ inline Real product_integral(const Coefficients<Real>& a, const Coefficients<Rea
   return sum * to;
 }
 
-/// The same polynomial seen over [from, to]: its own s runs from 0 to 1 again (Taylor shift, then scaling).
+/// The same polynomial over [from, to], whose own s runs from 0 to 1 again (Taylor shift, then scaling).
 template <class Real>
 inline Coefficients<Real> restricted(Coefficients<Real> c, int degree, Real from, Real to) {
   if (from != 0)
@@ -115,7 +115,7 @@ inline Coefficients<Real> restricted(Coefficients<Real> c, int degree, Real from
   return c;
 }
 
-/// The running sum y += dy with the rounding error kept in `low` (Kahan): a million segments lose nothing.
+/// The running sum y += dy with its rounding error in `low` (Kahan): a million segments lose nothing.
 template <class Real>
 inline void add_compensated(Real& y, Real& low, Real dy) {
   const Real term = dy + low;
@@ -125,7 +125,7 @@ inline void add_compensated(Real& y, Real& low, Real dy) {
   y = sum;
 }
 
-/// A running sum with what its rounding has left.
+/// A running sum with its rounding error.
 template <class Real>
 struct CompensatedSum {
   Real value = 0, low = 0;

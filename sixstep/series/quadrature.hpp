@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Integrals over a segment without divisions; of products from a few values of their factors: Gauss-Legendre,
-// exact for polynomials of degree 2 points - 1 (Abramowitz and Stegun 25.4.29).
+// Integrals over a segment without divisions. Products are integrated from a few values of their factors by
+// Gauss-Legendre, which is exact for polynomials of degree 2 points - 1 (Abramowitz and Stegun 25.4.29).
 //
-// Products of two series of degree n have degree 2 n, but less is enough. Taylor coefficients of a solution
-// are at most M x^j/j!, x the fastest rate times the length, and end where M x^n/n! is u M, u = 2^-53. A
-// product f then has |f^(j)| <= M^2 (2 x)^j e^(2 x), and the formula misses E f^(2 points)/(2 points)! with
-// E = (points!)^4/((2 points + 1) ((2 points)!)^2) < (pi/2) 4^-(2 points), its error of s^(2 points). For
+// Products of two series of degree n have degree 2 n, but fewer points suffice. Taylor coefficients of a solution
+// are at most M x^j/j!, with x the fastest rate times the length, and end where M x^n/n! is u M, u = 2^-53. A
+// product f then has |f^(j)| <= M^2 (2 x)^j e^(2 x), and the rule's error is E f^(2 points)/(2 points)! with
+// E = (points!)^4/((2 points + 1) ((2 points)!)^2) < (pi/2) 4^-(2 points), its error for s^(2 points). For
 // 2 points = n that is at most (pi/2) e^(2 x) 2^-n u M^2: u M^2/128 at n = 8, where x = 0.04, and less at any
-// other degree that the engine takes (7 to 16).
+// other degree that the engine uses (7 to 16).
 #pragma once
 #include <array>
 #include <bit>
@@ -20,7 +20,7 @@
 
 namespace sixstep::series {
 
-/// 1/(n + 1), rounded once: a product with it where a division would take five times as long.
+/// 1/(n + 1), rounded once, because a division takes five times as long as a product.
 template <class Real>
 inline constexpr Coefficients<Real> reciprocals = [] {
   Coefficients<Real> out{};
@@ -36,10 +36,10 @@ inline Real whole_integral(const Coefficients<Real>& c, int degree) {
   return c[0] + sum;
 }
 
-/// How many points products of two series of this degree want.
+/// Number of points for products of two series of this degree.
 constexpr int points_for(int degree) { return degree < 5 ? 3 : (degree + 1) / 2; }
 
-/// Nodes and weights over [0, 1]: roots of the Legendre polynomial, to more digits than any double needs.
+/// Nodes and weights over [0, 1]: roots of the Legendre polynomial, with more digits than a double holds.
 template <int points>
 struct Gauss {
   std::array<long double, points> node, weight;
@@ -85,7 +85,7 @@ inline constexpr Gauss<8> gauss<8> = {
 
 inline namespace SIXSTEP_LANES {
 
-/// A rule's nodes or weights as numbers at its nodes.
+/// A rule's nodes or weights as Nodes.
 template <int points, class Real>
 [[gnu::always_inline]] inline Nodes<points, Real> as_nodes(const std::array<long double, points>& of) {
   if constexpr (requires(Nodes<points, Real> all) { all.row; })
@@ -104,7 +104,7 @@ template <int points, class Real>
   return to * as_nodes<points, Real>(gauss<points>.node);
 }
 
-/// A series at every node at once: the sums do not wait for each other.
+/// Values of a series at all nodes; the nodes' sums do not wait for each other.
 template <int points, class Real>
 [[gnu::always_inline]] inline Nodes<points, Real> values_at(const Coefficients<Real>& c, int degree,
                                                             const Nodes<points, Real>& s) {
@@ -113,7 +113,7 @@ template <int points, class Real>
   return v;
 }
 
-/// A number, or zero where it is not asked for, without a branch that would be foreseen badly: it may be anything then.
+/// v if wanted, else zero; v may then be anything. Without a branch, because it would be mispredicted often.
 template <class Real>
 [[gnu::always_inline]] inline Real only_if(bool wanted, Real v) {
   if constexpr (std::is_same_v<Real, double>)
@@ -122,9 +122,10 @@ template <class Real>
     return wanted ? v : Real(0);
 }
 
-/// The same of a degree that wants so many points, even and odd powers apart, which wait half as long, in an even number of orders:
-/// where the degree is odd a zero is taken along, for a number of orders that varies is foreseen badly. Of several series one after
-/// the other: order by order the compiler takes all coefficients to memory and back.
+/// Values of a series whose degree needs exactly so many points. Even and odd powers are summed separately,
+/// which halves the waiting. The number of orders is always even: an odd degree adds a zero, because a varying
+/// number of orders would be mispredicted. Call it for one series after the other: order by order, the compiler
+/// would store and load all coefficients.
 template <int points, class Real>
 [[gnu::always_inline]] inline Nodes<points, Real> values_of_fitting(const Coefficients<Real>& c, int degree,
                                                                     const Nodes<points, Real>& s) {
@@ -142,7 +143,7 @@ template <int points, class Real>
   return v;
 }
 
-/// Integral over [0, 1] of what has these values at the nodes; over [0, to] it is `to` times that.
+/// Integral over [0, 1] from the values at the nodes; the integral over [0, to] is `to` times that.
 template <int points, class Real>
 [[gnu::always_inline]] inline Real weighted_sum(const Nodes<points, Real>& v) {
   const auto weighted = as_nodes<points, Real>(gauss<points>.weight) * v;
@@ -156,7 +157,7 @@ template <int points, class Real>
   return weighted_sum<points>(a * b);
 }
 
-/// Times the rule's weights, for totals(); the lane left over is zero.
+/// Values times the rule's weights, for totals(); the unused lane is zero.
 template <int points, class Real>
 [[gnu::always_inline]] inline Nodes<points, Real> weighted(const Nodes<points, Real>& v) {
   auto weight = as_nodes<points, Real>(gauss<points>.weight);
@@ -166,10 +167,10 @@ template <int points, class Real>
 
 }  // namespace SIXSTEP_LANES
 
-/// Calls visit.template operator()<points>() with what `degree` wants.
+/// Calls visit.template operator()<points>() with the points that `degree` needs.
 template <class Visit>
 [[gnu::always_inline]] inline auto with_points_for(int degree, Visit&& visit) {
-  if (degree == 8 || degree == 7) return visit.template operator()<4>();  // nearly all that the engine takes
+  if (degree == 8 || degree == 7) return visit.template operator()<4>();  // nearly all degrees in a run
   switch (points_for(degree)) {
     case 3:
       return visit.template operator()<3>();

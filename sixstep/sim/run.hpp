@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// The run loop, on one page. Known instants are scheduled, only unknown ones are searched.
+// The run loop. Known instants are scheduled; only unknown ones are searched.
 //
 //   act on all that is due -> settle and expand (Taylor) -> first root of all guards -> end there -> observe -> advance -> apply ONE event
 //
 // A System provides
-//   Instant now() const                    where it stands
-//   Instant next_known() const             the next instant it has scheduled, > now once act() is done
-//   bool act()                             does all that is due now, by its own clocks (never by what a step aimed at);
-//                                          false where a fault stops the run
-//   double expand(double h)                makes its discrete state consistent and its polynomials valid over the length
-//                                          it returns, <= h; negative where no consistent state exists
+//   Instant now() const                    the present instant
+//   Instant next_known() const             the next scheduled instant, > now after act()
+//   bool act()                             does everything that is due now, by its own clocks (never by the planned end of
+//                                          a step); false if a fault stops the run
+//   double expand(double h)                makes the discrete state consistent and the polynomials valid over the
+//                                          returned length, <= h; negative if no consistent state exists
 //   void guards(Visit&&) const             calls visit(id, coefficients, degree, noise) for each guard that must stay
-//                                          >= 0, those that snap a state first (they win a tie)
-//   void end_at(Real s)                    the segment at hand ends at the fraction s of the expanded length
-//   void advance(Real s, Instant to)       takes the state there
-//   void apply(id)                         the one located event
-// An Observer provides segment(system, s), called before the system advances over [0, s] of its expansion, and may
-// provide done(): true ends the run after the event at hand.
+//                                          >= 0; guards that snap a state come first, because they win a tie
+//   void end_at(Real s)                    ends the segment at the fraction s of the expanded length
+//   void advance(Real s, Instant to)       advances the state to there
+//   void apply(id)                         applies the one located event
+// An Observer provides segment(system, s), called before the system advances over [0, s] of its expansion. It
+// may also provide done(); true ends the run after the present event.
 #pragma once
 #include <cstdint>
 
@@ -28,9 +28,9 @@ namespace sixstep::sim {
 enum class Stop : std::uint8_t {
   end,         ///< the end was reached
   observer,    ///< the observer was done
-  fault,       ///< act() refused
-  unsettled,   ///< no consistent discrete state: a defect of the model
-  no_progress  ///< more than a hundred events without time going on
+  fault,       ///< act() returned false
+  unsettled,   ///< no consistent discrete state: an error of the model
+  no_progress  ///< more than a hundred events without progress of time
 };
 
 struct Run {
@@ -43,7 +43,7 @@ struct NoObserver {
   void segment(const System&, Real) {}
 };
 
-/// Zero-length steps are legal; a hundred without any progress of time are not (pitfall 7).
+/// Steps of zero length are allowed; more than a hundred in a row without progress of time are not (pitfall 7).
 inline constexpr int stalled_limit = 100;
 
 template <class System, class Observer>
@@ -60,7 +60,7 @@ Run run(System& system, Instant end, Observer& observer) {
     const Instant known = next < end ? next : end;
     const double wanted = seconds_between(now, known);
     const double length = system.expand(wanted);
-    if (!(length >= 0)) return {Stop::unsettled, result.segments};  // nor a length that is not a number
+    if (!(length >= 0)) return {Stop::unsettled, result.segments};  // also if NaN
 
     Real first = 1;
     int event = -1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scenarios of a comparison of controllers, read as if a file had been written for each.
+// Makes the scenario of each controller in a comparison of controllers.
 #pragma once
 #include <vector>
 
@@ -8,8 +8,8 @@
 
 namespace text {
 
-/// The common scenario with the keys of each row, as --set would have them. Where this motor or board does not let a controller be,
-/// its entry has the Problems. `resolve` finds the motor.
+/// Reads the common scenario once per row of `all`, with the keys of that row as --set would apply them. An
+/// entry has Problems if the controller is impossible with this motor or board. `resolve` finds the motor.
 std::vector<analysis::ContestEntry> contest_entries(
     const analysis::ContestBench& bench, const Resolve& resolve,
     std::span<const analysis::Contestant> all = analysis::contestants());

@@ -40,12 +40,12 @@ std::string controller_name(const Contest& c, std::size_t row) {
   return std::string(c.entries[row].who->name);
 }
 
-/// Figures of a row: of the nominal drive, or the worst of all; null where it has none.
+/// Selects the figures of a row: of the nominal drive, or the worst of all; null if it has none.
 using FiguresOf = const ContestValues* (*)(const ContestRow& row);
 const ContestValues* nominal_of(const ContestRow& row) { return &row.values; }
 const ContestValues* worst_of(const ContestRow& row) { return row.worst ? &*row.worst : nullptr; }
 
-/// The least of a column, where there is one.
+/// The least value of a column; NaN if there is none.
 double least_of(const Contest& c, std::size_t figure, FiguresOf figures) {
   double least = std::nan("");
   for (const ContestRow& row : c.rows)
@@ -108,7 +108,7 @@ ContestTable table(const Contest& c, std::string title, ContestGroup group, Figu
   return table;
 }
 
-/// In lines that a terminal holds, the later ones further in.
+/// Breaks a paragraph into lines for a terminal; all lines but the first are indented.
 std::string paragraph(const std::string& words) {
   constexpr std::size_t width = 118;
   std::string text, line = "  ";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Controllers side by side as tables, as plain words, and for programs.
+// Prints a comparison of controllers as tables, as sentences, as CSV and as JSON.
 #pragma once
 #include <string>
 #include <string_view>
@@ -10,37 +10,40 @@
 
 namespace text {
 
-/// The core of the table's costs, in float; all cores stand in docs/reference/core-costs.md.
+/// The core whose costs the table shows, in float; docs/reference/core-costs.md has all cores.
 inline constexpr std::string_view contest_core = "Cortex-M4F";
 
-/// "8.22 mN m", "34.6 %"; "never" where it never comes, "-" where there is none.
+/// "8.22 mN m", "34.6 %"; "never" for an event that does not come, "-" where there is no value.
 std::string contest_value(double x, const analysis::ContestFigure& figure);
 
-/// Who wins where, and the answer to "six-step or field-oriented?": sentences made of the numbers by rules. Controllers that do not
-/// hold the course are left out.
+/// Sentences that fixed rules make from the numbers: which controller wins in which figure, and the answer to
+/// "six-step or field-oriented?". Controllers that do not hold the course are left out.
 std::vector<std::string> contest_words(const analysis::Contest& contest);
 
-/// A line per controller that this motor or board does not let be, or that does not hold the course: why.
+/// One line with the reason for each controller that is impossible with this motor or board, or that does not
+/// hold the course.
 std::vector<std::string> contest_notes(const analysis::Contest& contest);
 
-/// A table as it is printed: heads first, then a row for each controller that runs. "*" marks the least of a column.
+/// A table as it is printed: column heads, then a row for each controller that runs. "*" marks the least value
+/// of a column.
 struct ContestTable {
-  std::string title;  ///< of the first table of a pair: what drives the figures are of
+  std::string title;  ///< stands above the first table of a pair: which drives the figures belong to
   std::vector<std::vector<std::string>> rows;
 };
-/// The figures of the nominal drive, and the worst of the series where one was run; two tables each, while the speed changes and steady.
+/// Tables of the nominal drive, and of the worst drives if a series was run. Two tables each: during speed
+/// changes, and in steady state.
 std::vector<ContestTable> contest_tables(const analysis::Contest& contest);
 
-/// What the marks and heads of the tables mean, a line each.
+/// Explains the marks and heads of the tables, one line each.
 std::vector<std::string> contest_legend(const analysis::Contest& contest);
 
-/// What is common, the tables, nominal and worst, and the words.
+/// The common conditions, the tables (nominal and worst) and the sentences.
 std::string contest_text(const analysis::Contest& contest);
 
-/// A line per controller and drive, "nominal" or "worst".
+/// One line per controller and drive, "nominal" or "worst".
 std::string contest_csv(const analysis::Contest& contest);
 
-/// Everything, with the keys of each.
+/// All results, with the keys of each controller.
 std::string contest_json(const analysis::Contest& contest);
 
 }  // namespace text

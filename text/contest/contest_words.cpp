@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sentences of a comparison of controllers, made of its numbers by rules.
+// Makes the sentences of a comparison of controllers from its numbers, by rules.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -19,16 +19,16 @@ namespace {
 using analysis::Contest;
 using analysis::contest_figures;
 
-/// Within this part two figures count as alike.
+/// Two figures whose difference is below this part count as equal.
 constexpr double alike = 0.05;
 
-/// "3.2 times", "12 % more": how much larger b is; "3.2 ms against 0 s" where no factor says it.
+/// "3.2 times", "12 % more": how much larger b is than a; "3.2 ms against 0 s" if there is no factor.
 std::string larger(double a, double b, const analysis::ContestFigure& figure) {
   if (!(a > 0.0)) return fmt::format("{} against {}", contest_value(b, figure), contest_value(a, figure));
   return b / a >= 2.0 ? fmt::format("{:.1f} times", b / a) : fmt::format("{:.0f} % more", 100 * (b / a - 1));
 }
 
-/// Rows that hold the course and have the figure, the least first and the next.
+/// The two rows with the least values, among those that hold the course and have the figure.
 struct Ranked {
   std::optional<std::size_t> first, second;
 };
@@ -51,7 +51,7 @@ bool are_alike(double a, double b) {
   return std::fabs(b - a) <= alike * std::fmin(std::fabs(a), std::fabs(b));
 }
 
-/// All that hold the course and count as alike with the least.
+/// All rows that hold the course and are equal to the least within `alike`.
 std::vector<std::size_t> sharing(const Contest& c, std::size_t figure, double least) {
   std::vector<std::size_t> who;
   for (std::size_t n = 0; n < c.rows.size(); ++n)
@@ -61,7 +61,7 @@ std::vector<std::size_t> sharing(const Contest& c, std::size_t figure, double le
   return who;
 }
 
-/// "a, b and c share", or of many "7 controllers share".
+/// "a, b and c share"; for more than four "7 controllers share".
 std::string who_share(const Contest& c, const std::vector<std::size_t>& who) {
   constexpr std::size_t most_named = 4;
   if (who.size() > most_named) return fmt::format("{} controllers share", who.size());
@@ -70,7 +70,7 @@ std::string who_share(const Contest& c, const std::vector<std::size_t>& who) {
   return fmt::format("{} and {} share", fmt::join(names, ", "), c.entries[who.back()].who->name);
 }
 
-/// One alone of several that hold the course has the figure: the rest never settle.
+/// Whether only one of several rows that hold the course has the figure, because the others never settle.
 bool is_alone(const Contest& c, std::size_t figure) {
   std::size_t have = 0, never = 0;
   for (const analysis::ContestRow& row : c.rows) {
@@ -81,10 +81,11 @@ bool is_alone(const Contest& c, std::size_t figure) {
   return have == 1 && never > 0;
 }
 
-/// "NAME has the least rms torque ripple (1.2 mN m; next NAME, 2.3 times)": what it leads in clearly, and why.
+/// "NAME has the least rms torque ripple (1.2 mN m; next NAME, 2.3 times)": the figures in which a controller
+/// clearly leads, and why.
 std::vector<std::string> winners(const Contest& c) {
   std::vector<std::vector<std::string>> wins(c.rows.size());
-  std::map<std::vector<std::size_t>, std::vector<std::string>> even;  // by who shares them
+  std::map<std::vector<std::size_t>, std::vector<std::string>> even;  // by the controllers that share them
   for (std::size_t f = 0; f < std::size(contest_figures); ++f) {
     const Ranked r = ranked(c, f, [](std::size_t) { return true; });
     if (r.first && is_alone(c, f))
@@ -109,7 +110,7 @@ std::vector<std::string> winners(const Contest& c) {
   return out;
 }
 
-/// Of ripple and loss: -1 where the first has clearly less, 1 where the second has, 0 where they are alike.
+/// Compares ripples or losses: -1 if the first is clearly less, 1 if the second is, 0 if they are equal.
 int less_of(double a, double b) { return are_alike(a, b) ? 0 : a < b ? -1 : 1; }
 
 const char* answer(int ripple, int loss) {
@@ -126,7 +127,7 @@ const char* answer(int ripple, int loss) {
                   : "six-step: less heat, at the same ripple";
 }
 
-/// The best six-step row, figure by figure, against the field-oriented one.
+/// The best six-step row of each figure against the field-oriented one.
 std::vector<std::string> six_step_or_field(const Contest& c) {
   std::optional<std::size_t> field;
   for (std::size_t n = 0; n < c.rows.size(); ++n)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What tools/own_cost.sh counted of a controller of one's own on a core, out of the file that it wrote.
+// Reads the file that tools/own_cost.sh writes: the cost of a user's own controller on a core.
 #pragma once
 #include <string>
 #include <string_view>
@@ -11,11 +11,11 @@
 namespace text {
 
 struct OwnCost {
-  std::string controller;  ///< as it calls itself
+  std::string controller;  ///< the name that it gives itself
   CoreCost cost;           ///< on the core of the comparison's table
 };
 
-/// The Problem's place is the file's to add.
+/// Problems: `json` is no such file, or lacks the comparison's core. The caller adds the Problem's place.
 base::Result<OwnCost> own_cost_of(std::string_view json);
 
 }  // namespace text

@@ -16,15 +16,16 @@ bool is_ascii_word(unsigned char c) {
   return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
 }
 
-/// Controls (C0, DEL, C1), ends of lines, the controls of bidirectional text, and what has no width, so that
-/// one name looks like another. The two joiners are letters' business.
+/// Whether a character may act: controls (C0, DEL, C1), line ends, controls of bidirectional text, and
+/// characters without width, with which two names look alike. The two joiners are allowed, because scripts need
+/// them.
 bool acts(char32_t c) {
   return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0x061C || c == 0x180E || c == 0x200B || c == 0x200E ||
          c == 0x200F || (c >= 0x2028 && c <= 0x202E) || (c >= 0x2060 && c <= 0x206F) || c == 0xFEFF ||
          (c >= 0xFFF9 && c <= 0xFFFB);
 }
 
-/// A tab, a line's end, and the return before it.
+/// A tab, a line end, or the carriage return before it.
 bool keeps_lines(std::string_view text, std::size_t at) {
   return text[at] == '\n' || text[at] == '\t' || text.substr(at, 2) == "\r\n";
 }
@@ -42,7 +43,7 @@ char32_t next_character(std::string_view text, std::size_t& at) {
     if ((byte(at + n) & 0xC0U) != 0x80U) return replacement;
     character = character << 6U | (byte(at + n) & 0x3FU);
   }
-  // Written with more bytes than it needs, half of a pair, or beyond the last: no character.
+  // No character: written with more bytes than needed, half of a surrogate pair, or beyond the last code point.
   constexpr char32_t least[] = {0, 0x80, 0x800, 0x10000};
   if (character < least[more] || (character >= 0xD800 && character < 0xE000) || character > 0x10FFFF)
     return replacement;
@@ -56,7 +57,7 @@ std::string visible(std::string_view text, Lines lines) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t begin = at;
     while (at < text.size() && text[at] >= ' ' && text[at] < 0x7F) ++at;
-    if (at > begin) {  // nearly all of a page's data
+    if (at > begin) {  // nearly all data of a page
       out += text.substr(begin, at - begin);
       continue;
     }
@@ -76,7 +77,7 @@ std::string shell_word(std::string_view word) {
   const auto plain = [&](unsigned char c) {
     return is_ascii_word(c) || harmless.find(static_cast<char>(c)) != std::string_view::npos;
   };
-  // zsh looks up what begins with =.
+  // zsh expands a word that begins with =.
   if (!word.empty() && word.front() != '=' && std::all_of(word.begin(), word.end(), plain))
     return std::string(word);
   std::string out;
@@ -89,7 +90,7 @@ std::string shell_word(std::string_view word) {
     if (c == '\'' || c == '\\')
       out.append(1, '\\').append(1, c);
     else if (byte < 0x20 || byte >= 0x7F)
-      out += fmt::format("\\{:03o}", byte);  // \x would take the digits behind it for its own
+      out += fmt::format("\\{:03o}", byte);  // \x would include the digits behind it
     else
       out += c;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// JSON has no word for what is not finite.
+// Writes numbers as JSON, which has no infinities and no NaN.
 #pragma once
 #include <nlohmann/json.hpp>
 
@@ -9,7 +9,7 @@
 
 namespace text {
 
-/// null where a number is infinite or is none.
+/// null if the number is infinite or NaN.
 inline nlohmann::ordered_json finite(double x) {
   return x - x == 0.0 ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
 }
@@ -17,7 +17,7 @@ inline nlohmann::ordered_json or_null(const std::optional<double>& x) {
   return x ? finite(*x) : nlohmann::ordered_json(nullptr);
 }
 
-/// The value of a figure of merit: null where it has none, a word for what never came.
+/// The value of a figure of merit: null for NaN, "never" or "-never" for an infinite one.
 inline nlohmann::ordered_json figure_json(double x) {
   if (x != x) return nullptr;
   if (x - x != 0.0) return x > 0 ? "never" : "-never";

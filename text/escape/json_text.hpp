@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// JSON on its way out. Names in it may hold any bytes: nothing throws over what is no UTF-8, and nothing acts.
+// Prints JSON. Its strings may hold any bytes: invalid UTF-8 is replaced instead of thrown, control characters
+// are escaped.
 #pragma once
 #include <nlohmann/json.hpp>
 
@@ -10,7 +11,7 @@
 
 namespace text {
 
-/// Over lines, or with an indent of -1 in one.
+/// On several lines; with an indent of -1 on one line.
 inline std::string json_text(const nlohmann::ordered_json& json, int indent = 2) {
   using Json = nlohmann::ordered_json;
   return visible(json.dump(indent, ' ', false, Json::error_handler_t::replace), Lines::kept);

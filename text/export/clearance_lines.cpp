@@ -31,7 +31,7 @@ std::string verdict(const study::Verdict& v) {
   return fmt::format("{}: {} required, {:.6g}{} measured", v.figure, required, v.measured, unit);
 }
 
-/// "; offset 0.1 A": what is not there is not told.
+/// "; offset 0.1 A"; empty for 0.
 std::string flaw(std::string_view name, double x, std::string_view unit) {
   return x != 0 ? fmt::format("; {} {:.6g}{}{}", name, x, unit.empty() ? "" : " ", unit) : "";
 }
@@ -136,7 +136,7 @@ std::string heat(const study::Heat& h) {
                      h.ambient_degC);
 }
 
-/// What a board may have otherwise: then this run says nothing of it.
+/// The run's assumptions: with a board that differs in them, the run proves nothing.
 std::string assumptions(const ClearanceText& t) {
   const study::Scenario& s = t.scenario;
   std::string text = "// That run took for granted:\n";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a header says of the run behind it: what was required and measured, and what that run took for
-// granted; or what stood against writing it, and why it was written all the same.
+// Writes the part of an exported header's comment that describes its run: requirements, measured values and
+// assumptions; or why the drive is not cleared, and why the header was written nevertheless.
 #pragma once
 #include <string>
 #include <string_view>
@@ -13,9 +13,9 @@ namespace text {
 
 struct ClearanceText {
   const study::Scenario& scenario;    ///< as it was run
-  const study::Clearance* clearance;  ///< null: nobody ran it
-  std::string_view despite;           ///< why it is written although it is not clear
-  bool other_scale = false;           ///< fixed point: the header's full scale is not that of the run
+  const study::Clearance* clearance;  ///< null: it was not run
+  std::string_view despite;           ///< the reason for writing it although it is not cleared
+  bool other_scale = false;           ///< fixed point: the header's full scale differs from the run's
 };
 
 /// Lines of // comment, without a date: the same run gives the same lines.

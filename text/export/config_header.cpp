@@ -58,9 +58,10 @@ std::string timing(const study::Scenario& scenario, const study::Compiled& c, bo
                   "of the period; else at its start");
 }
 
-/// The clock of a product drive's Hall edges: of another one every speed would be wrong by their ratio, the over-speed check too.
-/// What a lean drive leaves to its board: converters that its scenario has, and how far a setpoint goes; beside them a sensorless one's
-/// timer.
+/// The parts that a lean drive leaves to its board: the scenario's converters and the setpoint's range; for a
+/// sensorless drive also its timer.
+/// A product drive gets the clock of its Hall edges: with another clock every speed is wrong by their ratio, and so is the
+/// over-speed check.
 std::string around_lean(const ConfigHeader& w, const study::Compiled& c) {
   const study::Sensors& sensors = w.scenario.sensors;
   if (c.product &&
@@ -82,7 +83,7 @@ std::string around_lean(const ConfigHeader& w, const study::Compiled& c) {
                   sixstep::base::six_digits(range) + " in the mode's unit: a potentiometer's, either way");
 }
 
-/// A function that makes a constant, and the constant.
+/// Text of a function that makes a constant, and of the constant.
 std::string made(std::string_view type, std::string_view name, const std::string& lines) {
   return fmt::format(
       "constexpr sixstep::control::{0}<Scalar> make_{1}() {{\n  using namespace sixstep::control;\n"
@@ -91,7 +92,7 @@ std::string made(std::string_view type, std::string_view name, const std::string
       type, name, lines);
 }
 
-/// A drive has room for a profile where it is asked for (profiled_position.hpp).
+/// A drive has room for a profile only on request (profiled_position.hpp).
 std::string position_profile(const study::Compiled& c) {
   const control::DriveConfig<double>& drive = c.product ? c.product->drive
                                               : c.field ? c.field->drive
@@ -112,7 +113,7 @@ std::string includes(const ConfigHeader& w, const study::Compiled& c) {
                                       : "drive");
 }
 
-/// The drive in the target's arithmetic, and what stands around it where the scenario has that.
+/// The drive in the target's arithmetic, and the product around it if the scenario has one.
 template <class Scalar>
 struct Kept {
   control::DriveConfig<Scalar> drive{};
@@ -167,7 +168,7 @@ std::string header(const ConfigHeader& w, const study::Compiled& c, std::string_
   return text + fmt::format("}}  // namespace {}\n", w.name_space);
 }
 
-/// The stated range, and where nothing was stated the scenario's own.
+/// The stated range, completed by the scenario's own.
 design::OperatingRange range_of(const ConfigHeader& w, const study::Compiled& c) {
   const design::OperatingRange own = study::operating_range(w.scenario, c);
   const auto stated = [](double x, double otherwise) { return x > 0 ? x : otherwise; };
@@ -176,7 +177,7 @@ design::OperatingRange range_of(const ConfigHeader& w, const study::Compiled& c)
           stated(w.range.setpoint, own.setpoint),         own.speed_change_rad_s};
 }
 
-/// A range that the scenario itself leaves would be proved for a drive that nobody runs.
+/// Problems of a stated range that the scenario itself exceeds: it would be proved for a drive that nobody runs.
 base::Problems too_small(const ConfigHeader& w, const study::Compiled& c) {
   const design::OperatingRange least = study::least_range(w.scenario, c);
   base::Problems problems;
@@ -218,7 +219,7 @@ base::Result<std::string> floating_header(const ConfigHeader& w, const study::Co
   return header<Scalar>(w, c, type, kept, {}, {});
 }
 
-/// That hold the range that was stated, or those of the run.
+/// Bases for the stated range, or those of the run.
 template <class Scalar>
 base::Result<design::Bases> chosen_bases(const ConfigHeader& w, const study::Compiled& c,
                                          const design::OperatingRange& range) {

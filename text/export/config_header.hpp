@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scenario's drive as a C++ header for firmware: the bits that the simulation computes with, as constants;
-// where the chip runs the product drive, all that stands around the loops too.
+// Writes a scenario's drive as a C++ header for firmware. Its constants have the bits that the simulation
+// computes with. If the chip runs the product drive, the header also has all that stands around the loops.
 #pragma once
 #include <optional>
 #include <string>
@@ -15,20 +15,21 @@ namespace text {
 
 struct ConfigHeader {
   const study::Scenario& scenario;
-  std::optional<study::Arithmetic> arithmetic;  ///< else the scenario's
-  /// Fixed point: over what the drive is proved. Members that are 0 are study::operating_range's; with none
-  /// stated, the bits are those of the scenario's run, control.full_scale included.
+  std::optional<study::Arithmetic> arithmetic;  ///< empty: the scenario's
+  /// Fixed point: the operating range that the drive is proved for. A member that is 0 comes from
+  /// study::operating_range. If none is given, the bits are those of the scenario's run, control.full_scale
+  /// included.
   design::OperatingRange range;
-  std::string name_space;      ///< what the header declares is in it; a C++ name
+  std::string name_space;      ///< C++ namespace of the declarations
   bool single_header = false;  ///< includes sixstep_control.hpp, not sixstep/control/
-  std::string command;         ///< what makes this header again
-  /// What its run has shown, which the header states; without one it says that nothing has.
+  std::string command;         ///< the command that makes this header again
+  /// Results of the run, which the header's comment states; null: the comment says that there are none.
   const study::Clearance* clearance = nullptr;
-  std::string despite;  ///< why it is written although it is not clear
+  std::string despite;  ///< the reason for writing it although it is not cleared
 };
 
-/// The header's text. Problems: a scenario without a drive (mode off), and what does not fit the fixed-point
-/// format, as design::scaled names it.
+/// The header's text. Problems: the scenario has no drive (mode off), or a value does not fit the fixed-point
+/// format (named as design::scaled does).
 base::Result<std::string> config_header(const ConfigHeader& wanted);
 
 }  // namespace text

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A configuration as C++ assignments, one a line, each with its number in SI beside it. What still has its
-// default (nothing, off) is left out; enumerations always stand.
+// Writes a configuration as C++ assignments, one per line, each with its number in SI beside it. A member with
+// its default value (nothing, off) is left out; an enumeration is always written.
 #pragma once
 #include <fmt/format.h>
 
@@ -28,7 +28,7 @@ inline std::string hex_float(double x) {
   return (std::signbit(x) ? "-0x" : "0x") + std::string(digits, end.ptr);
 }
 
-/// Gains, divisors and sums of floating point are plain numbers: one overload for all of them.
+/// In floating point, gains, divisors and sums are plain numbers: one overload for all of them.
 inline std::string literal(double x) { return hex_float(x); }
 inline std::string literal(float x) { return hex_float(static_cast<double>(x)) + "f"; }
 template <class Storage, int FractionBits>
@@ -52,7 +52,7 @@ std::string literal(sixstep::control::FixedSum<Format> s) {
   return fmt::format("Accumulator<Scalar>::from_raw({})", s.raw);
 }
 
-/// Of what is whole in every arithmetic.
+/// Literal of a member that is a whole number in every arithmetic.
 template <class Whole>
 std::string whole(Whole x) {
   return std::to_string(x);
@@ -157,19 +157,19 @@ struct EnumText<sixstep::control::VoltageLimit> {
                                                                                     {"circle", circle, ""}};
 };
 
-/// A walk over the fields of a configuration (design/fields), the designed one in SI beside the kept one in
-/// the target's arithmetic.
+/// Visits the fields of a configuration (design/fields) twice in parallel: as designed in SI, and as kept in the
+/// target's arithmetic.
 template <class Scalar>
 class ConfigText {
  public:
   using Field = sixstep::design::Field;
   using Base = sixstep::design::Base;
 
-  /// Floating point has the bases 1.
+  /// The bases of floating point are 1.
   ConfigText(sixstep::control::Mode mode, const sixstep::design::Bases& bases) : mode_(mode), b_(bases) {}
   const std::string& text() const { return text_; }
 
-  /// A loop that is not run has its fields beside it, where floating point keeps them.
+  /// Fields of a loop that does not run are visited too: floating point keeps their values.
   static constexpr bool when_run(bool) { return true; }
   static constexpr bool when_on(bool on) { return on; }
 
@@ -208,7 +208,7 @@ class ConfigText {
   void raw_gain(const Field& f, double designed, sixstep::control::Gain<Scalar> kept, Base base) {
     gain_of(f, designed, kept, value(base) * digit());
   }
-  /// What takes the last bits of its input.
+  /// A gain whose input is in the last bits of the format.
   void gain_of_raw(const Field& f, double designed, sixstep::control::Gain<Scalar> kept, Base base) {
     gain_of(f, designed, kept, 1.0 / (value(base) * digit()));
   }
@@ -235,7 +235,7 @@ class ConfigText {
  private:
   static constexpr bool fixed = !std::is_floating_point_v<Scalar>;
 
-  /// The last bit of a fixed format, in which gains of counts give their answer (adc.hpp, hall_speed.hpp).
+  /// The last bit of a fixed format: gains of counts have their output in it (adc.hpp, hall_speed.hpp).
   static double digit() {
     if constexpr (fixed)
       return static_cast<double>(Scalar::from_raw(1));
@@ -254,7 +254,7 @@ class ConfigText {
     const std::string code = fmt::format("  c.{}{} = {};", within_, f.name, value);
     text_ += comment.empty() ? code + "\n" : fmt::format("{:<72}  // {}\n", code, comment);
   }
-  /// `held`: what the format makes of it, in SI; told where it differs in six digits.
+  /// `held`: the value that the format holds, in SI; the comment shows it if it differs in six digits.
   void number(const Field& f, const std::string& value, double designed, double held, std::string_view unit) {
     std::string comment = fmt::format("{:.9g}", designed);
     if (!unit.empty()) comment += fmt::format(" {}", unit);
@@ -269,7 +269,7 @@ class ConfigText {
   std::string text_, within_;
 };
 
-/// All of a sensorless drive but the loops.
+/// A sensorless drive without its loops.
 template <class Scalar>
 std::string sensorless_lines(sixstep::control::Mode mode,
                              const sixstep::control::PulsedDriveConfig<double>& designed,
@@ -282,7 +282,7 @@ std::string sensorless_lines(sixstep::control::Mode mode,
   return text.text();
 }
 
-/// The drive, or what a product has around it: `designed` in SI beside `kept` in the target's arithmetic.
+/// The drive or the product around it: `designed` in SI, `kept` in the target's arithmetic.
 template <class Scalar, class Designed, class Kept>
 std::string config_lines(sixstep::control::Mode mode, const Designed& designed, const Kept& kept,
                          const sixstep::design::Bases& bases) {

@@ -16,7 +16,7 @@ namespace {
 
 namespace control = sixstep::control;
 
-/// The reference drive, by the name that the tables have for it.
+/// The reference drive's name in the tables.
 std::string_view kind(const study::Compiled& c) {
   if (c.product) return "product";
   if (c.field) return "field";
@@ -36,7 +36,7 @@ std::string_view kind(const study::Compiled& c) {
 
 using Words = std::vector<std::string_view>;
 
-/// Lines of words; those that begin with # are left out.
+/// The table's lines as words, without lines that begin with #.
 std::vector<Words> rows(std::string_view table) {
   std::vector<Words> all;
   while (!table.empty()) {
@@ -54,7 +54,7 @@ std::vector<Words> rows(std::string_view table) {
   return all;
 }
 
-/// The row that begins so: core, drive, arithmetic; of a count its entry too.
+/// The row that begins with `key`: core, drive, arithmetic; for a count also its entry.
 const Words* row_of(const std::vector<Words>& all, const Words& key) {
   for (const Words& row : all)
     if (row.size() > key.size() && std::equal(key.begin(), key.end(), row.begin())) return &row;

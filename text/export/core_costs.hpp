@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a header says of the time and the memory that its drive takes on a chip: what the reference drive of its kind was
-// counted to take (data/cores/, tools/check_target.sh), core by core and arithmetic by arithmetic.
+// States in a header's comment the time and memory that its drive needs on a chip. The numbers are counts of the
+// reference drive of the same kind, per core and arithmetic (data/cores/, tools/check_target.sh).
 #pragma once
 #include <optional>
 #include <string>
@@ -11,18 +11,19 @@
 
 namespace text {
 
-/// Of a control tick at worst, in instructions (of the ATmega2560 in cycles), and of the drive's flash.
+/// Worst control tick in instructions (on the ATmega2560 in cycles), and flash of the drive in bytes.
 struct CoreCost {
   std::string tick, flash_bytes;
 };
-/// Of a reference drive, "speed", on a core, "Cortex-M4F", in an arithmetic, "float".
+/// Cost of a reference drive ("speed") on a core ("Cortex-M4F") in an arithmetic ("float"); empty: not counted.
 std::optional<CoreCost> core_cost(std::string_view core, std::string_view drive, std::string_view arithmetic);
 
-/// Least control period of the images (faces/firmware/example/): the STM32F303's is refused below it by its compiler, the ATmega2560's
-/// keeps the 100 us of data/scenarios/thesis/avr/ and misses periods below: its tick takes 80 to 104 us. In s.
+/// Least control period of the images (faces/firmware/example/), s. Below it the STM32F303's image does not
+/// compile. The ATmega2560's keeps the 100 us of data/scenarios/thesis/avr/ and misses periods below it, because
+/// its tick takes 80 to 104 us.
 inline constexpr double stm32_least_period_s = 1600 / 72e6, atmega_least_period_s = 100e-6;
 
-/// In a sentence without a dot, which images a control period is too short for; empty where none.
+/// A sentence without its full stop: the images that this control period is too short for; empty if none.
 std::string too_short_for_images(double period_s);
 
 /// Lines of // comment.

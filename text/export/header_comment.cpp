@@ -17,7 +17,7 @@ std::string comment(std::string_view label, std::string_view text) {
   return fmt::format("// {:<10}{}\n", label, comment_text(text));
 }
 
-/// Where the gains put the closed loop's poles: z^2 + (b0 d1 + a0 - 1) z + (b0 d0 - a0) = 0.
+/// The closed loop's poles with these gains: z^2 + (b0 d1 + a0 - 1) z + (b0 d0 - a0) = 0.
 std::string closed_loop_poles(const study::LoopGains& g, const design::ZohPlant& plant) {
   const double half = (plant.b0 * g.d1 + plant.a0 - 1) / 2, product = plant.b0 * g.d0 - plant.a0;
   const double square = half * half - product, root = std::sqrt(std::fabs(square));
@@ -27,7 +27,7 @@ std::string closed_loop_poles(const study::LoopGains& g, const design::ZohPlant&
                            sixstep::base::six_digits(-half - root));
 }
 
-/// One line: the gains and where they come from.
+/// One line: the gains and their source.
 std::string derivation(const study::LoopGains& g) {
   if (g.loop == "position") return fmt::format("{} rad/s per deg; {}", base::written(g.d1), g.origin);
   const char* unit = g.loop.starts_with("current") ? "V/A" : "per rad/s";
@@ -47,7 +47,7 @@ std::string derivation(const study::LoopGains& g) {
                             sixstep::base::six_digits(p.gains.d0));
 }
 
-/// What the board calls.
+/// The functions that the board calls.
 std::string entries(const study::Compiled& c) {
   if (c.sensorless)
     return "// The tick is pulsed_drive_step: of currents, the terminals' and the bus's counts and the timer. At its compare match, where\n"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The comment that an exported header begins with: motor, gains and where they come from, what the board calls, and what its run showed.
+// Writes the comment at the top of an exported header: motor, gains and their sources, the calls that the board
+// makes, and the results of the run.
 #pragma once
 #include <string>
 
@@ -10,7 +11,7 @@ namespace text {
 
 std::string header_comment(const ConfigHeader& wanted, const study::Compiled& compiled);
 
-/// Whether any of a range is given.
+/// Whether any member of the range is given.
 bool states_range(const design::OperatingRange& range);
 
 }  // namespace text

@@ -7,7 +7,7 @@
 namespace text {
 namespace {
 
-/// Keywords of C++20 and its other spellings of operators, the names that the header is made of, and macros of GNU compilers.
+/// Keywords of C++20, its alternative operators, names that the header uses, and macros of GNU compilers.
 constexpr std::string_view taken_names[] = {
     "alignas",     "alignof",  "and",        "and_eq",    "asm",       "auto",         "bitand",
     "bitor",       "bool",     "break",      "case",      "catch",     "char",         "char16_t",
@@ -32,7 +32,7 @@ bool is_free_name(std::string_view name) {
   if (name.empty() || !is_letter(name[0])) return false;
   if (!std::all_of(name.begin(), name.end(), [](char x) { return is_letter(x) || is_digit(x); }))
     return false;
-  // Compilers and libraries keep these for themselves.
+  // Reserved for compilers and libraries.
   const bool reserved = name.find("__") != std::string_view::npos ||
                         (name.size() > 1 && name[0] == '_' && name[1] >= 'A' && name[1] <= 'Z');
   return !reserved &&

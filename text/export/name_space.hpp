@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a namespace of that name can hold an exported header.
+// Checks the namespace of an exported header.
 #pragma once
 #include <string_view>
 
 namespace text {
 
-/// Names parted by "::", none of them a word that C++ keeps for itself, one that compilers define as a macro, or one that would hide what
-/// the header itself names: std and sixstep.
+/// Whether the text is a list of names separated by "::". No name may be a C++ keyword, a macro that compilers
+/// define, or one that would hide a name which the header uses: std and sixstep.
 bool is_name_space(std::string_view text);
 
 }  // namespace text

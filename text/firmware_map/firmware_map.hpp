@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A firmware of one's own and how it hangs at the board: a TOML file that `sixstep run --on FILE` names.
+// Reads a map: the TOML file that `sixstep run --on FILE` names, with a user's own firmware and its connections
+// to the board.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,15 +12,15 @@ namespace text {
 
 /// Pins as the data sheet names them, "PK0"; legs in the order a, b, c.
 struct FirmwareMap {
-  std::string elf;                ///< beside the map, where it is no whole path
+  std::string elf;                ///< path relative to the map's folder, unless it is absolute
   std::vector<std::string> hall;  ///< H1 H2 H3
   std::vector<std::string> upper, lower;
-  std::vector<int> currents;  ///< the converter's inputs
-  int potentiometer = 3;      ///< and the setpoint's
+  std::vector<int> currents;  ///< input numbers of the converter
+  int potentiometer = 3;      ///< input number of the converter
   double setpoint_range = 1.0;
 };
 
-/// `name` is what messages call the file. Problems: all that is wrong with it.
+/// `name` is the file's name in messages. Problems: all mistakes of the file.
 base::Result<FirmwareMap> read_firmware_map(const std::string& name, std::string text);
 
 }  // namespace text

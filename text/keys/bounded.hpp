@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A message is read by a person: what it quotes of a file may be ten million characters long.
+// Shortens texts for messages, because a quoted value of a file may have ten million characters.
 #pragma once
 #include <string>
 
@@ -8,7 +8,7 @@
 
 namespace text {
 
-/// The begin and the end of a text that is longer than `most` bytes, cut between characters.
+/// A text longer than `most` bytes becomes its beginning and its end, cut between characters.
 inline std::string bounded(std::string text, std::size_t most) {
   if (text.size() <= most) return text;
   const auto inside = [&text](std::size_t at) {
@@ -20,7 +20,7 @@ inline std::string bounded(std::string text, std::size_t most) {
   return text.substr(0, begin) + " ... " + text.substr(end);
 }
 
-/// Of a place the name of a file is a part, and of a limit the words that may be.
+/// Bounds each text of a Problem: a place contains a file name, a limit may contain words of the file.
 inline base::Problem bounded(base::Problem p) {
   return {bounded(std::move(p.where), 1000), bounded(std::move(p.value), 200),
           bounded(std::move(p.limit), 1000), bounded(std::move(p.cure), 1000)};

@@ -11,13 +11,12 @@
 namespace text {
 namespace {
 
-/// Where the digits that begin at `at` end.
+/// The end of the digits that begin at `at`.
 std::size_t end_of_digits(std::string_view text, std::size_t at) {
   return std::min(text.find_first_not_of("0123456789", at), text.size());
 }
 
-/// A number as it is written: whether it is negative, its digits without the point, the power of ten of the
-/// last one.
+/// A number as written: its sign, its digits without the point, and the power of ten of the last digit.
 struct Decimal {
   bool negative = false;
   std::string digits;
@@ -25,7 +24,7 @@ struct Decimal {
   std::size_t size = 0;  ///< of its text
 };
 
-/// The exponent whose e stands at `at`, and where it ends; 0 and `at` itself where no digit follows.
+/// The exponent whose e is at `at`, and its end; 0 and `at` if no digit follows.
 std::pair<long, std::size_t> exponent(std::string_view text, std::size_t at) {
   constexpr long far = 1'000'000'000;
   if (at >= text.size() || (text[at] != 'e' && text[at] != 'E')) return {0, at};

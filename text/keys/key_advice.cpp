@@ -13,8 +13,7 @@
 namespace text {
 namespace {
 
-// Every piece a unit suffix may be made of, right or wrong ones: what follows the last other piece is the
-// unit.
+// Pieces of unit suffixes, valid or not: the unit of a key begins behind its last other piece.
 constexpr std::array unit_pieces = {
     "V",     "mV",   "kV",   "A",    "mA",      "uA",  "s",   "ms", "us", "ns",   "min", "h",    "ohm",
     "mohm",  "kohm", "H",    "mH",   "uH",      "F",   "uF",  "nF", "mF", "Hz",   "kHz", "MHz",  "rad",
@@ -26,7 +25,7 @@ bool is_unit_piece(std::string_view piece) {
   return std::find(unit_pieces.begin(), unit_pieces.end(), piece) != unit_pieces.end();
 }
 
-/// "_rad_s" is rad/s and "_kg_m2" is kg m2: a key does not tell them apart.
+/// Both readings of a suffix: "_rad_s" as rad/s and "_kg_m2" as kg m2, because a key does not distinguish them.
 std::array<std::string, 2> readings(std::string_view suffix) {
   std::array<std::string, 2> units;
   if (suffix.starts_with('_')) suffix.remove_prefix(1);
@@ -86,7 +85,7 @@ std::string nearest(std::string_view word, std::span<const std::string> known) {
   int best = static_cast<int>(std::max<std::size_t>(word.size() / 3, 1)) + 1;
   std::string found;
   for (const std::string& candidate : known) {
-    // The lengths alone lie that far apart: of ten million letters none is compared.
+    // If the lengths differ by that much, no letter needs comparison, e.g. of a word of ten million letters.
     const std::size_t longer = std::max(word.size(), candidate.size());
     if (longer - std::min(word.size(), candidate.size()) >= static_cast<std::size_t>(best)) continue;
     const int distance = edit_distance(word, candidate);
@@ -125,7 +124,7 @@ std::string_view without_unit(std::string_view key) {
 }
 
 base::Problem unknown_key(std::string_view key, std::span<const std::string> known, std::string_view advice) {
-  const std::string* same = nullptr;  // but for the unit; of several the most alike
+  const std::string* same = nullptr;  // equal except for the unit; the most similar of several
   for (const std::string& candidate : known)
     if (without_unit(candidate) == without_unit(key) && !unit_suffix(candidate).empty() &&
         (same == nullptr || edit_distance(candidate, key) < edit_distance(*same, key)))
@@ -138,7 +137,7 @@ base::Problem unknown_key(std::string_view key, std::span<const std::string> kno
     return {.limit = "is not a key here", .cure = std::move(*meant)};
   const std::string near = nearest(key, known);
   if (!near.empty()) return {.limit = "is not a key here", .cure = fmt::format("did you mean {}?", near)};
-  constexpr std::size_t most_listed = 30;  // a motor file has some seventy
+  constexpr std::size_t most_listed = 30;  // a motor file has some seventy keys
   const std::string all =
       known.size() > most_listed ? "sixstep help lists them all" : "known are " + join(known);
   return {.limit = "is not a key here", .cure = advice.empty() ? all : std::string(advice)};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the writer of an unknown key probably meant.
+// Finds the key that the writer of an unknown key probably meant.
 #pragma once
 #include <span>
 #include <string>
@@ -18,10 +18,10 @@ using base::limit_of;
 /// Insertions, deletions, replacements and swaps of neighbours that turn one word into the other.
 int edit_distance(std::string_view a, std::string_view b);
 
-/// The nearest word where one is near enough to be meant (at most a third of it differs); else empty.
+/// The nearest known word, if at most a third of it differs; else empty.
 std::string nearest(std::string_view word, std::span<const std::string> known);
 
-/// The same among words that may end in a unit: "u_ab" means "u_ab_V", and "energy_mJ" means "energy_J".
+/// As nearest(), among words that may end in a unit: "u_ab" means "u_ab_V", and "energy_mJ" means "energy_J".
 std::string nearest_word(std::string_view word, std::span<const std::string> known);
 
 /// A key without its unit suffix: "no_load_speed" for "no_load_speed_rad_s".
@@ -30,12 +30,13 @@ std::string_view without_unit(std::string_view key);
 /// The unit suffix alone: "_rad_s" of "no_load_speed_rad_s".
 std::string_view unit_suffix(std::string_view key);
 
-/// ": 1 mV = 0.001 V" of two suffixes, where both are units of one kind and not the same; of an rms unit that the frame says it.
+/// ": 1 mV = 0.001 V" for two suffixes that are different units of one kind; else empty. For an rms unit it says
+/// that the frame states rms.
 std::string conversion_text(std::string_view from_suffix, std::string_view to_suffix);
 
-/// Limit and cure for a key that is none of the known ones: `where` and `value` are left empty. A key that
-/// differs in its unit only is told as a wrong unit, a word of a motor's sheet by its meaning; one that is like
-/// none of them is told `advice`, where there is one, instead of them all.
+/// Limit and cure for an unknown key; `where` and `value` stay empty. A key that differs from a known one only
+/// in its unit gets the right unit; a word of a motor's sheet gets the key of that meaning. For a key unlike all
+/// known ones the cure is `advice`; without `advice` it is the list of known keys.
 base::Problem unknown_key(std::string_view key, std::span<const std::string> known,
                           std::string_view advice = {});
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All keys of a file as data, for help texts, tables and forms.
+// Lists all keys of a file as data, for help texts, tables and forms.
 #pragma once
 #include <optional>
 #include <string>
@@ -18,27 +18,28 @@ struct KeyEntry {
   std::string path;  ///< "supply.voltage_V"; keys of lists as "require.metric"
   KeyType type = KeyType::number;
   base::About about;
-  bool optional = false;        ///< may be left out, and then nothing stands in its place
+  bool optional = false;        ///< may be left out; it then has no value at all
   std::string default_value{};  ///< as TOML; empty where there is none
-  std::vector<std::pair<std::string, std::string>> choices{};  ///< words and meanings
+  std::vector<std::pair<std::string, std::string>> choices{};  ///< word and meaning
   struct LinearChoice {
     std::string turning, word, meaning;
   };
-  std::vector<LinearChoice> linear_choices{};  ///< words of a linear motor for some of these
-  std::string meaning{};                       ///< in the words of a linear motor; empty: about.meaning
+  std::vector<LinearChoice> linear_choices{};  ///< words that a linear motor's file has in place of some
+                                               ///< choices
+  std::string meaning{};                       ///< for a linear motor; empty: about.meaning
 };
 
-// Made once: a plan reads a file for each of its points.
+// Made once, because a plan reads a file for each of its points.
 const std::vector<KeyEntry>& scenario_keys();
 const std::vector<KeyEntry>& sheet_keys();
 const std::vector<KeyEntry>& plan_keys();
 
-/// The entry of a key or of one of its other spellings; null where there is none.
+/// The entry of a key or of one of its other spellings; null if unknown.
 const KeyEntry* find_key(const std::vector<KeyEntry>& keys, std::string_view path);
-/// Its unit, as it is spelled; nothing where there is no such key.
+/// The unit of the key in this spelling; empty if the key is unknown.
 std::optional<std::string> key_unit(const std::vector<KeyEntry>& keys, std::string_view path);
 
-/// What a user wants to know of one key, in a few lines.
+/// Meaning, unit, range and default of one key, in a few lines.
 std::string help_text(const KeyEntry& entry);
 
 }  // namespace text

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The flat list of keys read as the tables that a file has.
+// Reads the flat list of keys as the tables of a file.
 #pragma once
 #include <string>
 #include <string_view>
@@ -16,7 +16,7 @@ std::vector<const KeyEntry*> keys_in(const std::vector<KeyEntry>& keys, std::str
 /// The last word of the path: "period_s" of "pwm.period_s".
 std::string_view name_of(const KeyEntry& entry);
 
-/// In the words of the motor whose file it is.
+/// In the words of this kind of motor.
 inline std::string_view meaning_of(const KeyEntry& entry) {
   return entry.meaning.empty() ? entry.about.meaning : std::string_view(entry.meaning);
 }
@@ -25,13 +25,13 @@ inline bool is_table(const KeyEntry& entry) {
   return entry.type == KeyType::table || entry.type == KeyType::list;
 }
 
-/// The frames that a key allows; none where its value has one meaning only.
+/// The frames that a key allows; empty if its value has only one meaning.
 std::vector<std::string> frames_of(std::string_view frame);
 
-/// The key with another spelling's unit and frame in place of its own.
+/// The entry with the unit and frame of another spelling.
 KeyEntry spelled(const KeyEntry& entry, const base::Spelling& spelling);
 
-/// The keys as a linear motor's file has them: its words, units and meanings.
+/// The keys of a linear motor's file, with its words, units and meanings.
 std::vector<KeyEntry> in_linear_words(std::vector<KeyEntry> keys);
 
 }  // namespace text

@@ -13,7 +13,7 @@
 namespace text {
 namespace {
 
-/// A whole number of any size: 32 bits a word, the lowest first, no zeros on top.
+/// A whole number of any size: words of 32 bits, the lowest first, without leading zeros.
 class Natural {
  public:
   explicit Natural(std::uint32_t word) : words_(word == 0 ? 0 : 1, word) {}
@@ -40,7 +40,7 @@ class Natural {
     words_.insert(words_.begin(), static_cast<std::size_t>(bits / 32), 0);
   }
 
-  /// Less one that is not greater.
+  /// Subtracts a number that is not greater.
   void subtract(const Natural& other) {
     std::int64_t borrow = 0;
     for (std::size_t n = 0; n < words_.size(); ++n) {
@@ -68,7 +68,7 @@ class Natural {
 
 constexpr int mantissa_bits = std::numeric_limits<double>::digits;
 constexpr int least_power =
-    std::numeric_limits<double>::min_exponent - mantissa_bits;  // of two: the smallest double
+    std::numeric_limits<double>::min_exponent - mantissa_bits;  // power of two of the smallest double
 
 /// over / under as the nearest double.
 double quotient(Natural over, Natural under) {
@@ -97,11 +97,11 @@ double quotient(Natural over, Natural under) {
   return std::ldexp(static_cast<double>(mantissa), power);
 }
 
-/// No double and no middle between two has more digits than 767: of further ones it counts only whether there
-/// are any but zeros.
+/// No double, and no midpoint between two, has more than 767 digits. Of further digits it matters only whether
+/// any is not 0.
 constexpr std::size_t most_digits = 800;
 
-/// Without zeros in front and behind what counts.
+/// Removes leading and trailing zeros.
 void shorten(std::string& digits, long& power) {
   digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size()));
   if (digits.size() <= most_digits) return;
@@ -116,7 +116,8 @@ void shorten(std::string& digits, long& power) {
 double nearest_double(std::string digits, long power) {
   shorten(digits, power);
   if (digits.empty()) return 0.0;
-  const long size = power + static_cast<long>(digits.size());  // it lies below ten to this, by less than ten
+  const long size = power + static_cast<long>(digits.size());  // the number is below 10^size, by less than a
+                                                               // factor of ten
   constexpr long largest = std::numeric_limits<double>::max_exponent10 + 1, least = -330;
   if (size > largest) return std::numeric_limits<double>::infinity();
   if (size < least) return 0.0;

@@ -11,7 +11,7 @@
 namespace text {
 namespace {
 
-/// Words as small letters without strokes and units, a space between two; the key; what the writer should know of it.
+/// Words in small letters without strokes and units, separated by spaces; the key; a hint for the writer.
 struct SheetWords {
   std::string_view words, key, more = "";
 };
@@ -19,7 +19,7 @@ struct SheetWords {
 constexpr std::string_view terminal = "with frame = \"terminal\"", phase = "with frame = \"phase\"",
                            which = "with the frame that it means";
 
-// By meaning, not by letters: rth1 looks like nothing here.
+// By meaning, because the letters do not help: rth1 resembles no key.
 constexpr SheetWords sheet_words[] = {
     {"numberofpolepairs polepairnumber polepaircount noofpolepairs motorpolepairs pp p", "pole_pairs"},
     {"numberofpoles polenumber polecount noofpoles motorpoles magnetpoles magnets simotorpoles", "poles"},
@@ -80,7 +80,8 @@ constexpr SheetWords sheet_words[] = {
      "max_winding_temperature_degC", "(what the winding may reach)"},
 };
 
-/// Words that a motor's file has no key for, and why or where else. All begin in the middle of "is not a key here; ..".
+/// Words without a key in a motor's file, with the reason or the right place. All texts continue "is not a key
+/// here; ..".
 constexpr SheetWords elsewhere[] = {
     {"gearratio gear gearreduction reductionratio sigearratio", "",
      "a gear is the load's: write load.gear in the scenario, motor turns per turn of the load"},
@@ -119,14 +120,14 @@ bool has_word(std::string_view words, std::string_view word) {
 
 template <class Rows>
 const SheetWords* find_words(const Rows& rows, std::string_view key) {
-  // "C_V" is a name and "_V" no unit of it; then the same without what looks like one.
+  // First with all letters, because in the name "C_V" the "_V" is no unit; then without the apparent unit.
   for (const std::string& word : {bare_letters(key), bare_letters(without_unit(key))})
     for (const SheetWords& row : rows)
       if (!word.empty() && has_word(row.words, word)) return &row;
   return nullptr;
 }
 
-/// Among the spellings of `key` the one that has the unit of `written`.
+/// The spelling of `key` that has the unit of `written`.
 std::string spelled_like(std::string_view key, std::string_view written, std::span<const std::string> known) {
   const std::string_view unit = unit_suffix(written);
   std::string found(key);
@@ -142,7 +143,7 @@ std::optional<std::string> by_meaning(std::string_view key, std::span<const std:
   const auto is_known = [&](std::string_view word) {
     return std::find(known.begin(), known.end(), word) != known.end();
   };
-  if (!is_known("resistance_ohm")) return {};  // no motor
+  if (!is_known("resistance_ohm")) return {};  // not the keys of a motor
   if (const SheetWords* row = find_words(elsewhere, key)) return std::string(row->more);
   const SheetWords* row = find_words(sheet_words, key);
   if (!row || !is_known(row->key)) return {};

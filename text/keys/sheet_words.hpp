@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What sheets and drives call the values of a motor, and the keys that mean the same here.
+// Translates the words of other sheets and drives for a motor's values into the keys of a motor file.
 #pragma once
 #include <optional>
 #include <span>
@@ -10,9 +10,9 @@
 
 namespace text {
 
-/// The cure for a word of Faulhaber's, Portescap's, Nanotec's, T-Motor's or maxon's sheets, of VESC, ODrive or SimpleFOC:
-/// which of the `known` keys to write, with the frame that such a sheet means, or where the value belongs if the motor's
-/// file has no key for it. Empty for a word of no sheet, and where the known keys are not those of a motor.
+/// The cure for a word of Faulhaber's, Portescap's, Nanotec's, T-Motor's or maxon's sheets, of VESC, ODrive or
+/// SimpleFOC: the key of `known` to write, with the frame that such a sheet means; or the place of the value if
+/// a motor file has no key for it. Empty if the word is unknown, or `known` are not the keys of a motor.
 std::optional<std::string> by_meaning(std::string_view key, std::span<const std::string> known);
 
 }  // namespace text

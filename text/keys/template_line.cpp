@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t comment_column = 32, most_words = 6;
 
-/// "above 0", "in 0 to 1"; nothing for a range open on both ends.
+/// "above 0", "in 0 to 1"; empty for an unlimited range.
 std::string range_text(const KeyEntry& entry) {
   const bool numeric = entry.type == KeyType::number || entry.type == KeyType::whole_number ||
                        entry.type == KeyType::numbers || entry.type == KeyType::quantity;
@@ -33,7 +33,7 @@ std::string explanation(const KeyEntry& entry, std::string_view more) {
   return text;
 }
 
-/// The words with their meanings, one a line; of a long enumeration the words alone.
+/// The words with their meanings, one per line; for a long enumeration only the words.
 std::string words_comment(const KeyEntry& entry) {
   if (entry.choices.size() < 2) return "";
   std::size_t width = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A key of a file to be filled in: what it means as a comment, then the line itself, open or behind a #.
+// Writes one key of a file to be filled in: its meaning as a comment, then the line itself, open or behind a #.
 #pragma once
 #include <string>
 #include <string_view>
@@ -16,13 +16,13 @@ inline constexpr std::size_t template_width = 110;
 struct TemplateLine {
   std::string_view key;
   std::string_view value;   ///< as TOML
-  bool open = true;         ///< else behind a #, not to count yet
-  bool explained = true;    ///< else the line alone: its meaning stands elsewhere
-  std::string_view more{};  ///< to be said behind meaning, unit and range
+  bool open = true;         ///< false: behind a #, so that it does not count yet
+  bool explained = true;    ///< false: the line alone; its meaning is written elsewhere
+  std::string_view more{};  ///< text behind meaning, unit and range
 };
 
-/// "key = value  # meaning [unit], range"; what does not fit into one line, and the words of an enumeration,
-/// stand above it.
+/// "key = value  # meaning [unit], range". A comment too long for the line, and the words of an enumeration,
+/// stand above the line.
 std::string template_line(const KeyEntry& entry, const TemplateLine& line);
 
 }  // namespace text

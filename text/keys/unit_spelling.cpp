@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Spellings of units: every sign and name that sheets have for one thing becomes the one that the table has.
+// Normalises spellings of units: every sign and name that sheets use becomes the one in the table.
 #include <cctype>
 
 #include "text/keys/units.hpp"
@@ -22,7 +22,8 @@ constexpr Spelled unit_signs[] = {
     {" per ", "/"},
 };
 
-/// Names, whole words only: no letter before a letter and no digit before a digit, and no letter, digit or power behind them.
+/// Names as whole words: no letter before a letter and no digit before a digit, and no letter, digit or power
+/// behind them.
 constexpr Spelled unit_names[] = {
     {"1/min", "rpm"},    {"min-1", "rpm"},      {"Min-1", "rpm"},     {"rev/min", "rpm"},
     {"revs/min", "rpm"}, {"r/min", "rpm"},      {"U/min", "rpm"},     {"tr/min", "rpm"},
@@ -54,13 +55,13 @@ void replace_words(std::string& text, const Spelled& s) {
         at == 0 || !(is_letter(s.as.front()) ? is_letter(text[at - 1]) : is_digit(text[at - 1]));
     const bool power = end + 1 < text.size() && text[end] == '-' && is_digit(text[end + 1]);
     const bool ends = end == text.size() || (!is_letter(text[end]) && !is_digit(text[end]) && !power);
-    // "x10-4": the power is the ten's.
+    // "x10-4": the power belongs to the ten.
     if (begins && (ends || (s.means == "10" && power))) text.replace(at, s.as.size(), s.means);
   }
 }
 
-/// A hyphen or a point between two letters joins them to one factor, as in rpm/oz-in; other points end abbreviations. No
-/// space stands at a stroke.
+/// A hyphen or a point between two letters joins them to one factor, as in rpm/oz-in; other points end
+/// abbreviations. Spaces at a stroke are removed.
 std::string with_plain_gaps(const std::string& text) {
   std::string out;
   for (std::size_t n = 0; n < text.size(); ++n) {
@@ -84,7 +85,7 @@ bool same_letters(std::string_view text, std::string_view small) {
   return true;
 }
 
-/// "Arms" of "A rms", "A(RMS)", "A_eff"; "Vpk" of "V peak".
+/// "Arms" for "A rms", "A(RMS)", "A_eff"; "Vpk" for "V peak".
 void join_measures(std::string& text) {
   for (const auto& [name, means] : measure_names)
     for (std::size_t at = 1; at + name.size() <= text.size(); ++at) {
@@ -100,7 +101,7 @@ void join_measures(std::string& text) {
     }
 }
 
-/// "V/rad/s" is meant as V/(rad/s).
+/// "V/rad/s" means V/(rad/s).
 void bracket_speeds(std::string& text) {
   constexpr std::string_view speed = "/rad/s";
   for (std::size_t at = text.find(speed); at != std::string::npos; at = text.find(speed, at + 1)) {
@@ -113,7 +114,7 @@ void bracket_speeds(std::string& text) {
 }  // namespace
 
 std::string plain_spelling(std::string_view unit) {
-  constexpr std::size_t longest = 64;  // no unit has more bytes, and replacing takes the square of them
+  constexpr std::size_t longest = 64;  // no unit has more bytes, and replacing takes quadratic time
   std::string out(unit);
   if (out.size() > longest) return out;
   for (const Spelled& s : unit_signs) replace_all(out, s);

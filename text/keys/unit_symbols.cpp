@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a unit is: its symbols, prefixes and powers.
+// Parses a unit: its symbols, prefixes and powers.
 #include <algorithm>
 #include <cctype>
 #include <utility>
@@ -20,8 +20,7 @@ struct Symbol {
   std::string_view prefixes = "";
 };
 
-// The one table of units. What is written together, Nm or gcm2, is a symbol of its own.
-//                         kg m  s  A  V  K rad
+// The only table of units. A unit written as one word, Nm or gcm2, is a symbol of its own.
 constexpr Dimension plain{}, mass{1}, length{0, 1}, time{0, 0, 1}, current{0, 0, 0, 1},
     voltage{0, 0, 0, 0, 1}, kelvin{0, 0, 0, 0, 0, 1}, angle{0, 0, 0, 0, 0, 0, 1},
     celsius{0, 0, 0, 0, 0, 0, 0, 1}, speed{0, 0, -1, 0, 0, 0, 1},
@@ -123,7 +122,7 @@ constexpr Symbol symbols[] = {
 constexpr std::string_view prefix_letters = "pnumckMG";
 constexpr int prefix_tens[] = {-12, -9, -6, -3, -2, 3, 6, 9};
 
-/// Which amperes or volts a symbol ends in, as plain_spelling() has them.
+/// The amperes or volts that a symbol ends in, as plain_spelling() writes them.
 struct Measured {
   std::string_view ending;
   Base base;
@@ -200,7 +199,7 @@ class Product {
   std::optional<Unit> whole() {
     Unit product;
     if (!factors(1, 0, product) || !rest_.empty()) return {};
-    // A step of the Celsius scale is a kelvin; degC alone is a point on it.
+    // A difference in degC is in kelvin; only degC alone is a point on the scale.
     if (product.dimension != celsius) product.power(Base::K) += std::exchange(product.power(Base::degC), 0);
     return product;
   }
@@ -259,7 +258,7 @@ Angle take_angle(Unit& unit) {
   return {std::exchange(unit.power(Base::rad), 0), std::exchange(unit.power(Base::electrical_rad), 0)};
 }
 
-/// The angles that may be left out of a unit with none: V s means V/(rad/s), kg m2 is N m/(rad/s2).
+/// Angles that may be left out of a unit without any: V s means V/(rad/s), kg m2 is N m/(rad/s2).
 bool left_out(const Angle& whole, const Dimension& rest) {
   constexpr Dimension drag{1, 2, -1};
   if (rest == volt_second || rest == drag) return whole == Angle{-1, 0};
@@ -272,7 +271,7 @@ bool same_kind(const Unit& a, const Unit& b) {
   Unit from = a, to = b;
   const Angle in = take_angle(from), out = take_angle(to);
   if (from.dimension != to.dimension) return false;
-  // "mV min" was meant as mV/min-1, which is 1/(2 pi) of that.
+  // "mV min" means mV/min-1, which is 1/(2 pi) of it.
   const bool habit = left_out({-1, 0}, from.dimension);
   if (habit && ((in == Angle{} && from.by_the_clock) || (out == Angle{} && to.by_the_clock))) return false;
   if (in == out) return true;

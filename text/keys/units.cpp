@@ -30,7 +30,7 @@ bool begins_a_number(std::string_view text) {
   return at < 2 && (text[at] == '.' || (text[at] >= '0' && text[at] <= '9'));
 }
 
-/// The number times 10^ten, rounded once: the exponent moves, the digits stay.
+/// The number times 10^ten, rounded once: only the exponent changes.
 std::optional<double> shifted(const std::string& number, int ten) {
   const std::size_t e = std::min(number.find_first_of("eE"), number.size());
   int exponent = 0;
@@ -52,7 +52,7 @@ bool takes_kind(Unit from, const Unit& to, const Unit& by) {
   return same_kind(from, to);
 }
 
-/// 1 or -1 where `from` has a mass times a length, or its inverse, in the place of a torque: "oz-in", "rpm/kg-cm".
+/// 1 or -1 if `from` has a mass times a length, or its inverse, in place of a torque: "oz-in", "rpm/kg-cm".
 int weights_in(const Unit& from, const Unit& to) {
   for (const int sign : {1, -1})
     if (from.power(Base::kg) == sign && from.power(Base::m) == sign &&
@@ -61,13 +61,13 @@ int weights_in(const Unit& from, const Unit& to) {
   return 0;
 }
 
-/// The power of standard_gravity between the two.
+/// The power of standard_gravity between the two units.
 int gravity_between(const Unit& from, const Unit& to) {
   const int power = weights_in(from, to);
   return power != 0 ? power : -weights_in(to, from);
 }
 
-/// Electrical angle turned into that of the shaft; 0 where this makes no unit of the kind wanted.
+/// The power of the electrical angle that must become mechanical; 0 if that does not give the wanted kind of unit.
 int electrical_in(const Unit& from, const Unit& to) {
   const int power = from.power(Base::electrical_rad);
   const bool fits = to.power(Base::electrical_rad) == 0 &&
@@ -91,7 +91,7 @@ std::vector<std::string> fitting(std::string_view wanted) {
   return fit;
 }
 
-/// Of those that fit: "MS" was meant as ms, "rmp" as rpm.
+/// A fitting unit that resembles the written one: ms for "MS", rpm for "rmp".
 std::string fitting_like(const std::string& unit, std::string_view wanted) {
   const auto small = [](std::string_view text) {
     std::string out(text);
@@ -121,7 +121,7 @@ base::Problem no_plain_number(const std::string& unit, bool known) {
           .cure = "write the number alone, or in %"};
 }
 
-/// Whether `from` differs in an angle at most, and has minutes where that is.
+/// Whether the units are of one kind except for an angle, and `from` contains minutes or hours.
 bool multiplies_minutes(Unit from, Unit to) {
   for (Unit* unit : {&from, &to}) unit->power(Base::rad) = unit->power(Base::electrical_rad) = 0;
   return from.by_the_clock && from.dimension == to.dimension && to.dimension != Unit{}.dimension;
@@ -156,7 +156,8 @@ double to_power(double x, int power) {
   return out;
 }
 
-/// Hertz of a voltage are electrical by custom, those of a shaft are nobody's: turns, or turns times pole pairs.
+/// Hertz of a voltage are electrical by custom. Hertz of a shaft are ambiguous: turns, or turns times pole
+/// pairs.
 base::Result<Conversion> by_pole_pairs(const std::string& unit, int power, const Unit& to,
                                        const Wanted& wanted, Conversion conversion) {
   if (to.power(Base::V) == 0 && plain_spelling(unit).find("Hz") != std::string::npos)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Units as people write them, "20 ms" or "135 gcm2", and their values in the unit that a key carries.
+// Reads numbers with units, "20 ms" or "135 gcm2", and converts them to the unit of a key.
 #pragma once
 #include <array>
 #include <concepts>
@@ -14,74 +14,75 @@
 
 namespace text {
 
-/// What units are products of. The volt stands beside the kilogram, so that a torque per ampere is no voltage per speed,
-/// which have different frames. The Celsius scale is no multiple of K. An angle of the shaft and an electrical one are two
-/// things with the pole pairs between them: hertz and erpm count electrical turns. Rms and peak are part of the unit too.
+/// Base units; a unit is a product of their powers. The volt is a base of its own beside the kilogram, so that a
+/// torque per ampere differs from a voltage per speed: their frames differ. The Celsius scale is no multiple of
+/// K. Mechanical and electrical angles differ by the pole pairs: hertz and erpm count electrical turns. Rms and
+/// peak are part of the unit.
 enum class Base : std::uint8_t { kg, m, s, A, V, K, rad, degC, electrical_rad, rms, peak };
 using Dimension = std::array<int, 11>;
 
-/// m/s2: by definition what a pound-force and a kilogram-force are made of.
+/// m/s2; defines the pound-force and the kilogram-force.
 inline constexpr double standard_gravity = 9.80665;
 
-/// A value in this unit is `factor` times 10^ten of the one in SI. Decimal powers stand apart, for they cost no rounding.
+/// A value in this unit is `factor` * 10^ten in SI. The power of ten is separate, because it costs no rounding.
 struct Unit {
   Dimension dimension{};
   int ten = 0;
   double factor = 1.0;
-  bool by_the_clock = false;  ///< minutes or hours are in it, other than those of rpm
+  bool by_the_clock = false;  ///< contains minutes or hours, apart from those of rpm
 
   int power(Base base) const { return dimension[static_cast<std::size_t>(base)]; }
   int& power(Base base) { return dimension[static_cast<std::size_t>(base)]; }
 };
 
-/// "mNm/A", "kg m2", "oz-in", "Nm/(rad/s)", "mV/min-1", "%"; empty for what is no unit, the plain number 1 for "".
+/// "mNm/A", "kg m2", "oz-in", "Nm/(rad/s)", "mV/min-1", "%"; the number 1 for ""; empty if it is no unit.
 std::optional<Unit> unit_of(std::string_view text);
 
-/// The same as the table spells it: without the signs that few keyboards have, products by spaces, rpm for all its names.
+/// The unit in the table's spelling: without signs that few keyboards have, products with spaces, always "rpm".
 std::string plain_spelling(std::string_view unit);
 
-/// Whether values convert by ten and factor alone. An angle counts: 1/s is no speed, hertz are none, and N m/rad is no N m.
-/// It may be left out where a speed has been written as 1/s by habit: V s for V/(rad/s), N m s for N m/(rad/s).
+/// Whether values convert by ten and factor alone. Angles count: 1/s is no speed, hertz are no speed, N m/rad is
+/// not N m. Exceptions, because sheets usually write a speed as 1/s: V s for V/(rad/s), N m s for N m/(rad/s).
 bool same_kind(const Unit& a, const Unit& b);
 
-/// What a number is wanted in.
+/// The unit into which a number is converted.
 struct Wanted {
   std::string unit;
-  std::string frames;             ///< those of the key, '|' between: where one is of rms, the unit may say so
-  std::optional<int> pole_pairs;  ///< where they are known, electrical turns convert
+  std::string frames;             ///< the key's, separated by '|'; if one is rms, the unit may say rms
+  std::optional<int> pole_pairs;  ///< empty: electrical turns do not convert
 
   template <std::convertible_to<std::string_view> Text>
   Wanted(const Text& unit_text, std::string_view frames_text = {}, std::optional<int> pairs = {})
       : unit(std::string_view(unit_text)), frames(frames_text), pole_pairs(pairs) {}
 };
 
-/// A number in the one unit is 10^ten * multiply / divide times as large in the other.
+/// Converts a number: x * 10^ten * multiply / divide.
 struct Conversion {
   int ten = 0;
   double multiply = 1.0, divide = 1.0;
   double of(double x) const;
-  double back(double x) const;  ///< the other way
+  double back(double x) const;  ///< the inverse
 };
 
-/// From `unit` into what is wanted; the Problem has limit and cure. What same_kind() leaves open is settled here: a weight
-/// stands for its force in oz-in and kg cm, hertz in V/Hz are electrical.
+/// From `unit` into the wanted unit. The Problem has limit and cure. Settles the cases that same_kind() leaves
+/// open: in oz-in and kg cm a weight stands for its force, in V/Hz the hertz are electrical.
 base::Result<Conversion> conversion(std::string_view unit, const Wanted& wanted);
 
-/// "rms" or "peak" where the unit says which amperes or volts it means; else empty.
+/// "rms" or "peak" if the unit says so; else empty.
 std::string_view measure_in(std::string_view unit);
 
-/// Those of a key's frames, '|' between, that a measure leaves: "line-rms" and "phase-rms" of "rms".
+/// The frames, separated by '|', that fit a measure: "line-rms" and "phase-rms" for "rms".
 std::vector<std::string> frames_with(std::string_view frames, std::string_view measure);
 
-/// A number with a unit behind it; empty where it begins with none.
+/// A number and the unit behind it; empty if the text does not begin with a number.
 struct Written {
   std::string number, unit;
 };
 std::optional<Written> split_number(std::string_view text);
 
-/// The value of `written` in the unit `wanted`, with the Problem's limit and cure where there is none. Where
-/// the units differ by a power of ten, it is the double nearest to the decimal: "0.572 mH" is 0.000572 as if
-/// it were written so. Else, as for rpm in rad/s, a few roundings more.
+/// The value of `written` in the unit `wanted`; the Problem has limit and cure. If the units differ by a power
+/// of ten, the result is the double nearest to the decimal: "0.572 mH" gives exactly 0.000572. Otherwise, as for
+/// rpm in rad/s, a few roundings are added.
 base::Result<double> in_unit(std::string_view written, const Wanted& wanted);
 
 /// Usual units of the same kind, the key's own first: "s, ms, us or min".

@@ -9,7 +9,7 @@
 namespace text {
 namespace {
 
-/// A slip of the pen means one motor; a maker's name or an order number all that contain it.
+/// A misspelt name gives one motor; a maker's name or an order number gives all that contain it.
 std::string motor_meant(const std::string& name) {
   const std::vector<std::string> all = built_in_motors();
   if (const std::string near = nearest(name, all); !near.empty())

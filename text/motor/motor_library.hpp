@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motors by name: where a Resolve finds them, or among those compiled in.
+// Finds motors by name: where a Resolve finds them, or among the motors compiled in.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,9 +9,8 @@
 
 namespace text {
 
-/// The motor's file, not yet read into a sheet. A Problem says where it was looked for and which name is
-/// near; its `where` is left empty for the caller, who knows who asked. `name` as written in `from`; without
-/// a Resolve only those compiled in are there.
+/// The motor's file, not yet read into a sheet. `name` is as written in `from`. An empty Resolve finds only the
+/// motors compiled in. A Problem says where the search was and which name is near; the caller fills its `where`.
 base::Result<Document> find_motor(const std::string& name, const std::string& from, const Resolve& resolve);
 
 /// Names of the motors compiled in.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whose sheet a motor's file is to be filled in from: which keys such a sheet has, in its order.
+// Lists the styles of motor files to be filled in: which keys each kind of sheet has, in its order.
 #pragma once
 #include <string_view>
 #include <utility>
@@ -12,11 +12,12 @@ namespace text {
 struct MotorStyle {
   std::string_view name;
   std::string_view what;
-  std::string_view shape;                  ///< the back-EMF that such a sheet means, to be looked at
-  std::vector<std::string_view> needed;    ///< a model needs them
-  std::vector<std::string_view> optional;  ///< worth typing in: they are checked against the others
+  std::string_view shape;                  ///< the back-EMF that such a sheet usually means; to be checked
+  std::vector<std::string_view> needed;    ///< keys that a model needs
+  std::vector<std::string_view> optional;  ///< useful keys: they are checked against the others
   bool linear = false;
-  /// What a key is called there, or where such a sheet is silent: the usual range, its reason, how to measure it.
+  /// The word for a key on such a sheet; or, if the sheet omits it, the usual range, its reason and how to
+  /// measure it.
   std::vector<std::pair<std::string_view, std::string_view>> notes = {};
 };
 

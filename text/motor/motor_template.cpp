@@ -15,14 +15,15 @@
 namespace text {
 namespace {
 
-/// Another spelling is told in its own unit; a linear motor's has become the key's own.
+/// Another spelling has its own unit; a linear motor's spelling is already the key's own.
 KeyEntry as_spelled(const KeyEntry& entry, std::string_view key) {
   for (const base::Spelling& spelling : entry.about.also)
     if (spelling.key == key) return spelled(entry, spelling);
   return entry;
 }
 
-/// "frame = "terminal|phase"" stands until the reader strikes out one of the two: no frame has that name.
+/// "frame = "terminal|phase"" stays invalid until the reader deletes one of the two, because no frame has that
+/// name.
 std::string empty_value(const KeyEntry& entry) {
   if (entry.type == KeyType::text) return "\"\"";
   if (entry.type == KeyType::flag) return "true";
@@ -31,7 +32,7 @@ std::string empty_value(const KeyEntry& entry) {
   return fmt::format("{{ value = nan, frame = \"{}\", source = \"data sheet\" }}", entry.about.frame);
 }
 
-/// What such a sheet has of the key, or lacks, stands above the line.
+/// The comment above the line says what such a sheet has of the key, or lacks.
 std::string line(const MotorStyle& style, const KeyEntry& given, std::string_view key, bool needed) {
   const KeyEntry entry = as_spelled(given, key);
   const bool choice = frames_of(entry.about.frame).size() > 1;

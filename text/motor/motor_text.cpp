@@ -22,7 +22,7 @@ using design::SheetConstants;
 
 std::string short_number(double x) { return fmt::format("{:.4g}", x); }
 
-/// A line, whatever the sheet's own words hold.
+/// Ends a row as one line, whatever text of the sheet it holds.
 std::string trimmed(std::string row) {
   row.erase(row.find_last_not_of(' ') + 1);
   return visible(row) + "\n";
@@ -50,7 +50,7 @@ class SheetRows final : public base::Visitor {
   void row(std::string_view key, const double& member, const base::About& about) {
     if (member != 0) add(key, fmt::format("{}", member), about.unit, "", "");
   }
-  /// A long list is told of by its ends.
+  /// A long list is shown by its ends.
   template <class T>
   void row(std::string_view key, const std::vector<T>& member, const base::About& about) {
     constexpr std::size_t read_at_a_glance = 12;
@@ -64,7 +64,7 @@ class SheetRows final : public base::Visitor {
   void row(std::string_view key, const std::optional<T>& member, const base::About& about) {
     if (member) row(key, *member, about);
   }
-  /// The first word of these is what nearly every motor has.
+  /// The first word is that of nearly every motor, and is not shown.
   void visit_word(std::string_view key, base::WordMember& member, const base::About&) override {
     if ((key != "connection" && key != "rotor" && key != "kind") || member.chosen() != 0)
       add(key, member.word(), "", "", "");
@@ -90,7 +90,8 @@ class SheetRows final : public base::Visitor {
       source += fmt::format(" (sources: {} to {})", shortest(base::times_ten_to(q->range->low, ten)),
                             shortest(base::times_ten_to(q->range->high, ten)));
     const bool converted =
-        spelling != about.also.end() && spelling->factor != 1.0;  // a last digit may have gone
+        spelling != about.also.end() && spelling->factor != 1.0;  // the conversion may have lost the last
+                                                                  // digit
     add(q->key.empty() ? key : std::string_view(q->key),
         converted ? fmt::format("{:.12g}", value) : shortest(value), unit, q->frame, source);
   }
@@ -161,7 +162,7 @@ std::string relation_rows(const Relation& r) {
   return text;
 }
 
-/// Why no run can be made of it; empty for a motor that can be simulated.
+/// The reason why the motor cannot be simulated; empty if it can.
 std::string not_simulatable(const design::Sheet& sheet, const SheetCheck& check) {
   std::string missing;
   const base::Problems& all = check.constants.missing;
@@ -257,7 +258,7 @@ std::string motor_line(const std::string& name, const design::Sheet& sheet, std:
   const auto with_unit = [](const auto& constant, const char* unit) {
     return constant ? short_number(constant->value) + unit : std::string("-");
   };
-  if (sheet.kind == design::MotorKind::linear)  // in units of its own
+  if (sheet.kind == design::MotorKind::linear)  // units of a linear motor
     return trimmed(fmt::format(
         "{:<{}} {:>2} {:>6} {:>10} {:>10} {:>10}  {}", name, width, "-",
         c.nominal_voltage_V ? short_number(*c.nominal_voltage_V) : "-", number(c.R_ohm, 2.0),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A motor's sheet, its model and its check as text and as JSON.
+// Prints a motor's sheet, its model and its check as text and as JSON.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,29 +9,29 @@
 
 namespace text {
 
-/// One row per value that the sheet gives: as printed, with unit, frame and source.
+/// One row per value of the sheet: as printed, with unit, frame and source.
 std::string sheet_table(const design::Sheet& sheet);
 
-/// The constants of the model with what each was read from, and friction between its extremes.
+/// The constants of the model with their sources, and friction between its extremes.
 std::string model_table(const design::Sheet& sheet, const design::SheetCheck& check);
 
-/// The relations, then the model, then what it leaves alone and why; the last line is the verdict.
+/// The relations, the model, the values that the check does not use and why; the last line is the verdict.
 std::string check_report(const design::Sheet& sheet, const design::SheetCheck& check);
 
-/// Poles, voltage, R, K_t, J, and why where it cannot be simulated: one line of `motor list`, for a table
-/// whose first column is `width` wide.
+/// One line of `motor list`: poles, voltage, R, K_t, J, and the reason if it cannot be simulated. `width` is
+/// that of the first column.
 std::string motor_line(const std::string& name, const design::Sheet& sheet, std::size_t width);
 std::string motor_line_heading(std::size_t width);
 
 struct NamedSheet {
-  std::string name;  ///< as a scenario says it
+  std::string name;  ///< as a scenario names it
   design::Sheet sheet;
 };
 
-/// `motor list` for programs: an array of the same columns in SI, null where a sheet is silent.
+/// `motor list` as JSON: an array with the same columns in SI, null for a value that the sheet omits.
 std::string motor_list_json(const std::vector<NamedSheet>& motors);
 
-/// All of it for programs; numbers in SI, lines of the sheet in their own unit.
+/// Sheet, model and check as JSON: numbers in SI, lines of the sheet in their own unit.
 std::string motor_json(const design::Sheet& sheet, const design::SheetCheck& check);
 
 }  // namespace text

@@ -23,7 +23,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A value as a file would write it: what a list mixes is read as words.
+/// A value as a file would have it. Entries of a mixed list are read as words.
 std::string axis_as_written(const toml::node& node) {
   if (const auto* text = node.as_string()) return toml_text(text->get());
   if (const auto* whole = node.as_integer()) return fmt::format("{}", whole->get());
@@ -32,7 +32,7 @@ std::string axis_as_written(const toml::node& node) {
   return "";
 }
 
-/// Each value of vary[n].values in the words of a file, where the description has a list of words.
+/// Writes each value of vary[n].values as text if the description has a list of words.
 void values_as_words(Document& document) {
   toml::array* entries = document.root()["vary"].as_array();
   if (!entries) return;
@@ -78,7 +78,7 @@ std::vector<std::string> split(std::string_view text, char at) {
   return parts;
 }
 
-/// A value with a unit as a number in the key's own; what is none stays as it is written.
+/// A value with a unit becomes a number in the key's own unit; other values stay as written.
 std::string in_keys_unit(const std::string& written, const std::string& unit) {
   const std::string text(analysis::bare(written));
   const std::optional<Written> parts = split_number(text);
@@ -87,14 +87,14 @@ std::string in_keys_unit(const std::string& written, const std::string& unit) {
   return x ? base::written(*x) : written;
 }
 
-/// A key that is none is told where it is set.
+/// An unknown key is reported where it is set.
 void in_keys_unit(analysis::Axis& axis) {
   const base::Result<std::string> unit = unit_of_key(axis.key);
   if (!unit) return;
   for (std::string& value : axis.values) value = in_keys_unit(value, *unit);
 }
 
-/// A number in its shortest digits and a word without quotes, however they were spelled. A whole number stays as it is: it may have
+/// A number with the shortest digits, a word without quotes. A whole number stays as it is, because it may have
 /// more digits than a double.
 std::string one_spelling(const std::string& value) {
   const std::string word(analysis::bare(value));
@@ -186,7 +186,7 @@ base::Result<PlanFile> read_plan_text(const std::string& name, std::string text)
   for (std::size_t n = 0; n < entry.vary.size(); ++n)
     in_keys_unit(
         file.plan.axes.emplace_back(axis_from(entry.vary[n], fmt::format("vary[{}]", n), complaints)));
-  if (!entry.minimise.empty()) {  // points come from the search
+  if (!entry.minimise.empty()) {  // the search chooses the points
     file.plan.sampling = analysis::Sampling::sobol;
     file.plan.points = file.evaluations;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which runs are to be made of a scenario, as a file says it or a few words do.
+// Reads a plan: which runs of a scenario are made, from a file or from command line words.
 #pragma once
 #include <string>
 #include <string_view>
@@ -19,20 +19,22 @@ struct PlanFile {
   analysis::Plan plan;
 };
 
-/// Whether the text is a plan's rather than a scenario's: it names one and has none of its keys.
+/// Whether the text is a plan, not a scenario: it names a scenario and has no key of one.
 bool is_plan(const std::string& text);
 
 /// Each Problem's `where` begins with "file:line:column: ".
 base::Result<PlanFile> read_plan_text(const std::string& name, std::string text);
 
-/// "pwm.period_s=20us:100us:9", "load.torque_Nm=0.01:1:5:log", "pwm.chopping=soft,hard"; of a range without a number of
-/// points its ends alone, for what is drawn between them. A Problem's `where` is the text itself.
+/// Reads "pwm.period_s=20us:100us:9", "load.torque_Nm=0.01:1:5:log", "pwm.chopping=soft,hard". A range without a
+/// number of points has only its ends; points are drawn between them. A Problem's `where` is the text itself.
 base::Result<analysis::Axis> axis_of(std::string_view text);
 
-/// The unit of a scenario's key as it is spelled, also of a list's: "at[0].load.torque_Nm"; a Problem for what is none.
+/// The unit of a scenario's key in this spelling, also inside a list: "at[0].load.torque_Nm". Problem: an
+/// unknown key.
 base::Result<std::string> unit_of_key(const std::string& key);
 
-/// The plan as one line of JSON: what two plans are compared by. Where runs do not depend on how many follow, that is left out.
+/// The plan as one line of JSON, by which two plans are compared. A number of runs is left out if no single run
+/// depends on it.
 std::string plan_identity(const analysis::Plan& plan);
 
 }  // namespace text

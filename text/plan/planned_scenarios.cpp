@@ -16,7 +16,7 @@
 namespace text {
 namespace {
 
-/// Each text found once, whoever asks.
+/// Finds each text only once.
 Resolve remembered(Resolve find) {
   struct Memory {
     std::mutex guard;
@@ -32,7 +32,7 @@ Resolve remembered(Resolve find) {
   };
 }
 
-/// What says which columns a table has is the same in every run; so is what a run is called.
+/// Keys that determine a table's columns must be the same in all runs; so must a run's names.
 constexpr std::string_view same_in_all[] = {"require", "compare", "record", "spread",
                                             "title",   "notes",   "extends"};
 
@@ -50,7 +50,7 @@ std::string first_of(const analysis::Axis& axis, bool last) {
 
 }  // namespace
 
-/// Of the last few points, for the drives that share them.
+/// Scenarios of the last few points, for the drives that share them.
 struct PlannedScenarios::Recent {
   static constexpr std::size_t most = 16;
   std::mutex guard;

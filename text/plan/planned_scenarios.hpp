@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scenario of each run of a plan, read as if a file had been written for it.
+// Makes the scenario of each run of a plan, as if a file had been written for it.
 #pragma once
 #include <cstddef>
 #include <memory>
@@ -10,29 +10,31 @@
 
 namespace text {
 
-/// What all runs of a plan are made of.
+/// The input that all runs of a plan share.
 struct PlannedText {
   std::string name, text;  ///< of the scenario, for read_scenario_text()
-  ReadOptions options;     ///< what a point sets comes behind its overrides
+  ReadOptions options;     ///< the point's values follow its overrides
   bool sheet_tolerances = false;
 };
 
-/// Asked by several threads at once. What texts name is found once; drives of one point share its reading.
+/// Several threads may call it at once. A named text is found once; the drives of a point share one reading.
 class PlannedScenarios {
  public:
   PlannedScenarios(PlannedText of, analysis::Plan plan);
   ~PlannedScenarios();
 
-  /// As written: with its spread, and nothing varied.
+  /// The scenario as written: with its spread, without varied values.
   base::Result<study::Scenario> nominal() const;
-  /// Of a point, before it strays from drive to drive. A Problem's `where` is "--set key" for a value of the plan.
+  /// The scenario of a point, before the spread of a drive is applied. A Problem's `where` is "--set key" for a
+  /// value of the plan.
   base::Result<study::Scenario> at(const std::vector<std::string>& point) const;
   base::Result<analysis::PlannedRun> run(std::size_t n) const;
-  /// A drive of a point that need not be one of the plan's.
+  /// A drive of any point, also of one outside the plan.
   base::Result<analysis::PlannedRun> run(const std::vector<std::string>& point, std::size_t drive) const;
 
-  /// Keys that can be varied at all, with values that can be read: each axis's ends, the others at their beginnings. Told
-  /// once for each axis of which no end can be run; a corner that cannot is a row of its own.
+  /// Checks that the keys can be varied and that the axes' ends can be read. It reads the point where all axes
+  /// begin and, if that fails, for each axis the point with its other end. An axis gives Problems only if both
+  /// fail. A corner that cannot run becomes a row of its own.
   base::Problems check() const;
 
   const analysis::Plan& plan() const { return plan_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which columns of a recording are Hall lines and which voltages of what.
+// Finds the Hall lines and the voltages in a recording of a motor on a bench.
 #pragma once
 #include <optional>
 #include <string>
@@ -11,17 +11,17 @@
 
 namespace text {
 
-/// What the headings do not say, or say otherwise.
+/// Statements of the user that add to the headings or replace them.
 struct BenchColumns {
   std::vector<std::string> hall;  ///< headings of H1, H2 and H3, or of one column of codes
   std::vector<std::string>
       voltages;  ///< headings of u_ab and u_bc, with u_ca or without, or of u_a, u_b, u_c
   std::optional<analysis::EmfBetween> between;
-  std::optional<double> interval_s;  ///< of the rows, where none is a time
+  std::optional<double> interval_s;  ///< of the rows, if no column is a time
 };
 
-/// Lines at 0 and 1, or at two voltages: then the middle between them, with some way to go before it counts. `notes` gets what was not used
-/// of the recording, and what was taken for what.
+/// A line has the values 0 and 1, or two voltages; then the threshold is their middle, with hysteresis. `notes`
+/// gets the unused columns and the assumptions.
 base::Result<analysis::HallLog> hall_log_of(const Recording& recording, const BenchColumns& columns,
                                             Notes& notes);
 

@@ -26,14 +26,14 @@ bool fits(const std::string& unit, const study::Column& column) {
   return unit.empty() || conversion(unit, {unit_of_trace(column), "", 1}).operator bool();
 }
 
-/// A column of the trace, and the recorded one in its unit.
+/// A column of the trace, and the recorded column in its unit.
 struct Found {
   const study::Column* column = nullptr;
   Picked picked;
 };
 
-/// By a heading that a trace itself would have, "i_m_A", else by name and unit. Of two of one name, as the bus's voltage and current, the one
-/// that the unit fits.
+/// By a heading that a trace itself has, "i_m_A", else by name and unit. If two columns have one name, such as
+/// the bus's voltage and current, the unit decides.
 Found column_of(const RecordedColumn& recorded) {
   Found found;
   for (const study::Column& column : study::all_columns()) {
@@ -49,7 +49,8 @@ Found column_of(const RecordedColumn& recorded) {
   return found;
 }
 
-/// "i_m_A [mA]": a trace's own name says a unit, and another one stands behind it. Which of them the numbers are in nobody knows.
+/// "i_m_A [mA]": the trace's own name contains a unit, and a different one follows. It is unknown which one
+/// holds.
 base::Problems said_twice(const Recording& r) {
   base::Problems found;
   for (const RecordedColumn& recorded : r.columns)
@@ -67,7 +68,7 @@ base::Problems said_twice(const Recording& r) {
   return found;
 }
 
-/// The column of a trace that a formula names; of bus the one that says its unit.
+/// The column of a trace that a formula names; for "bus" the name with its unit.
 base::Result<const study::Column*> trace_column(const std::string& name) {
   std::vector<std::string> known;
   const study::Column* found = nullptr;
@@ -95,7 +96,7 @@ Values formula_values(const Recording& r, const ColumnFormula& formula, const Wa
   const base::Result<std::vector<Picked>> found = columns_called(r, {formula.column});
   if (!found) return found.problems();
   column = found->front().column;
-  // Letters alone decide which column is meant, and would let "e*rpm" and "erpm+" pass for erpm.
+  // The comparison ignores all but letters, and would accept "e*rpm" and "erpm+" for erpm.
   const bool as_headed = formula.column == column->name || formula.column == column->heading;
   if (!as_headed && formula.column.find_first_of("*/+^=") != std::string::npos)
     return of_recording(r, fmt::format("has no column \"{}\"", bounded(formula.column, 200)),
@@ -106,7 +107,7 @@ Values formula_values(const Recording& r, const ColumnFormula& formula, const Wa
       for (double& x : *values) x *= formula.factor;
     return values;
   }
-  // With constants the numbers count as they stand: in no unit, and with its power of ten again.
+  // With constants the numbers are used as in the file: without unit, and with its power of ten restored.
   RecordedColumn bare = *column;
   const int ten = bare.unit.empty() ? 0 : unit_of(bare.unit)->ten;
   bare.unit.clear();

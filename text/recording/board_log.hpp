@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What was recorded of a drive while it ran, as a trace: the log that a board sent, that of another maker's drive, or an oscilloscope's
-// record. Headings are those of a trace's columns with units of the same kind ("t [us]", "i_m [mA]", "speed [rad/s]"), or formulas say which
-// column is which.
+// Reads a recording of a running drive as a trace: the log of a board, the log of another maker's drive, or an
+// oscilloscope's record. Headings are those of a trace's columns with units of the same kind ("t [us]", "i_m
+// [mA]", "speed [rad/s]"); otherwise formulas name the columns.
 #pragma once
 #include <optional>
 #include <string>
@@ -15,12 +15,13 @@
 
 namespace text {
 
-/// What the headings do not say, or say otherwise.
+/// Statements of the user that add to the headings or replace them.
 struct LogColumns {
   std::vector<std::string>
-      formulas;  ///< column_formula.hpp; where there are any, no other column is looked at but the time's
-  std::optional<double> interval_s;  ///< of the rows, where none is a time
-  std::optional<int> pole_pairs{};   ///< of the motor: electrical speeds convert by them
+      formulas;  ///< see column_formula.hpp; if there are any, only the columns that they name and the time
+                 ///< are read
+  std::optional<double> interval_s;  ///< of the rows, if no column is a time
+  std::optional<int> pole_pairs{};   ///< of the motor; electrical speeds convert with them
 };
 
 struct BoardLog {
@@ -29,8 +30,8 @@ struct BoardLog {
   Notes notes;
 };
 
-/// Where the board began anew, from its last headings on; a line that was cut short at the end is left out. Problems: no time, no column of
-/// a trace, a unit that is none, a cell that is not a number, a time that does not rise.
+/// Reads from the last headings on, where the board last started; an incomplete last line is left out. Problems:
+/// no time, no column of a trace, an unknown unit, a cell that is not a number, a time that does not rise.
 base::Result<BoardLog> read_board_log(const std::string& name, std::string_view bytes,
                                       const LogColumns& wanted = {});
 

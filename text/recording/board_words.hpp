@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a board says of itself beside the numbers of a run: remarks between the rows, periods that it missed, faults.
+// Prints what a board reports beside the numbers of a run: remarks between the rows, missed periods, faults.
 #pragma once
 #include "text/recording/recording.hpp"
 
@@ -7,7 +7,7 @@ namespace text {
 
 Notes what_the_board_says(const Recording& recording);
 
-/// Whether its numbers are told there, so that nobody has to be told that a simulation has no such column.
+/// Whether what_the_board_says() covers this column, so that it needs no note that a simulation lacks it.
 bool is_the_boards_word(const RecordedColumn& column);
 
 }  // namespace text

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A line of a table as cells, and a cell as a number.
+// Splits a line of a table into cells and reads a cell as a number.
 #pragma once
 #include <optional>
 #include <string_view>
@@ -7,17 +7,17 @@
 
 namespace text {
 
-/// Without blanks and quotes around it.
+/// Without surrounding blanks and quotes.
 std::string_view bare_cell(std::string_view text);
 
-/// A line's cells, bare. Empty ones at the end are none. What stands between two quotes is one cell, with the commas in it.
+/// A line's cells, bare. Empty cells at the end are dropped. A quoted text is one cell, commas included.
 std::vector<std::string_view> cells_of_line(std::string_view line, char separator);
 
-/// The whole cell as a number times 10^ten, rounded once. A comma is a decimal point: with ';', tab or blanks between cells, and in
-/// quotes where commas part them.
+/// The number in the whole cell times 10^ten, rounded once. A comma is a decimal point: between cells separated
+/// by ';', tab or blanks, and within quotes if commas separate the cells.
 std::optional<double> number_in(std::string_view cell, int ten = 0);
 
-/// What parts the cells of a row, a line whose first cell is a number: ';', tab, ',' or a blank. Nothing for other lines.
+/// The separator of a row, a line whose first cell is a number: ';', tab, ',' or a blank. Empty for other lines.
 std::optional<char> separator_of_row(std::string_view line);
 
 }  // namespace text

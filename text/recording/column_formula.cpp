@@ -20,7 +20,7 @@ std::optional<double> constant_in(std::string_view word) {
   return number_alone(word);
 }
 
-/// Takes constants off the end, "/60" and "*pi", while there are any.
+/// Removes constants from the end, "/60" and "*pi", as long as there are any.
 void take_behind(std::string_view& rest, ColumnFormula& out) {
   for (std::size_t cut = rest.find_last_of("*/"); cut != std::string_view::npos;
        cut = rest.find_last_of("*/")) {
@@ -32,7 +32,7 @@ void take_behind(std::string_view& rest, ColumnFormula& out) {
   }
 }
 
-/// And off the begin, "2*pi*"; a minus there turns the sign.
+/// Removes constants from the beginning, "2*pi*"; a minus there changes the sign.
 void take_before(std::string_view& rest, ColumnFormula& out) {
   if (rest.starts_with('-')) {
     out.factor = -out.factor;
@@ -47,7 +47,8 @@ void take_before(std::string_view& rest, ColumnFormula& out) {
   }
 }
 
-/// "erpm*", "*erpm", and "erpm**2" once its 2 is taken: the place of a * or / at either end, where a constant is missing.
+/// The place of a * or / at either end without a constant: "erpm*", "*erpm", and "erpm**2" after its 2 is
+/// removed.
 std::optional<std::size_t> operator_without_constant(std::string_view text, std::string_view column) {
   if (column.empty()) return {};
   const auto place = static_cast<std::size_t>(column.data() - text.data());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// "speed=erpm*2*pi/60/7": which column of a recording is what, times constants.
+// Reads "speed=erpm*2*pi/60/7": a column of a recording, times constants, as a column of a trace.
 #pragma once
 #include <string>
 #include <string_view>
@@ -10,14 +10,14 @@
 namespace text {
 
 struct ColumnFormula {
-  std::string name;    ///< what it is: time, or a column of a trace
-  std::string column;  ///< heading, or place, in the recording
+  std::string name;    ///< its meaning: time, or a column of a trace
+  std::string column;  ///< heading or place in the recording
   double factor = 1.0;
-  bool scaled =
-      false;  ///< with constants: then the numbers count as they stand, whatever unit their heading says
+  bool scaled = false;  ///< the formula has constants; then the unit in the heading is ignored
 };
 
-/// Constants are numbers and pi, multiplied or divided, before the column or behind it. The Problem is of the place "columns".
+/// Constants are numbers and pi, multiplied or divided, before or behind the column. A Problem's `where` is
+/// "columns".
 base::Result<ColumnFormula> column_formula(std::string_view text);
 
 }  // namespace text

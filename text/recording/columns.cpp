@@ -52,12 +52,12 @@ base::Problem none_called(const Recording& r, const std::string& heading) {
                       near.empty() ? "it has " + headings_of(r) : fmt::format("did you mean \"{}\"?", near));
 }
 
-/// A letter behind the name of a voltage is a phase, "phase_A" and "hall_C"; volts and seconds are units wherever they stand.
+/// A letter behind the name of a voltage is a phase, "phase_A" and "hall_C"; volts and seconds are always units.
 bool is_part_of_name(const Picked& picked, const Wanted& wanted) {
   return wanted.unit == "V" && picked.column->letter && picked.unit != "V" && picked.unit != "s";
 }
 
-/// From the column's unit, whose power of ten is in its values already.
+/// From the column's unit; its power of ten is already applied to the values.
 base::Result<Conversion> conversion_of(const Recording& r, const Picked& picked, const Wanted& wanted) {
   const std::string belongs = wanted.unit.empty() ? "a plain number" : wanted.unit;
   const RecordedColumn& column = *picked.column;
@@ -81,7 +81,7 @@ bool is_one_of(std::string_view bare, std::span<const std::string_view> names) {
   return std::find(names.begin(), names.end(), bare) != names.end();
 }
 
-/// With what stands in the place of a unit: "u_a" is no u in amperes.
+/// Compares the name with the apparent unit: "u_a" is not u in amperes.
 bool is_called_as_a_whole(const RecordedColumn& column, std::span<const std::string_view> names) {
   return (column.unit.empty() || column.letter) && is_one_of(bare_name(column.heading), names);
 }
@@ -153,7 +153,7 @@ base::Result<std::vector<double>> values_of(const Recording& recording, const Pi
   }
   base::Result<std::vector<double>> out = converted(recording, picked, wanted);
   if (!out) return out;
-  constexpr double most = 1e12;  // what no instrument shows, and what products of can still be numbers
+  constexpr double most = 1e12;  // beyond all instruments; products of such values are still finite
   for (std::size_t n = 0; n < out->size(); ++n)
     if (!(std::fabs((*out)[n]) <= most))
       return of_recording(

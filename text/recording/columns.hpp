@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Columns of a recording by their names, and their values in the unit that is wanted.
+// Finds columns of a recording by their names and converts their values to the wanted unit.
 #pragma once
 #include <initializer_list>
 #include <optional>
@@ -13,40 +13,41 @@
 
 namespace text {
 
-/// A column, and the unit that its values are in: that of its heading, unless a letter of it belongs to the name that was found.
+/// A column and the unit of its values: the heading's unit, unless that letter is part of the name that was
+/// found.
 struct Picked {
   const RecordedColumn* column = nullptr;
   std::string unit;
 };
 
-/// Whether its bare name is one of these.
+/// Whether its bare name is one of `names`.
 bool is_called(const RecordedColumn& column, std::span<const std::string_view> names);
 
-/// The column that is called so; null where there is none. A Problem where two are.
+/// The column with one of these names; null if there is none. Problem: two columns match.
 base::Result<Picked> find_column(const Recording& recording, std::span<const std::string_view> names);
 inline base::Result<Picked> find_column(const Recording& recording,
                                         std::initializer_list<std::string_view> names) {
   return find_column(recording, std::span(names.begin(), names.size()));
 }
 
-/// The columns with those headings, "column 3" by its place; of one heading that is given as often as columns have it, each in turn. A
-/// Problem that says which there are.
+/// The columns with these headings; "column 3" means a place. A heading given as often as it occurs means each
+/// of its columns in turn. The Problem lists the headings.
 base::Result<std::vector<Picked>> columns_called(const Recording& recording,
                                                  const std::vector<std::string>& headings);
 
-/// Its values in the unit that is wanted; as they stand where it has none. Problems, with their lines: a unit that is none or of another kind, cells that
-/// are no numbers, numbers that no instrument shows.
+/// The column's values in the wanted unit; unchanged if the column has no unit. Problems, with lines: an unknown
+/// unit or one of another kind, cells that are not numbers, numbers that no instrument shows.
 base::Result<std::vector<double>> values_of(const Recording& recording, const Picked& picked,
                                             const Wanted& wanted);
 
-/// The same before anybody looks at the numbers: NaN in cells that are none.
+/// As values_of(), but without a check of the numbers: NaN for a cell that is not a number.
 base::Result<std::vector<double>> converted(const Recording& recording, const Picked& picked,
                                             const Wanted& wanted);
 
-/// "hall1, hall2, u_ab": what messages say there is.
+/// "hall1, hall2, u_ab": the headings, for messages.
 std::string headings_of(const Recording& recording);
 
-/// "not used: Comment, Remark (holds no numbers), Temp (in degC)"; nothing where nothing is.
+/// Adds the note "not used: Comment, Remark (holds no numbers), Temp (in degC)"; no note without columns.
 struct NotUsed {
   std::string column, reason;
 };

@@ -59,8 +59,9 @@ const DecimalMarks::Cell* DecimalMarks::first_of(Marked Column::*mark) const {
   return found;
 }
 
-/// One cell that can be nothing but a decimal fraction settles it for the file. A column that goes on to 1000 without a mark settles itself.
-/// `decimal_point`: the mark is one unless the column writes 942 beside 1.025.
+/// A single cell that can only be a decimal fraction decides for the whole file. A column with numbers of 1000
+/// and more without a mark decides for itself. `decimal_point`: the mark is decimal unless the column has a
+/// number such as 942 beside 1.025.
 std::optional<base::Problem> DecimalMarks::thousands(const std::string& file, Marked Column::*mark, char c,
                                                      bool decimal_point) const {
   const auto settles = [&](const Column& column) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether the commas and the points in a table's numbers are decimal marks, or part thousands.
+// Decides whether commas and points in a table's numbers are decimal marks or separate thousands.
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -12,15 +12,17 @@
 
 namespace text {
 
-/// "1,025" and "-2,940": one mark before exactly three digits, and before it one to three that do not begin with 0.
+/// "1,025" and "-2,940": one mark before exactly three digits, and before the mark one to three digits, the
+/// first not 0.
 bool may_part_thousands(std::string_view number, char mark);
 
-/// Looks at each cell that is a number. In doubt are a table with both marks, and one whose only mark appears as if it parted thousands.
+/// Collects the cells that are numbers. A table is in doubt if it has both marks, or if its only mark always
+/// stands as between thousands.
 class DecimalMarks {
  public:
   void see(std::size_t line, std::size_t column, std::string_view cell);
-  /// Of the file that is called so. Semicolons between its cells come from a country that writes a decimal comma, and may part thousands
-  /// by points.
+  /// `file` is the name for messages. A semicolon between cells indicates a country with a decimal comma, where
+  /// points may separate thousands.
   std::optional<base::Problem> doubt(const std::string& file, char separator) const;
 
  private:
@@ -28,10 +30,10 @@ class DecimalMarks {
     std::size_t line = 0;
     std::string text;
   };
-  /// What one column has of one mark.
+  /// One column's cells with one mark.
   struct Marked {
     std::optional<Cell> first;
-    bool in_thousands = true;  ///< each of them may part thousands
+    bool in_thousands = true;  ///< in each cell the mark may separate thousands
   };
   struct Column {
     Marked comma, point;

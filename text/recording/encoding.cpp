@@ -36,7 +36,7 @@ std::string from_cp1252(std::string_view bytes) {
   return out;
 }
 
-/// Signs beyond the first 65536, which no table needs, become replacement signs.
+/// Characters beyond the first 65536, which no table needs, become replacement characters.
 std::string from_utf16(std::string_view bytes, bool big_endian) {
   std::string out;
   for (std::size_t n = 0; n + 1 < bytes.size(); n += 2) {
@@ -48,7 +48,7 @@ std::string from_utf16(std::string_view bytes, bool big_endian) {
   return out;
 }
 
-/// Bytes that must follow the first one of a sign; 4 for a byte that begins none.
+/// The number of bytes that follow the first byte of a character; 4 if no character begins with it.
 std::size_t following(unsigned char c) {
   if (c < 0x80U) return 0;
   if (c >= 0xC2U && c < 0xE0U) return 1;
@@ -79,7 +79,7 @@ void with_plain_line_ends(std::string& text) {
   text.resize(to);
 }
 
-/// Bytes that no text has.
+/// Whether there are bytes that no text has.
 bool is_binary(std::string_view text) {
   constexpr std::size_t looked_at = 1 << 16;
   return text.substr(0, looked_at).find('\0') != std::string_view::npos;

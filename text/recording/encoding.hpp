@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bytes of a file as UTF-8 with one line end, whoever wrote them.
+// Converts the bytes of a file to UTF-8 with one line end.
 #pragma once
 #include <optional>
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace text {
 
-/// UTF-8 as it stands, UTF-16 with its byte order mark, and CP1252 for bytes that are no UTF-8: 0xB5 is the micro sign there and 0xB0
-/// the degree sign, as older instruments write them. Marks at the start are gone, "\r\n" and "\r" are "\n". Nothing for bytes that are
-/// no text.
+/// Reads UTF-8, UTF-16 with a byte order mark, and otherwise CP1252, where 0xB5 is the micro sign and 0xB0 the
+/// degree sign, as older instruments write them. Byte order marks are removed, "\r\n" and "\r" become "\n".
+/// Empty for bytes that are no text.
 std::optional<std::string> plain_text(std::string_view bytes);
 
 }  // namespace text

@@ -39,7 +39,8 @@ std::string_view word_for(std::string_view small) {
   return {};
 }
 
-/// What counts or scales as an instrument does inside, and what is a logarithm: no unit of what was measured.
+/// Words for raw counts and scales of an instrument, and for logarithms: they are no units of the measured
+/// quantity.
 bool is_no_measure(std::string_view word) {
   constexpr std::string_view words[] = {"counts", "count",  "cnt",  "cnts",    "lsb",    "raw",  "adc",
                                         "ticks",  "digits", "div",  "dbv",     "dbmv",   "dbuv", "dbm",
@@ -53,7 +54,7 @@ bool is_number_of_a_place(std::string_view word) {
          std::all_of(word.begin(), word.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-/// A word where a unit stands for certain.
+/// A word in a place that can only be a unit.
 Heading with_word(std::string_view name, std::string_view word) {
   Heading out{std::string(bare_cell(name)), unit_in_words(word), {}, false};
   word = bare_cell(word);
@@ -61,7 +62,7 @@ Heading with_word(std::string_view name, std::string_view word) {
   return out;
 }
 
-/// "u_ab [V]", "(V)". "V(a,b)" is a voltage in the words of SPICE, and "eRPM[0]" the first of several.
+/// "u_ab [V]", "(V)". "V(a,b)" is a voltage in SPICE's notation, and "eRPM[0]" the first of several.
 std::optional<Heading> in_brackets(std::string_view cell) {
   if (cell.empty() || (cell.back() != ']' && cell.back() != ')')) return {};
   const std::size_t open = cell.find_last_of(cell.back() == ']' ? '[' : '(');
@@ -84,7 +85,7 @@ std::optional<Heading> behind_a_word(std::string_view cell) {
   return {};
 }
 
-/// A heading that is nothing but a unit: "microseconds", "ms". Single letters are names of phases, but for the second.
+/// A heading that is only a unit: "microseconds", "ms". Single letters are names of phases, except s.
 bool is_unit_alone(std::string_view cell) {
   if (cell.size() == 1) return cell == "s";
   const std::string unit = unit_in_words(cell);
@@ -93,14 +94,14 @@ bool is_unit_alone(std::string_view cell) {
   return same_kind(u, *unit_of("s")) || same_kind(u, *unit_of("V"));
 }
 
-/// Behind a name these are words or letters and no units: "current_in", "axis_10".
+/// Behind a name these are words or letters, not units: "current_in", "axis_10".
 bool is_rather_a_word(std::string_view word) {
   constexpr std::string_view words[] = {"in", "inch", "ft",   "h",     "lb", "lbs", "oz",
                                         "kp", "KV",   "turn", "turns", "m",  "g"};
   return is_number_of_a_place(word) || std::find(std::begin(words), std::end(words), word) != std::end(words);
 }
 
-/// The unit that the pieces of a key's are, parted by underscores: "rad_s" and "N_m". Empty where they are none.
+/// The unit in the pieces of a key, separated by underscores: "rad_s" and "N_m". Empty if they are none.
 std::string unit_in_pieces(std::string_view pieces) {
   for (const char between : {'/', ' '}) {
     std::string unit(pieces);
@@ -110,7 +111,7 @@ std::string unit_in_pieces(std::string_view pieces) {
   return {};
 }
 
-/// "i_m_A" is the known i_m in A, and no i in m/A; "i_m" has no unit.
+/// "i_m_A" is the known i_m in A, not i in m/A; "i_m" has no unit.
 std::optional<Heading> behind_a_known_name(std::string_view cell) {
   for (std::size_t at = cell.rfind('_'); at != std::string_view::npos && at > 0;
        at = cell.rfind('_', at - 1)) {
@@ -170,7 +171,7 @@ std::string unit_in_words(std::string_view cell) {
     if (std::string unit = plain_spelling(as_written); !unit.empty() && unit_of(unit)) return unit;
   const std::string small = lower(plain_spelling(bare));
   if (const std::string_view unit = word_for(small); !unit.empty()) return std::string(unit);
-  if (small == "ms" || small == "us" || small == "ns")  // "uS", but no "MS"
+  if (small == "ms" || small == "us" || small == "ns")  // "uS", but not "MS"
     return std::islower(static_cast<unsigned char>(bare[0])) != 0 || small != "ms" ? small : std::string();
   for (const auto& [word, letter] : prefix_words) {
     if (!small.starts_with(word) || small.size() < word.size() + 3) continue;
@@ -185,7 +186,7 @@ Heading heading_of(std::string_view cell) {
   if (std::optional<Heading> found = in_brackets(cell)) return *found;
   if (std::optional<Heading> found = behind_a_word(cell)) return *found;
   if (is_unit_alone(cell)) {
-    // A volt may be the name of a column too; a second is the time.
+    // A volt may also be the name of a column; a second is the time.
     const std::string unit = unit_in_words(cell);
     return {same_kind(*unit_of(unit), *unit_of("V")) ? std::string(cell) : std::string(), unit, {}, false};
   }

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// A column's heading: its name, and the word that stands where a unit belongs.
+// Splits a column's heading into its name and its unit.
 #pragma once
 #include <string>
 #include <string_view>
 
 namespace text {
 
-/// The one place that knows units as instruments spell them: "s" of "second", "(ms)", "uS" and "microseconds"; as units.hpp spells it.
-/// Empty for what is no unit.
+/// The unit in the spelling of units.hpp, from the spellings of instruments: "s" for "second"; also "(ms)", "uS"
+/// and "microseconds". Empty if it is no unit. This is the only place with those spellings.
 std::string unit_in_words(std::string_view cell);
 
 struct Heading {
   std::string name;
   std::string unit;      ///< as units.hpp spells it
-  std::string odd_unit;  ///< a word in the place of the unit that is none
-  /// The unit is a letter behind the name, "u_ab_V" or "phase_A": it may as well be a part of the name.
+  std::string odd_unit;  ///< a word in the place of the unit that is no unit
+  /// The unit is a letter behind the name, "u_ab_V" or "phase_A", which may also be part of the name.
   bool letter = false;
 };
 

@@ -35,7 +35,7 @@ std::optional<double> value_in(std::string_view text, char separator, bool rate)
   std::size_t end = size;
   if (separator == ';' || separator == '\t')  // "0,0001"
     end = std::min(text.find_first_not_of("0123456789.,eE+-"), text.size());
-  // "10,000 Hz" are ten hertz or ten thousand.
+  // "10,000 Hz" is ambiguous: ten hertz or ten thousand.
   const std::size_t digits = std::min(text.find_first_not_of("0123456789,"), text.size());
   if (may_part_thousands(text.substr(0, digits), ',')) return {};
   const std::optional<double> number = number_in(text.substr(0, end));
@@ -49,10 +49,10 @@ std::optional<double> value_in(std::string_view text, char separator, bool rate)
     if (word.ends_with(samples)) word.replace(word.size() - samples.size(), samples.size(), "Hz");
   const std::string known = unit_in_words(word);
   const base::Result<Conversion> in_si = conversion(known.empty() ? "1" : known, rate ? "Hz" : "s");
-  return in_si ? in_si->of(*number) : *number;  // else the next cell is another thing
+  return in_si ? in_si->of(*number) : *number;  // otherwise the next cell is something else
 }
 
-/// Rigol's MSO5000 has them among its headings: "CH1V,t0 = -6e-06,tInc = 2e-09".
+/// Rigol's MSO5000 writes them among its headings: "CH1V,t0 = -6e-06,tInc = 2e-09".
 std::optional<RowClock> clock_among_headings(std::string_view line, char separator) {
   const auto value_of = [&](std::string_view name) -> std::optional<double> {
     const std::size_t at = line.find(name), equals = line.find('=', std::min(at, line.size()));

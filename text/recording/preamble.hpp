@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What instruments write above the rows of a recording, beside headings.
+// Reads what instruments write above the rows of a recording, beside headings.
 #pragma once
 #include <optional>
 #include <string>
@@ -8,20 +8,23 @@
 
 namespace text {
 
-/// The time from row to row, where the file says it outside of its rows.
+/// The time between rows, if the file states it outside of its rows.
 struct RowClock {
   double interval_s = 0.0, start_s = 0.0;
   std::string said;  ///< "Samplerate: 20 kHz", for messages
 };
 
-/// Of "Samplerate: 20 kHz", "Sample Interval,4e-06,s" or "Delta_X	1E-4": nothing for other lines. `separator` parts the rows' cells.
+/// Reads "Samplerate: 20 kHz", "Sample Interval,4e-06,s" or "Delta_X       1E-4"; empty for other lines.
+/// `separator` is that of the rows' cells.
 std::optional<RowClock> clock_in(std::string_view line, char separator);
 
-/// Above Rigol's rows "X,CH1,Start,Increment" and "Sequence,VOLT,-2.5e-2,1e-4": start and increment stand below their names.
+/// Reads the lines above Rigol's rows, "X,CH1,Start,Increment" and "Sequence,VOLT,-2.5e-2,1e-4": start and
+/// increment stand below their names.
 std::optional<RowClock> clock_below(const std::vector<std::string_view>& names,
                                     const std::vector<std::string_view>& values);
 
-/// D0, D1, D2 of "; Channels (3/8): D0, D1, D2", as sigrok names what it heads "logic"; empty for other lines.
+/// D0, D1, D2 from "; Channels (3/8): D0, D1, D2", where sigrok names the channels of its column "logic"; empty
+/// for other lines.
 std::vector<std::string> channels_in(std::string_view line);
 
 }  // namespace text

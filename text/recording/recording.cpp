@@ -39,7 +39,7 @@ bool begins_with_number(std::string_view line) {
   return first != std::string_view::npos && std::isdigit(static_cast<unsigned char>(line[first])) != 0;
 }
 
-/// Where a board began anew: the first line of words below rows, the last such place. The offset of it.
+/// The offset of the board's last start: of the last line of words that follows rows.
 std::size_t last_start(std::string_view text) {
   std::size_t from = 0;
   bool in_rows = false;
@@ -55,7 +55,7 @@ std::size_t lines_in(std::string_view text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
-/// What is left of a log that a board sent, and what was left out of it.
+/// The complete part of a board's log, and what was left out.
 struct WholeRows {
   std::string_view text;
   std::size_t lines_before = 0;
@@ -65,7 +65,7 @@ WholeRows from_last_start(std::string_view text) {
   WholeRows out;
   const std::size_t end = text.rfind('\n');
   const bool cut = end != std::string_view::npos && end + 1 < text.size();
-  // Of a log of one row that row is kept.
+  // If a log has only one row, it is kept.
   if (cut && begins_with_number(text.substr(text.rfind('\n', end - 1) + 1))) {
     text = text.substr(0, end + 1);
     out.notes.push_back(

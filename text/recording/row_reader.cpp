@@ -18,9 +18,9 @@ namespace {
 
 /// Oscilloscopes write their settings there.
 constexpr std::size_t most_lines_above = 100;
-/// 160 MB of them; no oscilloscope's memory that a bench needs is larger.
+/// 160 MB; larger than the memory of any oscilloscope that a bench needs.
 constexpr std::size_t most_values = 20'000'000;
-/// Cells that are quoted, of each column.
+/// Quoted wrong cells per column.
 constexpr std::size_t most_quoted = 6;
 
 bool is_remark(std::string_view line) {
@@ -28,7 +28,7 @@ bool is_remark(std::string_view line) {
   return first == std::string_view::npos || line[first] == '#' || line[first] == '%';
 }
 
-/// "001" is what a decimal comma leaves behind it.
+/// "001": the part behind a decimal comma.
 bool begins_with_zeros(std::string_view cell) {
   return cell.size() > 1 && cell[0] == '0' &&
          std::all_of(cell.begin(), cell.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
@@ -53,7 +53,7 @@ std::optional<RowsBeside> rows_beside(std::string_view text) {
   std::optional<RowsBeside> found;
   int rows = 0;
   for (; rows < looked_at && !text.empty(); ++rows) {
-    const std::size_t begin = text.rfind('\n') + 1;  // of no line before it: 0
+    const std::size_t begin = text.rfind('\n') + 1;  // 0 if there is no line before it
     const std::string_view line = text.substr(begin);
     RowsBeside here;
     for (const char c : {';', '\t', ','})
@@ -114,7 +114,7 @@ bool RowReader::begins_rows(std::string_view text) {
   return true;
 }
 
-/// What stands beside the first rows is read as lines above them.
+/// Cells beside the first rows are read as lines above the rows.
 bool RowReader::row_beside(std::string_view text) {
   std::vector<std::string_view> cells = cells_of_line(text, beside_->separator);
   const bool is_row = beside_->cells < cells.size() && number_in(cells[beside_->cells]).has_value();
@@ -136,7 +136,7 @@ bool RowReader::row_beside(std::string_view text) {
     separator_ = beside_->separator;
     first_cells_ = cells.size();
     first_line_ = number_;
-    out_.columns.resize(cells.size());  // named when all that stands beside them is known
+    out_.columns.resize(cells.size());  // named when all cells beside the rows are known
     tens_.assign(cells.size(), 0);
   }
   row(cells);
@@ -178,7 +178,7 @@ void RowReader::row(const std::vector<std::string_view>& cells) {
   }
 }
 
-/// More cells than columns: told, for nobody knows what they are.
+/// A row with more cells than columns is a problem, because the meaning of the further ones is unknown.
 std::optional<base::Problem> RowReader::wrong_cells() const {
   const bool more_than_names = names_ > 0 && first_cells_ > names_;
   if (separator_ == ',' && !has_point_ && (more_than_names || (names_ == 0 && has_leading_zero_)))

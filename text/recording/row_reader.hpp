@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lines of a recording, one by one.
+// Reads the lines of a recording one by one.
 #pragma once
 #include <optional>
 #include <string>
@@ -11,21 +11,22 @@
 
 namespace text {
 
-/// Where the rows of a table stand that has other things beside them.
+/// The place of the rows in a table that has other cells beside them.
 struct RowsBeside {
   char separator = 0;
-  std::size_t cells = 0;  ///< before the first of the row's own
+  std::size_t cells = 0;  ///< in front of the row's own first cell
 };
 
-/// Most lines begin with so many empty cells and a number: "Record Length,2500,,-0.02,3.78" and then ",,,-0.0199,3.77".
+/// Recognises a table in which most lines begin with the same number of empty cells and a number: "Record
+/// Length,2500,,-0.02,3.78" and then ",,,-0.0199,3.77".
 std::optional<RowsBeside> rows_beside(std::string_view text);
 
 class RowReader {
  public:
-  /// `line` lines of the file stand before the first one.
+  /// `line`: lines of the file before the first one that is passed.
   RowReader(std::string name, std::size_t line, std::optional<RowsBeside> beside);
 
-  /// False where there is no sense in going on.
+  /// False: the rest need not be read, because the text is no table or too long.
   bool line(std::string_view text);
   base::Result<Recording> result();
 
@@ -42,7 +43,7 @@ class RowReader {
   std::vector<std::string> above_, remarks_;
   char separator_ = 0;
   std::size_t number_, values_ = 0, names_ = 0;
-  std::vector<int> tens_;  ///< of each column's unit
+  std::vector<int> tens_;  ///< powers of ten of the columns' units
   DecimalMarks marks_;
   std::size_t wide_line_ = 0, wide_cells_ = 0, first_cells_ = 0, first_line_ = 0;
   bool has_point_ = false, has_leading_zero_ = false;

@@ -19,7 +19,7 @@ namespace {
 
 using Cells = std::vector<std::string_view>;
 
-/// A heading, as messages and results quote it.
+/// Longest heading that messages and results quote.
 constexpr std::size_t longest_name = 80;
 
 bool is_in_brackets(std::string_view cell) {
@@ -31,7 +31,8 @@ std::string_view without_brackets(std::string_view cell) {
   return is_in_brackets(cell) ? cell.substr(1, cell.size() - 2) : cell;
 }
 
-/// "Second,Volt" and "(ms),(foo)": a line of units below the names, of which some may be strange where brackets say that units stand here.
+/// "Second,Volt" and "(ms),(foo)": a line of units below the names; some may be unknown if brackets show that
+/// they are units.
 bool are_units(const Cells& cells) {
   const auto is_unit = [](std::string_view cell) { return !unit_in_words(cell).empty(); };
   return std::any_of(cells.begin(), cells.end(), is_unit) &&
@@ -40,7 +41,8 @@ bool are_units(const Cells& cells) {
          });
 }
 
-/// "t,u_ab" above "s,foo": under a name that is known stands a unit, and none that is known, so that the rest are to be units.
+/// "t,u_ab" above "s,foo": a unit stands below a known name, and no unit's name is a known one; the rest must be
+/// units then.
 bool are_units_below(const Cells& names, const Cells& cells) {
   const auto known = [](std::string_view cell) { return is_known_name(bare_name(heading_of(cell).name)); };
   if (std::any_of(cells.begin(), cells.end(), known)) return false;
@@ -49,7 +51,7 @@ bool are_units_below(const Cells& names, const Cells& cells) {
   return false;
 }
 
-/// Blanks part names from their units too, "t [s] u_ab [V]".
+/// Blanks also separate names from their units, "t [s] u_ab [V]".
 Cells with_units_joined(const Cells& cells) {
   Cells out;
   for (const std::string_view cell : cells)
@@ -72,7 +74,7 @@ class HeadReader {
   std::size_t take() {
     find_clock();
     Head head = find_head();
-    // Start and step of the time are no columns.
+    // Start and step of the time are not columns.
     while (head.names.size() > cells_ && head.names.back().find('=') != std::string_view::npos)
       head.names.pop_back();
     out_.has_headings = !head.names.empty();
@@ -102,7 +104,7 @@ class HeadReader {
   Head find_head() {
     Head head;
     const std::vector<std::string>& lines = above_.lines;
-    if (above_.cells_before > 1) return head;  // rows stand in those lines too
+    if (above_.cells_before > 1) return head;  // the rows are in those lines too
     if (lines.size() > 1) {
       const Cells names = cells_of(lines[lines.size() - 2]), below = cells_of(lines.back());
       if (const std::optional<RowClock> clock = clock_below(names, below)) {
@@ -127,12 +129,12 @@ class HeadReader {
         break;
     }
     if (head.names.empty())
-      head.names = std::exchange(head.units, {});  // "s,V": units at once, or names that look like them
+      head.names = std::exchange(head.units, {});  // "s,V": units at once, or names that look like units
     if (head.units.empty()) head.units = units_by_keys();
     return head;
   }
 
-  /// "Horizontal Units,s" and "Vertical Units,V,V" above the headings, as Tektronix has them.
+  /// "Horizontal Units,s" and "Vertical Units,V,V" above the headings, as Tektronix writes them.
   Cells units_by_keys() const {
     Cells units;
     for (const std::string& line : above_.lines) {
@@ -190,7 +192,7 @@ class HeadReader {
     time.heading = time.name = "time";
   }
 
-  /// sigrok heads all lines "logic" and names them above.
+  /// sigrok heads all lines "logic" and lists their names above.
   void name_channels() {
     std::vector<RecordedColumn*> lines;
     for (RecordedColumn& column : out_.columns)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names and units of a table's columns, from the lines above its rows.
+// Finds names and units of a table's columns in the lines above its rows.
 #pragma once
 #include <string>
 #include <vector>
@@ -12,10 +12,11 @@ struct LinesAbove {
   const std::vector<std::string>& lines;    ///< preamble and headings
   const std::vector<std::string>& remarks;  ///< lines that begin with '#' or '%'
   char separator;
-  std::size_t cells_before = 0;  ///< of the row's own: what stands beside it
+  std::size_t cells_before = 0;  ///< cells in front of the row's own first cell
 };
 
-/// Fills columns, clock and has_headings; the number of cells that the line of headings has, 0 where there is none.
+/// Fills columns, clock and has_headings. Returns the number of cells in the line of headings, 0 if there is
+/// none.
 std::size_t take_head(const LinesAbove& above, std::size_t cells, Recording& out);
 
 }  // namespace text

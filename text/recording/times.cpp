@@ -17,14 +17,14 @@ bool is_in_seconds(const RecordedColumn& column) {
   return !column.unit.empty() && same_kind(*unit_of(column.unit), *unit_of("s"));
 }
 
-/// 0, 1, 2 or 1, 2, 3: as an oscilloscope numbers its samples.
+/// 0, 1, 2 or 1, 2, 3: sample numbers of an oscilloscope.
 bool are_numbers_of_rows(const std::vector<double>& values) {
   for (std::size_t n = 0; n < values.size(); ++n)
     if (values[n] - values[0] != static_cast<double>(n)) return false;
   return values.size() > 2;
 }
 
-/// The steps from row to row that are none of zero: least, middle and greatest.
+/// The nonzero steps from row to row: least, median and greatest.
 struct Steps {
   double least = 0.0, middle = 0.0, greatest = 0.0;
   bool even() const { return greatest < 1.5 * least; }
@@ -43,7 +43,7 @@ Steps steps_of(const std::vector<double>& t) {
 
 bool are_near(double a, double b) { return std::fabs(a - b) <= 0.01 * b; }
 
-/// Each step is a whole number of intervals, within what the file's digits leave.
+/// Whether each step is a whole number of intervals, within the precision of the file's digits.
 bool are_whole(const std::vector<double>& t, double factor, double interval_s) {
   for (std::size_t n = 1; n < t.size(); ++n) {
     const double steps = (t[n] - t[n - 1]) * factor / interval_s;
@@ -58,8 +58,8 @@ struct TimeUnit {
 };
 constexpr TimeUnit time_units[] = {{"ns", 1e9}, {"us", 1e6}, {"ms", 1e3}, {"s", 1.0}};
 
-/// The unit in which a column without one goes with the preamble; null where none does. Rows at each change are whole numbers of samples
-/// apart in every unit above one: the least counts.
+/// The unit in which a column without one agrees with the preamble; null if none does. Rows recorded only at
+/// changes are whole numbers of samples apart in every larger unit too, so the smallest unit counts.
 const TimeUnit* unit_by_clock(const std::vector<double>& t, const Steps& steps, double interval_s) {
   for (const TimeUnit& unit : time_units)
     if (steps.even() && are_near(steps.middle / unit.per_s, interval_s)) return &unit;
@@ -68,7 +68,7 @@ const TimeUnit* unit_by_clock(const std::vector<double>& t, const Steps& steps, 
   return nullptr;
 }
 
-/// An interval that was given is rounded, to three digits perhaps, and times are rounded or cut to their last digit.
+/// A given interval may be rounded to three digits, and times are rounded or cut at their last digit.
 bool go_with(const std::vector<double>& t, double interval_s) {
   const double digit = 0.99 * steps_of(t).least;
   for (std::size_t n = 1; n < t.size(); ++n) {
@@ -84,12 +84,12 @@ std::vector<double> rows_from(double start_s, double interval_s, std::size_t row
   return out;
 }
 
-/// Without headings the first column may be the time or anything.
+/// Without headings the first column may be the time or anything else.
 bool is_a_guess(const Recording& r, const RecordedColumn& column) {
   return !r.has_headings && column.unit.empty();
 }
 
-/// The preamble's rate, or the interval that was given.
+/// Uses the preamble's rate or the given interval.
 base::Result<Times> without_column(const Recording& r, std::optional<double> interval_s, Notes& notes) {
   if (interval_s && r.clock && !are_near(*interval_s, r.clock->interval_s))
     return of_recording(
@@ -104,7 +104,8 @@ base::Result<Times> without_column(const Recording& r, std::optional<double> int
                .column = nullptr};
 }
 
-/// A column without a unit takes the one in which it goes with the interval; what cannot be a time is none, where that was a guess.
+/// A column without a unit gets the one that agrees with the interval. If the column was only guessed and cannot
+/// be a time, it is not used.
 base::Result<Times> column_at_interval(const Recording& r, const RecordedColumn& column, double interval_s,
                                        Notes& notes) {
   const bool guessed = is_a_guess(r, column);
@@ -131,12 +132,13 @@ base::Result<Times> column_at_interval(const Recording& r, const RecordedColumn&
   return times_at_interval(r, std::move(*t), column, interval_s, notes);
 }
 
-/// What the preamble says contradicts the rows: finer than it was sampled, or off by a thousand and more.
+/// Whether the preamble contradicts the rows: steps finer than the sampling, or different by a factor of a
+/// thousand or more.
 bool contradict(const Steps& steps, double interval_s) {
   return steps.least < 0.99 * interval_s || (steps.even() && steps.middle > 999.0 * interval_s);
 }
 
-/// The column's values in s, held against the preamble.
+/// The column's values in s, after a comparison with the preamble.
 base::Result<std::vector<double>> by_clock(const Recording& r, const RecordedColumn& column,
                                            std::vector<double> t, Notes& notes) {
   if (!r.clock) return t;
@@ -195,7 +197,7 @@ base::Result<Times> rising_times(const Recording& recording, std::vector<double>
     if (t[n] < t[n - 1]) return does_not_rise(n);
     if (t[n] == t[n - 1]) out.left_out.push_back(n - 1);
   }
-  // An event or two stand twice; a time with too few digits stands twice everywhere.
+  // An event may occur twice at an instant now and then; a time with too few digits repeats everywhere.
   constexpr std::size_t one_in = 10;
   if (out.left_out.size() * one_in > t.size()) return does_not_rise(out.left_out[0] + 1);
   if (!out.left_out.empty())

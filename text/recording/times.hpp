@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// When each row of a recording was taken.
+// Finds the time of each row of a recording.
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -9,29 +9,31 @@
 
 namespace text {
 
-/// By its heading or its unit; the first of several columns without headings. Null where there is none.
+/// The column of time by its heading or its unit; without headings the first of several columns. Null if there
+/// is none.
 const RecordedColumn* time_column(const Recording& recording);
 
 struct Times {
   std::vector<double> t_s;            ///< rising
-  std::vector<std::size_t> left_out;  ///< rows that the next one stands at the instant of
+  std::vector<std::size_t> left_out;  ///< rows at the same instant as the next row
   const RecordedColumn* column = nullptr;
 };
 
-/// Of the column that says the time, whose unit the preamble's rate may say; or of the preamble's rate, where there is none; or so far apart
-/// as an interval that is given, which must not contradict a column of time or a preamble's rate. Where an instant stands twice, as simulators write an event, the later row counts. `notes` gets what was
-/// taken for what. Problems: no time, a time that does not rise, one that contradicts the preamble.
+/// Uses the given interval; it must not contradict a column of time or the preamble's rate. Without it: the
+/// column of time, whose unit the preamble's rate may determine, or else the preamble's rate. If an instant
+/// occurs twice, as simulators write an event, the later row counts. `notes` gets the assumptions. Problems: no
+/// time, a time that does not rise, a contradiction to the preamble.
 base::Result<Times> times_of(const Recording& recording, std::optional<double> interval_s, Notes& notes);
 
-/// The same of values that are the times already.
+/// As times_of(), for values that are times in s already.
 base::Result<Times> rising_times(const Recording& recording, std::vector<double> t_s,
                                  const RecordedColumn& column, Notes& notes);
 
-/// The same beside an interval that is given: it says what digits the values lack, and nothing else.
+/// As rising_times(), beside a given interval, which only replaces digits that the values lack.
 base::Result<Times> times_at_interval(const Recording& recording, std::vector<double> t_s,
                                       const RecordedColumn& column, double interval_s, Notes& notes);
 
-/// Of the rows that count.
+/// The values without those of the rows left out.
 template <class Value>
 std::vector<Value> without_rows(std::vector<Value> values, const std::vector<std::size_t>& left_out) {
   std::size_t to = 0, next = 0;

@@ -25,7 +25,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double degrees_per_rad = 180 / sixstep::base::pi;
 
-/// Of what did not come there is no level, and no phase.
+/// Neither level nor phase exists if no answer came.
 constexpr double no_level = std::numeric_limits<double>::quiet_NaN();
 double dB(double gain) { return gain > 0.0 ? 20 * std::log10(gain) : no_level; }
 double degrees(const LoopPoint& p) { return p.gain > 0.0 ? p.phase_rad * degrees_per_rad : no_level; }
@@ -47,13 +47,14 @@ std::optional<Designed> designed_at(const BodeStudy& s, const LoopPoint& p) {
   return Designed{dB(L->size()), s.designed_phase_rad[k] * degrees_per_rad};
 }
 
-/// By more than this two loops are not the same; margins are read between a quarter and four times the crossover's gain.
+/// Two loops differ if they are apart by more than this; margins are read between a quarter and four times the
+/// crossover's gain.
 constexpr double far_dB = 1.5, far_deg = 8.0, near_crossover_dB = 20.0;
 
-/// Less than this part of the samples without current is commutation.
+/// Below this part, samples without current come from commutation.
 constexpr double has_gaps = 0.01;
 
-/// Why: the first that holds.
+/// The first reason that applies.
 std::string why_beside(const BodeStudy& s) {
   const study::Scenario& end = s.at_end;
   const bool hall =
@@ -73,7 +74,7 @@ std::string why_beside(const BodeStudy& s) {
   return "each period of the multisine is answered alike, and not as a linear loop does: commutation, dead time, gaps in the current or a limit";
 }
 
-/// A coherence near 1 says that the answers are alike, not that the loop is linear.
+/// A coherence near 1 says that the answers repeat, not that the loop is linear.
 std::string beside_the_designed(const BodeStudy& s) {
   double most_dB = 0.0, deg = 0.0, Hz = 0.0;
   for (const LoopPoint& p : s.points) {

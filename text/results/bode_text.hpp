@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A measured frequency response beside the designed one, for a terminal, a table and programs.
+// Prints a measured frequency response beside the designed one: for a terminal, as CSV and as JSON.
 #pragma once
 #include <string>
 #include <string_view>
@@ -10,14 +10,14 @@
 
 namespace text {
 
-/// Operating point, a line per frequency, margins of both. `name`: of the scenario.
+/// Operating point, one line per frequency, and both margins. `name` is the scenario's.
 std::string bode_text(std::string_view name, const analysis::BodeStudy& study);
-/// Frequencies in Hz, gains in dB, phases in degrees; designed columns only where there is a linear loop.
+/// Frequencies in Hz, gains in dB, phases in degrees. The designed columns exist only if there is a linear loop.
 std::string bode_csv(const analysis::BodeStudy& study);
 /// In full precision. The same study gives the same bytes.
 std::string bode_json(std::string_view name, const analysis::BodeStudy& study);
 
-/// One line of the comparison of margins: what it is, and both with their unit; "-" where there is none.
+/// One line of the comparison of margins: its name, and both values with unit; "-" if there is none.
 struct BodeMargin {
   std::string name, measured, designed;
 };
@@ -25,7 +25,8 @@ std::vector<BodeMargin> bode_margins(const analysis::BodeStudy& study);
 
 /// "current around 5 A, +-0.25 A"
 std::string bode_place(const analysis::BodeStudy& study);
-/// What is to be known of the measurement: what stands at no line, lines of little coherence, why there is no designed loop.
+/// Notes on the measurement: frequencies without a line, lines of little coherence, why there is no designed
+/// loop.
 std::vector<std::string> bode_notes(const analysis::BodeStudy& study);
 
 }  // namespace text

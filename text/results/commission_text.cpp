@@ -31,7 +31,7 @@ void add_part(Rows& rows, const char* what, double x, double truth, double bound
 
 void add_angle(Rows& rows, const std::string& what, double x, double truth, double bound) {
   const double off = std::remainder(x - truth, 360.0);
-  // A true zero that rounding has made negative is none.
+  // + 0.0 makes a zero that is negative by rounding positive.
   rows.add({what, fmt::format("{:.2f} deg", x + 0.0), fmt::format("{:.2f} deg", truth + 0.0),
             fmt::format("{:+.2f} deg", off), fmt::format("{:.2f} deg", bound),
             held(std::fabs(off) <= bound)});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The columns of a torque-speed curve: one list for the CSV file and the JSON summary.
+// Lists the columns of a torque-speed curve, for the CSV file and the JSON summary.
 #pragma once
 #include <span>
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace text {
 
-/// One point with all that is known of it; the thermal members are null where the sheet has no such lines.
+/// One point with all its results; the thermal members are null if the sheet has no such lines.
 struct CurveRow {
   const analysis::CurveRequest& request;
   const analysis::OperatingPoint& point;
@@ -21,16 +21,16 @@ struct CurveRow {
 
 struct CurveColumn {
   study::Column column;
-  double (*value)(const CurveRow&);  ///< NaN: there is none
+  double (*value)(const CurveRow&);  ///< NaN: no value
 };
 
-/// SI units, mechanical speed, phase currents; speed first. Of a linear motor by their names there, with the same values.
+/// SI units, mechanical speed, phase currents; speed first. A linear motor has other names for the same values.
 std::span<const CurveColumn> curve_columns(const base::Motion& motion = {});
 
 /// The rows of the curve's points, from standstill to no load.
 std::vector<CurveRow> curve_rows(const analysis::CurveRequest& request, const analysis::Curve& curve);
 
-/// Of a point that is not one of the curve's own.
+/// Thermal results of a point outside the curve.
 struct LoosePoint {
   analysis::ThermalLimits limits;
   analysis::Warming warming;

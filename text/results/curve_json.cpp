@@ -34,7 +34,7 @@ Json bench(const analysis::CurveRequest& r) {
           {"housing_degC", r.motor_degC.housing_degC}};
 }
 
-/// A point that lies between those of the curve.
+/// A point between those of the curve.
 Json loose(const analysis::CurveRequest& r, const analysis::Curve& curve,
            const std::optional<analysis::OperatingPoint>& p) {
   return p ? point(curve_row(r, curve, *p, loose_point(r, curve, *p))) : Json(nullptr);
@@ -77,7 +77,7 @@ Json locked(const analysis::OperatingPoint& turning) {
           {"ripple_Nm", l.ripple_Nm}};
 }
 
-/// A thermal model, and the currents that it stands at standstill.
+/// A thermal model, and the currents that it allows at standstill.
 Json stands(const analysis::CurveRequest& r, const design::ThermalModel& m) {
   const analysis::ThermalLimits still = analysis::thermal_limits(m, r, 0.0);
   return {{"winding_housing_K_W", m.winding_housing_K_W},

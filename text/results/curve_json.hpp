@@ -6,8 +6,8 @@
 
 namespace text {
 
-/// The curve for other programs: bench, ideal line, no-load and nominal point, thermal limits, and every
-/// point with all columns. Numbers that are not there, or not finite, appear as null.
+/// The curve as JSON: bench, ideal line, no-load and nominal point, thermal limits, and every point with all
+/// columns. Numbers that do not exist, or are not finite, are null.
 std::string curve_json(const analysis::CurveRequest& request, const analysis::Curve& curve);
 
 }  // namespace text

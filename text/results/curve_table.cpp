@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t shown_points = 11;
 constexpr double per_cent = 100;
 
-/// What speeds and torques are read in, and how many of that one rad/s or N m is.
+/// The units of speeds and torques, and their size per rad/s or N m.
 struct Units {
   struct Unit {
     double factor;
@@ -30,7 +30,7 @@ struct Units {
   base::Motion motion;
 };
 
-/// Small motors are read in mNm, from 10 Nm of stall torque on in Nm.
+/// Small motors are shown in mNm, motors with a stall torque of 10 Nm or more in Nm.
 Units units_of(const analysis::CurveRequest& r, const analysis::Curve& curve) {
   constexpr double large_Nm = 10.0;
   const base::Motion motion = design::motion_of(r.sheet);
@@ -41,7 +41,7 @@ Units units_of(const analysis::CurveRequest& r, const analysis::Curve& curve) {
 
 using Row = std::vector<std::string>;
 
-/// A fixed number of digits reads best in a column; a negative nothing is nothing.
+/// A fixed number of digits for a column; a negative zero becomes 0.
 std::string fixed(double x, int decimals) {
   std::string text = fmt::format("{:.{}f}", x, decimals);
   if (text[0] == '-' && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);
@@ -50,7 +50,7 @@ std::string fixed(double x, int decimals) {
 
 std::string significant(double x, int digits = 5) {
   if (std::isnan(x)) return "none";
-  if (std::fabs(x) < 1e-9) return "0";  // a no-load point's rounding
+  if (std::fabs(x) < 1e-9) return "0";  // rounding of a no-load point
   const int before = x == 0 ? 1 : static_cast<int>(std::floor(std::log10(std::fabs(x)))) + 1;
   return fixed(x, std::clamp(digits - before, 0, digits));
 }
@@ -64,7 +64,7 @@ std::string torque_text(double Nm, const Units& u, int digits = 4) {
   return fmt::format("{} {}", significant(Nm * u.torque.factor, digits), u.torque.name);
 }
 
-/// What the winding does, were the point held: a temperature, or a time.
+/// The result for the winding if the point is held: a temperature, or a time.
 std::string warming(const analysis::Warming& w) {
   if (!w.permissible_s) return fmt::format("{} degC", fixed(*w.winding_degC, 0));
   const double s = *w.permissible_s;
@@ -145,7 +145,7 @@ class Table {
   std::vector<Row> rows_;
 };
 
-/// A rotor that is held, and the same just turning: what the angle decides is averaged there.
+/// A held rotor, and the same rotor just turning, where torque is averaged over the angle.
 void add_standstill(Table& table, const analysis::OperatingPoint& turning) {
   analysis::OperatingPoint locked = turning;
   locked.shaft_torque_Nm = turning.locked->least_torque_Nm;
@@ -155,7 +155,7 @@ void add_standstill(Table& table, const analysis::OperatingPoint& turning) {
   table.add("just turning", turning);
 }
 
-/// Every k-th point, the last always.
+/// Every k-th point, and always the last one.
 std::string points(const analysis::CurveRequest& request, const analysis::Curve& curve) {
   Table table(request, curve);
   const std::size_t count = curve.points.size(), step = (count + shown_points - 2) / (shown_points - 1);
@@ -167,7 +167,7 @@ std::string points(const analysis::CurveRequest& request, const analysis::Curve&
   return table.text();
 }
 
-/// Where the angle decides the torque of a held rotor, between what.
+/// The range of a held rotor's torque, if it depends on the angle.
 std::string locked(const analysis::OperatingPoint& turning, const Units& u) {
   const analysis::LockedRotor& l = *turning.locked;
   if (l.greatest_torque_Nm - l.least_torque_Nm <= 1e-9 * l.greatest_torque_Nm) return "";
@@ -204,12 +204,12 @@ std::string ideal(const analysis::Bench& b, const Units& u) {
       significant(analysis::ideal_no_load_rad_s(b) * u.speed.factor), u.speed.name);
 }
 
-/// "-12.0 %": how far from what the sheet prints.
+/// "-12.0 %": the difference from the sheet's value.
 std::string against(double here, double sheet) {
   return fmt::format("{:+.1f} %", per_cent * (here / sheet - 1));
 }
 
-/// What the sheet's gradient does not say: it is the ideal line's.
+/// The speed drop, because the sheet's gradient is only that of the ideal line.
 std::string drop(const analysis::CurveRequest& r, const analysis::Curve& curve, const Units& u) {
   const analysis::SpeedDrop d = analysis::speed_drop(r, curve);
   const auto per_torque = [&](double x) { return significant(x * u.speed.factor / u.torque.factor, 3); };
@@ -221,8 +221,8 @@ std::string drop(const analysis::CurveRequest& r, const analysis::Curve& curve, 
   return text + " and leaves out the time that commutation takes.\n";
 }
 
-/// Compared only where the curve is of the voltage that the sheet's point belongs to, and at the torque: the
-/// load asks for that, the speed is the motor's answer.
+/// Compared only if the curve has the voltage of the sheet's point, and at its torque, because the load
+/// determines the torque, and the motor the speed.
 std::string nominal(const analysis::CurveRequest& r, const analysis::Curve& curve, const Units& u) {
   const analysis::NominalPoint& n = *curve.nominal;
   std::string text =
@@ -244,7 +244,7 @@ std::string nominal(const analysis::CurveRequest& r, const analysis::Curve& curv
   return text + ".\n" + drop(r, curve, u);
 }
 
-/// Where the winding stands the curve itself.
+/// The part of the curve that the winding stands continuously.
 std::string lasting(const analysis::Curve& curve, const Units& u) {
   if (!curve.marks.for_ever) return "Not even no load can be held for ever.\n";
   const analysis::OperatingPoint& from = *curve.marks.for_ever;
@@ -252,7 +252,7 @@ std::string lasting(const analysis::Curve& curve, const Units& u) {
                      speed_text(from.speed_rad_s, u), torque_text(from.shaft_torque_Nm, u));
 }
 
-/// What the winding stands at standstill.
+/// The currents that the winding stands at standstill.
 std::string stands(const std::string& when, const design::ThermalModel& model,
                    const analysis::CurveRequest& r, const Units& u) {
   const analysis::ThermalLimits l = analysis::thermal_limits(model, r, 0.0);
@@ -267,7 +267,7 @@ std::string stands(const std::string& when, const design::ThermalModel& model,
       analysis::short_times_s[0]);
 }
 
-/// Speeds that the motor's constants allow and its mechanics do not.
+/// Speeds that the motor's constants allow, but not its mechanics.
 std::string too_fast(const analysis::CurveRequest& r, const analysis::Curve& curve, const Units& u) {
   if (!r.sheet.max_speed_rpm) return "";
   const double allowed = r.sheet.max_speed_rpm->value / base::rpm_per_rad_s;

@@ -7,9 +7,8 @@
 
 namespace text {
 
-/// The curve in an engineer's units, at most a dozen of its points, and in words what belongs to it: the
-/// ideal line, no load with the free rotor's check, the sheet's nominal point, the thermal region, and how
-/// sure the numbers are.
+/// The curve in an engineer's units with at most a dozen points, then in words: the ideal line, no load with the
+/// check of the free rotor, the sheet's nominal point, the thermal region, and how exact the numbers are.
 std::string curve_table(const analysis::CurveRequest& request, const analysis::Curve& curve);
 
 }  // namespace text

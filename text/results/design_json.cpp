@@ -42,7 +42,7 @@ Json limits(const DriveDesign& d) {
           {"longest_period_s", d.longest_period_s}};
 }
 
-/// The speed's sensor: how old its speed is, and how fast each way of sensing lets the loop be.
+/// The speed sensor: the delay of its speed, and the limit of the loop with each way of sensing.
 Json sensing(const DriveDesign& d) {
   Json limits = Json::array();
   for (const auto& l : d.limits)
@@ -56,7 +56,7 @@ Json sensing(const DriveDesign& d) {
           {"fastest_settling", limits}};
 }
 
-/// A time may never come; what is infinite in another unit has no number.
+/// A time may be "never"; an infinite value in another unit is null.
 Json told(double x, const std::string& unit) { return unit == "s" ? figure_json(x) : finite(x); }
 
 Json robust(const std::vector<RobustFigure>& list) {

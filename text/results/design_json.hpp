@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A design for programs, in full precision.
+// Writes a design as JSON in full precision.
 #pragma once
 #include <string>
 
@@ -8,8 +8,8 @@
 
 namespace text {
 
-/// Gains, derivations, margins, Bode and step data of each loop, limits, what the simulation says beside what
-/// was designed, worst corners, warnings. Values that are infinite or do not exist are null.
+/// Gains, derivations, margins, Bode and step data of each loop, limits, the simulated beside the designed
+/// values, worst corners, warnings. Values that are infinite or do not exist are null.
 std::string design_json(const analysis::DesignStudy& study);
 
 }  // namespace text

@@ -159,7 +159,7 @@ std::string limits_text(const DriveDesign& d) {
                                                                    : "gaps in the current",
       quantity_text(d.ripple.continuous_above_A, "A", 3));
   const Motion motion = sixstep::design::motion_of(d.motor);
-  // A turning motor's speeds are hundreds, a linear one's a few.
+  // A turning motor's speeds are in the hundreds, a linear one's a few.
   const auto speed = [&](double w, int decimals) {
     return motion.linear ? fmt::format("{:.4g}", w) : fmt::format("{:.{}f}", w, decimals);
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The closed-form part of a design in text: what needs no run.
+// Prints the closed-form part of a design, which needs no run.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace text {
 
-/// "per rad/s", of a linear motor "per m/s".
+/// "per rad/s", for a linear motor "per m/s".
 std::string gain_unit(const design::LoopDesign& loop, const base::Motion& motion);
 
 /// A loop's derivation and gains.
@@ -19,10 +19,10 @@ std::string loop_text(const design::LoopDesign& loop, const base::Motion& motion
 /// Margins and steps of all loops, side by side.
 std::string figures_text(const design::DriveDesign& design);
 
-/// What the sensor of the speed costs, and what each way of sensing allows.
+/// The derivation of the speed sensor's delay, and the fastest settling time with each way of sensing.
 std::string sensing_text(const design::DriveDesign& design);
 
-/// What a drive without a rotor sensor comes to; empty for one that has such a sensor.
+/// The design of a drive without a rotor position sensor; empty for a drive that has one.
 std::string sensorless_text(const std::vector<sixstep::design::DerivationStep>& steps);
 
 /// Ripple, voltage left, braking, period.

@@ -105,7 +105,8 @@ std::string robust_text(const analysis::Robustness& r, const DriveDesign& d) {
 
 std::string position_text(const analysis::PositionGain& p, const Motion& motion) {
   const sixstep::base::LinearUnit gain = motion.unit("rad/s/deg");
-  // A drive with little speed to lose brakes faster than its linear loop is: the smaller one first, each with its own words.
+  // A drive with a low top speed may brake faster than its linear loop: the smaller value comes first, each with
+  // its own words.
   const std::string braking = sixstep::base::six_digits(p.estimate * gain.factor) +
                               " (full torque stops it from top speed)",
                     linear = sixstep::base::six_digits(p.linear * gain.factor) + " (no limit acts)";
@@ -119,7 +120,7 @@ std::string position_text(const analysis::PositionGain& p, const Motion& motion)
   return text;
 }
 
-/// What the motor worst off makes of a figure.
+/// The figure of the worst motor.
 std::string at_worst(const analysis::DesignStudy& s, const char* figure, double nominal, int digits) {
   if (!s.robustness) return "";
   for (const RobustFigure& f : s.robustness->figures)
@@ -128,14 +129,14 @@ std::string at_worst(const analysis::DesignStudy& s, const char* figure, double 
   return "";
 }
 
-/// The band of its step in which the loop has settled: the one that the design's run measures in.
+/// The settling band in percent of the step: that of the design's run.
 double settled_percent(const analysis::DesignStudy& s) {
   for (const study::Comparison& c : s.scenario.compare)
     if (c.measure.label == "settling time") return 100 * c.measure.band;
   return 100 * sixstep::design::settling_band(s.design);
 }
 
-/// What the verdict holds for.
+/// The conditions of the verdict.
 std::string conditions(const analysis::DesignStudy& s) {
   const DriveDesign& d = s.design;
   const Motion motion = sixstep::design::motion_of(d.motor);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A measured back-EMF as lines of a motor's file, as a table, as JSON.
+// Writes a measured back-EMF as lines of a motor's file, as a table, and as JSON.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,9 +20,9 @@ using analysis::EmfHarmonic;
 using analysis::EmfResult;
 using analysis::Interval;
 
-/// A shape whose harmonics are smaller is a sine to everything that a drive does.
+/// With smaller harmonics a shape is a sine for everything that a drive does.
 constexpr double as_good_as_none = 0.01;
-constexpr std::size_t most_listed = 5;  // what harmonic_orders takes
+constexpr std::size_t most_listed = 5;  // limit of harmonic_orders
 constexpr int highest_listed = 23;
 
 bool counts(const EmfHarmonic& h, const EmfResult& r) {
@@ -34,8 +34,8 @@ std::string measured_source(const MeasuredEmf& m) {
   return fmt::format("source = {}, kind = \"measured\"", toml_text(m.name));
 }
 
-/// Of a sine the volts that a drill's speed gives; of any other shape the flux linkage, which is the fundamental's and does not
-/// change with the harmonics that the lines above leave out.
+/// For a sine the volts at a drill's speed; for any other shape the flux linkage, which belongs to the
+/// fundamental and does not change with the harmonics that the lines above omit.
 std::string constant_line(const MeasuredEmf& m) {
   const EmfResult& r = m.result;
   const std::string pairs = r.pole_pairs > 0 ? fmt::format("pole_pairs = {}\n", r.pole_pairs) : "";
@@ -66,7 +66,7 @@ std::string harmonic_lines(const EmfResult& r) {
 std::string inline_table(const EmfResult& r) {
   std::string angles, values;
   for (std::size_t n = 0; n < r.angle_deg.size();
-       n += 5) {  // every tenth degree: enough to type, a file has them all
+       n += 5) {  // every tenth degree: enough to type; a file has them all
     angles += fmt::format("{}{:g}", n == 0 ? "" : ", ", r.angle_deg[n]);
     values += fmt::format("{}{:.4f}", n == 0 ? "" : ", ", r.shape[n]);
   }
@@ -133,7 +133,7 @@ std::string emf_motor_lines(const MeasuredEmf& m, const std::string& shape_file)
 
 std::string emf_shape_csv(const MeasuredEmf& m) {
   std::string out = "angle_deg,shape\n";
-  // What rounding leaves of the mean is taken off: it has to be zero.
+  // The mean must be zero, so its rounding error is removed.
   double mean = 0.0;
   for (const double x : m.result.shape) mean += x / static_cast<double>(m.result.shape.size());
   for (std::size_t n = 0; n < m.result.shape.size(); ++n)

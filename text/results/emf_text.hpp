@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What open-circuit voltages say, for a terminal, for programs and for files.
+// Prints the analysis of open-circuit voltages: for a terminal, as JSON and as files.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace text {
 
-/// A measured motor, and the sheet that it is held against.
+/// A measured motor, and the sheet that it is compared with.
 struct MeasuredEmf {
   std::string name;  ///< of the recording
   const analysis::EmfResult& result;
-  std::string sheet{};  ///< the motor's name; empty: held against none
+  std::string sheet{};  ///< the motor's name; empty: no comparison
   std::vector<analysis::FrameCheck> checks{};
   double tolerance = analysis::usual_emf_tolerance;
 };
@@ -21,14 +21,15 @@ struct MeasuredEmf {
 std::string emf_text(const MeasuredEmf& measured);
 std::string emf_json(const MeasuredEmf& measured);
 
-/// The lines of a motor's file that the recording gives: the shape in the plainest words that hold it, and the constant.
-/// `shape_file` is named in them where the shape needs a table.
+/// The lines of a motor's file that follow from the recording: the shape in its simplest form, and the constant.
+/// They name `shape_file` if the shape needs a table.
 std::string emf_motor_lines(const MeasuredEmf& measured, const std::string& shape_file);
 
-/// Rows of angle and value over an electrical turn, as back_emf_file reads them.
+/// Rows of angle and value over an electrical turn, in the format of back_emf_file.
 std::string emf_shape_csv(const MeasuredEmf& measured);
 
-/// Half a wave like the other, upside down, and each like its mirror: what harmonic_sizes can say, or a sine.
+/// How the shape can be written. harmonics (harmonic_sizes): the negative half wave mirrors the positive one,
+/// and each is symmetric about its middle. table: any other shape.
 enum class ShapeWords { sine, harmonics, table };
 ShapeWords shape_words(const analysis::EmfResult& result);
 

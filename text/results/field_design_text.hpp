@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a field-oriented drive comes to, for the terminal and for programs.
+// Prints the design of a field-oriented drive: for the terminal and as JSON.
 #pragma once
 #include <string>
 
@@ -14,7 +14,7 @@ std::string field_design_text(const analysis::FieldStudy& study, bool colour);
 /// "good", "usable, 1 warning", or "NOT USABLE" and the reason.
 std::string field_design_verdict(const analysis::FieldStudy& study);
 
-/// In full precision, the loops as design_json() has them. Values that are infinite or do not exist are null.
+/// In full precision, loops as in design_json(). Values that are infinite or do not exist are null.
 std::string field_design_json(const analysis::FieldStudy& study);
 
 }  // namespace text

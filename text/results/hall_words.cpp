@@ -71,7 +71,8 @@ std::string sensor_lines(const analysis::HallIdentity& found) {
   } else if (found.mask == 0b010) {
     out += "hall_spacing = \"60\"\n";
   }
-  // A sign and a first edge that nobody saw would be a rotor's that turned the other way as well.
+  // Without a place the first edge and the signs are left out: a rotor that turned the other way would fit the
+  // log as well.
   if (!place)
     return out +
            "# hall_edges_deg is left out: codes alone tell neither which edge is the first nor which way the rotor "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes, wires and legs in words.
+// Prints Hall codes, wires and legs as words.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -11,17 +11,18 @@ namespace text {
 
 /// "101", H1 first.
 std::string code_word(std::uint8_t code);
-/// "231": the probes at pins H1, H2, H3, as a scenario's hall_lines has it.
+/// "231": the probes at pins H1, H2, H3, as in a scenario's hall_lines.
 std::string probes_word(sixstep::rig::WireOrder probes);
-/// "none", "13": as a scenario's hall_inverted has it.
+/// "none", "13": as in a scenario's hall_inverted.
 std::string inverted_word(std::uint8_t inverted);
 /// "a".
 char leg_word(sixstep::control::Leg leg);
 /// "probes 120 degrees apart, probes 2 3 1 at H1 H2 H3, H2 inverted"
 std::string wires_words(const analysis::HallWires& wires);
-/// "from H1 to H3, from H2 to H1": where each wire has to go so that every probe is at its own pin; empty where it is.
+/// "from H1 to H3, from H2 to H1": how to move each wire so that every probe is at its own pin; empty if all
+/// are.
 std::string moves_words(sixstep::rig::WireOrder probes);
-/// The lines of a scenario's [sensors], each a line.
+/// The lines of a scenario's [sensors], each with a line end.
 std::string sensor_lines(const analysis::HallIdentity& found);
 
 }  // namespace text

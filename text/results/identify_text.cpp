@@ -55,15 +55,16 @@ std::string never_seen(const HallIdentity& f) {
   return code_word(f.mask) + " and " + code_word(static_cast<std::uint8_t>(f.mask ^ 7));
 }
 
-/// What the pair of codes that never occurs means, whichever pin it is.
+/// The meaning of the pair of codes that never occurs, for any pin.
 std::string spacing_words(const HallIdentity& f) {
   if (f.mask == 0b000) return "probes 120 degrees apart, or 60, some inverted";
   const int pin = f.mask == 0b100 ? 1 : f.mask == 0b010 ? 2 : 3;
   return fmt::format("probes 60 degrees apart, the middle one at H{0}, or 120 degrees, H{0} inverted", pin);
 }
 
-/// A line inverted is the same line half a turn on. Where all three are, that is another order and an offset that is 60 degrees greater
-/// or less; a scenario and an assembly can have that, though no edge then is at the place nearest to it.
+/// An inverted line is the same line shifted by half a turn. If all three are inverted, that is another order
+/// and an offset that differs by 60 degrees. A scenario and an assembly may have that, although then no edge is
+/// at its nearest place.
 std::string none_inverted_words(const IdentifiedPlace& p) {
   analysis::HallWires wires = p.wires.front();
   if (wires.inverted != 0b111) return "";
@@ -110,7 +111,7 @@ std::string wires_section(const HallIdentity& f) {
     rows.add({"", "or " + wires_words(p.wires[n]), ""});
   const std::string none = none_inverted_words(p), moves = moves_words(p.wires.front().probes);
   if (!none.empty()) rows.add({"", none, ""});
-  // Where an offset explains the lines as well as wires do, no wire may have to move.
+  // If an offset explains the lines as well as wires do, no wire may need to move.
   if (none.empty() && !moves.empty()) rows.add({"to mend", "move " + moves, ""});
   return rows.text();
 }
@@ -157,7 +158,7 @@ std::string table_section(const IdentifiedPlace& p) {
   return rows.text();
 }
 
-/// Each line behind a #.
+/// Puts each line behind a #.
 std::string as_remarks(const std::string& text) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {

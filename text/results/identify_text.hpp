@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a log of Hall lines says, for a terminal, for programs and for a file.
+// Prints the analysis of a log of Hall lines: for a terminal, as JSON and as TOML.
 #pragma once
 #include <string>
 
@@ -13,7 +13,7 @@ std::string identify_text(const std::string& name, const analysis::HallIdentity&
 
 std::string identify_json(const std::string& name, const analysis::HallIdentity& found);
 
-/// TOML: the sensors as a scenario has them, and below as remarks what a person's own firmware needs.
+/// TOML: the sensors as in a scenario, and below them, as comments, the values that a user's own firmware needs.
 std::string identify_toml(const std::string& name, const analysis::HallIdentity& found);
 
 }  // namespace text

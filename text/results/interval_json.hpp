@@ -7,7 +7,7 @@
 
 namespace text {
 
-/// {"value", "low", "high"}, the last two its 95 %.
+/// {"value", "low", "high"}; low and high are the 95 % interval.
 inline nlohmann::ordered_json interval_json(const analysis::Interval& x) {
   return {{"value", x.value}, {"low", x.low}, {"high", x.high}};
 }

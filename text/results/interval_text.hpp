@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measured numbers for people: as many digits as the measurement is good for.
+// Prints measured numbers with as many digits as the measurement supports.
 #pragma once
 #include <string>
 
@@ -8,13 +8,13 @@
 
 namespace text {
 
-/// The value to two digits of its half width.
+/// The value, rounded to two digits of its half width.
 std::string measured_text(const analysis::Interval& x);
 /// "3.15 .. 3.27", to the same digits.
 std::string bounds_text(const analysis::Interval& x);
 /// "3.21 V (3.15 .. 3.27)", where `unit` is "V".
 std::string with_bounds(const analysis::Interval& x, const char* unit);
-/// A number to the digits that the interval has: for a file.
+/// A number with the digits that the interval supports, for a file.
 std::string as_good_as(double value, const analysis::Interval& x);
 
 /// "> 99.99 %", "97.2 %".

@@ -136,7 +136,7 @@ std::string json_summary(const study::Scenario& scenario, const study::Outcome& 
   summary["devices"] = devices(outcome);
   summary["laws"] = outcome.laws ? laws(*outcome.laws) : Json(nullptr);
   summary["events"] = events(outcome);
-  // A title may hold bytes that are no UTF-8: shown as such, never thrown over.
+  // A title may hold invalid UTF-8: it is shown as such and must not throw.
   return visible(summary.dump(2, ' ', false, Json::error_handler_t::replace), Lines::kept) + "\n";
 }
 

@@ -8,8 +8,8 @@
 
 namespace text {
 
-/// Everything the run found out, for other programs to read: verdicts, comparisons, gains, energy, events,
-/// fault. Numbers that are not finite appear as null.
+/// All results of the run as JSON: verdicts, comparisons, gains, energy, events, fault. Numbers that are not
+/// finite are null.
 std::string json_summary(const study::Scenario& scenario, const study::Outcome& outcome);
 
 }  // namespace text

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The names of a JSON object in the words of a motor's kind.
+// Renames the members of a JSON object for a linear motor.
 #pragma once
 #include <nlohmann/json.hpp>
 
@@ -8,8 +8,8 @@
 
 namespace text {
 
-/// The same with every name told of that motion: "stall_force_N" of a linear motor. Numbers stay, so that names in degrees or in
-/// thousandths are not for here.
+/// The same JSON with each name in the words of that motion: "stall_force_N" for a linear motor. Numbers stay
+/// the same, so names in degrees or in thousandths must not come here.
 inline nlohmann::ordered_json under_names_of(const sixstep::base::Motion& motion,
                                              const nlohmann::ordered_json& json) {
   if (!motion.linear || !json.is_structured()) return json;

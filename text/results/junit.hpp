@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Verdicts in the format that build servers read: JUnit's XML, a suite per experiment, a case per requirement.
+// Writes verdicts in JUnit's XML, which build servers read: one suite per experiment, one case per requirement.
 #pragma once
 #include <span>
 #include <string>
@@ -13,8 +13,8 @@ namespace text {
 
 struct JunitCase {
   std::string name;
-  std::string failure;  ///< why it does not hold; empty: it does
-  bool broken = false;  ///< it could not be judged: a fault, or no run at all
+  std::string failure;  ///< why it does not hold; empty: it holds
+  bool broken = false;  ///< it could not be judged: a fault, or no run
 };
 
 struct JunitSuite {
@@ -22,11 +22,12 @@ struct JunitSuite {
   std::vector<JunitCase> cases;
 };
 
-/// Of one run: each requirement, and the run itself, which a fault fails.
+/// One run: a case per requirement, and one for the run itself, which a fault fails.
 JunitSuite junit_suite(const std::string& name, const study::Outcome& outcome);
-/// Of many: each requirement holds in all of them; so many were stopped by faults or could not run.
+/// Many runs: a requirement passes if it holds in all of them; a further case counts runs that stopped by a
+/// fault or could not run.
 JunitSuite junit_suite(const std::string& name, const analysis::Series& series);
-/// Of an experiment that could not be run.
+/// An experiment that could not run.
 JunitSuite junit_suite(const std::string& name, const base::Problems& problems);
 
 std::string junit_xml(std::span<const JunitSuite> suites);

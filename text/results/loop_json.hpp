@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A designed loop as JSON, for each kind of drive alike.
+// Writes a designed loop as JSON, for every kind of drive.
 #pragma once
 #include <nlohmann/json.hpp>
 

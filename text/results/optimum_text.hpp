@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the search for the best point of a plan's ranges came to.
+// Prints the result of the search for the best point of a plan's ranges.
 #pragma once
 #include <string>
 #include <vector>
@@ -14,7 +14,7 @@ struct OptimumStory {
   const std::string& name;
   const analysis::Plan& plan;
   const analysis::PlanColumns& columns;
-  std::size_t figure = 0;  ///< that is small
+  std::size_t figure = 0;  ///< column of the minimised figure
 };
 
 std::string optimum_text(const OptimumStory& story, const analysis::Optimum& best);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plan's runs as text: for the terminal point by point, and as rows for programs.
+// Prints a plan's runs: point by point for the terminal, as CSV rows and as JSON.
 #pragma once
 #include <functional>
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace text {
 
-/// A plan and what its runs came to; `each` visits their rows in the order of their numbers, with their points.
+/// A plan and its results; `each` visits the rows with their points in the order of their numbers.
 struct PlanStory {
   const std::string& name;
   const analysis::Plan& plan;
@@ -21,17 +21,17 @@ struct PlanStory {
   std::function<void(const std::function<void(const analysis::RunRecord&)>&)> each;
 };
 
-/// What a figure hangs on, an entry per key, of a plan laid out for it (Sampling::saltelli).
+/// The Sobol indices of a figure, one per key; empty unless the plan is sampled for them (Sampling::saltelli).
 std::optional<std::vector<analysis::SensitivityIndex>> indices_of(const PlanStory& story, std::size_t figure);
 
-/// Beyond these points a table says less than statistics do.
+/// With more points, statistics say more than a table.
 inline constexpr std::size_t most_points_shown = 60;
 
-/// A line per point with its figures (of several drives the median, and how many hold), or the statistics of all runs; of a plan
-/// for them the Sobol indices.
+/// One line per point with its figures (for several drives the median, and how many hold); or the statistics of
+/// all runs; or the Sobol indices if the plan is sampled for them.
 std::string plan_table(const PlanStory& story);
 
-/// CSV: the head is a line of names with their units (plan_columns.hpp), then a line per run.
+/// CSV: the head is a line of names with units (plan_columns.hpp), then one line per run.
 std::string plan_csv_head(const analysis::PlanColumns& columns);
 std::string plan_csv_row(const analysis::RunRecord& record);
 

@@ -19,7 +19,7 @@ struct Prefix {
 };
 constexpr Prefix no_prefix{"", 1.0};
 
-/// rad/s, degrees and ratios are read without prefix.
+/// rad/s, degrees and ratios have no prefix.
 bool takes_prefix(std::string_view unit) {
   constexpr std::array<std::string_view, 10> with = {"s", "A", "V", "Hz", "N m", "Nm", "W", "J", "ohm", "H"};
   return std::find(with.begin(), with.end(), unit) != with.end();
@@ -28,17 +28,17 @@ bool takes_prefix(std::string_view unit) {
 Prefix prefix_for(double x, std::string_view unit) {
   const double size = std::abs(x);
   if (!takes_prefix(unit) || !(size >= 1e-12) || !(size < 1e9)) return no_prefix;
-  if (size >= 0.1 && size < 1e3) return no_prefix;  // 0.78 N m and 0.5 A are read as they stand
+  if (size >= 0.1 && size < 1e3) return no_prefix;  // 0.78 N m and 0.5 A stay without prefix
   constexpr std::array<Prefix, 7> prefixes = {
       {{"M", 1e-6}, {"k", 1e-3}, {"", 1.0}, {"m", 1e3}, {"u", 1e6}, {"n", 1e9}, {"p", 1e12}}};
-  // A hair below 1 counts as 1: 1e-9 * 1e9 need not be 1.
+  // A value slightly below 1 counts as 1, because 1e-9 * 1e9 need not be 1.
   for (const Prefix& prefix : prefixes)
     if (size * prefix.times >= 1.0 - 1e-12) return prefix;
   return no_prefix;
 }
 
 std::string prefixed(double x, Prefix prefix, int digits) {
-  // 800 of two digits is no 8e+02.
+  // 800 with two digits must not become 8e+02.
   const double value = x * prefix.times, size = std::fabs(value);
   if (size >= 100.0 && size < 1e6 && size >= std::pow(10.0, digits) - 0.5)
     return fmt::format("{:.0f}", value);
@@ -54,7 +54,7 @@ std::string joined(const std::string& text, const std::string& unit) {
   return unit.empty() ? text : text + " " + unit;
 }
 
-/// A time that did not come, a figure of an empty window: words, for numbers they are not.
+/// Words for values that are no numbers: a time that did not come, a figure of an empty window.
 std::string without_number(double x, const std::string& unit) {
   if (std::isnan(x)) return "no value";
   return unit == "s" && x > 0.0 ? "never"
@@ -94,7 +94,7 @@ ComparedTexts compared_texts(double x, std::span<const double> yardsticks, const
 
   ComparedTexts texts;
   for (int digits = few_digits; digits <= all_digits; ++digits) {
-    // Of what is a thousand times smaller than all it is held against, the magnitude alone counts.
+    // If x is a thousand times smaller than all yardsticks, only its magnitude matters.
     const bool tiny = !alike && ratio < 1e-3;
     const std::string x_text = prefixed(x, own, tiny ? 2 : digits);
     texts = {{}, joined(x_text, unit_text(own, unit)), unit_text(shared, unit)};
@@ -109,7 +109,7 @@ ComparedTexts compared_texts(double x, std::span<const double> yardsticks, const
     if (!std::isfinite(x)) texts.x = without_number(x, unit);
     if (told_apart) return texts;
   }
-  // The prefix's product has swallowed the last bit: without prefix it shows.
+  // The multiplication by the prefix has rounded the last bit away; without prefix it shows.
   return {[&] {
             std::vector<std::string> plain;
             for (const double y : yardsticks) plain.push_back(prefixed(y, no_prefix, all_digits));

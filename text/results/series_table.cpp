@@ -14,7 +14,7 @@ namespace text {
 namespace {
 
 constexpr std::size_t series_columns = 10;
-constexpr int spread_digits = 4;  // a thousand drives do not tell more
+constexpr int spread_digits = 4;  // a thousand drives do not give more
 using SeriesRow = std::array<std::string, series_columns>;
 
 std::string cell(const std::optional<double>& x, const std::string& unit) {
@@ -59,7 +59,7 @@ std::string aligned(std::vector<SeriesRow> rows) {
   return text;
 }
 
-/// Of a series of drives each number is a drive; else it is a run, at a point.
+/// In a series of drives a number is a drive; otherwise a run, at a point.
 const char* one_of(const analysis::Plan& plan) { return plan.axes.empty() ? "drive" : "run"; }
 
 std::string casualties(const std::vector<analysis::Casualty>& which, const char* what,
@@ -69,7 +69,7 @@ std::string casualties(const std::vector<analysis::Casualty>& which, const char*
                      which[0].number, visible(which[0].problem));
 }
 
-/// What it missed may be for the fault.
+/// It may have missed because of the fault.
 bool stopped(std::size_t number, const analysis::Series& series) {
   return std::any_of(series.faults.begin(), series.faults.end(),
                      [number](const analysis::Casualty& c) { return c.number == number; });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands on the shaft in the place of Hall probes, in words: all that is said of an encoder, an absolute encoder or a resolver.
+// Describes the sensor on the shaft in place of Hall probes: an encoder, an absolute encoder or a resolver.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -10,10 +10,12 @@
 
 namespace text {
 
-/// A page tells the run that it shows, an exported header what its constants were tried with.
+/// The reader: a page describes the run's sensor, an exported header the one that its constants were tested
+/// with.
 enum class SensorWordsOf : std::uint8_t { page, header };
 
-/// "encoder of 1024 lines, ..."; `given` writes a number and its unit. Empty where Hall probes are, or nothing.
+/// "encoder of 1024 lines, ..."; `given` prints a number and its unit. Empty with Hall probes or without a
+/// sensor.
 std::string shaft_sensor_words(const study::Sensors& s, SensorWordsOf reader,
                                std::string (*given)(double, std::string_view));
 

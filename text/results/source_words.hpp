@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What feeds the bridge, in words.
+// Describes the supply of the bridge.
 #pragma once
 #include <string>
 #include <string_view>
@@ -9,7 +9,8 @@
 
 namespace text {
 
-/// "24 V", "battery of 5 Ah, 80 % full", "rectified mains of three phases, 400 V at 50 Hz"; `given` writes a number and its unit.
+/// "24 V", "battery of 5 Ah, 80 % full", "rectified mains of three phases, 400 V at 50 Hz"; `given` prints a
+/// number and its unit.
 std::string source_words(const study::Supply& s, std::string (*given)(double, std::string_view));
 
 }  // namespace text

@@ -8,7 +8,7 @@
 
 namespace text {
 
-/// Cells in columns as wide as their widest, no blanks at the end; on its side of each.
+/// Aligns cells in columns as wide as their widest cell, left or right, without blanks at line ends.
 class Rows {
  public:
   enum class Side { left, right };

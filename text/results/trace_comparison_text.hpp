@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far a board's log lies from its simulation, for people.
+// Prints how far a board's log differs from its simulation.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace text {
 
-/// A line that says what is compared, then one for each column, then what is to be known of the log. `name` is the log's.
+/// One line with what is compared, one line per column, then the notes on the log. `name` is the log's.
 std::string trace_comparison_text(const std::string& name,
                                   const std::vector<analysis::TraceComparison>& columns, double shift_s,
                                   const std::vector<std::string>& notes);

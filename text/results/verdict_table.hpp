@@ -13,17 +13,17 @@ struct TableEntry {
   const study::Outcome* outcome = nullptr;
 };
 
-/// Each experiment's name, beneath it one line per requirement and per comparison: figure, required or
+/// Each experiment's name, and below it one line per requirement and per comparison: figure, required or
 /// expected value, measured value, ok or deviation, source.
 std::string verdict_table(std::span<const TableEntry> entries, bool colour);
 
 /// "22 experiments: all 43 requirements hold", or which of them fail.
 std::string verdict_summary(std::span<const TableEntry> entries, bool colour);
 
-/// Of those that a fault stopped: a line each, for who shows no table.
+/// One line for each experiment that a fault stopped, for callers that print no table.
 std::string faults_text(std::span<const TableEntry> entries);
 
-/// "-0.25 %"; empty where the source says zero: the measured value is the difference.
+/// "-0.25 %"; empty if the source's value is zero: then the measured value is the difference.
 std::string deviation_text(const study::ComparisonResult& comparison);
 
 }  // namespace text

@@ -7,8 +7,8 @@
 
 namespace text {
 
-/// For programs, in full precision: the commutation table, the bench, and of each of the 36 wirings what theory says, what was
-/// measured, whether both agree, and the cures. The same study gives the same bytes.
+/// JSON in full precision: the commutation table, the bench, and for each of the 36 wirings the theory, the
+/// measurement, whether both agree, and the cures. The same study gives the same bytes.
 std::string wiring_json(const analysis::WiringStudy& study);
 
 }  // namespace text

@@ -85,7 +85,7 @@ std::string symptoms(const WiringStudy& s, const base::Motion& motion) {
              of(s.cases.front().theory.idle_current_part)));
 }
 
-/// In lines of at most 118 characters.
+/// Breaks text into lines of at most 118 characters.
 std::string broken(std::string_view text) {
   constexpr std::size_t width = 118;
   std::string out;
@@ -104,7 +104,7 @@ std::string recipe() {
   return text + rows.text() + broken(recipe_note());
 }
 
-/// Theory has no part in what is measured: that both say the same is a result.
+/// The measurement does not use the theory, so that their agreement is a result.
 std::string agreement(const WiringStudy& s) {
   if (s.agreeing() == s.cases.size())
     return fmt::format("All {} move in simulation as theory says.\n", s.cases.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The 36 ways to plug a motor in, for a terminal.
+// Prints the 36 ways to connect a motor, for a terminal.
 #pragma once
 #include <string>
 
@@ -8,8 +8,8 @@
 
 namespace text {
 
-/// The drive's commutation; what each wiring does; what that looks like at the bench; what cures it; where theory and simulation
-/// differ, if they do.
+/// The drive's commutation; what each wiring does; its symptom at the bench; its cure; and the differences
+/// between theory and simulation, if any.
 std::string wiring_text(const analysis::WiringStudy& study);
 
 }  // namespace text

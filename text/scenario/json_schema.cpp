@@ -34,14 +34,14 @@ Json schema_number(const base::Range& range) {
   return schema;
 }
 
-/// Every number of a file: in the key's unit, or as text with its own, "20 ms", whose kind and range reading
-/// checks.
+/// Every number of a file: in the key's unit, or as text with its own unit, "20 ms", whose kind and range are
+/// checked on reading.
 Json range_schema(const base::Range& range) {
   const Json with_unit = {{"type", "string"}, {"pattern", "^\\s*[-+]?[.0-9]"}};
   return {{"anyOf", {schema_number(range), with_unit}}};
 }
 
-/// An int: what the reader of files takes.
+/// An int, as the reader accepts it.
 Json whole_number(const base::Range& range) {
   Json schema = schema_number(range);
   schema["type"] = "integer";
@@ -61,8 +61,8 @@ Json one_of(const std::vector<std::pair<std::string, std::string>>& words) {
 
 Json words_of(const std::vector<std::string>& words) { return {{"enum", words}}; }
 
-/// A number, or a table that also says its frame and where it comes from. Of several frames a motor file
-/// names one.
+/// A number, or a table that also gives its frame and source. If there are several frames, a motor file names
+/// one.
 Json quantity(const KeyEntry& entry, const Place& place) {
   const std::vector<std::string> frames = frames_of(entry.about.frame);
   std::vector<std::string> trusts;
@@ -86,7 +86,7 @@ Json quantity(const KeyEntry& entry, const Place& place) {
 
 Json list_of(Json items) { return {{"type", "array"}, {"items", std::move(items)}}; }
 
-/// A list of words, or the word alone where it has only one.
+/// A list of words, or the word alone if there is only one.
 Json words_or_one(const Json& word) { return {{"anyOf", {list_of(word), word}}}; }
 
 Json known_columns() {
@@ -104,7 +104,7 @@ std::vector<std::pair<std::string, std::string>> all_words(const KeyEntry& entry
   return words;
 }
 
-/// Built-in names are offered, any path is taken.
+/// Suggests built-in names, allows any path.
 Json motor_names() {
   return {{"anyOf", {words_of(built_in_motors()), {{"type", "string"}, {"minLength", 1}}}}};
 }
@@ -138,7 +138,7 @@ Json value_of(const KeyEntry& entry, const Place& place) {
   return {};
 }
 
-/// What an editor shows beside the key.
+/// The text that an editor shows for the key.
 std::string description(const KeyEntry& entry) {
   std::string text(entry.about.meaning);
   if (!entry.about.unit.empty()) text += fmt::format(", in {}", entry.about.unit);
@@ -149,7 +149,7 @@ std::string description(const KeyEntry& entry) {
 Json schema_of(const KeyEntry& entry, const Place& place) {
   Json schema = {{"description", description(entry)}};
   schema.update(value_of(entry, place));
-  // Defaults are written as TOML; numbers, words and flags read the same in both languages.
+  // Defaults are written as TOML; numbers, words and flags are the same in JSON.
   if (const Json given = Json::parse(entry.default_value, nullptr, false); !given.is_discarded())
     schema["default"] = given;
   return schema;
@@ -173,7 +173,7 @@ std::string document(const std::vector<KeyEntry>& keys, const char* title) {
                  {"title", title},
                  {"$comment", "written by sixstep schema, version " SIXSTEP_VERSION}};
   Json root = table("", {keys});
-  // What a file leaves to the one that it extends is not required of it.
+  // A key that the extended file may have is not required.
   if (root["properties"].contains("extends") && root.contains("required")) {
     root["if"] = {{"required", Json::array({"extends"})}};
     root["else"] = {{"required", root["required"]}};

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The keys of a file as a JSON Schema (draft 2020-12): editors complete and check TOML with it while it is
-// typed.
+// Writes the keys of a file as a JSON Schema (draft 2020-12), with which editors complete and check TOML.
 #pragma once
 #include <string>
 
@@ -12,8 +11,8 @@ namespace text {
 inline constexpr char scenario_schema_file[] = "sixstep-scenario.schema.json";
 inline constexpr char motor_schema_file[] = "sixstep-motor.schema.json";
 
-/// Types, ranges, words with their meanings, what is required, and no key besides: all that can be said of
-/// one value. What one key says about another is left to reading the file. Ends in a newline.
+/// Types, ranges, words with their meanings, required keys, and no other key: every rule on a single value.
+/// Rules between keys are checked when the file is read. Ends in a newline.
 std::string scenario_schema();
 std::string motor_schema();
 std::string plan_schema();

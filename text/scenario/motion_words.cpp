@@ -15,7 +15,7 @@
 namespace text {
 namespace {
 
-/// Where a path of the catalog stands in a document: once, or in each table of its list.
+/// The places of a catalog's path in a document: one, or one in each table of its list.
 std::vector<std::string> places_of(const std::string& path, const Document& document) {
   const std::size_t dot = path.find('.');
   const toml::node* first = document.find(path.substr(0, dot));
@@ -31,7 +31,7 @@ void refuse(const std::string& path, const std::string& instead, Complaints& com
     if (complaints.document().find(place)) complaints.other_motion(place, instead);
 }
 
-/// The nearest number that reading, which divides by the factor, takes for this one.
+/// The nearest number that reading, which divides by the factor, converts back to this one.
 double written_as(double own, double factor) {
   if (factor == 1.0) return own;
   double x = own * factor;
@@ -40,13 +40,13 @@ double written_as(double own, double factor) {
   return x;
 }
 
-/// A key of [[spread]] by its two names, and how many of the turning motor's unit one of the linear motor's is.
+/// A key of [[spread]] by its two names, and the factor from the linear motor's unit to the turning motor's.
 struct TwoNames {
   std::string turning, linear;
   double factor = 1.0;
 };
 
-/// The constants of a sheet are spread in their standard keys, which have no spelling of their own.
+/// The constants of a sheet are spread by their standard keys, which have no other spelling.
 const TwoNames of_constants[] = {
     {"motor_override.torque_constant_mNm_A", "motor_override.force_constant_N_A", 1e3},
     {"motor_override.back_emf_mV_s", "motor_override.back_emf_V_s_m", 1e3},
@@ -60,7 +60,7 @@ std::vector<TwoNames> all_two_names() {
   return names;
 }
 
-/// The first of that name; null where there is none.
+/// The first entry with that name; null if there is none.
 const TwoNames* find(const std::vector<TwoNames>& names, std::string TwoNames::*which,
                      const std::string& key) {
   const auto found =
@@ -68,7 +68,7 @@ const TwoNames* find(const std::vector<TwoNames>& names, std::string TwoNames::*
   return found == names.end() ? nullptr : &*found;
 }
 
-/// Visits a scenario and writes over what is in a unit that follows from a mode or a figure.
+/// Visits a scenario and replaces the values whose unit follows from a mode or a figure.
 class InMetres final : public base::Visitor {
  public:
   explicit InMetres(const study::Scenario& s) : modes_(study::modes_from(s)), mode_(s.control.mode) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keys that only a turning motor has, or only a linear one (base/linear.hpp).
+// Handles keys that only a turning motor has, or only a linear one (base/linear.hpp).
 #pragma once
 #include <vector>
 
@@ -9,16 +9,17 @@
 
 namespace text {
 
-/// Complains about every key of the document that belongs to the other kind of motor, with the word to write in its place.
-/// `keys`: those of the document's kind of file; what stands in the document says which kind it is.
+/// Complains about every key of the document that belongs to the other kind of motor, with the key to write
+/// instead. `keys`: the keys of this kind of file; the document itself says which kind of motor it has.
 void refuse_other_motion(const std::vector<KeyEntry>& keys, Complaints& complaints);
 
-/// [[spread]] names keys: those of a linear motor become the library's, and their widths too. The other kind's are complained
-/// about.
+/// Converts the keys that [[spread]] names, and their widths, from a linear motor's names to the library's. Keys
+/// of the other kind of motor are complained about.
 void read_spread_keys(study::Scenario& scenario, Complaints& complaints);
 
-/// The scenario with every number whose unit follows from a mode or a figure as a linear motor's file has it: position in mm
-/// for deg. A turning motor's stays as it is. Reading gives back the same number, to the bit wherever a double allows it.
+/// Converts the numbers whose unit follows from a mode or a figure to a linear motor's units: position in mm,
+/// not deg. A turning motor's scenario stays as it is. Reading gives back the same number, to the bit if a
+/// double allows it.
 void in_units_of_its_motor(study::Scenario& scenario);
 
 }  // namespace text

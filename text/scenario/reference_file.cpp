@@ -16,13 +16,13 @@
 namespace text {
 namespace {
 
-/// So many lines are told of; of a file that is no table at all every one would be.
+/// Only so many lines are reported, because in a file that is no table every line would be.
 constexpr std::size_t most_told = 5;
 
-/// What the first column is: its unit, and how messages speak of it.
+/// The first column: its unit, and its names in messages.
 struct FirstColumn {
   const char *unit, *word, *row;
-  bool selects;  ///< a key says which of several columns of values is meant
+  bool selects;  ///< a key selects one of several columns of values
 };
 constexpr FirstColumn first_is_time{"s", "time", "a time in s and a value", true},
     angle_column{"deg", "angle", "an angle in degrees and a value", false};
@@ -42,7 +42,7 @@ class RowsOf {
                                             y = converted(r_, *picked, unit_);
     if (!t) return t.problems();
     if (!y) return y.problems();
-    // A time before a cell that is not a number says nothing of the one behind it.
+    // A time before a cell that is not a number says nothing about the time behind it.
     for (std::size_t row = 0; bad_ == 0 && row < t->size(); ++row) take(row, (*t)[row], (*y)[row]);
     if (told_.empty()) return std::move(rows_);
     std::stable_sort(told_.begin(), told_.end(),
@@ -73,7 +73,7 @@ class RowsOf {
     return found->front();
   }
 
-  /// The second one may be anything in a table of many.
+  /// The second column may be anything in a table of many.
   base::Problem which_column() const {
     std::string names;
     for (std::size_t n = 1; n < r_.columns.size(); ++n)
@@ -83,7 +83,7 @@ class RowsOf {
                    r_.has_headings && first_.selects ? "name the column that is meant" : keep);
   }
 
-  /// A line is told of once.
+  /// Each line is reported once.
   void tell_bad_cells(const RecordedColumn& column) {
     bad_ = std::max(bad_, column.bad_cells);
     for (const BadCell& bad : column.bad)
@@ -113,7 +113,7 @@ class RowsOf {
     return false;
   }
 
-  /// A trace that was recorded fades for ever: what is nearly nothing is 0.
+  /// A recorded trace decays for ever: values near zero become 0.
   static double not_nearly(double x) { return std::fabs(x) < base::nearly_nothing ? 0.0 : x; }
 
   base::Problem at_line(std::size_t line, std::string limit, std::string cure) const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A reference from a table of numbers: time in seconds in the first column, the reference in another. A back-EMF's shape
-// likewise: the electrical angle in degrees, then the value.
+// Reads a reference from a table of numbers: time in seconds in the first column, the reference in another. A
+// back-EMF's shape likewise: the electrical angle in degrees, then the value.
 #pragma once
 #include <optional>
 #include <string>
@@ -15,9 +15,10 @@ struct ReferenceRows {
   std::vector<double> times_s, values;
 };
 
-/// `text` is the file's, `name` what messages call it; it is read as every recording is (text/recording/). The first column is the time.
-/// `column` is the heading of the values; without it the table has two columns. A heading may say a unit, "time [ms]" or "speed_rpm": it must be one
-/// of time, and of the kind of `unit`, which the values are wanted in. Times rise from 0 on.
+/// `text` is the file's content, `name` its name in messages; it is read like every recording (text/recording/).
+/// The first column is the time. `column` is the heading of the values; without it the table has two columns. A
+/// heading may contain a unit, "time [ms]" or "speed_rpm": a unit of time, or one of the same kind as `unit`, to
+/// which the values are converted. Times rise from 0 on.
 base::Result<ReferenceRows> reference_rows(const std::string& name, const std::string& text,
                                            const std::optional<std::string>& column, const std::string& unit);
 
@@ -25,8 +26,8 @@ struct ShapeRows {
   std::vector<double> angles_deg, values;
 };
 
-/// Two columns and no more, read as those of a reference: what is wrong with a line is told with its number, what is wrong with the
-/// shape by design::sheet_constants().
+/// Exactly two columns, read like a reference. A mistake in a line is reported with its number;
+/// design::sheet_constants() checks the shape.
 base::Result<ShapeRows> shape_rows(const std::string& name, const std::string& text);
 
 }  // namespace text

@@ -44,7 +44,7 @@ class Family {
     std::string path, file;
   };
 
-  /// A value of another type is told by the scenario's description.
+  /// The scenario's description reports a value of another type.
   static std::vector<Named> named(const Document& document) {
     std::vector<Named> all;
     const toml::node* node = document.find("extends");
@@ -75,7 +75,7 @@ class Family {
   }
 
   const Resolve& resolve_;
-  std::vector<std::string> chain_;  ///< the files that are being read, each named by the one before
+  std::vector<std::string> chain_;  ///< the files being read, each named by the one before
   std::size_t files_ = 1;
 };
 

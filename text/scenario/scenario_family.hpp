@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scenario file together with those it extends, as one document.
+// Reads a scenario file together with those that it extends as one document.
 #pragma once
 #include <string>
 
@@ -9,8 +9,8 @@
 
 namespace text {
 
-/// `extends` names one file or a list, each relative to the file that names it, and these may extend others
-/// in turn. A file in a circle of such names is a Problem, and so is a family of more than 64 files.
+/// `extends` names one file or a list, each relative to the file that names it; these may extend others.
+/// Problems: files that extend each other in a circle, more than 64 files.
 base::Result<Document> read_family(const std::string& name, std::string text, const Resolve& resolve);
 
 }  // namespace text

@@ -30,8 +30,8 @@
 namespace text {
 namespace {
 
-/// What study::check found, each told where it stands: in the scenario, its overrides, or the motor's file. Without a sound sheet
-/// only what the scenario alone has wrong.
+/// Reports the problems of study::check at their places: in the scenario, its overrides, or the motor's file. If
+/// the sheet has mistakes, only those problems that concern the scenario alone.
 void run_checks(const Document& document, const std::optional<SheetSource>& source,
                 const study::Scenario& scenario, Complaints& complaints, base::Problems& of_other_files) {
   const bool sound = source && source->problems.empty();
@@ -43,7 +43,7 @@ void run_checks(const Document& document, const std::optional<SheetSource>& sour
         if (sound) of_sheet.push_back(as_written(source->document, "", std::move(problem)));
         continue;
       }
-      // What follows from a mistake told already would only hide it.
+      // A problem that follows from a reported mistake would only hide it.
       if (!sound || follows(problem, "motor_override.", complaints)) continue;
       problem = as_written(document, "motor_override.", std::move(problem));
       problem.where = in_override;
@@ -105,7 +105,7 @@ void read_all_rows(const Document& document, const Resolve& resolve, study::Scen
                 complaints, of_other_files);
 }
 
-/// The shared object of a controller of one's own.
+/// Loads the shared object of a user's own controller.
 void load_controller(const Document& document, const Resolve& resolve, study::Own& own,
                      Complaints& complaints) {
   constexpr const char* key = "control.own.controller";
@@ -125,7 +125,7 @@ void load_controller(const Document& document, const Resolve& resolve, study::Ow
   complaints.told_elsewhere(key);
 }
 
-/// The sheet's kind, or the one that [motor_override] makes of it.
+/// The sheet's kind, unless [motor_override] changes it.
 bool is_linear(const Document& document, const design::Sheet& sheet) {
   const toml::node* kind = document.find("motor_override.kind");
   const std::optional<std::string> word = kind ? kind->value<std::string>() : std::nullopt;
@@ -185,7 +185,7 @@ base::Result<study::Scenario> read_scenario_text(const std::string& name, std::s
   drop_stale(scenario.sheet, [&](std::string_view key) { return overridden(document, key); });
   read_shape(document, "motor_override.back_emf_file", options.resolve, scenario.sheet, complaints,
              of_other_files);
-  // A duration that is wrong has been told: nothing shall lie behind its end besides.
+  // A wrong duration has been reported: no further problem may come from times behind its end.
   if (!(scenario.duration_s > 0.0)) scenario.duration_s = study::longest_s;
   read_all_rows(document, options.resolve, scenario, complaints, of_other_files);
   load_controller(document, options.resolve, scenario.control.own, complaints);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// TOML in, typed data or every complaint about it out.
+// Reads a scenario or a motor from TOML, or reports everything that is wrong with it.
 #pragma once
 #include <string>
 #include <vector>
@@ -14,15 +14,16 @@ namespace text {
 
 struct ReadOptions {
   std::vector<Setting> overrides;  ///< from the command line, stronger than the file
-  Resolve resolve;                 ///< finds what the text names; motors compiled in need none
+  Resolve resolve;                 ///< finds the named texts; motors compiled in need none
 };
 
-/// Scenario and its motor's sheet, checked to the last rule of study::check. Each Problem's `where` begins
-/// with "file:line:column: " or "--set key", in the order of the lines. Messages call the text `name`.
+/// The scenario with its motor's sheet, after all checks of study::check. Each Problem's `where` begins with
+/// "file:line:column: " or "--set key"; Problems are in the order of the lines. `name` is the text's name in
+/// messages.
 base::Result<study::Scenario> read_scenario_text(const std::string& name, std::string text,
                                                  const ReadOptions& options = {});
 
-/// A motor as find_motor() finds it.
+/// The sheet of a motor that find_motor() finds.
 base::Result<design::Sheet> read_sheet(const std::string& name, const Resolve& resolve = {});
 
 }  // namespace text

@@ -30,7 +30,7 @@ std::string toml(const std::vector<T>& list) {
   return out + "]";
 }
 
-/// A number with as many digits behind the point as its file had: what they are worth is read from them.
+/// A number with as many digits behind the point as in its file, because the tolerance is read from them.
 std::string with_last_digit(const sixstep::base::Quantity& q) {
   std::string text = toml(q.value);
   if (!q.last_digit || text.find_first_not_of("-.0123456789") != std::string::npos) return text;
@@ -54,7 +54,7 @@ std::string toml(const sixstep::base::Quantity& q) {
   return out + " }";
 }
 
-/// A number as another spelling has it, such that reading gives back the same double where there is one that does.
+/// A number for another spelling, such that reading gives the same double if one does.
 double spelled_as(double own, const sixstep::base::Spelling& spelling) {
   using sixstep::base::in_own_unit;
   double x = sixstep::base::as_spelled(own, spelling);
@@ -67,16 +67,17 @@ std::vector<double> spelled_as(std::vector<double> list, const sixstep::base::Sp
   return list;
 }
 
-/// One table's keys as they would be written, tables within it and lists behind them: of a linear motor in its words.
+/// One table's keys as they would be written, with the tables within it and the lists behind them; for a linear
+/// motor in its words.
 class TableText final : public sixstep::base::Visitor {
  public:
   explicit TableText(bool linear_motor = false) : linear_motor_(linear_motor) {}
 
   enum class Heading { with_rows, always, none };
 
-  /// The rows that differ from `usual`, under the table's path; then the tables within.
+  /// The rows that differ from `usual`, below the table's heading; then the tables within.
   std::string text(const TableText& usual, const std::string& path, Heading heading) const;
-  /// All rows, each under `path`; then those of the tables and lists within.
+  /// All rows, each with `path`; then those of the tables and lists within.
   void add_values(const TableText& usual, const std::string& path, std::vector<WrittenValue>& out) const;
 
  private:
@@ -103,7 +104,7 @@ class TableText final : public sixstep::base::Visitor {
                       const sixstep::base::About& about) override {
     std::visit([&](const auto* of) { add_row(key, *of, about); }, member);
   }
-  /// One that may be left out is told by its heading, even where every row is the default.
+  /// An optional table is marked by its heading, even if every row has its default.
   void visit_table(std::string_view key, sixstep::base::TableMember& member,
                    const sixstep::base::About& about) override {
     TableText inner(linear_motor_);
@@ -128,7 +129,7 @@ class TableText final : public sixstep::base::Visitor {
     }
   }
 
-  enum class Shown { where_it_differs, always, never, partly };  ///< partly: none of its keys need be there
+  enum class Shown { where_it_differs, always, never, partly };  ///< partly: none of its keys is needed
   struct Row {
     std::string key, value;
     bool required;
@@ -139,7 +140,7 @@ class TableText final : public sixstep::base::Visitor {
   Shown shown_ = Shown::where_it_differs;
   std::vector<Row> rows_;
   std::vector<TableText> tables_;
-  std::vector<TableText> items_, usual_items_;  ///< of the lists, and what an item of each has by itself
+  std::vector<TableText> items_, usual_items_;  ///< of the lists, and an item of each with its defaults
   std::vector<WrittenValue> listed_;            ///< of the lists' items
 };
 
@@ -202,8 +203,8 @@ class KeysGiven final : public sixstep::base::Visitor {
   }
 };
 
-/// What is given where nothing is overridden: the motor's own sheet. A key that it has and the run has not was dropped with the
-/// override of another that means the same; where that one says what the sheet says too, all of them are written.
+/// The sheet that holds without overrides: the motor's own. If the run lacks a key of it, an override that means
+/// the same has replaced that key; then all keys are written.
 design::Sheet usual_sheet(const study::Scenario& s) {
   if (!s.motor_sheet) return s.sheet;
   design::Sheet own = *s.motor_sheet, used = s.sheet;
@@ -219,7 +220,7 @@ design::Sheet usual_sheet(const study::Scenario& s) {
 
 std::string scenario_text(const study::Scenario& scenario, const std::vector<std::string>& comments) {
   study::Scenario copy = scenario, usual;
-  // What was read from other files is written out: the text stands for itself, wherever it is kept.
+  // Values read from other files are written out, so that the text does not depend on its place.
   copy.extends.clear();
   const auto detach = [](study::Reference& r) {
     r.file.clear();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A motor's file, read: its sheet, and everything that is wrong with it at once.
+// Reads a motor's file: its sheet, and everything that is wrong with it.
 #pragma once
 #include <optional>
 #include <string>
@@ -15,36 +15,37 @@ namespace text {
 struct SheetSource {
   Document document;
   design::Sheet sheet;
-  base::Problems problems{};  ///< of the file, with place; the sheet has then what could be read
+  base::Problems problems{};  ///< with places in the file; `sheet` then has the values that could be read
 };
 
 SheetSource sheet_of(Document document, const Resolve& resolve);
 
-/// The sheet that the scenario's `motor` names; nothing where there is no such file. What is wrong in the motor's own file is
-/// told of that file, what is wrong with the name at the name.
+/// The sheet that the scenario's `motor` names; empty if there is no such file. Mistakes in the motor's file are
+/// reported there (of_other_files), a wrong name at the name (complaints).
 std::optional<SheetSource> named_sheet(const Document& scenario, const Resolve& resolve,
                                        Complaints& complaints, base::Problems& of_other_files);
 
-/// The points of a back-EMF, from the file that the text at `path` names.
+/// Reads the points of a back-EMF from the file that the text at `path` names.
 void read_shape(const Document& document, const std::string& path, const Resolve& resolve,
                 design::Sheet& sheet, Complaints& complaints, base::Problems& of_other_files);
 
-/// As the table says it in one of the ways, else as `sheet` has it. What is wrong with it is told elsewhere.
+/// The pole pairs that the table gives by any of its keys, else those of `sheet`. Mistakes are reported
+/// elsewhere.
 std::optional<int> pole_pairs_in(const Document& document, const std::string& table,
                                  const design::Sheet& sheet);
 
-/// In any of the key's spellings.
+/// Whether [motor_override] has the key, in any of its spellings.
 bool overridden(const Document& document, std::string_view key);
 
-/// Whether a check speaks of the motor's sheet, whose keys it names without a table.
+/// Whether a check's `where` is a key of the motor's sheet, which is named without a table.
 bool is_sheet_key(const std::string& where);
 
-/// A sheet's check speaks in the standard key's unit: what stands in another spelling is quoted from the
-/// file.
+/// Quotes the file's value if the key is in another spelling, because a sheet's check names the standard key and
+/// its unit.
 base::Problem as_written(const Document& document, const std::string& table, base::Problem problem);
 
-/// Whether a sheet's problem only follows from what has been told of its table: it is of the same key, or of another one that is
-/// told of or, where a key was misspelt, missing.
+/// Whether a sheet's problem only follows from mistakes already reported in its table: about the same key, about
+/// another key that it names, or about a missing key while another key is misspelt.
 bool follows(const base::Problem& problem, const std::string& table, const Complaints& complaints);
 
 }  // namespace text

@@ -25,10 +25,10 @@ using sixstep::control::Mode;
 
 struct Wanted {
   std::string path;
-  bool open = false;  ///< as it stands, even where it says only what holds anyhow
+  bool open = false;  ///< always open, even if it only repeats the default
 };
 
-/// What a first scenario should show besides what it sets.
+/// Keys that a first scenario shows besides those that it sets.
 std::vector<Wanted> wanted_keys(Mode mode) {
   std::vector<Wanted> keys = {{"title", true},
                               {"supply.voltage_V", true},
@@ -54,7 +54,7 @@ std::vector<Wanted> wanted_keys(Mode mode) {
   return keys;
 }
 
-/// The value that a line shows where the scenario has none: refused until a number is given.
+/// The value of a line if the scenario has none: refused until a number is given.
 std::string placeholder(const KeyEntry& entry) {
   if (!entry.default_value.empty()) return entry.default_value;
   switch (entry.type) {
@@ -79,7 +79,7 @@ std::string with_plain_exponent(const std::string& text) {
   std::string digits = text.substr(0, cut);
   int power = std::atoi(text.c_str() + cut + 1);
   if (digits.find('.') == std::string::npos) digits += '.';
-  for (; power % 3 != 0; --power) {  // the point goes one digit to the right
+  for (; power % 3 != 0; --power) {  // the point moves one digit to the right
     const std::size_t point = digits.find('.');
     if (point + 1 == digits.size()) digits += '0';
     std::swap(digits[point], digits[point + 1]);
@@ -88,13 +88,13 @@ std::string with_plain_exponent(const std::string& text) {
   return fmt::format("{}e{}", digits, power);
 }
 
-/// Written out it stands for itself: what it extends is in it already, and would be laid under it once more.
+/// A written-out scenario already contains what it extends, so `extends` is removed.
 study::Scenario alone(study::Scenario scenario) {
   scenario.extends.clear();
   return scenario;
 }
 
-/// The keys under the words of the scenario's motor.
+/// The keys in the words of the scenario's motor.
 std::vector<KeyEntry> keys_for(const study::Scenario& scenario) {
   return scenario.sheet.kind == design::MotorKind::rotary ? scenario_keys()
                                                           : in_linear_words(scenario_keys());
@@ -113,7 +113,7 @@ std::vector<Wanted> wanted_for(const study::Scenario& scenario) {
   return wanted;
 }
 
-/// Where a torque limit comes from whose sheet names no nominal current: its key's meaning speaks of one.
+/// The source of a torque limit if the sheet names no nominal current, because the key's meaning mentions one.
 std::string torque_limit_origin(const study::Scenario& s) {
   const base::Result<design::MotorModel> motor = design::motor_model(s.sheet);
   const std::optional<double>& limit = s.control.speed.torque_limit_Nm;
@@ -153,7 +153,7 @@ class Starter {
     return own + inner;
   }
 
-  /// Whether the scenario says anything of the table that stands there.
+  /// Whether the scenario has any value in that table.
   bool says(const std::string& at) const {
     return std::any_of(values_.begin(), values_.end(),
                        [&](const WrittenValue& value) { return value.path.starts_with(at + "."); });
@@ -167,15 +167,16 @@ class Starter {
   std::string inner_table(const KeyEntry& entry, const std::string& outer) {
     const std::string at =
         outer.empty() ? std::string(name_of(entry)) : fmt::format("{}.{}", outer, name_of(entry));
-    const bool in_list = outer.find('[') != std::string::npos;  // there it may be left out, header and all
+    const bool in_list =
+        outer.find('[') != std::string::npos;  // in a list it may be left out, header and all
     return headed(entry, table(entry.path, at), !in_list || says(at), entry.optional && says(at));
   }
 
-  /// The header of a table that is there stands open, so that taking one # away suffices. One that says something by being there has
-  /// a header even where all its keys are the usual ones.
+  /// The header of an existing table is open, so that removing one # suffices. A table that has an effect by its
+  /// presence has a header even if all its keys have defaults.
   static std::string headed(const KeyEntry& table, const std::string& lines, bool open,
                             bool says_by_itself = false) {
-    // Tables within need no header of their own above them: TOML makes it.
+    // Tables within need no header above them: TOML makes it.
     if (!says_by_itself && (lines.empty() || lines.front() == '\n')) return lines;
     return fmt::format("\n{}{}[{}]\n{}", wrapped_comment(meaning_of(table)), open ? "" : "# ", table.path,
                        lines);
@@ -192,7 +193,7 @@ class Starter {
     }
   }
 
-  /// The motor's own keys, where they are not its file's: it explains them.
+  /// The motor's own keys, if they differ from its file; that file explains them.
   std::string override_table(const KeyEntry& entry) {
     std::string text;
     for (const KeyEntry* key : keys_in(keys_, entry.path))

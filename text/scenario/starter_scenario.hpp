@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scenario file to start from: the keys that count, each with its meaning above it.
+// Writes a scenario file to start from: the most important keys, each with its meaning above it.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,16 +10,16 @@
 namespace text {
 
 struct StarterOptions {
-  std::string file;   ///< what the file will be called, for the commands in its head
-  bool full = false;  ///< every key there is, not only those that a first scenario asks for
+  std::string file;   ///< the future file's name, for the commands in its head
+  bool full = false;  ///< all keys, not only those of a first scenario
 };
 
-/// The scenario's file, explained. What the scenario sets stands open; what else is worth a thought in its
-/// mode stands behind a #, with the value that holds anyhow, or `nan` where a number must be given. It reads
-/// back as the scenario that it was made from, to the bit.
+/// The scenario's file with explanations. The scenario's own values are open. Other keys useful in its mode are
+/// behind a #, with their default, or with `nan` if a number must be given. It reads back as the same scenario,
+/// to the bit.
 std::string starter_text(const study::Scenario& scenario, const StarterOptions& options);
 
-/// What a reader of that file must know of where its numbers come from; empty: nothing.
+/// A note on the source of the file's numbers; empty: none needed.
 std::string starter_note(const study::Scenario& scenario);
 
 }  // namespace text

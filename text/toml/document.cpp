@@ -55,7 +55,7 @@ void put(toml::array& array, std::size_t index, toml::node& value) {
   value.visit([&](auto& node) { array.replace(array.cbegin() + static_cast<std::ptrdiff_t>(index), node); });
 }
 
-/// The tables of `first` before those of the list.
+/// Puts the tables of `first` before those of the list.
 void put_first(toml::array& list, toml::array& first) {
   toml::array own = std::move(list);
   list = {};
@@ -74,8 +74,8 @@ struct Dropped {
   std::string key;
 };
 
-/// What `over` leaves open is moved there from `base`, and keeps its place in its file. What it drops stays
-/// as a mark until all bases are through: a weaker one may hold the same table.
+/// Moves the keys that `over` leaves open there from `base`; they keep their place in their file. A dropped
+/// table stays as a mark until all bases are done, because a weaker one may have it too.
 void fill(toml::table& over, toml::table& base, std::vector<Dropped>& dropped) {
   for (auto&& [key, node] : base) {
     toml::node* mine = over.get(key.str());
@@ -196,7 +196,7 @@ const toml::node* Document::find(std::string_view path) const {
 
 const Setting* Document::setting_of(std::string_view path) const {
   const std::vector<std::string> words = path_words(path);
-  // The last of several settings of one key is the one that holds.
+  // Of several settings of one key the last one holds.
   for (auto setting = settings_.rbegin(); setting != settings_.rend(); ++setting)
     if (path_words(setting->path) == words) return &*setting;
   return nullptr;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A TOML file with its text, so that every complaint can quote it and say where it stands; laid over others,
-// each value still knows its own file.
+// Holds a TOML file with its text, so that every complaint can quote it and give its place. If it is laid over
+// other files, each value still has the place in its own file.
 #pragma once
 #include <span>
 #include <string>
@@ -21,17 +21,15 @@ struct Setting {
 
 class Document {
  public:
-  /// `name` is what messages call the file.
+  /// `name` is the file's name in messages.
   static base::Result<Document> parse(std::string name, std::string text);
 
-  /// Lays this file over others, the strongest last: what stands in this one wins. Tables under [headings]
-  /// are joined key by key; lists of tables are joined, the other's first, unless this one's is empty;
-  /// whatever stands in brackets or braces is one value, and empty braces over a table drop it: it is as if
-  /// nobody had written it.
+  /// Lays this file over others, the strongest last; values of this one win. Tables under [headings] are joined
+  /// key by key. Lists of tables are joined, the other's first, unless this one's is empty. Anything in brackets
+  /// or braces is one value. Empty braces over a table remove it, as if it had not been written.
   void lay_over(std::vector<Document> bases);
 
-  /// Applies values given on the command line. A text that is no TOML value is taken as a word:
-  /// `chopping=hard`.
+  /// Applies values of the command line. A text that is no TOML value is taken as a word: `chopping=hard`.
   base::Problems set(std::span<const Setting> settings);
 
   const toml::table& root() const { return root_; }
@@ -41,20 +39,20 @@ class Document {
   /// The node at "control.current.d1" or "require[1].max"; null where there is none.
   const toml::node* find(std::string_view path) const;
 
-  /// What stands there, as written; a table or anything longer than one line is not quoted.
+  /// The value's text as written; a table or a text of more than one line is not quoted.
   std::string quote(const toml::node& node, std::string_view path) const;
 
-  /// "file:line:column" of a region, or "--set path" where that is where the value came from.
+  /// "file:line:column" of a region, or "--set path" if the value came from there.
   std::string place(const toml::source_region& region) const;
   std::string place(const toml::node& node, std::string_view path) const;
 
-  /// The file that a value stands in; this one for what stands in none.
+  /// The file that contains the value; this file for a value of no file.
   const std::string& file_of(const toml::node& node, std::string_view path) const;
 
-  /// 0 for a region of this file, then those it was laid over, the nearest first.
+  /// 0 for a region of this file, then the files below it, the nearest first.
   std::size_t order_of(const toml::source_region& region) const;
 
-  /// As place(), of the node or of its nearest table that stands in the file.
+  /// place() of the node, or of its nearest table that is in the file.
   std::string nearest_place(std::string_view path) const;
 
  private:

@@ -12,7 +12,7 @@
 namespace text {
 namespace {
 
-/// The words that may stand at the top of a file of these keys.
+/// The words that may be at the top level of a file with these keys.
 std::set<std::string> first_words(const std::vector<KeyEntry>& keys) {
   std::set<std::string> words;
   const auto add = [&](std::string_view path) { words.emplace(path.substr(0, path.find('.'))); };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A motor's file taken for a scenario, or a scenario for a motor: dozens of keys would be strange, and one
-// sentence says why.
+// Recognises a motor's file in the place of a scenario, and the reverse, so that one message replaces dozens of
+// unknown keys.
 #pragma once
 #include <optional>
 
@@ -11,7 +11,7 @@ namespace text {
 
 enum class FileKind { scenario, motor };
 
-/// The Problem of a file that has keys of the other kind only; none where any of its own is there.
+/// A Problem if the file has keys of the other kind and none of its own; else empty.
 std::optional<base::Problem> taken_for(FileKind wanted, const Document& document);
 
 }  // namespace text

@@ -12,7 +12,7 @@
 namespace text {
 namespace {
 
-/// A number of the other program, and the key that says the same here.
+/// A number of the other program, and the key that means the same here.
 struct ForeignNumber {
   std::string_view word;
   std::string_view key;
@@ -22,11 +22,12 @@ struct ForeignNumber {
 
 struct ForeignKind {
   std::string_view name;
-  std::string_view mark;  ///< that no other file has
+  std::string_view mark;  ///< text that no other file has
   std::array<ForeignNumber, 6> numbers;
 };
 
-// Resistance, inductance and flux linkage are a phase's in all of them: each computes in the rotor's frame.
+// Resistance, inductance and flux linkage are phase values in all of them, because each computes in the rotor's
+// frame.
 constexpr ForeignKind foreign_kinds[] = {
     {"a VESC motor configuration",
      "<MCConfiguration",
@@ -66,7 +67,7 @@ std::optional<double> number_behind(std::string_view text, std::string_view word
 }
 
 std::string toml_line(const ForeignNumber& number, double value) {
-  // 2.23e-05 H is 22.3 uH, and no 22.299999999999997.
+  // 2.23e-05 H must become 22.3 uH, not 22.299999999999997.
   const std::string written = fmt::format("{:.10g}", value * number.factor);
   return number.frame.empty()
              ? fmt::format("{} = {}", number.key, written)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parameter file of another program where a TOML file is wanted: what it is, and which lines say the same here.
+// Recognises another program's parameter file in the place of a TOML file: names the program and the equivalent
+// lines.
 #pragma once
 #include <optional>
 #include <string>
@@ -10,7 +11,8 @@
 
 namespace text {
 
-/// Of a VESC motor configuration, an ODrive or moteus configuration, a SimpleFOC sketch or a MATLAB pmsm struct; none of other texts.
+/// A Problem for a VESC motor configuration, an ODrive or moteus configuration, a SimpleFOC sketch or a MATLAB
+/// pmsm struct; else empty.
 std::optional<base::Problem> foreign_file(const std::string& name, std::string_view text);
 
 }  // namespace text

@@ -8,8 +8,8 @@
 namespace text {
 namespace {
 
-/// Behind the string that begins at `at`, or at the end of the text where it has none; of a string that is
-/// not closed on its line, which the parser will complain of, at the end of the line.
+/// The place behind the string that begins at `at`, or the end of the text. For a string that is not closed on
+/// its line, which the parser will report, the end of the line.
 std::size_t behind_string(std::string_view text, std::size_t at) {
   const char quote = text[at];
   const bool whole = text.substr(at, 3) == std::string(3, quote);
@@ -37,7 +37,7 @@ base::Problem too_deep(std::string_view name, std::string_view text, std::size_t
 }  // namespace
 
 std::optional<base::Problem> nests_too_deep(std::string_view name, std::string_view text) {
-  std::size_t brackets = 0, parts = 0;  // of the key under way
+  std::size_t brackets = 0, parts = 0;  // of the current key
   for (std::size_t at = 0; at < text.size(); ++at) {
     switch (text[at]) {
       case '"':

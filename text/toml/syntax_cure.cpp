@@ -7,11 +7,11 @@ namespace text {
 namespace {
 
 struct Cure {
-  std::string_view met;  ///< part of what the parser says
+  std::string_view met;  ///< part of the parser's message
   std::string_view cure;
 };
 
-/// The first that fits counts.
+/// The first match counts.
 constexpr std::array<Cure, 11> syntax_cures = {{
     {"invalid utf-8", "save the file as text in UTF-8"},
     {"parsing string", "close the quote on the same line"},

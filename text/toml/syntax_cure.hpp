@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What to do about a file that is no TOML.
+// Gives the cure for a TOML syntax error.
 #pragma once
 #include <string_view>
 
@@ -7,7 +7,7 @@
 
 namespace text {
 
-/// The parser says what it met; what its writer probably meant, and has to write instead, is said here.
+/// `met`: the parser's message. Returns what the writer has to change.
 std::string_view syntax_cure(std::string_view met);
 
 }  // namespace text

@@ -12,10 +12,10 @@
 namespace text {
 namespace {
 
-/// So many entries of one list are told of: of one with another kind of entry each would be.
+/// Only so many entries of one list are reported, because each may be of a wrong kind.
 constexpr std::size_t most_told_of_a_list = 5;
 
-/// Of one [[key]].
+/// Limit for one [[key]].
 constexpr std::size_t most_tables = 10'000;
 
 std::string in_unit_words(const base::About& about) {
@@ -102,7 +102,7 @@ bool TableReader::word(const toml::node& node, const std::string& path, const ba
 
 namespace {
 
-/// The key as another spelling has it: its unit, and bounds in that.
+/// The key in another spelling: its unit, and bounds in that unit.
 base::About in_spelling(base::About about, const base::Spelling& spelling) {
   if (!spelling.unit.empty()) about.unit = spelling.unit;
   for (double* end : {&about.range.low, &about.range.high})

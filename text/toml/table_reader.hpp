@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The visitor that fills a described struct from a TOML table and complains about whatever does not fit.
+// Fills a described struct from a TOML table and reports every value that does not fit.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -18,13 +18,13 @@ namespace text {
 
 class TableReader final : public base::Visitor {
  public:
-  /// `path` is where the table stands; empty for the file itself. `partial`: no key is required.
-  /// `advice` is told of keys that are nothing like those of the table; empty: they are listed.
+  /// `path`: the table's; empty for the file itself. `partial`: no key is required. `advice`: the cure for a key
+  /// unlike all keys of the table; empty: the keys are listed.
   TableReader(const toml::table& table, std::string path, Complaints& complaints, bool partial,
               std::string_view advice = {})
       : table_(table), path_(std::move(path)), complaints_(complaints), partial_(partial), advice_(advice) {}
 
-  /// To be called last: every key that no description named.
+  /// Reports every key that no description has named. Call it last.
   void refuse_unknown_keys();
 
  private:
@@ -63,11 +63,12 @@ class TableReader final : public base::Visitor {
     return given(key) || std::any_of(about.also.begin(), about.also.end(),
                                      [&](const base::Spelling& spelling) { return given(spelling.key); });
   }
-  /// With the frames of the key, and the pole pairs where they are known.
+  /// The wanted unit, with the key's frames, and the pole pairs if known.
   Wanted wanted_in(const std::string& unit, const base::About& about) const;
   void frame_of_unit(const toml::node& node, const std::string& path, const base::About& about,
                      base::Quantity& quantity);
-  /// Which of a quantity's keys the table holds; all of them are known from then on, and two are a complaint.
+  /// Finds which of a quantity's keys the table holds, and marks all of them as known; two of them are a
+  /// mistake.
   std::optional<base::Spelling> spelling_in_file(std::string_view key, const base::About& about);
   void parts(const toml::table& table, const std::string& path, const base::About& about,
              const base::Spelling& spelling, base::Quantity& out);
@@ -75,14 +76,14 @@ class TableReader final : public base::Visitor {
                 base::Quantity& out);
   std::optional<double> last_digit(const toml::node& node, const std::string& path, const base::About& about,
                                    int ten) const;
-  /// The word of this motor for one that is the other kind's; empty for one of this or of both.
+  /// This motor's word for one that only the other kind of motor has; empty if `word` is valid for this motor.
   std::string_view of_other_motion(const base::WordMember& words, const base::WordMember::Word& word) const;
   const toml::table* find_table(std::string_view key, const base::About& about);
   const toml::array* find_tables(std::string_view key, const base::About& about);
-  /// A number that the key may have.
+  /// A number in the allowed range; it replaces a refused one.
   static double within(const base::About& about);
-  /// In which unit a key's number is written, and how much of that is one of the key's own: they differ where the
-  /// motor is linear, and under another spelling.
+  /// The unit in which a key's number is written, and its size in the key's own unit. They differ for a linear
+  /// motor and for another spelling.
   struct WrittenIn {
     std::string unit;
     double factor = 1.0;
@@ -103,9 +104,9 @@ class TableReader final : public base::Visitor {
   std::string_view advice_;
   std::vector<std::string> known_;
   std::vector<std::string>
-      other_motion_;      ///< of these, the words of the other kind of motor: nobody is advised to write them
-  bool refused_ = false;  ///< a number was out of its range
-  bool lost_word_ = false;  ///< a choice could not be read: what unit it decides is not known
+      other_motion_;        ///< words of the other kind of motor among `known_`; they are never suggested
+  bool refused_ = false;    ///< a number was out of its range
+  bool lost_word_ = false;  ///< a choice could not be read, so that the unit which it decides is unknown
 };
 
 /// Fills the struct from the whole file.

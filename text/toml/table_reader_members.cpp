@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The members of a described struct, one by one: what stands in the file for each, and how one that may be left out is told from one
-// that is there.
+// Reads the members of a described struct one by one, and distinguishes an optional member that is absent from
+// one that is present.
 #include <type_traits>
 
 #include "text/toml/table_reader.hpp"
@@ -13,11 +13,11 @@ void TableReader::read(std::string_view key, std::optional<T>& member, const bas
   T present{};
   refused_ = false;
   if constexpr (std::is_same_v<T, double>)
-    read(key, present, about);  // which looks for its spellings itself
+    read(key, present, about);  // read() looks for the spellings itself
   else
     read(spelling_in_file(key, about)->key, present, about);
   if constexpr (std::is_arithmetic_v<T>)
-    if (refused_) present = static_cast<T>(within(about));  // it is told of; what follows sees it as given
+    if (refused_) present = static_cast<T>(within(about));  // already reported; later checks see it as given
   member = std::move(present);
 }
 
@@ -26,7 +26,7 @@ void TableReader::read(std::string_view key, std::optional<base::Quantity>& memb
   if (!any_spelling_in_file(key, about)) return absent(key, about);
   std::optional<base::Quantity> found = member ? member : base::Quantity{};
   read(key, *found, about);
-  // What could not be read is not a number of the file's: what follows sees none, or the one that it was to replace.
+  // An unreadable value is no number of the file: later checks see none, or the one that it was to replace.
   if (!complaints_.about(shown(at(found->key.empty() ? key : std::string_view(found->key))))) member = found;
 }
 
@@ -52,7 +52,7 @@ void TableReader::visit_word(std::string_view key, base::WordMember& member, con
   const toml::node* node = find(key, about);
   lost_word_ = lost_word_ || (!node && about.required);
   if (!node) return;
-  // A word of digits is a number to TOML where it has no quotes, as behind --set.
+  // TOML reads a word of digits without quotes as a number, as behind --set.
   const toml::value<std::int64_t>* digits = node->as_integer();
   const std::optional<std::string> said = digits ? std::to_string(digits->get()) : node->value<std::string>();
   std::vector<std::string> words;

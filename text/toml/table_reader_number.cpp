@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A number in the unit it is written in: a key's own, that of its control mode or of another key, a linear motor's.
+// Reads a number in its unit: the key's own, that of its control mode or of another key, or a linear motor's.
 #include <fmt/format.h>
 
 #include "sixstep/base/linear.hpp"
@@ -19,7 +19,7 @@ std::optional<std::string> word_at(const Document& document, const std::string& 
   return node ? node->value<std::string>() : std::nullopt;
 }
 
-/// The control mode in the table at `path`: in one of [[at]] that of the last event up to it that changes it.
+/// The control mode of the table at `path`: in an [[at]] that of the last event up to it that changes it.
 std::optional<std::string> mode_at(const Document& document, const std::string& path) {
   std::optional<std::string> mode = word_at(document, "control.mode");
   if (!path.starts_with("at[")) return mode;
@@ -44,7 +44,7 @@ std::optional<std::string> mode_at(const Document& document, const std::string& 
   return mode;
 }
 
-/// The unit that a reference has in its control mode; empty where the mode has none or is not known.
+/// The unit of a reference in its control mode; empty if the mode has none or is unknown.
 std::string mode_unit(const Document& document, const std::string& path) {
   const std::optional<std::string> word = mode_at(document, path);
   for (const auto& choice : study::mode_choices)
@@ -65,7 +65,7 @@ std::optional<std::string> unit_at(std::string_view path) {
 
 }  // namespace
 
-/// Empty for a plain number; nothing where it follows from a control mode that has no unit.
+/// Empty text for a plain number; no value if it follows from a control mode that has no unit.
 std::optional<TableReader::WrittenIn> TableReader::unit_of_key(const base::About& about) const {
   const auto moving = [this](std::string_view unit) {
     const base::LinearUnit row =
@@ -81,7 +81,7 @@ std::optional<TableReader::WrittenIn> TableReader::unit_of_key(const base::About
   if (about.mode_unit.empty()) return WrittenIn{std::string(about.unit)};
   const std::string unit = mode_unit(complaints_.document(), path_);
   if (unit.empty()) return {};
-  // "1" stands for a duty.
+  // "1" is the unit of a duty.
   WrittenIn whole = moving(unit);
   whole.unit += about.mode_unit.substr(1);
   if (whole.unit == "1") whole.unit.clear();
@@ -112,7 +112,7 @@ base::Result<double> TableReader::number_of(const toml::node& node, const base::
   return base::Problem{.limit = "must be a number"};
 }
 
-/// A limit is told in the unit in which the value was written.
+/// A limit is printed in the unit in which the value was written.
 std::string TableReader::limit_as_written(const toml::node& node, const base::About& about, double x) const {
   const base::Range allowed = base::allowed(about);
   const toml::value<std::string>* text = node.as_string();

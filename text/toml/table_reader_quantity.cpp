@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quantities: a number in one of several spellings, with frame, source, trust and range.
+// Reads quantities: a number in one of several spellings, with frame, source, trust and range.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,8 +32,8 @@ std::optional<base::Spelling> TableReader::spelling_in_file(std::string_view key
   return used;
 }
 
-/// What the last digit of the number is worth, from the text of the file: 0.1 for 36.0, 1 for 36, and 0.001
-/// for "36.0 mH" where H belong.
+/// The value of the number's last digit, from the text of the file: 0.1 for 36.0, 1 for 36, and 0.0001 for "36.0
+/// mH" if the key is in H.
 std::optional<double> TableReader::last_digit(const toml::node& node, const std::string& path,
                                               const base::About& about, int ten) const {
   std::string text = complaints_.document().quote(node, path);
@@ -139,7 +139,7 @@ void TableReader::read(std::string_view key, base::Quantity& member, const base:
   member = std::move(read);
 }
 
-/// Nm/Arms says the frame, and so does Vrms/krpm where it leaves but one; what is written beside it must agree.
+/// Nm/Arms determines the frame, and so does Vrms/krpm if it leaves only one; a frame beside it must agree.
 void TableReader::frame_of_unit(const toml::node& node, const std::string& path, const base::About& about,
                                 base::Quantity& quantity) {
   const toml::value<std::string>* text = node.as_string();
@@ -158,7 +158,7 @@ void TableReader::frame_of_unit(const toml::node& node, const std::string& path,
                            quantity.frame.empty() ? "" : ", or the unit without " + std::string(measure))});
 }
 
-/// A frame that is missing is told by the struct's own check, which can say what each candidate would mean.
+/// The struct's own check reports a missing frame, because it can say what each candidate would mean.
 void TableReader::frame(const toml::node& node, const std::string& path, const base::About& about,
                         base::Quantity& quantity) {
   const std::vector<std::string> frames = frames_of(about.frame);

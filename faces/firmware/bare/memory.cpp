@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The three functions that compilers insert to copy and clear structs. They go by words where they can, as a C
-// library's do: instructions of a library that nobody would flash are nobody's.
+// Defines the three functions that compilers insert to copy and clear structs. They copy words where possible,
+// as a C library does; otherwise the instruction counts would include code that nobody would flash.
 #include <cstdint>
 
 using Size = decltype(sizeof 0);
@@ -8,7 +8,7 @@ using Address = std::uint32_t;  // as wide as a pointer here
 
 extern "C" {
 
-// The barrier keeps the compiler from making a call of memcpy out of memcpy.
+// The barrier keeps the compiler from replacing the loop by a call of memcpy.
 void* memcpy(void* to, const void* from, Size n) {
   auto* d = static_cast<std::uint8_t*>(to);
   const auto* s = static_cast<const std::uint8_t*>(from);

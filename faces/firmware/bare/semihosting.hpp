@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The debugger's calls that a bare ARM or RISC-V program makes to its emulator (Arm, Semihosting for AArch32
-// and AArch64, 2.0): operation in one register, block of words in the next.
+// Defines the semihosting calls that a bare ARM or RISC-V program makes to its emulator (Arm, Semihosting for
+// AArch32 and AArch64, 2.0): operation in one register, address of a block of words in the next.
 #pragma once
 #include <cstdint>
 
@@ -20,18 +20,18 @@ inline void write_character(char c) { semihosting(0x03, &c); }
 /// fopen()'s modes by their number in the convention.
 enum class FileMode : Word { read = 1, write = 5 };  // "rb", "wb"
 
-/// 0 where there is no such file, else its handle plus 1.
+/// The file's handle plus 1; 0 if the file cannot be opened.
 inline Word open_file(const char* name, Word length, FileMode mode) {
   const Word words[3] = {reinterpret_cast<Word>(name), static_cast<Word>(mode), length};
   return semihosting(0x01, words) + 1;
 }
 inline Word open_to_read(const char* name, Word length) { return open_file(name, length, FileMode::read); }
-/// Bytes that came.
+/// Returns the number of bytes read.
 inline Word read_file(Word handle_plus_1, void* to, Word bytes) {
   const Word words[3] = {handle_plus_1 - 1, reinterpret_cast<Word>(to), bytes};
   return bytes - semihosting(0x06, words);
 }
-/// Whether all went.
+/// Returns whether all bytes were written.
 inline bool write_file(Word handle_plus_1, const void* from, Word bytes) {
   const Word words[3] = {handle_plus_1 - 1, reinterpret_cast<Word>(from), bytes};
   return semihosting(0x05, words) == 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What Cortex-M and RISC-V do alike between their reset and the program: memory made ready, and the end.
+// Runs between reset and program on Cortex-M and RISC-V: prepares the memory, calls the program and exits.
 #include "faces/firmware/bare/semihosting.hpp"
 
 namespace target {

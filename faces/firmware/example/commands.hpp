@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a person types on a terminal: r runs, s stops, c clears faults, a number and Enter is the setpoint in the mode's unit. Characters
-// come in an interrupt into a ring, from which the main loop takes them. Where one was lost or makes no sense, nothing but s counts up
-// to the next Enter: "70" is never taken for 7, "7" and "30" never for 730, nor "1,5" for 5.
+// Reads commands typed on a terminal: r runs, s stops, c clears faults, a number and Enter sets the setpoint in
+// the mode's unit. An interrupt puts characters into a ring, from which the main loop takes them. After a lost
+// or invalid character everything except s is ignored up to the next Enter: "70" is never taken for 7, "7" and
+// "30" never for 730, nor "1,5" for 5.
 #pragma once
 #include <cstdint>
 
@@ -10,17 +11,17 @@
 namespace firmware {
 
 struct Command {
-  /// `spoiled`: from this character on; `dropped`: at the Enter behind it.
+  /// `spoiled`: at the invalid character; `dropped`: at the Enter that ends its line.
   enum class Kind : std::uint8_t { none, run, stop, clear, setpoint, spoiled, dropped } kind = Kind::none;
   std::int32_t thousandths = 0;
 };
 
 class Commands {
  public:
-  /// One character more.
+  /// Takes the next character.
   constexpr Command take(char c) {
     using Kind = Command::Kind;
-    if (c == 's') {  // whatever it stands amid
+    if (c == 's') {  // at any place in a line
       if (begun_) spoiled_ = true;
       return {Kind::stop, 0};
     }
@@ -40,10 +41,10 @@ class Commands {
   constexpr void lost() { spoiled_ = true; }
 
  private:
-  static constexpr std::int32_t most = 200'000;  // a digit more, and its thousandths fit in 31 bits
+  static constexpr std::int32_t most = 200'000;  // with one more digit, the thousandths still fit in 31 bits
   static constexpr std::uint8_t no_point = 0xFF;
 
-  /// -12.345: a sign at its begin, one point, and up to three digits behind it.
+  /// -12.345: an optional sign, at most one point, and up to three digits behind it.
   constexpr bool continues_number(char c) {
     if (c == '-') {
       negative_ = true;
@@ -78,7 +79,8 @@ class Commands {
   bool begun_ = false, digits_ = false, negative_ = false, spoiled_ = false;
 };
 
-/// Characters between an interrupt, which writes, and the main loop, which reads: each index is written by one of them alone.
+/// Passes characters from an interrupt, which writes, to the main loop, which reads. Each index is written by
+/// only one of them.
 template <std::uint8_t size>
 class Ring {
   static_assert((size & (size - 1)) == 0, "its indices wrap");
@@ -90,7 +92,7 @@ class Ring {
     char character = 0;
   };
 
-  /// In the interrupt. A full ring loses this one.
+  /// In the interrupt. A full ring loses this character.
   void put(char c) {
     const auto begin = begin_, end = end_;
     if (static_cast<std::uint8_t>(end - begin) >= size) return lose();
@@ -99,13 +101,16 @@ class Ring {
     barrier();
     end_ = static_cast<std::uint8_t>(end + 1);
   }
-  /// In the interrupt: a character was lost behind the last one.
+  /// In the interrupt: a character after the last one was lost.
   void lose() { losses_ = static_cast<std::uint8_t>(losses_ + 1); }
 
-  /// In the main loop: first that something is missing before a character, or behind the last one, then the character.
+  /// In the main loop: returns a gap before the character that follows it, or behind the last character; then
+  /// the character.
   Item take() {
     const auto begin = begin_;
-    std::uint8_t losses = losses_;  // read before the end: whatever came before it is then taken first
+    std::uint8_t losses =
+        losses_;  // read before the end index: a character that came before the loss is then
+                  // returned first
     const bool empty = begin == end_;
     barrier();
     if (!empty) losses = losses_before_[begin % size];
@@ -123,12 +128,12 @@ class Ring {
  private:
   char characters_[size] = {};
   std::uint8_t losses_before_[size] = {};
-  volatile std::uint8_t losses_ = 0;  // the interrupt's
-  std::uint8_t told_ = 0;             // the main loop's
+  volatile std::uint8_t losses_ = 0;  // written by the interrupt
+  std::uint8_t told_ = 0;             // written by the main loop
   volatile std::uint8_t begin_ = 0, end_ = 0;
 };
 
-/// "# setpoint 70 rad/s", or 70.500: what is obeyed from now on.
+/// Prints "# setpoint 70 rad/s", or 70.500: the setpoint from now on.
 template <class Put>
 constexpr void put_setpoint(Put put, std::int32_t thousandths, const char* unit) {
   const std::int32_t whole = thousandths / 1000;

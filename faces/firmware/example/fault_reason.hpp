@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Why a board's drive stands, as its line "# fault: over-current" says it: when it happens, and about once a second for as long as the
-// drive stands. The reason is kept over a reset, in memory that the start-up does not clear, so that a watchdog's reset does not hide it.
+// Names the reasons why a board's drive stands, for its line "# fault: over-current": printed when it happens,
+// and about once a second as long as the drive stands. The reason is kept over a reset, in memory that the
+// start-up does not clear, so that a watchdog's reset does not hide it.
 #pragma once
 #include <cstdint>
 
@@ -11,8 +12,8 @@ namespace firmware {
 enum class Reason : std::uint8_t {
   none,
   hall,            ///< a code that no rotor gives, or a jump over a sector
-  calibration,     ///< the offset of a current transducer is not where it must be
-  over_current,    ///< by the samples
+  calibration,     ///< the offset of a current transducer is out of its tolerance
+  over_current,    ///< in the samples
   current_sensor,  ///< a reading at the converter's end, or three currents whose sum is not zero
   setpoint_wire,   ///< the potentiometer reads beyond its ends
   comparator,      ///< the power stage's own, at the timer's break input
@@ -25,7 +26,7 @@ enum class Reason : std::uint8_t {
   stall,
   align,
   board,   ///< the board stopped the drive for a reason that is over
-  program  ///< an interrupt or a fault of the core that nobody serves
+  program  ///< an unexpected interrupt or a fault of the core
 };
 
 constexpr const char* word(Reason reason) {
@@ -75,7 +76,8 @@ constexpr void put_fault(Put put, Reason reason) {
   put('\n');
 }
 
-/// Lies in a section that no start-up clears. After power-up it holds anything: only with its key is it believed.
+/// Lies in a section that no start-up clears. After power-up its content is random: it counts only with the
+/// right key.
 struct KeptReason {
   static constexpr std::uint32_t right_key = 0x5157E9A3;
   volatile std::uint32_t key;
@@ -83,7 +85,7 @@ struct KeptReason {
   volatile std::uint8_t check;  ///< the reason, inverted
 
   void keep(Reason why) {
-    key = 0;  // a reset amid this leaves nothing that is half written
+    key = 0;  // a reset in between leaves nothing half written
     reason = why;
     check = static_cast<std::uint8_t>(~static_cast<unsigned>(why));
     key = right_key;

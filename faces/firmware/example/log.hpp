@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines of numbers for a serial line: what a board logs is a table that `sixstep run --compare LOG` lays over its simulation. No
-// division, no library: a digit is found by subtracting, which a chip of 8 bits does in a few hundred cycles a number.
+// Prints lines of numbers for a serial line: the log of a board is a table that `sixstep run --compare LOG`
+// compares with its simulation. No division, no library: digits are found by subtraction, which takes an 8-bit
+// chip a few hundred cycles per number.
 #pragma once
 #include <cstdint>
 
@@ -14,7 +15,7 @@ template <>
 inline constexpr std::uint32_t tens<std::uint32_t>[10] = {
     1'000'000'000, 100'000'000, 10'000'000, 1'000'000, 100'000, 10'000, 1'000, 100, 10, 1};
 
-/// The digits from a place on, by words of that width.
+/// Prints the digits from a place on, in words of that width.
 template <class Word, class Put>
 constexpr void put_digits(Put put, Word rest, unsigned decimals, unsigned first_place) {
   bool begun = false;
@@ -34,7 +35,7 @@ constexpr void put_number(Put put, std::int32_t value, unsigned decimals = 0) {
   const std::uint32_t rest =
       value < 0 ? 0u - static_cast<std::uint32_t>(value) : static_cast<std::uint32_t>(value);
   if (value < 0) put('-');
-  if (rest < 65536)  // most are, and words of 16 bits take a chip of 8 half the time
+  if (rest < 65536)  // most are, and 16-bit words take an 8-bit chip half the time
     put_digits(put, static_cast<std::uint16_t>(rest), decimals, 5);
   else
     put_digits(put, rest, decimals, 0);
@@ -45,7 +46,7 @@ constexpr void put_text(Put put, const char* text) {
   for (; *text != '\0'; ++text) put(*text);
 }
 
-/// Since the board began to count: a number of microseconds that wraps after 68 years.
+/// Time since the board began to count; a number of microseconds that wraps after 68 years.
 struct Instant {
   std::uint32_t seconds = 0, microseconds = 0;  ///< the latter below a million
 
@@ -58,7 +59,7 @@ struct Instant {
   }
 };
 
-/// In microseconds, without a number of 64 bits.
+/// In microseconds, without 64-bit numbers.
 template <class Put>
 constexpr void put_instant(Put put, const Instant& t) {
   if (t.seconds == 0) return put_number(put, static_cast<std::int32_t>(t.microseconds));
@@ -71,15 +72,15 @@ constexpr void put_instant(Put put, const Instant& t) {
   }
 }
 
-/// What an interrupt wrote is read behind this, and what it may write again is left alone before.
+/// Data that an interrupt wrote are read behind it; data that it may write again are not used behind it.
 inline void barrier() { asm volatile("" ::: "memory"); }
 
-/// One row from the control interrupt to the main loop, which asks for the next as soon as it has sent one: as many rows as the line
-/// takes, each with its instant.
+/// Passes one row from the control interrupt to the main loop, which requests the next one as soon as it has
+/// sent one: as many rows as the line can take, each with its instant.
 template <class Row>
 class LogSlot {
  public:
-  /// In the interrupt, where the main loop waits for one; says whether it did.
+  /// In the interrupt: takes the row if the main loop waits for one, and returns whether it did.
   bool take(const Row& row) {
     if (full_) return false;
     row_ = row;
@@ -88,13 +89,13 @@ class LogSlot {
     return true;
   }
 
-  /// In the main loop: null as long as there is none.
+  /// In the main loop: null if there is none.
   const Row* waiting() const {
     const bool there = full_;
     barrier();
     return there ? &row_ : nullptr;
   }
-  /// It was sent.
+  /// In the main loop: the row was sent.
   void next() {
     barrier();
     full_ = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What happens at an ATmega2560's pins, and what its software's writes make of it.
+// Computes the events at an ATmega2560's pins and the effects of its software's writes.
 #include "faces/loop/avr/chip.hpp"
 
 namespace board {
@@ -32,7 +32,7 @@ rig::ChipTimes Chip::times() const {
       .control = control_.times(), .hall = hall_.times(), .periods = periods_, .conversions = conversions_};
 }
 
-/// All that happened up to the end of the last instruction, in its order, and then what that wrote.
+/// Executes all events up to the end of the last instruction, in their order, and then that instruction's write.
 void Chip::settle() {
   const std::uint64_t now = avr_->cycle;
   for (;;) {
@@ -87,7 +87,8 @@ void Chip::pass_converter() {
   }
 }
 
-/// A program whose timer starts its control samples may look at a current between: that is none (rig/chip_port.hpp).
+/// A firmware whose timer starts its control samples may convert a current in between; such a sample is no
+/// control sample (rig/chip_port.hpp).
 std::uint32_t Chip::sampled(int input) {
   constexpr int currents = 3, between_control_samples = 4;
   if (timer_started_it_ && input < currents) timer_samples_ = true;
@@ -120,7 +121,7 @@ void Chip::apply(Write write, std::uint64_t at) {
   }
 }
 
-/// Flags are cleared by ones; one that stands asks as soon as its interrupt is enabled.
+/// Writing a one clears a flag. A flag that is set requests its interrupt as soon as that is enabled.
 void Chip::write_flags(Write write) {
   const struct {
     Address flags, mask;
@@ -136,7 +137,7 @@ void Chip::write_flags(Write write) {
     if (write.to == one.mask && flag(one.flags, one.bit)) avr_raise_interrupt(avr_, one.vector);
 }
 
-/// ADIF is cleared by a one; ADSC starts, and shows that a conversion runs.
+/// Writing a one clears ADIF. ADSC starts a conversion, and reads as one while it runs.
 void Chip::write_adcsra(std::uint8_t value, std::uint64_t at) {
   if ((value & ADIF) != 0) avr_clear_interrupt(avr_, converted_);
   converter_.set((value & ADEN) != 0, value & 7, at);
@@ -148,7 +149,7 @@ void Chip::write_adcsra(std::uint8_t value, std::uint64_t at) {
   if ((shown & ADIF) != 0) avr_raise_interrupt(avr_, converted_);
 }
 
-/// To choose a trigger that stands is an edge as well (26.4).
+/// Selecting a trigger whose flag is set is an edge too (26.4).
 void Chip::write_adcsrb(std::uint8_t value, std::uint64_t at) {
   const bool before = (avr_->data[ADCSRB] & ADTS_bits) == ADTS_timer1_overflow;
   avr_->data[ADCSRB] = value;
@@ -166,14 +167,14 @@ std::uint8_t Chip::read(Address from) {
   return static_cast<std::uint8_t>(from == ADCL ? result() : result() >> 8);
 }
 
-/// An output, and high: by the timer, where it drives the pin, else by the port.
+/// Whether the pin is an output and high: by the timer if it drives the pin, else by the port.
 bool Chip::is_on(const Pin& pin) const {
   if (!flag(pin.DDR(), pin.mask())) return false;
   const int channel = pin.port == 'B' ? pin.bit - 5 : -1;
   return channel >= 0 && timer_.connected(channel) ? timer_.level(channel) : flag(pin.PORT(), pin.mask());
 }
 
-/// Of control/gates.hpp: upper gates are the even bits, lower ones the odd bits.
+/// As in control/gates.hpp: upper gates are the even bits, lower ones the odd bits.
 std::uint32_t Chip::gates() const {
   std::uint32_t on = 0;
   for (int leg = 0; leg < 3; ++leg) {

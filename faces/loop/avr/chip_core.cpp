@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// simavr's core, stopped at the cycles that matter, and which of its registers are ours.
+// Runs simavr's core, stops it at the cycles that matter, and replaces some of its registers.
 #include <algorithm>
 #include <cstdarg>
 #include <cstdio>
@@ -20,18 +20,18 @@ namespace {
 
 using namespace atmega2560;
 
-// Data sheet 2549, 7.8: from the request to the first instruction of the vector, out of sleep, and of the return; simavr counts
-// only the last.
+// Data sheet 2549, 7.8: cycles from the request to the first instruction of the vector, of waking up, and of the
+// return; simavr counts only the last.
 constexpr std::uint64_t interrupt_response = 5, wake_up = 5, interrupt_return = 5;
 
-/// simavr tells of an instruction that there is not, or of an address outside, and goes on. It tells nobody else.
+/// simavr logs an invalid instruction or address and continues. There is no other report of it.
 bool told_of_error = false;
 
 void listen(avr_t*, int level, const char*, va_list) {
   if (level == LOG_ERROR) told_of_error = true;
 }
 
-/// simavr reads any file, and not every one to an end.
+/// simavr reads any file, and does not return from some.
 bool is_for_avr(const char* elf) {
   constexpr unsigned char machine_AVR[2] = {83, 0};
   unsigned char head[20]{};
@@ -70,7 +70,7 @@ avr_int_vector_t* Chip::vector(unsigned number) const {
   return nullptr;
 }
 
-/// Timer 1 and the converter are ours from here on: simavr's own never hear of a write.
+/// From now on timer 1 and the converter are ours: simavr's own do not get the writes.
 void Chip::take_over() {
   const auto mine = [&](Address at, bool reads) {
     auto& io = avr_->io[AVR_DATA_TO_IO(at)];
@@ -93,12 +93,13 @@ void Chip::take_over() {
   for (const Pin& pin : pins_.lower) of_gates.insert(pin.port);
   for (const char port : of_gates)
     for (const Address at : {Pin{port, 0}.PIN(), Pin{port, 0}.DDR(), Pin{port, 0}.PORT()}) take_over_port(at);
-  // Whatever starts a timer of simavr's amid a run, the watchdog's or the serial line's, has it go on by that one: ended there instead,
-  // for run_core() alone knows how far.
+  // If simavr starts a timer during a run (the watchdog's or the serial line's), it continues by that timer's
+  // time. Here the run ends at once instead, because only run_core() has the right end.
   avr_->run_cycle_limit = 1;
-  // simavr goes on by its own idea of how long nothing happens: taken back, sleep_core() knows better.
+  // simavr advances by its own estimate of the idle time. It is taken back, because sleep_core() has the right
+  // one.
   avr_->sleep = [](avr_t* avr, avr_cycle_count_t cycles) { avr->cycle -= cycles + 1; };
-  // The watchdog's.
+  // Called by the watchdog.
   avr_->reset = [](avr_t* avr) {
     Chip& c = *static_cast<Chip*>(avr->io[AVR_DATA_TO_IO(ADMUX)].w.param);
     c.was_reset_ = true;
@@ -117,7 +118,7 @@ void Chip::register_pin_change() {
   avr_register_vector(avr_, &pin_change_);
 }
 
-/// A write goes on to simavr, and gates may have moved.
+/// Passes a write on to simavr; gates may have changed.
 void Chip::take_over_port(Address at) {
   auto& w = avr_->io[AVR_DATA_TO_IO(at)].w;
   PortRegister& port = ports_.emplace_back(PortRegister{this, w.c, w.param});
@@ -139,7 +140,7 @@ void Chip::follow_interrupts() {
     avr_irq_register_notify(avr_->interrupts.vector[n]->irq + AVR_INT_IRQ_RUNNING, notify, this);
 }
 
-/// simavr's own prints lines, and sleeps for whoever polls it.
+/// simavr's own serial line prints lines, and sleeps when a program polls it.
 void Chip::follow_serial_line() {
   std::uint32_t flags = 0;
   avr_ioctl(avr_, AVR_IOCTL_UART_SET_FLAGS('0'), &flags);
@@ -158,14 +159,14 @@ void Chip::entered(unsigned number) {
   if (number == vector_PCINT2) hall_.entered();
 }
 
-/// Called within the return.
+/// Called during the return instruction.
 void Chip::left(unsigned number) {
   const std::uint64_t at = avr_->cycle + interrupt_return;
   if (number == vector_ADC) control_.left(at);
   if (number == vector_PCINT2) hall_.left(at);
 }
 
-/// After this instruction: simavr runs as many in a row as it was given cycles for.
+/// Stops after this instruction; otherwise simavr runs on for the cycles that it was given.
 void Chip::stop_core() {
   stop_ = true;
   avr_->run_cycle_count = 0;
@@ -180,7 +181,8 @@ void Chip::set_pins(std::uint32_t hall_pins, std::uint64_t since) {
   hall_.asked(since);
 }
 
-/// simavr has cleared its registers, those of ports among them, though not what stands at the pins. RAM stays as it was.
+/// simavr has cleared its registers, including the ports', but not the levels at the pins. RAM keeps its
+/// content.
 void Chip::begin_anew() {
   was_reset_ = has_write_ = timer_started_it_ = result_locked_ = slept_ = false;
   timer_ = {};
@@ -217,7 +219,7 @@ void Chip::run_core(std::uint64_t target) {
       avr_->state == cpu_Crashed || avr_->state == cpu_Done || avr_->pc >= avr_->codeend || told_of_error;
 }
 
-/// Up to where an interrupt may come: one of ours, or one of simavr's other peripherals.
+/// Sleeps until an interrupt may come: one of ours, or one of simavr's other peripherals.
 void Chip::sleep_core(std::uint64_t target) {
   slept_ = true;
   const auto* timer = avr_->cycle_timers.timer;

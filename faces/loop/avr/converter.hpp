@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The converter of an ATmega2560, as data sheet 2549 (26) has it: when a conversion's channel is locked, when its input is held
-// and when it is done. What its registers and its interrupt make of that is the chip's (chip.hpp).
+// Models the timing of an ATmega2560's converter by data sheet 2549 (26): when a conversion's channel is locked,
+// when its input is held and when it is done. chip.hpp models its registers and its interrupt.
 #pragma once
 #include <cstdint>
 
@@ -26,13 +26,14 @@ class Converter {
     if (!on) next_ = never;
   }
 
-  /// By ADSC: with the next edge of the converter's clock.
+  /// Starts by ADSC, at the next edge of the converter's clock.
   void start(std::uint64_t now) {
     if (!on_ || busy()) return;
     begin(reset_at_ + ((now - reset_at_) / clocks_ + 1) * clocks_);
   }
 
-  /// By the trigger's edge, which resets the prescaler: held two of its clocks later. False where it is lost.
+  /// Starts by the trigger's edge, which resets the prescaler; the input is held two converter clocks later.
+  /// False: the trigger is lost.
   bool trigger(std::uint64_t now) {
     if (!on_ || busy()) return false;
     reset_at_ = now;
@@ -48,7 +49,7 @@ class Converter {
   }
 
  private:
-  /// Table 26-1; the first conversion gets the analogue part ready.
+  /// Table 26-1; the first conversion also prepares the analogue part.
   void begin(std::uint64_t at) {
     hold_at_ = at + (first_ ? 27 : 3) * clocks_ / 2;
     done_at_ = at + (first_ ? 25 : 13) * clocks_;

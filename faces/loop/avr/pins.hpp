@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What hangs at which of the chip's pins, as the board's options say.
+// Reads from the board's options which signal is connected to which pin of the chip.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +13,7 @@ struct Pin {
   char port = 'A';
   std::uint8_t bit = 0;
 
-  /// Ports A to G lie from 0x20 on, H to L from 0x100; there is no port I (data sheet 2549, 33).
+  /// Ports A to G are at 0x20 and above, H to L at 0x100 and above; there is no port I (data sheet 2549, 33).
   atmega2560::Address PIN() const {
     const int n = port <= 'G' ? port - 'A' : port == 'H' ? 0 : port - 'I';
     return static_cast<atmega2560::Address>((port <= 'G' ? 0x20 : 0x100) + 3 * n);
@@ -24,12 +24,12 @@ struct Pin {
 };
 
 struct Pins {
-  Pin hall[3] = {{'K', 0}, {'K', 1}, {'K', 2}};  ///< of port K
+  Pin hall[3] = {{'K', 0}, {'K', 1}, {'K', 2}};  ///< must be of port K
   Pin upper[3] = {{'B', 5}, {'B', 6}, {'B', 7}};
   Pin lower[3] = {{'A', 0}, {'A', 1}, {'A', 2}};
   std::uint8_t inputs[4] = {0, 1, 2, 3};  ///< of the converter: currents of legs a, b, c, potentiometer
 
-  /// At an input of the converter: 0 to 3 as above, or nothing, -1.
+  /// The signal at an input of the converter: 0 to 3 as above; -1: none.
   int what_hangs_at(unsigned channel) const {
     for (int n = 0; n < 4; ++n)
       if (inputs[n] == channel) return n;
@@ -48,7 +48,7 @@ inline bool take_three(const char* said, Pin (&pins)[3]) {
   return true;
 }
 
-/// An option of the board's program; false where it is none.
+/// Reads an option of the board's program; false if it is no such option.
 inline bool take_pins(const char* option, Pins& pins) {
   const auto behind = [option](const char* name) {
     return std::strncmp(option, name, std::strlen(name)) == 0 ? option + std::strlen(name) : nullptr;

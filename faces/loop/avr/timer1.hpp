@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Timer 1 of an ATmega2560 in its phase correct modes up to ICR1 (8 and 10), as data sheet 2549 (17) has it; in all others it
-// stands still and its outputs are off. It knows the next cycle at which something happens and is not asked between.
+// Models timer 1 of an ATmega2560 in its phase correct modes up to ICR1 (8 and 10), by data sheet 2549 (17). In
+// all other modes it stands still and its outputs are off. next() is the next cycle at which something happens;
+// no call is needed before.
 //
-// A phase is counted in ticks from the one that leaves BOTTOM: there TOV1 is set, and a match shows at the tick that leaves the
-// matching count (figures 17-12 and 17-13). So the on-time is centred on phase 0, and the count is one ahead of the phase.
+// A phase is counted in ticks from the tick that leaves BOTTOM: there TOV1 is set, and a match shows at the tick
+// that leaves the matching count (figures 17-12 and 17-13). So the on-time is centred on phase 0, and the count
+// is one ahead of the phase.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -22,7 +24,7 @@ class Timer1 {
 
   enum class Event { match, top, bottom };
 
-  /// What happens at next(): TOP sets ICF1, for both modes count to ICR1, and BOTTOM sets TOV1.
+  /// Executes the event at next(): TOP sets ICF1, because both modes count to ICR1, and BOTTOM sets TOV1.
   Event pass() {
     if (next_phase_ == period()) {
       base_ += period() * prescaler_;
@@ -36,7 +38,7 @@ class Timer1 {
     return passed_ == 0 ? Event::bottom : passed_ == top_ ? Event::top : Event::match;
   }
 
-  /// Else the port drives the pin.
+  /// False: the port drives the pin.
   bool connected(int channel) const { return (com(channel) & 2) != 0; }
   bool level(int channel) const {
     return has_outputs() && channel_[channel].latch != ((com(channel) & 1) != 0);
@@ -102,8 +104,8 @@ class Timer1 {
     if (!has_outputs()) c.compare = word;
   }
 
-  /// A disconnected output's latch stays as it was (17.8.1). At TOP it is what an upward match leaves, even where there was none
-  /// (16.7.4), so that a pulse lies even about BOTTOM.
+  /// The latch of a disconnected output does not change (17.8.1). At TOP the latch has the level that an upward
+  /// match leaves, even if there was none (16.7.4), so that a pulse is symmetric about BOTTOM.
   void match(Channel& c) const {
     if ((tccr_a_ >> c.com_shift & 2) == 0) return;
     const std::int64_t compare = c.compare;
@@ -121,7 +123,7 @@ class Timer1 {
     return {ticks <= top_ ? ticks : period() - ticks, ticks < top_};
   }
 
-  /// Goes on from a count, by what the registers say now. The prescaler runs on: it has its edges from the reset on.
+  /// Continues from a count, with the present registers. The prescaler runs on: its edges count from the reset.
   void place(Count from, std::uint64_t now) {
     counted_ = counts();
     top_ = icr_;
@@ -153,7 +155,7 @@ class Timer1 {
   std::uint8_t tccr_a_ = 0, tccr_b_ = 0, temp_ = 0;
   std::uint16_t icr_ = 0;
   Channel channel_[channels] = {{.com_shift = 6}, {.com_shift = 4}, {.com_shift = 2}};
-  bool counted_ = false;  ///< by what follows, which place() made of the registers
+  bool counted_ = false;  ///< whether it counts; place() derives this and the following from the registers
   std::int64_t top_ = 0, prescaler_ = 0;
   std::int64_t base_ = 0;                     ///< cycle of phase 0
   std::int64_t passed_ = 0, next_phase_ = 0;  ///< ticks

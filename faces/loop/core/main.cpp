@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program of a core that runs a drive beside the host: it waits for a call, makes it, and sends the answer back
-// (sixstep/rig/core_call.hpp). The drive is that of drive_config.hpp, as an exported header has it.
+// Runs a drive on a core beside the host: waits for a call, executes it, and sends the answer
+// (sixstep/rig/core_call.hpp). The drive is that of drive_config.hpp, an exported header.
 #include <drive_config.hpp>
 
 #include "faces/firmware/bare/semihosting.hpp"
@@ -15,7 +15,7 @@ using exported::Scalar;
 namespace control = sixstep::control;
 namespace rig = sixstep::rig;
 
-/// One of the library's drives, by the name that the header gives its configuration.
+/// The library's drive, by the name that the header gives its configuration.
 #ifdef SIXSTEP_PRODUCT_DRIVE
 using Call = rig::ProductCall<Scalar>;
 
@@ -96,7 +96,7 @@ control::BridgeCommand<Scalar> made(const Call& call) {
 
 using Answer = decltype(rig::answer_of(made(Call{})));
 
-/// The two ends of pipes that the emulator was given (faces/loop/emulator.cpp).
+/// Names of the pipes' ends that the emulator was given (faces/loop/emulator.cpp).
 constexpr char calls_name[] = "/dev/fd/3", answers_name[] = "/dev/fd/4";
 
 }  // namespace

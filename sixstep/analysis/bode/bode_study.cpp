@@ -22,19 +22,20 @@ using study::ColumnId;
 
 constexpr ColumnId phase_currents[] = {ColumnId::i_a, ColumnId::i_b, ColumnId::i_c};
 
-/// From a thirtieth of the crossover to thirty times it, or to four fifths of half the sampling rate.
+/// The lines go from a thirtieth of the crossover to thirty times it, at most to four fifths of half the sampling
+/// rate.
 constexpr double below_crossover = 30.0, above_crossover = 30.0, of_half_the_rate = 0.8;
-/// A period of the multisine; the longest is 16 Mi samples over seven periods of it.
+/// Samples in a period of the multisine.
 constexpr double fewest_samples = 64, most_samples = 262144, usual_samples = 4096;
 
-/// The scenario as if the chip had been from the start what the events have made of it at the end.
+/// The scenario with the settings that its events have left at the end.
 study::Scenario as_at_the_end(const study::Scenario& s) {
   const std::vector<const study::At*> events = study::in_order(s);
   return study::settled(s, events.empty() ? nullptr : events.back());
 }
 
-/// A way that ends where the run does has come to where it is held: what the drive still lags behind dies away in the multisine's
-/// first period, as after a step.
+/// A reference that moves until the run's end has reached its final value there. The drive's remaining error dies
+/// away in the multisine's first period, as after a step.
 base::Problems still_moving(const study::Scenario& run) {
   constexpr double rounding = 1e-12;
   const std::optional<double> rests_s = study::reference_rests_from_s(run);
@@ -49,7 +50,7 @@ base::Problems still_moving(const study::Scenario& run) {
            "set duration_s = " + base::written(*rests_s) + ", or let it stand: shape = \"constant\""}};
 }
 
-/// `run` is the scenario as written, `s` the one of the chip at its end.
+/// `run` is the scenario as written, `s` the one with the settings at its end.
 base::Problems not_measurable(const study::Scenario& run, const study::Scenario& s) {
   base::Problems problems;
   if (s.control.mode == Mode::off || s.control.mode == Mode::duty)
@@ -67,7 +68,7 @@ base::Problems not_measurable(const study::Scenario& run, const study::Scenario&
   return problems;
 }
 
-/// Across the magnet.
+/// Current across the magnet's axis.
 double i_q_of(const study::FullRow& row, double pole_pairs) {
   const auto at = [&](ColumnId id) { return row[static_cast<std::size_t>(id)]; };
   const double a = at(ColumnId::i_a), b = at(ColumnId::i_b), c = at(ColumnId::i_c);
@@ -82,7 +83,7 @@ bool carries_no_current(const study::FullRow& row) {
   });
 }
 
-/// What the loop holds, in the mode's unit.
+/// The controlled quantity, in the mode's unit.
 double controlled(const study::FullRow& row, const BodeStudy& b) {
   const auto at = [&](ColumnId id) { return row[static_cast<std::size_t>(id)]; };
   if (b.mode == Mode::speed) return at(ColumnId::speed);
@@ -91,7 +92,7 @@ double controlled(const study::FullRow& row, const BodeStudy& b) {
   return field ? i_q_of(row, b.pole_pairs) : at(ColumnId::i_m);
 }
 
-/// N of a period and its lines, around the loop's crossover where it is known.
+/// The period and its lines, around the loop's crossover where it is known.
 Multisine multisine_for(const std::optional<design::LoopFigures>& figures, double period_s,
                         std::size_t lines) {
   Multisine signal;
@@ -107,7 +108,8 @@ Multisine multisine_for(const std::optional<design::LoopFigures>& figures, doubl
   return signal;
 }
 
-/// The reference from the end of the run on: it changes in the middle between two samples, so that it is clear which sample sees what.
+/// The reference from the end of the run on. It changes in the middle between two samples, so that each sample
+/// sees a definite value.
 study::At multisine_event(const BodeStudy& b, std::size_t periods) {
   study::Reference r;
   r.shape = study::Shape::csv;
@@ -123,7 +125,7 @@ study::At multisine_event(const BodeStudy& b, std::size_t periods) {
   return at;
 }
 
-/// The scenario with the multisine behind its end, and nothing judged.
+/// The scenario with the multisine after its end, without requirements and comparisons.
 study::Scenario with_multisine(const study::Scenario& s, const BodeStudy& b, std::size_t periods) {
   study::Scenario out = s;
   out.require.clear();
@@ -144,7 +146,7 @@ base::Result<study::Session> at_the_end(const study::Scenario& s, const BodeStud
   return session;
 }
 
-/// What the controller saw at each sample of the periods that count.
+/// The controlled quantity at each sample of the evaluated periods.
 base::Result<std::vector<double>> outputs_of(study::Session& session, BodeStudy& b, std::size_t periods) {
   const std::size_t N = b.signal.samples;
   std::vector<double> output;
@@ -164,8 +166,9 @@ base::Result<std::vector<double>> outputs_of(study::Session& session, BodeStudy&
   return output;
 }
 
-/// A drive that is still on its way answers each period alike, for a straight way has the same lines in each: what they show
-/// is the way. A part w of the amplitude in a period puts about w/line of what the multisine has there beside the answer.
+/// A Problem where the drive drifts. Such a drive answers each period alike, because a straight drift has the same
+/// lines in each; the lines then show the drift. A drift by the part w of the amplitude in a period adds about
+/// w/line of the multisine's line to the answer.
 base::Problems still_on_its_way(const BodeStudy& b, const std::vector<double>& output, double duration_s) {
   constexpr double most_way = 0.05;
   const std::size_t N = b.signal.samples, periods = output.size() / N;
@@ -192,7 +195,7 @@ double amplitude_of(const BodeOrder& order, double stands_at) {
   return order.amplitude.value_or(std::fabs(stands_at) / 20);
 }
 
-/// Operating point, signal and the linear loop there; nothing is run yet but what the scenario asks for.
+/// Sets operating point, signal and the linear loop there; nothing is run yet.
 base::Problems prepare(BodeStudy& b, const study::Scenario& s, const BodeOrder& order) {
   const std::vector<study::Stretch> waveform = study::reference_waveform(s);
   const study::Scenario& last = b.at_end;
@@ -221,7 +224,8 @@ base::Problems prepare(BodeStudy& b, const study::Scenario& s, const BodeOrder& 
   return {};
 }
 
-/// The designed phase is exact and goes on from line to line; a measured one that strays at a line must not carry a turn along.
+/// Takes each measured phase in the turn nearest to the designed one, which is exact and goes on from line to
+/// line: a wrong phase at one line must not move the lines after it by a turn.
 void lay_beside_the_designed(BodeStudy& b) {
   if (!b.designed) return;
   std::vector<double> angles;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The frequency response of a drive's outermost loop, measured on the switching simulation: the scenario runs as it is written,
-// and where it ends its reference goes on with a multisine on top of where it stands. What the controller sees at its samples,
-// over what it was told, is the closed loop; beside it the linear loop that the gains were designed on.
+// Measures the frequency response of a drive's outermost loop in the switching simulation. The scenario runs as it
+// is written; from its end on, a multisine is added to the reference's final value. The controlled quantity at the
+// controller's samples, over the multisine, is the closed loop's response. The linear loop that the gains were
+// designed on is computed for comparison.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -16,40 +17,43 @@
 namespace sixstep::analysis {
 
 struct BodeOrder {
-  std::optional<double>
-      amplitude;  ///< of the multisine, in the mode's unit; else a twentieth of where the reference stands
+  /// Of the multisine, in the mode's unit; empty: a twentieth of the reference's final value.
+  std::optional<double> amplitude;
   std::size_t lines = 32;
-  std::size_t periods = 6;                       ///< that are looked at, behind one that is not
-  std::function<bool(double t_s)> keep_going{};  ///< false ends it early: a Problem "was interrupted"
+  std::size_t periods = 6;                       ///< evaluated, after one for the transient
+  std::function<bool(double t_s)> keep_going{};  ///< false ends the run early, which is a Problem
 };
 
 struct BodeStudy {
   study::Scenario scenario;  ///< as it was run, the multisine included
-  study::Scenario at_end;    ///< as if the chip had been from the start what the events made of it
+  study::Scenario at_end;    ///< with the settings that the events have left at the end
   control::Mode mode = control::Mode::current;
-  double stands_at = 0.0, amplitude = 0.0;  ///< in the mode's unit
-  double begin_s = 0.0, period_s = 0.0;     ///< when the multisine began; of the control
+  double stands_at = 0.0,
+         amplitude = 0.0;                ///< operating point; of the multisine; in the mode's unit
+  double begin_s = 0.0, period_s = 0.0;  ///< start of the multisine; control period
   double pole_pairs = 1.0;
   Multisine signal;
   std::vector<LoopPoint> points;
-  double beside =
-      0.0;  ///< of the answer's rms, the part at no line: ripple, commutation, whatever is not linear
-  double without_current = 0.0;  ///< of the samples looked at, the part at which no phase carried current
+  /// Part of the answer's rms that lies at no line: ripple, commutation, other nonlinear effects.
+  double beside = 0.0;
+  /// Part of the evaluated samples at which no phase carries current.
+  double without_current = 0.0;
   ReadMargins measured;
-  std::optional<design::Transfer> designed;  ///< empty where the loop is none of linear blocks alone
-  std::string not_linear;                    ///< why
-  std::optional<design::SpeedLag> lag;  ///< of a speed that a sensor tells, at the speed that it has there
+  std::optional<design::Transfer> designed;    ///< empty: the loop is not linear
+  std::string not_linear;                      ///< why `designed` is empty
+  std::optional<design::SpeedLag> lag;         ///< of the sensor's speed, at the reference's final value
   std::optional<design::LoopFigures> figures;  ///< of `designed`, lag included
 
-  /// Of the designed L at each point, unwrapped over all of them: what is measured has the turn that lies nearest.
+  /// Phase of the designed L at each point, unwrapped over all points. Each measured phase is taken in the turn
+  /// nearest to it.
   std::vector<double> designed_phase_rad;
 
-  /// The designed L at a frequency.
+  /// The designed L at a frequency, lag included; empty where `designed` is.
   std::optional<design::Complex> designed_at(double w_rad_s) const;
 };
 
-/// Problems: the scenario's own, a mode without a loop, a reference that does not stand at the end, a setpoint that is slewed, a
-/// run that a fault ends, a drive that is still on its way.
+/// Problems: those of the scenario, a mode without a loop, a reference that does not rest at the end, a setpoint
+/// that is ramped, a run that ends early, a drive that has not settled.
 base::Result<BodeStudy> study_bode(const study::Scenario& scenario, const BodeOrder& order = {});
 
 }  // namespace sixstep::analysis

@@ -14,7 +14,7 @@ namespace {
 
 using control::Mode;
 
-/// Empty where every block of the loop is linear while no limit acts.
+/// Why the loop is not linear; empty: every block is linear while no limit acts.
 std::string nonlinear_block(const study::Scenario& s, const study::Compiled& c,
                             const control::DriveConfig<double>& drive) {
   if (drive.current_control == control::CurrentControl::hysteresis) return "the current is held in a band";
@@ -30,7 +30,8 @@ std::string nonlinear_block(const study::Scenario& s, const study::Compiled& c,
   return "";
 }
 
-/// Why a loop with samples in the middle of a period is not the linear one that is half a period later.
+/// Why the linear loop with half a period more of delay does not describe samples in the middle of a period;
+/// empty: it does.
 std::string beside_middle(const study::Scenario& s, const study::Compiled& c, bool predicts) {
   if (predicts) return "a current that is predicted from the middle of a period is not in the linear model";
   if (s.pwm.alignment == study::Alignment::edge && !c.field)
@@ -38,7 +39,7 @@ std::string beside_middle(const study::Scenario& s, const study::Compiled& c, bo
   return "";
 }
 
-/// What the measured answer to the setpoint makes of a speed controller.
+/// The speed loop that the measured response to the setpoint has.
 design::Transfer speed_loop(const design::DriveLoops& loops, const control::DriveConfig<double>& drive) {
   const control::DriveExtras<double>& x = drive.extras;
   const control::SpeedLaw law = x.on ? x.speed_law : control::SpeedLaw::pi;
@@ -55,7 +56,7 @@ design::Transfer speed_loop(const design::DriveLoops& loops, const control::Driv
   return open_speed_loop(loops);
 }
 
-/// What the speed loop sees of its speed through the scenario's sensor.
+/// Lag of the speed from the scenario's sensor; empty: none.
 std::optional<design::SpeedLag> lag_of(const study::Scenario& s, const design::DriveLoops& loops,
                                        double speed_rad_s) {
   const design::RotorSensing sensing = rotor_sensing_of(s);
@@ -81,7 +82,7 @@ DesignedLoop designed_loop(const study::Scenario& s, const study::Compiled& c, d
     return out;
   }
   const design::DriveLoops loops = loops_of(s, c);
-  if (s.control.mode == Mode::current)  // decoupled, an axis is that of a locked rotor
+  if (s.control.mode == Mode::current)  // a decoupled axis is that of a locked rotor
     out.loop = s.load.locked || c.field ? open_current_loop(loops) : open_current_loop_turning(loops);
   else
     out.loop = s.control.mode == Mode::speed ? speed_loop(loops, drive) : open_position_loop(loops);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The linear loop that a scenario's gains make with its motor, as design judges it.
+// Builds the linear loop of a scenario's gains and its motor, with the design's equations.
 #pragma once
 #include <optional>
 #include <string>
@@ -11,12 +11,12 @@
 namespace sixstep::analysis {
 
 struct DesignedLoop {
-  std::optional<design::Transfer> loop;  ///< open, of the mode's outermost loop, the inner ones closed within
-  std::string not_linear;                ///< else: why there is none
-  std::optional<design::SpeedLag> lag;   ///< of the loop's own quantity, where that is a speed from a sensor
+  std::optional<design::Transfer> loop;  ///< open, of the mode's outermost controller, inner loops closed
+  std::string not_linear;                ///< why `loop` is empty
+  std::optional<design::SpeedLag> lag;   ///< of the sensor's speed, in speed mode; empty: none
 };
 
-/// `speed_rad_s`: at which it turns, for what a sensor's lag is.
+/// `speed_rad_s`: the speed at which the sensor's lag is computed; 0: no lag.
 DesignedLoop designed_loop(const study::Scenario& scenario, const study::Compiled& compiled,
                            double speed_rad_s);
 

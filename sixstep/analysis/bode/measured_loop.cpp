@@ -10,11 +10,11 @@
 namespace sixstep::analysis {
 namespace {
 
-/// Where a value falls through a level between two points, straight over the logarithm of the frequency.
+/// A value's fall through a level between two points. The value is linear over the logarithm of the frequency.
 struct Fall {
   const LoopPoint& before;
   const LoopPoint& after;
-  double part = 0.0;  ///< of the way from one to the other
+  double part = 0.0;  ///< of the way from `before` to `after`
 
   template <class Value>
   double at(const Value& value) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A loop as it was measured, from the closed one's answer: L = T/(1 - T), and the margins read off its points.
+// Computes the open loop L = T/(1 - T) from the measured closed loop T, and reads the margins off its points.
 #pragma once
 #include <optional>
 #include <vector>
@@ -11,37 +11,39 @@ namespace sixstep::analysis {
 
 struct LoopPoint {
   double w_rad_s = 0.0;
-  design::Complex closed;  ///< T, reference to what the controller is told
+  design::Complex closed;  ///< T, from the reference to the measured value
   double coherence = 0.0;
   double gain = 0.0, phase_rad = 0.0;  ///< of L, the phase of the turn that next_to() gives
-  double scatter = 0.0;                ///< standard deviation of |L| over |L|: that of |T| times |1 + L|
+  double scatter = 0.0;  ///< standard deviation of |L| over |L|, which is that of |T| times |1 + L|
 };
 
-/// A phase is known but for whole turns: the one of `angle` that lies within half a turn of `near`.
+/// The angle, plus or minus whole turns, that lies within half a turn of `near`.
 double next_to(double angle, double near);
-/// Each by the shorter way from the one before; the first in (-360, 0] degrees, as a loop that integrates has it.
+/// Adds whole turns so that each angle lies within half a turn of the one before. The first lies in (-360, 0]
+/// degrees, as for a loop that integrates.
 std::vector<double> unwrapped(const std::vector<double>& angles);
 
-/// Of a multisine's answer, samples a period apart. `lag`: of the sensor between what was recorded and the controller. L = T/(1 - T)
-/// holds of what goes round the loop, which is T times the lag; with the true speed in its place L would be read as 1/(lag - 1)
-/// wherever T is near 1, and without any lag where it is small.
+/// The points of L from the answer to a multisine with samples a period apart. `lag`: of the sensor, because the
+/// answer was recorded before it. L = T/(1 - T) holds for the signal that goes round the loop, which is T times
+/// the lag. With the true speed instead, L would be read as 1/(lag - 1) where T is near 1, and without any lag
+/// where T is small.
 std::vector<LoopPoint> loop_points(const Multisine& signal, const Answer& answer, double period_s,
                                    const std::optional<design::SpeedLag>& lag = {});
 
-/// As design::LoopFigures has them; between two points |L| in dB and phase run straight over the logarithm of the frequency.
-/// Empty where no point lies on the far side.
+/// The figures of design::LoopFigures. Between two points, |L| in dB and the phase are linear over the logarithm
+/// of the frequency. Empty: no point lies beyond the level.
 struct ReadMargins {
   std::optional<double> crossover_rad_s;  ///< the last frequency at which |L| falls through 1
-  std::optional<double> phase_rad;        ///< what is left to -180 degrees there, in (-180, 180] degrees
-  std::optional<double> gain;             ///< 1/|L| where the phase falls through -180 degrees
-  std::optional<double> delay_s;          ///< phase over crossover
-  std::optional<double> bandwidth_rad_s;  ///< where |T| falls below 1/sqrt 2
+  std::optional<double> phase_rad;        ///< phase margin there, in (-180, 180] degrees
+  std::optional<double> gain;             ///< gain margin, where the phase first falls through -180 degrees
+  std::optional<double> delay_s;          ///< delay margin: phase margin over crossover, at least 0
+  std::optional<double> bandwidth_rad_s;  ///< where |T| first falls below 1/sqrt 2
 };
 ReadMargins margins_of(const std::vector<LoopPoint>& points);
 
-/// Below it half of what came at a line was not the multisine's.
+/// A line with less coherence does not count as answered: too much of it does not come from the multisine.
 inline constexpr double little_coherence = 0.9;
-/// Whether any line at all came back. Of a loop that did not answer nothing is measured.
+/// Whether the loop answered at any line; without an answer, no margin is read.
 bool answered(const std::vector<LoopPoint>& points);
 
 }  // namespace sixstep::analysis

@@ -13,7 +13,7 @@ using design::Complex;
 
 namespace {
 
-/// exp(j 2 pi n/N) for n = 0 .. N - 1: each line's turns are whole numbers of these.
+/// exp(j 2 pi n/N) for n = 0 .. N - 1: the phases of each line are among these.
 std::vector<Complex> roots_of_one(std::size_t count) {
   std::vector<Complex> roots(count);
   for (std::size_t n = 0; n < count; ++n) {
@@ -49,7 +49,7 @@ LineAnswer line_answer(const std::vector<Complex>& periods, Complex input) {
   return out;
 }
 
-/// Mean square of what is not the mean.
+/// Mean square about the mean.
 double power_of(const double* y, std::size_t count) {
   double mean = 0.0, sum = 0.0;
   for (std::size_t n = 0; n < count; ++n) mean += y[n];

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A signal with all its power at chosen frequencies, and what a system makes of it: exact, since every period is whole.
+// Makes a signal with all its power at chosen frequencies, and computes a system's response at them. The response
+// is exact because every period is whole.
 //
 //   r[n] = A/peak sum_k cos(2 pi l_k n/N + phi_k),    phi_k = -pi k (k - 1)/K
 //
-// Schroeder's phases keep the peak low (M. R. Schroeder, IEEE Trans. Inf. Theory 16, 1970). Lines l_k are odd, so that
-// what a system answers with the square of its input falls beside all of them (R. Pintelon, J. Schoukens, System
+// Schroeder's phases keep the peak low (M. R. Schroeder, IEEE Trans. Inf. Theory 16, 1970). Lines l_k are odd, so
+// that answers to the square of the input lie beside all of them (R. Pintelon, J. Schoukens, System
 // Identification, 2012, 2.4 and 4.3).
 #pragma once
 #include <cstddef>
@@ -15,29 +16,29 @@
 namespace sixstep::analysis {
 
 struct Multisine {
-  std::size_t samples = 0;         ///< N of a period
-  std::vector<std::size_t> lines;  ///< cycles in a period, rising, odd, below N/2
+  std::size_t samples = 0;         ///< N, in a period
+  std::vector<std::size_t> lines;  ///< l_k: cycles in a period, rising, odd, below N/2
   double amplitude = 0.0;          ///< the largest |r|
 };
 
-/// Odd lines up to `last`, evenly spaced in their logarithm where they are that dense; at most `count`.
+/// At most `count` odd lines up to `last`, evenly spaced in their logarithm where odd numbers are dense enough.
 std::vector<std::size_t> odd_lines(std::size_t last, std::size_t count);
 
-/// One period.
+/// One period of the signal.
 std::vector<double> samples_of(const Multisine& signal);
 
 struct LineAnswer {
-  design::Complex gain;    ///< output over input, mean of the periods
-  double coherence = 0.0;  ///< 1: every period alike; of noise alone about one over the periods
-  double scatter = 0.0;    ///< standard deviation of |gain| over |gain|, of the mean
+  design::Complex gain;    ///< output over input, mean over the periods
+  double coherence = 0.0;  ///< 1: all periods are equal; noise alone gives about 1/periods
+  double scatter = 0.0;    ///< standard deviation of the mean |gain|, over |gain|
 };
 
 struct Answer {
   std::vector<LineAnswer> lines;
-  double beside = 0.0;  ///< of the output's rms without its mean, the part that stands at no line
+  double beside = 0.0;  ///< part of the output's rms, without its mean, that lies at no line
 };
 
-/// What came out while `signal` went in, over whole periods from a transient's end on; what is left of the last one is not looked at.
+/// The response to `signal`. `output` begins after the transient; only its whole periods are evaluated.
 Answer answer_to(const Multisine& signal, const std::vector<double>& output);
 
 }  // namespace sixstep::analysis

@@ -16,21 +16,21 @@
 namespace sixstep::analysis {
 namespace {
 
-/// A board as one is built: counts of offset, one of noise, half a microsecond of dead time, diodes, channels of a tenth of
-/// the phase. Ranges of twice the current and a quarter above the bus.
+/// A usual board: offset and noise in counts, dead time, diodes, switches with a tenth of the phase's resistance.
+/// The ranges are twice the test's current, and a quarter above the bus.
 constexpr double offset_counts = 12.3, noise_counts = 1.0, dead_s = 0.5e-6, channel_part = 0.1, diode_V = 0.7,
                  most_diode_ohm = 0.01, current_room = 2.0, bus_room = 1.25;
 constexpr int adc_bits = 12;
-/// Probes of a usual kind.
+/// Hysteresis of usual Hall probes.
 constexpr double hysteresis_deg = 2.0;
 
-/// What is known of the motor before: how its parts go together in time.
+/// Time scales of the motor, from its sheet.
 struct Paces {
   double tau_s = 0.0;             ///< L/R
   double swing_rad_s = 0.0;       ///< of the rotor in the standing field of the test's current
-  double calming_s = 0.0;         ///< in which that swing falls by e
-  double spin_turns_s2 = 0.0;     ///< electrical, that the current accelerates by
-  double half_emf_turns_s = 0.0;  ///< where the back-EMF is half of the vector
+  double calming_s = 0.0;         ///< in which that swing decays by the factor e
+  double spin_turns_s2 = 0.0;     ///< electrical acceleration by the current
+  double half_emf_turns_s = 0.0;  ///< speed at which the back-EMF is half of the voltage vector
 };
 
 Paces paces_of(const design::MotorModel& m, double flux_Vs, double R_ohm, double I_A) {
@@ -44,7 +44,7 @@ Paces paces_of(const design::MotorModel& m, double flux_Vs, double R_ohm, double
           .half_emf_turns_s = R_ohm * I_A / (2 * flux_Vs) / base::turn_rad};
 }
 
-/// Long enough for what the paces say, and what a test usually takes where they are faster.
+/// Settings of the test: long enough for these time scales, at least the usual ones.
 control::CommissioningWish wish_of(const Paces& p, double I_A) {
   control::CommissioningWish w;
   w.test_A = I_A;
@@ -57,13 +57,13 @@ control::CommissioningWish wish_of(const Paces& p, double I_A) {
   return w;
 }
 
-/// What the phases take at most, the fast turn tried as often as it may be.
+/// Longest time of all phases together, with all tries of the fast turn.
 double longest_of(const control::CommissioningWish& w, const Paces& p) {
   const double spun = w.spin_up_s * std::min(1.0, 1.5 * p.half_emf_turns_s / w.fastest_turns_s) + 1.0;
   return 2.0 + 2 * w.settle_s + 10 * w.step_s + 8.0 / w.slow_turns_s + 16 * spun + w.tries * w.settle_s;
 }
 
-/// Eight samples in L/R where a board's bridge can: 20 to 50 us.
+/// Eight samples in L/R, within the 20 to 50 us of usual bridges.
 double period_of(double tau_s) {
   return std::clamp(base::shortened(tau_s / 8, 1, base::Towards::down), 20e-6, 50e-6);
 }
@@ -127,7 +127,8 @@ base::Result<double> voltage_of(const CommissionSubject& subject, const design::
   return V;
 }
 
-/// A salient rotor leaves the field where its reluctance pulls harder than its magnet, (L_q - L_d) I > psi: a third of it.
+/// Largest current with which a salient rotor stays in the field: a third of that at which its reluctance pulls
+/// harder than its magnet, (L_q - L_d) I > psi.
 double salient_most_A(const study::GeneralPlant& plant) {
   const CommissionTruth t = truth_of(plant, 0.0);
   return t.beyond_L_H > 0.0 ? t.flux_linkage_Vs / t.beyond_L_H / 3 : HUGE_VAL;
@@ -138,9 +139,9 @@ struct TestCurrentFrom {
   TestCurrent from = TestCurrent::asked_for;
 };
 
-/// For seconds a motor stands more than it does for ever: twice the nominal current, or half of what the bus could drive.
-/// With less, what dead time and diodes take is no small part of the vector. Along a phase that reaches half of the bus
-/// (field_vector.hpp), of which a tenth stays for them.
+/// Twice the nominal current, which a motor stands for seconds, or half of what the bus could drive. With less,
+/// the voltage of dead time and diodes is no small part of the vector. Along a phase the vector reaches half of
+/// the bus (field_vector.hpp); a tenth of that stays for dead time and diodes.
 base::Result<TestCurrentFrom> current_of(const CommissionSubject& subject, const design::MotorModel& motor,
                                          double V) {
   const double R = motor.machine.R_ohm;
@@ -165,7 +166,7 @@ base::Result<TestCurrentFrom> current_of(const CommissionSubject& subject, const
   return TestCurrentFrom{I, from};
 }
 
-/// What no wish cures: the test's own torque or time.
+/// Problems of the test's torque or time that no setting of it solves.
 base::Problems too_weak(const CommissionBench& b, const design::MotorModel& motor) {
   const double torque = 1.5 * motor.machine.pole_pairs * b.truth.flux_linkage_Vs * b.wish.test_A;
   const double against = motor.shaft.coulomb_Nm + b.truth.cogging_Nm;

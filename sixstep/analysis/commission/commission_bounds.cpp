@@ -9,18 +9,19 @@
 namespace sixstep::analysis {
 namespace {
 
-/// Of normal noise one in 370 lies beyond.
+/// In standard deviations: one normal value in 370 lies beyond.
 constexpr double deviations = 3.0;
 constexpr double per_rad = 180 / base::pi;
 
-/// What noise does to the two levels' means, and to the area of the steps between them, in counts and in ticks.
+/// Errors by noise: of the difference of the two levels' means, in counts, and of the area of the steps between
+/// them, in ticks.
 struct OfNoise {
   double level_counts, area_ticks;
 
   OfNoise(const CommissionBench& b, const control::LevelStepsConfig& steps, double apart) {
     const double noise = deviations * b.noise_A / b.board.A_per_count, n = steps.ticks, pairs = steps.pairs;
-    // Along a vector, (2 i_a - i_b - i_c)/3: of a sample sqrt(2/3) of its noise. A level's mean has a quarter of its ticks, and
-    // the difference of two has the noise of both.
+    // The current along a vector, (2 i_a - i_b - i_c)/3, has sqrt(2/3) of a sample's noise. A level's mean is over
+    // a quarter of its ticks, and the difference of two has the noise of both.
     const double along = noise * std::sqrt(2.0 / 3.0);
     level_counts = along * std::sqrt(2.0 / (n / 4 * pairs));
     // The area has tails three times and the rest once (level_steps.hpp): 24 N in all of N tails, over 2 pairs steps.
@@ -28,9 +29,9 @@ struct OfNoise {
   }
 };
 
-/// By which cogging, and a shape that is no sine, hold the rotor beside the field. The shape's 1.12 degrees are those at rest;
-/// the ripple that the turn makes of them comes nearer to the swing by up to a ninth (commission_bench.cpp), and friction
-/// moves that by a twentieth.
+/// Angle by which cogging, and a shape that is no sine, hold the rotor beside the field. The shape's 1.12 degrees
+/// hold at rest. During the turn they are a ripple that comes near the rotor's swing, which amplifies it by up to
+/// 1/(1 - 1/9) (commission_bench.cpp); friction changes that by a twentieth.
 double of_motor_deg(const CommissionBench& b) {
   constexpr double trapezoid_deg = 1.12 / (1 - 1.0 / 9) * 1.05;
   const double torque = 1.5 * b.compiled.motor.machine.pole_pairs * b.truth.flux_linkage_Vs * b.wish.test_A;
@@ -38,14 +39,16 @@ double of_motor_deg(const CommissionBench& b) {
   return (b.truth.sine ? 0.0 : trapezoid_deg) + base::atan2(aside, std::sqrt(1 - aside * aside)) * per_rad;
 }
 
-/// By dead time and diodes: what they take lies along the signs of the currents, up to 30 degrees beside the vector.
+/// Angle by dead time and diodes: their voltage lies along the signs of the currents, up to 30 degrees beside the
+/// vector.
 double of_drop_deg(const control::CommissioningState& found) {
   const double lost = std::fabs(static_cast<double>(found.winding.lost)), applied = found.magnet.applied;
   return applied > lost ? base::atan2(0.5 * lost, applied - lost) * per_rad : 0.0;
 }
 
-/// What dead time and diodes take goes by the currents' signs. Where a current is within its ripple and noise of zero its sign
-/// is not known: that part of a turn, by which `lost` is wrong, as a part of the back-EMF.
+/// Error by unknown signs, as a part of the back-EMF. The voltage of dead time and diodes has the currents' signs.
+/// Where a current is within its ripple and noise of zero, its sign is unknown: in that part of a turn `lost` is
+/// wrong.
 double of_signs(const CommissionBench& b, const control::CommissioningState& found,
                 const control::Commissioned<double>& si) {
   const double lost = std::fabs(static_cast<double>(found.winding.lost)), emf = found.magnet.emf,
@@ -63,7 +66,7 @@ double of_signs(const CommissionBench& b, const control::CommissioningState& fou
 CommissionBounds bounds_of(const CommissionBench& b, const control::CommissioningState& found) {
   const control::CommissioningConfig config = control::commissioning_config(b.board, b.wish);
   CommissionBounds out;
-  // The capture timer's count, each way and at each end; where nothing was measured the rest is nobody's.
+  // The capture timer's count, each way and at each end. Where no winding was measured, the other bounds stay 0.
   const double count_deg = 360.0 * b.wish.slow_turns_s / b.board.timer_Hz;
   out.edge_deg = 6 * count_deg + of_drop_deg(found) + of_motor_deg(b);
   if (!found.winding.usable) return out;
@@ -71,7 +74,7 @@ CommissionBounds bounds_of(const CommissionBench& b, const control::Commissionin
   const double bus = 0.5 * b.board.V_per_count / b.voltage_V;
   const OfNoise noise(b, config.steps, apart);
   out.R_part = (4.0 / 3.0 + noise.level_counts) / apart + bus;
-  // The current that a period's ripple hides: by (T/tau)^2/4 of the step at most.
+  // A period's ripple hides at most (T/tau)^2/4 of the step.
   const double ticks = found.winding.tau / 65536.0;
   out.L_part = out.R_part + base::log(2 * apart) / apart + 1 / (4 * ticks * ticks) + noise.area_ticks / ticks;
   if (found.magnet.emf <= 0 || found.magnet.flux <= 0) return out;

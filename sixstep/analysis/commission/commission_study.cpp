@@ -41,8 +41,9 @@ void note(const Rig& rig, const CommissionBench& b, double t_s, CommissionStudy&
   s.rows.push_back(row);
 }
 
-/// The rotor's angle as the board has it, where its legs hang at other phases: an even number of wires crossed turns it by
-/// thirds; an odd number turns it round, as the d axis is mirrored, which theta_e lies 150 degrees ahead of.
+/// The rotor's angle in the frame of the board, whose legs may be connected to other phases. A cyclic order shifts
+/// it by thirds of a turn. Two swapped wires reverse it, because they mirror the d axis, which theta_e is 150
+/// degrees ahead of.
 double on_board_deg(const rig::Wiring& wires, double theta_e_deg) {
   const double at_a = 120.0 * static_cast<double>(wires.phase(0));
   return wires.phases < rig::WireOrder::acb ? theta_e_deg - at_a : 300.0 + at_a - theta_e_deg;
@@ -70,7 +71,8 @@ void compare_edges(CommissionStudy& s) {
   s.shown_offset_deg = ahead;
 }
 
-/// The table turns the motor the board's forward way: each sector that is found is the one that the pins stand for there.
+/// Whether the table turns the motor the board's forward way: each sector that was found is the one that the pins
+/// show.
 bool turns_by(const CommissionStudy& s) {
   for (std::size_t sector = 0; sector < 6; ++sector)
     if (std::fabs(apart(s.edges[sector].true_deg - 60.0 * static_cast<double>(sector))) >

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What commissioning is to find of a plant, from its parameters alone.
+// Computes from a plant's parameters the values that commissioning must find.
 #pragma once
 #include "sixstep/analysis/commission/commission_bench.hpp"
 
 namespace sixstep::analysis {
 
-/// `in_diode`: the part of a period in which a leg's current flows through a diode, by dead time.
+/// `in_diode`: part of a period in which a leg's current flows through a diode, because of the dead time.
 CommissionTruth truth_of(const study::GeneralPlant& plant, double in_diode);
 
 /// The peak of the fundamental of a phase's back-EMF over the electrical speed, V s.

@@ -18,11 +18,11 @@ namespace {
 constexpr double rated_part = 0.6;
 /// Part of the rated speed within which start and load step count as settled.
 constexpr double settled_part = 0.02;
-/// Means must be within so much of what was asked for.
+/// Means must lie within this part of the reference.
 constexpr double holds_rated = 0.02, holds_slow = 0.05;
 constexpr double electrical_turns = 10.0;
 
-/// Three digits, as one would write them.
+/// Rounded up to three digits.
 double plain(double x) { return base::shortened(x, 3, base::Towards::up); }
 
 design::DesignSpec wanted(const ContestSpec& c) {
@@ -43,7 +43,8 @@ bool is_grave(const design::DriveDesign& d) {
   return std::any_of(d.warnings.begin(), d.warnings.end(), [](const design::Warning& w) { return w.grave; });
 }
 
-/// With the settling time that the design chooses, or the shortest of 2, 5, 10 .. times as long of which no warning is grave.
+/// With the settling time that the design chooses, or the shortest of 2, 5, 10 .. times it without a grave
+/// warning.
 base::Result<design::DriveDesign> drive_design(const design::MotorModel& motor, const ContestSpec& c) {
   design::DesignSpec spec = wanted(c);
   base::Result<design::DriveDesign> first = design::design_drive(motor, spec);
@@ -147,14 +148,14 @@ void add_course(const Course& c, study::Scenario& s) {
   s.record = {};
 }
 
-/// The same angle between Hall edges, the same range of the converters, the pulses in the middle of the period: what each of the
-/// controllers can do with.
+/// Sets what is the same for all, and what every controller can use: the angle between Hall edges, the range of
+/// the converters, pulses in the middle of the period.
 void make_common(const design::DriveDesign& d, bool board, study::Scenario& s) {
   s.pwm.alignment = study::Alignment::centre;
   s.control.speed.torque_limit_Nm = base::shortened(d.torque_limit_Nm, 4, base::Towards::down);
   const study::Bridge usual = usual_bridge(d);
   if (board) {
-    if (!study::switching_law(s.bridge).any()) {  // every controller's switching is to cost something
+    if (!study::switching_law(s.bridge).any()) {  // every controller's switching must cause losses
       s.bridge.energies_at_V = usual.energies_at_V;
       s.bridge.energies_at_A = usual.energies_at_A;
       s.bridge.turn_on_J = usual.turn_on_J;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all controllers of a comparison have in common: the scenario that each differs from by the keys of its own row alone
-// (contestants.hpp). Motor, bus, bridge, PWM period, delay, sensors, torque limit, settling times and course are one for all.
+// Makes the scenario that all controllers of a comparison share. A controller's scenario differs from it only by
+// the keys of its row (contestants.hpp). Motor, bus, bridge, PWM period, delay, sensors, torque limit, settling
+// times and course are the same for all.
 //
 //   start      from rest to the rated speed w_r, against half of the rated torque
 //   load step  to the whole rated torque
 //   slow       down to the lowest speed that the speed loop is designed for, against the same torque
 //
-// The rated torque is that of the nominal current. w_r is 0.6 of the speed up to which the bus drives that current; what it leaves is
-// needed to commutate and to accelerate.
+// The rated torque is that of the nominal current. w_r is 0.6 of the speed up to which the bus drives that
+// current, because commutation and acceleration need the rest.
 #pragma once
 #include <optional>
 #include <string>
@@ -23,47 +24,47 @@
 namespace sixstep::analysis {
 
 struct ContestSpec {
-  std::string motor{};                       ///< name or path, as scenarios are to have it
+  std::string motor{};                       ///< name or path, for the scenarios
   design::Sheet sheet{};                     ///< of that motor
   std::optional<double> voltage_V{};         ///< of the bus; else the sheet's
   std::optional<double> settle_s{};          ///< of the speed loop; else what the Hall probes allow
   std::optional<double> current_settle_s{};  ///< of the current loop; else the design's
   std::optional<double> period_s{};          ///< of PWM and control; else 30 us
-  std::optional<study::Scenario>
-      board{};  ///< whose supply, bridge, PWM and sensors are taken, else usual_bridge(), and its
-                ///< energies where the board's switches name none
+  /// Source of supply, bridge, PWM and sensors; empty: usual_bridge(). Where the board's switches name no
+  /// energies, those of usual_bridge() are used.
+  std::optional<study::Scenario> board{};
 };
 
 struct Course {
   double rated_rad_s = 0.0, slow_rad_s = 0.0;
   double rated_Nm = 0.0;
   double load_at_s = 0.0, slow_at_s = 0.0, end_s = 0.0;
-  double calm_s =
-      0.0;  ///< length of the window before load_at_s: whole electrical turns, or the settling time
-  double slow_calm_s = 0.0;  ///< and of the one at the end
+  /// Length of the window before load_at_s: ten electrical turns, at least the settling time.
+  double calm_s = 0.0;
+  double slow_calm_s = 0.0;  ///< of the window at the end, likewise
 };
 
 struct ContestBench {
   design::DriveDesign design;
   Course course;
-  study::Scenario scenario;        ///< that of a row without keys
-  std::vector<std::string> rules;  ///< what is the same for all, a sentence each
+  study::Scenario scenario;        ///< of a row without keys
+  std::vector<std::string> rules;  ///< conditions that are the same for all, a sentence each
 };
 
-/// Problems are those of the sheet, or that no settling time suits.
+/// Problems: those of the sheet, a linear motor, no settling time that suits.
 base::Result<ContestBench> contest_bench(const ContestSpec& spec);
 
-/// Devices for whom nobody names any: switches of 1 % of the winding's resistance, diodes of 0.8 V, half a microsecond of dead
-/// time, and edges of 50 ns: E_on = E_off = U I 50 ns/2 at bus voltage and nominal current.
+/// Bridge where the user names none: switches of 1 % of the winding's resistance, diodes of 0.8 V, half a
+/// microsecond of dead time, and edges of 50 ns: E_on = E_off = U I 50 ns/2 at bus voltage and nominal current.
 study::Bridge usual_bridge(const design::DriveDesign& design);
 
-/// What <name> in a contestant's keys stands for, found by rule.
+/// Values that replace <name> in a contestant's keys, each computed by a rule.
 std::vector<std::pair<std::string, double>> contest_values(const ContestBench& bench);
 
 struct ContestKey {
   std::string path, value;
 };
-/// The keys of a row with their values; a Problem names a <name> that no rule knows.
+/// The keys of a row with their values; a <name> without a rule is a Problem.
 base::Result<std::vector<ContestKey>> keys_of(const Contestant& contestant, const ContestBench& bench);
 
 }  // namespace sixstep::analysis

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What controllers are compared by. A scenario of the course takes gauges, its [[compare]] in this order; a figure of the table is
-// a sum of some, less another: the loss of the bridge is conduction and switching, the dip at a commutation mean less least torque.
+// Figures by which controllers are compared. A scenario of the course measures gauges: its [[compare]], in this
+// order. A figure of the table is a sum of gauges, minus another gauge: the bridge's loss is conduction plus
+// switching, the dip at a commutation is mean minus least torque.
 #pragma once
 #include <array>
 #include <iterator>
@@ -10,17 +11,17 @@
 
 namespace sixstep::analysis {
 
-/// Part of the course, and the window in it.
+/// Part of the course in which a gauge is measured.
 enum class CoursePart : std::uint8_t { start, rated, load_step, brake, slow };
 
 struct ContestGauge {
-  std::string_view label;  ///< as the scenario has it
+  std::string_view label;  ///< in the scenario
   study::MetricKind metric;
   study::Signal signal;
   CoursePart part;
 };
 
-/// Names of contest_gauges, in their order.
+/// Indices of contest_gauges.
 enum class Gauge : std::uint8_t {
   start_settles,
   start_overshoot,
@@ -65,7 +66,7 @@ inline constexpr ContestGauge contest_gauges[] = {
     {"swing of the low speed", MetricKind::peak_to_peak, Signal::speed, CoursePart::slow},
 };
 
-/// A figure is shown among those of what moves, or of what is steady.
+/// Whether a figure is shown with the transients or with the steady state.
 enum class ContestGroup : std::uint8_t { moving, steady };
 
 struct ContestFigure {
@@ -77,7 +78,7 @@ struct ContestFigure {
   Gauge less = Gauge::none;
 };
 
-/// Less is better in all of them.
+/// For all figures, less is better.
 inline constexpr ContestFigure contest_figures[] = {
     {"settles",
      "settling after the start",
@@ -154,16 +155,16 @@ inline constexpr ContestFigure contest_figures[] = {
      {Gauge::slow_ripple, Gauge::none, Gauge::none}},
 };
 
-/// Places in contest_figures that rules and pictures name.
+/// Indices in contest_figures that rules and pictures use.
 inline constexpr std::size_t ripple_figure = 7, loss_figure = 13;
 static_assert(contest_figures[ripple_figure].name == "ripple rms" &&
               contest_figures[loss_figure].name == "losses");
 
-/// A value per gauge and per figure, so that none is there too many or too few.
+/// One value per gauge, and one per figure.
 using GaugeValues = std::array<double, std::size(contest_gauges)>;
 using ContestValues = std::array<double, std::size(contest_figures)>;
 
-/// The figures of a run's gauges; NaN where a gauge has none, infinite where it never comes.
+/// The figures of a run's gauges; NaN: a gauge has no value; infinite: the run never settles.
 ContestValues contest_values_of(const GaugeValues& gauges);
 
 }  // namespace sixstep::analysis

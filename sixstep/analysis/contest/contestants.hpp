@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The controllers that are set side by side, one row each: the only list of them. A row names the keys in which its scenario
-// differs from the one that all are made of (contest_bench.hpp), and nothing else may differ.
+// The list of the controllers that are compared, one row each. A row names the keys in which its scenario differs
+// from the common one (contest_bench.hpp); nothing else may differ.
 #pragma once
 #include <span>
 #include <string_view>
@@ -9,13 +9,14 @@ namespace sixstep::analysis {
 
 struct Contestant {
   std::string_view name;
-  /// "key = value" with "; " between, as --set has them. <full_A> and the like are found by a rule from the design,
-  /// contest_values(). A table in braces takes the place of the common one.
+  /// "key = value", separated by "; ", as for --set. contest_values() gives the values of <band_A> and the like. A
+  /// table in braces replaces the common one.
   std::string_view keys;
-  std::string_view sentence;  ///< what it does otherwise, and what comes of that: "it ..."
-  /// The drive of data/cores/ that has its blocks; empty: none was counted yet.
+  std::string_view sentence;  ///< what it does differently, and the effect: "it ..."
+  /// The drive of data/cores/ that has its blocks; empty: not counted yet.
   std::string_view core_drive = "";
-  /// Of one's own: instructions of a step at worst and bytes of flash, where they were counted (text/contest/own_cost.hpp).
+  /// For a user's own controller: most instructions of a step and bytes of flash, where counted
+  /// (text/contest/own_cost.hpp).
   std::string_view tick = "", flash_bytes = "";
 };
 

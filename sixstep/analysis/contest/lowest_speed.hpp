@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How slowly a controller still turns the motor against the rated torque: from the low speed of the course down by halves, one after
-// the other, each long enough to settle and to look at. A speed is held where its mean is within a twentieth of it, and nowhere is the
-// motor below half of it or above one and a half.
+// Finds the lowest speed at which a controller still turns the motor against the rated torque. The reference goes
+// from the course's low speed down by halves, each long enough to settle and to measure. A speed is held where its
+// mean is within a twentieth of it, and the motor is never below half of it or above one and a half.
 #pragma once
 #include <optional>
 #include <span>
@@ -12,13 +12,13 @@
 
 namespace sixstep::analysis {
 
-/// From the fastest on, rad/s: six of them, down to 1/32.
+/// Six speeds in rad/s, from the course's low speed down to 1/32 of it.
 std::vector<double> slow_speeds(const Course& course);
 
-/// The scenario of a contestant, on the way down through these speeds; three requirements for each.
+/// The scenario of a contestant that runs down through these speeds, with three requirements for each.
 study::Scenario slow_scenario(const study::Scenario& contestant, const ContestBench& bench);
 
-/// The slowest one held, all before it held too; none where not even the first is.
+/// The slowest speed that is held together with all faster ones; empty: not even the first is held.
 std::optional<double> lowest_speed_rad_s(const Course& course, std::span<const study::Verdict> verdicts);
 
 }  // namespace sixstep::analysis

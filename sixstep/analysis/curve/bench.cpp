@@ -12,14 +12,14 @@ namespace sixstep::analysis {
 
 namespace {
 
-/// Control periods until the start is forgotten, as a chopped point waits for them (operating_point.cpp):
-/// some seconds of computing for each of its runs.
+/// Most control periods until the start has decayed, for which a chopped point waits (operating_point.cpp): some
+/// seconds of computing for each of its runs.
 constexpr double most_periods = 1e6;
 
 /// A pulse of 30 ps in 30 us: less is no pulse.
 constexpr double least_duty = 1e-6;
 
-/// What each number may be and both together may not: a point that takes for ever.
+/// Refuses allowed numbers that together take too long to simulate.
 void check_pace(const Bench& b, base::Problems& problems) {
   const plant::Machine& m = b.motor.machine;
   const auto refuse = [&](const char* where, double value, const std::string& limit, const char* cure) {

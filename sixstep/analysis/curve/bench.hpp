@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A motor on a test bench that holds its speed: what the torque-speed curve is taken of.
+// A motor on a test bench that holds its speed, for the torque-speed curve.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace sixstep::analysis {
 
-/// Stiff bus, commutation at the Hall edges, duty held: open loop.
+/// Stiff bus, commutation at the Hall edges, constant duty without a loop.
 struct Bench {
   design::MotorModel motor;
   plant::Devices devices{};
@@ -19,15 +19,15 @@ struct Bench {
   double duty = 1.0;  ///< in [-1, 1], not 0; a negative one drives backwards
   control::Chopping chopping = control::Chopping::soft;
   double pwm_period_s = 30e-6;
-  /// Asked now and then, on any thread; false ends what is under way, which is a Problem then. May be empty.
+  /// Called now and then, on any thread; false ends the work, which is then a Problem. May be empty.
   std::function<bool()> keep_going{};
 };
 
-/// What keep_going has ended.
+/// Whether keep_going ends the work, and the Problem of work that it has ended.
 inline bool told_to_stop(const Bench& b) { return b.keep_going && !b.keep_going(); }
 inline base::Problem interrupted_work() { return {"curve", "", "was interrupted", "start it again"}; }
 
-/// Watches a run with `observer`, which never ends one itself, and asks now and then whether to go on.
+/// Passes a run's segments to `observer`, which must not end the run, and calls keep_going every 256 segments.
 template <class Observer>
 struct Asking {
   const std::function<bool()>& keep_going;
@@ -38,7 +38,7 @@ struct Asking {
   bool done(const auto&) { return keep_going && ++segments % 256 == 0 && !keep_going(); }
 };
 
-/// What no curve can be taken of; `where` is the member's name.
+/// Problems of a bench without a curve; `where` is the member's name.
 base::Problems check(const Bench& bench);
 
 /// Mean voltage across the driven pair while current flows throughout, V: d U, or (2 |d| - 1) U where both
@@ -58,7 +58,7 @@ inline double ideal_torque_Nm(const Bench& b, double speed_rad_s) {
   return one_way && line * b.duty < 0 ? 0.0 : line;
 }
 
-/// Where that line meets the axis, rad/s; 0 where it never leaves it.
+/// Speed at which that line meets the axis, rad/s; 0: the mean voltage does not drive.
 inline double ideal_no_load_rad_s(const Bench& b) {
   const double reached = mean_voltage_V(b) / b.motor.K_t_Nm_A;
   return reached * b.duty > 0 ? reached : 0.0;

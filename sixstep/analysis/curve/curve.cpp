@@ -17,13 +17,13 @@ std::optional<double> scaled_point(const std::optional<base::Quantity>& q, doubl
   return q ? std::optional(q->value * factor) : std::nullopt;
 }
 
-/// How warm motor and air are.
+/// Problems with the temperatures of motor and air.
 base::Problems check_temperatures(const CurveRequest& r) {
   base::Problems problems;
   const std::pair<const char*, double> temperatures[] = {{"ambient_degC", r.ambient_degC},
                                                          {"winding_degC", r.motor_degC.winding_degC},
                                                          {"housing_degC", r.motor_degC.housing_degC}};
-  for (const auto& [name, degC] : temperatures)  // above absolute zero, and below what no winding sees
+  for (const auto& [name, degC] : temperatures)  // above absolute zero, and below what no winding reaches
     if (!base::between(-200, 500).holds(degC))
       problems.push_back({name, base::written(degC), "must be a temperature, -200 to 500 degC",
                           "25 is what data sheets mean"});
@@ -37,7 +37,7 @@ base::Problems check_temperatures(const CurveRequest& r) {
 
 base::Problems check(const CurveRequest& r) {
   base::Problems problems = check_temperatures(r);
-  // Without magnets there is no model to look at.
+  // Without magnets there is no model to check.
   if (!design::lost_magnets("housing_degC", r.sheet, r.motor_degC.housing_degC))
     for (base::Problem& p : check(r.bench)) problems.push_back(std::move(p));
   if (r.bench.duty < 0)
@@ -103,7 +103,7 @@ std::optional<double> printed_current(const design::MotorModel& motor) {
   return std::nullopt;
 }
 
-/// What prints the ratings, each source once, where it is not the data sheet.
+/// Sources of the ratings, each once, except the data sheet.
 std::string rated_in(const design::Sheet& sheet) {
   std::string all;
   for (const auto* rating : {&sheet.nominal_torque_mNm, &sheet.nominal_speed_rpm, &sheet.nominal_current_A}) {

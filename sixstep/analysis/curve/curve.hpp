@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The torque-speed curve of a motor: from standstill to no load, with what the sheet says beside it and what
-// the winding stands for ever or for a while.
+// Computes the torque-speed curve of a motor from standstill to no load, with the data sheet's values and the
+// winding's thermal limits.
 #pragma once
 #include <array>
 #include <optional>
@@ -12,52 +12,51 @@
 
 namespace sixstep::analysis {
 
-/// Some hundred megabytes of points, more than any screen or table has rows for.
+/// Most points of a curve: some hundred megabytes, more rows than any screen or table shows.
 inline constexpr int most_points = 200'000;
 
 struct CurveRequest {
   design::Sheet sheet;
-  Bench bench;  ///< its motor as warm as `motor_degC` (design::warmed)
+  Bench bench;  ///< its motor is at `motor_degC` (design::warmed)
   design::Temperatures motor_degC{};
   int points = 41;  ///< from standstill to no load, both included
   double ambient_degC = design::sheet_degC;
 };
 
-/// The point that the sheet calls nominal, and where the curve has its torque. A load asks for a torque: what
-/// the motor then does differently is to turn slower. The torque at the printed speed would magnify the same
-/// difference by the curve's steepness.
+/// The sheet's nominal point, and the curve's point of the same torque. A load asks for a torque, and a motor that
+/// differs turns at another speed with it. The torque at the printed speed would magnify the same difference by
+/// the curve's steepness.
 struct NominalPoint {
   std::optional<double> speed_rad_s, torque_Nm, current_A;  ///< as printed
-  std::string from;                                         ///< what prints them, where it is not the sheet
-  std::optional<OperatingPoint> at_torque;  ///< empty without a torque, or where the curve never has it
+  std::string from;                                         ///< their source, where it is not the data sheet
+  std::optional<OperatingPoint> at_torque;  ///< empty without a torque, or where the curve never reaches it
   std::optional<OperatingPoint> at_speed;   ///< empty without a speed
 };
 
-/// How much speed a torque costs, rad/s per N m, from no load to the nominal point.
+/// Loss of speed per torque, rad/s per N m, from no load to the nominal point.
 struct SpeedDrop {
-  double ideal = 0.0;               ///< R_tt/K_t^2: what a sheet's speed-torque gradient is
+  double ideal = 0.0;               ///< R_tt/K_t^2, the speed-torque gradient of data sheets
   std::optional<double> printed{};  ///< that gradient as printed
   std::optional<double> sheet{};    ///< between the printed no-load and nominal points
-  std::optional<double> curve{};    ///< between the same torques of the curve
+  std::optional<double> curve{};    ///< between the same torques on the curve
 };
 
 /// Times for which short-time limits are given, s.
 inline constexpr std::array<double, 2> short_times_s = {10.0, 60.0};
 
-/// What the winding stands at one speed, as shaft torque of a drive that holds the current constant: block
-/// current through two phases, P = I^2 R_tt, and K_t I less friction, with K_t of the magnets as warm as they then
-/// are. Friction warms the housing. None of it depends on how warm the curve's own motor is. No value (NaN) where the
-/// winding is above its limit without any current: the air or friction alone warm it that far.
+/// Thermal limits of the winding at one speed, as shaft torque of a drive that holds the current constant: block
+/// current through two phases, P = I^2 R_tt, and K_t I minus friction, with K_t at the resulting temperature of
+/// the magnets. Friction warms the housing. The temperature of the curve's own motor has no influence. NaN where
+/// the winding is above its limit without any current, by ambient temperature or friction alone.
 struct ThermalLimits {
   double continuous_A = 0.0, continuous_Nm = 0.0;
   std::array<double, short_times_s.size()> short_A{}, short_Nm{};  ///< from ambient temperature
 };
 
-/// A point of the curve held for good: the winding's temperature in the end, or how long it may last from
-/// ambient temperature. The current is taken as held while the copper warms.
+/// Temperatures of a point of the curve that is held. The current is taken as constant while the copper warms.
 struct Warming {
-  std::optional<double> winding_degC;   ///< empty where it never comes to rest
-  std::optional<double> permissible_s;  ///< empty: for ever
+  std::optional<double> winding_degC;   ///< final one; empty: it rises without end
+  std::optional<double> permissible_s;  ///< from ambient temperature; empty: without limit
 };
 
 struct Curve {
@@ -69,11 +68,11 @@ struct Curve {
   std::vector<ThermalLimits> limits{};            ///< one per point; empty without thermal lines
   std::vector<Warming> warming{};                 ///< likewise
   std::optional<design::WorseEnds> worse_ends{};  ///< where the sheet's thermal lines have ranges
-  base::Problems thermal_missing{};               ///< why there are none
+  base::Problems thermal_missing{};               ///< why `thermal` is empty
 };
 
-/// What comes first: the no-load point, and the speeds that are then independent of each other: those of the
-/// points, then the sweep on which the marks are looked for, both ending before no load, and the sheet's
+/// First step of a curve: the no-load point, and the speeds whose points can be computed independently. These are
+/// the speeds of the curve's points, then of the sweep for the marks, both without no load, then the sheet's
 /// nominal speed where it has one.
 struct CurvePlan {
   NoLoad no_load;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motor and bridge at duty 1: the gates follow the sector, nothing is chopped. A System for sim::run.
+// Simulates motor and bridge at duty 1: the gates follow the sector, nothing is chopped. A System for sim::run.
 #pragma once
 #include "sixstep/analysis/curve/bench.hpp"
 #include "sixstep/analysis/curve/sums_recorder.hpp"
@@ -9,8 +9,8 @@
 
 namespace sixstep::analysis {
 
-/// A shaft whose speed nothing changes: 1/J = 0 makes dw/dt zero to the bit, whatever the torque. Friction is
-/// left to whoever asks for the shaft's torque; it cannot act on the currents at a given speed.
+/// A shaft with constant speed: 1/J = 0 makes dw/dt exactly zero, whatever the torque. The caller subtracts
+/// friction from the shaft's torque; friction cannot act on the currents at a given speed.
 inline plant::Shaft imposed_speed() { return {.J_kg_m2 = std::numeric_limits<double>::infinity()}; }
 
 /// Starts without current, by default in the middle of a sector, so that neither direction starts on an edge.
@@ -35,7 +35,7 @@ class FullOn : public rig::UnscheduledPlant<double> {
     commutate();
   }
 
-  /// As OpenLoop's, for what does not care which of the two it watches.
+  /// The same as OpenLoop::run_for(), so that a template can run both.
   template <class Observer>
   sim::Stop run_for(double seconds, Observer& observer) {
     Asking<Observer> asking{keep_going_, observer};
@@ -46,8 +46,8 @@ class FullOn : public rig::UnscheduledPlant<double> {
     return run_for(seconds, none);
   }
 
-  /// Until that many edges are passed, with or without a recorder: Stop::observer. Stop::end where it was
-  /// told to stop before; anything else is a defect.
+  /// Runs until edges() is `target`, with or without a recorder. Stop::observer: reached; Stop::end: keep_going
+  /// ended it; anything else is a defect.
   sim::Stop run_to_edge(std::int64_t target, SumsRecorder* recorder = nullptr) {
     UntilEdge until{target, recorder, keep_going_, asked_};
     const sim::Stop stop = sim::run(*this, sim::Instant::never(), until).stop;
@@ -61,7 +61,7 @@ class FullOn : public rig::UnscheduledPlant<double> {
     std::int64_t target;
     SumsRecorder* recorder;
     const std::function<bool()>& keep_going;
-    std::uint32_t& asked;  // from one call to the next: a sector has a few segments
+    std::uint32_t& asked;  // kept from call to call, because a sector has only a few segments
     void segment(const FullOn& system, double s) {
       if (recorder) recorder->segment(system, s);
     }

@@ -11,7 +11,7 @@ namespace {
 using Sweep = std::vector<OperatingPoint>;
 using Value = std::function<double(const OperatingPoint&)>;
 
-/// What a search may ask the bench for; the first point that could not be computed ends it.
+/// Computes the points of a search; the first point that could not be computed ends it.
 struct Search {
   const Bench& bench;
   base::Problems problems{};
@@ -25,7 +25,7 @@ struct Search {
     into = *point;
     return true;
   }
-  /// How near a speed has to be found, of the whole from standstill to no load.
+  /// Precision of a speed, as a part of the no-load speed.
   double near(double full_on, double chopped) const {
     const bool full = bench.duty == 1 || bench.duty == -1;
     return full ? full_on : chopped;
@@ -89,7 +89,7 @@ std::optional<OperatingPoint> root(Search& search, const OperatingPoint& a, cons
   return found;
 }
 
-/// The crossing nearest to no load, which has `value` above zero; standstill where nothing crosses.
+/// The crossing nearest to no load, where `value` is above zero; standstill where nothing crosses.
 std::optional<OperatingPoint> crossing(Search& search, const Sweep& sweep, const Value& value) {
   const double goal = std::fabs(sweep.back().speed_rad_s) * search.near(1e-9, 1e-4);
   for (std::size_t n = sweep.size() - 1; n > 0; --n)

@@ -31,7 +31,7 @@ class NoLoadSearch {
       return false;
     }
     into = {speed, direction_ * point->shaft_torque_Nm, *point};
-    if (speed == 0) into.torque -= bench_.motor.shaft.coulomb_Nm;  // of the first motion
+    if (speed == 0) into.torque -= bench_.motor.shaft.coulomb_Nm;  // friction of the first motion
     return true;
   }
 
@@ -40,7 +40,7 @@ class NoLoadSearch {
   double direction_;
 };
 
-/// Speeds below and above the crossing: from standstill up to seven times what full voltage would reach.
+/// Finds speeds below and above the crossing, from standstill up to seven times the ideal one at full voltage.
 bool bracket(NoLoadSearch& search, const Bench& b, Sample& low, Sample& high) {
   if (!search.take(0.0, low)) return false;
   if (!(low.torque > 0)) {
@@ -62,8 +62,8 @@ bool bracket(NoLoadSearch& search, const Bench& b, Sample& low, Sample& high) {
   return false;
 }
 
-/// False position with the kept end's value halved (Illinois): ends where the speed stands still to 1e-11, or
-/// the torque is within its interval of zero.
+/// False position with the kept end's value halved (Illinois). It ends where the speed changes by 1e-11 or less,
+/// or where the torque is within its interval of zero.
 bool narrow(NoLoadSearch& search, Sample low, Sample high, Sample& found, double& slope) {
   constexpr int most = 100;
   double f_low = low.torque, f_high = high.torque;
@@ -114,7 +114,7 @@ void run_free(const Bench& b, OpenLoop& system, double settle_s, double mean_s, 
   note_means(b, recorder.sums(), angle_of(system.plant()) - from, settle_s, out);
 }
 
-/// The same over a whole number of sectors: a part of one would let the rotor's swing into the means.
+/// The same over a whole number of sectors, because the rotor's swing in a part of one would change the means.
 void run_free(const Bench& b, FullOn& system, double settle_s, double mean_s, NoLoad& out) {
   system.run_for(settle_s);
   const std::int64_t first = system.edges();

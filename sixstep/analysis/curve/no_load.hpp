@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The speed that a motor reaches with nothing on its shaft, found twice: where the curve at held speeds needs
-// no torque from outside, and by letting the rotor run.
+// Finds the no-load speed of a motor in two ways: as the held speed at which the shaft needs no torque from
+// outside, and by a free rotor.
 #pragma once
 #include "sixstep/analysis/curve/operating_point.hpp"
 
@@ -8,14 +8,14 @@ namespace sixstep::analysis {
 
 struct NoLoad {
   OperatingPoint point;           ///< at held speed, mean shaft torque 0
-  double half_width_rad_s = 0.0;  ///< quasi-periodic: the torque's half width over the curve's slope
+  double half_width_rad_s = 0.0;  ///< quasi-periodic: the torque's half width over the slope
   double slope_Nm_s = 0.0;        ///< of the shaft torque over speed there, negative
   double free_speed_rad_s = 0.0;  ///< mean of a free rotor
   double free_winding_current_A = 0.0;
   double free_bus_current_A = 0.0;  ///< likewise
   double time_constant_s = 0.0;     ///< J/|slope|
-  double free_s = 0.0;              ///< simulated with the rotor free
-  bool settled = true;              ///< false: longest_free_s were too short for that time constant
+  double free_s = 0.0;              ///< simulated time with the rotor free
+  bool settled = true;              ///< false: longest_free_s is too short for that time constant
 };
 
 inline constexpr double longest_free_s = 20.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motor and bridge on the virtual board with a duty that does not change.
+// Simulates motor and bridge on the virtual board with a constant duty.
 #pragma once
 #include "sixstep/analysis/curve/bench.hpp"
 #include "sixstep/rig/lean_rig.hpp"
@@ -13,7 +13,7 @@ class OpenLoop {
       : keep_going_(b.keep_going),
         rig_(plant, drive_of(b), board_of(b), {{sim::Instant{}, rig::ActionKind::setpoint, b.duty}}) {}
 
-  /// Stop::observer: told to stop (Bench::keep_going).
+  /// Stop::observer: Bench::keep_going ended it.
   template <class Observer>
   sim::Stop run_for(double seconds, Observer& observer) {
     Asking<Observer> asking{keep_going_, observer};

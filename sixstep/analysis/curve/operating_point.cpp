@@ -26,7 +26,7 @@ double sector_seconds(const Bench& b, double speed) {
   return base::sector_rad / (b.motor.machine.pole_pairs * std::fabs(speed));
 }
 
-/// Why a run came neither to its end nor to its edge.
+/// Why a run stopped before its end or its edge.
 base::Problem ended_early(double speed, sim::Stop stop) {
   if (stop == sim::Stop::end || stop == sim::Stop::observer) return interrupted_work();
   return {"speed " + base::written(speed) + " rad/s", "",
@@ -35,7 +35,7 @@ base::Problem ended_early(double speed, sim::Stop stop) {
           "this is a defect of sixstep: please report it with the motor file"};
 }
 
-/// Electrical mean values of the orbit, then what friction leaves of them.
+/// Electrical mean values of the orbit; take_to_shaft() subtracts the friction.
 OperatingPoint point_of(const Bench& b, double speed, const Sums& sums) {
   const double T = sums.seconds;
   OperatingPoint p;
@@ -58,7 +58,8 @@ OperatingPoint point_of(const Bench& b, double speed, const Sums& sums) {
   return p;
 }
 
-/// At speed 0 the rotor just turns, the way it is driven: dry friction takes its part of the torque, and all of a lower one.
+/// At speed 0 the rotor just begins to turn the way it is driven: dry friction takes its part of the torque, or
+/// all of a lower one.
 double friction_at(const plant::Shaft& shaft, double speed, double torque_Nm) {
   if (speed != 0) return friction_Nm(shaft, speed);
   return std::copysign(std::min(shaft.coulomb_Nm, std::fabs(torque_Nm)), torque_Nm);
@@ -74,8 +75,9 @@ void take_to_shaft(const Bench& b, OperatingPoint& p) {
     p.efficiency = p.supplied_W / p.shaft_W;
 }
 
-/// Sixty degrees are half a turn less a third, so x_a(theta + 60 deg) = -x_b(theta), x_b -> -x_c, x_c -> -x_a
-/// for every quantity of a symmetric machine and bridge: where a steady state's currents are one sector on.
+/// The currents of a steady state one sector on. Sixty degrees are half a turn less a third. So x_a(theta + 60
+/// deg) = -x_b(theta), and likewise x_b -> -x_c, x_c -> -x_a, for every quantity of a symmetric machine and
+/// bridge.
 PerLeg<double> one_sector_on(const PerLeg<double>& i, bool forward) {
   return forward ? PerLeg<double>{-i[1], -i[2], -i[0]} : PerLeg<double>{-i[2], -i[0], -i[1]};
 }
@@ -91,7 +93,7 @@ class SectorMap {
  public:
   SectorMap(const Bench& b, double speed) : system_(b, imposed_speed(), speed), forward_(speed > 0) {}
 
-  /// Runs to the next sector start; how far the currents came from where they were one sector ago.
+  /// Runs to the next sector start; returns the distance of the currents from those one sector ago.
   double apply(sim::Stop& stop, SumsRecorder* recorder = nullptr) {
     stop = system_.run_to_edge(system_.edges() + 1, recorder);
     const PerLeg<double> now = system_.plant().state().i;
@@ -107,10 +109,10 @@ class SectorMap {
   bool forward_;
 };
 
-/// Time constants after which a chopped run is looked at: exp(-20) = 2e-9 of the start is left.
+/// Time constants after which a chopped run is averaged: exp(-20) = 2e-9 of the start is left.
 constexpr double forgotten = 20.0;
 
-/// More are not tried: 37 L/R would be as long, and no motor's L/R is fifty thousand sectors.
+/// Most sectors that are tried: 37 L/R would be as long, and no motor's L/R is fifty thousand sectors.
 constexpr std::int64_t most_sectors = 2'000'000;
 
 base::Result<OperatingPoint> full_on(const Bench& b, double speed) {
@@ -136,7 +138,7 @@ base::Result<OperatingPoint> full_on(const Bench& b, double speed) {
   return p;
 }
 
-/// Mean and half width of what `of` says of each batch.
+/// Mean of `of` over the batches, and its interval's half width.
 struct Interval {
   double mean = 0.0, half_width = 0.0;
 };
@@ -169,21 +171,21 @@ struct Gathered {
   sim::Stop stop = sim::Stop::end;
 };
 
-/// What an interval must stay below, N m (operating_point.hpp).
+/// Largest half width of a precise interval, N m (operating_point.hpp).
 double goal_Nm(const Bench& b) {
   return half_width_goal * std::fabs(b.duty) * b.motor.K_t_Nm_A * b.voltage_V / (2 * b.motor.machine.R_ohm);
 }
 
-/// When batch n begins: the start is forgotten, and a PWM period is under way by a part that the golden ratio
-/// spreads evenly, however many batches there are.
+/// Begin of batch n: the start has decayed, and the PWM period is at a phase that the golden ratio spreads evenly
+/// for any number of batches.
 double begin_of(const Bench& b, int n) {
   constexpr double golden = 0.6180339887498949;
   const double phase = n * golden - std::floor(n * golden);
   return (std::ceil(forgotten / forgetting_rate(b) / b.pwm_period_s) + phase) * b.pwm_period_s;
 }
 
-/// Where the rotor then has to start, in sectors, to stand in the middle of one at that instant: batches
-/// begin at one angle and last whole sectors, so that nothing but the PWM's phase tells them apart.
+/// Angle in sectors at which the rotor must start, to be in the middle of a sector when the batch begins. Batches
+/// begin at one angle and last whole sectors, so that they differ only in the PWM's phase.
 double start_of(const Bench& b, double speed, double begin_s) {
   const double turned = speed != 0 ? begin_s / sector_seconds(b, speed) : 0.0;
   const double start = speed > 0 ? 0.5 - turned : 0.5 + turned;
@@ -192,7 +194,7 @@ double start_of(const Bench& b, double speed, double begin_s) {
 
 Gathered gather(const Bench& b, double speed) {
   Gathered out;
-  std::deque<OpenLoop> runs;  // each stays where it is: its rig looks at it
+  std::deque<OpenLoop> runs;  // each must keep its address, because its rig refers to it
   for (int n = 0; n < batches && out.stop == sim::Stop::end; ++n) {
     const double begin_s = begin_of(b, n);
     const plant::Shaft shaft = speed != 0 ? imposed_speed() : held();
@@ -236,7 +238,7 @@ base::Result<OperatingPoint> chopped(const Bench& b, double speed) {
   return p;
 }
 
-/// At full duty the held rotor's current has settled at U over the loop's resistance.
+/// At full duty the current of a held rotor is U over the loop's resistance.
 OperatingPoint stall(const Bench& b) {
   const double R_s = b.motor.machine.R_ohm;
   const double i = b.duty * b.voltage_V / (2 * (R_s + b.devices.R_on_ohm));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The torque of a slowly turned rotor from the current of a held one: means over the angle of the driven
-// pair's shape g = f_p - f_n.
+// Computes the torque of a slowly turning rotor from the current of a held one, by means over the angle of the
+// driven pair's shape g = f_p - f_n.
 #pragma once
 #include "sixstep/analysis/curve/operating_point.hpp"
 #include "sixstep/analysis/curve/sums_recorder.hpp"
@@ -8,17 +8,17 @@
 
 namespace sixstep::analysis {
 
-/// Of K_e (f_p - f_n) over a sector, N m/A: mean, mean of the square, extremes.
+/// K_e (f_p - f_n) over a sector, N m/A: mean, mean of the square, extremes.
 struct ShapeMeans {
   double mean = 0.0, square = 0.0, low = 0.0, high = 0.0;
 };
 ShapeMeans shape_means(const plant::Machine& machine);
 
-/// Torque, its ripple and its extremes over time and angle together: at standstill T = K_e g(theta) i_m(t)
-/// with theta and t independent.
+/// Sets torque and ripple over time and angle together: at standstill T = K_e g(theta) i_m(t) with theta and t
+/// independent.
 void spread_over_angles(const design::MotorModel& motor, const Sums& sums, OperatingPoint& p);
 
-/// The same current where the rotor is held at the angle of least torque.
+/// The torque of the same current with the rotor held; its ripple at the angle of least torque.
 LockedRotor locked_rotor(const design::MotorModel& motor, const Sums& sums);
 
 }  // namespace sixstep::analysis

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Integrals and extremes of currents and torque over a stretch of a run, exact on the segments' polynomials:
-// what mean values, ripple and the energy balance of an operating point are made of.
+// Integrates currents, torque and energies over a stretch of a run, exactly on the segments' polynomials, and
+// finds their extremes: for mean values, ripple and energy balance of an operating point.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace sixstep::analysis {
 
-/// Integrals over time of what the name says, in SI; energies in J.
+/// Integrals over time of the named quantities, in SI units; energies in J.
 struct Sums {
   double seconds = 0.0;
   double supplied = 0.0, copper = 0.0, devices = 0.0, air_gap = 0.0, magnetic = 0.0;
@@ -94,7 +94,7 @@ class SumsRecorder {
     return squares / (2 * plant.constants().inv_L);
   }
 
-  /// [low, high] grows to what y takes over [0, s]; most segments cannot change it, and are not searched.
+  /// Widens [low, high] to the values of y over [0, s]; most segments cannot change it, and are not searched.
   static void widen(const study::Series& c, int degree, double s, double& low, double& high) {
     const double reach = series::magnitude_of(c, degree) - std::fabs(c[0]);
     if (low <= c[0] - reach && c[0] + reach <= high) return;
@@ -117,7 +117,7 @@ class SumsRecorder {
     widen(c, y.degree, s, sums_.motor_low, sums_.motor_high);
   }
 
-  /// Mean of |y| over [0, s]: parts between its sign changes, where it has any.
+  /// Mean of |y| over [0, s], summed between its sign changes.
   static double size(const study::Series& c, int degree, double s, double mean) {
     const double scale = series::magnitude_of(c, degree);
     if (2 * std::fabs(c[0]) > scale) return std::fabs(mean);

@@ -15,7 +15,7 @@ constexpr double z_95 = 1.959963984540054;
 
 double normal_density(double x) { return base::exp(-0.5 * x * x) / std::sqrt(2.0 * base::pi); }
 
-/// Of where `below` first reaches `p`, between two places that have it between them; `below` rises.
+/// Place at which the rising `below` reaches `p`, between `low` and `high`, by bisection.
 template <class Below>
 double where(Below below, double p, double low, double high) {
   for (int n = 0; n < 200 && high - low > 1e-10 * (std::fabs(low) + std::fabs(high)); ++n) {
@@ -29,7 +29,7 @@ double where(Below below, double p, double low, double high) {
 /// Rice's distribution, as the integral over the coordinate along the vector.
 double length_below(double r, double length) {
   if (r <= 0.0) return 0.0;
-  constexpr int steps = 60;  // to 1e-9, for it converges as a periodic function's sum does
+  constexpr int steps = 60;  // to 1e-9, because it converges as a periodic function's sum does
   const double from = std::max(-r, length - 9.0), to = std::min(r, length + 9.0);
   if (from >= to) return r < length ? 0.0 : 1.0;
   // x = middle + half sin(a): the root at the ends is smooth in a.
@@ -92,12 +92,12 @@ Interval length_95(double length, double deviation) {
   if (!(deviation > 0.0)) return {length, length, length};
   const double r = length / deviation;
   if (r > 30.0) return around(length, z_95 * deviation);
-  // The longer the true one, the less often it reads so short.
+  // The longer the true vector, the less often its reading is so short.
   const auto longer = [&](double p) {
     if (length_below(r, 0.0) <= p) return 0.0;
     return where([&](double a) { return 1.0 - length_below(r, a); }, 1.0 - p, 0.0, r + 10.0);
   };
-  // A length that chance made much shorter than its noise says little of what is behind it.
+  // A length that is by chance far below its noise gives little information about the true one.
   return {length, longer(0.975) * deviation, std::max(longer(0.025), r + 1.0) * deviation};
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a measurement says of a number, and how sure it is.
+// A measured number with its uncertainty.
 #pragma once
 
 namespace sixstep::analysis {
 
-/// A value and the bounds that hold it with a probability of 95 %. That they do is counted, over a thousand
-/// drawn recordings, in tests/analysis/identification/.
+/// A value, and bounds that hold the true one with a probability of 95 %. tests/analysis/identification/ counts
+/// this over a thousand drawn recordings.
 struct Interval {
   double value = 0.0, low = 0.0, high = 0.0;
 

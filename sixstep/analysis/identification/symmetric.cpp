@@ -16,7 +16,7 @@ double Symmetric::square(std::span<const double> weights) const {
 }
 
 std::optional<Cholesky> Cholesky::of(const Symmetric& matrix) {
-  constexpr double least_pivot = 1e-13;  // of 1: what rounding leaves of a direction that nothing fixes
+  constexpr double least_pivot = 1e-13;  // of 1: rounding in a direction that no row determines
   const std::size_t n = matrix.size();
   Cholesky out;
   out.lower_ = Symmetric(n);

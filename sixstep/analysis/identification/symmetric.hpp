@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small symmetric systems: normal equations and covariances.
+// Solves small symmetric systems: normal equations and covariances.
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace sixstep::analysis {
 
-/// All n x n values are kept; who fills it fills both halves, or the lower one and calls mirror().
+/// Holds all n x n values. The caller fills both halves, or the lower one and calls mirror().
 class Symmetric {
  public:
   explicit Symmetric(std::size_t size = 0) : size_(size), values_(size * size) {}
@@ -28,10 +28,10 @@ class Symmetric {
   std::vector<double> values_;
 };
 
-/// M = L L'. Unknowns may differ by many powers of ten: each is scaled by its own diagonal.
+/// M = L L'. Each unknown is scaled by its own diagonal, because unknowns may differ by many powers of ten.
 class Cholesky {
  public:
-  /// Nothing where the matrix is not positive definite within rounding.
+  /// Empty where the matrix is not positive definite within rounding.
   static std::optional<Cholesky> of(const Symmetric& matrix);
 
   std::vector<double> solve(std::span<const double> right) const;
@@ -43,7 +43,7 @@ class Cholesky {
   std::vector<double> scale_;
 };
 
-/// Least squares: rows are added one by one.
+/// Normal equations of least squares; rows are added one by one.
 class NormalEquations {
  public:
   explicit NormalEquations(std::size_t unknowns) : left_(unknowns), right_(unknowns) {}
@@ -53,7 +53,7 @@ class NormalEquations {
   std::size_t rows() const { return rows_; }
   Symmetric left() const;
   const std::vector<double>& right() const { return right_; }
-  /// Of the values: what is left where all unknowns are 0.
+  /// Weighted sum of the squared values: the residual where all unknowns are 0.
   double square() const { return square_; }
 
  private:
@@ -69,7 +69,7 @@ struct Solution {
   double residual_square = 0.0;
 };
 
-/// Nothing where the rows do not fix the unknowns.
+/// Empty where the rows do not determine the unknowns.
 std::optional<Solution> solution_of(const NormalEquations& equations);
 
 }  // namespace sixstep::analysis

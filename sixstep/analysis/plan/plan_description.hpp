@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The keys of a plan file: the only place of their names, units, ranges and meanings. Defaults are the structs'.
+// Defines the keys of a plan file: names, units, ranges and meanings. Defaults are the structs'.
 #pragma once
 #include <optional>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace sixstep::analysis {
 
-/// An axis as a file says it.
+/// An axis as in a file.
 struct AxisEntry {
   std::string key;
   std::vector<std::string> values;

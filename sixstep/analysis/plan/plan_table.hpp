@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a plan's runs leave behind, as a table: a row per run, a column per varied key, strayed value and figure of
-// merit. The columns are known before anything runs.
+// Table of a plan's runs: a row per run, a column per varied key, strayed value and figure of merit. The columns
+// are known before the first run.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -19,18 +19,19 @@
 
 namespace sixstep::analysis {
 
-/// What is written of a run beside its point.
+/// A column of a figure of merit.
 struct FigureColumn {
   std::string name, unit;
   bool required = false;  ///< else only compared
   std::optional<double> min, max;
 
-  /// As a verdict on one run says it: a value there is, within its bounds. Compared figures ask nothing.
+  /// As in the verdict of a single run: there is a value, and it lies within its bounds. A compared figure always
+  /// holds.
   bool holds(double x) const { return !required || (x == x && (!min || x >= *min) && (!max || x <= *max)); }
   bool operator==(const FigureColumn&) const = default;
 };
 
-/// What went into a run: a key of the plan's, or one that strays.
+/// A column of an input: a key of the plan, or one that strays.
 struct InputColumn {
   std::string key, unit;
   bool operator==(const InputColumn&) const = default;
@@ -49,7 +50,7 @@ using TableColumns = std::shared_ptr<const PlanColumns>;
 /// The unit of a scenario's key; empty where it has none.
 using UnitOfKey = std::function<std::string(const std::string& key)>;
 
-/// `scenario` with its spread, before a drive strays.
+/// `scenario`: with its spread, before any drive strays.
 TableColumns columns_of(const Plan& plan, const study::Scenario& scenario, const UnitOfKey& unit_of = {});
 
 /// A strayed value under its key.
@@ -58,13 +59,13 @@ struct Strayed {
   double value = 0.0;  ///< in the key's unit; NaN where it could not be drawn
 };
 
-/// What a run of a plan is: the drive at its point.
+/// The scenario of a planned run, and its strayed values.
 struct PlannedRun {
   study::Scenario scenario;
   std::vector<Strayed> strayed;
 };
 
-/// A drive of the series that the nominal scenario's [[spread]] describes.
+/// Drive number `drive` of the series that the nominal scenario's [[spread]] describes.
 PlannedRun planned_drive(const study::Scenario& nominal, std::uint64_t seed, std::size_t drive);
 
 enum class RunEnd : std::uint8_t { whole, fault, refused };
@@ -75,7 +76,7 @@ inline constexpr base::Choice<RunEnd> run_ends[] = {
     {"refused", RunEnd::refused, "could not start: no figures"},
 };
 
-/// What stands in a row. The columns say what each value is: RunRecord brings both together.
+/// The values of a row. RunRecord joins them with the columns, which have their meanings.
 struct RunValues {
   std::size_t number = 0;
   std::vector<std::string> point;  ///< what each key was set to, as a file writes it
@@ -86,12 +87,12 @@ struct RunValues {
   std::uint64_t digest = 0;     ///< of the trajectory
 };
 
-/// A row with its columns: a value for each of them and no other, which of() checks and nothing changes afterwards.
+/// A row with its columns. of() checks that each column has exactly one value; a row does not change afterwards.
 class RunRecord {
  public:
   /// A Problem where there are more or fewer values of a kind than columns.
   static base::Result<RunRecord> of(TableColumns columns, RunValues values);
-  /// The row of a run that came to no figure: it could not start, or ended with the program.
+  /// The row of a run without figures: it could not start, or ended with the program.
   static RunRecord without_figures(TableColumns columns, std::size_t number, std::vector<std::string> point,
                                    RunEnd end, std::string problem);
 
@@ -108,12 +109,12 @@ class RunRecord {
   RunValues values_;
 };
 
-/// The row of a run: its values are found by the names of strayed keys and figures. Where they are others than the columns', the row
-/// is that of a run which could not start, and says so.
+/// The row of a run; its values are found by the names of strayed keys and figures. Where the names are not those
+/// of the columns, the row is that of a run which could not start, with the reason.
 RunRecord record_of(const TableColumns& columns, std::size_t number, std::vector<std::string> point,
                     const base::Result<PlannedRun>& planned, const base::Result<study::Outcome>& result);
 
-/// Came to its end and holds every requirement.
+/// Whether the run came to its end and meets every requirement.
 bool passed(const RunRecord& record);
 
 }  // namespace sixstep::analysis

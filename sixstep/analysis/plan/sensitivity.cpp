@@ -10,9 +10,9 @@ namespace sixstep::analysis {
 namespace {
 
 constexpr std::size_t resamples = 400;
-constexpr std::size_t outside = 40;  ///< one part of so many lies beyond either end of the interval
+constexpr std::size_t outside = 40;  ///< one in so many values lies beyond either end of the interval
 
-/// What one row adds to each sum, about the mean of all.
+/// The figures of one row, about the mean of all.
 struct Row {
   double a, b;
   std::vector<double> f;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sobol's sequence: points that fill a cube more evenly than chance does. Each is a function of its number, so that
-// runs can be drawn in any order, anywhere.
+// Computes Sobol's sequence: points that fill a cube more evenly than random ones. Each point is a function of its
+// number, so that runs can be made in any order, anywhere.
 //
-// I. M. Sobol (1967), in the order of Antonov and Saleev (Gray code, 1979), with the direction numbers of S. Joe and
-// F. Y. Kuo, "Constructing Sobol sequences with better two-dimensional projections", SIAM J. Sci. Comput. 30 (2008).
+// I. M. Sobol (1967), in the order of Antonov and Saleev (Gray code, 1979), with the direction numbers of S. Joe
+// and F. Y. Kuo, "Constructing Sobol sequences with better two-dimensional projections", SIAM J. Sci. Comput. 30
+// (2008).
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -12,11 +13,11 @@ namespace sixstep::analysis {
 
 inline constexpr std::size_t sobol_dimensions = 64;
 
-/// Coordinate `dimension` < sobol_dimensions of point `number`, as 32 bits behind the binary point.
+/// Coordinate `dimension` < sobol_dimensions of point `number`, as 32 bits after the binary point.
 std::uint32_t sobol_bits(std::size_t dimension, std::uint32_t number);
 
-/// The same in (0, 1), its digits shifted at random by the seed: any seed's points are as even as any other's, and the
-/// spread between seeds is an estimate of the error.
+/// The same in (0, 1), with its digits shifted at random by the seed. The points of all seeds are equally even;
+/// the spread between seeds is an estimate of the error.
 double sobol(std::size_t dimension, std::uint32_t number, std::uint64_t seed);
 
 }  // namespace sixstep::analysis

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Many runs judged together: how each figure strays, and how many runs hold each requirement.
+// Evaluates many runs together: the spread of each figure, and how many runs meet each requirement.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -14,20 +14,20 @@ namespace sixstep::analysis {
 
 struct SpreadFigure {
   FigureColumn column;
-  std::size_t holds = 0;  ///< runs whose value holds it, as a run alone says; a fault is told beside it
-  std::optional<std::size_t> first_miss;  ///< number of the first run whose value does not
+  std::size_t holds = 0;  ///< runs whose value meets the requirement; a faulted run counts too
+  std::optional<std::size_t> first_miss;  ///< first run whose value does not
   Statistics statistics;
 };
 
-/// A run to look at: its number is all that is needed to repeat it.
+/// A run that failed; its number is enough to repeat it.
 struct Casualty {
   std::size_t number = 0;
   std::string problem;
 };
 
 struct Series {
-  std::size_t runs = 0;               ///< that came to an end or a fault, or could not start
-  std::size_t passed = 0;             ///< hold every requirement
+  std::size_t runs = 0;               ///< all: ended, stopped by a fault, or could not start
+  std::size_t passed = 0;             ///< meet every requirement
   std::vector<SpreadFigure> figures;  ///< a figure each, in the columns' order
   std::vector<Casualty> faults;       ///< stopped by a fault
   std::vector<Casualty> refused;      ///< could not start
@@ -36,7 +36,8 @@ struct Series {
 
 Series series_of(const PlanColumns& columns);
 
-/// One row more, in the order of the runs' numbers. Figures of runs that a fault stopped count as they were when it stopped.
+/// Adds a row, in the order of the runs' numbers. Figures of a run that a fault stopped count as they were at the
+/// stop.
 void add(Series& series, const RunRecord& record);
 
 }  // namespace sixstep::analysis

@@ -39,7 +39,7 @@ std::optional<double> Statistics::median() const {
   const auto upper = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), upper, values.end());
   if (values.size() % 2 == 1) return *upper;
-  // Halves first: twice a value that never comes is infinite too, and half the largest double is none too many.
+  // Halves are added, because the sum of two values may exceed the largest double.
   return *std::max_element(values.begin(), upper) / 2 + *upper / 2;
 }
 

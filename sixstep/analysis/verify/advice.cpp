@@ -20,7 +20,7 @@ using design::DesignSpec;
 using design::DriveDesign;
 using design::Warning;
 
-/// Of an advice's trials together: what makes a design usable is worth some seconds, what makes it better one.
+/// Control periods of all trials together: some seconds to make a design usable, one to make it better.
 constexpr double rescue_periods = 4e6, advice_periods = 8e5;
 bool is_grave(const std::vector<Warning>& warnings) {
   return std::any_of(warnings.begin(), warnings.end(), [](const Warning& w) { return w.grave; });
@@ -30,17 +30,17 @@ bool warns_of(const std::vector<Warning>& warnings, Concern of) {
   return std::any_of(warnings.begin(), warnings.end(), [of](const Warning& w) { return w.of == of; });
 }
 
-/// What only a run can show.
+/// Whether only a run can show it.
 bool of_a_run(Concern of) { return of >= Concern::settling; }
 
-/// Whether a change could do anything for a warning that a design in closed form has.
+/// Whether a change may remove a warning, judged by its design in closed form.
 bool promises(const std::vector<Warning>& found, const DriveDesign& next) {
   return std::any_of(found.begin(), found.end(), [&](const Warning& w) {
     return w.cure.empty() && (of_a_run(w.of) || !warns_of(next.warnings, w.of));
   });
 }
 
-/// Runs of a study, counted as whole ones: a position's gain is searched for.
+/// Runs of a study, counted as whole ones; a position's gain needs a search.
 double runs_of_study(const DesignOrder& order) {
   const double motors =
       order.tolerances.empty() ? 1.0 : static_cast<double>(variations(order.tolerances).size());
@@ -60,7 +60,7 @@ void add_cure(std::string& cure, const std::string& words) {
   cure += (cure.empty() ? "with " : ", or with ") + words + " it is gone";
 }
 
-/// Of a usable design: what makes one of its warnings go, and none come.
+/// For a usable design: finds what removes one of its warnings and adds none.
 void advise_usable(const DesignOrder& order, DesignStudy& s) {
   TrialBudget budget{advice_periods};
   for (const DesignSpec& spec : single_changes(order, s.design)) {
@@ -82,20 +82,20 @@ bool holds(const DesignOrder& order, const DesignSpec& spec, TrialBudget& budget
   return study && study->usable();
 }
 
-/// A bus above what the sheet belongs to is another drive: it is offered where nothing else helps.
+/// Whether the bus is above the sheet's. It is then another drive, and is offered only where nothing else helps.
 bool above_nominal(const DesignSpec& spec, const DriveDesign& d) {
   return spec.voltage_V && d.motor.nominal_voltage_V > 0.0 && *spec.voltage_V > d.bus_V &&
          *spec.voltage_V > d.motor.nominal_voltage_V;
 }
 
-/// What may make it usable, the likeliest first.
+/// Changes that may make it usable, the likeliest first.
 std::vector<DesignSpec> rescues(const DesignOrder& order, const DriveDesign& d) {
   std::vector<DesignSpec> all = single_changes(order, d);
   for (const DesignSpec& spec : joint_changes(order, d)) all.push_back(spec);
   if (!order.spec.rotor.hall || !decodes_encoders(order.subject.board)) return all;
   if (order.spec.mode == Mode::position) {
     std::vector<DesignSpec> first;
-    // A slow drive has all the time of a longer period, and is tried in a fraction of that of a short one.
+    // A slow drive needs no short period, and a trial with a longer one takes a fraction of the time.
     if (order.spec.period_s < unhurried_period_s) first.push_back(unhurried(order.spec, d.motor));
     for (const DesignSpec& spec : on_encoders(order, d)) first.push_back(spec);
     first.push_back(unhurried(on_encoder(order, order.spec.period_s), d.motor));
@@ -112,14 +112,14 @@ std::vector<DesignSpec> on_this_bus_or_others(const DesignOrder& order, const Dr
   return all;
 }
 
-/// Slower loops take longer to simulate than an advice may.
+/// Result of a search for a change. Slower loops may take longer to simulate than an advice may.
 struct Rescue {
   std::string words;      ///< the first change that makes it usable; empty where none does
-  bool too_long = false;  ///< some change, or its tolerances, could not be tried for its length
+  bool too_long = false;  ///< some change, or its tolerances, was too long to try
 };
 
-/// Whether the sheet's motor alone holds with it is soon known,
-/// and most changes fail there. A position is then designed as whoever takes the advice will have it.
+/// Tries each change first with the sheet's motor alone, because this is quick and most changes fail there. A
+/// position is then designed in full, as the user will do it.
 Rescue rescue(const DesignOrder& order, const DriveDesign& d) {
   const bool position = order.spec.mode == Mode::position;
   TrialBudget budget{rescue_periods}, whole_searches{4 * GainSearch{}.periods};
@@ -127,7 +127,7 @@ Rescue rescue(const DesignOrder& order, const DriveDesign& d) {
   alone.tolerances.clear();
   if (position) alone.gain = {.quick = true, .longest_periods = 6e5, .periods = 1.5e6};
   Rescue out;
-  std::string nominal;  // holds for the sheet's motor
+  std::string nominal;  // first change that holds for the sheet's motor
   const auto rescued = [&](const DesignSpec& spec, const DriveDesign& next) {
     if (!position && !(periods_of(alone, next) <= budget.periods)) out.too_long = true;
     if (!holds(alone, spec, budget)) return false;
@@ -143,7 +143,7 @@ Rescue rescue(const DesignOrder& order, const DriveDesign& d) {
     if (order.keep_going && !order.keep_going()) return out;
     const std::optional<DriveDesign> next = in_closed_form(order, spec);
     if (!next) continue;
-    // One that would take most of the budget waits until the cheap ones have been tried.
+    // Changes that would take most of the budget are tried after the cheap ones.
     if (periods_of(order, *next) > rescue_periods / 4 && !position) {
       dear.emplace_back(spec, *next);
       continue;
@@ -158,7 +158,7 @@ Rescue rescue(const DesignOrder& order, const DriveDesign& d) {
   return out;
 }
 
-/// A target out of reach stays there whatever the loops are: a smaller step, a tenth below what was reached.
+/// No loop reaches a target that is out of reach: tries a smaller step, a tenth below what was reached.
 std::string smaller_step(const DesignOrder& order, const DesignStudy& s) {
   const double first = s.scenario.reference.values.front(), held = s.outcome.verdicts.front().measured;
   DesignOrder next = order;
@@ -169,7 +169,7 @@ std::string smaller_step(const DesignOrder& order, const DesignStudy& s) {
   return "usable with step = " + base::written(*next.subject.step);
 }
 
-/// What was tried in vain.
+/// Words for all that was tried in vain.
 std::string nothing_tried(const DriveDesign& d, bool too_long) {
   std::string text =
       "nothing that was tried makes it usable: another chopping, period, sensor, slower loops, less torque";
@@ -180,7 +180,7 @@ std::string nothing_tried(const DriveDesign& d, bool too_long) {
   return text;
 }
 
-/// What a board may have against any design: without it the same loops are usable.
+/// Words for a cause on the board: without it the same loops are usable.
 std::string board_is_the_cause(const DesignOrder& order) {
   if (!order.subject.board) return {};
   const study::Scenario &board = *order.subject.board, usual;
@@ -211,11 +211,11 @@ std::string board_is_the_cause(const DesignOrder& order) {
   return "the current's amplifier is the cause: without its lag it is usable";
 }
 
-/// Of another: what makes it usable.
+/// For an unusable design: finds what makes it usable.
 void advise_unusable(const DesignOrder& order, DesignStudy& s) {
   const auto grave =
       std::find_if(s.warnings.begin(), s.warnings.end(), [](const Warning& w) { return w.grave; });
-  if (grave->of == Concern::shunt) return;  // no loop sees what its sensor does not
+  if (grave->of == Concern::shunt) return;  // no loop can control what its sensor does not measure
   if (grave->of == Concern::reach) {
     grave->cure = smaller_step(order, s);
     return;
@@ -228,7 +228,7 @@ void advise_unusable(const DesignOrder& order, DesignStudy& s) {
 
 }  // namespace
 
-/// Control periods of a study. A position's gain is about what braking from full speed allows.
+/// Control periods of a study. A position's gain is taken as braking_gain() at most.
 double periods_of(const DesignOrder& order, DriveDesign d) {
   if (d.spec.mode == Mode::position) {
     double& gain = d.loops.back().gains.d1;
@@ -261,7 +261,7 @@ void advise(const DesignOrder& order, base::Problems& problems) {
       std::find_if(d->warnings.begin(), d->warnings.end(), [](const Warning& w) { return w.grave; });
   if (const std::string words = rescue(order, *d).words; !words.empty())
     problems.front().cure = "take " + words;
-  else if (grave != d->warnings.end())  // whatever the gain is
+  else if (grave != d->warnings.end())  // independent of the gain
     problems.front().cure = "mend first what the design has against it: " + grave->what;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What helps a design, found by designing, running and judging it again with one thing changed, or several. Nothing is advised that
-// was not tried and found better.
+// Finds changes that improve a design: it designs, runs and judges it again with one change, or several. It
+// advises only changes that were tried and found better.
 #pragma once
 #include <optional>
 #include <string>
@@ -10,16 +10,17 @@
 
 namespace sixstep::analysis {
 
-/// Control periods that a study of this design takes at least, about.
+/// Least number of control periods of a study of this design, approximately.
 double periods_of(const DesignOrder& order, design::DriveDesign design);
 
-/// The study of another specification; none where closed form knows it to be unusable, or the budget does not last.
+/// The study of another specification; empty where its closed form is unusable, or the budget is too small.
 std::optional<DesignStudy> tried(const DesignOrder& order, const design::DesignSpec& spec,
                                  TrialBudget& budget);
 
-/// Writes into the warnings of a study what makes it usable, or of a usable one what makes a warning go without another to come.
+/// Adds to the warnings of a study what makes it usable; to those of a usable one, what removes a warning without
+/// another.
 void advise(const DesignOrder& order, DesignStudy& study);
-/// The same of a position that no gain was found for.
+/// The same for a position for which no gain was found.
 void advise(const DesignOrder& order, base::Problems& problems);
 
 }  // namespace sixstep::analysis

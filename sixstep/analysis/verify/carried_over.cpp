@@ -14,7 +14,8 @@ bool bounds_anything(const study::Limits& l) {
   return l.current_A || l.torque_Nm || l.speed_rad_s || l.gain_A_s_per_rad;
 }
 
-/// The step of a speed comes when the drive has started: what it takes longer is the limits' doing.
+/// Why the run is slower than the designed one; empty: it is not. The step of a speed comes after the start, so
+/// that the limits are the cause of a longer settling time.
 std::string slower(const study::Scenario& s, const study::Outcome& run, const study::Outcome& designed) {
   if (s.control.mode != control::Mode::speed) return {};
   const auto of = [](const study::Outcome& out, const char* figure) {
@@ -29,7 +30,7 @@ std::string slower(const study::Scenario& s, const study::Outcome& run, const st
          base::three_digits(1e3 * before) + " ms without them";
 }
 
-/// "settling time 0.0418 s in the place of 0.0501": of the figures by which a design is told, those that are others by a twentieth.
+/// "settling time 0.0418 s in the place of 0.0501": the figures of a design that differ by more than a twentieth.
 std::string others(const study::Outcome& run, const study::Outcome& designed) {
   std::string out;
   for (const char* figure : {"settling time", "overshoot", settling_of_start, "peak current of the start",
@@ -43,7 +44,7 @@ std::string others(const study::Outcome& run, const study::Outcome& designed) {
   return out;
 }
 
-/// Empty: it passes.
+/// Why the scenario does not pass; empty: it passes.
 std::string against(const study::Scenario& s, const study::Outcome& designed,
                     std::string* differs = nullptr) {
   const base::Result<study::Outcome> run = study::run(s);
@@ -56,7 +57,7 @@ std::string against(const study::Scenario& s, const study::Outcome& designed,
   return slower(s, *run, designed);
 }
 
-/// The protection acts on every motor of the tolerances.
+/// Why a motor of the tolerances trips; empty: none does. The protection acts on every motor.
 std::string trips_within_tolerances(const DesignStudy& study, const study::Scenario& s) {
   const std::optional<double>& trip_A = s.protection.over_current_A;
   if (s.control.drive != study::FirmwareKind::product || !trip_A || !study.robustness) return {};
@@ -68,7 +69,8 @@ std::string trips_within_tolerances(const DesignStudy& study, const study::Scena
   return {};
 }
 
-/// What a current loop has beside its gains and its limit. False: nothing, or the board's is no PI.
+/// Takes over the current loop's settings beside its gains and its limit. False: there are none, or the board's is
+/// no PI.
 bool take_current_loop(const study::Control& board, study::Control& to) {
   study::CurrentLoop current = board.current;
   if (current.type != study::CurrentLoopType::pi) return false;
@@ -96,7 +98,7 @@ CarriedOver carry_over(const DesignStudy& study, study::Scenario designed, const
     s.control.drive = study::FirmwareKind::product;
     s.protection = board.protection;
     s.sensors.hall_stable_samples = board.sensors.hall_stable_samples;
-    s.protection.off_at_s.reset();  // a moment of the board's own course
+    s.protection.off_at_s.reset();  // belongs to the board's own course
     keep("control.drive and [protection]");
   }
   if (bounds_anything(board.control.limits)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the courses of a design's test have in common: round numbers, windows, and what the board allows them.
+// Parts that the courses of a design's test share: round numbers, windows, and the board's limits.
 #pragma once
 #include <cmath>
 #include <limits>
@@ -14,7 +14,7 @@ namespace sixstep::analysis {
 /// One digit, rounded down: 10.9 -> 10.
 inline double plain_number(double x) { return base::shortened(x, 1, base::Towards::down); }
 
-/// Whole microseconds, upwards: short to write, and a few more do no harm.
+/// Whole microseconds, rounded up, so that the file stays short.
 inline double plain_time(double s) { return std::ceil(s * 1e6) / 1e6; }
 
 inline study::Measure window_measure(study::MetricKind metric, study::Signal signal, double from_s,
@@ -36,7 +36,7 @@ inline study::Measure step_measure(study::MetricKind metric, study::Signal signa
   return m;
 }
 
-/// Infinite where no board bounds it.
+/// Limit where no board bounds it.
 inline constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 inline double allowed_current_A(const design::DriveDesign& d, const DesignSubject& subject) {
@@ -47,12 +47,12 @@ inline double allowed_speed_rad_s(const DesignSubject& subject) {
   return subject.board ? most_speed_rad_s(*subject.board).value_or(unbounded) : unbounded;
 }
 
-/// Where the largest current of a design comes from.
+/// Words for the origin of a design's largest current.
 inline std::string at_most_current(const design::DriveDesign& d) {
   return d.most_current_A() < d.current_at_full_torque_A ? "at the limit of the current" : "at full torque";
 }
 
-/// A position's course: one move, by the words of design_scenario.hpp.
+/// Adds a position's course: one move, as in design_scenario.hpp.
 void add_position(const design::DriveDesign& design, const DesignSubject& subject, study::Scenario& scenario);
 
 }  // namespace sixstep::analysis

@@ -23,7 +23,7 @@ constexpr double shortest_period_s = 1e-6;
 
 double plain(double x, base::Towards towards) { return base::shortened(x, 2, towards); }
 
-/// Ripple low enough, or such that a drive lives with it; and 45 degrees of phase with one period of delay.
+/// Shorter periods with a low ripple, or with a usable one, and with 45 degrees of phase at one period of delay.
 std::vector<double> shorter_periods(const DesignSpec& w, const DriveDesign& d) {
   if (w.rotor.shaft.kind == design::ShaftSensorKind::resolver)
     return {};  // its carrier is tied to the period
@@ -44,7 +44,7 @@ void take_period(DesignSpec& w, double period_s) {
 
 bool has_speed_loop(const DesignSpec& w) { return w.mode != Mode::current; }
 
-/// On the board at hand, or on a usual one.
+/// An encoder on the order's board, or on a usual one.
 design::RotorSensing encoder(const DesignOrder& order, double period_s) {
   study::Scenario board = order.subject.board.value_or(study::Scenario{});
   board.pwm.period_s = period_s;
@@ -61,7 +61,7 @@ double* capture_of(design::RotorSensing& rotor) {
   return rotor.hall ? &rotor.capture_Hz : nullptr;
 }
 
-/// What makes the steps of the measured speed smaller.
+/// Adds a faster capture timer, which makes the steps of the measured speed smaller.
 void add_finer(const DesignSpec& w, const DriveDesign& d, std::vector<DesignSpec>& out) {
   if (!design::is_grainy(d)) return;
   DesignSpec next = w;
@@ -82,7 +82,7 @@ void slow_down(DesignSpec& w, const DriveDesign& d, double times) {
   w.settle_s = plain(times * d.spec.settle_s.value_or(usual), base::Towards::up);
 }
 
-/// Faster than torque limit and inertia allow, a loop only runs into the limit.
+/// A loop that is faster than torque limit and inertia allow only runs into the limit.
 void add_what_torque_allows(const DesignSpec& w, const DriveDesign& d, std::vector<DesignSpec>& out) {
   if (!has_speed_loop(w) || !d.spec.settle_s || !(d.settle_by_torque_s > *d.spec.settle_s)) return;
   DesignSpec next = w;
@@ -186,7 +186,7 @@ std::vector<DesignSpec> single_changes(const DesignOrder& order, const DriveDesi
   if (w.rotor.hall && w.rotor.edges > 1) with([](DesignSpec& n) { n.rotor.edges = 1; });
   if (w.rotor.hall && w.mode == Mode::position && decodes_encoders(order.subject.board))
     with([&](DesignSpec& n) { n.rotor = encoder(order, w.period_s); });
-  // A damping that somebody chose is of placed poles: the other method has no use for it.
+  // A damping that the user chose belongs to placed poles; the other method does not use it.
   if (w.method == design::GainMethod::pole_placement && w.mode == Mode::current &&
       w.damping == design::usual_damping)
     with([](DesignSpec& n) { n.method = design::GainMethod::cancellation; });

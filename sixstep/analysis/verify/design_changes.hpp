@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Changes of a specification that may make a design better: what advice.hpp tries.
+// Makes changes of a specification that may improve a design; advice.hpp tries them.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,26 +8,30 @@
 
 namespace sixstep::analysis {
 
-/// A heavy rotor on a winding that lets it wait.
+/// Control period for a heavy rotor on a slow winding, s.
 inline constexpr double unhurried_period_s = 1e-4;
-/// With that period, and a current loop of forty such where the winding is slow enough, at least of ten; one that somebody chose stays.
+/// The specification with that period, and with a current loop of forty such periods, of fewer where the winding
+/// is faster, but at least of ten. A current loop that the user chose stays.
 design::DesignSpec unhurried(design::DesignSpec spec, const design::MotorModel& motor);
 
-/// Of the nominal current: above it a drive's current is hardly more than ripple.
+/// Usable ripple over the nominal current: above it a drive's current is mainly ripple.
 inline constexpr double usable_ripple = 0.5;
 
-/// Specifications that may do better, each with one change: chopping, period, sensor, rule, how fast each loop is to be.
+/// Specifications that may be better, each with one change: chopping, period, sensor, method, settling time of
+/// each loop.
 std::vector<design::DesignSpec> single_changes(const DesignOrder& order, const design::DriveDesign& design);
 
-/// The same with several: both switches of a leg in turns, a period that keeps the ripple low, and slower by steps.
+/// The same with several changes: complementary chopping, a period that keeps the ripple low, and loops slower by
+/// steps.
 std::vector<design::DesignSpec> joint_changes(const DesignOrder& order, const design::DriveDesign& design);
 
 /// "period_s = 1.1e-05 and chopping = complementary"
 std::string words_of_change(const design::DesignSpec& before, const design::DesignSpec& after);
 
-/// The order's on an encoder, both switches of a leg in turns, with this control period.
+/// The order's specification with an encoder, complementary chopping and this control period.
 design::DesignSpec on_encoder(const DesignOrder& order, double period_s);
-/// Of a drive on Hall probes: at its own period, and at each shorter one that the ripple asks for, the longest first.
+/// For a drive on Hall probes: on_encoder() with its own period, and with each shorter one that the ripple needs,
+/// the longest first.
 std::vector<design::DesignSpec> on_encoders(const DesignOrder& order, const design::DriveDesign& design);
 
 }  // namespace sixstep::analysis

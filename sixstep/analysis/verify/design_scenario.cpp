@@ -22,10 +22,10 @@ using control::Mode;
 using design::DriveDesign;
 using design::LoopDesign;
 
-/// The part of the bus that a first command may use: what is left keeps the clamp away.
+/// Part of the bus that a first command may use; the rest keeps it from the clamp.
 constexpr double part_of_bus = 0.8;
 
-/// Placed poles are said as such: the run places them again, to the same bits.
+/// Placed poles are written as settling time and damping, from which the run places them again, to the same bits.
 template <class Gains>
 void set_gains(const LoopDesign& loop, Gains& to) {
   if (loop.placed) {
@@ -48,7 +48,7 @@ study::Scenario common(const DriveDesign& d, const DesignSubject& subject) {
     s.pwm = subject.board->pwm;
     s.sensors = with_rotor(subject.board->sensors, rotor_key(d.spec.rotor), d.spec.period_s);
     s.sensors.speed_edges = d.spec.rotor.edges;
-    // The design runs the lean drive: what other drives alone look at is theirs (carried_over.hpp).
+    // The design runs the lean drive: settings that only other drives use are not taken (carried_over.hpp).
     s.sensors.hall_stable_samples = study::Sensors{}.hall_stable_samples;
     s.sensors.terminal_gain_error.clear();
     s.sensors.comparators = {};
@@ -139,8 +139,8 @@ SpeedTest speed_test(const DriveDesign& d, const DesignSubject& subject) {
   const bool lags = d.lag.delay_s() > 0;
   if (lags) t.first = std::min(1.5 * d.lowest_speed_rad_s, speeds.top_rad_s);
   t.first = std::min(t.first, allowed_speed_rad_s(subject));
-  // The current that a step asks for at first is d1 (speed) times the current at full torque. In volts that
-  // is d1 (current) at once, and R when it flows.
+  // A step asks at first for d1 (speed) times the current at full torque. Per ampere, this takes d1 (current)
+  // volts at once, and R when it flows.
   const double volts = part_of_bus * (d.bus_V - K * t.first - R * t.load_A);
   t.step = subject.step.value_or(
       lags ? d.lowest_speed_rad_s - t.first
@@ -148,10 +148,10 @@ SpeedTest speed_test(const DriveDesign& d, const DesignSubject& subject) {
                                                          std::max(current.gains.d1, R)))));
   const double settle = std::max(settling_of(speed, 1000 * d.spec.period_s), 8 * d.lag.delay_s());
   t.begin = plain_time(5 * settle + 2 * start_time(d, t.first, K * t.load_A));
-  // A step that somebody chose may be one that the limits hold up, and so may any of a loop that is faster than the torque.
+  // Limits may hold up a step that the user chose, and any step of a loop that is faster than the torque.
   const double travel = travel_time(d, t.first, t.first + t.step, K * t.load_A);
   const double held_up = subject.step || travel > settle ? 2 * travel : 0.0;
-  // Its end is judged over an electrical turn at the least: a shorter window sees no commutation.
+  // The end is judged over at least an electrical turn: a shorter window contains no commutation.
   const double slow = std::fabs(t.first + t.step) * d.motor.machine.pole_pairs;
   const double window = slow > 0.0 ? std::max(settle, 2 * base::pi / slow) : settle;
   t.end = plain_time(t.begin + 4 * settle + held_up + window);
@@ -159,7 +159,8 @@ SpeedTest speed_test(const DriveDesign& d, const DesignSubject& subject) {
   return t;
 }
 
-/// Whether the speed loop asks for more than its torque limit at the step: d1 of it at once, beside what the load takes.
+/// Whether the speed loop asks for more than its torque limit at the step: d1 of it at once, and the load's
+/// torque.
 bool step_is_limited(const DriveDesign& d, const SpeedTest& t) {
   const double load = d.motor.K_t_Nm_A * t.load_A / d.torque_limit_Nm;
   return std::fabs(load + d.loop("speed").gains.d1 * t.step) > d.most_torque_Nm() / d.torque_limit_Nm;
@@ -228,7 +229,7 @@ bool samples_in_middle(const DesignSubject& subject) {
 
 void expect_step(const DriveDesign& design, study::Scenario& s) {
   const design::StepResponse& step = design.loop("current").step;
-  // The step of the setpoint comes at a period's start, and the first sample that sees it in that one's middle.
+  // The setpoint steps at a period's start; the first sample with it is in the middle of that period.
   const double first_s = design.spec.sampled_in_middle ? design.spec.period_s / 2 : 0.0;
   for (study::Comparison& c : s.compare) {
     if (c.measure.metric == study::MetricKind::settling_time) c.value = first_s + step.settling_s;
@@ -248,7 +249,7 @@ study::Scenario design_scenario(const DriveDesign& design, const DesignSubject& 
   // Some 2000 rows, on the samples.
   const double periods = std::ceil(s.duration_s / 2000 / s.pwm.period_s);
   if (periods > 1) s.record.grid_s = periods * s.pwm.period_s;
-  // Of an unstable loop the design foretells nothing.
+  // The design predicts nothing for an unstable loop.
   std::erase_if(s.compare, [](const study::Comparison& c) { return !std::isfinite(c.value); });
   say_in_metres(s);
   return s;

@@ -22,7 +22,7 @@
 namespace sixstep::analysis {
 namespace {
 
-/// Some seconds of computing for a run; a slower drive is to be looked at by hand.
+/// Most control periods of a run: some seconds of computing.
 constexpr double most_periods = 2e6;
 
 base::Problems too_long(const study::Scenario& s) {
@@ -32,7 +32,7 @@ base::Problems too_long(const study::Scenario& s) {
            "give more torque_limit_Nm, a higher lowest_speed_rad_s or a longer period_s"}};
 }
 
-/// Position: the gain, and the design that has it.
+/// Finds a position's gain, and puts it into the design.
 base::Problems find_gain(const DesignOrder& order, DesignStudy& s) {
   if (!(s.design.loop("position").gains.d1 > 0.0))
     return {{"mode", "position", "finds no gain that does not overshoot: the speed loop within is unstable",
@@ -50,7 +50,7 @@ base::Problems find_gain(const DesignOrder& order, DesignStudy& s) {
   return {};
 }
 
-/// What the commutations alone make of the speed: the run once more with ideal sensors, where it had others.
+/// Swing of the speed by the commutations alone: the run once more with ideal sensors, where it had others.
 std::optional<double> ideal_swing(const DesignStudy& s, const std::function<bool()>& keep_going) {
   const study::ComparisonResult* swing = figure_of(s.outcome, "speed ripple");
   if (!swing) return std::nullopt;
@@ -63,7 +63,7 @@ std::optional<double> ideal_swing(const DesignStudy& s, const std::function<bool
   return found ? std::optional(found->measured) : std::nullopt;
 }
 
-/// The board's own scenario says what its sensorless drive comes to.
+/// Derivation of the sensorless drive in the board's own scenario; empty: the board has none.
 base::Result<std::vector<design::DerivationStep>> sensorless_steps(const DesignSubject& subject) {
   if (!subject.board || subject.board->control.drive != study::FirmwareKind::sensorless)
     return std::vector<design::DerivationStep>();
@@ -76,8 +76,8 @@ base::Result<std::vector<design::DerivationStep>> sensorless_steps(const DesignS
   return compiled->sensorless_steps;
 }
 
-/// The linear loop holds its voltage over a period, of which a sample in the middle sees one half. A pulse that begins with the period
-/// is seen whole, or its end is not.
+/// The linear loop holds its voltage over a period, of which a sample in the middle measures one half. A pulse
+/// that begins with the period is measured whole, or without its end.
 void look_at_pulses(DesignStudy& s) {
   if (!s.design.spec.sampled_in_middle || s.scenario.pwm.alignment != study::Alignment::edge) return;
   const double sooner = s.design.spec.late_periods() - 0.5;
@@ -90,7 +90,7 @@ void look_at_pulses(DesignStudy& s) {
        .of = design::Concern::delay});
 }
 
-/// As of a turning motor, but for the numbers of the outcome: those are told in the units of its kind.
+/// The study in the words of a rotary motor; only the numbers of the outcome are in the units of the motor's kind.
 base::Result<DesignStudy> studied(const DesignOrder& order) {
   const std::optional<double>& step = order.subject.step;
   if (step && !(std::isfinite(*step) && *step != 0.0))
@@ -110,7 +110,7 @@ base::Result<DesignStudy> studied(const DesignOrder& order) {
   s.scenario = design_scenario(s.design, order.subject);
   if (base::Problems found = too_long(s.scenario); !found.empty()) return found;
   if (base::Problems found = study::check(s.scenario); !found.empty()) {
-    for (base::Problem& p : found)  // the spec's, not the scenario's that was made of it
+    for (base::Problem& p : found)  // the spec's name, not that of the scenario
       if (p.where == "supply.voltage_V") p.where = "voltage_V";
     return found;
   }
@@ -127,7 +127,7 @@ base::Result<DesignStudy> studied(const DesignOrder& order) {
                               .keep_books = true});
   if (!outcome) return outcome.problems();
   s.outcome = std::move(*outcome);
-  // A gain that was lowered until all motors hold says no less.
+  // A quick search has lowered the gain until all motors hold.
   if (!order.tolerances.empty() && !(s.position && order.gain.quick))
     s.robustness = robustness(s.design, s.scenario, order.tolerances, order.for_each, order.keep_going);
   s.ideal_swing_rad_s = ideal_swing(s, order.keep_going);

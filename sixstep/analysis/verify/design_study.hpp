@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole road from a sheet and a spec to gains that are known to hold: designed in closed form, run with
-// all switching, put through the sheet's tolerances.
+// Studies a design from sheet and spec: computes its gains in closed form, runs them with all switching, and tests
+// them over the sheet's tolerances.
 #pragma once
 #include <functional>
 #include <optional>
@@ -18,15 +18,16 @@ namespace sixstep::analysis {
 struct DesignStudy {
   design::DriveDesign design;
   std::optional<PositionGain> position;  ///< position mode: how its gain was found
-  study::Scenario scenario;              ///< that the design was run as
+  study::Scenario scenario;              ///< with which the design was run
   study::Outcome outcome;
   study::Trace trace;  ///< of that run, as its [record] asks
   std::optional<Robustness> robustness;
   std::optional<double> ideal_swing_rad_s;  ///< peak to peak of the speed in steady state, with ideal sensors
-  std::optional<double> allowed_swing_rad_s;  ///< above which the speed loop oscillates (board.hpp)
-  /// Of a board whose drive is sensorless: start, range and lateness. Its loops are run with Hall edges where crossings would be.
+  std::optional<double> allowed_swing_rad_s;  ///< above it the speed loop oscillates (board.hpp)
+  /// For a board whose drive is sensorless: start, range and delay. Its loops are run with Hall edges in place of
+  /// crossings.
   std::vector<design::DerivationStep> sensorless;
-  std::vector<design::Warning> warnings;  ///< the design's, and what only the runs could show
+  std::vector<design::Warning> warnings;  ///< of the design and of its runs
 
   bool usable() const;  ///< no warning is grave
 };
@@ -34,19 +35,19 @@ struct DesignStudy {
 struct DesignOrder {
   DesignSubject subject{};
   design::DesignSpec spec{};
-  std::vector<Tolerance> tolerances{};  ///< empty: not looked at
+  std::vector<Tolerance> tolerances{};  ///< empty: not tested
   ForEach for_each = one_after_the_other;
-  std::function<bool()> keep_going{};  ///< false ends it early: what comes out then means nothing
-  GainSearch gain{};                   ///< position: how its gain is looked for
-  TrialBudget* budget = nullptr;       ///< that each run is taken out of; a search ends where it is empty
-  bool advises = true;                 ///< tries what helps against each warning (advice.hpp)
+  std::function<bool()> keep_going{};  ///< false ends it early; the result is then meaningless
+  GainSearch gain{};                   ///< position: search for its gain
+  TrialBudget* budget = nullptr;       ///< each run is subtracted from it; a search ends where it is empty
+  bool advises = true;                 ///< tries changes against each warning (advice.hpp)
 };
 
-/// Adds to a scenario of a speed design what no mean shows: that the speed does not swing further than the design may. A position's
-/// scenario has it.
+/// Adds to a speed design's scenario the requirement that the speed does not swing further than it may, because no
+/// mean shows this. A position's scenario has it.
 void require_swing(const DesignStudy& study, study::Scenario& scenario);
 
-/// What the first grave warning says; empty where the design is usable.
+/// The first grave warning; empty where the design is usable.
 std::string found_against(const DesignStudy& study);
 
 /// Problems are those of sheet, spec and scenario.

@@ -11,13 +11,13 @@ namespace {
 
 using control::Mode;
 
-/// Few digits as they are told: of a linear motor in mm for degrees.
+/// Rounds a number in the unit in which it is shown: for a linear motor, mm in place of degrees.
 double shortened(double x, double factor, int digits, base::Towards towards) {
   return base::shortened(x * factor, digits, towards) / factor;
 }
 
-/// Times move on together: their order stays, and so do windows that meet. What a window holds anyhow is left
-/// out.
+/// All times are rounded up, so that their order stays, and windows that meet still do. Bounds that a window has
+/// anyhow are left out.
 void shorten_times(study::Measure& m, double duration_s) {
   for (std::optional<double>* time : {&m.from_s, &m.to_s})
     if (*time) *time = base::shortened(**time, 3, base::Towards::up);

@@ -4,8 +4,8 @@
 
 namespace sixstep::analysis {
 
-/// A scenario that a person is to read and change: its times, limits and expectations in as few digits as serve, each towards the side
-/// on which what held still holds.
+/// Shortens the numbers of a scenario for a reader: times, limits and expectations get as few digits as serve,
+/// each rounded to the side on which a requirement that held still holds.
 void write_in_few_digits(study::Scenario& scenario);
 
 }  // namespace sixstep::analysis

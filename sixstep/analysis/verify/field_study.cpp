@@ -25,7 +25,7 @@ using design::LoopDesign;
 
 double circle_V(const FieldStudy& f) { return f.design.bus_V / std::sqrt(3.0); }
 
-/// Where the magnet's back-EMF alone takes the whole circle.
+/// Speed at which the magnet's back-EMF alone takes the whole voltage circle.
 double base_speed_rad_s(const FieldStudy& f) { return circle_V(f) / f.machine.magnet_V_s; }
 
 /// |v|^2 = (R i + w p psi)^2 + (w p L_q i)^2 = U_s^2/3, solved for w; 0 where R i alone is more.
@@ -52,7 +52,7 @@ LoopDesign named(std::string name, std::string method, design::PiGains gains,
 
 bool is_current(const study::LoopGains& g) { return g.loop.starts_with("current"); }
 
-/// Those of field_steps that are this axis's: both axes have as many.
+/// The steps of this axis in field_steps; both axes have as many.
 std::vector<DerivationStep> steps_of(const study::Compiled& c, std::size_t axis) {
   const auto axes = static_cast<std::size_t>(std::count_if(c.gains.begin(), c.gains.end(), is_current));
   const auto each = static_cast<std::ptrdiff_t>(c.field_steps.size() / axes);
@@ -60,7 +60,7 @@ std::vector<DerivationStep> steps_of(const study::Compiled& c, std::size_t axis)
   return {from, from + each};
 }
 
-/// Placed gains say how; a position gain is given.
+/// Derivation of placed gains; a position gain is given.
 std::vector<DerivationStep> outer_steps(const study::LoopGains& g) {
   if (g.loop == "position")
     return {{"K_p", "as given", g.d1, "rad/s/deg"},
@@ -100,7 +100,7 @@ void add_loops(const study::Compiled& c, const design::DriveLoops& loops, FieldS
   }
 }
 
-/// How old the speed is at the lowest speed that is asked for; else at a tenth of what the bus reaches.
+/// Delay of the speed at the lowest speed that is asked for; else at a tenth of what the bus reaches.
 void add_sensing(const design::DriveLoops& loops, FieldStudy& f) {
   design::DriveDesign& d = f.design;
   d.lowest_speed_rad_s =
@@ -201,7 +201,7 @@ void look_at_bus(const control::FieldDriveConfig<double>& c, double asked_rad_s,
                           "give control.field.weakening_A, or raise supply.voltage_V", false});
 }
 
-/// A tracking loop of damping 1 tells a speed w_n^2/(s + w_n)^2 late.
+/// The speed of a tracking loop of damping 1 has the lag w_n^2/(s + w_n)^2.
 void look_at_estimator(const study::Compiled& c, double period_s, FieldStudy& f) {
   if (!c.estimator.on) return;
   f.axes.insert(f.axes.end(), c.estimator_steps.begin(), c.estimator_steps.end());

@@ -23,14 +23,14 @@ namespace {
 
 using control::Mode;
 
-/// What the straight line leaves out is commutation time and PWM ripple: some percent. Who starts with
-/// another duty sees the requirement fail.
+/// The straight line leaves out commutation time and PWM ripple: some percent. A user who tries another duty gets
+/// a failed requirement.
 constexpr double line_tolerance = 0.05;
 
 constexpr double longest_run_up_s = 600;
 
-/// Control periods of a trial, and of all together: half a second, and one and a half, of one core. Where none of them did, a last
-/// round of five seconds.
+/// Control periods of a trial, and of all together: half a second, and one and a half, of one core. Where none
+/// succeeded, there is a last round of five seconds.
 constexpr double trial_periods = 3.5e5, all_trials_periods = 1.2e6, last_trial_periods = 4e6;
 
 study::Measure measure(study::MetricKind metric, study::Signal signal, double from_s, const char* label) {
@@ -49,13 +49,13 @@ base::Result<study::Scenario> run_up(const FirstScenarioSpec& spec, const design
                          "give the bus voltage in V"};
   const double K = motor.K_t_Nm_A, R = 2 * motor.machine.R_ohm, d = 0.5;
   study::Scenario s;
-  // Six-step commutates as a three-phase bridge does, whose voltage falls by 3/pi w_el L_s per ampere: what that costs at the
-  // speed reached. Of a motor of many pole pairs it is more than R.
+  // Six-step commutates as a three-phase bridge does: the voltage falls by 3/pi w_el L_s per ampere, here at the
+  // speed reached. For a motor of many pole pairs this is more than R.
   const auto line = [&](double duty, double ohm) {
     return (K * duty * U / ohm - motor.shaft.coulomb_Nm) / (K * K / ohm + motor.shaft.B_Nm_s);
   };
-  // While a switch waits the current flows on through a diode: that much of the duty is lost where the
-  // current keeps its sign, and nothing where it changes it in every period.
+  // During the dead time the current flows on through a diode: that much of the duty is lost where the current
+  // keeps its sign, and nothing where it changes it in every period.
   const double speed = line(d, R),
                commutating = R + 3 / base::pi * motor.machine.pole_pairs * speed * motor.machine.L_H;
   const double least = line(d - usual_dead_time_s / s.pwm.period_s, commutating);
@@ -103,7 +103,7 @@ DesignOrder order_of(const FirstScenarioSpec& spec) {
 /// On Hall probes of few pole pairs a rotor rests tens of degrees beside its target.
 constexpr double coarsest_step_deg = 20.0;
 
-/// What is tried, in turn: the usual design, and what a motor needs that it does not suit.
+/// Specifications to try, in turn: the usual design, then changes for a motor that it does not suit.
 std::vector<design::DesignSpec> candidates(const DesignOrder& order, const design::DriveDesign& usual) {
   std::vector<design::DesignSpec> all;
   if (usual.ripple.worst_A < usable_ripple * usual.nominal_current_A) all.push_back(order.spec);
@@ -115,7 +115,8 @@ std::vector<design::DesignSpec> candidates(const DesignOrder& order, const desig
   return all;
 }
 
-/// What decides most: a winding that saturates and a load that nobody told of.
+/// The tolerances with the largest effect: inductance, because a winding saturates, and inertia, for an unknown
+/// load.
 std::vector<Tolerance> chief(std::vector<Tolerance> tolerances) {
   std::erase_if(tolerances, [](const Tolerance& t) {
     return t.quantity != Strays::inductance && t.quantity != Strays::inertia;
@@ -123,8 +124,8 @@ std::vector<Tolerance> chief(std::vector<Tolerance> tolerances) {
   return tolerances;
 }
 
-/// Makes a trial take so many periods at most: a higher lowest speed, whose loop is faster, fewer motors of the tolerances, a shorter
-/// move, a longer period. A design in closed form takes a tenth of a second: one for each specification.
+/// Limits the periods of a trial, by a higher lowest speed, whose loop is faster, fewer motors of the tolerances,
+/// a shorter move, a longer period. A design in closed form takes a tenth of a second: one for each specification.
 bool shorten_trial(DesignOrder& order, const design::MotorModel& motor, double longest) {
   base::Result<design::DriveDesign> d = design::design_drive(motor, order.spec);
   const auto fits = [&] { return d && periods_of(order, *d) <= longest; };
@@ -159,7 +160,8 @@ bool runs_and_passes(const study::Scenario& s) {
   return outcome && outcome->passed() && !outcome->fault;
 }
 
-/// What works where this mode does not: a bus that drives the nominal current, else the motor without a loop.
+/// Words for an alternative where this mode has no usable design: a bus that drives the nominal current, else the
+/// motor without a loop.
 std::string way_out(const FirstScenarioSpec& spec, const design::MotorModel& motor,
                     const design::DriveDesign& usual) {
   std::string more = "a design of it tells more";
@@ -177,8 +179,8 @@ std::string way_out(const FirstScenarioSpec& spec, const design::MotorModel& mot
   return more;
 }
 
-/// The same gains sampled in the middle of a period: what the linear loop, half a period later, makes of the step. False where that
-/// loop is not to be put on a motor.
+/// Predicts the step for the same gains with samples in the middle of a period, by the linear loop with half a
+/// period more of delay. False where that loop is not usable.
 bool foretell_in_middle(design::DesignSpec spec, study::Scenario& s) {
   spec.sampled_in_middle = true;
   const base::Result<design::MotorModel> motor = design::motor_model(s.sheet);
@@ -190,10 +192,11 @@ bool foretell_in_middle(design::DesignSpec spec, study::Scenario& s) {
                       [](const design::Warning& w) { return w.grave; });
 }
 
-/// The controller's samples stand in the trough of the ripple, and so would the mean that it holds: in the middle of a centred pulse
-/// they meet the mean. An answer then comes half a period later, so that this is kept where it passes. A pulse that begins a dead
-/// time late has its middle half of that later: the sample is below the mean by what the current rises in it, and of a winding of
-/// little inductance that is more than the requirement's band.
+/// Sets the requirement on the mean current. The controller's samples are in the trough of the ripple, and so is
+/// the mean that it holds. In the middle of a centred pulse, samples meet the mean; but an answer then comes half
+/// a period later, so that this is kept only where it passes. A pulse that begins a dead time late has its middle
+/// half of that later: the sample is below the mean by the current's rise in that time, which for a winding of
+/// little inductance is more than the requirement's band.
 void judge_the_mean(study::Scenario& s, const DesignStudy& study) {
   study::Scenario middle = s;
   const bool stands = foretell_in_middle(study.design.spec, middle);
@@ -213,7 +216,7 @@ void judge_the_mean(study::Scenario& s, const DesignStudy& study) {
     s = middle;
     return;
   }
-  // Samples at the ripple's lowest point: the mean is above them by half of the ripple.
+  // Samples are at the ripple's lowest point: the mean is above them by half of the ripple.
   mean = s.require.front();
   mean.measure.sampled = false;
   mean.measure.label = "mean of the last ten periods, half the ripple above the samples";
@@ -221,10 +224,10 @@ void judge_the_mean(study::Scenario& s, const DesignStudy& study) {
   s.require.front() = mean;
 }
 
-/// The design's test as a scenario of one's own.
+/// The design's test as a scenario for the user.
 study::Scenario own_scenario(const FirstScenarioSpec& spec, const DesignStudy& study) {
   study::Scenario s = study.scenario;
-  s.record = {};  // a reader wants to see everything
+  s.record = {};  // the user's run records everything
   s.compare.resize(std::min<std::size_t>(s.compare.size(), 2));
   if (spec.mode == Mode::current) judge_the_mean(s, study);
   require_swing(study, s);
@@ -232,7 +235,7 @@ study::Scenario own_scenario(const FirstScenarioSpec& spec, const DesignStudy& s
   return s;
 }
 
-/// On a board's sensors and over the sheet's tolerances, as far as a short trial goes.
+/// A usable design on a board's sensors and over the sheet's tolerances, as far as a short trial shows.
 base::Result<study::Scenario> usable_design(const FirstScenarioSpec& spec, const design::MotorModel& motor) {
   const DesignOrder order = order_of(spec);
   const base::Result<design::DriveDesign> usual = design::design_drive(motor, order.spec);
@@ -240,7 +243,7 @@ base::Result<study::Scenario> usable_design(const FirstScenarioSpec& spec, const
   std::string why;
   for (const design::Warning& w : usual->warnings)
     if (w.grave) why = w.what;
-  // A slow motor's trial takes all that there is, and only where no shorter one did.
+  // The longest trial is for slow motors, where no shorter one succeeded.
   for (const double longest : {trial_periods, all_trials_periods, last_trial_periods}) {
     TrialBudget budget{std::max(longest, all_trials_periods)};
     for (const design::DesignSpec& candidate : candidates(order, *usual)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scenario to start from: one that suits the motor, runs, and passes.
+// Makes a first scenario for a motor: one that runs and passes.
 #pragma once
 #include <optional>
 #include <string>
@@ -13,9 +13,9 @@ namespace sixstep::analysis {
 
 struct FirstScenarioSpec {
   control::Mode mode = control::Mode::speed;  ///< duty, current, speed or position
-  std::string motor;                          ///< name or path, as the scenario is to have it
+  std::string motor;                          ///< name or path, for the scenario
   design::Sheet sheet;                        ///< of that motor
-  std::optional<double> voltage_V;            ///< of the bus; else the sheet's
+  std::optional<double> voltage_V;            ///< of the bus; empty: the sheet's
   ForEach for_each = one_after_the_other;     ///< runs the motors of the tolerances
 };
 
@@ -23,8 +23,8 @@ struct FirstScenarioSpec {
 ///   settling time that the design chooses; where that is not usable over the sheet's tolerances, the shortest
 ///   of 2, 5, 10 .. times as long that is.
 /// - duty: a run-up from rest at half the voltage, complementary chopping, so that the current flows without
-///   gaps and the sheet's straight line foretells the speed: 0 = K_t (d U - K_t w)/R_tt - B w - T_c.
-/// Problems are those of the sheet, or that no design suits.
+///   gaps and the sheet's straight line predicts the speed: 0 = K_t (d U - K_t w)/R_tt - B w - T_c.
+/// Problems: those of the sheet, no design that suits.
 base::Result<study::Scenario> first_scenario(const FirstScenarioSpec& spec);
 
 }  // namespace sixstep::analysis

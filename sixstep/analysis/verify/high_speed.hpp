@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// A speed drive's test is run where its sensor's speed is oldest, near its lowest speed. Where a step of the measured speed grows with
-// the speed, the highest one is another question: the same test once more, up to it.
+// Tests a speed drive near its highest speed. Its usual test runs near the lowest speed, where the sensor's speed
+// is oldest; where a step of the measured speed grows with the speed, the same test is run up to the highest one.
 #pragma once
 #include "sixstep/analysis/verify/design_study.hpp"
 
 namespace sixstep::analysis {
 
-/// Where the design warns of the grain of its speed: runs it up to design.high_speed_rad_s, with its sensors and with ideal ones. The
-/// warning is grave where the sensors hold a speed that is off by more than the settling band.
+/// Where the design warns of the grain of its speed (Concern::grain): runs it up to design.high_speed_rad_s, with
+/// its sensors and with ideal ones. The warning becomes grave where the two speeds differ by more than the
+/// settling band.
 void look_at_high_speed(const DesignOrder& order, DesignStudy& study);
 
 }  // namespace sixstep::analysis

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a scenario says that the one that was designed for it does not, key by key as the descriptions have them.
+// Lists the keys of a board's scenario that the scenario designed for it does not have, key by key of the
+// descriptions.
 #include <algorithm>
 #include <iterator>
 #include <map>
@@ -27,7 +28,8 @@ std::string as_text(const std::optional<T>& x) {
   return x ? as_text(*x) : "";
 }
 
-/// Each key's value as text. Lists of tables are a scenario's course and judgement, and the sheet is the motor's.
+/// Each key's value as text, without lists of tables, which are a scenario's course and judgement, and without the
+/// sheet, which is the motor's.
 class KeyTexts final : public base::Visitor {
  public:
   std::map<std::string, std::string> of;
@@ -49,7 +51,8 @@ class KeyTexts final : public base::Visitor {
   std::string path_;
 };
 
-/// What a run is called, lasts, asks for and writes, the gains, and what is chosen with the spec.
+/// Whether a key belongs to the design: a run's name, length, reference and record, the gains, and what the spec
+/// chooses.
 bool is_the_designs(std::string_view key) {
   constexpr std::string_view tables[] = {"reference.", "record.", "initial.", "sensors.hall_break."};
   constexpr std::string_view keys[] = {"title",

@@ -10,12 +10,12 @@
 namespace sixstep::analysis {
 namespace {
 
-/// A step that is told otherwise: by its symbol, and in another unit times a factor.
+/// A derivation step that has another symbol or formula for a linear motor.
 struct LinearStep {
   std::string_view symbol, told_symbol, formula;
 };
 
-/// What the words of base/linear.hpp do not make of it. An empty formula stays.
+/// Steps that the words of base/linear.hpp do not convert. An empty formula stays.
 constexpr LinearStep linear_steps[] = {
     {"w_low", "v_low", ""},
     {"w_high", "v_high", ""},
@@ -40,7 +40,7 @@ void tell(std::vector<design::DerivationStep>& steps) {
   }
 }
 
-/// Of the steps of a loop rad/s is a frequency; a gain of the position is not.
+/// In the steps of a loop, rad/s is a frequency; a gain of the position is not.
 void tell_loop(design::LoopDesign& loop) {
   for (design::DerivationStep& s : loop.steps) {
     if (s.formula == "J w_c / T_max") s.formula = "m w_c / F_max";

@@ -14,12 +14,12 @@ namespace {
 
 constexpr double precision = 1e-3, coarse_precision = 0.02;
 
-/// What is left of a search.
+/// Control periods that are left of a search.
 class Left {
  public:
   Left(const GainSearch& search, TrialBudget* budget)
       : longest_(search.longest_periods), own_{search.periods}, of_all_(budget) {}
-  /// Whether so many runs of it can be had.
+  /// Subtracts so many runs of the scenario; false where they are too long or too many.
   bool takes(const study::Scenario& s, std::size_t runs) {
     if (!(s.duration_s / s.pwm.period_s <= longest_)) return false;
     return own_.takes(s, runs) && (of_all_ == nullptr || of_all_->takes(s, runs));
@@ -43,7 +43,7 @@ base::Problem none_found(const design::DesignSpec& spec, const DesignSubject& su
 constexpr const char* the_drive = "the drive was";
 constexpr const char* all_motors = "the motors of the tolerances were";
 
-/// Runs the move with a gain; only the overshoot is looked at.
+/// Runs the move with a gain; only the overshoot is judged.
 class Trial {
  public:
   Trial(const design::DriveDesign& design, const DesignSubject& subject,

@@ -36,7 +36,7 @@ design::MotorModel varied_motor(const design::MotorModel& motor, const std::vect
   return m;
 }
 
-/// The model as a sheet, whatever way the motor's own sheet says it.
+/// The model as a sheet, in one form for all forms of the motor's own sheet.
 design::Sheet sheet_of(const design::Sheet& from, const design::MotorModel& m) {
   design::Sheet s;
   s.name = from.name;
@@ -71,7 +71,7 @@ design::Sheet sheet_of(const design::Sheet& from, const design::MotorModel& m) {
   s.saturation_current_A = from.saturation_current_A;
   s.torque_constant_mNm_A = base::Quantity{1e3 * m.K_t_Nm_A, "", ""};
   s.inertia_gcm2 = {1e7 * m.shaft.J_kg_m2, "", ""};
-  // Bearings and iron as one: no figure of merit tells them apart.
+  // One friction for bearings and iron, because no figure of merit distinguishes them.
   s.viscous_friction_Nm_s = base::Quantity{m.shaft.B_Nm_s, "", ""};
   s.coulomb_friction_mNm = base::Quantity{1e3 * m.shaft.coulomb_Nm, "", ""};
   return s;
@@ -144,7 +144,7 @@ std::vector<RobustFigure> phases_of(const design::DriveDesign& design,
   return out;
 }
 
-/// What the run says of each comparison; never where it could not.
+/// The measured value of each comparison; `never` where the run has none.
 std::vector<double> measured(const study::Scenario& scenario, const std::function<bool()>& keep_going) {
   std::vector<double> values(scenario.compare.size(), never);
   const base::Result<study::Outcome> outcome = study::run(
@@ -158,7 +158,7 @@ std::vector<double> measured(const study::Scenario& scenario, const std::functio
   return values;
 }
 
-/// Of a winding whose sheet names no limit: insulation class E.
+/// Limit of a winding whose sheet names none: insulation class E.
 constexpr double hot_winding_degC = 120;
 
 std::string at_degC(const char* quantity, double degC) {

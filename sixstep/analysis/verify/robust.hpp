@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a sheet's tolerances do to a design whose controller stays as it is: each one alone, and all corners
+// Tests a design over a sheet's tolerances, while its controller stays as it is: each one alone, and all corners
 // of them together.
 #pragma once
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace sixstep::analysis {
 
 enum class Strays : std::uint8_t { resistance, inductance, torque_constant, inertia };
 
-/// One quantity and what it may be instead, as factors on the sheet's value.
+/// One quantity and its possible deviations, as factors on the sheet's value.
 struct Tolerance {
   struct Level {
     std::string words;  ///< "R +10 %"
@@ -26,13 +26,15 @@ struct Tolerance {
   std::vector<Level> levels;
 };
 
-/// R +-10 %, L +-20 %, K_t +-8 %: the tolerances that makers print or admit. R with the winding at its limit (design/sheet/
-/// thermal.hpp; without one 120 degC), K_t with the magnets as warm as the housing then is, where the sheet has the
-/// thermal lines. J doubled: a load that nobody told of. With the rotor held, in current mode, only R and L matter.
+/// R +-10 %, L +-20 %, K_t +-8 %: the tolerances that makers print or admit. Also R with the winding at its limit
+/// (design/sheet/thermal.hpp; without one 120 degC), and K_t with the magnets at the housing's temperature then,
+/// where the sheet has the thermal lines. J doubled: an unknown load. With the rotor held, in current mode, only R
+/// and L matter.
 std::vector<Tolerance> sheet_tolerances(const design::Sheet& sheet, control::Mode mode);
 
-/// The same as [[spread]] has it, each quantity evenly to both sides: what a drive of a series strays by that a maker does not
-/// promise. Temperatures and loads are no tolerance of the motor, and two inductances have no key that could stray.
+/// The same for [[spread]], each quantity evenly to both sides: deviations in a series of drives that no maker
+/// excludes. Temperatures and loads are no tolerance of the motor, and the two inductances of a salient rotor have
+/// no key that could stray.
 std::vector<study::Spread> tolerance_spread(const design::Sheet& sheet, control::Mode mode);
 
 /// A motor that strays within the tolerances.
@@ -42,11 +44,11 @@ struct Variation {
   bool single = false;          ///< only one tolerance strays
 };
 /// The nominal motor, each level alone, then every corner of the outermost levels (of a tolerance to one side
-/// only, that and the nominal).
+/// only, that level and the nominal).
 std::vector<Variation> variations(const std::vector<Tolerance>& tolerances);
 
-/// The motor strays, the controller stays what was designed for the sheet. `motor` is DriveDesign's: with the
-/// load's inertia, which strays with the rotor's.
+/// The motor strays; the controller stays as designed for the sheet. `motor` is DriveDesign's: with the load's
+/// inertia, which strays with the rotor's.
 study::Scenario varied_scenario(const study::Scenario& nominal, const design::MotorModel& motor,
                                 const std::vector<Tolerance>& tolerances, const Variation& variation);
 
@@ -55,13 +57,14 @@ struct RobustFigure {
   double nominal = 0.0;
   double worst = 0.0;     ///< the largest: infinite where it never settles, or a fault ended the run
   std::string at{};       ///< the variation, in words; empty where none is worse than nominal
-  std::string culprit{};  ///< the one level that alone makes most of it
+  std::string culprit{};  ///< the level that alone has the largest effect
   double alone = 0.0;     ///< the figure with the culprit alone
 };
 
 struct Robustness {
   std::vector<RobustFigure> figures;  ///< of the scenario's comparisons, in their order
-  /// Of each loop with the later of the delays and the sensor of the speed, in degrees: worst is least.
+  /// Phase margin of each loop in degrees, with the later of the delays and the sensor of the speed; the least is
+  /// worst.
   std::vector<RobustFigure> phases;
   std::size_t runs = 0;
 };

@@ -16,10 +16,10 @@ void warn(DesignStudy& s, design::Concern of, std::string what, bool grave) {
   s.warnings.push_back({.what = std::move(what), .cure = "", .grave = grave, .of = of});
 }
 
-/// Of a step that somebody asked for: an integral leaves no error behind, unless a limit holds it up.
+/// Part of a user's step that may be missed: an integral leaves no error, unless a limit holds it up.
 constexpr double missed_part = 0.02;
 
-/// A target that bus and load do not allow, or a run that ends on the way to it.
+/// Warns of a target that bus and load do not allow, or that is not reached by the end of the run.
 void look_at_reach(DesignStudy& s) {
   const std::vector<double>& levels = s.scenario.reference.values;
   const study::ComparisonResult* swing = figure_of(s.outcome, "speed ripple");
@@ -46,7 +46,7 @@ bool out_of_reach(const DesignStudy& s) {
 
 constexpr const char* within = "within the tolerances";
 
-/// With which motor of the tolerances, and the one tolerance that makes most of it.
+/// Words for the motor of the tolerances, and for the one tolerance with the largest effect.
 std::string with_which(const RobustFigure& f) {
   const bool one = f.culprit.empty() || f.culprit == f.at;
   return ": with " + f.at + (one ? "" : ", chiefly for " + f.culprit);
@@ -57,7 +57,7 @@ bool from_half_the_bus(const DesignStudy& s) {
   return s.design.spec.mode == control::Mode::current && s.design.spec.chopping == control::Chopping::hard;
 }
 
-/// A loop at whose limits the run was not to come must settle as designed; a quarter more is told.
+/// A loop whose run was to keep away from all limits must settle as designed; a quarter more is a warning.
 void look_at_settling(DesignStudy& s) {
   const study::ComparisonResult* c = figure_of(s.outcome, "settling time");
   if (!c || s.design.spec.mode == control::Mode::position || out_of_reach(s)) return;
@@ -91,7 +91,8 @@ void look_at_swing(DesignStudy& s) {
        true);
 }
 
-/// A second-order loop overshoots by less than its step however little it is damped: what does so by more hardly stands.
+/// A second-order loop overshoots by less than its step with any damping; one that overshoots by more is hardly
+/// stable.
 void look_at_overshoot(DesignStudy& s, double overshoot, const std::string& when,
                        const std::string& where = "") {
   const std::vector<double>& levels = s.scenario.reference.values;
@@ -131,13 +132,13 @@ void look_at_run(DesignStudy& s, bool asked_step) {
   if (const study::ComparisonResult* swing = figure_of(s.outcome, swing_at_target))
     look_at_rest(s, swing->measured, "in the simulation");
   for (const study::Verdict& v : s.outcome.verdicts)
-    if (!v.ok && s.usable())  // else the reason is told
+    if (!v.ok && s.usable())  // else another warning gives the reason
       warn(s, design::Concern::requirement,
            "in the simulation the " + v.figure + " is " + base::three_digits(v.measured) + " " + v.unit,
            true);
 }
 
-/// A move of the motor worst off.
+/// Warns of the move of the worst motor.
 void look_at_worst_move(DesignStudy& s, const RobustFigure& f, const std::string& where) {
   if (s.design.spec.mode != control::Mode::position) return;
   const base::LinearUnit unit = design::motion_of(s.scenario.sheet).unit("deg");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What only the runs of a design can show, as warnings: a fault, a loop that never settles or swings without end, a position that does
-// not rest, a step whose target bus and load do not allow, and the same within the tolerances. A grave one makes a design not usable.
+// Warns of problems that only the runs of a design show: a fault, a loop that never settles or swings without end,
+// a position that does not rest, a step whose target bus and load do not allow, and the same within the
+// tolerances. A grave warning makes a design not usable.
 #pragma once
 #include <string>
 
@@ -8,14 +9,15 @@
 
 namespace sixstep::analysis {
 
-/// Null where the run has no such figure.
+/// The figure of that name; null: the run has none.
 const study::ComparisonResult* figure_of(const study::Outcome& outcome, const std::string& figure);
 
-/// Whether the torque ripple of the commutations is wider than the band of the speed's step: its settling time then says nothing.
+/// Whether the commutations alone swing the speed by more than the band of its step: its settling time is then
+/// meaningless.
 bool drowned(const DesignStudy& study);
 
-/// Adds them to those of the closed form, grave ones first. Wants the study's outcome, robustness and swings. `asked_step`: the step
-/// is somebody's, and not one at which no limit acts.
+/// Adds the warnings to those of the closed form, grave ones first. The study must have outcome, robustness and
+/// swings. `asked_step`: the user gave the step, so that limits may act.
 void add_run_warnings(DesignStudy& study, bool asked_step);
 
 }  // namespace sixstep::analysis

@@ -17,7 +17,7 @@ namespace {
 
 using control::Mode;
 
-/// The least speed but standstill that a reference asks for; empty where it is no speed.
+/// The lowest speed other than standstill that a reference asks for; empty: it is no speed.
 std::optional<double> lowest_speed(const study::Scenario& s) {
   if (s.control.mode != Mode::speed) return std::nullopt;
   std::optional<double> least;
@@ -26,7 +26,7 @@ std::optional<double> lowest_speed(const study::Scenario& s) {
   return least;
 }
 
-/// The loop that follows a resolver, by bandwidth and damping.
+/// Sets the loop that follows a resolver, by bandwidth and damping.
 void take_resolver(const study::Scenario& s, design::ShaftSensing& to) {
   const study::Resolver& r = s.sensors.resolver;
   const bool sampled = r.reading == rig::ResolverReading::sampled;
@@ -73,7 +73,7 @@ design::ShaftSensing shaft_sensing(const study::Scenario& s) {
   return to;
 }
 
-/// The most by which any k sectors in a row together are longer or shorter than they should be, in rad.
+/// Largest error of the length of any k successive sectors together, rad.
 double stray_of(const std::vector<double>& edges_deg, std::size_t k) {
   double most = 0.0;
   for (std::size_t n = 0; n < edges_deg.size(); ++n)
@@ -99,12 +99,13 @@ base::Problems passed_over(const study::Scenario& s) {
 
 design::RotorSensing rotor_sensing_of(const study::Scenario& s) {
   design::RotorSensing to;
-  // The product drive has no other sensor than its Hall probes, and the sensorless one takes crossings as their edges.
+  // The product drive has no other sensor than its Hall probes, and the sensorless one takes crossings as their
+  // edges.
   const study::FirmwareKind drive = s.control.drive;
   to.hall = s.sensors.rotor == study::RotorSensing::hall || drive == study::FirmwareKind::product ||
             drive == study::FirmwareKind::sensorless;
   to.edges = s.sensors.speed_edges;
-  // Edges whose places are known need no turn for their faults to cancel.
+  // Edges with learned places need no whole turn for their errors to cancel.
   if (s.sensors.hall_angle == rig::HallAngleFrom::learned_edges) to.edges = std::max(to.edges, 1);
   if (!to.hall) to.shaft = shaft_sensing(s);
   if (s.sensors.rotor != study::RotorSensing::hall) return to;
@@ -138,7 +139,7 @@ design::DesignSpec spec_of(const study::Scenario& s, std::optional<Mode> mode) {
       s.load.inertia_kg_m2 / (s.load.gear * s.load.gear);  // the loops are of the motor's shaft
   w.delay_periods = s.pwm.delay_periods;
   w.sampled_in_middle = s.pwm.sample == study::SampleAt::middle;
-  // By the current that flows: on the pair both are the same.
+  // Smooth chopping counts as complementary: while current flows, both modes put the same voltage on the pair.
   w.chopping = s.control.smooth_chopping.on ? control::Chopping::complementary : s.pwm.chopping;
   w.rotor = rotor_sensing_of(s);
   w.lowest_speed_rad_s = lowest_speed(s);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A design for the board and the task of a scenario.
+// Makes the specification of a design for a scenario's board and task.
 #pragma once
 #include <optional>
 
@@ -8,17 +8,17 @@
 
 namespace sixstep::analysis {
 
-/// What the scenario says of the drive: mode, bus, PWM, delay, rotor sensor, load inertia, torque limit,
-/// settling times, and the lowest speed that its reference asks for. What it leaves open stays the spec's
-/// default; given gains are not looked at, since new ones are asked for. `mode`: another one than the scenario's is designed; each loop
-/// keeps the settling time that the scenario gives it.
+/// Takes from the scenario: mode, bus, PWM, delay, rotor sensor, load inertia, torque limit, settling times, and
+/// the lowest speed of its reference. All else keeps the spec's default. Given gains are ignored, because new ones
+/// are asked for. `mode`: designs this mode instead of the scenario's; each loop keeps the settling time that the
+/// scenario gives it.
 design::DesignSpec spec_of(const study::Scenario& scenario, std::optional<control::Mode> mode = {});
 
-/// Controllers of the scenario that a design, which lays out PI loops, would pass over.
+/// Controllers of the scenario that a design ignores, because it computes PI loops only.
 base::Problems passed_over(const study::Scenario& scenario);
 
-/// How its drive knows the rotor: what [sensors] says, but that the product drive has Hall probes alone, and the sensorless one
-/// crossings that count as their edges.
+/// Rotor sensor of the scenario's drive: as in [sensors], but the product drive has Hall probes only, and the
+/// sensorless one has crossings that count as Hall edges.
 design::RotorSensing rotor_sensing_of(const study::Scenario& scenario);
 
 }  // namespace sixstep::analysis

@@ -7,7 +7,8 @@
 namespace sixstep::analysis {
 namespace {
 
-/// What the bus leaves of the torque limit at that speed, or what brakes beside the load: soft chopping through the lower switches.
+/// Torque that accelerates: what the bus leaves of the torque limit at that speed. Or torque that brakes beside
+/// the load: soft chopping brakes through the lower switches.
 double torque_towards(const design::DriveDesign& d, double rad_s, bool faster) {
   const double K = d.motor.K_t_Nm_A, R = 2 * d.motor.machine.R_ohm;
   if (faster) return std::min(d.most_torque_Nm(), K * (d.bus_V - K * rad_s) / R);

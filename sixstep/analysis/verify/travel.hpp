@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long a drive at the limits of torque and bus is on its way.
+// Computes how long a drive needs at the limits of torque and bus.
 #pragma once
 #include "sixstep/design/loops/drive_design.hpp"
 
 namespace sixstep::analysis {
 
-/// What a start at the limits takes at most: torque that the bus leaves at the end of it.
+/// Longest time of a start at the limits, s, with the torque that the bus leaves at its end; 0: it leaves none.
 double start_time(const design::DriveDesign& design, double to_rad_s, double load_Nm);
 
-/// The time from one speed to another at the limits of torque and bus, by a hundred parts. Where the bus allows no more, five of the
-/// times in which the speed creeps up to what it does allow.
+/// Time from one speed to another at the limits of torque and bus, s, by a hundred parts. Where the bus allows no
+/// more torque, five of the time constants J R/K_t^2 with which the speed then approaches its limit are added.
 double travel_time(const design::DriveDesign& design, double from_rad_s, double to_rad_s, double load_Nm);
 
 }  // namespace sixstep::analysis

@@ -17,7 +17,7 @@ rig::WireOrder after(rig::WireOrder order, const Moves& moves) {
   return order;  // the six orders are all there are
 }
 
-/// Phases alone, Hall lines alone, both.
+/// 0: phases alone, 1: Hall lines alone, 2: both.
 int kind_of(const Cure& c) { return moved(c.pins) == 0 ? 0 : moved(c.legs) == 0 ? 1 : 2; }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a motor that is plugged in wrongly is put right: the fewest wires to move, and what to do step by step for somebody who
+// Finds how to correct a wrongly connected motor: the fewest wires to move, and the next step for a person who
 // sees what the motor does but not which wire is which.
 #pragma once
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace sixstep::analysis {
 
-/// The wire at each of three places goes to this one; at its own it stays.
+/// New place of the wire at each of three places; {0, 1, 2} moves none.
 using Moves = std::array<std::size_t, 3>;
 inline constexpr Moves stay = {0, 1, 2};
 
@@ -27,15 +27,15 @@ struct Cure {
 
 rig::Wiring cured(const rig::Wiring& wiring, const Cure& cure);
 
-/// All cures of the fewest wires that make it run forward with its whole torque; those that move phases alone come first, then
-/// Hall lines alone. One that moves nothing for the three wirings that need none.
-/// Phases alone cannot do it where two probes have changed places: then the motor runs well backward at best.
+/// All cures with the fewest wires that make the motor run forward with its whole torque; first those that move
+/// phases alone, then Hall lines alone. The three wirings that need no cure have one that moves nothing. Phases
+/// alone cannot cure two swapped probes: the motor then runs well backward at best.
 std::vector<Cure> shortest_cures(const rig::Wiring& wiring);
 
-/// What to do next, by what the motor does, so that after four steps at most it runs forward well:
-///   hums                       two phases swapped: it runs
-///   runs early or late         all three phases moved on: after one or two times it runs well, the other way round
-///   runs backward well         phases a and b swapped, and Hall lines 2 and 3: it runs forward
+/// Next step, by what the motor does; after at most four steps it runs well forward:
+///   hums                       swap two phases: it runs
+///   runs early or late         move all three phases on: after one or two times it runs well, the other way round
+///   runs backward well         swap phases a and b, and Hall lines 2 and 3: it runs forward
 Cure next_step(WiringDoes does);
 
 }  // namespace sixstep::analysis

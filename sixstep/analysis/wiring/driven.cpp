@@ -11,7 +11,7 @@ using rig::WireOrder;
 constexpr WireOrder orders[] = {WireOrder::abc, WireOrder::bca, WireOrder::cab,
                                 WireOrder::acb, WireOrder::cba, WireOrder::bac};
 
-/// The sector in which a straight drive drives that pair.
+/// The sector in which a drive with straight wires drives that pair.
 int sector_of(std::size_t source, std::size_t sink) {
   for (std::uint8_t sector = 0; sector < 6; ++sector) {
     const control::Pair pair = control::positive_pair(sector);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The 36 ways to plug a motor into a drive that commutates by Hall probes, and which pair of its phases the drive then drives
-// in each sector: by the drive's own table (control/commutation.hpp) and the rig's own wires (rig/wiring.hpp).
+// Lists the 36 ways to connect a motor to a drive that commutates by Hall probes, and finds which pair of its
+// phases the drive then drives in each sector: by the drive's own table (control/commutation.hpp) and the rig's
+// wires (rig/wiring.hpp).
 #pragma once
 #include <array>
 #include <cstddef>
@@ -13,22 +14,23 @@ namespace sixstep::analysis {
 
 inline constexpr std::size_t ways_to_plug_in = 36;
 
-/// A row of the drive's own table, for those who show it: legs 0, 1, 2 are a, b, c. A negative command swaps high and low.
+/// A row of the drive's own table, for display: legs 0, 1, 2 are a, b, c. A negative command swaps high and low.
 struct Commutation {
   std::uint8_t code = 0;  ///< H1 H2 H3 as bits 2, 1, 0
   std::size_t high = 0, low = 0, floating = 0;
 };
 Commutation commutation(std::uint8_t sector);
 
-/// Phases outside, probes inside; first the orders that keep a, b, c turning the same way round, then those that swap two.
+/// All wirings, with phases in the outer and probes in the inner loop; first the orders that keep the sequence a,
+/// b, c, then those that swap two.
 std::array<rig::Wiring, ways_to_plug_in> all_wirings();
 
-/// Whether the three ends at their places go round as the places do: moved on, not swapped.
+/// Whether the three ends keep the sequence of the places: moved on, not swapped.
 constexpr bool keeps_the_turn(rig::WireOrder order) {
   return order == rig::WireOrder::abc || order == rig::WireOrder::bca || order == rig::WireOrder::cab;
 }
 
-/// What the drive makes of one sector of the rotor.
+/// The pair that the drive drives in one sector of the rotor.
 struct Driven {
   std::uint8_t seen = 0;             ///< the sector whose code stands at the pins
   std::size_t source = 0, sink = 0;  ///< phases of the motor
@@ -36,10 +38,10 @@ struct Driven {
   bool operator==(const Driven&) const = default;
 };
 
-/// A positive command, 120 degree probes, no inverted pin.
+/// With a positive command, 120 degree probes, no inverted pin.
 Driven driven(const rig::Wiring& wiring, std::uint8_t sector);
 
-/// Driven::ahead where it is the same in all six sectors; empty where phases and probes go round opposite ways.
+/// Driven::ahead where it is the same in all six sectors; empty: phases and probes have opposite sequences.
 std::optional<int> sectors_ahead(const rig::Wiring& wiring);
 
 }  // namespace sixstep::analysis

@@ -13,8 +13,8 @@ namespace {
 /// From theta_e to the magnet's axis (model.md 7).
 constexpr double axis_rad = 2.5 * base::sector_rad;
 
-/// Eight points of Gauss on each eighth of a sector: exact for the lines of a trapezoid, and for the square of a harmonic of
-/// order 25, which turns by 6.5 rad there, to 1e-9 of its size.
+/// Eight points of Gauss on each eighth of a sector: exact for the lines of a trapezoid, and for the square of a
+/// harmonic of order 25, which turns by 6.5 rad there, to 1e-9 of its size.
 constexpr int stretches = 8;
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Torque per ampere through a pair of phases over the electrical angle, from the shapes that a run has (plant/general/shape.hpp).
+// Computes the torque per ampere through a pair of phases over the electrical angle, from the shapes of a run
+// (plant/general/shape.hpp).
 #pragma once
 #include <cstdint>
 
@@ -10,20 +11,20 @@ namespace sixstep::analysis {
 
 /// +1 A into `source`, -1 A into `sink`, nothing into the third:
 ///   T/i = E_source - E_sink + 1.5 p (lambda_d i_q - lambda_q i_d)/i
-/// with E_k the back-EMF per speed of phase k (of a delta: of the star that it is at its terminals, model.md (9)). The second
-/// term is that of a salient rotor or of saturation (model.md 7), and the only one for which the current matters. Cogging and
-/// what a delta's loop current makes do not belong to the pair and are not in it.
+/// with E_k the back-EMF per speed of phase k (for a delta, of the star at its terminals, model.md (9)). The
+/// second term is that of a salient rotor or of saturation (model.md 7); only this term depends on the current.
+/// Cogging and the torque of a delta's loop current do not belong to the pair and are not included.
 class PairTorque {
  public:
   PairTorque(const plant::general::Machine& machine, double current_A);
 
-  /// At x rad behind the begin of a sector, x in [0, pi/3]; N m/A.
+  /// At x rad after the begin of a sector, x in [0, pi/3]; N m/A.
   double at(std::uint8_t sector, double x_rad, std::size_t source, std::size_t sink) const;
 
   /// Back-EMF of a phase per mechanical rad/s there, V s; of a delta that of its star.
   double emf_V_s(std::uint8_t sector, double x_rad, std::size_t phase) const;
 
-  /// Over a part of a sector.
+  /// Means over a part of a sector.
   struct Means {
     double torque = 0.0;  ///< N m/A
     double square = 0.0;  ///< of torque^2

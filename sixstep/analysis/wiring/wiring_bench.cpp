@@ -13,24 +13,25 @@
 namespace sixstep::analysis {
 namespace {
 
-/// How long a run with rows for a picture may be: some seconds for all of them.
+/// Most control periods of a run with rows for a picture: some seconds for all runs.
 constexpr double most_periods = 3e5;
 constexpr double rows = 1500;
 
-/// Time constants of the run-up. With half the torque it takes three times as long (wiring_theory.hpp, mean(g^2)): six of them.
+/// Time constants of the run-up: six, times three, because it takes three times as long with half the torque
+/// (wiring_theory.hpp, mean(g^2)).
 constexpr double run_up = 18;
-/// Electrical turns of an ideal motor during which a run is watched: one that runs makes more than one.
+/// Electrical turns of an ideal motor while a run is watched; a motor that runs makes more than one.
 constexpr double watched_turns = 6;
 
 constexpr double most_back_emf = 0.05;
 /// L/R that a slow electrical turn takes at least: sixteen in each sector.
 constexpr double least_turn = 100;
 
-/// PWM periods in L/R at least, while the motor is turned slowly: what is left of the current at the end of one is a part that the slow
-/// back-EMF has no hold on.
+/// Least number of PWM periods in L/R while the motor is turned slowly, so that enough current is left at the end
+/// of a period; the slow back-EMF has no influence on this part.
 constexpr double periods_in_winding = 3;
 
-/// A whole number of PWM periods, so that rows stand at one place of a period.
+/// Rounds up to a whole number of PWM periods, so that rows stand at one place of a period.
 double on_grid(double s, double period_s) { return std::ceil(s / period_s - 1e-9) * period_s; }
 
 base::Problems set_current(const WiringSubject& subject, WiringBench& b) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bench on which all 36 wirings are tried: what is on it is chosen from the motor's sheet so that a motor that is plugged in
-// wrongly, and stands, takes no harm.
+// Makes the test bench for all 36 wirings. Its values follow from the motor's sheet, so that a wrongly connected,
+// standing motor takes no harm.
 #pragma once
 #include <optional>
 #include <string>
@@ -16,39 +16,41 @@ namespace sixstep::analysis {
 inline constexpr double electrical_turn_rad = 6 * base::sector_rad;
 
 struct WiringSubject {
-  std::string motor{};                ///< name or path, as a scenario is to have it
+  std::string motor{};                ///< name or path, for the scenario
   design::Sheet sheet{};              ///< of that motor
-  std::optional<double> voltage_V{};  ///< of the bus; else the sheet's nominal voltage
-  std::optional<double>
-      current_A{};  ///< that the stalled motor draws; else nominal, or a tenth of what the bus could drive
+  std::optional<double> voltage_V{};  ///< of the bus; empty: the sheet's nominal voltage
+  /// Of the stalled motor; empty: nominal, or a tenth of what the bus could drive.
+  std::optional<double> current_A{};
 };
 
 enum class BenchCurrent : std::uint8_t { asked_for, nominal, tenth_of_stall };
 
-/// A stiff bus, ideal switches, soft chopping, no load. Two tests: the motor let free from rest, and turned slowly from outside.
+/// A stiff bus, ideal switches, soft chopping, no load. Two tests: the motor let free from rest, and turned slowly
+/// from outside.
 struct WiringBench {
   design::MotorModel motor;
   double voltage_V = 0.0, current_A = 0.0, duty = 0.0;  ///< current_A = duty voltage_V/R_tt
   BenchCurrent from = BenchCurrent::nominal;
   double ideal_rad_s = 0.0;  ///< duty voltage_V/K_t: no load, current without gaps
-  double free_s = 0.0;       ///< a free run: ten mechanical time constants, then what is watched
+  double free_s = 0.0;  ///< 18 mechanical time constants and an ideal motor's turn, then the watched part
   double watched_from_s = 0.0;
   double row_s = 0.0;  ///< between two recorded rows of a free run
-  /// Of the slow turn: its rows stand where a period begins, and a current that has died away by then says nothing of torque.
+  /// PWM period of the slow turn. It is short, because rows stand where a period begins, and a current that has
+  /// decayed by then does not show the torque.
   double turned_pwm_s = 0.0;
   double turned_rad_s = 0.0;  ///< slow: the back-EMF takes a twentieth of the bench's current, or less
-  double turned_from_s = 0.0,
-         turned_s = 0.0;  ///< a sector to forget the start, then one electrical turn, 0 to 360 degrees
+  /// A sector in which the start decays, then one electrical turn, 0 to 360 degrees.
+  double turned_from_s = 0.0, turned_s = 0.0;
 };
 
 /// Problems name `voltage_V` or `current_A`, or are the sheet's.
 base::Result<WiringBench> wiring_bench(const WiringSubject& subject);
 
-/// Let free from rest at an electrical angle.
+/// Scenario of a motor that is let free from rest at an electrical angle.
 study::Scenario free_run(const WiringBench& bench, const WiringSubject& subject, const rig::Wiring& wiring,
                          double electrical_deg);
 
-/// Turned by a dynamometer through one electrical turn, `turned_rows` rows of torque on the way.
+/// Scenario of a motor that a dynamometer turns through one electrical turn, with `turned_rows` rows of torque.
 inline constexpr int turned_rows = 180;
 study::Scenario turned_run(const WiringBench& bench, const WiringSubject& subject, const rig::Wiring& wiring);
 

@@ -17,9 +17,11 @@
 namespace sixstep::analysis {
 namespace {
 
-/// Electrical turns: what hums swings within half a turn about its rest, and comes to it from no farther away.
+/// In electrical turns: a motor that hums swings within half a turn about its rest, and comes to it from no
+/// farther away.
 constexpr double whole_way = 1.0;
-/// In the watched time, in which an ideal motor makes three. A slow one is held by friction, and still runs.
+/// In electrical turns of the watched time, in which an ideal motor makes six. Friction holds a slow motor back,
+/// but it still runs.
 constexpr double still_going = 1.0 / 3;
 
 using Columns = std::vector<std::vector<double>>;
@@ -65,7 +67,7 @@ double swings_Hz(const std::vector<double>& t_s, const std::vector<double>& spee
   return changes < 3 ? 0.0 : (changes - 1) / 2.0 / (last - first);
 }
 
-/// Of the columns of a free run: t, angle, speed, currents.
+/// Evaluates the columns of a free run: t, angle, speed, currents.
 void look_at_rows(const WiringBench& b, const Columns& c, FreeRun& run) {
   const double per_rad = b.motor.machine.pole_pairs / electrical_turn_rad;
   const auto first = static_cast<std::size_t>(
@@ -96,11 +98,11 @@ FreeRun look_at(const WiringBench& b, const Recorded& r) {
   return run;
 }
 
-/// Of the columns of a turned run: t, torque, currents.
+/// Evaluates the columns of a turned run: t, torque, currents.
 void look_at_turned(const Columns& c, WiringMeasured& m) {
   double sum = 0.0;
   for (std::size_t n = turned_rows / 6; n < turned_rows / 6 + turned_rows;
-       ++n) {  // the first sector forgets the start
+       ++n) {  // the start decays in the first sector
     const double per_A = c[1][n] / winding_A(c, 2, n);
     sum += per_A;
     m.torque_over_turn.push_back(static_cast<float>(per_A));
@@ -108,7 +110,7 @@ void look_at_turned(const Columns& c, WiringMeasured& m) {
   m.torque_Nm_A = sum / turned_rows;
 }
 
-/// Mean of the first or the second half of all sectors.
+/// Mean over the first or the second half of all sectors.
 double half_mean(const std::vector<float>& torque, bool second) {
   constexpr std::size_t sector = turned_rows / 6;
   double sum = 0.0;
@@ -182,7 +184,7 @@ WiringDoes seen_in(const WiringMeasured& m, double straight_Nm_A) {
     least = std::min(least, forward ? torque : -static_cast<double>(torque));
   if (std::fabs(m.torque_Nm_A) > well_above_part * straight_Nm_A && least > well_above_least * straight_Nm_A)
     return forward ? WiringDoes::forward : WiringDoes::backward;
-  // In the rotor's own direction the torque of an early pair rises, that of a late one falls.
+  // In the rotor's own direction, the torque of an early pair rises and that of a late one falls.
   const double rise = half_mean(m.torque_over_turn, true) - half_mean(m.torque_over_turn, false);
   if (forward) return rise > 0 ? WiringDoes::forward_early : WiringDoes::forward_late;
   return rise > 0 ? WiringDoes::backward_early : WiringDoes::backward_late;
@@ -224,7 +226,8 @@ base::Result<WiringStudy> study_wiring(const WiringOrder& order) {
                                                 .pwm_period_s = study::Pwm{}.period_s,
                                                 .keep_going = order.keep_going});
   if (settled) s.settled = settled->point;
-  // With a dynamometer the general kernel has it: its machine is that of all the runs with crossed wires.
+  // The dynamometer makes this run use the general kernel, as all runs with crossed wires do: its machine is
+  // theirs.
   const study::Scenario turned = turned_run(s.bench, order.subject, {});
   if (base::Problems found = study::check(turned); !found.empty()) return found;
   const base::Result<study::Compiled> compiled = study::compile(turned);

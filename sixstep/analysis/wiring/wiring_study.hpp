@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All 36 ways to plug a motor in: what theory says of each, what the simulation measures, and what puts it right.
+// Studies all 36 ways to connect a motor: the theory's result and the simulation's for each, and its cures.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -13,11 +13,11 @@
 
 namespace sixstep::analysis {
 
-/// The middles of the six sectors: the rotor begins at rest at each of them.
+/// The rotor begins at rest in the middle of each of the six sectors.
 inline constexpr std::size_t starts = 6;
 constexpr double start_deg(std::size_t n) { return 60.0 * static_cast<double>(n) + 30; }
 
-/// What the end of a free run shows (WiringBench::watched_from_s), and the way since its start.
+/// The watched end of a free run (WiringBench::watched_from_s), and the way since its start.
 struct FreeRun {
   double speed_rad_s = 0.0;        ///< mean
   double turns = 0.0;              ///< electrical, of the watched time, signed
@@ -32,12 +32,12 @@ struct FreeRun {
   std::vector<float> current_A{};  ///< half the sum of the phase currents' magnitudes, one a row
 };
 
-/// Seen in runs alone: no theory has a part in it.
+/// Results of runs alone, without theory.
 struct WiringMeasured {
   WiringDoes does = WiringDoes::unclear;
   std::array<FreeRun, starts> runs{};
   double torque_Nm_A = 0.0;  ///< per ampere of half the sum of magnitudes, mean over a slow electrical turn
-  double part = 0.0;         ///< of that of straight wires
+  double part = 0.0;         ///< over that of straight wires
   std::vector<float> torque_over_turn{};  ///< the same, turned_rows of them, at 1, 3, 5 .. degrees
   std::uint64_t digest = 0;               ///< of all seven runs
 };
@@ -50,9 +50,9 @@ struct WiringCase {
   bool agrees() const { return theory.does == measured.does; }
 };
 
-/// What the runs of all wirings that do the same show, in the mean over ways and starts; of the peaks the largest. A
-/// motor that runs well gathers speed for much longer than a run lasts, for its current has gaps: speed and currents
-/// are then those it settles at (curve/no_load.hpp), unless the sheet's friction holds it.
+/// Means over the runs of all wirings that do the same, over wirings and starts; of the peaks the largest. A motor
+/// that runs well accelerates for much longer than a run lasts, because its current has gaps. Its speed and
+/// currents are then those of the settled state (curve/no_load.hpp), unless the sheet's friction holds it.
 struct Symptom {
   std::size_t ways = 0;
   double part = 0.0, speed_rad_s = 0.0, phase_rms_A = 0.0, peak_A = 0.0, supply_A = 0.0, swing_deg = 0.0,
@@ -62,17 +62,17 @@ struct Symptom {
 struct WiringStudy {
   WiringSubject subject;
   WiringBench bench;
-  plant::general::Machine machine;          ///< whose torque the theory is of
+  plant::general::Machine machine;          ///< of the theory's torque
   std::vector<WiringCase> cases;            ///< in the order of all_wirings()
   std::optional<OperatingPoint> settled{};  ///< straight wires without load
 
   std::size_t agreeing() const;
   const WiringCase& at(const rig::Wiring& wiring) const;
-  /// Of all that are seen to do this; of one; of straight wires.
+  /// Of all wirings that do this in the runs; of one; of straight wires.
   Symptom symptom(WiringDoes does) const;
   Symptom symptom(const WiringCase& one) const;
   Symptom straight() const;
-  /// The first that is seen to do this; null where none does.
+  /// The first that does this in the runs; null: none does.
   const WiringCase* example(WiringDoes does) const;
 };
 
@@ -85,7 +85,7 @@ struct WiringOrder {
 /// Problems are those of sheet and bench.
 base::Result<WiringStudy> study_wiring(const WiringOrder& order);
 
-/// What the runs of one wiring show; `straight_Nm_A` is the measured torque per ampere of straight wires.
+/// Classifies the runs of one wiring; `straight_Nm_A` is the measured torque per ampere of straight wires.
 WiringDoes seen_in(const WiringMeasured& measured, double straight_Nm_A);
 
 }  // namespace sixstep::analysis

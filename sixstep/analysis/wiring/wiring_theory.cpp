@@ -31,7 +31,8 @@ Sums over_turn(const PairTorque& torque, const WiringTheory& t) {
   return s;
 }
 
-/// Where the torque changes sign between the middles of two sectors, the first pushing forward and the second back.
+/// Angle at which the torque changes sign between the middles of two sectors, of which the first pushes forward
+/// and the second back.
 double rest_between(const PairTorque& torque, const WiringTheory& t, std::uint8_t sector) {
   const std::uint8_t next = static_cast<std::uint8_t>((sector + 1) % 6);
   const auto in = [&](std::uint8_t s, double x) {
@@ -49,8 +50,8 @@ double rest_between(const PairTorque& torque, const WiringTheory& t, std::uint8_
   return next * 60.0;
 }
 
-/// A pair that is driven before its turn has its torque still to come: on the rotor's way through a sector it rises from nothing.
-/// One that is kept behind its turn loses it.
+/// The torque of a pair that is driven before its turn rises from 0 on the rotor's way through a sector. That of a
+/// pair that is driven after its turn falls.
 WiringDoes running(int direction, double part, double least_part, const Sums& s) {
   const bool forward = direction > 0, falls = direction * (s.first_half - s.second_half) > 0;
   if (part >= well_above_part && least_part >= well_above_least)

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// A drive that finds out what hangs at it: resistance and inductance by steps, the table of the Hall lines by a slow turn
-// each way, the flux linkage by a fast one. It knows its converters, its timer and how much current it may make; of the
-// motor nothing.
+// Commissioning: the drive measures the motor that is connected to it. Steps give resistance and inductance, a
+// slow turn each way the table of the Hall lines, a fast turn the flux linkage. Converters, timer and the
+// allowed current must be known; nothing of the motor.
 //
-//   zeroing    offsets of the three amplifiers, the bridge off
-//   rising     a vector grows until the current is there: it and the one of half the current are the two levels
-//   leaning    the rotor is pulled to a quarter turn, so that no dead point is left
-//   aligning   and to 0: from here to the steps' end it rests
+//   zeroing    measures the offsets of the three amplifiers, the bridge off
+//   rising     raises a vector until the test current flows: it and the one of half the current are the two levels
+//   leaning    pulls the rotor to a quarter turn, so that no dead point is left
+//   aligning   pulls it to 0, where it rests until the end of the steps
 //   stepping   level_steps.hpp
 //   turning    hall_survey.hpp, forward and backward
-//   spinning   ever faster until the back-EMF is half of the vector
-//   measuring  flux_turn.hpp, and spinning and measuring again at three quarters of the speed: where the two differ the
-//              rotor had been lost, and is aligned and spun again, a quarter as fast
+//   spinning   turns it ever faster until the back-EMF is half of the vector
+//   measuring  flux_turn.hpp; then spinning and measuring again at three quarters of the speed: if the two differ the
+//              rotor was lost, and is aligned and spun again, with a quarter of the acceleration
 //   done, failed
 //
-// Call commissioning_step once per control tick, and commissioning_hall in the interrupt of the Hall pins. The shaft turns
-// freely meanwhile, some turns each way. What was found, in SI: commissioning_result.hpp.
+// Call commissioning_step once per control tick, and commissioning_hall in the interrupt of the Hall pins. The
+// shaft must turn freely, some turns each way. commissioning_result.hpp gives the results in SI.
 #pragma once
 #include <cstdint>
 
@@ -34,7 +34,7 @@ constexpr LegCommands<Scalar> commissioning_step(const CommissioningConfig& conf
   return legs_of_vector<Scalar>(state.v, state.angle);
 }
 
-/// The Hall pins changed, at a reading of the timer: the field has gone on since the tick.
+/// The Hall pins changed, at a reading of the timer. The field's angle is extrapolated from the last tick.
 constexpr void commissioning_hall(const CommissioningConfig& config, CommissioningState& state,
                                   std::uint8_t pins, std::uint32_t captured) {
   if (state.phase != CommissioningPhase::turning || state.way < detail::one_turn) return;

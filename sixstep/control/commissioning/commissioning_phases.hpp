@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each phase of commissioning does in a control tick: part of commissioning.hpp, which says how they follow each
-// other.
+// Runs the control tick of each phase of commissioning.hpp, which shows their order.
 #pragma once
 #include <cstdint>
 
@@ -24,29 +23,29 @@ enum class CommissioningPhase : std::uint8_t {
 
 enum class CommissioningFault : std::uint8_t {
   none,
-  offset,   ///< an amplifier's zero is not where the circuit has it
-  current,  ///< the longest vector makes no such current: a wire is open, or more was asked for than there is
-  winding,  ///< the two levels do not differ as they should: nothing that R can be told of
+  offset,     ///< the offset of an amplifier is out of tolerance
+  current,    ///< the longest vector does not make the test current: an open wire, or too high a test current
+  winding,    ///< the two levels give no R or no time constant
   not_turned  ///< the rotor did not follow, however slowly
 };
 
 struct CommissioningConfig {
-  AdcConfig<Q30> current{};        ///< where no current reads; its gain is not asked for
+  AdcConfig<Q30> current{};        ///< offset at no current; the gain is not used
   std::int32_t test_counts = 0;    ///< current of the higher level, counts
-  std::int32_t rise = 4;           ///< parts of the bus a tick
-  std::uint32_t settle_ticks = 0;  ///< control ticks that the rotor is given to come to rest
+  std::int32_t rise = 4;           ///< of the vector per tick, parts of the bus
+  std::uint32_t settle_ticks = 0;  ///< control ticks until the rotor rests
   LevelStepsConfig steps{};
   HallSurveyConfig hall{};
   std::uint32_t slow_speed = 0;     ///< of the field in the slow turn, 2^-32 electrical turns a tick
-  std::uint32_t fastest_speed = 0;  ///< and at most
-  std::uint32_t acceleration = 0;   ///< and a tick each
-  std::uint8_t flux_turns = 16;     ///< electrical ones that the flux linkage is a mean of
+  std::uint32_t fastest_speed = 0;  ///< largest speed of the field
+  std::uint32_t acceleration = 0;   ///< change of its speed per tick
+  std::uint8_t flux_turns = 16;     ///< electrical turns over which the flux linkage is averaged
   std::uint8_t tries = 4;           ///< of the fast turn
   std::uint32_t timer_ticks = 1;    ///< counts of the capture timer in a control tick
   bool operator==(const CommissioningConfig&) const = default;
 };
 
-/// Registers at a tick.
+/// Register values at a tick.
 struct CommissioningInput {
   std::uint16_t current_counts[3]{};
   std::uint16_t bus_counts = 0;
@@ -60,15 +59,15 @@ struct CommissioningState {
   AdcState adc[3]{};
   std::uint32_t ticks = 0;         ///< in this phase
   std::int32_t v = 0;              ///< the vector, parts of the bus
-  std::int32_t low = 0, high = 0;  ///< the levels' vectors
+  std::int32_t low = 0, high = 0;  ///< vectors of the two levels
   BinaryAngle angle = 0;           ///< of the vector
   std::int32_t speed = 0;          ///< of the vector, 2^-32 turns a tick
   std::uint32_t ticked_at = 0;     ///< the timer at the last tick
-  std::uint64_t way = 0;           ///< 2^-32 turns at one speed
+  std::uint64_t way = 0;           ///< turned at the wanted speed, 2^-32 turns
   std::int8_t direction = 1;
   std::uint8_t tries = 0;
-  bool held = false;            ///< spinning: fast enough
-  std::int32_t spin_speed = 0;  ///< then held
+  bool held = false;            ///< spinning: fast enough, the speed is held
+  std::int32_t spin_speed = 0;  ///< the speed that is held
   LevelStepsState steps{};
   HallSurveyState hall{};
   FluxTurnState turn{};
@@ -92,7 +91,7 @@ constexpr void fail(CommissioningState& state, CommissioningFault fault) {
   enter(state, CommissioningPhase::failed);
 }
 
-/// The currents in the frame of the vector that makes them, as it was at the sample.
+/// The currents in the frame of the vector that makes them, at its angle at the sample.
 constexpr FieldCurrent current_seen(const CommissioningConfig& config, const CommissioningState& state,
                                     const CommissioningInput& input) {
   std::int32_t eighths[3]{}, signs[3]{};
@@ -128,7 +127,7 @@ constexpr void rising_tick(const CommissioningConfig& config, CommissioningState
   if (state.v > longest_vector) fail(state, CommissioningFault::current);
 }
 
-/// The speed goes to what is wanted; the way counts from there.
+/// Changes the speed towards `wanted`; the way counts from there.
 constexpr void turn_field(CommissioningState& state, std::int32_t wanted, std::uint32_t acceleration) {
   const auto step = static_cast<std::int32_t>(acceleration);
   const std::int32_t off = wanted - state.speed;
@@ -143,7 +142,7 @@ constexpr void turn_field(CommissioningState& state, std::int32_t wanted, std::u
     state.way += static_cast<std::uint64_t>(wanted < 0 ? -static_cast<std::int64_t>(wanted) : wanted);
 }
 
-/// The first turn each way lets the rotor swing out, and the pins say where they stand.
+/// During the first turn each way the rotor's swing decays; the pins at its end are the first code.
 constexpr void turning_tick(const CommissioningConfig& config, CommissioningState& state, std::uint8_t pins) {
   const std::uint64_t before = state.way;
   const auto slow = static_cast<std::int32_t>(config.slow_speed);
@@ -164,7 +163,7 @@ constexpr std::uint32_t size_of(std::int32_t speed) {
   return static_cast<std::uint32_t>(speed < 0 ? -speed : speed);
 }
 
-/// The rotor was lost, or is too slow: once more, gently, from rest.
+/// The rotor was lost, or is too slow: starts again from rest, with less acceleration.
 constexpr void spin_again(const CommissioningConfig& config, CommissioningState& state) {
   state.turn = FluxTurnState{};
   state.magnet = FluxTurnReading{};
@@ -193,7 +192,7 @@ constexpr void spinning_tick(const CommissioningConfig& config, CommissioningSta
     state.way = 0;
     return;
   }
-  // As many turns as will be measured let the rotor swing out.
+  // The rotor's swing decays during as many turns as will be measured.
   if (state.held && state.way >= one_turn * config.flux_turns) enter(state, CommissioningPhase::measuring);
 }
 
@@ -210,7 +209,7 @@ constexpr void measuring_tick(const CommissioningConfig& config, CommissioningSt
     state.spin_speed -= state.spin_speed / 4;
     return enter(state, CommissioningPhase::spinning);
   }
-  // A rotor that slips or swings has a back-EMF, too, but none that goes with the field's speed.
+  // A rotor that slips or swings has a back-EMF too, but it is not proportional to the field's speed.
   const std::int32_t off = reading.flux - state.magnet.flux;
   if ((off < 0 ? -off : off) > state.magnet.flux / 32) return spin_again(config, state);
   enter(state, CommissioningPhase::done);

@@ -1,33 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-// What commissioning found, in SI, by what the board is built of; and its configuration, of the same.
+// Converts the results of commissioning to SI, by the data of the board, and makes its configuration from the
+// same data.
 //
-//   R = r u/i,   L = R tau T,   psi = f u T/(2 pi)      u V and i A to a count, T the control period
+//   R = r u/i,   L = R tau T,   psi = f u T/(2 pi)      u V and i A per count, T the control period
 //
-// R is that of a phase and of a switch. L is the one along the magnet's axis, psi the fundamental's: the peak of a phase's
-// back-EMF over the electrical speed, K_e/p of a sine, 1.2159 K_e/p of the trapezoid of 120 degrees.
+// R is that of a phase and of a switch. L is the one along the magnet's axis. psi is that of the fundamental:
+// the peak of a phase's back-EMF over the electrical speed, K_e/p for a sine, 1.2159 K_e/p for the trapezoid of
+// 120 degrees.
 #pragma once
 #include "sixstep/control/commissioning/commissioning.hpp"
 #include "sixstep/control/units.hpp"
 
 namespace sixstep::control {
 
-/// SI over the unit of a reading; in fixed point both over the format's base and digit.
+/// SI units per unit of a reading; in fixed point divided by the format's base and digit.
 template <class Scalar>
 struct CommissioningScale {
-  Gain<Scalar> ohm{};        ///< to 2^-20 counts of the bus over a count of current
-  Gain<Scalar> henry{};      ///< to 2^-12 of them times ticks
-  Gain<Scalar> weber{};      ///< to 2^-4 counts of the bus times ticks in a turn
+  Gain<Scalar> ohm{};        ///< per 2^-20 counts of the bus over a count of current
+  Gain<Scalar> henry{};      ///< per 2^-12 counts of the bus over a count of current, times ticks
+  Gain<Scalar> weber{};      ///< per 2^-4 counts of the bus times ticks in a turn
   Gain<Scalar> half_turn{};  ///< degrees over the base of positions
 };
 
 template <class Scalar>
 struct Commissioned {
   Scalar R_ohm{}, L_H{}, flux_linkage_Vs{};
-  Scalar hall_offset_deg{};  ///< electrical: the edges' mean ahead of 60 n
-  Scalar hall_lag_deg{};     ///< by which they came later, each way
+  Scalar hall_offset_deg{};  ///< electrical: mean angle of the edges ahead of 60 n
+  Scalar hall_lag_deg{};     ///< by which they came later, in each direction
 };
 
-/// What the makers of the board know.
+/// Data of the board.
 struct CommissioningBoard {
   double V_per_count = 0.0, A_per_count = 0.0;
   std::uint16_t zero_counts = 2048;
@@ -36,15 +38,15 @@ struct CommissioningBoard {
   std::uint8_t late_half_ticks = 1;
 };
 
-/// What may be asked of motor and bench.
+/// Demands on the motor and the bench.
 struct CommissioningWish {
-  double test_A = 0.0;             ///< that the motor stands for seconds
-  double settle_s = 0.2;           ///< for the rotor to come to rest
-  double step_s = 0.02;            ///< ten electrical time constants
-  double slow_turns_s = 10.0;      ///< electrical
-  double fastest_turns_s = 500.0;  ///< and at most
-  double spin_up_s = 1.0;          ///< to the fastest, at the first try
-  std::uint8_t tries = 4;          ///< each a quarter as fast as the one before
+  double test_A = 0.0;             ///< current that the motor withstands for seconds
+  double settle_s = 0.2;           ///< until the rotor rests
+  double step_s = 0.02;            ///< of a level: ten electrical time constants
+  double slow_turns_s = 10.0;      ///< slow turn, electrical turns per second
+  double fastest_turns_s = 500.0;  ///< largest speed, electrical turns per second
+  double spin_up_s = 1.0;          ///< up to the largest speed, at the first try
+  std::uint8_t tries = 4;          ///< each with a quarter of the acceleration of the one before
 };
 
 constexpr CommissioningConfig commissioning_config(const CommissioningBoard& board,
@@ -61,8 +63,7 @@ constexpr CommissioningConfig commissioning_config(const CommissioningBoard& boa
   config.steps.ticks = static_cast<std::uint16_t>(step < 8 ? 8u : step > 65532u ? 65532u : step);
   config.steps.late_half_ticks = board.late_half_ticks;
   config.slow_speed = whole(wish.slow_turns_s * turn);
-  const double fastest =
-      wish.fastest_turns_s * turn;  // a sixteenth of a turn a tick is as fast as makes sense
+  const double fastest = wish.fastest_turns_s * turn;  // at most a sixteenth of a turn per tick
   config.fastest_speed = static_cast<std::uint32_t>(fastest < 268435456.0 ? fastest : 268435456.0);
   const double spin_up_ticks = wish.spin_up_s / board.period_s;
   config.acceleration =
@@ -72,7 +73,8 @@ constexpr CommissioningConfig commissioning_config(const CommissioningBoard& boa
   return config;
 }
 
-/// `base`: what 1.0 of a resistance, an inductance, a flux linkage and a position means, 1 each in floating point.
+/// The bases are the values of 1.0 of a resistance, an inductance, a flux linkage and a position, 1 each in
+/// floating point.
 template <class Scalar>
 constexpr CommissioningScale<Scalar> commissioning_scale(const CommissioningBoard& board,
                                                          double ohm_base = 1.0, double henry_base = 1.0,
@@ -86,7 +88,7 @@ constexpr CommissioningScale<Scalar> commissioning_scale(const CommissioningBoar
           Gain<Scalar>(180.0 / deg_base)};
 }
 
-/// 2^-12 of what the resistance is in, times ticks.
+/// In 2^-12 counts of the bus over a count of current, times ticks.
 constexpr std::int32_t inductance_of(const LevelStepsReading& winding) {
   return detail::held_to_32(
       detail::shifted_down(static_cast<std::int64_t>(winding.resistance) * winding.tau, 24));

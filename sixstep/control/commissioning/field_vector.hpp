@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A voltage vector that stands or turns at the chip's command, and the current as that vector's frame sees it.
+// Makes a voltage vector that stands or turns as commanded, and computes the current in the frame of that vector.
 //
 //   v_k = v cos(angle - 120 k),   d_k = 1/2 + v_k + v_0,  v_0 = -(max v_k + min v_k)/2     (model.md 11)
 //   3 i_alpha = 2 i_a - i_b - i_c,   3 i_beta = sqrt 3 (i_b - i_c),   turned back by the angle: along, across
 //
-// All is whole numbers: voltages are parts of the bus, 2^20 to the whole of it, currents 24ths of a converter's count
-// (eighths by the offset's resolution, adc.hpp; three of them by the formula). What they are in V and A is said once, at
-// the end (commissioning_result.hpp).
+// All numbers are whole: voltages in parts of the bus, 2^20 to the whole of it; currents in 24ths of a
+// converter's count (eighths by the offset's resolution, adc.hpp; thirds of them by the formula). Only
+// commissioning_result.hpp converts them to V and A.
 #pragma once
 #include <cstdint>
 
@@ -17,12 +17,12 @@
 
 namespace sixstep::control {
 
-/// A bus in parts.
+/// The whole bus, in parts.
 inline constexpr std::int32_t whole_bus = std::int32_t{1} << 20;
 /// The longest vector that the three legs can make in every direction, 1/sqrt 3 of the bus, rounded down.
 inline constexpr std::int32_t longest_vector = 605411;
 
-/// Parts of the bus, or 24ths of a count.
+/// In parts of the bus, or in 24ths of a count.
 struct FieldVector {
   std::int32_t along = 0, across = 0;
 };
@@ -38,7 +38,7 @@ constexpr std::int32_t scaled_30(std::int32_t x, std::int32_t y) {
 
 }  // namespace detail
 
-/// What the three legs do for the vector. v: 0..longest_vector.
+/// Commands of the three legs for the vector. v: 0..longest_vector.
 template <class Scalar>
 constexpr LegCommands<Scalar> legs_of_vector(std::int32_t v, BinaryAngle angle) {
   const Direction<Q30> to = direction_of<Q30>(angle);
@@ -62,7 +62,7 @@ constexpr LegCommands<Scalar> legs_of_vector(std::int32_t v, BinaryAngle angle) 
   return legs;
 }
 
-/// Eighths of a count of the three phases, seen along and across an angle.
+/// Currents of the three phases, in eighths of a count, as components along an angle and across it.
 constexpr FieldVector seen_along(const std::int32_t (&eighths)[3], BinaryAngle angle) {
   const Direction<Q30> to = direction_of<Q30>(angle);
   const std::int32_t alpha = 2 * eighths[0] - eighths[1] - eighths[2];

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The magnet's flux linkage from a rotor that follows a turning voltage vector without a load, in the vector's frame and
-// in means over whole electrical turns, which leave the fundamental alone:
+// Measures the flux linkage of the magnet by a rotor that follows a turning voltage vector without a load. It
+// is computed in the vector's frame from means over whole electrical turns, which contain the fundamental
+// alone:
 //
 //   e = v - R i - j w L i - (3/4) lost s,    psi = |e|/w
 //
-// `lost` is what dead time and diodes take of a vector along a phase (level_steps.hpp), 4/3 of a leg's part; s the vector of
-// the legs' signs of current. The rotor's lag behind the vector does not
-// matter. An error of R counts by R i/e: at e = v/2 by less than twice itself.
+// `lost` is the voltage that dead time and diodes take from a vector along a phase (level_steps.hpp), 4/3 of a
+// leg's part; s is the vector of the signs of the legs' currents. The rotor's lag behind the vector does not
+// matter. An error of R enters with the factor R i/e: at e = v/2 less than 2.
 #pragma once
 #include <cstdint>
 
@@ -22,16 +23,16 @@ struct FieldCurrent {
 /// Sums over the ticks of whole turns.
 struct FluxTurnState {
   std::int64_t along = 0, across = 0;              ///< currents, 24ths of a count
-  std::int64_t signs_along = 0, signs_across = 0;  ///< of currents, 24 to a leg's
+  std::int64_t signs_along = 0, signs_across = 0;  ///< signs of currents, 24 per leg
   std::int64_t bus = 0;                            ///< counts
   std::uint32_t ticks = 0;
 };
 
-/// In 2^-8 counts of the bus, and 2^-4 of them times ticks in a turn.
+/// Voltages in 2^-8 counts of the bus, the flux in 2^-4 counts of the bus times ticks in a turn.
 struct FluxTurnReading {
   std::int32_t applied = 0;  ///< v
   std::int32_t emf = 0;      ///< |e|
-  std::int32_t flux = 0;     ///< |e| over turns a tick
+  std::int32_t flux = 0;     ///< |e| over turns per tick
 };
 
 constexpr void flux_turn_tick(FluxTurnState& state, const FieldCurrent& seen, std::uint16_t bus_counts) {
@@ -43,14 +44,14 @@ constexpr void flux_turn_tick(FluxTurnState& state, const FieldCurrent& seen, st
   ++state.ticks;
 }
 
-/// w L, as the resistance is given; speed in 2^-32 turns a tick.
+/// w L in the unit of the resistance; speed in 2^-32 turns per tick.
 constexpr std::int64_t reactance_of(const LevelStepsReading& winding, std::uint32_t speed) {
   constexpr std::int64_t two_pi_16 = 411775;
   const std::int64_t turns_32 = detail::shifted_down(static_cast<std::int64_t>(winding.tau) * speed, 16);
   return detail::shifted_down(detail::shifted_down(turns_32 * two_pi_16, 16) * winding.resistance, 32);
 }
 
-/// Of a vector of v parts of the bus.
+/// Result for a vector of v parts of the bus.
 constexpr FluxTurnReading flux_turn_reading(const LevelStepsReading& winding, const FluxTurnState& state,
                                             std::int32_t v, std::uint32_t speed) {
   FluxTurnReading reading{};

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which code of the Hall pins stands where: from edges and the field's angle at them, while a field turns the rotor
-// slowly, forward and then backward. Nothing is known before: not which line hangs at which pin, not which are inverted,
-// nor whether probes stand 120 or 60 degrees apart, nor by how much they are off.
+// Finds which code of the Hall pins belongs to which angle, from edges and the field's angle at them, while a
+// field turns the rotor slowly, forward and then backward. Nothing must be known before: neither which line is
+// connected to which pin, nor which lines are inverted, nor whether probes are 120 or 60 degrees apart, nor how
+// far they are misplaced.
 //
-// The rotor's d axis lies in the field but for a lag: friction over the torque of the current, the field's own lateness
-// and half of the probes' hysteresis. All three change sides with the direction, and the mean of both ways is free of
-// them:
+// The rotor's d axis follows the field with a lag: friction over the torque of the current, the delay of the
+// field and half of the probes' hysteresis. All three change their sign with the direction, and the mean of
+// both directions is free of them:
 //
 //   edge = (forward + backward)/2,   lag = (forward - backward)/2          theta_e = theta_d + 150 degrees (model.md 7)
 //
-// Cogging does not change sides, nor does a back-EMF that is no sine: a standing field holds the rotor of a trapezoid of
-// 120 degrees up to 1.12 degrees beside it, by 0 at each multiple of 30. A rotor that is turned so fast that six times the
-// turn comes near its swing in the field, sqrt(1.5 p^2 psi I/J), shows more.
+// Cogging does not change its sign, nor does the effect of a back-EMF that is no sine: a standing field holds
+// the rotor of a trapezoid of 120 degrees up to 1.12 degrees beside it, by 0 at each multiple of 30. The error
+// is larger if the rotor turns so fast that six times its speed comes near its swing in the field, sqrt(1.5 p^2
+// psi I/J).
 #pragma once
 #include <cstdint>
 
@@ -21,41 +23,41 @@
 
 namespace sixstep::control {
 
-/// theta_e of the field's angle: that of the d axis.
+/// theta_e ahead of the field's angle, which is that of the d axis.
 inline constexpr BinaryAngle electrical_ahead = 1789569707u;  // 150 degrees
 
 struct HallSurveyConfig {
-  std::uint8_t turns = 2;                   ///< electrical ones each way that are noted
-  BinaryAngle widest = binary_degrees(15);  ///< that edges of one kind may lie apart
+  std::uint8_t turns = 2;                   ///< electrical turns each way that are recorded
+  BinaryAngle widest = binary_degrees(15);  ///< largest distance of edges of one kind
   bool operator==(const HallSurveyConfig&) const = default;
 };
 
-/// The edge into a code, forward; out of it, backward.
+/// The edge into a code when turning forward, which is the edge out of it when turning backward.
 struct SurveyedEdge {
   BinaryAngle first[2]{};  ///< theta_e of the first one, forward and backward
-  std::int64_t sum[2]{};   ///< of what the others lie ahead of it
+  std::int64_t sum[2]{};   ///< of the angles by which the others are ahead of it
   std::uint8_t count[2]{};
-  std::uint8_t before = 0xff;  ///< the code behind it
+  std::uint8_t before = 0xff;  ///< the code before it
 };
 
 struct HallSurveyState {
-  SurveyedEdge edge[8]{};  ///< by the code ahead of it
+  SurveyedEdge edge[8]{};  ///< indexed by the code ahead of it
   std::uint8_t pins = 0xff;
-  bool torn = false;  ///< edges of one kind lay too far apart, or another code lay behind one
+  bool torn = false;  ///< edges of one kind are too far apart, or have different codes before them
 };
 
 enum class HallSurvey : std::uint8_t {
   good,
   dead_line,    ///< a pin never changed
-  other_codes,  ///< not six codes, in one order there and back: a shorted line, or probes of another kind
-  not_steady    ///< edges of one kind lay too far apart, or were missed: the rotor does not follow
+  other_codes,  ///< not six codes in one order both ways: a shorted line, or probes of another kind
+  not_steady    ///< edges of one kind are too far apart, or were missed: the rotor does not follow
 };
 
-/// What each pin carries, in the words of probes 120 degrees apart.
+/// Signal of each pin, expressed by probes 120 degrees apart.
 struct HallLines {
   std::uint8_t sector[8] = {no_sector, no_sector, no_sector, no_sector,
                             no_sector, no_sector, no_sector, no_sector};  ///< of each code of the pins
-  std::uint8_t probe[3]{};                                                ///< 1..3 at pin H1, H2, H3
+  std::uint8_t probe[3]{};    ///< 1..3: the probe at pin H1, H2, H3
   std::uint8_t inverted = 0;  ///< pins that read their probe inverted, as bits of a code
   bool operator==(const HallLines&) const = default;
 };
@@ -64,20 +66,20 @@ struct HallSurveyReading {
   HallSurvey verdict = HallSurvey::not_steady;
   std::uint8_t dead_pins = 0;  ///< as bits of a code
   HallLines lines{};
-  /// The lines hang straight, and this is all that hall.hpp must be told.
+  /// The lines need no table: hall.hpp needs only `config`.
   bool plain = false;
   HallConfig config{};
-  HallEdges edges{};        ///< where each stands
-  std::int32_t offset = 0;  ///< mean of what they lie ahead of 60 n degrees, signed angle
-  std::int32_t lag = 0;     ///< mean of what they came later, each way
+  HallEdges edges{};        ///< angle of each edge
+  std::int32_t offset = 0;  ///< mean of their angles ahead of 60 n degrees, signed angle
+  std::int32_t lag = 0;     ///< mean angle by which they came later, in each direction
 };
 
-/// The code that straight probes 120 degrees apart would give; 000 where there is none.
+/// The code that correctly connected probes 120 degrees apart would give; 000 if there is none.
 constexpr std::uint8_t as_wired(const HallLines& lines, std::uint8_t pins) {
   return hall_of_sector(lines.sector[pins & 7u]);
 }
 
-/// Pins changed while the field stood at `field`, turning in `direction`. The first call tells the code at rest.
+/// The pins changed while the field was at `field`, turning in `direction`. The first call gives the code at rest.
 constexpr void hall_survey_edge(const HallSurveyConfig& config, HallSurveyState& state, std::uint8_t pins,
                                 std::int8_t direction, BinaryAngle field) {
   const std::uint8_t before = state.pins, now = pins & 7u;
@@ -103,7 +105,7 @@ constexpr BinaryAngle surveyed(const SurveyedEdge& edge, int way) {
   return edge.first[way] + static_cast<BinaryAngle>(edge.sum[way] / edge.count[way]);
 }
 
-/// Six codes in one ring, each edge seen both ways.
+/// Good if six codes form one ring and each edge was found in both directions.
 constexpr HallSurvey survey_verdict(const HallSurveyConfig& config, const HallSurveyState& state,
                                     std::uint8_t& dead_pins) {
   unsigned seen = 0, ones = 0, zeros = 0;
@@ -128,7 +130,7 @@ constexpr HallSurvey survey_verdict(const HallSurveyConfig& config, const HallSu
   return seen == 6 && steps == 6 && code == state.pins ? HallSurvey::good : HallSurvey::other_codes;
 }
 
-/// Which probe changes its line where: probe 1, 2, 3 rises into sector 5, 1, 3 and falls into 2, 4, 0.
+/// Assigns a probe to each pin: probe 1, 2, 3 rises into sector 5, 1, 3 and falls into 2, 4, 0.
 constexpr void name_lines(HallLines& lines) {
   for (unsigned pin = 0; pin < 3; ++pin) {
     const unsigned bit = 4u >> pin;
@@ -145,7 +147,7 @@ constexpr void name_lines(HallLines& lines) {
   }
 }
 
-/// Straight lines of either arrangement need no table.
+/// Correctly connected lines of either arrangement need no table.
 constexpr void name_arrangement(HallSurveyReading& reading) {
   constexpr HallArrangement arrangements[] = {HallArrangement::degrees_120, HallArrangement::degrees_60};
   for (const HallArrangement arrangement : arrangements) {
@@ -160,7 +162,7 @@ constexpr void name_arrangement(HallSurveyReading& reading) {
   }
 }
 
-/// Each edge, from the one that is nearest to n = 0 in the mean of all six.
+/// Assigns sector and angle to each edge, from the one that is nearest to n = 0 in the mean of all six.
 constexpr void place_edges(const HallSurveyState& state, HallSurveyReading& reading) {
   std::uint8_t ring[6]{};
   BinaryAngle at[6]{};
@@ -188,7 +190,7 @@ constexpr void place_edges(const HallSurveyState& state, HallSurveyReading& read
 
 }  // namespace detail
 
-/// Of whole turns both ways.
+/// Result of whole turns in both directions.
 constexpr HallSurveyReading hall_survey_reading(const HallSurveyConfig& config,
                                                 const HallSurveyState& state) {
   HallSurveyReading reading{};

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Resistance and time constant of a phase, from steps between two levels of a voltage along one direction, with the
-// rotor at rest in it. Both levels have one sign of the currents, so that what dead time and diodes take is the same on
-// both, and falls out of the differences:
+// Measures resistance and time constant of a phase by steps between two levels of a voltage along one
+// direction, in which the rotor rests. The currents have the same signs at both levels, so that dead time and
+// diodes take the same at both, and drop out of the differences:
 //
-//   R = (V_2 - V_1)/(I_2 - I_1),     what is lost: V_2 - R I_2
+//   R = (V_2 - V_1)/(I_2 - I_1),     lost voltage: V_2 - R I_2
 //
-// with V = the vector times the bus and I the means of each level's last quarter. Of a step the area that the current
-// stays behind is tau (I_2 - I_1), whatever the rotor or the drop:
+// with V the vector times the bus, and I the means of each level's last quarter. The area by which the current
+// stays behind a step is tau (I_2 - I_1), for any rotor and voltage drop:
 //
-//   S = sum (I_end - i_k)/(I_2 - I_1) over the ticks of a step, less the lateness of the voltage behind the sample
-//   S = coth(x/2)/2 where samples lie at the periods' ends, 1/(2 sinh(x/2)) where in their middles,  x = T/tau
-//   tau/T = S - 1/(12 S)  or  S + 1/(24 S),                              to x^4/720 and x^4/640
+//   S = sum (I_end - i_k)/(I_2 - I_1) over the ticks of a step, less the delay of the voltage after the sample
+//   S = coth(x/2)/2 for samples at the periods' ends, 1/(2 sinh(x/2)) for samples in their middles,  x = T/tau
+//   tau/T = S - 1/(12 S)  or  S + 1/(24 S),                              exact to x^4/720 and x^4/640
 //
-// Steps up and down alternate, and their areas are added. What converters round: I_2 - I_1 is off by at most 4/3 of a
-// count (2/3 in each, by 2 i_a - i_b - i_c), S by ln(2 n)/n parts where it has n counts.
+// Steps up and down alternate, and their areas are added. Rounding of the converters: I_2 - I_1 is off by at
+// most 4/3 of a count (2/3 in each, by 2 i_a - i_b - i_c), S by ln(2 n)/n parts if it has n counts.
 #pragma once
 #include <cstdint>
 
@@ -22,14 +22,14 @@
 namespace sixstep::control {
 
 struct LevelStepsConfig {
-  std::uint16_t ticks =
-      1024;  ///< of a level, a multiple of 4: ten time constants, so that its last quarter is steady
+  /// Of a level, a multiple of 4: ten time constants, so that its last quarter is steady.
+  std::uint16_t ticks = 1024;
   std::uint16_t pairs = 4;           ///< of steps, up and down
-  std::uint8_t late_half_ticks = 1;  ///< from a sample until what it answers is at the legs: 0, 1, 2
+  std::uint8_t late_half_ticks = 1;  ///< from a sample until its output is at the legs: 0, 1, 2
   bool operator==(const LevelStepsConfig&) const = default;
 };
 
-/// Of one level: sums over its steps.
+/// Sums over the steps of one level.
 struct LevelSums {
   std::int64_t all = 0;   ///< currents of the step's ticks
   std::int64_t tail = 0;  ///< of its last quarter
@@ -39,20 +39,20 @@ struct LevelSums {
 struct LevelStepsState {
   LevelSums level[2]{};     ///< the lower one, the higher one
   std::uint16_t tick = 0;   ///< in the step
-  std::uint16_t steps = 0;  ///< that are over; the first two are not counted
+  std::uint16_t steps = 0;  ///< completed; the first two are not counted
   bool high = false;
 };
 
-/// What came out, in whole numbers: parts of the bus times its counts over 24ths of a count of current.
+/// Results as whole numbers.
 struct LevelStepsReading {
-  bool usable = false;          ///< the levels differ by 64 counts or more, and time passes between them
-  std::int32_t resistance = 0;  ///< 2^-20 counts of the bus to a count of current
-  std::int32_t tau = 0;         ///< 2^-16 ticks
-  std::int32_t lost = 0;        ///< 2^-8 counts of the bus: what the drop takes of the vector
+  bool usable = false;                 ///< the levels differ by 64 counts or more; R and tau are above 0
+  std::int32_t resistance = 0;         ///< 2^-20 counts of the bus over a count of current
+  std::int32_t tau = 0;                ///< 2^-16 ticks
+  std::int32_t lost = 0;               ///< 2^-8 counts of the bus: taken by dead time and diodes
   std::int32_t higher = 0, lower = 0;  ///< currents, 24ths of a count
 };
 
-/// A tick's sample of the current along; `true` once the last step is over.
+/// Takes a tick's sample of the current along the vector; true once the last step is over.
 constexpr bool level_steps_tick(const LevelStepsConfig& config, LevelStepsState& state, std::int32_t along,
                                 std::uint16_t bus_counts) {
   const auto quarter = static_cast<std::uint16_t>(config.ticks / 4);
@@ -79,7 +79,8 @@ constexpr std::int64_t ratio_of(std::int64_t x, std::int64_t y) {
 
 constexpr std::int32_t held_to_32(std::int64_t x) { return saturated<std::int32_t>(x); }
 
-/// 2^-16 ticks, of the area of a step over its height, likewise. The sample that commands a step belongs to the one before.
+/// Time constant from the area of a step over its height, both in 2^-16 ticks. The sample that commands a step
+/// belongs to the step before.
 constexpr std::int64_t tau_of_area(std::int64_t area, std::uint8_t late_half_ticks) {
   constexpr std::int64_t tick = std::int64_t{1} << 16;
   const std::int64_t S = area + (1 - late_half_ticks) * (tick / 2);
@@ -89,7 +90,7 @@ constexpr std::int64_t tau_of_area(std::int64_t area, std::uint8_t late_half_tic
 
 }  // namespace detail
 
-/// Of two vectors of `low` and `high` parts of the bus.
+/// Result for two vectors of `low` and `high` parts of the bus.
 constexpr LevelStepsReading level_steps_reading(const LevelStepsConfig& config, const LevelStepsState& state,
                                                 std::int32_t low, std::int32_t high) {
   const LevelSums &lower = state.level[0], &higher = state.level[1];

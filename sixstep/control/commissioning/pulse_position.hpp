@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a rotor at rest stands, by short voltage pulses on the six pairs. Each pulse makes a current of V t/L; L depends on
-// where the rotor's magnet stands to the pair, x the angle from its north, and i the current (model.md 7):
+// Finds the position of a rotor at rest by short voltage pulses on the six pairs. Each pulse makes a current of
+// V t/L. L depends on x, the angle of the pair from the magnet's north, and on the current i (model.md 7):
 //
 //   L(x) = L_S + L_D cos 2x - (L_d i/(2 I_sat)) cos^3 x,      pair of sector s: 60 s - 30 degrees, x = that - theta_d
 //
-// y_s = 1/I_s goes with L. Of the six its second harmonic shows the axis, by saliency; its first one north, by saturation,
-// and the axis roughly: that alone tells which way round the axis' two inductances are. What either is worth is judged by
-// the noise of the readings themselves, over as many rounds, and by what converters round:
+// y_s = 1/I_s is proportional to L. The second harmonic of the six shows the axis, by saliency. The first
+// harmonic shows north, by saturation, and the axis roughly; it alone shows which of the axis' two inductances
+// is along the magnet. Both are compared with the noise of the readings, over as many rounds, and with the
+// rounding of the converters:
 //
-//   sigma^2 = s^2/n + 3 s^2/N + 45, in eighths of a count squared: n readings of each pair, that differ by s; three offsets
-//             of N samples each; 11 for rounding two phases, 32 for three rounded offsets, 2 for their eighths
-//   each part of a harmonic is off by sigma/sqrt 3 of I_0
+//   sigma^2 = s^2/n + 3 s^2/N + 45, in eighths of a count squared: n readings of each pair, with the deviation s;
+//             three offsets of N samples each; 11 for rounding two phases, 32 for three rounded offsets, 2 for
+//             their eighths
+//   each component of a harmonic is off by sigma/sqrt 3 of I_0
 //
-// Rounding alone, at its very worst, makes 5.1 times that. A first harmonic below six times is `not seen`: the rotor is round, or the current too small to saturate it. A
-// second one must also be more than amplifiers differ by; without it the first one gives the angle. A rotor that turns is
-// not for this. Opposite pairs follow each other, so that the rotor is pushed as much either way.
+// Rounding alone makes at most 5.1 times that. A first harmonic below six times is not accepted (`seen`): the
+// rotor is round, or the current too small to saturate it. A second harmonic must also be more than the
+// difference of the amplifiers; without it the first one gives the angle. The rotor must not turn. Opposite
+// pairs follow each other, so that the rotor is pushed equally both ways.
 #pragma once
 #include <cstdint>
 
@@ -25,12 +28,12 @@
 namespace sixstep::control {
 
 struct PulsePositionConfig {
-  AdcConfig<Q30> current{};       ///< where no current reads
-  std::uint16_t pulse_ticks = 0;  ///< control ticks; 0: no pulses
-  std::uint16_t rest_ticks = 0;   ///< behind each, until its current has ended: as long, or longer
+  AdcConfig<Q30> current{};       ///< offset at no current
+  std::uint16_t pulse_ticks = 0;  ///< control ticks of a pulse; 0: no pulses
+  std::uint16_t rest_ticks = 0;   ///< after each, until its current has ended: as long, or longer
   std::uint8_t rounds = 8;        ///< n, two or more
-  std::uint8_t certain = 6;       ///< times its own noise: 1 of e^18 rounds of noise alone is as large
-  std::uint16_t amplifiers = 20;  ///< parts of 1000 that two amplifiers may differ by
+  std::uint8_t certain = 6;       ///< times its own noise; noise alone reaches 6 times in 1 of e^18 rounds
+  std::uint16_t amplifiers = 20;  ///< parts of 1000 by which two amplifiers may differ
   bool operator==(const PulsePositionConfig&) const = default;
 };
 
@@ -42,14 +45,14 @@ struct PulsePositionState {
   std::uint8_t step = 0;  ///< of a round
   std::uint8_t round = 0;
   std::uint16_t ticks = 0;
-  bool lost = false;         ///< an offset was not where it should be
+  bool lost = false;         ///< an offset was out of tolerance
   std::int32_t sum[6]{};     ///< of each sector's pair: eighths of a count, source less sink
-  std::int64_t squares = 0;  ///< of all
+  std::int64_t squares = 0;  ///< of all readings
 };
 
 struct PulsePositionReading {
-  bool seen = false;           ///< north
-  bool axis_seen = false;      ///< the finer angle by saliency
+  bool seen = false;           ///< north was found
+  bool axis_seen = false;      ///< the angle is the finer one, by saliency
   BinaryAngle electrical = 0;  ///< theta_e
   std::uint8_t sector = no_sector;
   std::uint32_t north_16 = 0, axis_16 = 0;  ///< signal over noise, in 16ths
@@ -57,7 +60,7 @@ struct PulsePositionReading {
 
 namespace detail {
 
-/// The pair of the sector, then of the one opposite.
+/// Order of the pulses: the pair of a sector, then that of the opposite one.
 constexpr std::uint8_t pulsed_sector(std::uint8_t step) {
   return static_cast<std::uint8_t>((step / 2 + (step % 2) * 3) % 6);
 }
@@ -74,7 +77,7 @@ constexpr void take_pulse(PulsePositionState& state, const std::uint16_t (&count
   state.squares += static_cast<std::int64_t>(current) * current;
 }
 
-/// Two parts of a harmonic of the six, sixfold.
+/// The two components of a harmonic of the six, sixfold.
 struct PulseHarmonic {
   std::int64_t c = 0, s = 0;
 };
@@ -88,7 +91,7 @@ constexpr PulseHarmonic second_harmonic(const std::int64_t (&y)[6]) {
   return {2 * (y[0] + y[3]) - y[1] - y[2] - y[4] - y[5], times_root_3(y[1] - y[2] + y[4] - y[5])};
 }
 
-/// Amplitude in 2^-20 of the mean y_0 of six that sum to `total`.
+/// Amplitude in 2^-20 of the mean y_0; `total`: sum of the six.
 constexpr std::int64_t relative_20(const PulseHarmonic& h, std::int64_t total) {
   const std::int64_t length = length_of(static_cast<std::int32_t>(shifted_down(h.c, 8)),
                                         static_cast<std::int32_t>(shifted_down(h.s, 8)));
@@ -115,7 +118,8 @@ constexpr std::int64_t pulse_variance(const PulsePositionState& state, std::int6
 
 constexpr void pulses_begin(PulsePositionState& state) { state = PulsePositionState{}; }
 
-/// One control tick with its samples. While phase is `pulse` the pair of pulsed_pair() is on, else the bridge is off.
+/// One control tick with its samples. In phase `pulse` the pair of pulsed_pair() must be on, otherwise the
+/// bridge is off.
 constexpr void pulses_tick(const PulsePositionConfig& config, PulsePositionState& state,
                            const std::uint16_t (&counts)[3]) {
   if (state.phase == PulsePhase::done) return;
@@ -151,7 +155,7 @@ constexpr Pair pulsed_pair(const PulsePositionState& state) {
   return positive_pair(detail::pulsed_sector(state.step));
 }
 
-/// What the rounds say, once they are done.
+/// Result of the rounds, once they are done.
 constexpr PulsePositionReading pulse_position(const PulsePositionConfig& config,
                                               const PulsePositionState& state) {
   PulsePositionReading reading{};
@@ -160,7 +164,7 @@ constexpr PulsePositionReading pulse_position(const PulsePositionConfig& config,
   std::int64_t y[6]{}, total_y = 0, total_I = 0;
   for (std::uint8_t s = 0; s < 6; ++s) {
     if (state.sum[s] < std::int64_t{512} * n)
-      return reading;  // 32 counts each way: an open wire, or next to no pulse
+      return reading;  // 32 counts each way: an open wire, or almost no pulse
     y[s] = detail::divided<std::int64_t>(std::int64_t{1} << 46, state.sum[s]);
     total_y += y[s];
     total_I += state.sum[s];
@@ -176,7 +180,8 @@ constexpr PulsePositionReading pulse_position(const PulsePositionConfig& config,
   reading.axis_seen =
       reading.axis_16 >= certain_16 && axis_20 * 1000 > static_cast<std::int64_t>(config.amplifiers) << 20;
   if (!reading.seen) return reading;
-  // Where the inductance is least; the first pair lies at -30 degrees, and theta_e 150 degrees ahead of theta_d.
+  // The direction of the least inductance; the first pair is at -30 degrees, and theta_e 150 degrees ahead of
+  // theta_d.
   BinaryAngle d = vector_angle(-north.c, -north.s);
   if (reading.axis_seen) {
     const BinaryAngle half = vector_angle(axis.c, axis.s) / 2;

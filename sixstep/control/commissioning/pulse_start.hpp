@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The drive without a rotor sensor, whose start asks six pulses first where the rotor stands (pulse_position.hpp):
+// Starts the drive without a rotor position sensor after finding the rotor by six pulses (pulse_position.hpp):
 //
-//   off -> catching -> pulses -> ramping        north was seen: no alignment, no swing, from the sector found
-//                          '---> aligning       it was not: as sensorless.hpp does by itself
+//   off -> catching -> pulses -> ramping        north was found: no alignment, no swing, from the sector found
+//                          '---> aligning       it was not: as in sensorless.hpp without pulses
 //
-// Call its entries in the place of those of sensorless_drive.hpp. Without pulse_ticks it is that drive.
+// Call its functions instead of those of sensorless_drive.hpp. With pulse_ticks = 0 it is that drive.
 #pragma once
 #include "sixstep/control/commissioning/pulse_position.hpp"
 #include "sixstep/control/sensorless/sensorless_drive.hpp"
@@ -32,7 +32,7 @@ struct PulsedDriveInput {
   std::uint16_t current_counts[3]{};
 };
 
-/// The ramp begins in the sector in which the rotor stands at `electrical`, as far in it as the rotor.
+/// Begins the ramp in the sector of `electrical`, with the field as far in it as the rotor.
 template <class Scalar>
 constexpr void sensorless_ramp_from(const SensorlessConfig<Scalar>& config, SensorlessState& state,
                                     BinaryAngle electrical, std::uint32_t now) {
@@ -46,7 +46,7 @@ constexpr void sensorless_ramp_from(const SensorlessConfig<Scalar>& config, Sens
 
 namespace detail {
 
-/// A tick of the pulses; true where they are over.
+/// One tick of the pulses; true when they are over.
 template <class Scalar>
 constexpr bool pulsing_tick(const PulsedDriveConfig<Scalar>& config, PulsedDriveState<Scalar>& state,
                             const PulsedDriveInput<Scalar>& input) {
@@ -72,7 +72,7 @@ constexpr bool pulsing_tick(const PulsedDriveConfig<Scalar>& config, PulsedDrive
 
 }  // namespace detail
 
-/// One control tick. The answer lies in state.drive.drive.command, up to the next call.
+/// One control tick. Returns state.drive.drive.command, valid until the next call.
 template <class Scalar>
 constexpr const BridgeCommand<Scalar>& pulsed_drive_step(const PulsedDriveConfig<Scalar>& config,
                                                          PulsedDriveState<Scalar>& state,

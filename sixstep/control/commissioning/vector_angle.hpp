@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The angle of a vector, by turning it onto the axis in ever smaller steps (CORDIC): whole numbers, no division. 24 steps
-// leave 2^-24 of a radian and as many roundings, below 1e-5 degrees.
+// Computes the angle of a vector by turning it onto the axis in ever smaller steps (CORDIC): whole numbers, no
+// division. 24 steps leave 2^-24 of a radian and 24 roundings, below 1e-5 degrees.
 #pragma once
 #include "sixstep/control/commissioning/field_vector.hpp"
 
 namespace sixstep::control {
 
-/// atan2(y, x); of no vector 0.
+/// atan2(y, x); 0 for the zero vector.
 constexpr BinaryAngle vector_angle(std::int64_t x, std::int64_t y) {
   constexpr std::uint32_t steps[24] = {536870912u, 316933406u, 167458907u, 85004756u, 42667331u, 21354465u,
                                        10679838u,  5340245u,   2670163u,   1335087u,  667544u,   333772u,
@@ -19,7 +19,7 @@ constexpr BinaryAngle vector_angle(std::int64_t x, std::int64_t y) {
     y = -y;
     angle = half_turn;
   }
-  // As long as leaves room for the gain of the steps, 1.65 times sqrt 2.
+  // As long as the gain of the steps, 1.65 times sqrt 2, leaves room for.
   constexpr std::int64_t most = std::int64_t{1} << 60;
   while (x < most / 4 && y < most / 4 && y > -most / 4) {
     x *= 2;

@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the magnet points while it turns, by the flux that it makes in the winding (Boldea, Paicu and Andreescu, Active Flux
-// Concept for Motion-Sensorless Unified AC Drives, IEEE Trans. PE 23, 2008). In the stator's frame, whatever the saliency:
+// Finds the direction of the magnet while it turns, from the flux that it makes in the winding (Boldea, Paicu
+// and Andreescu, Active Flux Concept for Motion-Sensorless Unified AC Drives, IEEE Trans. PE 23, 2008). In the
+// stator's frame, for any saliency:
 //
-//   lambda = integral(u - R i) dt        the winding's whole flux
+//   lambda = integral(u - R i) dt        the winding's total flux
 //   psi_a  = lambda - L_q i              points along the magnet: psi + (L_d - L_q) i_d
 //
-// An integral keeps whatever offset it began with. So lambda is drawn, by a part g of the difference each period, to what the
-// magnet as it is taken to point would make:
+// An integral keeps its initial error. So in each period lambda is moved, by a part g of the difference,
+// towards the flux that the magnet would make in its assumed direction:
 //
 //   lambda[n] = lambda[n-1] + T (u - R (i[n] + i[n-1])/2) + g (L_q i + psi_a(theta^) - lambda)
 //
-// An error of the flux turns backwards with w_e seen from the rotor; of it s^2 + w_g s + w_e^2 is left, g = 1 - exp(-w_g T): it
-// fades where the rotor turns, and stays where it stands. u is the mean from sample to sample, as the timer was told it.
+// Seen from the rotor an error of the flux turns backwards with w_e; it decays by s^2 + w_g s + w_e^2, g = 1 -
+// exp(-w_g T), if the rotor turns, and not at all at standstill. u is the mean from sample to sample of the
+// voltages that the timer was set to.
 #pragma once
 #include "sixstep/control/frames.hpp"
 #include "sixstep/control/scalar.hpp"
 
 namespace sixstep::control {
 
-/// The default sees nothing.
+/// With the default the angle reads 0.
 template <class Scalar>
 struct ActiveFluxConfig {
   Gain<Scalar> period_s{};        ///< T
@@ -33,10 +35,11 @@ template <class Scalar>
 struct ActiveFluxState {
   AlphaBeta<Scalar> flux{};     ///< lambda, V s
   AlphaBeta<Scalar> current{};  ///< of the last sample, A
-  Scalar along{}, across{};     ///< psi_a of the last sample, in the frame that was given
+  Scalar along{}, across{};     ///< psi_a of the last sample, in the given frame
 };
 
-/// One sample, with the magnet taken to point along `magnet`: by how much it points ahead of that, as a part of a radian, |x| < 1.
+/// One sample, with the magnet assumed along `magnet`. Returns by how much it points ahead of that, about in
+/// radians, |x| <= 1.
 template <class Scalar>
 constexpr Scalar active_flux_step(const ActiveFluxConfig<Scalar>& config, ActiveFluxState<Scalar>& state,
                                   const AlphaBeta<Scalar>& mean_V, const AlphaBeta<Scalar>& i,
@@ -55,7 +58,7 @@ constexpr Scalar active_flux_step(const ActiveFluxConfig<Scalar>& config, Active
   state.across = seen.q;
   const Scalar size = magnitude(seen.d) + magnitude(seen.q);
   if (!(size > Scalar{})) return Scalar{};
-  // The sine of the angle, near enough, and past 90 degrees the way that is left.
+  // About the sine of the angle; beyond 90 degrees 1 in the direction of the shorter way.
   const Scalar part = seen.q / size;
   return seen.d < Scalar{} ? (seen.q < Scalar{} ? -one<Scalar> : one<Scalar>) : part;
 }

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// The current loops along the magnet and across it, and what the two axes do to each other (model.md 11):
+// Controls the currents along the magnet and across it, with the coupling of the two axes (model.md 11):
 //
 //   v_d = R i_d + L_d di_d/dt - w_e L_q i_q              e_d = -w p L_q i_q
 //   v_q = R i_q + L_q di_q/dt + w_e (L_d i_d + psi)      e_q =  w (p L_d i_d + p psi)
 //
-// Each axis has a PI (pi.hpp). Decoupled, e is added to what it asks for, so that it sees a winding of R and L at
-// every speed (Vas, Sensorless Vector and Direct Torque Control, 2.1). The voltage that there is:
+// Each axis has a PI (pi.hpp). With decoupling e is added to the PI's output, so that the PI controls a winding
+// of R and L at every speed (Vas, Sensorless Vector and Direct Torque Control, 2.1). The available voltage is:
 //
-//   axes     each within its PI's own limit
-//   circle   |v| <= U_s/sqrt 3, the largest vector that three legs make in every direction; d comes first, since it holds
-//            the field down where the bus is short, and q has the rest, sqrt(U_s^2/3 - v_d^2)
+//   axes     each axis within its PI's own limit
+//   circle   |v| <= U_s/sqrt 3, the largest vector that three legs make in every direction; d comes first, since it
+//            weakens the field when the bus is short, and q has the rest, sqrt(U_s^2/3 - v_d^2)
 //
-// Whichever it is, the PI keeps what is left of its output after the limit, e taken off: it cannot wind up against a bound
-// that moves with the speed and with the other axis.
+// In both cases the PI's state is its output after the limit, less e: it cannot wind up against a bound that
+// moves with the speed and with the other axis.
 //
-// Where turning takes more than 0.9 of the voltage, d first would give v_q away, and the magnet would drive a current that asks for
-// more v_d yet: up to twice psi/L_d. There v goes back to the rim along the line to the voltage that holds the reference, the
-// integrals wait, and a drive that does not decouple its axes decouples what they are off by (reachable_current.hpp).
+// If the rotation takes more than 0.9 of the voltage, d first would take v_q away, and the magnet would drive a
+// current that needs even more v_d: up to twice psi/L_d. Then v is moved back to the circle along the line to
+// the voltage that holds the reference, the integrals wait, and a drive that does not decouple its axes
+// decouples the deviation from the reference (reachable_current.hpp).
 #pragma once
 #include "sixstep/control/frames.hpp"
 #include "sixstep/control/pi.hpp"
@@ -26,26 +27,26 @@ namespace sixstep::control {
 
 enum class VoltageLimit : std::uint8_t { axes, circle };
 
-/// Defaults give no voltage.
+/// With the defaults the voltage is 0.
 template <class Scalar>
 struct FieldCurrentConfig {
-  PiConfig<Scalar> d{}, q{};  ///< A -> V of a phase; their limits count for VoltageLimit::axes
+  PiConfig<Scalar> d{}, q{};  ///< A -> V of a phase; their limits apply to VoltageLimit::axes
   VoltageLimit limit = VoltageLimit::circle;
   bool decouples = false;
   Gain<Scalar> d_V_s_A{};     ///< p L_d: V per A and mechanical rad/s
   Gain<Scalar> q_V_s_A{};     ///< p L_q
   Gain<Scalar> magnet_V_s{};  ///< p psi: V per mechanical rad/s, the back-EMF's fundamental
-  Gain<Scalar> R_ohm{};       ///< of a phase: what a current that is held takes of the voltage
+  Gain<Scalar> R_ohm{};       ///< of a phase, for the voltage of a constant current
   bool operator==(const FieldCurrentConfig&) const = default;
 };
 
 template <class Scalar>
 struct FieldCurrentState {
   PiState<Scalar> d{}, q{};
-  Dq<Scalar> voltage{};  ///< the last answer
+  Dq<Scalar> voltage{};  ///< last output
 };
 
-/// e: what turning does to the axes, at what is measured.
+/// e: the coupling of the axes by the rotation, at the measured current.
 template <class Scalar>
 constexpr Dq<Scalar> turning_voltage(const FieldCurrentConfig<Scalar>& config, const Dq<Scalar>& current,
                                      Scalar speed_rad_s) {
@@ -54,7 +55,7 @@ constexpr Dq<Scalar> turning_voltage(const FieldCurrentConfig<Scalar>& config, c
           T::product(speed_rad_s * current.d, config.d_V_s_A) + T::product(speed_rad_s, config.magnet_V_s)};
 }
 
-/// The same beside a magnet that makes `magnet_V`, whatever its shape.
+/// The same with a magnet that makes `magnet_V`, of any shape.
 template <class Scalar>
 constexpr Dq<Scalar> turning_voltage(const FieldCurrentConfig<Scalar>& config, const Dq<Scalar>& current,
                                      Scalar speed_rad_s, const Dq<Scalar>& magnet_V) {
@@ -70,13 +71,13 @@ constexpr Scalar voltage_circle(Scalar bus_V) {
   return bus_V > Scalar{} ? ScalarTraits<Scalar>::product(bus_V, one_by_root3) : Scalar{};
 }
 
-/// |v| that there is in every direction.
+/// |v| that is available in every direction.
 template <class Scalar>
 constexpr Scalar voltage_reach(const FieldCurrentConfig<Scalar>& config, Scalar bus_V) {
   return config.limit == VoltageLimit::circle ? voltage_circle(bus_V) : config.q.limit;
 }
 
-/// What a steady current takes.
+/// Voltage of a constant current.
 template <class Scalar>
 constexpr Dq<Scalar> holding_voltage(const FieldCurrentConfig<Scalar>& config, const Dq<Scalar>& current,
                                      Scalar speed_rad_s) {
@@ -92,7 +93,7 @@ constexpr bool is_within(const Dq<Scalar>& v, Scalar radius) {
   return !(v.d * v.d + v.q * v.q > radius * radius);
 }
 
-/// The part of the way from a point within the circle to one outside that leads to its rim.
+/// The part of the way from a point within the circle to one outside at which the way meets the circle.
 template <class Scalar>
 constexpr Scalar way_to_rim(const Dq<Scalar>& from, const Dq<Scalar>& to, Scalar radius) {
   const Dq<Scalar> way{to.d - from.d, to.q - from.q};
@@ -104,8 +105,7 @@ constexpr Scalar way_to_rim(const Dq<Scalar>& from, const Dq<Scalar>& to, Scalar
   return left < length ? (left > Scalar{} ? left / length : Scalar{}) : one<Scalar>;
 }
 
-/// The bus is short where a current takes more than this of the voltage: of the rest dead time and what the model is off by have a
-/// part.
+/// True if a current takes more than 0.9 of the voltage: dead time and errors of the model need a part of the rest.
 template <class Scalar>
 constexpr bool is_short(const FieldCurrentConfig<Scalar>& config, const Dq<Scalar>& reference,
                         const Dq<Scalar>& measured, Scalar speed_rad_s, Scalar most) {
@@ -115,7 +115,7 @@ constexpr bool is_short(const FieldCurrentConfig<Scalar>& config, const Dq<Scala
          !is_within(holding_voltage(config, measured, speed_rad_s), radius);
 }
 
-/// PI and e together within +-most; at an end it is that end itself.
+/// PI and e together within +-most; at a limit it is exactly that limit.
 template <class Scalar>
 constexpr Scalar axis_voltage(const PiConfig<Scalar>& config, PiState<Scalar>& state, Scalar error, Scalar e,
                               Scalar most) {
@@ -124,7 +124,7 @@ constexpr Scalar axis_voltage(const PiConfig<Scalar>& config, PiState<Scalar>& s
   return u == high ? most : u == low ? -most : u + e;
 }
 
-/// What turning makes of the error alone.
+/// Coupling of the deviation from the reference only.
 template <class Scalar>
 constexpr Dq<Scalar> turned_apart(const FieldCurrentConfig<Scalar>& config, const Dq<Scalar>& reference,
                                   const Dq<Scalar>& measured, Scalar speed_rad_s) {
@@ -133,8 +133,8 @@ constexpr Dq<Scalar> turned_apart(const FieldCurrentConfig<Scalar>& config, cons
   return {is.d - to.d, is.q - to.q};
 }
 
-/// Both axes where the bus is short: what the loops ask for, or of it without their integrals' step what leads from the voltage that
-/// holds the reference to the rim.
+/// Both axes while the bus is short: the loops' output. If it is outside of the circle, the output without the
+/// integrals' step, moved to the circle along the line to the voltage that holds the reference.
 template <class Scalar>
 constexpr Dq<Scalar> short_voltage(const FieldCurrentConfig<Scalar>& config, FieldCurrentState<Scalar>& state,
                                    const Dq<Scalar>& reference, const Dq<Scalar>& error, const Dq<Scalar>& e,
@@ -158,7 +158,7 @@ constexpr Dq<Scalar> short_voltage(const FieldCurrentConfig<Scalar>& config, Fie
 
 }  // namespace detail
 
-/// One control tick beside an e that is known: the phase voltages to apply, in the frame of the rotor.
+/// One control tick with a given e: returns the phase voltages to apply, in the frame of the rotor.
 template <class Scalar>
 constexpr const Dq<Scalar>& field_current_beside(const FieldCurrentConfig<Scalar>& config,
                                                  FieldCurrentState<Scalar>& state,
@@ -183,7 +183,7 @@ constexpr const Dq<Scalar>& field_current_beside(const FieldCurrentConfig<Scalar
   return state.voltage;
 }
 
-/// The same beside what turning does to the axes, where it decouples them.
+/// The same with the e of the rotation, if the axes are decoupled.
 template <class Scalar>
 constexpr const Dq<Scalar>& field_current_step(const FieldCurrentConfig<Scalar>& config,
                                                FieldCurrentState<Scalar>& state, const Dq<Scalar>& reference,

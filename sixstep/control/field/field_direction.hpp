@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the magnet points when the currents are sampled, and where it will point in the middle of the period that
-// the answer fills (model.md 11):
+// Computes the direction of the magnet when the currents are sampled, and in the middle of the period in which
+// the output acts (model.md 11):
 //
 //   theta_d = theta_e - 150 degrees,   theta_d' = theta_d + (n + 1/2) T w_e
 //
-// n periods lie between the sample and the period it is answered in. An answer that is turned into the stator's frame by
-// theta_d itself lags by that angle: at (n + 1/2) T w_e = 90 degrees all of v_q would act along d.
+// n periods are between the sample and the period of its output. An output that is turned into the stator's
+// frame by theta_d itself lags by that angle: at (n + 1/2) T w_e = 90 degrees all of v_q would act along d.
 #pragma once
 #include "sixstep/control/frames.hpp"
 #include "sixstep/control/sensing/binary_angle.hpp"
@@ -13,31 +13,31 @@
 
 namespace sixstep::control {
 
-/// As cosine and sine: an ideal sensor tells them, or field_directions() makes them of an angle.
+/// Directions as cosine and sine, from an ideal sensor or from field_directions().
 template <class Scalar>
 struct FieldDirections {
   Direction<Scalar> sampled{}, answered{};
-  BinaryAngle angle = 0;  ///< of `sampled`, for what hangs on the angle itself
+  BinaryAngle angle = 0;  ///< of `sampled`, for quantities that depend on the angle itself
 };
 
-/// The default does not turn on.
+/// With the default there is no advance.
 template <class Scalar>
 struct FieldAdvanceConfig {
-  Gain<Scalar> rad_s{};  ///< (n + 1/2) T p: electrical rad per mechanical rad/s; more than 1 rad is cut off
+  Gain<Scalar> rad_s{};  ///< (n + 1/2) T p: electrical rad per mechanical rad/s; clamped to 1 rad
   bool operator==(const FieldAdvanceConfig&) const = default;
 };
 
 /// The magnet's direction; 150 degrees are 5/12 of a turn.
 constexpr BinaryAngle magnet_angle(BinaryAngle electrical) { return electrical - 1789569707u; }
 
-/// A magnet that turns on by so much at this speed.
+/// The magnet's angle, advanced by speed times `rad_s`.
 template <class Scalar>
 constexpr BinaryAngle turned_on(BinaryAngle magnet, Scalar speed_rad_s, Gain<Scalar> rad_s) {
   const std::int32_t on = angle_of_rad(ScalarTraits<Scalar>::product(speed_rad_s, rad_s));
   return magnet + static_cast<BinaryAngle>(on);
 }
 
-/// Of the magnet's own angle.
+/// From the magnet's own angle.
 template <class Scalar>
 constexpr FieldDirections<Scalar> magnet_directions(const FieldAdvanceConfig<Scalar>& config,
                                                     BinaryAngle sampled, Scalar speed_rad_s) {

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// The field-oriented drive that firmware calls: position P -> speed PI -> currents along the magnet and across it ->
-// three legs, as deep as the mode asks. One entry, once per control tick; a Hall edge asks nothing of it.
+// Computes the leg commands of a field-oriented drive: position P -> speed PI -> currents along the magnet and
+// across it -> three legs, beginning at the loop that the mode names. Firmware calls field_drive_step() once
+// per control tick; a Hall edge needs no call.
 //
-// The reference of Mode::current, and what a speed loop asks for, is i_q: the amplitude of the phase currents that make
-// torque, T = 3/2 p psi i_q where the rotor is round. i_d* is what gives most torque per ampere and what weakens the field.
-// Where the back-EMF is no sine both may follow its shape (harmonic_current.hpp): the current asked for is then the constant
-// i_q that would make the same torque in the mean.
-// In a cascade both together stay within current_limit_A: i_d comes first, and the speed PI is held to what is left, so
-// that it does not wind up against it.
+// The reference of Mode::current, and the output of the speed loop, is i_q: the amplitude of the phase currents
+// that make torque, T = 3/2 p psi i_q for a round rotor. i_d* is the current of the most torque per ampere plus
+// the one that weakens the field. If the back-EMF is no sine both may follow its shape (harmonic_current.hpp):
+// the reference is then the constant i_q that would make the same mean torque. In a cascade both together stay
+// within current_limit_A: i_d comes first, and the speed PI is limited to the rest, so that it does not wind up
+// against it.
 //
-// The currents are held by two PI and the symmetric space vector's modulation, or without either by choosing among the eight
-// states of three legs (finite_set.hpp). DriveConfig's chopping, current loop and bus voltage have no say here. What
-// its extras may ask for are a slewed or profiled setpoint and another law of the speed loop.
+// Two PIs and symmetric space-vector modulation control the currents, or instead of both a choice among the
+// eight states of three legs (finite_set.hpp). DriveConfig's chopping, current loop and bus voltage are not
+// used. Of its extras, a slewed or profiled setpoint and another law of the speed loop are possible.
 #pragma once
 #include "sixstep/control/field/field_current.hpp"
 #include "sixstep/control/field/field_direction.hpp"
@@ -45,18 +46,18 @@ struct FieldDriveState {
   FieldWeakeningState<Scalar> weakening{};
   FiniteSetState<Scalar> finite_set{};
   Dq<Scalar> measured{}, reference{};  ///< of the last tick, A
-  LegCommands<Scalar> command{};       ///< the last answer
+  LegCommands<Scalar> command{};       ///< last output
 };
 
 template <class Scalar>
 struct FieldDriveInput {
-  Measurement<Scalar> measured{};  ///< `hall` is not looked at
+  Measurement<Scalar> measured{};  ///< `hall` is not used
   FieldDirections<Scalar> magnet{};
 };
 
 namespace detail {
 
-/// What i_d leaves of the current limit.
+/// The current limit that is left beside i_d.
 template <class Scalar>
 constexpr Scalar current_left(const FieldDriveConfig<Scalar>& config, const FieldDriveState<Scalar>& state) {
   const Scalar limit = config.drive.current_limit_A;
@@ -64,8 +65,8 @@ constexpr Scalar current_left(const FieldDriveConfig<Scalar>& config, const Fiel
   return config.harmonic.least * circle_rest(limit, ScalarTraits<Scalar>::signal(state.weakening.i_d));
 }
 
-/// What turning does to the axes. Of a shape that is no sine where the answer acts: of the magnet, and of the current that it is to
-/// have by then more than at the sample.
+/// Coupling of the axes. For a shape that is no sine it is computed for the instant at which the output acts:
+/// with the magnet's voltage there, and with the measured current plus the change of the reference until then.
 template <class Scalar>
 constexpr Dq<Scalar> turning(const FieldDriveConfig<Scalar>& config, const FieldDriveState<Scalar>& state,
                              BinaryAngle magnet, Scalar speed_rad_s, Scalar i_q, Scalar weakening) {
@@ -81,7 +82,7 @@ constexpr Dq<Scalar> turning(const FieldDriveConfig<Scalar>& config, const Field
   return {e.d + to.voltage.d, e.q + to.voltage.q};
 }
 
-/// What the magnet makes along itself and across, where it points so.
+/// Voltage of the magnet along itself and across, at its angle `magnet`.
 template <class Scalar>
 constexpr Dq<Scalar> magnet_voltage(const FieldDriveConfig<Scalar>& config, BinaryAngle magnet,
                                     Scalar speed_rad_s) {
@@ -90,7 +91,7 @@ constexpr Dq<Scalar> magnet_voltage(const FieldDriveConfig<Scalar>& config, Bina
   return {Scalar{}, ScalarTraits<Scalar>::product(speed_rad_s, psi)};
 }
 
-/// Three legs for a whole period, in place of a voltage and its pulses.
+/// Chooses three legs for a whole period, instead of a voltage and its pulses.
 template <class Scalar>
 constexpr const LegCommands<Scalar>& choose_legs(const FieldDriveConfig<Scalar>& config,
                                                  FieldDriveState<Scalar>& state,
@@ -114,7 +115,7 @@ constexpr const LegCommands<Scalar>& choose_legs(const FieldDriveConfig<Scalar>&
   return state.command;
 }
 
-/// i_q to ask for, with what i_d leaves of the current limit, and a weakened field of the voltage.
+/// i_q reference, within the current limit beside i_d, and within the voltage if the field is weakened.
 template <class Scalar>
 constexpr Scalar torque_current(const FieldDriveConfig<Scalar>& config, FieldDriveState<Scalar>& state,
                                 const Measurement<Scalar>& measured, Scalar value,
@@ -142,7 +143,8 @@ constexpr Scalar slewed(const DriveConfig<Scalar>& drive, DriveState<Scalar>& st
                          measured_value(drive.mode, measured, i_q), measured.speed_rad_s);
 }
 
-/// What the loops around the currents ask for: state.reference, and of it what makes torque and what weakens the field.
+/// Results of the loops around the currents: the parts of state.reference that make torque and that weaken the
+/// field.
 template <class Scalar>
 struct FieldAsked {
   Scalar i_q{}, weakening{};
@@ -167,7 +169,7 @@ constexpr FieldAsked<Scalar> field_asked(const FieldDriveConfig<Scalar>& config,
   return asked;
 }
 
-/// From state.measured to the voltage in the rotor's frame.
+/// Computes the voltage in the rotor's frame from state.measured.
 template <class Scalar>
 constexpr const Dq<Scalar>& field_voltage(const FieldDriveConfig<Scalar>& config,
                                           FieldDriveState<Scalar>& state, const Measurement<Scalar>& m,
@@ -179,8 +181,8 @@ constexpr const Dq<Scalar>& field_voltage(const FieldDriveConfig<Scalar>& config
 
 }  // namespace detail
 
-/// One control tick. The answer lies in state.command, up to the next call. A duty is no mode of it: the bridge is off. Inlined, so that
-/// where the configuration is a constant nothing is left of what it does not ask for: 2 KB on a Cortex-M4.
+/// One control tick. Returns state.command, valid until the next call. Mode::duty is not possible: the bridge
+/// is off. Inlined, so that a constant configuration leaves no code of unused parts: 2 KB on a Cortex-M4.
 template <class Scalar>
 [[gnu::always_inline]] constexpr const LegCommands<Scalar>& field_drive_step(
     const FieldDriveConfig<Scalar>& config, FieldDriveState<Scalar>& state,
@@ -200,7 +202,7 @@ template <class Scalar>
   return state.command;
 }
 
-/// Another configuration between two ticks (retune.hpp). What another mode did not run begins at rest.
+/// Another configuration between two ticks (retune.hpp). Loops that the old mode did not run begin at rest.
 template <class Scalar>
 constexpr void retune(FieldDriveConfig<Scalar>& config, FieldDriveState<Scalar>& state,
                       const FieldDriveConfig<Scalar>& next) {

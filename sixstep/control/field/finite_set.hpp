@@ -1,27 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// Current control without a modulator: three legs that are each high or low for a whole period make seven voltages, and the one
-// is taken whose current comes nearest to its reference (Rodriguez et al., Predictive current control of a voltage source
-// inverter, IEEE Trans. IE 54, 2007). With an answer that acts a period late the current is first foretold to where that period
-// begins, by the voltage that is on until then (Cortes et al., Delay compensation in model predictive current control of a
-// three-phase inverter, IEEE Trans. IE 59, 2012).
+// Controls the currents without a modulator. Three legs, each high or low for a whole period, make seven
+// voltages; the one whose current comes nearest to its reference is applied (Rodriguez et al., Predictive
+// current control of a voltage source inverter, IEEE Trans. IE 54, 2007). If the output acts a period late, the
+// current is first predicted to the begin of that period, with the voltage that is on until then (Cortes et
+// al., Delay compensation in model predictive current control of a three-phase inverter, IEEE Trans. IE 59,
+// 2012).
 //
-// The voltage stands in the stator's frame while the magnet turns on by x = w_e T. Seen from where the magnet points in the middle
-// of the period, by an axis that stands there, the winding is R and L beside what turning makes (field_current.hpp):
+// The voltage is constant in the stator's frame while the magnet turns by x = w_e T. In a fixed frame, that of
+// the magnet in the middle of the period, the winding is R and L with the coupling of the rotation
+// (field_current.hpp):
 //
 //   L_d di_d/dt = v_d - R i_d - w_e (L_d - L_q) i_q - e_d,     i' = a i + b (v - ...),   a = exp(-R T/L), b = (1 - a)/R
 //   L_q di_q/dt = v_q - R i_q - w_e (L_d - L_q) i_d - e_q      e = (0, w p psi), or what the shape makes (harmonic_current.hpp)
 //
-// so that i is turned back by x/2, goes on, and is turned back by x/2 again: exact for a round rotor up to e, whose turn by
-// +-x/2 about its mean leaves x^2/24 of it. Among the eight states the cost is least,
+// so that i is turned back by x/2, advanced, and turned back by x/2 again: exact for a round rotor except for
+// e, whose turn by +-x/2 about its mean leaves x^2/24 of it. Of the eight states the one with the least cost is
+// chosen,
 //
 //   J = |i* - i'|^2 + s^2 (legs that change over)
 //
-// where s, in A, is how far off a leg's switching is worth. A current beyond `most` is worse than any within it, and of those
-// beyond the shortest is best. Of equal ones the one that changes fewer legs is taken: between the two zero vectors that decides.
+// where s, in A, is the current error that one switching leg is worth. A current beyond `most` is worse than
+// any within it; of those beyond, the shortest is best. Of equal states the one that changes fewer legs is
+// chosen: this decides between the two zero vectors.
 //
-// A leg switches at most once per period: no switch faster than 1/(2 T), and slower as it comes. Where the bus reaches, i' lies
-// within 2/(3 sqrt 3) b U of i*, the radius of the triangles that the seven currents make. There is no integral: what the
-// model is off by, dead time and a diode's drop among it, the mean is off by in part.
+// A leg switches at most once per period: at most with 1/(2 T), at a varying frequency. If the bus suffices, i'
+// is within 2/(3 sqrt 3) b U of i*, the radius of the triangles that the seven currents make. There is no
+// integral: errors of the model, dead time and a diode's drop among them, remain in part in the mean.
 //
 // In floating point only: no scaling of it is proved.
 #pragma once
@@ -32,18 +36,18 @@
 
 namespace sixstep::control {
 
-/// The default is not used.
+/// It is off by default.
 template <class Scalar>
 struct FiniteSetConfig {
   bool on = false;
-  bool foretells = false;                 ///< answers act a period late, and that is made up for
+  bool foretells = false;                 ///< outputs act a period late, which is compensated
   Gain<Scalar> d_decay{}, q_decay{};      ///< a
   Gain<Scalar> d_A_per_V{}, q_A_per_V{};  ///< b
-  Gain<Scalar>
-      half_turn_s{};  ///< p T/2: electrical rad of x/2 per mechanical rad/s; more than 1 rad is cut off
+  /// p T/2: electrical rad of x/2 per mechanical rad/s; clamped to 1 rad.
+  Gain<Scalar> half_turn_s{};
   Gain<Scalar> salient_V_s_A{};  ///< p (L_d - L_q)
   Scalar switching_A{};          ///< s
-  Scalar most_A{};               ///< of |i'|; 0: no bound
+  Scalar most_A{};               ///< bound of |i'|; 0: no bound
   bool operator==(const FiniteSetConfig&) const = default;
 };
 
@@ -52,12 +56,12 @@ using LegBits = std::uint8_t;
 
 template <class Scalar>
 struct FiniteSetState {
-  LegBits legs = 0;       ///< the last answer
-  Dq<Scalar> foretold{};  ///< the current it leads to, in the frame of the magnet as it will stand
+  LegBits legs = 0;       ///< last output
+  Dq<Scalar> foretold{};  ///< the current at its end, in the frame of the magnet at that time
 };
 
-/// What a tick knows. Of e the first is that of the period that has begun, the other that of the period to be answered, each where
-/// the magnet points in its middle.
+/// Inputs of a tick. e is that of the period that has begun, e_next that of the period to be commanded, each at
+/// the magnet's direction in its middle.
 template <class Scalar>
 struct FiniteSetInput {
   Dq<Scalar> reference{}, measured{};
@@ -66,7 +70,7 @@ struct FiniteSetInput {
   Dq<Scalar> e{}, e_next{};
 };
 
-/// The phase voltage vector of three legs: against the star point U/3 times what a leg is above the mean of the others.
+/// The phase voltage vector of three legs. Phase a against the star point: U (2 a - b - c)/3.
 template <class Scalar>
 constexpr AlphaBeta<Scalar> legs_voltage(LegBits legs, Scalar bus_V) {
   const auto side = [&](unsigned k) { return (legs >> k & 1u) != 0 ? bus_V : Scalar{}; };
@@ -89,19 +93,19 @@ constexpr LegCommands<Scalar> as_legs(LegBits legs) {
 
 namespace detail {
 
-/// A direction that is `by` further on.
+/// A direction, turned on by `by`.
 template <class Scalar>
 constexpr Direction<Scalar> turned(const Direction<Scalar>& from, const Direction<Scalar>& by) {
   return {from.cos * by.cos - from.sin * by.sin, from.sin * by.cos + from.cos * by.sin};
 }
 
-/// A vector as it is seen from a frame that has turned on by `by`.
+/// A vector in a frame that has turned on by `by`.
 template <class Scalar>
 constexpr Dq<Scalar> seen_from(const Dq<Scalar>& x, const Direction<Scalar>& by) {
   return {x.d * by.cos + x.q * by.sin, x.q * by.cos - x.d * by.sin};
 }
 
-/// i' without a voltage, from where the magnet points in the middle of the period.
+/// i' without a voltage, in the magnet's frame in the middle of the period.
 template <class Scalar>
 constexpr Dq<Scalar> left_alone(const FiniteSetConfig<Scalar>& config, const Dq<Scalar>& i,
                                 Scalar speed_rad_s, const Dq<Scalar>& e) {
@@ -112,7 +116,7 @@ constexpr Dq<Scalar> left_alone(const FiniteSetConfig<Scalar>& config, const Dq<
           T::product(i.q, config.q_decay) - T::product(x_q, config.q_A_per_V)};
 }
 
-/// What a voltage in that frame adds to it.
+/// Change of i' by a voltage in that frame.
 template <class Scalar>
 constexpr Dq<Scalar> driven_by(const FiniteSetConfig<Scalar>& config, const Dq<Scalar>& v) {
   using T = ScalarTraits<Scalar>;
@@ -124,7 +128,7 @@ constexpr Scalar square(const Dq<Scalar>& x) {
   return x.d * x.d + x.q * x.q;
 }
 
-/// How good a state is: by what its current is beyond the bound, by its cost, by the legs it changes.
+/// Rating of a state: first its current beyond the bound, then its cost, then the legs that it changes.
 template <class Scalar>
 struct Judged {
   Scalar beyond{}, cost{};
@@ -150,8 +154,8 @@ constexpr Judged<Scalar> judged(const FiniteSetConfig<Scalar>& config, const Dq<
 
 }  // namespace detail
 
-/// A current one period on, by legs as they stand: `middle` is where the magnet points in the middle of it, `half` how far it
-/// turns in half a period.
+/// The current one period later, with constant legs. `middle`: the magnet's direction in the middle of the
+/// period; `half`: its turn in half a period.
 template <class Scalar>
 constexpr Dq<Scalar> foretold(const FiniteSetConfig<Scalar>& config, const Dq<Scalar>& i,
                               const AlphaBeta<Scalar>& voltage_V, const Direction<Scalar>& middle,
@@ -161,7 +165,7 @@ constexpr Dq<Scalar> foretold(const FiniteSetConfig<Scalar>& config, const Dq<Sc
   return detail::seen_from(Dq<Scalar>{alone.d + more.d, alone.q + more.q}, half);
 }
 
-/// One control tick: the legs to be answered, which are kept in state.legs.
+/// One control tick: chooses the next legs, also kept in state.legs.
 template <class Scalar>
 constexpr LegBits finite_set_step(const FiniteSetConfig<Scalar>& config, FiniteSetState<Scalar>& state,
                                   const FiniteSetInput<Scalar>& in) {
@@ -173,7 +177,7 @@ constexpr LegBits finite_set_step(const FiniteSetConfig<Scalar>& config, FiniteS
     i = foretold(config, i, legs_voltage(state.legs, in.bus_V), middle, half, in.speed_rad_s, in.e);
     middle = detail::turned(detail::turned(middle, half), half);
   }
-  // The turn of all eight currents is one and the same: the reference is turned in their place.
+  // All eight currents turn by the same angle: the reference is turned in their place.
   const Dq<Scalar> alone = detail::left_alone(config, detail::seen_from(i, half), in.speed_rad_s, in.e_next);
   const Direction<Scalar> back{half.cos, -half.sin};
   const Dq<Scalar> reference = detail::seen_from(in.reference, back);

@@ -1,32 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-// Currents for a back-EMF that is no sine: the same torque at every angle, with the least copper loss. In the frame of the
-// magnet the three phases' back-EMFs are a vector w p psi g(theta), g = (0, 1) of a sine; of any other shape g turns and swings,
-// by the sixth harmonic and its multiples, and
+// Computes currents for a back-EMF that is no sine: the same torque at every angle, with the least copper loss.
+// In the frame of the magnet the three phases' back-EMFs are a vector w p psi g(theta), with g = (0, 1) for a
+// sine. For any other shape g varies in direction and length, with the sixth harmonic and its multiples, and
 //
 //   T = 3/2 p psi (g_d i_d + g_q i_q)
 //
-// A constant i_q makes a torque that swings as g_q does. Of all currents that make T = 3/2 p psi I at an angle the shortest lies
-// along g (Hung and Ding, Design of currents to reduce torque ripple in brushless permanent magnet motors, IEE Proc. B 140, 1993),
+// With a constant i_q the torque varies as g_q does. The shortest current that makes T = 3/2 p psi I at an
+// angle is along g (Hung and Ding, Design of currents to reduce torque ripple in brushless permanent magnet
+// motors, IEE Proc. B 140, 1993),
 //
 //   i* = I g/|g|^2
 //
-// A star point that is not brought out carries no current, so that what the three phases have in common makes no torque and no
-// loss: it drops out of g. What weakens the field would make torque along g; of that current the part across g is asked for,
-// (i_w g_q/|g|^2) (g_q, -g_d), which makes none. Both together stay within I_max where |I| <= min|g| sqrt(I_max^2 - i_w^2).
+// A star point that is not connected carries no current, so that a common part of the three phases makes no
+// torque and no loss: it drops out of g. A current that weakens the field would make torque along g; so only
+// its part across g is used, (i_w g_q/|g|^2) (g_q, -g_d), which makes none. Both together stay within I_max if
+// |I| <= min|g| sqrt(I_max^2 - i_w^2).
 //
-// Phases alike and half waves alike give g a period of 60 electrical degrees. It is a table of 32 points, straight between them:
-// the corners of a trapezoid of 120 degrees are points of it, and its bows are met to 1.6e-4. As a Fourier series they
-// would fall with the square of the order: 32 numbers of it leave 0.7 % at the corners, for four times the products.
+// If phases and half waves are alike, g has a period of 60 electrical degrees. It is a table of 32 points with
+// straight lines between them: the corners of a trapezoid of 120 degrees are points of it, and its curves are
+// exact to 1.6e-4. A Fourier series would fall with the square of the order: 32 numbers of it leave 0.7 % at
+// the corners, for four times the products.
 //
-// A loop alone follows late. Where it decouples the axes, what the sixth harmonic asks for is fed forward with what turning makes:
-// beside w p psi g the voltage that takes the current along in the period that is answered, from i* at its beginning to i* at its
-// end, and i* itself is that of the sample's angle, as the measured current is,
+// A loop alone follows late. If it decouples the axes, the sixth harmonic of the current is fed forward with
+// the coupling: beside w p psi g the voltage that moves the current in the period of the output, from i* at its
+// begin to i* at its end; i* itself is that of the sample's angle, as the measured current is,
 //
 //   v = L (i*(theta' + x/2) - i*(theta' - x/2))/T + R (i*(theta') - (i_w, I)),   x = w_e T
 //
-// Nothing is left to the loop then but what the model is off by, as long as the voltage is there. Where it does not, i* is that of
-// the angle to which the magnet has turned until the loop is there: to the first order of 6 w_e over the loop's bandwidth nothing
-// lags, and what is left grows with its square.
+// The loop then corrects only the errors of the model, as long as the voltage suffices. If it does not decouple
+// the axes, i* is that of the angle that the magnet has when the loop has followed: to the first order of 6 w_e
+// over the loop's bandwidth nothing lags, and the rest grows with its square.
 //
 // In floating point only: no scaling of it is proved.
 #pragma once
@@ -41,18 +44,18 @@ inline constexpr std::uint8_t shape_points = 32;
 template <class Scalar>
 struct HarmonicCurrentConfig {
   bool on = false;
-  /// Electrical rad per mechanical rad/s that the magnet turns until the current is there, where it is not fed forward; more than
-  /// 1 rad is cut off.
+  /// Electrical rad per mechanical rad/s that the magnet turns until the current has followed, without
+  /// feed-forward; clamped to 1 rad.
   Gain<Scalar> lead_rad_s{};
-  Gain<Scalar> half_turn_s{};        ///< p T/2: electrical rad of x/2 per mechanical rad/s, likewise
+  Gain<Scalar> half_turn_s{};        ///< p T/2: electrical rad of x/2 per mechanical rad/s, likewise clamped
   Gain<Scalar> slope_V_A{};          ///< L/T
   Gain<Scalar> R_ohm{};              ///< of a phase
   Scalar least{};                    ///< min |g|
-  Dq<Scalar> shape[shape_points]{};  ///< g where the magnet stands n/32 of 60 degrees on
+  Dq<Scalar> shape[shape_points]{};  ///< g with the magnet at n/32 of 60 degrees
   bool operator==(const HarmonicCurrentConfig&) const = default;
 };
 
-/// g, where the magnet points so.
+/// g at an angle of the magnet.
 template <class Scalar>
 constexpr Dq<Scalar> shape_at(const HarmonicCurrentConfig<Scalar>& config, BinaryAngle magnet) {
   const auto in_sixth = static_cast<BinaryAngle>(magnet * 6u);  // wraps where the shape does
@@ -74,7 +77,7 @@ constexpr Dq<Scalar> current_along(const Dq<Scalar>& g, Scalar I, Scalar weakeni
 
 }  // namespace detail
 
-/// i*, of I and of a current along the magnet that weakens its field.
+/// i* for I and for a current along the magnet that weakens its field.
 template <class Scalar>
 constexpr Dq<Scalar> harmonic_current(const HarmonicCurrentConfig<Scalar>& config, BinaryAngle magnet,
                                       Scalar speed_rad_s, Scalar I, Scalar weakening) {
@@ -82,7 +85,7 @@ constexpr Dq<Scalar> harmonic_current(const HarmonicCurrentConfig<Scalar>& confi
                                weakening);
 }
 
-/// i* in a period in whose middle the magnet points so, and the voltage that takes it along.
+/// i* in a period in whose middle the magnet has the angle `magnet`, and the voltage that moves it.
 template <class Scalar>
 struct TakenAlong {
   Dq<Scalar> current{}, voltage{};
@@ -103,7 +106,7 @@ constexpr TakenAlong<Scalar> taken_along(const HarmonicCurrentConfig<Scalar>& co
            T::product(end.q - begin.q, config.slope_V_A) + T::product(middle.q - I, config.R_ohm)}};
 }
 
-/// w p psi g: what the magnet makes along itself and across, in place of (0, w p psi).
+/// w p psi g: voltage of the magnet along itself and across, in place of (0, w p psi).
 template <class Scalar>
 constexpr Dq<Scalar> harmonic_voltage(const HarmonicCurrentConfig<Scalar>& config, BinaryAngle magnet,
                                       Scalar speed_rad_s, Gain<Scalar> magnet_V_s) {

@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the magnet points, without a sensor of it: from standstill on by what a pulsing voltage makes of the current
-// (injection.hpp), at speed by the flux that the magnet makes in the winding (active_flux.hpp). Both tell by how much the magnet is
-// ahead of where it is taken to be, and one tracking loop (sensing/tracking.hpp) follows the two, mixed by speed:
+// Estimates the direction of the magnet without a sensor: from standstill on by the current's response to a
+// pulsing voltage (injection.hpp), at speed by the flux that the magnet makes in the winding (active_flux.hpp).
+// Both give the angle by which the magnet is ahead of the estimate, and one tracking loop
+// (sensing/tracking.hpp) follows the two, mixed by speed:
 //
 //   error = (1 - m) e_injection + m e_flux,   m = (|w| - w_low)/(w_high - w_low) within 0..1
 //
-// Above w_high nothing is injected. How it begins:
+// Above w_high nothing is injected. The start:
 //
-//   with injection      axis -> north -> following      the rotor is found where it stands, and stays there
+//   with injection      axis -> north -> following      the rotor is found at standstill, and does not move
 //                               '-----> unseen          it does not saturate: the drive gives up
-//   by the flux alone   aligning -> ramping -> following    a current turns it: it moves before it is seen
-//                           '--------'---------'--> unseen    it was lost too often in a row before it was followed for good
+//   by the flux alone   aligning -> ramping -> following    a current turns it: it moves before it can be followed
+//                           '--------'---------'--> unseen    it was lost too often in a row after short runs
 //
-// In the second a voltage along an axis holds the rotor, and then a quarter turn on, so that it cannot rest where it is pulled
-// neither way; turned on by a steady acceleration it takes the rotor along, up to a speed at which the flux is seen. A rotor that
-// falls below w_low is turned again. In floating point.
+// Without injection a voltage along an axis holds the rotor, and then one a quarter turn further, so that it
+// cannot rest at a dead point. Then a current that turns with a steady acceleration takes the rotor along, up
+// to a speed at which the flux can be followed. A rotor that falls below w_low is started again. In floating
+// point only.
 #pragma once
 #include "sixstep/control/field/active_flux.hpp"
 #include "sixstep/control/field/injection.hpp"
@@ -27,27 +29,27 @@ namespace sixstep::control {
 
 enum class EstimatorPhase : std::uint8_t { axis, north, aligning, ramping, following, unseen };
 
-/// A current that turns the rotor before it is seen. The default starts nothing.
+/// A current that turns the rotor before it can be followed. The default starts nothing.
 template <class Scalar>
 struct TurnStartConfig {
   Scalar current_A{};             ///< along the axis
-  std::uint32_t align_ticks = 0;  ///< it stands
-  std::int64_t step = 0;          ///< by which the speed grows a tick, 2^-48 turn per tick
-  std::int64_t enough = 0;        ///< speed at which the flux is followed
+  std::uint32_t align_ticks = 0;  ///< duration of the alignment
+  std::int64_t step = 0;          ///< increase of the speed per tick, 2^-48 turn per tick
+  std::int64_t enough = 0;        ///< speed from which the flux is followed
   std::uint32_t good_ticks = 0;   ///< a rotor that is followed for so long has started
-  std::uint8_t retries = 3;       ///< starts in vain in a row before the drive gives up
+  std::uint8_t retries = 3;       ///< failed starts in a row before the drive gives up
   bool operator==(const TurnStartConfig&) const = default;
 };
 
-/// The default is not on.
+/// It is off by default.
 template <class Scalar>
 struct EstimatorConfig {
   bool on = false;
   TrackingConfig tracking{};     ///< of the electrical angle
-  Gain<Scalar> rad_s{};          ///< mechanical rad/s to a unit of tracking_speed()
+  Gain<Scalar> rad_s{};          ///< mechanical rad/s per unit of tracking_speed()
   std::uint32_t axis_ticks = 0;  ///< until the axis is followed
-  std::uint8_t late = 0;         ///< n: ticks from an answer to the begin of its period
-  bool in_middle = false;        ///< a sample lies in the middle of a period: no injection then
+  std::uint8_t late = 0;         ///< n: ticks from an output to the begin of its period
+  bool in_middle = false;        ///< samples are in the middle of a period: no injection then
   InjectionConfig<Scalar> injection{};
   PolarityConfig<Scalar> north{};
   ActiveFluxConfig<Scalar> flux{};
@@ -61,25 +63,25 @@ struct EstimatorState {
   EstimatorPhase phase = EstimatorPhase::axis;
   bool begun = false, reversed = false;
   std::uint32_t ticks = 0;
-  std::uint8_t failures = 0;  ///< starts in vain, in a row
+  std::uint8_t failures = 0;  ///< failed starts in a row
   TrackingState tracking{};
-  BinaryAngle sampled = 0;  ///< that of the last sample, the magnet's
+  BinaryAngle sampled = 0;  ///< the magnet's angle at the last sample
   Scalar speed_rad_s{};     ///< mechanical
   Scalar weight{};          ///< m
   InjectionState<Scalar> injection{};
   NorthState<Scalar> north{};
   ActiveFluxState<Scalar> flux{};
   Dq<Scalar> current{};               ///< of the last sample, in its frame
-  AlphaBeta<Scalar> answered_V[4]{};  ///< of the last ticks, the newest first
+  AlphaBeta<Scalar> answered_V[4]{};  ///< of the last ticks' outputs, the newest first
 };
 
-/// Whether a current turns the rotor that is not seen yet.
+/// True while a current turns a rotor that is not followed yet.
 template <class Scalar>
 constexpr bool estimator_turns(const EstimatorState<Scalar>& state) {
   return state.phase == EstimatorPhase::aligning || state.phase == EstimatorPhase::ramping;
 }
 
-/// What its own tick asks for along the axis, A.
+/// Current reference along the axis in the estimator's own phases, A.
 template <class Scalar>
 constexpr Scalar estimator_reference_d(const EstimatorConfig<Scalar>& config,
                                        const EstimatorState<Scalar>& state) {
@@ -106,7 +108,7 @@ constexpr void estimator_begin(const EstimatorConfig<Scalar>& config, EstimatorS
   state.flux.flux = {config.flux.magnet_Vs, Scalar{}};
 }
 
-/// Mean from the last sample to this one, V.
+/// Mean voltage from the last sample to this one, V.
 template <class Scalar>
 constexpr AlphaBeta<Scalar> mean_voltage(const EstimatorConfig<Scalar>& config,
                                          const EstimatorState<Scalar>& state) {
@@ -125,14 +127,14 @@ constexpr Scalar flux_weight(const EstimatorConfig<Scalar>& config, Scalar speed
   return past >= wide ? one<Scalar> : past > Scalar{} ? past / wide : Scalar{};
 }
 
-/// The other end is north: what was told in the frame is told in the one half a turn on.
+/// The other end is north: turns the frame by half a turn, with the current that is stored in it.
 template <class Scalar>
 constexpr void turn_round(EstimatorState<Scalar>& state) {
   state.tracking.angle += half_turn;
   state.current = {-state.current.d, -state.current.q};
 }
 
-/// A current turns on, and the angle with it, at whatever the rotor does.
+/// Turns the current and the angle with it, whatever the rotor does.
 template <class Scalar>
 constexpr void turn_on(const EstimatorConfig<Scalar>& config, EstimatorState<Scalar>& state) {
   const TurnStartConfig<Scalar>& start = config.start;
@@ -161,20 +163,21 @@ constexpr void find_north(const EstimatorConfig<Scalar>& config, EstimatorState<
   if (state.north.phase == NorthPhase::opposite) turn_round(state);
   if (state.north.phase != NorthPhase::opposite && state.north.phase != NorthPhase::found) return;
   state.phase = EstimatorPhase::following;
-  // The pull has had no north yet.
+  // Up to now the flux was estimated without north.
   const Direction<Scalar> magnet = direction_of<Scalar>(state.tracking.angle);
   state.flux.flux = {config.flux.magnet_Vs * magnet.cos + config.flux.L_q_H * state.flux.current.alpha,
                      config.flux.magnet_Vs * magnet.sin + config.flux.L_q_H * state.flux.current.beta};
 }
 
-/// Whether the flux is all there is to follow, and the rotor too slow for it.
+/// True if only the flux can be followed, and the rotor is too slow for it.
 template <class Scalar>
 constexpr bool out_of_sight(const EstimatorConfig<Scalar>& config, const EstimatorState<Scalar>& state) {
   return state.phase == EstimatorPhase::following && !(config.injection.voltage_V > Scalar{}) &&
          magnitude(state.speed_rad_s) < config.low_rad_s;
 }
 
-/// A rotor that is turned is begun with anew where it is lost. One that was not asked to turn so fast that it is seen was not lost in vain.
+/// Starts a lost rotor again. The start has failed only if the setpoint asks for a speed at which the rotor can
+/// be followed.
 template <class Scalar>
 constexpr void look_for_it(const EstimatorConfig<Scalar>& config, EstimatorState<Scalar>& state,
                            bool reversed, bool turns) {
@@ -192,8 +195,9 @@ constexpr void look_for_it(const EstimatorConfig<Scalar>& config, EstimatorState
 
 }  // namespace detail
 
-/// One control tick with its currents: those in the frame of the magnet as it is taken to point, A, free of the pulse.
-/// reversed: which way a rotor is turned that has to be turned to be seen; turns: whether it is asked to turn fast enough for that.
+/// One control tick with its currents. Returns them in the frame of the assumed magnet, A, free of the pulse.
+/// reversed: direction in which a start turns the rotor; turns: the setpoint asks for a speed at which it can
+/// be followed.
 template <class Scalar>
 constexpr Dq<Scalar> estimator_step(const EstimatorConfig<Scalar>& config, EstimatorState<Scalar>& state,
                                     const AlphaBeta<Scalar>& current, bool reversed, bool turns) {
@@ -225,7 +229,7 @@ constexpr Dq<Scalar> estimator_step(const EstimatorConfig<Scalar>& config, Estim
   return mean;
 }
 
-/// The voltages of the tick's answer, as the timer is told them: of what it cannot do it does the nearest.
+/// Stores the voltages of the tick's output with the duties that the timer gets, which are clamped.
 template <class Scalar>
 constexpr void estimator_answered(EstimatorState<Scalar>& state, const LegCommands<Scalar>& command,
                                   Scalar bus_V) {

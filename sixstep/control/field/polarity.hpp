@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which end of the magnet's axis is north, once the axis is found (injection.hpp): where a current along it adds to the
-// magnet's field the iron saturates (model.md 7),
+// Finds which end of the magnet's axis is north, once the axis is found (injection.hpp): a current along it
+// that adds to the magnet's field saturates the iron (model.md 7),
 //
 //   L_d(i_d) = L_d (1 - i_d/I_sat),   h_d = V T/L_d(i_d)
 //
-// and what the pulse makes of the current is more. A current I is held along the axis as it is taken to lie, then -I:
+// and the pulse makes a larger response. A current I is held along the assumed axis, then -I:
 //
 //   (h+ - h-)/(h+ + h-) = +-I/I_sat
 //
-// Along the axis neither makes torque. Less than `certain` of it is not seen: the iron does not saturate, or noise is as large.
+// Along the axis neither makes torque. A result below `certain` is rejected: the iron does not saturate, or
+// noise is as large.
 #pragma once
 #include <cstdint>
 
@@ -21,9 +22,9 @@ enum class NorthPhase : std::uint8_t { forth, back, found, opposite, unseen };
 template <class Scalar>
 struct PolarityConfig {
   Scalar current_A{};              ///< I
-  Gain<Scalar> certain{};          ///< of (h+ - h-)/(h+ + h-)
-  std::uint16_t settle_ticks = 0;  ///< until the current stands
-  std::uint16_t look_ticks = 0;    ///< what is summed then
+  Gain<Scalar> certain{};          ///< smallest |(h+ - h-)/(h+ + h-)| that is accepted
+  std::uint16_t settle_ticks = 0;  ///< until the current is constant
+  std::uint16_t look_ticks = 0;    ///< over which h is summed then
   bool operator==(const PolarityConfig&) const = default;
 };
 
@@ -34,14 +35,14 @@ struct NorthState {
   Accumulator<Scalar> forth{}, back{};  ///< sums of h_d, A
 };
 
-/// i_d to ask for.
+/// i_d reference.
 template <class Scalar>
 constexpr Scalar north_current(const PolarityConfig<Scalar>& config, const NorthState<Scalar>& state) {
   if (state.phase == NorthPhase::forth) return config.current_A;
   return state.phase == NorthPhase::back ? -config.current_A : Scalar{};
 }
 
-/// How much was seen: (h+ - h-)/(h+ + h-), signed.
+/// The result: (h+ - h-)/(h+ + h-), signed.
 template <class Scalar>
 constexpr Scalar north_seen(const NorthState<Scalar>& state) {
   const Scalar sum = state.forth + state.back;

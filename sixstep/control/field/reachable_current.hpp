@@ -1,31 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which currents the voltage can hold at a speed, and what to ask for in place of one that it cannot. In the frame of the rotor
-// a steady current i needs
+// Replaces a current reference that the voltage cannot hold at a speed. In the frame of the rotor a steady
+// current i needs
 //
 //   v = Z i + E,   Z = [R, -w_e L_q; w_e L_d, R],   E = (0, w_e psi)                  |v| <= V
 //
-// so that the currents that can be held fill a disc (an ellipse where the rotor is salient) around the current of shorted terminals,
-// -Z^-1 E. Beyond the speed at which |E| is V the disc no longer holds i = 0: some current flows whatever is asked for, and
-// (|E| - V)/|Z| is the least. Of a reference outside of the disc
+// so that the currents that can be held fill a disc (an ellipse if the rotor is salient) around the current of
+// shorted terminals, -Z^-1 E. Beyond the speed at which |E| is V the disc does not contain i = 0: for every
+// reference a current flows, at least (|E| - V)/|Z|. For a reference outside of the disc
 //
-//   1  what drives the rotor is given up first: i_q falls towards 0 at the same i_d as far as the voltage asks
-//   2  where that is not enough, or the rotor is braked, i' = i - (1 - V/|v|) Z^-1 v: along the line to the centre, up to the rim
+//   1  the driving torque is given up first: i_q falls towards 0 at the same i_d as far as the voltage requires
+//   2  if that is not enough, or the rotor is braked, i' = i - (1 - V/|v|) Z^-1 v: along the line to the
+//      centre, up to the rim
 //
-// 2 is the nearest current of a round rotor. A projection onto a disc brings no two points further apart, so that |i'| is at most
-// |i| and the least current together.
+// For a round rotor 2 gives the nearest current. A projection onto a disc brings no two points further apart,
+// so that |i'| is at most |i| and the least current together.
 //
-// A voltage beyond the rim is taken back along the line to one that holds the reference, Z i' + E. Beside a measured current i' + x
-// that leaves of what the loops add, w_e L j x - k x, a part s: the first term turns x and does no work on it, the second shortens it.
-// So |x|^2 falls by 2 s k |x|^2/L and by what R takes, however small s is. Taken back to the rim in another direction, v_d first or in
-// the direction of v itself, the sum has no such sign.
+// A voltage beyond the rim is moved back along the line to one that holds the reference, Z i' + E. With a
+// measured current i' + x this leaves a part s of the voltage that the loops add, w_e L j x - k x: the first
+// term turns x and does no work on it, the second shortens it. So |x|^2 falls by 2 s k |x|^2/L and by the loss
+// in R, however small s is. If the voltage is moved back in another direction, v_d first or along v itself, the
+// sum has no such sign.
 //
-// In fixed point w p L and R lie below one volt per ampere of the bases.
+// In fixed point w p L and R must be below one volt per ampere of the bases.
 #pragma once
 #include "sixstep/control/field/field_current.hpp"
 
 namespace sixstep::control {
 
-/// A current that can be held, in place of one that cannot; any other as it is.
+/// The reference itself, or the current that replaces it if the voltage cannot hold it.
 template <class Scalar>
 constexpr Dq<Scalar> reachable_current(const FieldCurrentConfig<Scalar>& config, const Dq<Scalar>& wanted,
                                        Scalar speed_rad_s, Scalar bus_V) {

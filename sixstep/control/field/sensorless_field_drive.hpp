@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The field-oriented drive without a sensor on its rotor: field_drive.hpp, told by magnet_estimator.hpp where the magnet points
-// and how fast it turns. Until that is known it asks for the estimator's own current, and neither setpoint nor speed
-// loop has a say. Without an estimator it is field_drive.hpp's drive; with one it makes pulses, and chooses no states of legs. Where the estimator sees no north, or the rotor does not
-// follow the current that turns it, it gives up: fault.
+// Runs the field-oriented drive without a rotor position sensor: field_drive.hpp with the magnet's direction
+// and speed from magnet_estimator.hpp. Until these are known the drive applies the estimator's own current,
+// independent of setpoint and speed loop. With the estimator off it is the drive of field_drive.hpp; with it on
+// the output is always pulses, never finite_set.hpp. If the estimator finds no north, or the rotor does not
+// follow the current that turns it, the drive stops with a fault.
 #pragma once
 #include "sixstep/control/field/field_drive.hpp"
 #include "sixstep/control/field/magnet_estimator.hpp"
@@ -24,7 +25,8 @@ struct SensorlessFieldState {
 
 namespace detail {
 
-/// By themselves: GCC 12 ends with an internal error where a member is set to a temporary that begins with defaults.
+/// Functions of their own: GCC 12 ends with an internal error if a member is set to a temporary that begins
+/// with defaults.
 template <class Scalar>
 constexpr LegCommands<Scalar> given_up_legs() {
   LegCommands<Scalar> command{};
@@ -36,7 +38,7 @@ constexpr EstimatorState<Scalar> unbegun() {
   return {};
 }
 
-/// The loops are at rest where the frame is a new one.
+/// Resets the current loops, because the frame is a new one.
 template <class Scalar>
 constexpr void field_anew(FieldDriveState<Scalar>& state) {
   state.current = {};
@@ -44,7 +46,7 @@ constexpr void field_anew(FieldDriveState<Scalar>& state) {
   state.reference = {};
 }
 
-/// The bus whose circle leaves room for the pulse: one that is cut off tells nothing.
+/// Bus whose circle leaves room for the pulse: a pulse that is cut off gives no information.
 template <class Scalar>
 constexpr Scalar bus_beside(const InjectionConfig<Scalar>& config, Scalar bus_V) {
   constexpr auto root_3 = static_cast<Gain<Scalar>>(1.7320508075688772);
@@ -52,8 +54,8 @@ constexpr Scalar bus_beside(const InjectionConfig<Scalar>& config, Scalar bus_V)
   return left > Scalar{} ? left : Scalar{};
 }
 
-/// What pulls the rotor to the axis is a voltage: it damps the swing, which a current that is held would not do. The loop that holds
-/// the current once the axis turns goes on from it.
+/// A voltage, not a controlled current, pulls the rotor to the axis, because it damps the swing. The loop that
+/// controls the current once the axis turns continues from that voltage.
 template <class Scalar>
 constexpr const Dq<Scalar>& aligning_voltage(const SensorlessFieldConfig<Scalar>& config,
                                              FieldCurrentState<Scalar>& state) {
@@ -63,7 +65,7 @@ constexpr const Dq<Scalar>& aligning_voltage(const SensorlessFieldConfig<Scalar>
   return state.voltage;
 }
 
-/// The voltage for what the estimator itself asks for.
+/// Voltage for the reference of the estimator itself.
 template <class Scalar>
 constexpr Dq<Scalar> estimating_voltage(const SensorlessFieldConfig<Scalar>& config,
                                         SensorlessFieldState<Scalar>& state,
@@ -81,7 +83,7 @@ constexpr Dq<Scalar> estimating_voltage(const SensorlessFieldConfig<Scalar>& con
 
 namespace detail {
 
-/// Whether what is asked for turns a rotor fast enough to be seen by its flux.
+/// True if the setpoint asks for a speed at which the rotor can be followed by its flux.
 template <class Scalar>
 constexpr bool asks_to_turn(const SensorlessFieldConfig<Scalar>& config, Scalar setpoint) {
   const Scalar least = config.field.drive.mode == Mode::speed ? config.estimator.low_rad_s : Scalar{};
@@ -90,7 +92,7 @@ constexpr bool asks_to_turn(const SensorlessFieldConfig<Scalar>& config, Scalar 
 
 }  // namespace detail
 
-/// One control tick. The answer lies in state.field.command, up to the next call.
+/// One control tick. Returns state.field.command, valid until the next call.
 template <class Scalar>
 constexpr const LegCommands<Scalar>& sensorless_field_step(const SensorlessFieldConfig<Scalar>& config,
                                                            SensorlessFieldState<Scalar>& state,
@@ -132,7 +134,7 @@ constexpr const LegCommands<Scalar>& sensorless_field_step(const SensorlessField
   return field.command;
 }
 
-/// Another configuration between two ticks. What was found of the magnet stays.
+/// Another configuration between two ticks. The estimate of the magnet is kept.
 template <class Scalar>
 constexpr void retune(SensorlessFieldConfig<Scalar>& config, SensorlessFieldState<Scalar>& state,
                       const SensorlessFieldConfig<Scalar>& next) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The current along the magnet that gives a salient rotor the most torque per ampere. Of
+// Computes the current along the magnet with which a salient rotor makes the most torque per ampere. For
 //
 //   T = 3/2 p (psi i_q + (L_d - L_q) i_d i_q)
 //
@@ -8,8 +8,9 @@
 //
 //   i_d = a - sqrt(a^2 + i_q^2), a = psi/(2 (L_q - L_d));   here -i_q k/(1/4 + sqrt(1/16 + k^2)), k = i_q/(4 a)
 //
-// the same without a difference of two near numbers and without a, which no format holds where the rotor is round: there
-// k and i_d are 0. In fixed point k is a number below 1; |k| <= 0.7, i_q up to 2.8 a, stays within every format.
+// the same without a difference of two nearly equal numbers and without a, which no format holds for a round
+// rotor: there k and i_d are 0. In fixed point k is a number below 1; |k| <= 0.7, i_q up to 2.8 a, stays within
+// every format.
 #pragma once
 #include "sixstep/control/root.hpp"
 

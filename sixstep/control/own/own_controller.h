@@ -1,20 +1,22 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A controller of one's own: what it must be to stand in a scenario, in a comparison and on a chip beside the library's. Plain C,
- * so that it may be written in whatever makes a C symbol; own_controller.hpp makes one of a C++ class.
+/* Defines the interface of a user's own controller. It runs in a scenario, in a comparison and on a chip beside
+ * the library's. Plain C, so that any language that can define a C symbol will do; own_controller.hpp makes a
+ * controller of a C++ class.
  *
- * A file with one of these is compiled into a shared object,
+ * A file with a controller is compiled into a shared object,
  *
  *   cc -O2 -ffp-contract=off -shared -fPIC -I SIXSTEP mine.c -o mine.so
  *
- * and a scenario names it: control.drive = "own", control.own.controller = "mine.so" (docs/howto/write-a-controller.md).
+ * and a scenario names it: control.drive = "own", control.own.controller = "mine.so"
+ * (docs/howto/write-a-controller.md).
  *
- * The same source goes onto a chip in float: numbers are sixstep_real, double for the program, and what SIXSTEP_REAL names
- * (-DSIXSTEP_REAL=float) else. A literal like 0.5 is a double: written (sixstep_real)0.5, a chip computes with it in float.
- * tools/own_cost.sh counts what it takes there.
+ * The same source runs on a chip in float. Numbers are sixstep_real: double in the program, or the type that
+ * SIXSTEP_REAL names (-DSIXSTEP_REAL=float). A literal like 0.5 is a double; write (sixstep_real)0.5, so that a
+ * chip computes in float. tools/own_cost.sh counts instructions, flash and RAM there.
  *
- * What it computes must depend on nothing but config, state and what it is given: runs are repeated, resumed, copied and run side by
- * side. State is moved about as bytes, so it holds no pointer into itself. Nothing here may allocate, block, throw or end the
- * program. */
+ * The result must depend only on config, state and the arguments: runs are repeated, resumed, copied and run
+ * side by side. State is copied as bytes, so it must hold no pointer into itself. Nothing here may allocate,
+ * block, throw or end the program. */
 #ifndef SIXSTEP_CONTROL_OWN_OWN_CONTROLLER_H
 #define SIXSTEP_CONTROL_OWN_OWN_CONTROLLER_H
 
@@ -29,57 +31,57 @@ extern "C" {
 #endif
 typedef SIXSTEP_REAL sixstep_real;
 
-/* Of these structs: 1 in double, 257 in float. A program refuses what has another than its own. */
+/* Version of these structs: 1 in double, 257 in float. A program rejects a version other than its own. */
 #define SIXSTEP_OWN_INTERFACE (1u + (sizeof(sixstep_real) == 8 ? 0u : 256u))
 
-/* What the setpoint means: duty -1..1, A, rad/s, mechanical degrees. */
+/* Modes, with the unit of the setpoint: duty -1..1, A, rad/s, mechanical degrees. */
 enum { SIXSTEP_DUTY = 1, SIXSTEP_CURRENT = 2, SIXSTEP_SPEED = 3, SIXSTEP_POSITION = 4 };
 enum { SIXSTEP_LEG_A = 0, SIXSTEP_LEG_B = 1, SIXSTEP_LEG_C = 2 };
-/* How the off part of a pair's period looks, and which of its switches the duty chops (bridge_command.hpp). */
+/* State of the switches in the off part of a pair's period, and the switch that the duty chops (bridge_command.hpp). */
 enum { SIXSTEP_SOFT = 0, SIXSTEP_HARD = 1, SIXSTEP_COMPLEMENTARY = 2 };
 enum { SIXSTEP_UPPER = 0, SIXSTEP_LOWER = 1 };
-/* What a leg does for a period, and what its pulse turns on (leg_command.hpp). */
+/* State of a leg during a period, and the switches of its pulse (leg_command.hpp). */
 enum { SIXSTEP_LEG_OFF = 0, SIXSTEP_LEG_LOW = 1, SIXSTEP_LEG_HIGH = 2, SIXSTEP_LEG_PWM = 3 };
 enum { SIXSTEP_PWM_COMPLEMENTARY = 0, SIXSTEP_PWM_UPPER = 1, SIXSTEP_PWM_LOWER = 2, SIXSTEP_PWM_LOWER_FIRST = 3 };
-/* What a controller answers with: a driven pair that the board moves on at Hall edges, or three legs. */
+/* Kind of output: a driven pair, which the board changes at Hall edges, or three legs. */
 enum { SIXSTEP_ANSWERS_PAIR = 0, SIXSTEP_ANSWERS_LEGS = 1 };
 
-/* One sample, as the scenario's sensors have it. */
+/* One sample of the scenario's sensors. */
 typedef struct {
   sixstep_real current_A[3]; /* of phases a, b, c, into the motor */
   sixstep_real speed_rad_s;  /* mechanical */
   sixstep_real position_deg; /* mechanical, counted over turns */
   sixstep_real bus_V;
-  sixstep_real magnet_cos, magnet_sin; /* of the electrical angle of the magnet from phase a's axis; by Hall codes alone the sector's middle */
-  uint8_t hall;                        /* H1 H2 H3 as bits 2, 1, 0, as probes 120 degrees apart show it */
+  sixstep_real magnet_cos, magnet_sin; /* of the magnet's electrical angle from phase a's axis; Hall codes alone: sector's middle */
+  uint8_t hall;                        /* H1 H2 H3 as bits 2, 1, 0: the code of probes 120 degrees apart */
 } sixstep_measured;
 
 typedef struct {
   uint8_t state;     /* SIXSTEP_LEG_OFF ... */
-  uint8_t switches;  /* of SIXSTEP_LEG_PWM */
-  sixstep_real duty; /* 0..1, of SIXSTEP_LEG_PWM */
+  uint8_t switches;  /* used with SIXSTEP_LEG_PWM */
+  sixstep_real duty; /* 0..1, used with SIXSTEP_LEG_PWM */
 } sixstep_leg;
 
-/* Answers a pair: source, sink, duty, chopping, chopped. Answers legs: leg. Is zero before the first step and keeps what it was
- * told: all gates off. */
+/* Output of a step. A pair: source, sink, duty, overlap, chopping, chopped. Legs: leg. It is zero before the first step,
+ * all gates off; later it holds the last output. */
 typedef struct {
   uint8_t enabled; /* 0: all six gates off */
-  uint8_t fault;   /* not 0: the controller gives up, and the run ends with exit code 3 */
-  uint8_t source;  /* leg whose upper switch the current comes by */
-  uint8_t sink;    /* leg whose lower switch it leaves by */
+  uint8_t fault;   /* not 0: the controller stops the drive, and the run ends with exit code 3 */
+  uint8_t source;  /* leg whose upper switch carries the current to the motor */
+  uint8_t sink;    /* leg whose lower switch carries it back */
   uint8_t chopping, chopped;
   sixstep_real duty;    /* 0..1 */
-  sixstep_real overlap; /* of the leg in no pair: its upper switch (below 0: its lower one) chopped, -1..1 */
+  sixstep_real overlap; /* -1..1: duty of the upper switch (below 0: of the lower one) of the leg in no pair */
   sixstep_leg leg[3];
-  sixstep_real current_reference_A;   /* for the report alone */
-  sixstep_real speed_reference_rad_s; /* alike */
+  sixstep_real current_reference_A;   /* for the report only */
+  sixstep_real speed_reference_rad_s; /* likewise */
 } sixstep_answer;
 
-/* What one may know who designs it: the nominal motor's sheet, the board, and the loops that the library would use for this scenario
- * (gains of u[n] = u[n-1] + d1 e[n] + d0 e[n-1]; 0 where the mode has no such loop). */
+/* Data for the design: the nominal motor's data sheet, the board, and the loops that the library would use for this
+ * scenario (gains of u[n] = u[n-1] + d1 e[n] + d0 e[n-1]; 0 if the mode has no such loop). */
 typedef struct {
   uint8_t mode;
-  uint8_t delay_periods; /* that an answer waits */
+  uint8_t delay_periods; /* periods that an output waits before it acts */
   uint8_t sampled_in_middle;
   uint8_t chopping;
   sixstep_real period_s;
@@ -87,13 +89,13 @@ typedef struct {
   sixstep_real pole_pairs;
   sixstep_real R_ohm, L_H;             /* of a phase */
   sixstep_real K_t_Nm_A;               /* N m per A of a driven pair, and V s/rad between two terminals */
-  sixstep_real magnet_Vs;              /* peak of a phase's flux linkage by the magnet, of a sine machine's */
-  sixstep_real J_kg_m2, B_Nm_s;        /* with the load's */
+  sixstep_real magnet_Vs;              /* peak flux linkage of the magnet with a phase, fundamental */
+  sixstep_real J_kg_m2, B_Nm_s;        /* of the shaft with the load */
   sixstep_real current_d1, current_d0; /* V per A */
-  sixstep_real speed_d1, speed_d0;     /* of the full torque per rad/s */
+  sixstep_real speed_d1, speed_d0;     /* fraction of the full torque per rad/s */
   sixstep_real full_torque_Nm, full_current_A;
   sixstep_real current_limit_A;
-  sixstep_real position_gain_rad_s_per_deg, speed_limit_rad_s; /* of the speed that a position loop asks for */
+  sixstep_real position_gain_rad_s_per_deg, speed_limit_rad_s; /* bound of a position loop's speed reference */
 } sixstep_given;
 
 typedef struct {
@@ -106,23 +108,24 @@ typedef struct {
 typedef struct {
   uint32_t interface; /* SIXSTEP_OWN_INTERFACE */
   uint32_t answers;   /* SIXSTEP_ANSWERS_PAIR or SIXSTEP_ANSWERS_LEGS */
-  const char* name;   /* in a few words, for tables */
-  const char* sentence; /* what it does otherwise than others: "it ..." */
+  const char* name;   /* short name for tables */
+  const char* sentence; /* how it differs from the others, a verb first: "counts in mA" */
   uint32_t config_bytes, state_bytes; /* up to 65536 each */
-  uint32_t parameters;                /* how many, up to 64 */
+  uint32_t parameters;                /* number of them, up to 64 */
   const sixstep_parameter* parameter;
-  /* Fills config, which is zero, from what is given and one value per parameter. Answers a null pointer, or what is wrong in half a
-   * sentence: "asks for more than the bus has". */
+  /* Fills config, which is zero before the call, from the given data and one value per parameter. Returns a null
+   * pointer, or the problem as half a sentence: "asks for more than the bus has". */
   const char* (*design)(const sixstep_given* given, const sixstep_real* values, void* config);
-  /* Fills state, which is zero. May be null. */
+  /* Fills state, which is zero before the call. May be null. */
   void (*start)(const void* config, void* state);
-  /* Once per control period; answer holds the last one. */
+  /* Called once per control period; answer holds the last output. */
   void (*step)(const void* config, void* state, const sixstep_measured* measured, sixstep_real setpoint, sixstep_answer* answer);
-  /* In the Hall interrupt, of one that answers a pair: the pair moves on. Null: it moves at the next step. */
+  /* Called in the Hall interrupt, for a controller that outputs a pair: sets the new pair. Null: the pair changes at the
+   * next step. */
   void (*hall)(const void* config, void* state, uint8_t code, sixstep_answer* answer);
 } sixstep_controller;
 
-/* The one symbol of the shared object. */
+/* The only symbol of the shared object. */
 const sixstep_controller* sixstep_own_controller(void);
 
 #ifdef __cplusplus

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// A controller of one's own as a C++ class: its static functions behind the pointers of own_controller.h. The class has
+// Makes a controller (own_controller.h) of a C++ class, whose static functions replace the pointers there. The
+// class has
 //
 //   struct Config; struct State;                              both trivially copyable, all zero before design and start
-//   static constexpr sixstep_parameter parameters[];          left out where it has none
+//   static constexpr sixstep_parameter parameters[];          optional
 //   static const char* design(const sixstep_given&, const sixstep_real* values, Config&);
-//   static void start(const Config&, State&);                 left out where State begins as State{}
+//   static void start(const Config&, State&);                 optional: without it State begins as State{}
 //   static void step(const Config&, State&, const sixstep_measured&, sixstep_real setpoint, sixstep_answer&);
-//   static void hall(const Config&, State&, std::uint8_t code, sixstep_answer&);   left out where the pair waits for the next step
+//   static void hall(const Config&, State&, std::uint8_t code, sixstep_answer&);   optional (own_controller.h)
 //
-// and the shared object's one symbol is made of it by
+// The shared object's symbol is defined by
 //
 //   SIXSTEP_OWN_CONTROLLER(Class, SIXSTEP_ANSWERS_PAIR, "name", "it ...")
 #pragma once
@@ -59,7 +60,7 @@ struct OwnFunctions {
   }
 };
 
-/// The class as the C interface has it.
+/// The class as a sixstep_controller.
 template <class Class>
 constexpr sixstep_controller own_controller(std::uint32_t answers, const char* name, const char* sentence) {
   using F = OwnFunctions<Class>;

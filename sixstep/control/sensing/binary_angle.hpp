@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Angles as whole numbers, 2^32 to a turn: sums wrap exactly at the turn's end, differences taken as signed are
-// the shorter way, and every core has the same bits. One unit is 8.4e-8 degrees. Names tell electrical from
-// mechanical angles; a mechanical one times the pole pairs is the electrical one, and wraps rightly too.
+// Represents angles as whole numbers, 2^32 to a turn: sums wrap exactly at the turn's end, a difference taken
+// as signed is the shorter way, and every core gives the same bits. One unit is 8.4e-8 degrees. Names
+// distinguish electrical from mechanical angles; a mechanical angle times the pole pairs is the electrical one,
+// which wraps correctly too.
 #pragma once
 #include <cstdint>
 
@@ -14,7 +15,7 @@ using BinaryAngle = std::uint32_t;
 
 inline constexpr BinaryAngle quarter_turn = 0x40000000u, half_turn = 0x80000000u;
 
-/// The shorter way, -2^31 to 2^31 - 1; of half a turn the way back.
+/// The shorter way, -2^31 to 2^31 - 1; half a turn is negative.
 constexpr std::int32_t way_between(BinaryAngle from, BinaryAngle to) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(to - from));
 }
@@ -25,8 +26,8 @@ constexpr BinaryAngle electrical_angle(BinaryAngle mechanical, std::uint8_t pole
   return static_cast<BinaryAngle>(mechanical * pole_pairs + offset);
 }
 
-/// For constants and for the host, |degrees| below 2^22: to nearest where double has 64 bits; where it has 32
-/// (AVR) to 2^-24 of itself.
+/// For constants and the host, |degrees| below 2^22. Rounded to nearest where double has 64 bits; where it has
+/// 32 (AVR) exact to 2^-24 of itself.
 constexpr BinaryAngle binary_degrees(double degrees) {
   const double turns = degrees / 360.0;
   const auto whole = static_cast<std::int32_t>(turns);
@@ -36,13 +37,14 @@ constexpr BinaryAngle binary_degrees(double degrees) {
       static_cast<std::uint64_t>(detail::nearest<std::int64_t>(rest * 4294967296.0)));
 }
 
-/// Where electrical sector n = 0..5 begins: the first whole angle at or behind 60 n degrees (model.md 3).
+/// Begin of electrical sector n = 0..5: the first whole angle at or after 60 n degrees (model.md 3).
 constexpr BinaryAngle sector_angle(std::uint8_t n) {
   constexpr BinaryAngle begins[6] = {0u, 715827883u, 1431655766u, 2147483648u, 2863311531u, 3579139414u};
   return begins[n % 6];
 }
 
-/// The sector [60 n, 60 n + 60) degrees that an electrical angle lies in. By comparing: nothing is rounded.
+/// The sector [60 n, 60 n + 60) degrees that contains an electrical angle. It only compares, so that nothing is
+/// rounded.
 constexpr std::uint8_t sector_of_angle(BinaryAngle electrical) {
   const bool upper = electrical >= half_turn;
   const BinaryAngle rest = upper ? electrical - half_turn : electrical;
@@ -50,20 +52,20 @@ constexpr std::uint8_t sector_of_angle(BinaryAngle electrical) {
   return upper ? static_cast<std::uint8_t>(third + 3) : third;
 }
 
-/// What a converter of so many bits, 1..32, says: rounded down.
+/// An angle as a converter of 1..32 bits measures it: rounded down.
 constexpr BinaryAngle quantised(BinaryAngle angle, std::uint8_t bits) {
   const std::uint8_t drop = bits >= 32 || bits == 0 ? std::uint8_t{0} : static_cast<std::uint8_t>(32 - bits);
   return (angle >> drop) << drop;
 }
 
-/// Full turns and the angle in the last one, which together pass the turn's end.
+/// Full turns and the angle in the last one. Together they continue beyond the turn's end.
 struct UnwrappedAngle {
   BinaryAngle angle = 0;
   std::int32_t turns = 0;
   bool operator==(const UnwrappedAngle&) const = default;
 };
 
-/// Goes on to an angle by the shorter way.
+/// Moves to an angle by the shorter way.
 constexpr void unwrap(UnwrappedAngle& state, BinaryAngle angle) {
   const std::int32_t way = way_between(state.angle, angle);
   if (way >= 0 && angle < state.angle) ++state.turns;
@@ -73,7 +75,7 @@ constexpr void unwrap(UnwrappedAngle& state, BinaryAngle angle) {
 
 namespace detail {
 
-/// How many bits a number has. By halves: a loop bit by bit becomes a library call where the processor does not
+/// Number of bits of x. By halves, because a loop bit by bit becomes a library call on processors that do not
 /// count zeros.
 constexpr std::uint8_t bit_width(std::uint32_t x) {
   std::uint8_t bits = 0;
@@ -94,7 +96,7 @@ struct TurnParts {
   bool operator==(const TurnParts&) const = default;
 };
 
-/// One division of 64 bits: once per Hall edge, or while compiling. Of fewer than two parts none is left.
+/// Costs one division of 64 bits: call it once per Hall edge, or at compile time. Fewer than two parts give 0.
 constexpr TurnParts turn_in_parts(std::uint32_t whole) {
   if (whole < 2) return {};
   const std::uint8_t bits = detail::bit_width(whole);
@@ -102,17 +104,17 @@ constexpr TurnParts turn_in_parts(std::uint32_t whole) {
   return {static_cast<std::uint32_t>((scaled + whole / 2) / whole), static_cast<std::uint8_t>(bits - 2)};
 }
 
-/// The angle of so many parts; what is more than a turn wraps.
+/// The angle of `part` parts; more than a turn wraps.
 constexpr BinaryAngle angle_of_parts(const TurnParts& turn, std::uint32_t part) {
   const std::uint64_t product = static_cast<std::uint64_t>(part) * turn.mantissa;
   if (turn.right == 0) return static_cast<BinaryAngle>(product);
   return static_cast<BinaryAngle>(((product >> (turn.right - 1)) + 1) >> 1);
 }
 
-/// What a decoder must know about its scalar, beside ScalarTraits. This is the one for floating point.
+/// Functions that a decoder requires of its scalar, beside ScalarTraits. This is the version for floating point.
 template <class Scalar>
 struct AngleTraits {
-  /// mantissa/2^right, the mantissa of 31 bits: the same constant where double has 32 bits.
+  /// mantissa/2^right, the mantissa of 31 bits: the same constant also where double has 32 bits.
   static constexpr Gain<Scalar> constant(std::int32_t mantissa, std::int8_t right) {
     return static_cast<Scalar>(static_cast<double>(mantissa) /
                                static_cast<double>(detail::two_to<std::int64_t>(right)));
@@ -125,11 +127,11 @@ struct AngleTraits {
   static constexpr Scalar scaled(std::int32_t x, Gain<Scalar> per_unit) {
     return static_cast<Scalar>(x) * per_unit;
   }
-  /// A signal times timer counts, n times.
+  /// n times a signal times timer counts.
   static constexpr TickRatio<Scalar> counted(TickRatio<Scalar> ratio, std::uint32_t n) {
     return ratio * static_cast<Scalar>(n);
   }
-  /// -1..1 as 31 bits behind the point, saturated, rounded towards 0.
+  /// -1..1 with 31 fraction bits, saturated, rounded towards 0.
   static constexpr std::int32_t bits_31(Scalar x) {
     if (x >= Scalar(1)) return detail::greatest<std::int32_t>;
     if (x <= Scalar(-1)) return -detail::greatest<std::int32_t>;
@@ -149,7 +151,7 @@ struct AngleTraits<Fixed<Storage, FractionBits>> {
   static constexpr Scalar half_turns(std::int32_t angle) {
     return Scalar::from_raw(detail::saturated<Storage>(detail::shifted_down(angle, 31 - FractionBits)));
   }
-  /// Of the number as many leading bits as a signal has: 2^-15 of itself in 16 bits, all in 32.
+  /// Uses as many leading bits of the number as a signal has: exact to 2^-15 of itself in 16 bits; all bits in 32.
   static constexpr Scalar scaled(std::int32_t x, Gain<Scalar> per_unit) {
     const std::uint32_t whole = detail::absolute(x);
     constexpr int kept = detail::Widths<Storage>::bits - 1;
@@ -163,7 +165,7 @@ struct AngleTraits<Fixed<Storage, FractionBits>> {
         down >= 0 ? detail::with_sign(detail::magnitude_down(p.size, down), p.negative)
                   : detail::magnitude_up<Wide>(p.size, p.negative, -down));
   }
-  /// Doubled as often as n has bits: a product would want a library's overflow check.
+  /// Doubles as often as n has bits, because a product would need a library's overflow check.
   static constexpr TickRatio<Scalar> counted(TickRatio<Scalar> ratio, std::uint32_t n) {
     TickRatio<Scalar> sum{};
     for (; n != 0; n >>= 1) {
@@ -178,13 +180,13 @@ struct AngleTraits<Fixed<Storage, FractionBits>> {
   }
 };
 
-/// A signed angle as a signal: `per_half_turn` of it to half a turn, 180 degrees over the base of positions.
+/// A signed angle as a signal. `per_half_turn`: signal of half a turn, 180 degrees over the base of positions.
 template <class Scalar>
 constexpr Scalar angle_signal(std::int32_t angle, Gain<Scalar> per_half_turn) {
   return ScalarTraits<Scalar>::product(AngleTraits<Scalar>::half_turns(angle), per_half_turn);
 }
 
-/// A small angle given as a number in rad, -1..1, as a signed angle: 2^32/(2 pi) units to 1.
+/// A small angle in rad, -1..1, as a signed binary angle: 2^32/(2 pi) units to 1 rad.
 template <class Scalar>
 constexpr std::int32_t angle_of_rad(Scalar rad) {
   constexpr std::int32_t by_pi = 1367130551;  // 2^32/pi

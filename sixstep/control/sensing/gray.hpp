@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Absolute encoder in Gray code, of up to 20 tracks: code -> binary angle, turns, speed, and what an inert
-// rotor cannot do as a fault, with the track that is to blame where it can be told.
+// Absolute encoder in Gray code, of up to 20 tracks: decodes angle, turns and speed. A motion that an inert
+// rotor cannot make is a fault; the faulty track is named if it can be determined.
 //
 //   binary = g ^ g >> 1 ^ g >> 2 ^ ...,   angle = binary 2^(32-n),   w = (angle - angle k ticks ago)/(k T)
 //
-// A wrong track k turns all bits from k down: the angle is mirrored within 2^(k+1) counts, and where the rotor
-// leaves these it seems to jump by about as much. So an angle is held against the one foretold by the last two;
-// when it is further off than acceleration and rounding can bring it, the track whose turning leads back to
-// what was foretold is the bad one. Mirrored motion shows where it moves more per tick than the tolerance, or
-// jumps: a slow rotor hides it until then, and the top track, whose mirror has no border, for ever.
+// A wrong track k inverts all bits from k down: the angle is mirrored within 2^(k+1) counts, and when the rotor
+// leaves these counts the angle seems to jump by about as much. So each angle is compared with the one
+// predicted from the last two. If the difference is more than acceleration and rounding can make, the faulty
+// track is the one whose inversion gives the predicted angle. Mirrored motion is detected if it moves more per
+// tick than the tolerance, or at a jump: a slow rotor hides it until then, and the top track, whose mirror has
+// no border, hides it for ever.
 #pragma once
 #include <cstdint>
 
@@ -21,11 +22,11 @@ inline constexpr std::uint8_t no_track = 0xff;
 /// The default reads 0.
 template <class Scalar>
 struct GrayConfig {
-  std::uint8_t bits = 0;          ///< n, 1..20; bit 0 of a code is the finest track
-  BinaryAngle tolerance = 0;      ///< of an angle against the one foretold: 2 counts and what acceleration
-                                  ///< brings, below an eighth of a turn; 0: any
-  std::uint8_t patience = 0;      ///< so many bad codes in a row are bridged, then the code is believed
-  std::uint8_t span = 1;          ///< k, 1..8 ticks that a speed is taken over
+  std::uint8_t bits = 0;      ///< n, 1..20; bit 0 of a code is the finest track
+  BinaryAngle tolerance = 0;  ///< of an angle against the predicted one: 2 counts and what acceleration
+                              ///< adds, below an eighth of a turn; 0: not checked
+  std::uint8_t patience = 0;  ///< bad codes in a row that the prediction replaces; then the code is accepted
+  std::uint8_t span = 1;      ///< k, 1..8 ticks over which a speed is taken
   Gain<Scalar> speed_per_unit{};  ///< 2 pi/(2^32 k T) over the base, k = span; fixed: raw digits
   bool operator==(const GrayConfig&) const = default;
 };
@@ -33,20 +34,20 @@ struct GrayConfig {
 struct GrayState {
   BinaryAngle past[9]{};  ///< the last ticks' angles, the latest first
   UnwrappedAngle position{};
-  std::uint8_t known = 0;    ///< of `past`
-  std::uint8_t bad = 0;      ///< in a row
-  std::uint32_t faults = 0;  ///< bad codes altogether
+  std::uint8_t known = 0;    ///< valid entries of `past`
+  std::uint8_t bad = 0;      ///< bad codes in a row
+  std::uint32_t faults = 0;  ///< bad codes in total
 };
 
 template <class Scalar>
 struct GrayReading {
   UnwrappedAngle position{};
   Scalar speed{};                 ///< 0 until span + 1 codes were read
-  bool jump = false;              ///< this code was impossible: the position is the one foretold
-  std::uint8_t track = no_track;  ///< its bit, where exactly one explains the jump
+  bool jump = false;              ///< this code was impossible; up to the patience the position is predicted
+  std::uint8_t track = no_track;  ///< the faulty track, if exactly one explains the jump
 };
 
-/// Bits above the n-th are not looked at.
+/// Bits from `bits` up are ignored.
 constexpr std::uint32_t binary_of_gray(std::uint32_t gray, std::uint8_t bits) {
   std::uint32_t b = bits >= 32 ? gray : gray & ((std::uint32_t{1} << bits) - 1u);
   for (std::uint8_t by = 1; by < 32; by = static_cast<std::uint8_t>(2 * by)) b ^= b >> by;
@@ -66,11 +67,12 @@ constexpr bool within(BinaryAngle angle, BinaryAngle of, BinaryAngle tolerance) 
   return absolute(way_between(of, angle)) <= tolerance;
 }
 
-/// The only track that turned round explains the code; no_track where none does, or several do. Codes before
-/// this one may have been wrong within the tolerance, and so bent what they estimate: within four of it one
-/// track alone must explain the code. Of 12 tracks broken at 4 to 20 counts per tick, tolerance 3 counts, that
-/// names two of three from the fifth on, none of the finer ones, and in 8820 breaks no wrong one
-/// (tests/control/sensing/gray_test.cpp); within three of it 42 would be wrong.
+/// The only track whose inversion explains the code; no_track if there is none or more than one. Codes before
+/// this one may have been wrong within the tolerance, which changed the prediction: so the track must be the
+/// only one that explains the code within four times the tolerance. Of 12 tracks broken at 4 to 20 counts per
+/// tick, tolerance 3 counts, this finds two of three from the fifth on, none of the finer ones, and in 8820
+/// breaks no wrong one (tests/control/sensing/gray_test.cpp); within three times the tolerance 42 would be
+/// wrong.
 constexpr std::uint8_t wrong_track(std::uint32_t gray, std::uint8_t bits, BinaryAngle foretold,
                                    BinaryAngle tolerance) {
   std::uint8_t found = no_track;
@@ -84,7 +86,7 @@ constexpr std::uint8_t wrong_track(std::uint32_t gray, std::uint8_t bits, Binary
 
 }  // namespace detail
 
-/// Once per tick, at even distances.
+/// Call it once per tick, at equal intervals.
 template <class Scalar>
 constexpr GrayReading<Scalar> gray_step(const GrayConfig<Scalar>& config, GrayState& state,
                                         std::uint32_t code) {
@@ -100,11 +102,11 @@ constexpr GrayReading<Scalar> gray_step(const GrayConfig<Scalar>& config, GraySt
     if (state.bad <= config.patience)
       angle = foretold;
     else
-      state.known = 0;  // what was foretold led nowhere: begin again with this code
+      state.known = 0;  // the prediction failed: restart with this code
   } else {
     state.bad = 0;
   }
-  if (state.known == 0 && !reading.jump) state.position.angle = angle;  // the first code turns nothing
+  if (state.known == 0 && !reading.jump) state.position.angle = angle;  // the first code adds no turn
   for (int n = 8; n > 0; --n) state.past[n] = state.past[n - 1];
   state.past[0] = angle;
   if (state.known < 9) ++state.known;

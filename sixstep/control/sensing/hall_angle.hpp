@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Electrical angle between Hall edges, and speed by the true widths of the sectors.
+// Computes the electrical angle between Hall edges, and the speed from the true widths of the sectors.
 //
-//   at an edge n        theta = edge[n] +- h,   + forward: it is seen h, half the hysteresis, further on
-//   between             theta + way,   way = 2^32 since/turn_ticks, up to the next edge and a margin, and what
-//                       the rotor turns within the delay of what is seen, 2^32 delay/turn_ticks
+//   at an edge n        theta = edge[n] +- h, + forward: half the hysteresis, h, delays the edge
+//   between             theta + way,   way = 2^32 since/turn_ticks, up to the next edge and a margin, plus the
+//                       rotation within the delay of an edge, 2^32 delay/turn_ticks
 //   turn_ticks          ticks over the last k sectors x 2^32/(their width as calibrated)
-//   w                   +-(2 pi/p) timer_Hz/turn_ticks, no more than a rotor before its next edge can have
+//   w                   +-(2 pi/p) timer_Hz/turn_ticks, at most the speed of a rotor before its next edge
 //
-// Edges stand where hall_calibration.hpp found them, by default every 60 degrees (model.md 3): edge n is the
-// border between the sectors n-1 and n. With true widths one sector (k = 1) tells the speed; more even out
-// jitter, and are as much older. Where no speed is known, at the start, after a reversal or a time-out, the
-// angle is the sector's middle, at most 30 degrees wrong.
+// The edges are where hall_calibration.hpp found them, by default every 60 degrees (model.md 3): edge n is the
+// border between the sectors n-1 and n. With true widths one sector (k = 1) gives the speed; more sectors
+// average jitter, but their speed is older. While no speed is known, at the start, after a reversal or a
+// time-out, the angle is the sector's middle, at most 30 degrees wrong.
 #pragma once
 #include <cstdint>
 
@@ -20,7 +20,7 @@
 
 namespace sixstep::control {
 
-/// Electrical angles.
+/// Electrical angles of the edges, and half of their hysteresis.
 struct HallEdges {
   BinaryAngle at[6] = {sector_angle(0), sector_angle(1), sector_angle(2),
                        sector_angle(3), sector_angle(4), sector_angle(5)};
@@ -32,10 +32,10 @@ struct HallEdges {
 template <class Scalar>
 struct HallAngleConfig {
   HallEdges edges{};
-  BinaryAngle margin = 0;  ///< beyond the next edge, for edges that jitter or stand a little off
+  BinaryAngle margin = 0;                ///< beyond the next edge, for jitter and misplaced edges
   TickRatio<Scalar> turn_rad_s_ticks{};  ///< (2 pi/p) timer_Hz: speed times ticks of an electrical turn
   std::uint32_t timeout_ticks = 0;       ///< no edge for so long is standstill; below 2^31
-  std::uint32_t delay_ticks = 0;         ///< an edge is seen so much later: filter, glitches, interrupt
+  std::uint32_t delay_ticks = 0;         ///< delay of an edge: filter, glitch suppression, interrupt
   std::uint8_t span = 1;                 ///< k, 1..6 sectors
   bool operator==(const HallAngleConfig&) const = default;
 };
@@ -50,11 +50,11 @@ struct HallAngleState {
 
 template <class Scalar>
 struct HallAngle {
-  BinaryAngle angle = 0;  ///< electrical; without a sector 0
+  BinaryAngle angle = 0;  ///< electrical; 0 without a sector
   Scalar speed{};         ///< mechanical rad/s
 };
 
-/// From one edge in a direction on to one that lies `sectors` ahead, 1..5: the way, always positive.
+/// Distance from one edge to the one that lies `sectors`, 1..5, ahead in `direction`; always positive.
 constexpr BinaryAngle way_over_edges(const HallEdges& edges, std::uint8_t from, std::int8_t direction,
                                      std::uint8_t sectors) {
   const std::uint8_t to = static_cast<std::uint8_t>((from + (direction < 0 ? 6 - sectors : sectors)) % 6);
@@ -63,7 +63,7 @@ constexpr BinaryAngle way_over_edges(const HallEdges& edges, std::uint8_t from, 
 
 namespace detail {
 
-/// ticks 2^32/width, to nearest; what does not fit is the greatest.
+/// ticks 2^32/width, to nearest, saturated.
 constexpr std::uint32_t ticks_of_turn(std::uint32_t ticks, BinaryAngle width) {
   if (width == 0) return 0xffffffffu;
   const std::uint64_t turn = ((static_cast<std::uint64_t>(ticks) << 32) + width / 2) / width;
@@ -72,8 +72,8 @@ constexpr std::uint32_t ticks_of_turn(std::uint32_t ticks, BinaryAngle width) {
 
 }  // namespace detail
 
-/// What hall_step read: in the interrupt of an edge, with the time captured. Also without an edge, and of
-/// faults: then history ends.
+/// Takes the result of hall_step. Call it in the interrupt of an edge, with the captured time. A new code
+/// without an edge, or a fault, ends the history.
 template <class Scalar>
 constexpr void hall_angle_edge(const HallAngleConfig<Scalar>& config, HallAngleState& state,
                                std::uint8_t sector, std::int8_t moved, std::uint32_t time) {
@@ -96,7 +96,7 @@ constexpr void hall_angle_edge(const HallAngleConfig<Scalar>& config, HallAngleS
   state.turn = turn_in_parts(state.turn_ticks);
 }
 
-/// Angle and speed at counter reading `now`. Call it at least once per time-out: it ends the history.
+/// Angle and speed at counter reading `now`. Call it at least once per time-out, because it ends the history.
 template <class Scalar>
 constexpr HallAngle<Scalar> hall_angle(const HallAngleConfig<Scalar>& config, HallAngleState& state,
                                        std::uint32_t now) {

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// Learns where the six Hall edges stand, from their times while the rotor turns steadily.
+// Measures where the six Hall edges are, from their times while the rotor turns steadily.
 //
 //   part of the turn at edge j = sum over n turns of (t_j - t_0)/sum of the turns' times
 //   deviation[j] = its angle - 60 j degrees,   their mean taken as 0
 //
-// Times alone tell no angle that all edges are off by together: neither a common offset of the probes, nor the
-// hysteresis and delay that all have in common, since they turn all edges alike. That mean is an input, found by
-// the back-EMF or by aligning the rotor (hall_edges): one for each direction, of edges as seen:
+// Times alone cannot show an angle that is common to all edges: neither a common offset of the probes, nor
+// their common hysteresis and delay, because these shift all edges alike. That mean is an input, found from the
+// back-EMF or by aligning the rotor (hall_edges): one for each direction, of the measured edges:
 //
 //   forward = offset + h + w t_d,   backward = offset - (h + w t_d)
 //
-// With a run in each direction offset and h + w t_d part; what the edges' own hystereses differ by cancels in
-// the mean of both runs. h holds w t_d of the speed of that run: run slowly, or give hall_angle no delay.
+// A run in each direction separates offset and h + w t_d; differences between the hystereses of the edges
+// cancel in the mean of both runs. h contains w t_d at the speed of that run: run slowly, or give hall_angle no
+// delay.
 //
-// What it asks of the rotor: each turn takes as long as the first to 1/steady of it, or the run is refused. A
-// drift d of the turn's time over the run bends the angles by at most d/(8 n) turns (steady 64, n 32: 0.022
-// degrees). Ripple in step with the edges looks like misplacement: let the rotor coast, or run it fast enough.
-// With magnets that differ from pole to pole let n be a multiple of the pole pairs.
+// Requirement: each turn takes as long as the first to 1/steady of it, or the run is rejected. A drift d of the
+// turn's time over the run changes the angles by at most d/(8 n) turns (steady 64, n 32: 0.022 degrees). Ripple
+// in step with the edges looks like misplacement: let the rotor coast, or run it fast enough. If the magnets
+// differ from pole to pole, choose n as a multiple of the pole pairs.
 #pragma once
 #include <cstdint>
 
@@ -41,20 +42,20 @@ struct HallCalibrationState {
   std::uint64_t after[6]{};  ///< ticks from the first edge of a turn to the j-th after it, summed; [0]: turns
   std::uint32_t began = 0;   ///< time of this turn's first edge
   std::uint32_t first = 0;   ///< ticks of the first turn
-  std::uint16_t turns = 0;   ///< whole ones so far
-  std::uint8_t start = no_sector;  ///< the edge that turns begin with
+  std::uint16_t turns = 0;   ///< whole turns so far
+  std::uint8_t start = no_sector;  ///< the edge at which turns begin
   std::uint8_t passed = 0;         ///< edges of this turn
   std::int8_t direction = 0;
   HallCalibration result = HallCalibration::running;
 };
 
-/// Signed angles by which edges stand ahead of 60 n degrees; their mean is 0 to a unit.
+/// Signed angles by which the edges are ahead of 60 n degrees; their mean is 0 to a unit.
 struct HallDeviations {
   std::int32_t at[6]{};
 };
 
-/// An edge passed in `direction` (+1, -1) at counter reading `time`; its number is that of hall_angle.hpp.
-/// After `done` or a refusal nothing changes any more; begin again with a new state.
+/// Takes an edge in `direction` (+1, -1) at counter reading `time`; `edge` is the number of hall_angle.hpp.
+/// After `done` or a rejection nothing changes; begin again with a new state.
 constexpr HallCalibration hall_calibrate(const HallCalibrationConfig& config, HallCalibrationState& state,
                                          std::uint8_t edge, std::int8_t direction, std::uint32_t time) {
   if (state.result != HallCalibration::running || edge > 5) return state.result;
@@ -84,11 +85,11 @@ constexpr HallCalibration hall_calibrate(const HallCalibrationConfig& config, Ha
   return state.result;
 }
 
-/// Of a run that is done; of any other all 0.
+/// Deviations of a run that is done; all 0 otherwise.
 constexpr HallDeviations hall_deviations(const HallCalibrationState& state) {
   HallDeviations deviations{};
   if (state.result != HallCalibration::done || state.after[0] == 0) return deviations;
-  std::uint8_t down = 0;  // until a turn has 32 bits
+  std::uint8_t down = 0;  // until a turn fits in 32 bits
   while ((state.after[0] >> down) > 0xffffffffu) ++down;
   std::int64_t sum = 0;
   for (std::uint8_t j = 1; j < 6; ++j) {
@@ -103,8 +104,8 @@ constexpr HallDeviations hall_deviations(const HallCalibrationState& state) {
   return deviations;
 }
 
-/// One direction only: `offset` is the mean of what the six edges, at rest between both directions, are ahead
-/// of 60 n degrees; hysteresis is what the data sheet says.
+/// From one direction only. `offset`: mean angle by which the six edges, halfway between both directions, are
+/// ahead of 60 n degrees; the hysteresis is that of the data sheet.
 constexpr HallEdges hall_edges(const HallDeviations& deviations, std::int32_t offset,
                                BinaryAngle half_hysteresis) {
   HallEdges edges{};
@@ -115,7 +116,7 @@ constexpr HallEdges hall_edges(const HallDeviations& deviations, std::int32_t of
   return edges;
 }
 
-/// A run in each direction at one speed, and where each saw the edges in the mean.
+/// From a run in each direction at one speed; seen_forward, seen_backward: mean offset of the edges in each run.
 constexpr HallEdges hall_edges(const HallDeviations& forward, const HallDeviations& backward,
                                std::int32_t seen_forward, std::int32_t seen_backward) {
   HallDeviations mean{};

@@ -1,26 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// Speed of an incremental encoder by counts and time (the M/T method: T. Ohmae, T. Matsuda, K. Kamiyama,
-// M. Tachikawa, "A microprocessor-controlled high-accuracy wide-range speed regulator for motor drives", IEEE
-// Trans. Ind. Electron. IE-29, 1982).
+// Measures the speed of an incremental encoder by counts and time (the M/T method: T. Ohmae, T. Matsuda, K.
+// Kamiyama, M. Tachikawa, "A microprocessor-controlled high-accuracy wide-range speed regulator for motor
+// drives", IEEE Trans. Ind. Electron. IE-29, 1982).
 //
-//   w = M (2 pi/4N) timer_Hz/T             M counts between the last edges that two control ticks saw, T apart
+//   w = M (2 pi/4N) timer_Hz/T             M counts and the time T between the last edges before two control ticks
 //   |w| <= (2 pi/4N) timer_Hz/(ticks since the last edge less one)     the next edge has not come yet
 //
-// Both ends are edges, so M is exact, and T is known to a tick of the timer: w to 1/T of itself at every speed,
-// apart from what the lines' own places are off (they cancel where M is a multiple of 4). A speed is half of T
-// and the time since the last edge old. An edge passed back is at the same place as when it was passed before:
-// a reversal counts as what it is. The first edge and a time-out begin anew, with speed 0.
+// Both ends are edges, so M is exact, and T is exact to a tick of the timer: w is exact to 1/T of itself at
+// every speed, but for the placement errors of the lines (they cancel if M is a multiple of 4). The age of a
+// speed is half of T plus the time since the last edge. An edge passed backward is at the same place as when it
+// was passed forward: a reversal is measured correctly. The first edge and a time-out restart the measurement
+// with speed 0.
 //
-// Edges that the timer misses, a share e of them, M to a control tick: over its own windows the speed is lowered by exactly e,
-// since w T sums up to the counts. A loop weighs each reading by a tick instead, and there
+// If the timer misses a share e of the edges, with M edges per control tick: over its own windows the speed is
+// lowered by exactly e, since w T sums up to the counts. A loop weighs each reading by a tick instead; for the
+// loop the speed is lowered by
 //
-//   missed before another one     1 - 1/M in that tick, M - 1 times of M
-//   missed as a tick's last one   the bound, c/since with since from c to 2 c, 1 - ln 2 too low in the mean, and in the tick
-//                                 behind it M/(M + 1)
-//   together                      e (2 - ln 2 - 1/(M (M + 1))): 0.81 e at M = 1, 1.14 e at 2, 1.31 e at many
+//   missed before another edge    factor 1 - 1/M in that tick, in M - 1 of M cases
+//   missed as a tick's last edge  the bound, c/since with since from c to 2 c: 1 - ln 2 too low on average; in the
+//                                 tick behind it the factor M/(M + 1)
+//   in total                      e (2 - ln 2 - 1/(M (M + 1))): 0.81 e at M = 1, 1.14 e at 2, 1.31 e at many
 //
-// The bound takes it for a shaft that slows down, and no one can tell the two apart before the next edge comes: without it a
-// shaft that stops would keep its speed up to the time-out, and a bound that grants a missed edge is twice as late.
+// The bound treats a missed edge as a shaft that slows down; before the next edge the two cannot be
+// distinguished. Without the bound a stopping shaft would keep its speed up to the time-out, and a bound that
+// allows for a missed edge is twice as late.
 #pragma once
 #include <cstdint>
 
@@ -28,8 +31,8 @@
 
 namespace sixstep::control {
 
-/// The default measures no speed. In 16-bit formats T below 2^16 times the speed's part of its base: a longer
-/// one, of M > 1, saturates.
+/// The default measures no speed. In 16-bit formats T must be below 2^16 times the speed's fraction of its
+/// base: a longer T with M > 1 saturates.
 template <class Scalar>
 struct PulseSpeedConfig {
   TickRatio<Scalar> count_rad_s_ticks{};  ///< 2 pi/(4 N) timer_Hz: speed times ticks of one count
@@ -38,19 +41,20 @@ struct PulseSpeedConfig {
 };
 
 struct PulseSpeedState {
-  std::uint32_t count = 0;       ///< wraps; knows nothing of the index
-  std::uint32_t place = 0;       ///< of the last edge, in counts: a border between two of them
+  std::uint32_t count = 0;       ///< wraps; independent of the index
+  std::uint32_t place = 0;       ///< of the last edge, in counts: the border between two of them
   std::uint32_t time = 0;        ///< of the last edge
-  std::uint32_t from_place = 0;  ///< of the last one that a control tick saw
+  std::uint32_t from_place = 0;  ///< of the last edge that a control tick used
   std::uint32_t from_time = 0;
   std::int32_t moved = 0;   ///< M
   std::uint32_t ticks = 0;  ///< T; 0: no speed is known
   bool fresh = false;       ///< an edge since the last control tick
-  bool begun = false;       ///< `from` holds
+  bool begun = false;       ///< from_place and from_time are valid
 };
 
-/// Counts passed since the last call, the last of them in `direction` (+1, -1) at counter reading `time`: at
-/// each edge with moved = direction, or once per tick from a counter and its capture register.
+/// Adds the counts passed since the last call, the last of them in `direction` (+1, -1) at counter reading
+/// `time`. Call it at each edge with moved = direction, or once per tick from a counter and its capture
+/// register.
 constexpr void pulse_edge(PulseSpeedState& state, std::int32_t moved, std::int8_t direction,
                           std::uint32_t time) {
   state.count += static_cast<std::uint32_t>(moved);
@@ -76,7 +80,7 @@ constexpr void take_pulses(PulseSpeedState& state) {
 
 }  // namespace detail
 
-/// Speed at counter reading `now`, mechanical rad/s. Once per control tick.
+/// Speed at counter reading `now`, mechanical rad/s. Call it once per control tick.
 template <class Scalar>
 constexpr Scalar pulse_speed(const PulseSpeedConfig<Scalar>& config, PulseSpeedState& state,
                              std::uint32_t now) {

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Resolver: two windings, sampled at the peaks of their excitation, to the angle of the rotor.
+// Resolver: computes the rotor's angle from two windings, sampled at the peaks of their excitation.
 //
 //   V_c = k V sin(w_x t + d) cos phi,   V_s = (1 + a) k V sin(w_x t + d) sin(phi + q),   phi = p_r theta_m
 //
 //   demodulated   x = +-(this sample - the one half a period before)/2: an offset of the converter cancels.
-//                 It belongs to the middle between both, a quarter of a period ago
+//                 It is valid at the middle of both, a quarter of a period ago
 //   corrected     c = g_c x_c - o_c,   s = g_s x_s - o_s - tan q c,   g_s = g_c/((1 + a) cos q)
 //   detected      with an estimate theta:  along = c cos theta + s sin theta = A cos(phi - theta)
 //                                         across = s cos theta - c sin theta = A sin(phi - theta)
-//                 error = across/along = tan(phi - theta), whatever the amplitude, or across/1, A taken for 1
+//                 error = across/along = tan(phi - theta), whatever the amplitude; or across, with A taken as 1
 //   tracked       tracking.hpp
 //
-// Beyond 45 degrees (without normalising 90) the error is 1 in the direction of the shorter way: half a turn
-// off is no place to rest at.
+// Beyond 45 degrees (90 without normalising) the error is 1 in the direction of the shorter way, so that the
+// loop cannot rest half a turn off.
 #pragma once
 #include <cstdint>
 
@@ -21,23 +21,23 @@
 
 namespace sixstep::control {
 
-/// In fixed point let the amplitude be at most 0.7, so that its square with room for a fault fits.
+/// In fixed point choose an amplitude of at most 0.7, so that its square fits, with a margin for faults.
 template <class Scalar>
 struct ResolverConfig {
   Gain<Scalar> cos_per_count{};  ///< g_c/2, per count between two samples; fixed: raw digits
   Gain<Scalar> sin_per_count{};  ///< g_s/2
-  Scalar cos_offset{};           ///< o_c, what is left after demodulation
+  Scalar cos_offset{};           ///< o_c, the offset left after demodulation
   Scalar sin_offset{};           ///< o_s
   Gain<Scalar> skew{};           ///< tan q, of windings that are not at right angles
-  bool normalise = true;         ///< divide by the amplitude found; else it counts as 1
+  bool normalise = true;         ///< divide by the measured amplitude; else it counts as 1
   TrackingConfig loop{};
   Scalar least_square{};        ///< of c^2 + s^2; below it a winding or the excitation is broken
-  Scalar greatest_square{};     ///< above it one is shorted to its neighbour; 0: not looked at
-  std::uint8_t lost_after = 1;  ///< so many results outside in a row
+  Scalar greatest_square{};     ///< above it a winding is shorted to its neighbour; 0: not checked
+  std::uint8_t lost_after = 1;  ///< results outside of these bounds in a row
   bool operator==(const ResolverConfig&) const = default;
 };
 
-/// What the converter says of both windings at one peak.
+/// Converter counts of both windings at one peak.
 struct ResolverCounts {
   std::uint16_t cos = 0, sin = 0;
 };
@@ -51,18 +51,18 @@ struct ResolverState {
   ResolverCounts last{};
   TrackingState loop{};
   std::uint8_t outside = 0;
-  bool begun = false;  ///< one sample is there
+  bool begun = false;  ///< a sample was taken
 };
 
 template <class Scalar>
 struct ResolverReading {
-  BinaryAngle angle = 0;   ///< of the resolver's own turn, p_r to the mechanical one, at the sample's middle
+  BinaryAngle angle = 0;   ///< of the resolver's turn, p_r to the mechanical one, at the sample's middle
   std::int32_t speed = 0;  ///< units of 2^-32 turn per call
   Scalar square{};         ///< c^2 + s^2
   bool lost = false;
 };
 
-/// Two neighbouring samples, of which the later one is that of the positive peak or not.
+/// Signals from two neighbouring samples. positive_peak: the later one is that of the positive peak.
 template <class Scalar>
 constexpr ResolverSignals<Scalar> resolver_signals(const ResolverConfig<Scalar>& config,
                                                    const ResolverCounts& before, const ResolverCounts& now,
@@ -79,21 +79,21 @@ constexpr ResolverSignals<Scalar> resolver_signals(const ResolverConfig<Scalar>&
   return {c, s - T::product(c, config.skew)};
 }
 
-/// The phase detector: about phi - theta, as a signed angle.
+/// The phase detector: approximately phi - theta, as a signed angle.
 template <class Scalar>
 constexpr std::int32_t resolver_error(const ResolverSignals<Scalar>& x, BinaryAngle theta, bool normalise) {
   const Direction<Scalar> d = direction_of<Scalar>(theta);
   const Scalar along = x.c * d.cos + x.s * d.sin;
   const Scalar across = x.s * d.cos - x.c * d.sin;
   const Scalar limit = normalise ? magnitude(across) : Scalar{};
-  // Strictly above, or 0/0 of a dead resolver would be a step of 1; that is no direction: stay.
+  // Strictly above: otherwise 0/0 of a dead resolver would be a step of 1. Without a direction the error is 0.
   if (along > limit) return angle_of_rad(normalise ? across / along : across);
   if (along == Scalar{} && across == Scalar{}) return 0;
   return angle_of_rad(across < Scalar{} ? -one<Scalar> : one<Scalar>);
 }
 
-/// Once per peak of the excitation, or once per period with `positive_peak` always true and the negative
-/// peak's counts given by resolver_hold. Without two samples yet it says 0.
+/// Call it once per peak of the excitation; or once per period with `positive_peak` always true, and give the
+/// negative peak's counts to resolver_hold. Before the second sample the reading is 0.
 template <class Scalar>
 constexpr ResolverReading<Scalar> resolver_step(const ResolverConfig<Scalar>& config, ResolverState& state,
                                                 const ResolverCounts& counts, bool positive_peak) {
@@ -112,13 +112,13 @@ constexpr ResolverReading<Scalar> resolver_step(const ResolverConfig<Scalar>& co
     state.outside = 0;
   }
   const std::int32_t error = resolver_error(x, state.loop.angle, config.normalise);
-  const BinaryAngle angle = state.loop.angle;  // foretold for this sample
+  const BinaryAngle angle = state.loop.angle;  // the prediction for this sample
   tracking_step(config.loop, state.loop, error);
   const std::uint8_t patience = config.lost_after == 0 ? std::uint8_t{1} : config.lost_after;
   return {angle, tracking_speed(state.loop), square, state.outside >= patience};
 }
 
-/// The other peak's counts, where the loop runs once per period.
+/// Stores the other peak's counts, if the loop runs once per period.
 constexpr void resolver_hold(ResolverState& state, const ResolverCounts& counts) {
   state.last = counts;
   state.begun = true;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cosine and sine of a binary angle: 65 entries over a quarter turn, and from the nearest one on
+// Computes cosine and sine of a binary angle, from a table of 65 entries over a quarter turn and an expansion
+// about the nearest one:
 //
 //   sin(a + d) = sin a + d cos a - d^2/2 sin a,   cos(a + d) = cos a - d sin a - d^2/2 cos a,   |d| <= pi/256
 //
-// The next term is at most (pi/256)^3/6 = 3.1e-7; that is the error in double, with 1e-9 of the table. In
-// fixed point of 16 bits rounding adds two digits. The table is made of whole numbers while compiling: the same
+// The next term is at most (pi/256)^3/6 = 3.1e-7; that is the error in double, with 1e-9 of the table. In fixed
+// point of 16 bits rounding adds two digits. The table is computed in whole numbers at compile time: the same
 // bits on every core, 130 bytes in 16 bits.
 #pragma once
 #include <cstdint>
@@ -30,7 +31,7 @@ template <class Scalar>
 struct SineTable {
   Scalar entry[65]{};
   constexpr SineTable() {
-    // 2^31 itself is no signed number: the one below it still rounds to 1 in every format that has a 1.
+    // 2^31 is no signed number: the number below it still rounds to 1 in every format that has a 1.
     for (std::uint8_t n = 0; n < 65; ++n)
       entry[n] = AngleTraits<Scalar>::half_turns(shifted_up(sine_entry(n), 1));
   }

@@ -1,32 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same zero crossing by comparators: three lines, each terminal above its reference or not, whose edges the timer captures.
+// Finds the zero crossing by comparators: three lines show whether each terminal is above its reference, and
+// the timer captures their edges.
 //
-//   virtual star   u_f - (u_a + u_b + u_c)/3 = (2 u_f - u_s - u_k)/3     y of zero_crossing.hpp, in the pulse and beside it
+//   virtual star   u_f - (u_a + u_b + u_c)/3 = (2 u_f - u_s - u_k)/3     y of zero_crossing.hpp, at any time
 //   half the bus   u_f - U/2 = (2 u_f - u_s - u_k)/2                     only while the pair is on, where u_s + u_k = U
 //
-// Samples show a crossing once a period, an edge says when it was, to a count of the timer. So each is asked what it knows: the
-// samples whether the leg's old current has run out and the driven legs obey (zero_crossing.hpp, and the names of losses with
-// it), the line on which side of its reference the leg stands, the edge when that came to be.
+// Samples show a crossing once per period; an edge gives its time to a count of the timer. So each source
+// supplies what it measures: the samples whether the leg's old current has ended and the driven legs follow the
+// command (zero_crossing.hpp, and thus the causes of a loss), the line on which side of its reference the leg
+// is, the edge since when.
 //
-// An edge counts that lies behind the first sample without the old current: those before it are the freewheel's. What that left in the
-// low-pass tau in front of each comparator keeps the line on the wrong side for a while; a crossing before it has come back
-// is the samples' own.
-// Against the virtual star it may be about as slow as a period of the PWM, and should be: in soft and complementary
-// chopping a diode holds a negative e_f at nothing beside the pulse, where the star is, too. The current that flows then pulls
-// the leg to the rail as the pulse begins, until it is gone: 3 L di/dt has no mean over a period, so that of y is right, and
-// comes up to a pause later. An edge is late by
+// An edge counts only after the first sample without the old current: earlier edges belong to the freewheel.
+// The rest of the freewheel in the low-pass tau in front of each comparator keeps the line on the wrong side
+// for a while; a crossing before the line has come back is taken from the samples.
+// Against the virtual star the low-pass may be about as slow as a PWM period, and should be: in soft and
+// complementary chopping a diode holds a negative e_f at zero outside of the pulse, where the star is at zero
+// too. The current that flows then pulls the leg to the rail as the pulse begins, until it has ended: 3 L di/dt
+// has no mean over a period, so that the mean of y is right, but it comes up to a pause later. An edge is late
+// by
 //
 //   hard chopping   t = tau                 soft, complementary   tau <= t <= tau + (1 - d) T
 //
-// of which the lead of commutation_clock.hpp takes tau off. Against half the bus these two pull the leg below its reference
-// beside each pulse: the filter has to be settled within half a pulse, only the line at the sample in its middle is believed,
-// and an edge within that pulse; one beside it is the pulse's own, and the crossing lay somewhere in the pause: its middle
-// is taken.
+// The lead of commutation_clock.hpp compensates tau of it. Against half the bus, soft and complementary
+// chopping pull the leg below its reference outside of each pulse: the filter must settle within half a pulse.
+// Only the line at the sample in the pulse's middle counts, and an edge within that pulse. An edge outside of
+// it is the pulse's own; then the crossing was somewhere in the pause, and the middle of the pause is taken.
 //
-// An offset moves a crossing by offset over slope, a hysteresis by half of itself over the slope, to later.
+// An offset shifts a crossing by offset over slope, a hysteresis delays it by half of itself over the slope.
 //
-// K. Iizuka et al., Microcomputer control for sensorless brushless motor, IEEE Trans. Industry Applications 21 (1985) 595: filtered
-// terminals against a star point of three resistors. All numbers are whole, as there.
+// K. Iizuka et al., Microcomputer control for sensorless brushless motor, IEEE Trans. Industry Applications 21
+// (1985) 595: filtered terminals against a star point of three resistors. All numbers are whole, as in
+// zero_crossing.hpp.
 #pragma once
 #include <cstdint>
 
@@ -34,24 +38,24 @@
 
 namespace sixstep::control {
 
-/// The default leaves the crossing to the samples.
+/// The default takes the crossing from the samples.
 struct CapturedCrossingConfig {
   bool follows = false;
-  std::uint32_t lag_ticks = 0;     ///< of the low-pass: an edge is so late, and a sample is not
-  std::uint32_t period_ticks = 0;  ///< against half the bus: of the PWM; 0: against the virtual star
-  std::uint32_t settle_ticks =
-      0;  ///< against half the bus: behind a pulse's edge, until its filter is settled
+  std::uint32_t lag_ticks = 0;     ///< of the low-pass: it delays an edge, and not a sample
+  std::uint32_t period_ticks = 0;  ///< PWM period if half the bus is the reference; 0: virtual star
+  /// If half the bus is the reference: time from a pulse's edge until its filter has settled.
+  std::uint32_t settle_ticks = 0;
   bool operator==(const CapturedCrossingConfig&) const = default;
 };
 
 struct CapturedLines {
   std::uint8_t lines = 0;   ///< of a, b, c as bits 2, 1, 0: 1 above the reference
-  std::uint32_t at[3]{};    ///< the last edge of each
-  std::uint32_t began = 0;  ///< the sector
-  bool came_back = false;  ///< in it the line of the leg that floats was seen where it is before its crossing
+  std::uint32_t at[3]{};    ///< time of the last edge of each line
+  std::uint32_t began = 0;  ///< begin of the sector
+  bool came_back = false;   ///< in this sector the floating leg's line was on its side before the crossing
 };
 
-/// The capture interrupt: the lines as they stand from `at` on.
+/// The capture interrupt. `lines`: the levels from `at` on.
 constexpr void capture_lines(CapturedLines& state, std::uint8_t lines, std::uint32_t at) {
   const unsigned changed = state.lines ^ static_cast<unsigned>(lines);
   for (std::uint8_t k = 0; k < 3; ++k)
@@ -61,7 +65,8 @@ constexpr void capture_lines(CapturedLines& state, std::uint8_t lines, std::uint
 
 namespace detail {
 
-/// When the edge says that it crossed. In the pause before the pulse around the sample, `on` ticks long, it was the pulse's own.
+/// Time of the crossing for an edge. An edge in the pause before the pulse around the sample, `on` ticks long,
+/// is the pulse's own: then the middle of the pause.
 constexpr std::uint32_t edge_at(const CapturedCrossingConfig& config, std::uint32_t edge, std::uint32_t now,
                                 std::uint32_t on) {
   if (on + 1 >= config.period_ticks) return edge;
@@ -97,8 +102,8 @@ constexpr CrossingReading look_at_line(const CapturedCrossingConfig& config,
 
 }  // namespace detail
 
-/// One sample, and the lines as they were captured up to it. `on` as for zero_crossing_step; `on_ticks`: how long the pair is on
-/// around the sample, asked for against half the bus alone.
+/// One sample, with the lines captured up to it. `on` as for zero_crossing_step; `on_ticks`: time for which the
+/// pair is on around the sample, used only against half the bus.
 constexpr CrossingReading captured_crossing_step(const CapturedCrossingConfig& config,
                                                  const ZeroCrossingConfig& crossing, ZeroCrossingState& state,
                                                  CapturedLines& captured, const TerminalSample& s, bool on,

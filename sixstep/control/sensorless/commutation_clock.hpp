@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// When to commutate next, from the times of the zero crossings (zero_crossing.hpp):
+// Computes the time of the next commutation from the times of the zero crossings (zero_crossing.hpp):
 //
-//   T = mean of the last k intervals between crossings, the last one alone where the two differ by more than a quarter
+//   T = mean of the last k intervals between crossings, or the last one alone if the two differ by more than a quarter
 //   t = crossing + T (1/2 - advance) - lead,     not before the crossing itself
 //
-// A crossing that nobody saw is put where it was due, and halfway between its neighbours once the next one is seen: what
-// is guessed changes T no more than what is measured.
+// A crossing that was not found is put at its expected time, and halfway between its neighbours once the next
+// one is found: a guess changes T no more than the measurements do.
 //
-// A crossing lies in the middle of its sector, the commutation 30 degrees behind it. The advance is an angle; the lead is
-// a time, which is an angle that grows with the speed: a phase's L/R, and what filters and converters are late. Times
-// are readings of a free-running 32-bit counter, finer than the control tick: the commutation is a compare match of it.
+// A crossing is in the middle of its sector, the commutation 30 degrees after it. The advance is an angle. The
+// lead is a time, that is an angle that grows with the speed: it compensates a phase's L/R, and the delay of
+// filters and converters. Times are readings of a free-running 32-bit counter, finer than the control tick: the
+// commutation is a compare match of it.
 #pragma once
 #include <cstdint>
 
@@ -25,18 +26,18 @@ struct CommutationClockConfig {
 };
 
 struct CommutationClockState {
-  HallSpeedState crossings{};  ///< their times, as those of edges
-  std::uint32_t next = 0;      ///< the commutation to come
-  bool scheduled = false;      ///< there is one
-  bool guessed = false;        ///< the last crossing was not seen
+  HallSpeedState crossings{};  ///< times of the crossings, stored as those of edges
+  std::uint32_t next = 0;      ///< time of the next commutation
+  bool scheduled = false;      ///< `next` is valid
+  bool guessed = false;        ///< the last crossing was not found
 };
 
-/// Whether counter reading `a` lies before `b`, by less than half the counter's range.
+/// True if counter reading `a` is before `b`, by less than half the counter's range.
 constexpr bool comes_before(std::uint32_t a, std::uint32_t b) {
   return a != b && static_cast<std::uint32_t>(b - a) < 0x80000000u;
 }
 
-/// A crossing that was seen.
+/// Takes a crossing that was found.
 constexpr void commutation_clock_crossing(CommutationClockState& state, std::uint32_t at,
                                           std::int8_t direction) {
   HallSpeedState& c = state.crossings;
@@ -45,7 +46,7 @@ constexpr void commutation_clock_crossing(CommutationClockState& state, std::uin
   hall_speed_edge(c, at, direction);
 }
 
-/// One that was not, in sectors of T ticks: no later than now.
+/// Puts a crossing that was not found one sector of T ticks after the last one, but no later than now.
 constexpr void commutation_clock_guess(CommutationClockState& state, std::uint32_t T, std::int8_t direction,
                                        std::uint32_t now) {
   const std::uint32_t due = state.crossings.times[0] + T;
@@ -53,7 +54,7 @@ constexpr void commutation_clock_guess(CommutationClockState& state, std::uint32
   state.guessed = true;
 }
 
-/// The last interval between two crossings in one direction; 0: there were none.
+/// The last interval between two crossings in one direction; 0: none yet.
 constexpr std::uint32_t last_interval(const CommutationClockState& state) {
   return state.crossings.known < 2
              ? 0
@@ -71,7 +72,7 @@ constexpr std::uint32_t sector_ticks(const CommutationClockConfig& config,
   return alike(last, mean) ? mean : last;
 }
 
-/// From a crossing to its commutation, of sectors of T ticks.
+/// Ticks from a crossing to its commutation, for sectors of T ticks.
 constexpr std::uint32_t delay_ticks(const CommutationClockConfig& config, std::uint32_t T) {
   const std::uint32_t ahead = (T >> 16) * config.advance + (((T & 0xffffu) * config.advance) >> 16);
   const std::uint32_t early = ahead + config.lead_ticks;

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// The magnet's flux linkage in the phase that floats, and the commutation by its level:
+// Computes the magnet's flux linkage with the floating phase, and commutates at its level:
 //
 //   psi = integral(w - R i) dt - L i          w: floating_voltage.hpp, without a star point
 //   discretised exactly:   psi[n+1] - psi[n] = T g,   g = w - (i[n+1] - a i[n])/b,   a = exp(-R T/L),   b = (1 - a)/R
 //
-// In the sector that its leg floats psi grows up to the zero crossing, and falls behind it. From the crossing to the
-// commutation 30 degrees later it falls by
+// In the sector in which its leg floats psi grows up to the zero crossing, and falls after it. From the
+// crossing to the commutation 30 degrees later it falls by
 //
 //   psi_c = K_e/p integral_0^(pi/6) (2 s_f - s_s - s_k)/3 dtheta      s: the shapes of the three back-EMFs
 //
-// at every speed and acceleration: nothing has to be extrapolated from the sectors before, and the one number of the motor
-// is K_e. An angle grows with the root of the fall, so that K_e wrong by 10 % is 1.5 degrees of commutation. psi is counted
-// from its own greatest value in each sector: what drifts, drifts for one sector. It is an integral, so that noise of the
-// terminals averages out; R and L enter only while the leg's old current runs out, before the fall is counted.
+// at every speed and acceleration: nothing is extrapolated from the sectors before, and the only number of the
+// motor is K_e. The angle grows with the root of the fall, so that a K_e wrong by 10 % shifts the commutation
+// by 1.5 degrees. psi is counted from its own maximum in each sector, so that a drift lasts one sector only. As
+// an integral it averages noise of the terminals; R and L matter only while the leg's old current decays,
+// before the fall is counted.
 //
 // The same law, with the threshold tuned at the bench, is known from Texas Instruments' InstaSPIN-BLDC.
 #pragma once
@@ -28,23 +29,23 @@ template <class Scalar>
 struct FluxLinkageConfig {
   Gain<Scalar> decay{};      ///< a
   Gain<Scalar> stiffness{};  ///< 1/b, V per A
-  Gain<Scalar> per_V{};      ///< T/(4 psi_c), of psi per V and period
-  Scalar level{};            ///< the fall that commutates
+  Gain<Scalar> per_V{};      ///< T/(4 psi_c): psi per V and period
+  Scalar level{};            ///< the fall at which to commutate
   bool operator==(const FluxLinkageConfig&) const = default;
 };
 
-/// In the sense in which g falls through zero.
+/// Signs are such that g falls through zero.
 template <class Scalar>
 struct FluxLinkageState {
-  Scalar i_A{};                      ///< the last sample
+  Scalar i_A{};                      ///< at the last sample
   Scalar g_V{};                      ///< mean back-EMF of the last period
-  Accumulator<Scalar> psi{}, top{};  ///< since the sector began
-  Scalar per_tick{};                 ///< that psi fell in the last period
-  Scalar steeper{};                  ///< than in the one before
+  Accumulator<Scalar> psi{}, top{};  ///< psi and its maximum since the sector began
+  Scalar per_tick{};                 ///< fall of psi in the last period
+  Scalar steeper{};                  ///< its increase over the period before
   std::uint16_t falling = 0;         ///< periods since psi was greatest
 };
 
-/// One period: its mean voltage, and the current at its end. The mean of g, V.
+/// One period with its mean voltage, and the current at its end. Returns the mean of g, V.
 template <class Scalar>
 constexpr Scalar flux_linkage_step(const FluxLinkageConfig<Scalar>& config, FluxLinkageState<Scalar>& state,
                                    Scalar w_V, Scalar i_A) {
@@ -64,7 +65,7 @@ constexpr Scalar flux_linkage_step(const FluxLinkageConfig<Scalar>& config, Flux
   return state.g_V;
 }
 
-/// The next leg floats: in the sense in which it falls its back-EMF begins where that of the last one ended, negative.
+/// The next leg floats. With signs such that it falls, its back-EMF begins at minus the last leg's final value.
 template <class Scalar>
 constexpr void flux_linkage_begin(FluxLinkageState<Scalar>& state) {
   const Scalar g_V = -state.g_V;
@@ -72,13 +73,14 @@ constexpr void flux_linkage_begin(FluxLinkageState<Scalar>& state) {
   state.g_V = g_V;
 }
 
-/// A period whose voltage is not known: behind the crossing the fall goes on along the straight line from there.
+/// A period of unknown voltage: after the crossing psi continues to fall, with a back-EMF on the straight line
+/// from there.
 template <class Scalar>
 constexpr Scalar flux_linkage_hold(FluxLinkageState<Scalar>& state, Scalar i_A) {
   using T = ScalarTraits<Scalar>;
   state.i_A = i_A;
   if (state.falling == 0) return state.g_V;
-  // The middle of the last period lay so many periods behind the crossing, less a half.
+  // The middle of the last period was `falling` - 1/2 periods after the crossing.
   state.steeper = state.per_tick * T::fraction(2, 2 * std::uint32_t{state.falling} - 1);
   state.per_tick = state.per_tick + state.steeper;
   state.psi = state.psi - T::accumulator(state.per_tick);
@@ -86,7 +88,7 @@ constexpr Scalar flux_linkage_hold(FluxLinkageState<Scalar>& state, Scalar i_A) 
   return state.g_V;
 }
 
-/// Whether the level is reached within the next period, and after which part of it.
+/// True if the level is reached within the next period; `part`: after which part of it.
 template <class Scalar>
 constexpr bool flux_level_comes(const FluxLinkageConfig<Scalar>& config,
                                 const FluxLinkageState<Scalar>& state, Scalar& part) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Luenberger observer of the back-EMF of the phase whose leg floats, from its voltage, which has no star point in it
+// Estimates by a Luenberger observer the back-EMF of the floating phase, from its voltage without a star point
 // (floating_voltage.hpp), and its current:
 //
 //   L di/dt = w - R i - e,   de/dt = 0                                              the model, (1) of model.md
@@ -7,10 +7,10 @@
 //   eps = i - i_p,   i^ = i_p + l eps,   e^ = e^ - h eps
 //   (1 - l) a = p1 p2,   h b = (1 - p1)(1 - p2)                                      its two poles in z
 //
-// w is the mean over the period that ends with the sample of i. With both poles at p a back-EMF that grows like a ramp is
-// seen 2 p/(1 - p) periods late, and half a period more, since a mean tells of a period's middle: a time, the same at
-// every speed, which the follower takes off (observer.hpp). A phase without current has w = e: there R and L only shape how
-// the old estimate dies, p times each period.
+// w is the mean over the period that ends with the sample of i. With both poles at p the estimate of a back-EMF
+// that grows as a ramp is 2 p/(1 - p) periods late, plus half a period, since a mean is valid for a period's
+// middle. This delay is a time, the same at every speed, and observer.hpp subtracts it. A phase without current
+// has w = e: then R and L only shape the decay of the old estimate, p times each period.
 //
 // D. G. Luenberger, Observing the state of a linear system, IEEE Trans. Military Electronics 8 (1964) 74.
 #pragma once
@@ -35,7 +35,7 @@ struct LuenbergerState {
   Accumulator<Scalar> e_V{};  ///< e^
 };
 
-/// One period: its mean voltage, and the current at its end. The estimate of e, V.
+/// One period with its mean voltage, and the current at its end. Returns the estimate of e, V.
 template <class Scalar>
 constexpr Scalar luenberger_step(const LuenbergerConfig<Scalar>& config, LuenbergerState<Scalar>& state,
                                  Scalar w_V, Scalar i_A) {
@@ -48,20 +48,20 @@ constexpr Scalar luenberger_step(const LuenbergerConfig<Scalar>& config, Luenber
   return T::signal(state.e_V);
 }
 
-/// The next leg floats: in the sense in which it falls its back-EMF begins where that of the last one ended, negative.
+/// The next leg floats. With signs such that it falls, its back-EMF begins at minus the last leg's final value.
 template <class Scalar>
 constexpr void luenberger_begin(LuenbergerState<Scalar>& state) {
   state.e_V = -state.e_V;
 }
 
-/// The leg has just come free, and shows its back-EMF.
+/// The leg's old current has just ended, and its terminal shows its back-EMF.
 template <class Scalar>
 constexpr void luenberger_set(LuenbergerState<Scalar>& state, Scalar e_V, Scalar i_A) {
   state.i_A = i_A;
   state.e_V = ScalarTraits<Scalar>::accumulator(e_V);
 }
 
-/// A period whose voltage is not known: the estimate stands.
+/// A period of unknown voltage: the estimate is kept.
 template <class Scalar>
 constexpr Scalar luenberger_hold(LuenbergerState<Scalar>& state, Scalar i_A) {
   state.i_A = i_A;

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whose back-EMF the drive follows: the terminal's own (zero_crossing.hpp), or an observer's, which averages the converters'
-// noise and knows how late it is. Once per control tick from terminals, currents and the command in effect: the floating
-// leg's estimate, as counts of y = 2 e_f - e_s - e_k like those that zero_crossing.hpp reads off the terminal, so that lock,
-// clock and thresholds are the same. While the leg's old current runs out the observer is blind; the first sample behind that
-// sets the estimate, and what has crossed meanwhile is told as passed, like the terminal's.
+// Selects the back-EMF that the drive follows: the terminal's own (zero_crossing.hpp), or an observer's, which
+// averages the converters' noise and has a known delay. Called once per control tick with terminals, currents
+// and the command in effect. It gives the floating leg's estimate as counts of y = 2 e_f - e_s - e_k, like
+// those that zero_crossing.hpp reads from the terminal, so that lock, clock and thresholds are the same. While
+// the leg's old current decays the observer has no input; the first sample after it sets the estimate, and a
+// crossing meanwhile is reported as passed, like the terminal's.
 //
 //   luenberger     crossing of the estimate, less its lag; commutation half a sector later by the clock
 //   sliding mode   the same
 //   flux           crossing of the mean back-EMF; commutation where the flux linkage has fallen by its level
 //
-// One observer rides with the leg that floats: its estimate goes over from leg to leg. Samples lie in the middle of a
-// centred pulse and answers take effect half a period later, so that the mean from sample to sample is that of the two.
-// A period in which the pair moved on or the diode let go has no known mean, and leaves the estimate as it is.
+// One observer serves all legs: its estimate is handed from one floating leg to the next. Samples are in the
+// middle of a centred pulse and commands take effect half a period later, so that the mean from sample to
+// sample is the mean of the two samples. A period in which the pair changed or the diode stopped conducting has
+// no known mean, and leaves the estimate unchanged.
 #pragma once
 #include <cstdint>
 
@@ -23,14 +25,14 @@
 
 namespace sixstep::control {
 
-/// Comparators' edges are the terminal's own crossings (captured_crossing.hpp): no observer either.
+/// comparators: their edges are the terminal's own crossings (captured_crossing.hpp), without an observer too.
 enum class Follow : std::uint8_t { crossings, luenberger, sliding_mode, flux, comparators };
 
 constexpr bool observes(Follow follow) {
   return follow != Follow::crossings && follow != Follow::comparators;
 }
 
-/// The default follows the terminal's crossings, and costs a branch.
+/// The default follows the terminal's crossings, and costs one branch.
 template <class Scalar>
 struct ObserverConfig {
   Follow follow = Follow::crossings;
@@ -39,7 +41,7 @@ struct ObserverConfig {
   SlidingModeConfig<Scalar> sliding_mode{};
   FluxLinkageConfig<Scalar> flux{};
   Gain<Scalar> counts_per_V{};  ///< 3 counts of the converter per V; fixed: raw units
-  std::uint32_t lag_ticks = 0;  ///< of the timer, that the estimate is late
+  std::uint32_t lag_ticks = 0;  ///< delay of the estimate, ticks of the timer
   bool operator==(const ObserverConfig&) const = default;
 };
 
@@ -49,27 +51,27 @@ struct ObserverState {
   LuenbergerState<Scalar> luenberger{};
   SlidingModeState<Scalar> sliding_mode{};
   FluxLinkageState<Scalar> flux{};
-  std::uint32_t at = 0;  ///< of the last sample
+  std::uint32_t at = 0;  ///< time of the last sample
   std::uint8_t sector = no_sector;
-  bool runs_out = false;  ///< the old current of this sector's leg
+  bool runs_out = false;  ///< the old current of this sector's leg still flows
   bool crossed = false;   ///< the estimate is below zero
 };
 
-/// What the drive is told of an estimate.
+/// Result of the observer for the drive.
 struct Observed {
-  bool follows = false;         ///< else the terminal's own crossing counts
+  bool follows = false;         ///< false: the terminal's own crossing counts
   bool blind = false;           ///< the old current still hides the back-EMF
   std::int32_t y = 0;           ///< counts, in the sense in which it falls
-  std::uint32_t lag_ticks = 0;  ///< y is what it was so long ago
-  bool by_level = false;        ///< flux linkage says when to commutate
-  bool due = false;             ///< within the next period
-  std::uint32_t due_ticks =
-      0;  ///< from now, at least 1: a compare match moves the pair at once, an answer later
+  std::uint32_t lag_ticks = 0;  ///< age of y
+  bool by_level = false;        ///< the flux linkage determines the commutation
+  bool due = false;             ///< the commutation is due within the next period
+  /// Ticks from now to the commutation, at least 1. A compare match changes the pair at once, a command later.
+  std::uint32_t due_ticks = 0;
 };
 
 namespace detail {
 
-/// The whole number nearest to zero; of fixed point its digits.
+/// Truncated to a whole number; of fixed point the raw number.
 template <class Scalar>
 constexpr std::int32_t as_counts(Scalar x) {
   if constexpr (requires { x.raw; })
@@ -78,7 +80,7 @@ constexpr std::int32_t as_counts(Scalar x) {
     return static_cast<std::int32_t>(x);
 }
 
-/// part whole, 0 <= part <= 1.
+/// part times whole, 0 <= part <= 1.
 template <class Scalar>
 constexpr std::uint32_t part_of_ticks(Scalar part, std::uint32_t whole) {
   if constexpr (requires { part.raw; }) {
@@ -103,7 +105,7 @@ constexpr void observer_begin(Follow follow, ObserverState<Scalar>& state, std::
   state.crossed = false;
 }
 
-/// The old current has run out.
+/// The old current has ended.
 template <class Scalar>
 constexpr void observer_set(const ObserverConfig<Scalar>& config, ObserverState<Scalar>& state, Scalar e_V,
                             Scalar i_A) {
@@ -113,7 +115,7 @@ constexpr void observer_set(const ObserverConfig<Scalar>& config, ObserverState<
   state.flux.g_V = e_V;
 }
 
-/// One period; its estimate, V.
+/// One period; returns its estimate, V.
 template <class Scalar>
 constexpr Scalar observed_voltage(const ObserverConfig<Scalar>& config, ObserverState<Scalar>& state,
                                   bool known, Scalar w_V, Scalar i_A) {
@@ -136,7 +138,7 @@ constexpr Scalar observed_voltage(const ObserverConfig<Scalar>& config, Observer
 
 }  // namespace detail
 
-/// One control tick in `sector`. `command`: in effect since the last tick, the pair as the last commutation left it.
+/// One control tick in `sector`. `command`: in effect since the last tick, with the pair of the last commutation.
 template <class Scalar>
 constexpr Observed observer_step(const ObserverConfig<Scalar>& config, ObserverState<Scalar>& state,
                                  const TerminalSample& s, const BridgeCommand<Scalar>& command,
@@ -147,7 +149,7 @@ constexpr Observed observer_step(const ObserverConfig<Scalar>& config, ObserverS
   const std::uint8_t leg = floating_leg(sector);
   FloatingVoltage<Scalar> now = floating_voltage(config.voltage, s, leg, falls, command, measured.bus_V);
   Scalar i = phase_current(measured, static_cast<Leg>(leg));
-  if (now.known && !now.held) i = Scalar{};  // what an amplifier shows of it then is noise
+  if (now.known && !now.held) i = Scalar{};  // the amplifier shows only noise then
   if (!falls) {
     now.w_V = -now.w_V;
     i = -i;
@@ -156,7 +158,7 @@ constexpr Observed observer_step(const ObserverConfig<Scalar>& config, ObserverS
   const bool blind = state.runs_out && now.held && !config.voltage.through_freewheel;
   const bool released = state.runs_out && !now.held && now.known && state.before.held && !moved;
   if (now.known && !now.held) state.runs_out = false;
-  // Behind the crossing what holds the leg at that rail is soft chopping's freewheel again, and tells no voltage.
+  // After the crossing soft chopping's freewheel holds the leg at that rail again, which shows no voltage.
   const bool known = !moved && !blind && now.known && state.before.known && now.held == state.before.held &&
                      !(now.held && state.crossed);
   const Scalar w = T::half_difference(state.before.w_V, -now.w_V);
@@ -179,7 +181,7 @@ constexpr Observed observer_step(const ObserverConfig<Scalar>& config, ObserverS
   return observed;
 }
 
-/// y of an observer in place of the terminal's.
+/// As zero_crossing_step, with the observer's y in place of the terminal's.
 constexpr CrossingReading observed_crossing_step(const ZeroCrossingConfig& config, ZeroCrossingState& state,
                                                  const TerminalSample& s, const Observed& observed, bool on) {
   if (state.sector > 5) return {};

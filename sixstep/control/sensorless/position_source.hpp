@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which source commutates: Hall probes, or the back-EMF. Both are followed all the time, so that one can take over from the
-// other in flight, where the two agree, and the back-EMF where a Hall line dies.
+// Selects the source of the commutation: Hall probes, or the back-EMF. Both are followed all the time, so that
+// the drive can change from one to the other in flight when the two agree, and to the back-EMF if a Hall line
+// fails.
 //
-//   Hall to back-EMF   `agreed` sectors in a row, each with a crossing seen between its two edges
+//   Hall to back-EMF   `agreed` sectors in a row, each with a crossing found between its two edges
 //   back-EMF to Hall   `agreed` edges in a row, each within a quarter of a sector of the commutation
-//   a line dies        (hall.hpp: a code that cannot be) at once; where no crossings were seen before, by catching the spin
+//   a line fails       (hall.hpp: an impossible code) at once; if no crossings were found before, by catching the spin
 #pragma once
 #include <cstdint>
 
@@ -19,8 +20,8 @@ enum class RotorSource : std::uint8_t { hall, back_emf };
 struct PositionSourceConfig {
   bool has_hall = false;
   RotorSource wanted = RotorSource::back_emf;
-  bool falls_back = true;   ///< to the back-EMF where a line dies; else the drive stops with a fault
-  std::uint8_t agreed = 6;  ///< sectors, or edges
+  bool falls_back = true;   ///< to the back-EMF if a line fails; else the drive stops with a fault
+  std::uint8_t agreed = 6;  ///< sectors, or edges, in a row before a change
   HallConfig hall{};
   bool operator==(const PositionSourceConfig&) const = default;
 };
@@ -28,16 +29,16 @@ struct PositionSourceConfig {
 struct PositionSourceState {
   RotorSource source = RotorSource::back_emf;
   HallState hall{};
-  HallSpeedState edges{};  ///< of the probes
+  HallSpeedState edges{};  ///< times of the probes' edges
   std::uint8_t agreed = 0;
-  std::uint8_t line = 0;  ///< 1..3: the one that died; 0: none, or it cannot be told
-  bool broken = false;    ///< for good: until the drive is started anew
+  std::uint8_t line = 0;  ///< 1..3: the line that failed; 0: none, or unknown
+  bool broken = false;    ///< permanently: until the drive is started anew
   bool started = false;
 };
 
 namespace detail {
 
-/// Whether a Hall edge into `sector` goes with the commutation by the back-EMF.
+/// True if a Hall edge into `sector` agrees with the commutation by the back-EMF.
 template <class Scalar>
 constexpr bool edge_agrees(const SensorlessConfig<Scalar>& config, const SensorlessState& sensorless,
                            std::uint8_t sector, std::uint32_t now) {
@@ -66,7 +67,7 @@ constexpr void line_died(const PositionSourceConfig& config,
 
 }  // namespace detail
 
-/// The Hall pins changed, at a captured time. True where the probes commutate and the code is good.
+/// The Hall pins changed, at a captured time. True if the probes commutate and the code is good.
 template <class Scalar>
 constexpr bool source_hall_edge(const PositionSourceConfig& config,
                                 const SensorlessConfig<Scalar>& sensorless_config, PositionSourceState& state,
@@ -95,7 +96,7 @@ constexpr bool source_hall_edge(const PositionSourceConfig& config,
   return true;
 }
 
-/// Once per control tick, before the steps: who begins, and the change from Hall to back-EMF.
+/// Once per control tick, before the steps: selects the first source, and changes from Hall to back-EMF.
 template <class Scalar>
 constexpr void source_step(const PositionSourceConfig& config,
                            const SensorlessConfig<Scalar>& sensorless_config, PositionSourceState& state,
@@ -113,7 +114,7 @@ constexpr void source_step(const PositionSourceConfig& config,
       sensorless_follow_edge(sensorless_config, sensorless, reading.sector, 0, now);
     return;
   }
-  // After a crossing, with its commutation ahead: nothing of this sector is still to be found.
+  // After a crossing, with its commutation scheduled, nothing of this sector is still to be found.
   if (state.source != RotorSource::hall || config.wanted != RotorSource::back_emf) return;
   if (state.agreed < config.agreed || !sensorless.clock.scheduled) return;
   if (sector_ticks(sensorless_config.clock, sensorless.clock) > sensorless_config.start.trusted_ticks) return;

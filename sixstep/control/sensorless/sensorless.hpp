@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// A position without a sensor: from terminal voltages to the code that Hall probes would give, speed and position. The
-// drive (drive.hpp) takes the code as if probes were there; its Hall interrupt becomes the timer's compare match.
+// Position without a sensor: computes from terminal voltages the code that Hall probes would give, speed and
+// position. drive.hpp uses the code as if probes were there; the timer's compare match replaces its Hall
+// interrupt.
 //
 //   off -> catching -> aligning -> ramping -> running        wanted: a direction
 //           |  ^-------------------------------- lost         (lock.hpp), so many times in a row; then gave_up
 //           '-> running                                        the rotor spins already (spin.hpp)
 //
-// `following`: another source commutates, this one only watches, so that it can take over in flight.
+// `following`: another source commutates; crossings are only followed, so that the back-EMF can take over in
+// flight.
 //
-// Call sensorless_step once per control tick with the samples of that tick, and sensorless_commutate where the timer
-// reaches state.clock.next while state.clock.scheduled. What is late already when it is found is done in the step. Where
-// comparators stand at the terminals, sensorless_capture takes each of their edges.
+// Call sensorless_step once per control tick with the samples of that tick, and sensorless_commutate when the
+// timer reaches state.clock.next while state.clock.scheduled. A commutation that is already late when it is
+// found is done in the step. With comparators at the terminals, call sensorless_capture at each of their edges.
 #pragma once
 #include <cstdint>
 
@@ -18,15 +20,15 @@
 
 namespace sixstep::control {
 
-/// What the drive is to do with it.
+/// Action of the drive in the present phase.
 template <class Scalar>
 struct SensorlessAnswer {
-  bool drives = false;    ///< else the bridge is off
-  bool by_start = false;  ///< the loops within are held to start_A, whatever is wanted
+  bool drives = false;    ///< false: the bridge is off
+  bool by_start = false;  ///< the current loop holds start_A, whatever mode and setpoint are
   Scalar start_A{};       ///< signed
 };
 
-/// The timer's interrupt: the next sector begins.
+/// The timer's interrupt: begins the next sector.
 template <class Scalar>
 constexpr void sensorless_commutate(const SensorlessConfig<Scalar>& config, SensorlessState& state,
                                     std::uint32_t now) {
@@ -34,7 +36,7 @@ constexpr void sensorless_commutate(const SensorlessConfig<Scalar>& config, Sens
   if (state.phase == SensorlessPhase::ramping) ramp_commutated(state.start);
 }
 
-/// The capture interrupt of comparators at the terminals: their three lines as they stand from `at` on.
+/// The capture interrupt of comparators at the terminals. `lines`: their three levels from `at` on.
 constexpr void sensorless_capture(SensorlessState& state, std::uint8_t lines, std::uint32_t at) {
   capture_lines(state.captured, lines, at);
 }
@@ -73,7 +75,7 @@ constexpr void sensorless_step(const SensorlessConfig<Scalar>& config, Sensorles
   if (state.clock.scheduled && !comes_before(now, state.clock.next)) sensorless_commutate(config, state, now);
 }
 
-/// Another source commutates: its edge, into `sector`.
+/// An edge into `sector` of another source, which commutates.
 template <class Scalar>
 constexpr void sensorless_follow_edge(const SensorlessConfig<Scalar>& config, SensorlessState& state,
                                       std::uint8_t sector, std::int8_t moved, std::uint32_t now) {
@@ -84,7 +86,7 @@ constexpr void sensorless_follow_edge(const SensorlessConfig<Scalar>& config, Se
   state.position.sectors += moved;
 }
 
-/// And its control tick: crossings are watched, and scheduled as if it mattered.
+/// A control tick while another source commutates: crossings are found and commutations scheduled all the same.
 template <class Scalar>
 constexpr void sensorless_follow(const SensorlessConfig<Scalar>& config, SensorlessState& state,
                                  const SensorlessInput& input) {
@@ -93,7 +95,7 @@ constexpr void sensorless_follow(const SensorlessConfig<Scalar>& config, Sensorl
   if (reading.crossing == Crossing::seen) detail::take_crossing(config, state, reading.at);
 }
 
-/// What the drive is to do now.
+/// The present action of the drive.
 template <class Scalar>
 constexpr SensorlessAnswer<Scalar> sensorless_answer(const SensorlessConfig<Scalar>& config,
                                                      const SensorlessState& state, std::int8_t wanted) {
@@ -106,21 +108,21 @@ constexpr SensorlessAnswer<Scalar> sensorless_answer(const SensorlessConfig<Scal
     case SensorlessPhase::ramping:
       return {true, true, in_direction(start.current_A, state.direction)};
     case SensorlessPhase::running:
-      // Caught while it turned the other way: braked first.
+      // A rotor that was caught turning the other way is braked first.
       return {true, wanted == -state.direction, in_direction(start.current_A, wanted)};
     default:
       return {};
   }
 }
 
-/// Mechanical speed by the crossings; 0 where the rotor is not followed.
+/// Mechanical speed from the crossings; 0 while the rotor is not followed.
 template <class Scalar>
 constexpr Scalar sensorless_speed(const SensorlessConfig<Scalar>& config, SensorlessState& state,
                                   std::uint32_t now) {
   return hall_speed(config.speed, state.clock.crossings, now);
 }
 
-/// Mechanical position, counted in sectors from where the drive began.
+/// Mechanical position, counted in sectors from the start of the drive.
 template <class Scalar>
 constexpr Scalar sensorless_position(const SensorlessConfig<Scalar>& config, const SensorlessState& state,
                                      std::uint32_t now) {

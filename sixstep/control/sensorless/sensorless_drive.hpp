@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The drive of drive.hpp around a position without a sensor: what firmware calls. Three entries: sensorless_drive_step once
-// per control tick, sensorless_drive_commutate where the timer reaches next_commutation, and sensorless_drive_hall in the
-// Hall interrupt of a motor that has probes, too; sensorless_capture (sensorless.hpp) in that of comparators.
+// Runs the drive of drive.hpp without a rotor position sensor. Firmware calls sensorless_drive_step once per
+// control tick, sensorless_drive_commutate when the timer reaches next_commutation, and sensorless_drive_hall
+// in the Hall interrupt of a motor that has probes too; sensorless_capture (sensorless.hpp) in the interrupt of
+// comparators.
 //
-// While the start has the word the current loop is held to the start's current, whatever the mode. At the hand-over the
-// loops go on from there: a speed loop's output begins as what the ramp takes of that current, which holds more in reserve;
-// a current or a duty that was asked for is approached by so much a tick. The same limit of a throttle keeps a step of it from a current that would hide the
-// crossings.
+// During the start the current loop holds the start's current in every mode. At the hand-over the loops
+// continue from there: a speed loop's output begins at the part of that current that the ramp needs, because
+// the rest was reserve; a current or duty setpoint is approached by a limited change per tick. The same limit
+// keeps a step of a throttle from a current that would hide the crossings.
 #pragma once
 #include "sixstep/control/drive.hpp"
 #include "sixstep/control/retune.hpp"
@@ -19,11 +20,11 @@ struct SensorlessDriveConfig {
   DriveConfig<Scalar> drive{};
   SensorlessConfig<Scalar> sensorless{};
   PositionSourceConfig source{};
-  ObserverConfig<Scalar> observer{};  ///< whose back-EMF is followed
-  Scalar start_output{};              ///< the speed loop's, at the hand-over: of the ramp's torque
-  SlewConfig<Scalar> duty{};          ///< of a duty that is asked for, per tick; the default: at once
-  SlewConfig<Scalar> current{};       ///< of a current
-  Scalar least_duty{};  ///< while the rotor is followed: without an on-time there is nothing to be seen
+  ObserverConfig<Scalar> observer{};  ///< selects the back-EMF that is followed
+  Scalar start_output{};              ///< the speed loop's output at the hand-over, from the ramp's torque
+  SlewConfig<Scalar> duty{};          ///< change of a duty setpoint per tick; default: no limit
+  SlewConfig<Scalar> current{};       ///< change of a current setpoint
+  Scalar least_duty{};  ///< while the rotor is followed: without an on-time no crossing is visible
   bool operator==(const SensorlessDriveConfig&) const = default;
 };
 
@@ -34,22 +35,22 @@ struct SensorlessDriveState {
   PositionSourceState source{};
   ObserverState<Scalar> observer{};
   SlewState<Scalar> setpoint{};
-  bool by_start = true;  ///< the start had the word at the last tick
+  bool by_start = true;  ///< the start controlled the current at the last tick
 };
 
-/// What the chip finds in its registers at a tick; `measured` holds currents and bus, and with probes speed and position.
+/// Register values at a tick. `measured` holds currents and bus, and with probes speed and position.
 template <class Scalar>
 struct SensorlessDriveInput {
   Measurement<Scalar> measured{};
   TerminalSample terminals{};
   std::uint8_t hall_pins = 0;
   bool on = false;             ///< the pair's switches are on at the sample
-  std::uint32_t on_ticks = 0;  ///< of the timer, how long around it; for comparators against half the bus
+  std::uint32_t on_ticks = 0;  ///< timer ticks of that on-time; for comparators against half the bus
 };
 
 namespace detail {
 
-/// The way that is asked for.
+/// Direction of the setpoint: 1, -1, or 0.
 template <class Scalar>
 constexpr std::int8_t wanted_direction(const DriveConfig<Scalar>& config, Scalar setpoint, Scalar position) {
   if (config.mode == Mode::off) return 0;
@@ -58,7 +59,7 @@ constexpr std::int8_t wanted_direction(const DriveConfig<Scalar>& config, Scalar
   return way > zero ? std::int8_t{1} : way < zero ? std::int8_t{-1} : std::int8_t{0};
 }
 
-/// The loops begin where the start ends.
+/// Sets the loops to the values at the end of the start.
 template <class Scalar>
 constexpr void hand_over(const SensorlessDriveConfig<Scalar>& config, SensorlessDriveState<Scalar>& state,
                          const Measurement<Scalar>& measured, Scalar setpoint, bool forward, bool caught) {
@@ -77,13 +78,13 @@ constexpr void hand_over(const SensorlessDriveConfig<Scalar>& config, Sensorless
       speed_reference(drive, state.drive, drive.mode, setpoint, measured) - measured.speed_rad_s;
 }
 
-/// A pulse that a sample fits into.
+/// Lengthens a pulse so that a sample fits into it.
 template <class Scalar>
 constexpr void keep_visible(Scalar least_duty, BridgeCommand<Scalar>& command) {
   if (command.enabled && command.watch == Watch::none && command.duty < least_duty) command.duty = least_duty;
 }
 
-/// A duty or a current that is asked for, no faster than the crossings stand it.
+/// A duty or current setpoint, changed no faster than the crossings allow.
 template <class Scalar>
 constexpr Scalar approached(const SensorlessDriveConfig<Scalar>& config, SensorlessDriveState<Scalar>& state,
                             Scalar setpoint) {
@@ -96,7 +97,7 @@ constexpr Scalar approached(const SensorlessDriveConfig<Scalar>& config, Sensorl
 
 }  // namespace detail
 
-/// One control tick. The answer lies in state.drive.command, up to the next call.
+/// One control tick. Returns state.drive.command, valid until the next call.
 template <class Scalar>
 constexpr const BridgeCommand<Scalar>& sensorless_drive_step(const SensorlessDriveConfig<Scalar>& config,
                                                              SensorlessDriveState<Scalar>& state,
@@ -122,7 +123,7 @@ constexpr const BridgeCommand<Scalar>& sensorless_drive_step(const SensorlessDri
   sensorless_step(config.sensorless, rotor, {input.terminals, wanted, input.on, input.on_ticks, observed});
   const SensorlessAnswer<Scalar> answer = sensorless_answer(config.sensorless, rotor, wanted);
   measured.hall = hall_of_sector(rotor.sector);
-  // An estimate tells of an instant that has passed: a crossing behind that is not missing yet.
+  // An estimate is valid for an earlier instant: a crossing after that instant is not missing yet.
   const std::uint32_t told = now - observed.lag_ticks, last = rotor.clock.crossings.times[0];
   measured.speed_rad_s = sensorless_speed(config.sensorless, rotor, comes_before(told, last) ? last : told);
   measured.position_deg = sensorless_position(config.sensorless, rotor, now);
@@ -144,7 +145,7 @@ constexpr const BridgeCommand<Scalar>& sensorless_drive_step(const SensorlessDri
   return state.drive.command;
 }
 
-/// The timer has reached next_commutation: the pair moves on.
+/// The timer has reached next_commutation: changes the pair.
 template <class Scalar>
 constexpr const BridgeCommand<Scalar>& sensorless_drive_commutate(const SensorlessDriveConfig<Scalar>& config,
                                                                   SensorlessDriveState<Scalar>& state,
@@ -156,7 +157,7 @@ constexpr const BridgeCommand<Scalar>& sensorless_drive_commutate(const Sensorle
   return state.drive.command;
 }
 
-/// Whether a commutation is to come, and at which reading of the timer.
+/// True if a commutation is scheduled; `at`: its reading of the timer.
 template <class Scalar>
 constexpr bool next_commutation(const SensorlessDriveState<Scalar>& state, std::uint32_t& at) {
   const SensorlessPhase phase = state.sensorless.phase;
@@ -165,7 +166,7 @@ constexpr bool next_commutation(const SensorlessDriveState<Scalar>& state, std::
          (phase == SensorlessPhase::ramping || phase == SensorlessPhase::running);
 }
 
-/// The Hall interrupt: true where the pair moved on by it.
+/// The Hall interrupt: true if it changed the pair.
 template <class Scalar>
 constexpr bool sensorless_drive_hall(const SensorlessDriveConfig<Scalar>& config,
                                      SensorlessDriveState<Scalar>& state, std::uint8_t pins,
@@ -176,7 +177,7 @@ constexpr bool sensorless_drive_hall(const SensorlessDriveConfig<Scalar>& config
   return true;
 }
 
-/// Another configuration between two ticks (retune.hpp): the rotor is followed on.
+/// Another configuration between two ticks (retune.hpp); the rotor is followed without interruption.
 template <class Scalar>
 constexpr void retune(SensorlessDriveConfig<Scalar>& config, SensorlessDriveState<Scalar>& state,
                       const SensorlessDriveConfig<Scalar>& next) {

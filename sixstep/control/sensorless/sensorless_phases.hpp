@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each phase of a position without a sensor does in a control tick: part of sensorless.hpp, which says how they follow
-// each other.
+// Runs the control tick of each phase of sensorless.hpp, which shows their order.
 #pragma once
 #include <cstdint>
 
@@ -14,7 +13,7 @@ namespace sixstep::control {
 
 enum class SensorlessPhase : std::uint8_t { off, catching, aligning, ramping, running, following, gave_up };
 
-/// The default never starts. speed.timeout_ticks: beyond lock.longest_ticks.
+/// The default never starts. Choose speed.timeout_ticks above lock.longest_ticks.
 template <class Scalar>
 struct SensorlessConfig {
   ZeroCrossingConfig crossing{};
@@ -30,10 +29,10 @@ struct SensorlessConfig {
 
 struct SensorlessInput {
   TerminalSample terminals{};
-  std::int8_t wanted = 0;      ///< direction: 1, -1; 0 where the drive is to stand or run out
+  std::int8_t wanted = 0;      ///< direction: 1, -1; 0: stand or coast
   bool on = false;             ///< the driven pair's switches are on at the sample
-  std::uint32_t on_ticks = 0;  ///< how long around it; for comparators against half the bus
-  Observed observed{};         ///< what an observer makes of it
+  std::uint32_t on_ticks = 0;  ///< timer ticks of that on-time; for comparators against half the bus
+  Observed observed{};         ///< the observer's result
 };
 
 struct SensorlessState {
@@ -69,7 +68,7 @@ constexpr void begin_sector(const SensorlessConfig<Scalar>& config, SensorlessSt
   zero_crossing_begin(state.crossing, state.sector, since < half ? half - since : 0, now);
 }
 
-/// Behind the start: the terminal's own crossing, by its samples or by the comparators' edges.
+/// After the start: the terminal's own crossing, from its samples or from the comparators' edges.
 template <class Scalar>
 constexpr CrossingReading crossing_of(const SensorlessConfig<Scalar>& config, SensorlessState& state,
                                       const SensorlessInput& input) {
@@ -104,7 +103,8 @@ constexpr void lose(const SensorlessConfig<Scalar>& config, SensorlessState& sta
   if (ends) state.phase = SensorlessPhase::gave_up;
 }
 
-/// Where a crossing lay that nobody saw: where it was due if the old current hid it, else halfway back.
+/// Time of a crossing that was not found: its expected time if the old current hid it, else halfway back to the
+/// commutation.
 template <class Scalar>
 constexpr std::uint32_t passed_at(const SensorlessConfig<Scalar>& config, const SensorlessState& state,
                                   std::uint32_t now) {
@@ -114,7 +114,7 @@ constexpr std::uint32_t passed_at(const SensorlessConfig<Scalar>& config, const 
   return comes_before(due, began) ? began : comes_before(now, due) ? now : due;
 }
 
-/// Notes a crossing and when to commutate for it.
+/// Takes a crossing and schedules its commutation.
 template <class Scalar>
 constexpr void take_crossing(const SensorlessConfig<Scalar>& config, SensorlessState& state,
                              std::uint32_t at) {
@@ -190,7 +190,7 @@ constexpr void ramping_step(const SensorlessConfig<Scalar>& config, SensorlessSt
   if (reading.crossing == Crossing::seen) take_crossing(config, state, reading.at);
   const bool waits = state.crossing.armed && !state.crossing.done;
   if (ramp_step(config.start, state.start, reading, waits, state.clock.scheduled)) {
-    state.clock.crossings = HallSpeedState{};  // what was missed leaves no interval
+    state.clock.crossings = HallSpeedState{};  // a missed crossing leaves no interval
     begin_sector(config, state, state.direction, now);
     ramp_commutated(state.start);
     return;
@@ -218,7 +218,7 @@ constexpr void running_step(const SensorlessConfig<Scalar>& config, SensorlessSt
     if (loss != LockLoss::none) return lose(config, state, loss, now);
     if (reading.crossing == Crossing::seen) return take_crossing(config, state, at);
     commutation_clock_guess(state.clock, T, state.direction, now);
-    const std::uint32_t sooner = sector_ticks(config.clock, state.clock);  // it was due later than it came
+    const std::uint32_t sooner = sector_ticks(config.clock, state.clock);  // it came before it was due
     return schedule_commutation(state.clock, at + delay_ticks(config.clock, sooner < T ? sooner : T));
   }
   const std::uint32_t T = sector_ticks(config.clock, state.clock);
@@ -231,10 +231,11 @@ constexpr void running_step(const SensorlessConfig<Scalar>& config, SensorlessSt
                         state.crossing.unlike);
   if (loss == LockLoss::none) return;
   if (input.wanted == state.direction) return lose(config, state, loss, now);
-  catch_spin(state, now);  // it ran out or was braked, as it was told to
+  catch_spin(state, now);  // it coasted or was braked, as commanded
 }
 
-/// Behind a crossing that was seen the flux linkage has the word, where it is followed, and not the clock.
+/// After a crossing that was found, the flux linkage, if it is followed, determines the commutation instead of
+/// the clock.
 constexpr void commutate_by_level(SensorlessState& state, const SensorlessInput& input) {
   if (!input.observed.by_level || state.phase != SensorlessPhase::running) return;
   if (!state.crossing.done || state.clock.guessed) return;

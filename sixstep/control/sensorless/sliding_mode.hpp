@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sliding-mode observer of the back-EMF of the phase whose leg floats, from its voltage, which has no star point in it
-// (floating_voltage.hpp), and its current:
+// Estimates by a sliding-mode observer the back-EMF of the floating phase, from its voltage without a star
+// point (floating_voltage.hpp), and its current:
 //
-//   L di^/dt = w - R i^ - z,   z = k sat((i^ - i)/phi)          sat: the sign, but for a layer of width phi
+//   L di^/dt = w - R i^ - z,   z = k sat((i^ - i)/phi)          sat: the sign, but linear in a layer of width phi
 //   discretised exactly:   i^[n+1] = a i^[n] + b (w - z[n]),   a = exp(-R T/L),   b = (1 - a)/R
-//   e^[n+1] = e^[n] + c (z[n+1]/a - e^[n])                      the low-pass that takes the equivalent control out of z
+//   e^[n+1] = e^[n] + c (z[n+1]/a - e^[n])                      low-pass: the equivalent control contained in z
 //
-// While k is above every back-EMF the error i^ - i is driven into the layer; inside of it
-// error[n+1] = (a - b k/phi) error[n] + b e. A chip switches z once a period: with the sign alone the error would jump
-// to and fro over 2 b k. phi = k b/a is the narrowest layer without that: the error is at rest after one period, z = a e
-// of the period that has just ended. The low-pass is (1 - c)/c periods late, and the mean half of one: a time, that the
-// follower takes off (observer.hpp), which is the phase lag compensated at every speed.
+// While k is above every back-EMF the error i^ - i is driven into the layer; inside of it error[n+1] = (a - b
+// k/phi) error[n] + b e. A chip switches z once per period: with the sign alone the error would jump to and fro
+// over 2 b k. phi = k b/a is the narrowest layer without that: the error is constant after one period, and z =
+// a e of the period that has just ended. The low-pass is (1 - c)/c periods late, and the mean half a period.
+// observer.hpp subtracts this time, which compensates the phase lag at every speed.
 //
 // V. I. Utkin, Variable structure systems with sliding modes, IEEE Trans. Automatic Control 22 (1977) 212; the layer:
 // J.-J. Slotine, S. S. Sastry, Int. J. Control 38 (1983) 465.
@@ -40,7 +40,7 @@ struct SlidingModeState {
   Accumulator<Scalar> e_V{};  ///< e^
 };
 
-/// One period: its mean voltage, and the current at its end. The estimate of e, V.
+/// One period with its mean voltage, and the current at its end. Returns the estimate of e, V.
 template <class Scalar>
 constexpr Scalar sliding_mode_step(const SlidingModeConfig<Scalar>& config, SlidingModeState<Scalar>& state,
                                    Scalar w_V, Scalar i_A) {
@@ -55,7 +55,7 @@ constexpr Scalar sliding_mode_step(const SlidingModeConfig<Scalar>& config, Slid
   return T::signal(state.e_V);
 }
 
-/// The next leg floats: in the sense in which it falls its back-EMF begins where that of the last one ended, negative.
+/// The next leg floats. With signs such that it falls, its back-EMF begins at minus the last leg's final value.
 template <class Scalar>
 constexpr void sliding_mode_begin(SlidingModeState<Scalar>& state) {
   state.error_A = -state.error_A;
@@ -63,7 +63,8 @@ constexpr void sliding_mode_begin(SlidingModeState<Scalar>& state) {
   state.e_V = -state.e_V;
 }
 
-/// The leg has just come free, and shows its back-EMF: the equivalent control is a e, at an error of b e.
+/// The leg's old current has just ended, and its terminal shows its back-EMF: the equivalent control is a e, at
+/// an error of b e.
 template <class Scalar>
 constexpr void sliding_mode_set(const SlidingModeConfig<Scalar>& config, SlidingModeState<Scalar>& state,
                                 Scalar e_V, Scalar i_A) {
@@ -74,7 +75,7 @@ constexpr void sliding_mode_set(const SlidingModeConfig<Scalar>& config, Sliding
   state.e_V = T::accumulator(e_V);
 }
 
-/// A period whose voltage is not known: error and estimate stand.
+/// A period of unknown voltage: error and estimate are kept.
 template <class Scalar>
 constexpr Scalar sliding_mode_hold(SlidingModeState<Scalar>& state, Scalar i_A) {
   state.i_A = i_A;

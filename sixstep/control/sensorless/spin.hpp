@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the rotor does while the bridge is off: the signs of the three back-EMFs, terminals against their mean, make six
-// patterns, which follow each other as the codes of Hall probes do. Their changes are the zero crossings. Forward the
-// pattern of sector n begins in the middle of sector n; backward every back-EMF has its other sign, and the pattern that
-// goes back to m ends in the middle of sector m + 4.
+// Finds the motion of the rotor while the bridge is off. The signs of the three back-EMFs, terminals against
+// their mean, make six patterns, in the order of the codes of Hall probes. Their changes are the zero
+// crossings. Forward, the pattern of sector n begins in the middle of sector n. Backward every back-EMF has the
+// other sign, and the change back to pattern m is in the middle of sector m + 4.
 //
-//   3 e_k = 3 u_k - (u_a + u_b + u_c)      with no current: a star point of its own is not needed
+//   3 e_k = 3 u_k - (u_a + u_b + u_c)      without current: the star point need not be connected
 //
-// The order of the patterns gives the direction, their times the speed (commutation_clock.hpp): enough to take a spinning
-// rotor over without stopping it.
+// The order of the patterns gives the direction, their times the speed (commutation_clock.hpp): enough to take
+// a spinning rotor over without stopping it.
 #pragma once
 #include <cstdint>
 
@@ -17,28 +17,28 @@
 namespace sixstep::control {
 
 struct SpinConfig {
-  std::int32_t threshold = 0x7fffffff;  ///< counts of 3 e_k that are a voltage and no noise
-  std::uint8_t crossings = 4;           ///< in one direction, at like distances, that are a spinning rotor
-  std::uint32_t settle_ticks = 0;       ///< after the bridge went off: the currents' end
-  std::uint32_t listen_ticks =
-      0;  ///< without a crossing for so long the rotor stands; 0: do not listen at all
+  std::int32_t threshold = 0x7fffffff;  ///< counts of 3 e_k above which it is a voltage and not noise
+  std::uint8_t crossings = 4;           ///< in one direction at similar intervals that prove a spinning rotor
+  std::uint32_t settle_ticks = 0;       ///< from the bridge off until the currents have ended
+  /// Without a crossing for so long the rotor stands; 0: the spin is not measured.
+  std::uint32_t listen_ticks = 0;
   bool operator==(const SpinConfig&) const = default;
 };
 
 struct SpinState {
   std::int32_t e[3]{};      ///< of the last sample
-  std::uint32_t zero[3]{};  ///< when each changed its sign last
-  std::uint32_t at = 0;     ///< the last sample
-  std::uint32_t since = 0;  ///< nothing has happened
-  std::uint8_t signs = 0;   ///< positive ones as bits 2, 1, 0 of a, b, c; 000 not known yet
-  std::uint8_t found = 0;   ///< crossings at like distances
+  std::uint32_t zero[3]{};  ///< time of the last change of each sign
+  std::uint32_t at = 0;     ///< time of the last sample
+  std::uint32_t since = 0;  ///< time of the last crossing or the begin
+  std::uint8_t signs = 0;   ///< bits 2, 1, 0: positive back-EMF of a, b, c; 000: not known yet
+  std::uint8_t found = 0;   ///< crossings at similar intervals
   bool looked = false;
 };
 
 struct SpinReading {
   bool crossed = false;
   std::int8_t direction = 0;
-  std::uint8_t sector = no_sector;  ///< in whose middle the crossing lies
+  std::uint8_t sector = no_sector;  ///< the crossing is in its middle
   std::uint32_t at = 0;
 };
 
@@ -49,12 +49,13 @@ constexpr void spin_begin(SpinState& state, std::uint32_t now) {
 
 namespace detail {
 
-/// A sign counts once the voltage is beyond the threshold; its zero lay where the line to it crossed nothing.
+/// A sign counts once the voltage is beyond the threshold; its zero is that of the straight line between two
+/// samples.
 constexpr std::uint8_t spin_signs(const SpinConfig& config, SpinState& state, const TerminalSample& s) {
   std::uint8_t signs = state.signs;
   for (std::uint8_t k = 0; k < 3; ++k) {
     const std::int32_t e = above_neutral(s, k), before = state.e[k];
-    if (!state.looked) state.zero[k] = s.at;  // of one that had just passed: about now
+    if (!state.looked) state.zero[k] = s.at;  // a crossing before the first sample was about now
     if (state.looked && before < 0 && e >= 0) state.zero[k] = crossed_at(state.at, -before, s.at, -e);
     if (state.looked && before >= 0 && e < 0)
       state.zero[k] = before == 0 ? state.at : crossed_at(state.at, before, s.at, e);
@@ -70,7 +71,7 @@ constexpr std::uint8_t spin_signs(const SpinConfig& config, SpinState& state, co
 
 }  // namespace detail
 
-/// One sample with the bridge off and the currents gone. The crossings' times go to `clock`.
+/// One sample with the bridge off and no currents. Writes the crossings' times to `clock`.
 constexpr SpinReading spin_step(const SpinConfig& config, SpinState& state, CommutationClockState& clock,
                                 const TerminalSample& s) {
   const std::uint8_t before = sector_of_hall(state.signs);
@@ -96,7 +97,7 @@ constexpr SpinReading spin_step(const SpinConfig& config, SpinState& state, Comm
   return reading;
 }
 
-/// So many crossings that the rotor can be taken over.
+/// True if enough crossings were found to take the rotor over.
 constexpr bool spin_found(const SpinConfig& config, const SpinState& state) {
   return state.found >= config.crossings && state.found >= 2;
 }

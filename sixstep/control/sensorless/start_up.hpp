@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// From standstill to crossings that can be trusted: align, then a ramp.
+// Starts the motor from standstill until crossings can be trusted: alignment, then a ramp.
 //
-// Align. A pair pulls the rotor to where its torque ends, two sectors ahead of the pair's own: 60 (s + 2) degrees forward.
-// From the point opposite no torque leads away; a second pair, one sector on, has no dead point there. The rotor swings
-// about its place with sqrt(p K_t I/J), and without friction for ever: the pair's own back-EMF is nothing there. The
-// floating leg shows the swing's speed, though. While that grows the rotor falls towards its place, and the current is
-// low; while it shrinks the rotor climbs away against the full one. Each half swing so loses the ratio of the two
-// currents in energy.
+// Alignment. A pair pulls the rotor to the angle at which its torque is 0, two sectors ahead of the pair's own:
+// 60 (s + 2) degrees forward. At the opposite angle the torque is 0 too; a second pair, one sector on, has no
+// dead point there. The rotor swings about its place with sqrt(p K_t I/J), without friction for ever, because
+// the pair's own back-EMF is 0 there. But the floating leg shows the speed of the swing. While that speed grows
+// the rotor moves towards its place, and the current is low; while it falls the rotor moves away, against the
+// full current. So each half swing reduces the energy by the ratio of the two currents.
 //
-// Ramp. The pair two sectors on is the one that drives the rotor from there. The field turns by a law of its own,
+// Ramp. The pair two sectors on drives the rotor from there. The field turns by its own law,
 //
 //   w(t) = a t  (+ j t^2/2),    a commutation each 60 degrees
 //
-// and only where the back-EMF shows nothing: a crossing that is seen sets the next commutation half a sector behind it;
-// one that is still to come is waited for, up to a whole sector; one that had passed twice brings the commutation at once.
+// but only while the back-EMF shows nothing. A crossing that is found sets the next commutation half a sector
+// after it; one that is still expected is waited for, up to a whole sector; one that had passed before it could
+// be found, twice in a row or after two that were found, brings the commutation at once.
 #pragma once
 #include <cstdint>
 
@@ -22,38 +23,38 @@
 
 namespace sixstep::control {
 
-/// The default does not start. The ramp is counted in control ticks: 2^32 is one sector.
+/// The default does not start. The ramp is counted in control ticks; 2^32 is one sector.
 template <class Scalar>
 struct StartUpConfig {
-  Scalar current_A{};                ///< of ramp and alignment, of the pair
-  Scalar falling_A{};                ///< of the alignment while the swing's speed grows
-  std::uint32_t align_ticks = 0;     ///< of the timer, each of the two steps
-  std::uint8_t swing_shift = 4;      ///< 2^n control ticks is the time constant of the swing's mean
-  std::int32_t swing_threshold = 0;  ///< counts of y that are a swing
-  std::uint32_t first_speed = 0;     ///< 2^-32 sectors a control tick, as the ramp begins
-  std::uint32_t acceleration = 0;    ///< 2^-32 sectors a tick, each tick
-  std::uint32_t jerk = 0;  ///< 2^-48 sectors a tick, each tick and tick: the law t^2; adds up to 65535 of
-                           ///< the acceleration's units
-  std::uint32_t last_speed = 0;     ///< 2^-32 sectors a tick, where the ramp ends
-  std::uint32_t longest_ticks = 0;  ///< of the timer, the whole ramp
-  std::uint8_t trusted = 6;         ///< crossings in a row, at like distances, that are trusted
-  std::uint32_t trusted_ticks =
-      0;  ///< of the timer, the longest sector that may be handed over: 5 % of rated speed
+  Scalar current_A{};                ///< of the pair, in ramp and alignment
+  Scalar falling_A{};                ///< in the alignment, while the swing's speed grows
+  std::uint32_t align_ticks = 0;     ///< of each of the two steps, on the timer
+  std::uint8_t swing_shift = 4;      ///< 2^n control ticks: time constant of the swing's mean
+  std::int32_t swing_threshold = 0;  ///< counts of y above which it is a swing
+  std::uint32_t first_speed = 0;     ///< at the begin of the ramp, 2^-32 sectors per control tick
+  std::uint32_t acceleration = 0;    ///< 2^-32 sectors per tick, in each tick
+  std::uint32_t jerk = 0;            ///< 2^-48 sectors per tick, in each tick and tick: the law t^2; adds
+                                     ///< up to 65535 units of the acceleration
+  std::uint32_t last_speed = 0;      ///< at the end of the ramp, 2^-32 sectors per tick
+  std::uint32_t longest_ticks = 0;   ///< of the whole ramp, on the timer
+  std::uint8_t trusted = 6;          ///< crossings found in a row for the hand-over
+  /// Longest sector at the hand-over, ticks of the timer: 5 % of rated speed.
+  std::uint32_t trusted_ticks = 0;
   bool operator==(const StartUpConfig&) const = default;
 };
 
 struct StartUpState {
-  std::uint32_t since = 0;   ///< of step or ramp
+  std::uint32_t since = 0;   ///< begin of the step or the ramp
   std::uint8_t step = 0;     ///< of the alignment
-  std::int32_t swing = 0;    ///< mean of |y|, in 2^swing_shift
+  std::int32_t swing = 0;    ///< mean of |y|, times 2^swing_shift
   bool falls = false;        ///< the swing's speed grows
-  std::uint32_t angle = 0;   ///< of the field in its sector
+  std::uint32_t angle = 0;   ///< of the field in its sector, 2^-32 sectors
   std::uint32_t speed = 0;   ///< of the field
-  std::uint32_t faster = 0;  ///< its acceleration, less the configured one, in 1/65536
+  std::uint32_t faster = 0;  ///< acceleration added to the configured one, in 1/65536
   std::uint16_t ticks = 0;   ///< control ticks in this sector
-  std::uint8_t waited = 0;   ///< whole sectors that a crossing was waited for
-  std::uint8_t trusted = 0;  ///< crossings in a row
-  std::uint8_t passed = 0;   ///< sectors in a row whose crossing had passed
+  std::uint8_t waited = 0;   ///< whole sectors waited for a crossing
+  std::uint8_t trusted = 0;  ///< crossings found in a row
+  std::uint8_t passed = 0;   ///< sectors in a row whose crossing had passed before it could be found
 };
 
 constexpr void align_begin(StartUpState& state, std::uint32_t now) {
@@ -61,7 +62,7 @@ constexpr void align_begin(StartUpState& state, std::uint32_t now) {
   state.since = now;
 }
 
-/// The swing as the floating leg shows it. Call once per control tick.
+/// Measures the swing by the floating leg. Call it once per control tick.
 template <class Scalar>
 constexpr void align_swing(const StartUpConfig<Scalar>& config, StartUpState& state,
                            const CrossingReading& seen) {
@@ -72,7 +73,7 @@ constexpr void align_swing(const StartUpConfig<Scalar>& config, StartUpState& st
   state.swing += size - mean;
 }
 
-/// True as a step of the alignment ends; the second one ends the alignment.
+/// True at the end of a step of the alignment; the second step ends it.
 template <class Scalar>
 constexpr bool align_step_ends(const StartUpConfig<Scalar>& config, StartUpState& state, std::uint32_t now) {
   if (static_cast<std::uint32_t>(now - state.since) < config.align_ticks) return false;
@@ -98,7 +99,7 @@ constexpr void ramp_commutated(StartUpState& state) {
 
 namespace detail {
 
-/// The field's speed and angle, a tick on; true where it has turned by a sector.
+/// Advances speed and angle of the field by a tick; true if it has turned by a sector.
 template <class Scalar>
 constexpr bool ramp_turns(const StartUpConfig<Scalar>& config, StartUpState& state) {
   const std::uint32_t acceleration = config.acceleration + (state.faster >> 16);
@@ -114,8 +115,8 @@ constexpr bool ramp_turns(const StartUpConfig<Scalar>& config, StartUpState& sta
 
 }  // namespace detail
 
-/// One control tick of the ramp: true where the field goes on by itself, now. A crossing that was seen has its commutation
-/// scheduled, `scheduled`.
+/// One control tick of the ramp: true if the field must commutate by itself, now. `scheduled`: a crossing that
+/// was found has scheduled the commutation.
 template <class Scalar>
 constexpr bool ramp_step(const StartUpConfig<Scalar>& config, StartUpState& state,
                          const CrossingReading& reading, bool waits_for_crossing, bool scheduled) {
@@ -123,7 +124,7 @@ constexpr bool ramp_step(const StartUpConfig<Scalar>& config, StartUpState& stat
   if (reading.crossing == Crossing::seen) {
     state.passed = 0;
     if (state.trusted < 255) ++state.trusted;
-    // The field goes on at the speed that half a sector took.
+    // The field continues at the speed at which half a sector took so long.
     const std::uint32_t seen =
         0x80000000u / (state.ticks == 0 ? 1u : static_cast<std::uint32_t>(state.ticks));
     if (seen > state.speed) state.speed = seen < config.last_speed ? seen : config.last_speed;

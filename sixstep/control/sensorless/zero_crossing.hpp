@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// The back-EMF's zero crossing in the leg that floats, from the three terminal voltages.
+// Finds the back-EMF's zero crossing in the floating leg, from the three terminal voltages.
 //
 //   2 u_f - u_s - u_k = 2 e_f (trapezoid), 3 e_f (sine)      both other legs connected, no current in f (model.md 2)
 //
-// The star point drops out, and so does the bus: with switches, or with diodes at both rails, u_s + u_k is the bus, in a
-// freewheel through two lower switches or diodes it is about nothing. The crossing lies in the middle of a sector; it
-// falls in sectors 0, 2, 4 and rises in 1, 3, 5, whichever way the rotor turns. Here the sum is counted in the sense in
-// which it falls: y > 0 before the crossing, y < 0 after it.
+// The star point drops out, and so does the bus: with the legs at both rails, by switches or diodes, u_s + u_k
+// is the bus; in a freewheel through two lower switches or diodes it is about zero. The crossing is in the
+// middle of a sector; it falls in sectors 0, 2, 4 and rises in 1, 3, 5, in both directions of rotation. The sum
+// is counted such that it falls: y > 0 before the crossing, y < 0 after it.
 //
-// After a commutation the leg's old current runs out through a diode, and its terminal stands at a rail. Where the drive
-// motors it is the one that looks like "crossed already": until then the sum says nothing (blanking), and how long that
-// took is measured. Where it brakes it is the other one, which looks like "not yet": nothing needs to be blanked.
-// Soft chopping at a small duty also lets a negative e_f drive a current through the leg's lower diode, which the on-time
-// is too short to end; that rail has the sign of e_f, too. A crossing is taken between the last sample with y > 0 and the first with
-// y <= 0, by a straight line; halfway, where the former stood at the rail and tells no voltage.
+// After a commutation the leg's old current decays through a diode, and its terminal is at a rail. If the drive
+// motors, it is the rail that looks like "crossed already": until the current has ended the sum shows nothing
+// (blanking), and this time is measured. If it brakes, it is the other rail, which looks like "not yet":
+// nothing needs to be blanked. In soft chopping at a small duty a negative e_f also drives a current through
+// the leg's lower diode, and the on-time is too short to end it; that rail has the sign of e_f, too. The
+// crossing is on the straight line between the last sample with y > 0 and the first with y <= 0; halfway, if
+// the former was at the rail and shows no voltage.
 //
-// All numbers are whole: counts of the converter, which terminals and bus share, and of the timer. The same in every
-// arithmetic of the drive, so that there is no Scalar here.
+// All numbers are whole: counts of the converter, the same for terminals and bus, and counts of the timer. They
+// are the same in every arithmetic of the drive, so that there is no Scalar here.
 #pragma once
 #include <cstdint>
 
@@ -24,48 +25,49 @@
 
 namespace sixstep::control {
 
-/// In which part of the PWM period the samples are taken. Soft chopping shows the star point in both, in the freewheel only
-/// the back-EMF's positive half; hard chopping in the on-time, and in the freewheel as long as current flows.
+/// Part of the PWM period in which the samples are taken. Soft chopping shows the star point in both parts, but
+/// in the freewheel only the positive half of the back-EMF; hard chopping shows it in the on-time, and in the
+/// freewheel as long as current flows.
 enum class NeutralSeen : std::uint8_t { on_time, freewheel };
 
-/// Terminals and bus at one instant, through like dividers.
+/// Terminals and bus at one instant, through equal dividers.
 struct TerminalSample {
   std::uint16_t u[3]{};   ///< a, b, c, counts
   std::uint16_t bus = 0;  ///< counts
   std::uint32_t at = 0;   ///< the timer's reading
 };
 
-/// The default never sees a crossing.
+/// With the default no crossing is found.
 struct ZeroCrossingConfig {
   NeutralSeen seen = NeutralSeen::on_time;
-  std::uint16_t rail_counts = 0;        ///< a terminal so near to a rail hangs on a diode or a switch
-  std::int32_t threshold = 0x7fffffff;  ///< counts of y that are a voltage and no noise
-  std::int32_t below = 0x7fffffff;      ///< the same downwards; in a freewheel less: a diode holds u_f there
+  std::uint16_t rail_counts = 0;        ///< so near to a rail a terminal is held by a diode or a switch
+  std::int32_t threshold = 0x7fffffff;  ///< counts of y above which it is a voltage and not noise
+  std::int32_t below = 0x7fffffff;      ///< the same downwards; less in a freewheel, where a diode holds u_f
   std::uint32_t margin_ticks = 0;       ///< blanking after the freewheel's end
-  std::uint32_t settle_ticks = 0;       ///< from the commutation: filters still show what was before
+  std::uint32_t settle_ticks = 0;       ///< from the commutation, until filters have settled
   bool operator==(const ZeroCrossingConfig&) const = default;
 };
 
 struct ZeroCrossingState {
   std::uint8_t sector = no_sector;
-  bool freewheels = false;      ///< the leg's old current may still run
-  bool hidden = false;          ///< it was seen to, in this sector
+  bool freewheels = false;      ///< the leg's old current may still flow
+  bool hidden = false;          ///< it was found to flow in this sector
   bool armed = false;           ///< y was above the threshold in this sector
-  bool done = false;            ///< crossed
+  bool done = false;            ///< the crossing is past
   std::uint8_t unlike = 0;      ///< samples in a row that contradict the command
-  std::uint32_t began = 0;      ///< the commutation
-  std::uint32_t earliest = 0;   ///< ticks since then, before which nothing can have crossed
-  std::uint32_t blank = 0;      ///< ticks since then, up to which nothing is looked at
-  std::uint32_t freewheel = 0;  ///< ticks the last freewheel took, as far as samples show it
+  std::uint32_t began = 0;      ///< time of the commutation
+  std::uint32_t earliest = 0;   ///< ticks since then before which no crossing is possible
+  std::uint32_t blank = 0;      ///< ticks since then up to which samples are ignored
+  std::uint32_t freewheel = 0;  ///< ticks of the last freewheel, as far as samples show it
   bool held = false;            ///< at the last sample a diode held the terminal
-  std::uint32_t at = 0;         ///< of the last y
-  std::int32_t y = 0;           ///< the last one looked at
+  std::uint32_t at = 0;         ///< time of the last y
+  std::int32_t y = 0;           ///< the last one that was evaluated
 };
 
 enum class Crossing : std::uint8_t {
   none,
   seen,          ///< at a known time
-  passed_before  ///< before anybody could look: it lies between the commutation and `at`
+  passed_before  ///< before it could be found: between the commutation and `at`
 };
 
 struct CrossingReading {
@@ -73,10 +75,10 @@ struct CrossingReading {
   std::uint32_t at = 0;
   bool visible = false;  ///< the sample showed the star point
   bool free = false;     ///< and no diode held the terminal: y is the back-EMF
-  std::int32_t y = 0;    ///< where visible, blanked or not
+  std::int32_t y = 0;    ///< valid if visible, blanked or not
 };
 
-/// 0..2: the leg that floats in a sector.
+/// The leg, 0..2, that floats in a sector.
 constexpr std::uint8_t floating_leg(std::uint8_t sector) { return static_cast<std::uint8_t>(2 - sector % 3); }
 
 /// y of a leg against the two others.
@@ -86,7 +88,7 @@ constexpr std::int32_t above_neutral(const TerminalSample& s, std::uint8_t leg) 
          static_cast<std::int32_t>(s.u[2]);
 }
 
-/// A sector begins. `earliest_ticks`: from now, before which no rotor can have crossed.
+/// A sector begins. `earliest_ticks`: from now, before which no crossing is possible.
 constexpr void zero_crossing_begin(ZeroCrossingState& state, std::uint8_t sector,
                                    std::uint32_t earliest_ticks, std::uint32_t now) {
   state.sector = sector;
@@ -102,7 +104,7 @@ constexpr void zero_crossing_begin(ZeroCrossingState& state, std::uint8_t sector
 
 namespace detail {
 
-/// Whether the two driven legs stand where their neutral is the star point's.
+/// True if the two driven legs have voltages at which the sample shows the star point.
 constexpr bool neutral_visible(const ZeroCrossingConfig& config, const TerminalSample& s, std::uint8_t leg) {
   const std::int32_t first = s.u[(leg + 1) % 3], second = s.u[(leg + 2) % 3], bus = s.bus;
   const std::int32_t apart = first > second ? first - second : second - first;
@@ -118,14 +120,14 @@ constexpr bool at_rail(const ZeroCrossingConfig& config, const TerminalSample& s
   return low ? u <= rail : u + rail >= bus;
 }
 
-/// Of the straight line from (from, y > 0) to (to, y <= 0).
+/// Time of the zero on the straight line from (from, y > 0) to (to, y <= 0).
 constexpr std::uint32_t crossed_at(std::uint32_t from, std::int32_t y_from, std::uint32_t to,
                                    std::int32_t y_to) {
   std::uint32_t before = static_cast<std::uint32_t>(y_from);
   std::uint32_t sum = before + static_cast<std::uint32_t>(-y_to);
   const std::uint32_t ticks = to - from;
-  while (before >
-         (ticks == 0 ? 0xffffffffu : 0xffffffffu / ticks)) {  // one factor loses digits, the product none
+  while (before > (ticks == 0 ? 0xffffffffu
+                              : 0xffffffffu / ticks)) {  // one factor loses digits, so that the product fits
     before >>= 1;
     sum >>= 1;
   }
@@ -137,7 +139,7 @@ constexpr CrossingReading look(const ZeroCrossingConfig& config, ZeroCrossingSta
   CrossingReading reading{Crossing::none, now, true, !held, y};
   const bool falls = state.sector % 2 == 0;
   const bool early = static_cast<std::uint32_t>(now - state.began) < state.earliest;
-  // Downwards as the terminal goes: a freewheel shows less of it.
+  // `below` applies where the terminal's voltage is negative: a freewheel shows less of it.
   const std::int32_t before = falls ? config.threshold : config.below,
                      after = falls ? config.below : config.threshold;
   if (y > before) state.armed = true;
@@ -154,8 +156,8 @@ constexpr CrossingReading look(const ZeroCrossingConfig& config, ZeroCrossingSta
   return reading;
 }
 
-/// One sample; look(y, held) judges it where the star point shows, no old current hides the back-EMF and nothing has crossed in
-/// this sector yet.
+/// One sample. look(y, held) evaluates it if the star point is visible, no old current hides the back-EMF and
+/// nothing has crossed in this sector yet.
 template <class Look>
 constexpr CrossingReading looked_at(const ZeroCrossingConfig& config, ZeroCrossingState& state,
                                     const TerminalSample& s, bool on, Look&& look) {
@@ -189,7 +191,7 @@ constexpr CrossingReading looked_at(const ZeroCrossingConfig& config, ZeroCrossi
 
 }  // namespace detail
 
-/// One sample. `on`: the chip has the pair's switches on now, so that the driven legs must stand at the rails.
+/// One sample. `on`: the pair's switches are on now, so that the driven legs must be at the rails.
 constexpr CrossingReading zero_crossing_step(const ZeroCrossingConfig& config, ZeroCrossingState& state,
                                              const TerminalSample& s, bool on) {
   return detail::looked_at(config, state, s, on, [&](std::int32_t y, bool held) {

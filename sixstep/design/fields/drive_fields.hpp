@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every field of the drive's configuration (control/drive.hpp), once, in the order of an exported header.
-// Each list binds all members of its struct: a new member stops the compiler here.
+// Lists every field of the drive's configuration (control/drive.hpp) once, in the order of an exported header. Each
+// list binds all members of its struct, so that a new member is a compile error here.
 #pragma once
 #include "sixstep/control/drive.hpp"
 #include "sixstep/design/fields/field.hpp"
 
 namespace sixstep::design {
 
-/// Which loops a drive has in hand.
+/// Loops that a drive runs.
 template <class Scalar>
 constexpr bool runs_speed(const control::DriveConfig<Scalar>& d) {
   return d.mode == control::Mode::speed || d.mode == control::Mode::position;
@@ -18,11 +18,11 @@ constexpr bool runs_current(const control::DriveConfig<Scalar>& d) {
          (runs_speed(d) && d.speed_control == control::SpeedControl::cascade);
 }
 
-/// What a PI turns into what.
+/// Input and output of a PI.
 struct PiUse {
   Ratio ratio;
   const char* per = "";         ///< unit of its gains
-  const char* limit_unit = "";  ///< of its output
+  const char* limit_unit = "";  ///< unit of its output
 };
 
 template <class Walk, class Kept>
@@ -30,7 +30,7 @@ void fields(Walk&& w, const control::PiConfig<double>& d, Kept& kept, const PiUs
   const auto& [d1, d0, limit] = d;
   auto& [kept_d1, kept_second, kept_limit] = kept;
   w.gain({"d1", use.per}, d1, kept_d1, use.ratio);
-  if constexpr (requires { kept.K_i; })  // fixed point keeps the sum (pi.hpp)
+  if constexpr (requires { kept.K_i; })  // fixed point has the sum (pi.hpp)
     w.gain({"K_i", use.per, "d1 + d0, per sample"}, d1 + d0, kept_second, use.ratio);
   else
     w.gain({"d0", use.per}, d0, kept_second, use.ratio);
@@ -118,7 +118,7 @@ void fields(Walk&& w, const control::CommutationStepConfig<double>& d, Kept& kep
   w.signal({"flat_flanks"}, d.flat_flanks, flat_flanks, Base::one);
 }
 
-/// Of a speed.
+/// Its input is a speed.
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::PiPositionalConfig<double>& d, Kept& kept) {
   constexpr Ratio of_speed{Base::one, Base::speed};
@@ -130,7 +130,7 @@ void fields(Walk&& w, const control::PiPositionalConfig<double>& d, Kept& kept) 
   w.gain({"K_c", "per rad/s", "at the limit, per sample"}, d.K_c, K_c, of_speed);
 }
 
-/// Of a speed.
+/// Its input is a speed.
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::DerivativeConfig<double>& d, Kept& kept) {
   auto& [g, b] = kept;
@@ -160,7 +160,7 @@ void fields(Walk&& w, const control::SlidingSpeedConfig<double>& d, Kept& kept) 
   w.signal({"layer", "rad/s"}, d.layer, layer, Base::speed);
 }
 
-/// Fixed point has none of them: no scaling of theirs is proved.
+/// Fixed point has none of them, because their scaling is not proved.
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::SpeedLaws<double>& d, Kept& kept) {
   if constexpr (requires { kept.observed; }) {
@@ -170,7 +170,7 @@ void fields(Walk&& w, const control::SpeedLaws<double>& d, Kept& kept) {
   }
 }
 
-/// The scalars are the profile's own: a walk that knows bases takes no part in it.
+/// The scalars have units of the profile alone: a walk with bases leaves them out.
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::JerkProfileConfig<double>& d, Kept& kept) {
   auto& [counts_per_deg, deg_per_part, rad_s_per_part, rad_s2_per_part, stride_per_tick, acceleration, ticks,
@@ -196,7 +196,7 @@ void fields(Walk&& w, const control::MotionFeedForwardConfig<double>& d, Kept& k
   w.signal({"coulomb", "of full torque"}, d.coulomb, coulomb, Base::one);
 }
 
-/// Fixed point has none of it, as of SpeedLaws.
+/// Fixed point has none of it, as with SpeedLaws.
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::ProfiledPositionConfig<double>& d, Kept& kept) {
   if constexpr (requires { kept.profile; }) {
@@ -217,7 +217,7 @@ void fields(Walk&& w, const control::DriveExtras<double>& d, Kept& kept) {
   constexpr Field torque_fraction{"torque_fraction_per_A", "per A"};
   constexpr Ratio of_current{Base::one, Base::current};
   if (!w.when_on(d.on)) {
-    // What a field-oriented drive holds its speed loop to, without any extra.
+    // Limit of a field-oriented drive's speed loop, used even without extras.
     if (d.torque_fraction_per_A != 0)
       w.gain(torque_fraction, d.torque_fraction_per_A, torque_fraction_per_A, of_current);
     return;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every field of the magnet's estimator (control/field/magnet_estimator.hpp), once, for floating point alone: no scaling is proved
-// of it. Each list binds all members of its struct: a new member stops the compiler here. Angles and times are whole numbers.
+// Lists every field of the magnet's estimator (control/field/magnet_estimator.hpp) once, for floating point only,
+// because its scaling is not proved. Each list binds all members of its struct, so that a new member is a compile
+// error here. Angles and times are whole numbers.
 #pragma once
 #include "sixstep/control/field/sensorless_field_drive.hpp"
 #include "sixstep/design/fields/field_drive_fields.hpp"
@@ -75,7 +76,7 @@ void fields(Walk&& w, const control::EstimatorConfig<double>& c, Kept& kept) {
   w.signal({"high_rad_s", "rad/s"}, c.high_rad_s, high_rad_s, Base::speed);
 }
 
-/// All but the field-oriented drive, which has fields of its own.
+/// All except the field-oriented drive, which has its own list of fields.
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::SensorlessFieldConfig<double>& c, Kept& kept) {
   auto& [field, estimator] = kept;

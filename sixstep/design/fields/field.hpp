@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is told of each field of a controller's configuration (drive_fields.hpp, product_fields.hpp), and the
-// simplest walk over them. A walk has one member per kind of field:
+// Description of each field of a controller's configuration (drive_fields.hpp, product_fields.hpp), and the
+// simplest walk over them. A walk has one member function per kind of field:
 //
 //   flag, choice, count   a switch, an enumeration, a whole number
 //   signal                a Scalar, in units of its base
-//   threshold             the same, and what a signal is compared with: it must lie below full scale
-//   gain, raw_gain        output per input; raw_gain answers in the last bits of its output
-//   divisor, sum, ticks   what control/scalar.hpp has beside Scalar and Gain
-//   part                  a configuration within, whose fields() are walked; what else they need is handed on
+//   threshold             the same, but a signal is compared with it: it must be below full scale
+//   gain, raw_gain        output per input; the output of raw_gain is in the last bits of its number
+//   divisor, sum, ticks   the other types of control/scalar.hpp
+//   part                  a nested configuration, whose fields() are walked; further arguments are passed on
 //
-// and says where it goes: when_run(runs) of what only a loop that runs needs, when_on(on) of what stands
-// behind a flag of its own. Each takes the designed value (double, SI) and the kept one, in the chip's
-// number.
+// Two more functions return whether to go on: when_run(runs) before fields of a loop that may not run, when_on(on)
+// before fields that depend on a flag. Each function gets the designed value (double, SI) and the kept one, in the
+// chip's number.
 #pragma once
 #include <cstdint>
 #include <type_traits>
@@ -20,22 +20,22 @@
 
 namespace sixstep::design {
 
-/// What 1.0 stands for in fixed point: A, V, rad/s, degrees, what the mode sets, or 1.
+/// Base of a fixed-point number, the value of its 1.0: A, V, rad/s, degrees, the setpoint's unit, or 1.
 enum class Base : std::uint8_t { one, current, voltage, speed, position, setpoint };
 
-/// Of a gain: the bases of its output and its input.
+/// Bases of a gain's output and input.
 struct Ratio {
   Base out = Base::one, in = Base::one;
 };
 
 struct Field {
-  const char* name;        ///< the member's
-  const char* unit = "";   ///< in SI; what has the base `setpoint` has its unit from the mode
-  const char* about = "";  ///< beside the number in an exported header
-  bool always = false;     ///< shown where it is the default too
+  const char* name;        ///< name of the member
+  const char* unit = "";   ///< in SI; with the base `setpoint` the unit follows from the mode
+  const char* about = "";  ///< comment beside the number in an exported header
+  bool always = false;     ///< shown even if it has its default value
 };
 
-/// Every field as it is, in another floating-point number.
+/// Copies every field to another floating-point number.
 struct AsFloat {
   static constexpr bool when_run(bool) { return true; }
   static constexpr bool when_on(bool) { return true; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every field of the field-oriented drive's configuration (control/field/) around its drive, once. Each list binds all
-// members of its struct: a new member stops the compiler here. A gain on a product of speed and current has a base that
-// Ratio does not say: there is no fixed point of it yet, and a walk over this list is one of floating point.
+// Lists every field of the field-oriented drive's configuration (control/field/) around its drive once. Each list
+// binds all members of its struct, so that a new member is a compile error here. Ratio cannot express the base of a
+// gain on a product of speed and current, so this list is for floating point only.
 #pragma once
 #include <string>
 
@@ -83,7 +83,7 @@ void fields(Walk&& w, const control::FiniteSetConfig<double>& c, Kept& kept) {
   w.signal({"most_A", "A"}, c.most_A, most_A, Base::current);
 }
 
-/// All but the drive, which has fields of its own.
+/// All except the drive, which has its own list of fields.
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::FieldDriveConfig<double>& c, Kept& kept) {
   auto& [drive, current, weakening, per_ampere, advance, harmonic, finite_set] = kept;

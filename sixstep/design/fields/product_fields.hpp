@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every field of the product drive's configuration (control/protected_drive.hpp) around its drive, once, in
-// the order of an exported header. Each list binds all members of its struct: a new member stops the compiler
+// Lists every field of the product drive's configuration (control/protected_drive.hpp) around its drive once, in the
+// order of an exported header. Each list binds all members of its struct, so that a new member is a compile error
 // here.
 #pragma once
 #include "sixstep/control/protected_drive.hpp"
@@ -8,7 +8,7 @@
 
 namespace sixstep::design {
 
-/// A converter of what has that base.
+/// Quantity that a converter measures.
 struct AdcUse {
   Base base = Base::one;
   const char* unit = "";
@@ -96,7 +96,7 @@ void fields(Walk&& w, const control::AlignConfig<double>& d, Kept& kept) {
   w.count({"sector"}, d.sector, sector, unset.sector);
 }
 
-/// All but the drive, which has fields of its own.
+/// All except the drive, which has its own list of fields.
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::ProtectedConfig<double>& d, Kept& kept) {
   auto& [drive, setpoint_limit, sensing, current_adc, bus_adc, shunt, hall, speed, position, advance, faults,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every field of the sensorless drive's configuration (control/sensorless/) around its drive, once. Each list binds all
-// members of its struct: a new member stops the compiler here. Times are counts of the timer, voltages counts of the
-// converter: only what the loops within are held to is a Scalar.
+// Lists every field of the sensorless drive's configuration (control/sensorless/) around its drive once. Each list
+// binds all members of its struct, so that a new member is a compile error here. Times are counts of the timer,
+// voltages counts of the converter; only the inner loops' references and limits are Scalars.
 #pragma once
 #include "sixstep/control/commissioning/pulse_start.hpp"
 #include "sixstep/design/fields/product_fields.hpp"
@@ -109,7 +109,7 @@ void fields(Walk&& w, const control::SensorlessConfig<double>& d, Kept& kept, bo
   if (w.when_run(measures_position)) w.part("position", d.position, position);
 }
 
-/// All but the drive, which has fields of its own, and the observer (observer_scaling.hpp).
+/// All except the drive, which has its own list of fields, and the observer (observer_scaling.hpp).
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::SensorlessDriveConfig<double>& d, Kept& kept) {
   auto& [drive, sensorless, source, observer, start_output, duty, current, least_duty] = kept;
@@ -121,7 +121,7 @@ void fields(Walk&& w, const control::SensorlessDriveConfig<double>& d, Kept& kep
   w.signal({"least_duty"}, d.least_duty, least_duty, Base::one);
 }
 
-/// In the same numbers in every arithmetic.
+/// The same numbers in every arithmetic.
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::AdcConfig<control::Q30>& d, Kept& kept) {
   auto& [per_eighth, offset_counts, offset_tolerance, log2_samples] = kept;

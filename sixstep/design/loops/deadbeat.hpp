@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A deadbeat current loop (control/deadbeat.hpp) from R and L of the driven pair, K_t, the control period and the wait between
-// a sample and its answer. Nothing is placed: both poles lie at 0. What is chosen is how fast the voltage that the model lacks
-// is taken over.
+// Designs a deadbeat current loop (control/deadbeat.hpp) from R and L of the driven pair, K_t, the control period and
+// the delay from a sample to its answer. Both poles are at 0, so there is nothing to place. The only choice is how
+// fast the loop corrects for voltages that the model does not contain.
 #pragma once
 #include <vector>
 
@@ -12,7 +12,7 @@
 
 namespace sixstep::design {
 
-/// Part of a prediction's miss that each sample takes over: after 16 samples 1 % is left.
+/// Part of the prediction error that each sample corrects: after 16 samples 1 % is left.
 inline constexpr double usual_correction = 0.25;
 
 struct DeadbeatSpec {
@@ -29,10 +29,10 @@ struct Deadbeat {
   std::vector<DerivationStep> steps;
 };
 
-/// Problem: a wait of more than a period, over which two voltages would have to be remembered.
+/// Problem: a delay of more than a period, for which two voltages would have to be stored.
 base::Result<Deadbeat> deadbeat(const DeadbeatSpec& spec);
 
-/// Its open loop as others see it, L = T/(1 - T) with T = z^-(1 + wait): for whole periods.
+/// Its equivalent open loop, L = T/(1 - T) with T = z^-(1 + wait), for whole periods.
 Transfer open_deadbeat_loop(int wait_periods);
 
 }  // namespace sixstep::design

@@ -12,7 +12,7 @@
 namespace sixstep::design {
 namespace {
 
-/// Three digits say what a warning needs.
+/// Warnings use three digits.
 std::string milli(double x) { return base::three_digits(x * 1e3); }
 std::string milliseconds(double s) { return milli(s) + " ms"; }
 
@@ -26,7 +26,7 @@ struct Collector {
 void look_at_stability(const DriveDesign& d, const LoopDesign& loop, Collector& out) {
   if (!loop.figures.stable)
     return out.add(Concern::stability, "the " + loop.name + " loop is unstable", true);
-  // Of the delay that the drive has: what another board's would cost stands in the table alone.
+  // With the drive's own delay; only the table shows the effect of another board's.
   const double late = d.spec.late_periods();
   const std::string with = late > 0.0 ? "with " + periods_words(late) + " of delay the " : "the ";
   const double phase_deg = loop.figures.phase_rad.value_or(base::pi) * 180.0 / base::pi;
@@ -38,24 +38,24 @@ void look_at_stability(const DriveDesign& d, const LoopDesign& loop, Collector& 
                                 base::three_digits(loop.figures.sensitivity_peak) + " times");
 }
 
-/// What the sensor of the speed leaves of the phase, at the lowest speed.
+/// Phase that the speed's sensor leaves at the lowest speed.
 void look_at_sensing(const DriveDesign& d, Collector& out) {
   if (d.loops.size() < 2 || !(d.lag.delay_s() > 0.0)) return;
   const LoopDesign& speed = d.loops[1];
-  if (!speed.figures.stable) return;  // told already
+  if (!speed.figures.stable) return;  // already reported
   const bool shaft = d.spec.rotor.shaft.kind != ShaftSensorKind::none;
   const std::string at = " at " + base::three_digits(d.lowest_speed_rad_s) + " rad/s, where a speed from " +
                          (shaft ? "the " + edges_words(d.spec.rotor) : std::string("Hall edges")) + " is " +
                          milliseconds(d.lag.delay_s()) + " old";
   if (!speed.built.stable) return out.add(Concern::sensing, "the speed loop is unstable" + at, true);
   const double phase_deg = speed.built.phase_rad.value_or(base::pi) * 180.0 / base::pi;
-  // A tenth of a degree: what rounding a settling time may cost.
+  // A tenth of a degree may be lost by rounding a settling time.
   if (phase_deg < least_phase_deg - 0.1)
     out.add(Concern::sensing,
             "the speed loop keeps " + base::three_digits(phase_deg) + " degrees of phase" + at);
 }
 
-/// A move's speed is a matter of its own run.
+/// Only in speed mode: a position drive's speed depends on the move, so its run shows the effect.
 void look_at_grain(const DriveDesign& d, Collector& out) {
   if (!is_grainy(d)) return;
   out.add(Concern::grain,
@@ -66,8 +66,8 @@ void look_at_grain(const DriveDesign& d, Collector& out) {
               base::three_digits(std::fmax(d.high_speed_left_V, 0.0)) + " V left");
 }
 
-/// A P loop on counted edges: one step away it asks for K_p steps per second, so the next edge is 1/K_p away
-/// and the speed as old.
+/// A P loop on counted edges: one step away it commands K_p steps per second, so the next edge comes after 1/K_p and
+/// the speed is as old.
 void look_at_steps(const DriveDesign& d, Collector& out) {
   if (d.spec.mode != control::Mode::position || !d.spec.rotor.hall || d.loops.size() < 3) return;
   const double blind_s = 1.0 / (d.loops[2].gains.d1 * 180.0 / base::pi);
@@ -89,7 +89,7 @@ void look_at_sign(const DriveDesign& d, const LoopDesign& loop, Collector& out) 
 }
 
 void look_at_overshoot(const LoopDesign& loop, Collector& out) {
-  // Of a loop that its sensor makes unstable there is no step to tell of.
+  // A loop that its sensor makes unstable has no step response.
   if (loop.name != "position" && loop.figures.stable && loop.built.stable && loop.step.overshoot > 0.1)
     out.add(Concern::overshoot,
             "the " + loop.name + " loop overshoots a step by " +
@@ -106,7 +106,7 @@ void look_at_separation(const LoopDesign& inner, const LoopDesign& outer, Collec
                                      " loop, less than " + base::three_digits(least_separation));
 }
 
-/// A ripple above the nominal current heats the winding as that current does, whatever mean is asked for.
+/// A ripple above the nominal current heats the winding as that current does, for any mean current.
 void look_at_ripple(const DriveDesign& d, Collector& out) {
   const double allowed_A = greatest_ripple * d.nominal_current_A;
   if (!(d.ripple.worst_A > allowed_A)) return;
@@ -114,7 +114,7 @@ void look_at_ripple(const DriveDesign& d, Collector& out) {
   std::string what = "the PWM ripple reaches " + base::three_digits(d.ripple.worst_A) + " A, " +
                      base::rounded(100.0 * d.ripple.worst_A / d.nominal_current_A, 4) + " % of " +
                      nominal_current_words(d);
-  // The period in which the ripple is so great goes with L, whether L/R is long against it or not.
+  // The period with this ripple is proportional to L, whether or not L/R is long against it.
   const double allowed_s = period_for_ripple_s(d.motor, d.bus_V, d.spec.chopping, allowed_A);
   if (grave)
     what += ": " + milli((d.spec.period_s / allowed_s - 1) * d.motor.machine.L_H) +
@@ -133,7 +133,7 @@ void look_at_braking(const DriveDesign& d, Collector& out) {
                 " rad/s, (i/K_t) R: the motor brakes through the lower switches");
 }
 
-/// The first command of a step of the nominal current is d1 i.
+/// The first command after a step of the nominal current is d1 i.
 void look_at_voltage(const DriveDesign& d, Collector& out) {
   const double first_V = d.loops[0].gains.d1 * d.nominal_current_A;
   if (first_V > d.bus_V)
@@ -191,7 +191,7 @@ std::vector<Warning> warnings_of(const DriveDesign& d) {
     look_at_sign(d, loop, out);
     look_at_overshoot(loop, out);
   }
-  // A position gain is bounded by the overshoot itself.
+  // The position gain is limited by the overshoot itself.
   if (d.loops.size() > 1) look_at_separation(d.loops[0], d.loops[1], out);
   look_at_sensing(d, out);
   look_at_grain(d, out);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a designer should be told of a drive, in words. What helps is found by trying (analysis/verify/advice.hpp), and stands here
-// only where it is nothing that could be tried: what the sheet lacks, what a run shows.
+// Warnings to the designer of a drive, in words. Cures that can be tried are found by trials
+// (analysis/verify/advice.hpp); cures stand here only where no trial is possible: data that the sheet lacks, effects
+// that only a run shows.
 #pragma once
 #include <vector>
 
@@ -8,14 +9,15 @@
 
 namespace sixstep::design {
 
-/// Rules of the trade that decide: 45 degrees of phase and a peak of sensitivity of 2 with the delay of a
-/// real chip (Astrom, Hagglund: 1.2 to 2), crossovers of nested loops apart by 4, ripple below a fifth of the
-/// nominal current. A step of the measured speed makes less than half of the torque limit: the other half is for the load.
+/// Thresholds of the warnings, from practice: 45 degrees of phase and a peak of sensitivity of 2 with the delay of a
+/// real chip (Astrom, Hagglund: 1.2 to 2), crossovers of nested loops apart by a factor of 4, ripple below a fifth of
+/// the nominal current. A step of the measured speed causes less than half of the torque limit: the other half is for
+/// the load.
 inline constexpr double least_phase_deg = 45.0, greatest_sensitivity = 2.0, least_separation = 4.0,
                         greatest_ripple = 0.2, greatest_speed_step = 0.5;
 
-/// Whether the speed's own steps reach the torque limit, or the end of the bus: what is cut off there is missing from the mean, and the
-/// drive holds another speed than is asked for.
+/// True in speed mode if a step of the measured speed commands more than greatest_speed_step of the torque limit, or
+/// more voltage than the bus has left. A clipped part is missing from the mean, so that the drive holds a wrong speed.
 bool is_grainy(const DriveDesign& design);
 
 std::vector<Warning> warnings_of(const DriveDesign& design);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a motor and a spec to the gains of a whole drive, loop by loop from the inside out, with the figures
-// by which a designer judges each loop and a warning where one is off. Closed form: nothing is simulated
-// here.
+// Designs the gains of a whole drive from a motor and a spec, loop by loop from the inside out, with the figures by
+// which a designer judges each loop and warnings where a figure is poor. Closed form: nothing is simulated here.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -22,47 +21,45 @@ namespace sixstep::design {
 
 enum class GainMethod : std::uint8_t { pole_placement, cancellation, symmetrical_optimum };
 
-/// What is wanted. What is left out is the thesis's choice, carried over to this motor.
+/// Demands on a drive. An empty member has the thesis's choice, scaled to this motor.
 struct DesignSpec {
   control::Mode mode = control::Mode::current;  ///< current, speed or position
   GainMethod method = GainMethod::pole_placement;
-  /// Of the PI of the mode; for current 1 ms, or 8 L/R where that is shorter; for speed 10 ms, or what the sensor allows, or what torque
-  /// limit and inertia ask for (settle_by_torque_s), where one of those is more.
+  /// Settling time of the mode's PI, s. Default for current: 1 ms, or 8 L/R if that is shorter. Default for speed:
+  /// 10 ms, or the limit of the sensor or of torque and inertia (settle_by_torque_s), if that is longer.
   std::optional<double> settle_s;
-  /// Of the inner loop; as above, or a tenth of the speed loop's where that is shorter.
+  /// Settling time of the inner loop, s; default as above, or a tenth of the speed loop's if that is shorter.
   std::optional<double> current_settle_s;
   double damping = usual_damping;
-  std::optional<double> current_damping;  ///< of the inner loop; else as above
-  std::optional<double> bandwidth_rad_s;  ///< of the loop the method is for; else 4.6/settle_s
+  std::optional<double> current_damping;  ///< of the inner loop; default: `damping`
+  std::optional<double> bandwidth_rad_s;  ///< of the loop that `method` designs; default: 4.6/settle_s
   double period_s = 30e-6;
-  std::optional<double> voltage_V;        ///< of the bus; else the sheet's
-  std::optional<double> torque_limit_Nm;  ///< full output of the speed loop; else usual_torque_limit_Nm
-  std::optional<double>
-      current_limit_A;  ///< that a speed loop's output is cut off at, where that is less than full output
-  double load_inertia_kg_m2 = 0.0;  ///< on the shaft, beside the rotor's
-  int delay_periods = 0;            ///< whole ones from a sample until its result takes effect, 0 or 1
-  bool sampled_in_middle =
-      false;  ///< of a period, whose next start is the soonest that a result takes effect
+  std::optional<double> voltage_V;        ///< of the bus; default: the sheet's nominal voltage
+  std::optional<double> torque_limit_Nm;  ///< full output of the speed loop; default: usual_torque_limit_Nm
+  std::optional<double> current_limit_A;  ///< limit of the speed loop's output, if less than full output
+  double load_inertia_kg_m2 = 0.0;        ///< on the shaft, in addition to the rotor's
+  int delay_periods = 0;           ///< whole periods from a sample until its result takes effect, 0 or 1
+  bool sampled_in_middle = false;  ///< of a period; the result takes effect at the next start or later
   control::Chopping chopping = control::Chopping::soft;
   RotorSensing rotor{.hall = false};
-  /// That the drive is to hold; else a tenth of the speed that the bus reaches, bus/K_t.
+  /// Lowest speed that the drive must hold; default: a tenth of the speed that the bus reaches, bus/K_t.
   std::optional<double> lowest_speed_rad_s;
 
   /// Control periods from a sample until its result takes effect: 0, 1/2, 1 or 3/2.
   double late_periods() const { return delay_periods + (sampled_in_middle ? 0.5 : 0.0); }
-  /// The two that such a board may have, whichever the spec's is.
+  /// The shorter and the longer delay of such a board, whichever the spec has.
   double sooner_periods() const { return sampled_in_middle ? 0.5 : 0.0; }
   double later_periods() const { return sooner_periods() + 1.0; }
 };
 
-/// Settling time of a current loop that nobody gives one: 1 ms, or 8 L/R where that is shorter. In s.
+/// Default settling time of a current loop, s: 1 ms, or 8 L/R if that is shorter.
 double usual_current_settle_s_of(const MotorModel& motor);
 
-/// Clock of the timer that captures a sensor's edges where nobody says: of Hall probes as a scenario's sensors have it, of an encoder's
-/// many more edges that of an ordinary chip, of which a tick is small beside a control period.
+/// Default clock of the timer that captures a sensor's edges. For Hall probes as in a scenario's sensors; for an
+/// encoder, with far more edges, that of an ordinary chip, whose tick is short beside a control period.
 inline constexpr double usual_capture_Hz = 1e6, usual_encoder_capture_Hz = 16e6;
 
-/// A spec as for a board that is built: Hall probes, and a command that counts one period late.
+/// A spec for a real board: Hall probes, and a command that takes effect one period late.
 inline DesignSpec on_a_board() {
   DesignSpec spec;
   spec.rotor.hall = true;
@@ -77,14 +74,14 @@ struct LoopDesign {
   PiGains gains;       ///< position: d1 is the gain in rad/s per degree, d0 = 0
   std::vector<DerivationStep> steps;
   std::optional<PolePlacement> placed;
-  Transfer loop;        ///< open, with the wished delay, the inner loops counted in
+  Transfer loop;        ///< open, with the spec's delay and the closed inner loops
   LoopFigures figures;  ///< of `loop`
-  LoopFigures other;    ///< with the other delay: a period more where the spec's is the sooner, else one less
-  LoopFigures built;    ///< of `loop` with what the spec's sensor of the speed adds at the lowest speed
+  LoopFigures other;    ///< with the other of the board's two delays, a period more or less
+  LoopFigures built;    ///< of `loop` with the lag of the spec's speed sensor at the lowest speed
   StepResponse step;    ///< of the closed loop, sensor included
 };
 
-/// What a warning is about.
+/// Subject of a warning.
 enum class Concern : std::uint8_t {
   other,
   stability,
@@ -111,9 +108,9 @@ enum class Concern : std::uint8_t {
 
 struct Warning {
   std::string what;  ///< one sentence
-  /// What helps: a design's by having been tried (analysis/verify/advice.hpp), empty where nothing that was tried does.
+  /// Cure, found by trials (analysis/verify/advice.hpp); empty where no trial helped.
   std::string cure;
-  bool grave = false;  ///< not to be put on a motor
+  bool grave = false;  ///< true: not safe for a motor
   Concern of = Concern::other;
 };
 
@@ -124,31 +121,31 @@ struct DriveDesign {
   double torque_limit_Nm = 0.0;
   double current_at_full_torque_A = 0.0;
   double nominal_current_A = 0.0;
-  bool nominal_printed = true;  ///< false: the sheet is silent, and a tenth of the stall current stands in
+  bool nominal_printed = true;  ///< false: the sheet has none, and a tenth of the stall current is used
   double lowest_speed_rad_s = 0.0;
-  SpeedLag lag;                         ///< of the speed at the lowest speed
-  std::vector<DerivationStep> sensing;  ///< how that lag comes about
-  std::vector<SettlingLimit> limits;    ///< what each way of sensing allows; speed and position
+  SpeedLag lag;                         ///< of the measured speed at the lowest speed
+  std::vector<DerivationStep> sensing;  ///< derivation of that lag
+  std::vector<SettlingLimit> limits;    ///< limits by way of sensing; for speed and position
   double settle_by_torque_s =
-      0.0;  ///< speed: one and a half times what the torque limit takes for half the lowest one, J w_low/(2 T_max)
+      0.0;  ///< speed: 1.5 times the time that the torque limit needs for half the lowest speed, J w_low/(2 T_max)
   std::vector<LoopDesign> loops;  ///< from the inside out
   Ripple ripple;
   double longest_period_s =
-      0.0;  ///< up to which the current loop keeps 45 degrees with the later of the delays
-  double headroom_end_rad_s = 0.0;  ///< up to which the nominal current can be driven
-  double high_speed_rad_s = 0.0;    ///< of drives with a speed loop: a tenth below that
-  double speed_step_rad_s = 0.0;    ///< by which the measured speed jumps there while the speed stands
-  double speed_step_part = 0.0;     ///< of the torque limit, that the speed loop makes of such a step at once
-  double speed_step_V = 0.0;        ///< that the current loop makes of that at once
-  double high_speed_left_V = 0.0;   ///< of the bus there, at half the nominal current
-  double braking_limit_rad_s = 0.0;  ///< up to which soft chopping holds the nominal current while braking
+      0.0;  ///< the longest at which the current loop keeps 45 degrees with the longer of the delays
+  double headroom_end_rad_s = 0.0;   ///< highest speed at which the bus drives the nominal current
+  double high_speed_rad_s = 0.0;     ///< drives with a speed loop: a tenth below that
+  double speed_step_rad_s = 0.0;     ///< step of the measured speed there, at constant speed
+  double speed_step_part = 0.0;      ///< part of the torque limit that the speed loop answers at once
+  double speed_step_V = 0.0;         ///< immediate answer of the current loop to that part
+  double high_speed_left_V = 0.0;    ///< rest of the bus there, at half the nominal current
+  double braking_limit_rad_s = 0.0;  ///< highest at which soft chopping brakes by the nominal current
   std::vector<Warning> warnings;
 
   const LoopDesign& loop(std::string_view name) const;
-  /// What the speed loop can ask for: full output, or the spec's limit of the current.
+  /// Largest output of the speed loop: full output, or the spec's current limit.
   double most_current_A() const;
   double most_torque_Nm() const;
-  /// A loop's figures with the sooner and with the later of the two delays, whichever the spec has.
+  /// A loop's figures with the shorter and with the longer of the two delays, whichever the spec has.
   const LoopFigures& sooner(const LoopDesign& loop) const {
     return spec.delay_periods > 0 ? loop.other : loop.figures;
   }
@@ -157,36 +154,35 @@ struct DriveDesign {
   }
 };
 
-/// What nominal_current_A is called: nothing that was made up passes for the sheet's.
+/// Name of nominal_current_A in messages; it shows if the value is not from the sheet.
 inline const char* nominal_current_words(const DriveDesign& d) {
   return d.nominal_printed ? "the nominal current"
                            : "a tenth of the stall current (the sheet names no nominal one)";
 }
 
-/// Part of its step within which a loop's settling time is told, in the linear step as in the run.
+/// Relative band of a loop's settling time, in the linear step as in the run.
 double settling_band(const DriveDesign& design, const LoopDesign& loop);
 
-/// Part of a step of the speed within which it counts as settled: 2 %, on Hall probes 10 %, the twentieth of
-/// the lowest speed that a step of half of it is judged by.
+/// Relative band in which a step of the speed counts as settled: 2 %. On Hall probes 10 %, a twentieth of the lowest
+/// speed, because the test is a step of half of that speed.
 double settling_band(const DriveDesign& design);
 
-/// Gains for the spec. In position mode the gain is the largest with which the linear loop does not
-/// overshoot; what limits allow is study's to find, with with_position_gain(). Problems name the option.
+/// Gains for the spec. In position mode the gain is the largest with which the linear loop does not overshoot; study
+/// finds the largest one that the limits allow, with with_position_gain(). Problems name the option.
 base::Result<DriveDesign> design_drive(const MotorModel& motor, const DesignSpec& spec);
 
-/// The same with another position gain, figures and warnings anew.
+/// The same design with another position gain; figures and warnings are recomputed.
 DriveDesign with_position_gain(const DriveDesign& design, double gain_rad_s_per_deg);
 
-/// Fills in figures and step of a loop whose gains are there: open with the delay that it has and with the other one, and as the
-/// speed's sensor shows it. `band`: of a speed loop's settling.
+/// Computes figures and step of a loop with given gains: open loop with its delay, with the other delay, and with the
+/// speed sensor's lag. `band`: of a speed loop's settling.
 void judge_loop(LoopDesign& loop, const Transfer& open, const Transfer& other, const SensedLoop& sensed,
                 double period_s, double band);
 
-/// The loops of the same controller on another motor: what a tolerance does to the margins. From the inside
-/// out, open.
+/// Open loops of the same controller on another motor, from the inside out: the effect of tolerances on the margins.
 std::vector<Transfer> open_loops(const DriveDesign& design, const MotorModel& motor, double late_periods);
 
-/// The same with what the spec's sensor of the speed adds at the lowest speed.
+/// The same with the lag of the spec's speed sensor at the lowest speed.
 std::vector<SensedLoop> sensed_loops(const DriveDesign& design, const MotorModel& motor, double late_periods);
 
 }  // namespace sixstep::design

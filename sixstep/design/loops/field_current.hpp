@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// The current loops of a field-oriented drive (control/field/) from R, L, the control period and a bandwidth. Decoupled, an
-// axis is a winding of R and L, sampled with zero-order hold b0/(z + a0) exactly as six-step's (pole_placement.hpp). The PI's
-// zero lies on that pole, d0 = a0 d1, and with n periods between a sample and the period that answers it
+// Designs the current loops of a field-oriented drive (control/field/) from R, L, the control period and a bandwidth.
+// With decoupling, an axis is a winding of R and L, sampled with zero-order hold b0/(z + a0) as in six-step
+// (pole_placement.hpp). The PI's zero is on that pole, d0 = a0 d1, and with n periods between a sample and the period
+// of its answer
 //
 //   n = 0   L = b0 d1/(z - 1)          one pole     z_1 = exp(-w T),              b0 d1 = 1 - z_1
 //   n = 1   L = b0 d1/(z (z - 1))      two poles    z_1 = exp(-w T), 1 - z_1,     b0 d1 = z_1 (1 - z_1)
 //
-// With a delay the second pole is the slower one from z_1 = 1/2 on: w T is at most ln 2. The claim is of the
-// decoupled axis at rest; what turning leaves is what a period changes of w_e L i.
+// With a delay the second pole is the slower one from z_1 = 1/2 on: w T is at most ln 2. This holds for the decoupled
+// axis at rest; a turning rotor adds the change of w_e L i within a period.
 //
-// Weakening, i_d[n+1] = i_d[n] + K (m U/sqrt 3 - |v|), sees v_q change by w_e L_d per ampere. At the speed where the magnet's
-// back-EMF takes the whole circle, w_0 = U/(sqrt 3 p psi), it is ten times slower than the currents it asks for:
+// Weakening, i_d[n+1] = i_d[n] + K (m U/sqrt 3 - |v|), acts on v_q by w_e L_d per ampere. At the speed at which the
+// magnet's back-EMF fills the whole circle, w_0 = U/(sqrt 3 p psi), it is ten times slower than the current loops
+// that follow it:
 //
 //   1 - K w_0 p L_d = exp(-w T/10)
 #pragma once
@@ -31,10 +33,10 @@ struct FieldMachine {
   double pole_pairs = 1.0;
 };
 
-/// Of a sheet: a trapezoid's fundamental is 1.21585 of its peak (shape_factors.hpp), and a salient rotor has L_d and L_q.
+/// From a sheet: a trapezoid's fundamental is 1.21585 of its peak (shape_factors.hpp); a salient rotor has L_d and L_q.
 FieldMachine field_machine(const MotorModel& motor, const Sheet& sheet);
 
-/// T = 3/2 p psi i_q, N m per A of i_q, where the rotor is round.
+/// T = 3/2 p psi i_q, N m per A of i_q, for a round rotor.
 inline double torque_per_q_A(const FieldMachine& machine) { return 1.5 * machine.magnet_V_s; }
 
 struct FieldLoopSpec {
@@ -48,7 +50,7 @@ double usual_field_bandwidth_rad_s(double period_s);
 
 struct FieldAxis {
   PiGains gains;
-  double pole = 0.0;        ///< z_1, the one wanted
+  double pole = 0.0;        ///< z_1, the designed pole
   double other_pole = 0.0;  ///< 1 - z_1, with a delay; else 0
   std::vector<DerivationStep> steps;
 };
@@ -56,18 +58,18 @@ struct FieldAxis {
 /// Problems: a value that is not above 0; a bandwidth that the delay does not allow.
 base::Result<FieldAxis> field_axis(double R_ohm, double L_H, const FieldLoopSpec& spec);
 
-/// K of the weakening, A per V and sample.
+/// Gain K of the weakening, A per V and sample.
 double weakening_gain(const FieldMachine& machine, double bus_V, const FieldLoopSpec& spec);
 
-/// psi/L_d: against the magnet more than this makes more voltage, not less.
+/// psi/L_d: a larger current against the magnet raises the voltage again.
 inline double most_weakening_A(const FieldMachine& machine) {
   return machine.magnet_V_s / (machine.pole_pairs * machine.L_d_H);
 }
 
-/// Part of the circle that weakening leaves to the currents' own changes.
+/// Part of the voltage circle up to which weakening goes; the rest is for changes of the currents.
 inline constexpr double usual_weakening_part = 0.95;
 
-/// k of torque_per_ampere.hpp, 1/A; 0 of a round rotor.
+/// k of torque_per_ampere.hpp, 1/A; 0 for a round rotor.
 double torque_per_ampere_gain(const FieldMachine& machine);
 
 }  // namespace sixstep::design

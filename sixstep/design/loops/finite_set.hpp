@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The model that control/field/finite_set.hpp foretells a current by, and the band that its answers leave: in a period the bus U
-// moves the current by b 2/3 U in one of six directions or not at all. The seven ends are corners of equilateral triangles of that
-// side, so that within their hexagon nothing is further from one than their radius,
+// Computes the model by which control/field/finite_set.hpp predicts a current, and the band of its answers. In a
+// period the bus U moves the current by b 2/3 U in one of six directions, or not at all. The seven end points are
+// corners of equilateral triangles of that side, so that within their hexagon each point is no further from one of
+// them than the triangles' radius,
 //
 //   2/(3 sqrt 3) b U,   b = (1 - exp(-R T/L))/R
 #pragma once
@@ -13,7 +14,7 @@ namespace sixstep::design {
 
 struct FiniteSet {
   control::FiniteSetConfig<double> config;  ///< without weight and bound
-  double band_A = 0.0;  ///< from the reference to the current foretold, at most; by the smaller L
+  double band_A = 0.0;  ///< largest distance from the reference to the predicted current, with the smaller L
   std::vector<DerivationStep> steps;
 };
 

@@ -18,7 +18,7 @@ using control::shape_points;
 /// The magnet is 150 degrees behind the electrical angle: half a sector, and two whole ones.
 constexpr double sector_middle_rad = 5 * base::pi / 6;
 
-/// Back-EMF over speed of the three phases, x behind the start of a sector.
+/// Back-EMF over speed of the three phases, at x after the start of a sector.
 control::Abc<double> back_emf(const plant::general::ShapeTable<double>& table, std::size_t sector, double x) {
   std::array<double, 3> e{};
   const auto& pieces = table.sector[sector];
@@ -32,7 +32,7 @@ control::Abc<double> back_emf(const plant::general::ShapeTable<double>& table, s
   return {e[0], e[1], e[2]};
 }
 
-/// In the frame of the magnet, mean of the six sectors.
+/// Mean of the six sectors in the frame of the magnet.
 control::Dq<double> in_magnets_frame(const plant::general::ShapeTable<double>& table, double x) {
   control::Dq<double> mean;
   for (std::size_t s = 0; s < 6; ++s) {

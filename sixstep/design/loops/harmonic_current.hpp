@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// What control/field/harmonic_current.hpp is given: the shape vector of a machine's back-EMF, and when its current is there.
+// Computes the inputs of control/field/harmonic_current.hpp: the shape vector of a machine's back-EMF, and the lead
+// for its current.
 //
 //   g(theta) = (2/3) K_e/(p psi) sum over k of f_k(theta) (cos(theta_d - 120 k), -sin(theta_d - 120 k)),   theta_d = theta - 150
 //
-// averaged over the six sectors: of phases or half waves that are not alike what they have in common. p psi is what the drive
-// takes torque per ampere to be (field_current.hpp), so that it is 3/2 p psi of the current asked for whatever the shape; of a
-// table, too, whose fundamental is not that of the sine with the same torque constant.
+// averaged over the six sectors: for unequal phases or half waves this is their common part. p psi is the value that
+// the drive uses for its torque per ampere (field_current.hpp), so that the torque is 3/2 p psi times the commanded
+// current for any shape; also for a table, whose fundamental is not that of the sine with the same torque constant.
 //
-// A loop that is given no voltage ahead, with the integral gain K_i = d1 + d0 on a winding of R follows a reference by R/K_i samples late, whatever delay is in
-// it: the samples of a step's error add up to that. The magnet turns by p w T R/K_i meanwhile.
+// A loop without feed-forward voltage, with integral gain K_i = d1 + d0 on a winding of R, follows a reference R/K_i
+// samples late, whatever its delay: the samples of a step's error add up to that. Meanwhile the magnet turns by p w T
+// R/K_i.
 #pragma once
 #include "sixstep/control/field/harmonic_current.hpp"
 #include "sixstep/design/loops/field_current.hpp"
@@ -16,18 +18,18 @@
 
 namespace sixstep::design {
 
-/// The shape alone: a current that is there at once.
+/// The shape alone, for a current without lag.
 control::HarmonicCurrentConfig<double> harmonic_shape(const plant::general::Machine& machine,
                                                       double magnet_V_s);
 
-/// (0, 1) at every angle, to rounding: there is nothing to follow.
+/// True if the shape is (0, 1) at every angle, to rounding: there is no harmonic to follow.
 bool is_sine(const control::HarmonicCurrentConfig<double>& config);
 
-/// R/K_i samples as an angle over the speed, electrical rad per mechanical rad/s; 0 of a loop that does not integrate.
+/// R/K_i samples as an angle over the speed, electrical rad per mechanical rad/s; 0 for a loop without integral.
 double harmonic_lead_s(const FieldMachine& machine, const PiGains& across, double period_s);
 
-/// What the shape costs: copper loss beside that of a constant i_q of the same mean torque; and how far that one's torque
-/// swings, peak to peak over its mean.
+/// Effect of the shape: copper loss relative to that of a constant i_q of the same mean torque, and the torque ripple
+/// of that constant i_q, peak to peak over its mean.
 struct HarmonicFigures {
   double copper = 1.0;
   double swing = 0.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How late a command counts behind its sample, in words.
+// Words for the delay of a command after its sample.
 #pragma once
 #include <string>
 

@@ -11,7 +11,7 @@
 namespace sixstep::design {
 namespace {
 
-/// Where f changes its sign between low and high, to rounding.
+/// Point between low and high at which f changes its sign, to rounding.
 template <class F>
 double root(double low, double high, F f) {
   const bool rising = f(low) < 0.0;
@@ -42,7 +42,7 @@ double lowest_turn(const Transfer& loop) {
   return std::clamp(decay > 0.0 ? 0.01 * decay : 1e-5, 1e-12, 0.1);
 }
 
-/// As margins.hpp has it: pi + arg L with arg L in (-2 pi, 0], negative where the loop is past -180 degrees.
+/// As in margins.hpp: pi + arg L with arg L in (-2 pi, 0], negative beyond -180 degrees.
 double phase_left(Complex L) {
   const double angle = L.angle_rad();
   return base::pi + (angle > 0.0 ? angle - 2.0 * base::pi : angle);
@@ -55,7 +55,7 @@ void look_at_crossing(LoopFigures& f, double w, double left, bool falls) {
   if (!f.delay_s || delay_s < *f.delay_s) f.delay_s = delay_s;
 }
 
-/// Im L = 0 with L < 0: the gain there may grow to 1.
+/// At Im L = 0 with L < 0 the gain may grow until |L| = 1.
 void look_at_axis(LoopFigures& f, Complex L) {
   const double size = L.size();
   if (L.re >= 0.0 || size >= 1.0 || size <= 0.0) return;
@@ -66,7 +66,7 @@ void look_at_axis(LoopFigures& f, Complex L) {
 
 namespace {
 
-/// Scans a loop given by its value L(turn) and the phase that is left to -180 degrees there.
+/// Scans a loop that is given by its value L(turn) and its phase distance to -180 degrees.
 template <class Loop, class Left>
 LoopFigures scanned(const Loop& loop, const Left& left, double lowest, double period_s, int points) {
   LoopFigures f;
@@ -118,7 +118,7 @@ LoopFigures loop_figures(const Transfer& loop, double period_s, int points) {
 LoopFigures sensed_figures(const SensedLoop& s, double period_s, int points) {
   const Complex one{1.0, 0.0};
   const auto H = [&](double turn) { return s.lag.at(turn / period_s); };
-  // The lag's own phase is linear; counted apart it does not wrap, however long the lag is.
+  // The lag's own phase is linear; it is added separately, so that it does not wrap however long the lag is.
   const auto left = [&](double turn) {
     return phase_left(s.loop.at(turn)) - turn / period_s * s.lag.delay_s();
   };
@@ -157,8 +157,8 @@ std::vector<BodePoint> bode(const Transfer& loop, double period_s, double from_r
 
 namespace {
 
-/// num/den in its first canonical form: x_1' = x_2, .., x_n' = u - sum den_k x_(k+1), where ' is the
-/// difference to the next sample; keeps its digits however slow the system is.
+/// num/den in its first canonical form: x_1' = x_2, .., x_n' = u - sum den_k x_(k+1), where ' is the difference to
+/// the next sample. It keeps its digits however slow the system is.
 class Recursion {
  public:
   explicit Recursion(const Transfer& t) : num_(t.num), den_(t.den), x_(t.den.size() - 1) {
@@ -167,7 +167,7 @@ class Recursion {
     for (double& n : num_) n /= lead;
     num_.resize(den_.size());
   }
-  /// The output for this input; then on to the next sample.
+  /// Output for this input; then advances to the next sample.
   double next(double u) {
     double top = u, y = 0.0;
     for (std::size_t k = 0; k < x_.size(); ++k) {
@@ -178,7 +178,7 @@ class Recursion {
     for (std::size_t k = 0; k < x_.size(); ++k) x_[k] += k + 1 < x_.size() ? x_[k + 1] : top;
     return y;
   }
-  /// The output now, of a system whose input does not reach it at once.
+  /// Present output of a system without direct feed-through.
   double output() const {
     double y = 0.0;
     for (std::size_t k = 0; k < x_.size(); ++k) y += num_[k] * x_[k];
@@ -190,7 +190,7 @@ class Recursion {
   std::vector<double> x_;
 };
 
-/// The mean over the last so many samples, 0 before the first.
+/// The mean over the last `samples` samples, 0 before the first.
 class Mean {
  public:
   explicit Mean(double samples)
@@ -208,7 +208,7 @@ class Mean {
   double sum_ = 0.0;
 };
 
-/// So many samples late, to the nearest whole one.
+/// Delay by `samples`, rounded to whole samples.
 class Late {
  public:
   explicit Late(double samples) : held_(static_cast<std::size_t>(std::floor(samples + 0.5))) {}
@@ -224,7 +224,7 @@ class Late {
   std::size_t at_ = 0;
 };
 
-/// What is told of a step whose samples `next` gives.
+/// Figures of a step whose samples come from `next`.
 template <class Next>
 StepResponse response(const Next& next, double period_s, double seconds, double band) {
   StepResponse r;

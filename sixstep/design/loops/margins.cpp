@@ -10,7 +10,7 @@
 namespace sixstep::design {
 namespace {
 
-/// Real roots of a v^2 - 2 b v + c = 0, without cancellation; those that do not exist are empty.
+/// Real roots of a v^2 - 2 b v + c = 0, without cancellation; roots that do not exist are empty.
 std::array<std::optional<double>, 2> roots(double a, double b, double c) {
   const double square = b * b - a * c;
   if (square < 0.0) return {};
@@ -21,7 +21,7 @@ std::array<std::optional<double>, 2> roots(double a, double b, double c) {
   return found;
 }
 
-/// L on the unit circle by v = 1 - cos(w T_s), which keeps its digits where the loop is slow against the
+/// L on the unit circle as a function of v = 1 - cos(w T_s), which keeps its digits if the loop is slow against the
 /// sampling.
 struct OpenLoop {
   ZohPlant plant;
@@ -48,7 +48,7 @@ struct OpenLoop {
   }
 };
 
-/// Where L is real: Im(N conj D) = 0 divided by sin(w T_s), c = cos(w T_s), p = a0 - 1, q = -a0,
+/// Finds where L is real: Im(N conj D) = 0 divided by sin(w T_s), c = cos(w T_s), p = a0 - 1, q = -a0,
 /// besides z = -1.
 ///   m = 0: 2 d0 c = d1 (q - 1) - d0 p
 ///   m = 1: 4 d0 c^2 + 2 (d1 + d0 p) c + d1 p + d0 (q - 1) = 0

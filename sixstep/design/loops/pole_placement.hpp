@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// PI by pole placement on the ZOH plant, exactly as the thesis's chapter 6 does it (model.md 13), with every
-// intermediate as data.
+// Designs a PI by pole placement on the ZOH plant, exactly as in the thesis's chapter 6 (model.md 13), with every
+// intermediate value as data.
 #pragma once
 #include <string>
 #include <vector>
@@ -29,7 +29,7 @@ struct DerivationStep {
   std::string unit;
 };
 
-/// What is designed where nothing is asked for: the inputs of the thesis (chapter 6).
+/// Default demands: the inputs of the thesis (chapter 6).
 inline constexpr double usual_current_settle_s = 1e-3, usual_speed_settle_s = 10e-3, usual_damping = 0.9;
 
 /// A settling time is that of 1 %: exp(-4.6).
@@ -42,7 +42,7 @@ struct PolePlacement {
   double z_re = 0.0, z_im = 0.0;  // exp(s T_s)
   ZohPlant plant{};
   PiGains gains{};
-  std::vector<DerivationStep> steps{};  // the same, for a reader
+  std::vector<DerivationStep> steps{};  // the same as a derivation for a reader
 };
 
 /// Current loop plant 1/(L s + R), terminal R and L: a0 = -exp(-R T/L), b0 = (1 - exp(-R T/L))/R.
@@ -55,9 +55,8 @@ ZohPlant speed_plant(double torque_max_Nm, double J_kg_m2, double B_Nm_s, double
 /// z^2 - 2 z_re z + z_re^2 + z_im^2.
 PiGains gains_for_poles(const ZohPlant& plant, double z_re, double z_im);
 
-/// Matches z^2 + (b0 d1 + a0 - 1) z + (b0 d0 - a0) with the pole pair. Problems: settle_s, damping or
-/// period_s out of range (damping above 1 has two real poles and is allowed up to 1 only: the thesis's rule
-/// places a pair).
+/// Matches z^2 + (b0 d1 + a0 - 1) z + (b0 d0 - a0) with the pole pair. Problems: settle_s, damping or period_s out of
+/// range. Damping is at most 1, because above it the poles are real and the thesis's rule places a pair.
 base::Result<PolePlacement> place_poles(const ZohPlant& plant, double settle_s, double damping,
                                         double period_s);
 

@@ -12,15 +12,15 @@
 namespace sixstep::design {
 namespace {
 
-constexpr double clear = 2.0;     // times what is certain
-constexpr double of_range = 0.9;  // noise and rounding stay within it
+constexpr double clear = 2.0;     // factor on the certain level
+constexpr double of_range = 0.9;  // part of the range; noise and rounding stay within it
 constexpr double most_turned =
     15.0;  // electrical degrees: a quarter of a sector costs 3 % of the ramp's torque
-constexpr double tolerance = 0.125;  // of the range: an offset beyond it is a broken amplifier's
-constexpr double least_counts = 64;  // between source and sink, below which the chip takes a wire for open
+constexpr double tolerance = 0.125;  // of the range: a larger offset means a broken amplifier
+constexpr double least_counts = 64;  // between source and sink; below it the chip takes a wire for open
 constexpr double noises = 5.0;
 
-/// What the other numbers are made of.
+/// Values from which the others are computed.
 struct Basis {
   const MotorModel& motor;
   const PulseSpec& spec;
@@ -41,14 +41,14 @@ Basis basis_of(const MotorModel& motor, const PulseSpec& spec) {
   b.limit_A = std::min(spec.most_A, of_range * (spec.current_range_A - std::fabs(spec.offset_A)));
   const bool saturates = spec.saturation_A > 0.0;
   if (saturates) b.limit_A = std::min(b.limit_A, base::root_3 / 2 * spec.saturation_A / 2);
-  // With and against the magnet: of no current up to the limit is it less, or more.
+  // With and against the magnet, the largest current gives the smallest and the largest inductance.
   const double bent = saturates ? 2 / base::root_3 * b.limit_A / (2 * spec.saturation_A) : 0.0;
   b.L_least = std::min(spec.L_d_H * (1 - bent), spec.L_q_H);
   b.L_most = std::max(spec.L_d_H * (1 + bent), spec.L_q_H);
   return b;
 }
 
-/// From a pulse's begin to its sample.
+/// From the beginning of a pulse to its sample.
 double time_s(const Basis& b, int ticks) { return (ticks - 0.5 - b.spec.delay_periods) * b.spec.period_s; }
 
 double current_A(const Basis& b, double t_s, double L_H) {
@@ -68,7 +68,7 @@ double noise_8(const Basis& b, const control::PulsePositionConfig& p) {
   return std::sqrt(s2 / p.rounds + 3 * s2 / static_cast<double>(1 << p.current.log2_samples) + 45.0);
 }
 
-/// Electrical degrees at most: the header's two parts.
+/// Upper bound, electrical degrees: the two parts in the header.
 double turned_deg(const Basis& b, const PulseStart& s, double t_s) {
   const double I = s.greatest_A, D = (s.pulses.pulse_ticks + s.pulses.rest_ticks) * b.spec.period_s;
   const double pairs = b.motor.machine.pole_pairs;
@@ -82,7 +82,8 @@ double turned_deg(const Basis& b, const PulseStart& s, double t_s) {
 
 double off_deg(const Basis& b, const PulseStart& s) {
   const double m = depth(b, s.current_A), saliency = std::fabs(b.L_D) / b.L_S;
-  // Beside the noise: what saturation adds to the second harmonic; without that, what 1/I makes of cos^3, a tenth of its depth.
+  // In addition to the noise: the part of saturation in the second harmonic, or without that the effect of 1/I on
+  // cos^3, a tenth of its depth.
   const bool axis_seen = s.axis >= s.pulses.certain && 1000 * saliency > s.pulses.amplifiers;
   const double off_rad = axis_seen     ? (noises / s.axis + 3.0 / 32.0 * m * m / saliency) / 2
                          : s.north > 0 ? noises / s.north + m / 10
@@ -97,7 +98,7 @@ PulseStart of_length(const Basis& b, int ticks) {
   s.pulses.current.offset_tolerance =
       static_cast<std::uint16_t>(tolerance * static_cast<double>(1 << (b.spec.adc_bits - 1)));
   s.pulses.pulse_ticks = static_cast<std::uint16_t>(ticks);
-  s.pulses.rest_ticks = static_cast<std::uint16_t>(ticks + 1);  // against the whole bus it is gone sooner
+  s.pulses.rest_ticks = static_cast<std::uint16_t>(ticks + 1);  // it falls faster, against the whole bus
   s.current_A = current_A(b, t_s, b.L_S);
   s.greatest_A = current_A(b, t_s, b.L_least);
   const double k = x / (base::exp(x) - 1);

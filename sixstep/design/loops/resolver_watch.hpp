@@ -1,30 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// When a resolver is lost: of its windings only c^2 + s^2 is known not to hang on the angle.
+// Computes when a resolver counts as lost: of its windings only c^2 + s^2 is known not to depend on the angle.
 //
-//   whole      c = k_1 cos phi,  s = k_2 sin(phi + q):  c^2 + s^2 lies within the eigenvalues l_1 <= l_2 of
+//   intact     c = k_1 cos phi,  s = k_2 sin(phi + q):  c^2 + s^2 lies within the eigenvalues l_1 <= l_2 of
 //              [k_1^2 + k_2^2 sin^2 q,  k_2^2 sin q cos q;  k_2^2 sin q cos q,  k_2^2 cos^2 q]
-//   too low    below l_1/2: of like windings that are left one at a time the angle is then off by more than 45 degrees, which
-//              is as far as a detector tells a way at all, and full excitation by more than three parts in ten
-//   too high   above 5/4 l_2: a converter whose range has a quarter of room still shows that of one winding
+//   too low    below l_1/2: if one of two equal windings is left, the angle is then off by more than 45 degrees,
+//              beyond which a detector cannot determine the direction; and full excitation is off by more than three
+//              tenths
+//   too high   above 5/4 l_2: a converter whose range is a quarter larger still measures that value in one winding
 //   how often  noise of s in each signal takes sqrt(c^2 + s^2) beyond either limit, z s away, less often than
-//              exp(-z^2/2)/2; neighbours share a sample, every second result is new. So many in a row that it comes less than
-//              once in 10^12 results.
+//              exp(-z^2/2)/2; neighbours share a sample, so every second result is independent. The number in a row is
+//              such that this happens less than once in 10^12 results.
 //
-// All as parts of the amplitude that the drive expects. What a resolver shows at rest at one angle does not tell a broken
-// winding whose share there is small: it is told when the shaft has turned by 45 degrees of the resolver's own turn at most.
+// All are relative to the amplitude that the drive expects. At rest, a broken winding is not found at an angle where
+// its share is small; it is found when the shaft has turned by at most 45 degrees of the resolver's own turn.
 #pragma once
 
 namespace sixstep::design {
 
 struct ResolverShows {
-  double k_1 = 1.0, k_2 = 1.0;  ///< amplitudes that the drive makes of cosine and sine
-  double quadrature_rad = 0.0;  ///< q that it does not take off
+  double k_1 = 1.0, k_2 = 1.0;  ///< amplitudes of cosine and sine in the drive
+  double quadrature_rad = 0.0;  ///< q, as far as the drive does not correct it
   double noise = 0.0;           ///< s, root mean square of each signal
 };
 
 struct ResolverLimits {
   double least_square = 0.0, greatest_square = 0.0;
-  int in_a_row = 1;  ///< results outside, at most 255
+  int in_a_row = 1;  ///< number of results outside, at most 255
 };
 ResolverLimits resolver_limits(const ResolverShows& whole);
 

@@ -49,7 +49,7 @@ SpeedLag speed_lag(const RotorSensing& sensing, double pole_pairs, double speed_
   if (sensing.edges > 0) return {sensing.edges * T, T, sensing.late_s};
   const double window = hall_window_s(crossover_rad_s);
   const SpeedLag one{T, T, sensing.late_s};
-  // Six edges from the speed on at which they fit into the window: above it they come faster.
+  // Six edges, from the speed on at which they fit into the window; above it they come faster.
   const double at_most = std::fmin(window, one_turn * T);
   const SpeedLag six{at_most, at_most / one_turn, sensing.late_s};
   return six.delay_s() > one.delay_s() || one_turn * T <= window ? six : one;
@@ -63,22 +63,22 @@ double speed_step_rad_s(const RotorSensing& sensing, double pole_pairs, double s
   const bool turn = sensing.edges == 0 && one_turn * T <= hall_window_s(crossover_rad_s);
   const double edges = turn ? one_turn : std::max(sensing.edges, 1);
   const double tick = sensing.capture_Hz > 0.0 ? 1.0 / (sensing.capture_Hz * edges * T) : 0.0;
-  // Over a turn the probes' places cancel.
+  // Over a whole turn the errors of the probes' positions cancel.
   const double stray = turn ? 0.0 : sensing.stray_rad / (edges * base::pi / 3);
   return speed_rad_s * (tick + stray);
 }
 
 namespace {
 
-/// Of the loop as its gains alone have it: by it the chip's window is laid out too. The loop with its integral and its lags crosses
-/// over elsewhere.
+/// Crossover of the loop by its gains alone, from which the chip's window is computed too. With its integral and lags
+/// the loop crosses over elsewhere.
 void add_crossover(double crossover_rad_s, std::vector<DerivationStep>& steps) {
   if (!(crossover_rad_s > 0.0)) return;
   steps.push_back(
       {"w_c", "d1 T_max/J, where the speed loop crosses over by d1 alone", crossover_rad_s, "rad/s"});
 }
 
-/// What a sensor costs, for a reader.
+/// Delay and lost phase of a sensor, for a reader.
 void add_cost(const SpeedLag& lag, const char* formula, double crossover_rad_s,
               std::vector<DerivationStep>& steps) {
   steps.push_back({"delay", formula, lag.delay_s(), "s"});

@@ -9,11 +9,11 @@
 namespace sixstep::design {
 namespace {
 
-constexpr double noises = 5.0;           // standard deviations that noise does not pass in a day
-constexpr double clear = 4.0;            // thresholds that the lowest speed's back-EMF has
+constexpr double noises = 5.0;           // standard deviations that noise does not exceed in a day
+constexpr double clear = 4.0;            // ratio of the lowest speed's back-EMF to the threshold
 constexpr double forgetting_lags = 5.0;  // exp(-5) of the bus is less than the back-EMF of a slow rotor
 
-/// Sampled in the middle of the on-time, half of which has to be enough for the legs to come to their rails.
+/// Samples are in the middle of the on-time: half of it must be long enough for the legs to reach their rails.
 base::Problem too_slow(const SensorlessBasis& b) {
   const double needed_Hz = rail_lags / (base::pi * b.least_on_s());
   return {"terminal_bandwidth_Hz", base::rounded(b.spec.terminal_bandwidth_Hz, 4),
@@ -23,7 +23,8 @@ base::Problem too_slow(const SensorlessBasis& b) {
           "raise it to " + base::rounded(needed_Hz, 4) + " Hz, or hand over at a higher lowest_part"};
 }
 
-/// Without a low-pass comparators turn over at each edge of the pulse, with too slow a one they tell what was.
+/// Without a low-pass, comparators change at each edge of the pulse; with a low-pass that is too slow they show past
+/// values.
 base::Problem badly_filtered(const SensorlessBasis& b) {
   const ComparatorSpec& c = b.spec.comparators;
   const std::string least = base::rounded(1.01 / (2.0 * base::pi * b.longest_comparator_lag_s()), 3) +
@@ -55,8 +56,8 @@ double SensorlessBasis::ramp_rad_s2() const {
   return (motor.K_t_Nm_A * start_A - load_Nm) / (2.0 * motor.shaft.J_kg_m2);
 }
 
-/// Its acceleration's current and that of the drag which the sheet tells of. The rest of
-/// start_A is in reserve for a load, and a speed loop that began with it would run past its reference before it is unwound.
+/// Current of the acceleration and of the sheet's drag. The rest of start_A is a reserve for a load; a speed loop
+/// that began with it would overshoot before its integral is unwound.
 double SensorlessBasis::ramp_A() const {
   const plant::Shaft& shaft = motor.shaft;
   const double drag_Nm = shaft.coulomb_Nm + shaft.B_Nm_s * lowest_rad_s;
@@ -74,7 +75,7 @@ double SensorlessBasis::comparators_V() const {
   return (c.against_half_bus ? 2.0 : 3.0) * (c.offset_V + c.hysteresis_V / 2.0);
 }
 
-/// Has forgotten the freewheel half a sector later, or is settled in half a pulse.
+/// The freewheel's effect has decayed after half a sector, or the low-pass has settled in half a pulse.
 double SensorlessBasis::longest_comparator_lag_s() const {
   if (spec.comparators.against_half_bus) return least_on_s() / (2.0 * rail_lags);
   return sector_s(no_load_rad_s) / (2.0 * forgetting_lags);
@@ -110,7 +111,7 @@ SensorlessBasis sensorless_basis(const MotorModel& motor, const SensorlessSpec& 
               std::max(motor.shaft.coulomb_Nm, motor.shaft.static_Nm);
   const double range_V = spec.adc_range_V > 0.0 ? spec.adc_range_V : 1.25 * spec.bus_V;
   b.lsb_V = range_V / static_cast<double>(1 << spec.adc_bits);
-  // Of 2 u_f - u_s - u_k: variances 4 + 1 + 1, half a step each way per converter.
+  // Noise of 2 u_f - u_s - u_k: variances 4 + 1 + 1, half a step either way per converter.
   b.threshold_V = noises * std::sqrt(6.0) * spec.adc_noise_V + 2.0 * b.lsb_V + spec.mismatch * spec.bus_V;
   b.lock_V = b.threshold_V + b.comparators_V();
   b.lowest_rad_s =

@@ -12,17 +12,17 @@ namespace sixstep::design {
 namespace {
 
 constexpr double lag_part = 0.2;      // of a sector at no-load speed
-constexpr double level_scale = 0.25;  // of psi: what a format ends at is four levels
+constexpr double level_scale = 0.25;  // of psi: the format's range is four levels
 constexpr double observed_periods_a_sector = 4.0;
 
-/// The back-EMF of a phase `deg` behind its rising zero, of its peak.
+/// The back-EMF of a phase `deg` after its rising zero, relative to its peak.
 double shape(const plant::Machine& machine, double deg) {
   if (machine.back_emf == plant::BackEmf::sine) return base::sin(deg * base::pi / 180.0);
   const double from_top = deg > 270.0 ? deg - 450.0 : deg - 90.0;
   return std::clamp((90.0 - std::fabs(from_top)) / (90.0 - machine.flat_deg / 2.0), -1.0, 1.0);
 }
 
-/// The same without what all three have in common.
+/// The same minus the common part of all three phases.
 double own_shape(const plant::Machine& machine, double deg) {
   return (2.0 * shape(machine, deg) - shape(machine, deg + 120.0) - shape(machine, deg + 240.0)) / 3.0;
 }

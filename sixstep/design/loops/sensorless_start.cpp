@@ -12,10 +12,10 @@ namespace {
 
 constexpr double two_to_32 = 4294967296.0;
 constexpr double swings = 6.0;    // periods of the alignment's swing
-constexpr double falling = 0.25;  // of the current, while the rotor falls towards its place
-constexpr double fastest = 1.5;   // no-load speeds: nothing turns faster
-constexpr double slowest = 0.4;   // of the lowest speed: given up below
-constexpr double fluxes = 2.0;    // T may be late by so much in a steep acceleration
+constexpr double falling = 0.25;  // of the current, while the rotor swings to its alignment
+constexpr double fastest = 1.5;   // times the no-load speed: nothing turns faster
+constexpr double slowest = 0.4;   // of the lowest speed: below it the drive gives up
+constexpr double fluxes = 2.0;    // factor by which T may be late in a steep acceleration
 constexpr double periods_a_sector = 4.0, filtered_periods_a_sector = 5.0, captured_periods_a_sector = 3.0;
 constexpr double rail_part = 0.03;  // of the bus
 
@@ -29,7 +29,7 @@ control::ZeroCrossingConfig crossing_of(const SensorlessBasis& b) {
   c.seen = b.spec.seen;
   c.rail_counts = static_cast<std::uint16_t>(whole(rail_part * b.spec.bus_V / b.lsb_V));
   c.threshold = counts(b.threshold_V);
-  // A diode of the freewheel holds the terminal one drop below the rail, and the driven pair half of one.
+  // A diode of the freewheel holds the terminal one drop below the rail, and the driven pair half a drop.
   c.below = b.spec.seen == control::NeutralSeen::on_time ? c.threshold
                                                          : std::min(c.threshold, counts(b.spec.diode_V / 2));
   const auto through = [](double ticks) { return whole(std::ceil(ticks)); };
@@ -39,7 +39,7 @@ control::ZeroCrossingConfig crossing_of(const SensorlessBasis& b) {
   return c;
 }
 
-/// Of half a pulse, what its filters take.
+/// Part of half a pulse that the filters need, s.
 double settled_s(const SensorlessBasis& b) {
   const bool in_pulse = b.spec.comparators.followed && b.spec.comparators.against_half_bus;
   return std::max(b.settle_s(), in_pulse ? rail_lags * b.comparator_lag_s : 0.0);
@@ -90,7 +90,8 @@ control::LockConfig lock_of(const SensorlessBasis& b) {
   l.shortest_ticks = whole(b.counts(b.sector_s(fastest * b.no_load_rad_s)));
   l.threshold = static_cast<std::int32_t>(b.lock_V / b.lsb_V) + 1;
   l.most_flux = whole(fluxes * 3.0 * b.motor.machine.K_e_V_s / b.lsb_V * b.counts(b.sector_s(1.0)));
-  // A leg that its diode lets go within the on-time is seen on its way from the rail: no voltage that tells a flux.
+  // A leg whose diode stops conducting within the on-time is sampled on its way from the rail: its voltage gives no
+  // flux.
   if (b.lag_s > 0.0 && b.spec.chopping != control::Chopping::hard) l.most_flux = 0xffffffffu;
   l.longest_ticks = whole(b.counts(b.sector_s(slowest * b.lowest_rad_s)));
   return l;
@@ -159,7 +160,7 @@ base::Result<SensorlessStart> sensorless_start(const MotorModel& motor, const Se
   out.start_output =
       current_at_full_output_A > 0.0 ? std::min(1.0, b.ramp_A() / current_at_full_output_A) : 0.0;
   const double K_t = motor.K_t_Nm_A;
-  // Hard chopping applies (2 d - 1) of the bus; complementary chopping, while it brakes, keeps the old current alive.
+  // Hard chopping applies (2 d - 1) of the bus; complementary chopping keeps the old current flowing while it brakes.
   const double swing_V = spec.chopping == control::Chopping::soft ? spec.bus_V : 2.0 * spec.bus_V;
   out.duty_per_period = b.nominal_A * K_t * K_t / (motor.shaft.J_kg_m2 * swing_V) * spec.period_s;
   out.current_per_period = b.nominal_A * spec.period_s / usual_current_settle_s;

@@ -15,7 +15,7 @@ double count_rad(const ShaftSensing& s) {
   return s.gear * 2 * base::pi / counts;
 }
 
-/// From one count to the next.
+/// Time from one count to the next.
 double count_s(const ShaftSensing& s, double speed_rad_s) { return count_rad(s) / std::fabs(speed_rad_s); }
 
 void add_encoder(const ShaftSensing& s, double speed, std::vector<DerivationStep>& steps) {

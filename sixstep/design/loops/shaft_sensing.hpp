@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a speed loop loses to an encoder or a resolver, how much its speed jitters, and the slowest speed that it tells.
+// Computes the lag of an encoder or a resolver in a speed loop, the jitter of its speed, and the lowest speed that it
+// measures.
 //
-//   encoder    M/T (control/sensing/pulse_speed.hpp): the mean over T between two edges that control ticks saw, held until the
-//              next one, c = (2 pi/4N)/w apart;  T = max(T_s, c).  A tick of the timer in T is 1/(f T) of the speed; a count
-//              per time-out is the slowest
-//   absolute   the mean over k samples, late by the code's latency; a count in k T_s is (2 pi/2^n)/(k T_s), and below it the
-//              speed reads as nothing or as that
-//   resolver   the integrator of a loop of type 2, w_n^2/(s^2 + 2 D w_n s + w_n^2): 2 D/w_n late as far below w_n as a loop
-//              should be; beside that what its angle is late. Windings with noise of s rad in each step of T_l jitter by
-//              s sqrt(T_l w_n^3/(4 D)); it tells every speed
+//   encoder    M/T (control/sensing/pulse_speed.hpp): the mean over T between two edges found by control ticks, held
+//              until the next one, c = (2 pi/4N)/w later;  T = max(T_s, c).  A tick of the timer in T is 1/(f T) of
+//              the speed; the lowest speed is one count per time-out
+//   absolute   the mean over k samples, late by the code's latency; a count in k T_s is (2 pi/2^n)/(k T_s), and a lower
+//              speed reads as zero or as that
+//   resolver   the integrator of a loop of type 2, w_n^2/(s^2 + 2 D w_n s + w_n^2): 2 D/w_n late at frequencies far
+//              below w_n, where a loop should be; plus the delay of its angle. Windings with noise of s rad in each
+//              step of T_l jitter by s sqrt(T_l w_n^3/(4 D)); it measures every speed
 //
-// All of the mechanical speed; on the load's side of a gear n turns of the motor make one of the sensor.
+// All speeds are mechanical; on the load's side of a gear n turns of the motor are one of the sensor.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -25,7 +26,7 @@ enum class ShaftSensorKind : std::uint8_t { none, encoder, absolute, resolver };
 struct ShaftSensing {
   ShaftSensorKind kind = ShaftSensorKind::none;
   double gear = 1.0;      ///< n
-  bool linear = false;    ///< a scale: n is the magnets' period over 2 pi, in m, N the lines in it
+  bool linear = false;    ///< a linear scale: n is the magnets' period over 2 pi, in m, N the lines in it
   double period_s = 0.0;  ///< T_s, of the control ticks
   // incremental encoder
   int lines = 0;            ///< N
@@ -36,29 +37,29 @@ struct ShaftSensing {
   int samples = 1;         ///< k
   double latency_s = 0.0;  ///< of the code, or of a resolver's angle
   // resolver
-  int pole_pairs = 1;          ///< of its own
+  int pole_pairs = 1;          ///< of the resolver
   double natural_rad_s = 0.0;  ///< w_n of its tracking loop
   double damping = 1.0;        ///< D
   double step_s = 0.0;         ///< T_l, of that loop
-  double noise_rad = 0.0;      ///< s, root mean square, of its own turn
+  double noise_rad = 0.0;      ///< s, root mean square, of the resolver's turn
 };
 
 /// "encoder, 1024 lines", "absolute encoder, 14 bits", "resolver, followed within 1 kHz"
 std::string sensor_words(const ShaftSensing& sensing);
 
-/// The speed is the mean over `mean_s`, stands for `hold_s`, and is `late_s` late.
+/// The speed is the mean over `mean_s`, is held for `hold_s`, and is `late_s` late.
 struct ShaftSpeedAge {
   double mean_s = 0.0, hold_s = 0.0, late_s = 0.0;
 };
 ShaftSpeedAge speed_age(const ShaftSensing& sensing, double speed_rad_s);
 
-/// Of a speed that is told: one step of an encoder's, the root mean square of a resolver's.
+/// Jitter of the measured speed: one step for an encoder, the root mean square for a resolver.
 double speed_jitter_rad_s(const ShaftSensing& sensing, double speed_rad_s);
 
-/// Below it the speed reads as 0 now and then; 0: it tells every speed.
+/// Below it the speed sometimes reads 0; 0: every speed is measured.
 double lowest_told_rad_s(const ShaftSensing& sensing);
 
-/// How these come about, for a reader.
+/// Derivation of these values, for a reader.
 std::vector<DerivationStep> shaft_sensing_steps(const ShaftSensing& sensing, double speed_rad_s);
 
 }  // namespace sixstep::design

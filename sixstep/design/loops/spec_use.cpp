@@ -27,7 +27,7 @@ struct Idle {
 constexpr const char* with_speed = "add mode = speed or mode = position, or leave it out";
 constexpr const char* one_of_two = "keep one of the two";
 
-/// Of a member that stands in several rows the first that holds is told.
+/// If a member has several rows, the first that applies is reported.
 constexpr Idle idles[] = {
     {"current_settle_s", current_alone,
      "applies to a current loop inside a speed loop, and mode = current has no speed loop",

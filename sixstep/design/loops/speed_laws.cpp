@@ -175,7 +175,7 @@ LinearLaw linear(const control::ObservedSpeedConfig<double>& k) {
   law.r = times(k.f + k.K * (1.0 + k.g * k.f), product(C, E));
   law.y = product(C, sum(times(k.K, E), times(-1.0, product(N, A))));
   law.q = sum(product(sum(C, {k.K * k.g * (1.0 - k.c)}), E), times(k.b * (1.0 - k.c), product(N, z_itself)));
-  law.q[0] = 0.0;  // the load is an integral; of the sum above rounding would be left
+  law.q[0] = 0.0;  // the load is integrated, so this is 0; the sum above would leave rounding
   law.y[0] = law.r[0];
   return law;
 }

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gains of a tracking loop of type 2 (control/sensing/tracking.hpp) from its bandwidth and damping. As a loop in
-// time it follows an angle with
+// Computes the gains of a tracking loop of type 2 (control/sensing/tracking.hpp) from its bandwidth and damping. In
+// continuous time it follows an angle with
 //
 //   H(s) = (2 D w_n s + w_n^2)/(s^2 + 2 D w_n s + w_n^2),   w_b = w_n sqrt(1 + 2 D^2 + sqrt((1 + 2 D^2)^2 + 1))
 //
-// where |H(j w_b)| = 1/sqrt 2. Its poles s are put to z = exp(s T), so that sampling changes neither frequency
-// nor damping:
+// where |H(j w_b)| = 1/sqrt 2. Its poles s are mapped to z = exp(s T), so that sampling changes neither frequency nor
+// damping:
 //
 //   1 - K_p = z_1 z_2 = exp(-2 D w_n T),   2 - K_p - K_i = z_1 + z_2 = 2 exp(-D w_n T) cos(w_n T sqrt(1 - D^2))
 //
-// They lie inside the unit circle whatever the period. Gains taken over from time, K_p = 2 D w_n T and
-// K_i = (w_n T)^2, leave it where w_n T = 2 (sqrt(1 + D^2) - D): Jury's 2 K_p + K_i < 4.
+// They are inside the unit circle for any period. Gains copied from continuous time, K_p = 2 D w_n T and K_i = (w_n
+// T)^2, leave it at w_n T = 2 (sqrt(1 + D^2) - D): Jury's 2 K_p + K_i < 4.
 #pragma once
 #include "sixstep/base/result.hpp"
 #include "sixstep/control/sensing/tracking.hpp"
@@ -18,7 +18,7 @@
 namespace sixstep::design {
 
 struct TrackingSpec {
-  double bandwidth_rad_s = 0.0;  ///< w_b, electrical or mechanical as the angle that is tracked
+  double bandwidth_rad_s = 0.0;  ///< w_b, electrical or mechanical like the tracked angle
   double damping = 1.0;          ///< D
   double period_s = 0.0;         ///< T
 };
@@ -26,19 +26,19 @@ struct TrackingSpec {
 struct TrackingDesign {
   double K_p = 0.0, K_i = 0.0;
   double natural_rad_s = 0.0;     ///< w_n
-  double K_a_per_s2 = 0.0;        ///< acceleration over the error that stays, K_i/T^2
+  double K_a_per_s2 = 0.0;        ///< acceleration over the steady error, K_i/T^2
   double speed_rad_s_unit = 0.0;  ///< rad/s of one unit of control::tracking_speed, 2 pi/(2^32 T)
 };
 
-/// Refuses what is not above 0, and a bandwidth from half the sampling frequency on.
+/// Problems: values not above 0, and a bandwidth of half the sampling frequency or more.
 base::Result<TrackingDesign> tracking_loop(const TrackingSpec& spec);
 
-/// Whether the sampled loop comes to rest (Jury).
+/// True if the sampled loop is stable (Jury).
 constexpr bool tracking_is_stable(double K_p, double K_i) {
   return K_p > 0 && K_p < 2 && K_i > 0 && 2 * K_p + K_i < 4;
 }
 
-/// The largest w_n T of gains taken over from time.
+/// The largest stable w_n T of gains copied from continuous time.
 double taken_over_limit(double damping);
 
 /// In the chip's numbers.

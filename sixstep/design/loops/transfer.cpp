@@ -77,7 +77,7 @@ Polynomial characteristic(const Square& e, int states) {
   return p;
 }
 
-/// Whether all roots have a negative real part: Routh's scheme has no change of sign.
+/// True if all roots have a negative real part: Routh's scheme has no change of sign.
 bool is_hurwitz(Polynomial p) {
   if (p.back() < 0.0)
     for (double& x : p) x = -x;
@@ -145,7 +145,7 @@ bool is_stable(const Polynomial& denominator) {
   return in_w.back() != 0.0 && is_hurwitz(in_w);
 }
 
-// Roots of |z| < r are those of |z/r| < 1: delta = r delta' - (1 - r).
+// Roots with |z| < r are those with |z/r| < 1: delta = r delta' - (1 - r).
 double slowest_decay(const Polynomial& denominator) {
   const auto inside = [&](double decay) {
     const Polynomial shifted{-decay, 1.0 - decay};
@@ -167,7 +167,7 @@ double slowest_decay(const Polynomial& denominator) {
 
 namespace {
 
-/// exp([A B; 0 0] t) - 1: how the states move in a time t with the input held.
+/// exp([A B; 0 0] t) - 1: change of the states in a time t with the input held.
 Square step_of(const Linear& system, double time_s) {
   const auto n = static_cast<std::size_t>(system.states);
   Square m{};
@@ -178,8 +178,8 @@ Square step_of(const Linear& system, double time_s) {
   return exponential_minus_one(m);
 }
 
-/// C (delta - E)^-1 x = sum C E^(k-1) x delta^-k, times den: the numerator has the powers from 0 on. E + 1 = `step` + 1, x the last
-/// column of `held`.
+/// C (delta - E)^-1 x = sum C E^(k-1) x delta^-k, times den: the numerator has the powers from 0 on. E + 1 = `step` +
+/// 1, and x is the last column of `held`.
 Polynomial numerator(const Square& step, const Square& held, const Polynomial& den, int output) {
   const std::size_t n = den.size() - 1;
   std::array<double, 5> x{};
@@ -198,8 +198,8 @@ Polynomial numerator(const Square& step, const Square& held, const Polynomial& d
 
 }  // namespace
 
-// With G(t) what an input adds to the states in a time t, x' = E x + (G(T) - G(T - late)) u/z + G(T - late) u: the numerator over
-// z den is that of G(T), and z - 1 times that of G(T - late).
+// G(t): change of the states by an input in a time t. x' = E x + (G(T) - G(T - late)) u/z + G(T - late) u: the
+// numerator over z den is that of G(T), and z - 1 times that of G(T - late).
 Transfer sampled(const Linear& system, int output, double period_s, double late_s) {
   const Square step = step_of(system, period_s);
   Transfer t;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Linear sampled systems as ratios of polynomials: built from a state space with zero-order hold, put in
-// series, closed, judged for stability, evaluated on the unit circle. What PWM and ADC see of the drive while
-// no limit acts. The variable is delta = z - 1, not z: a loop that settles in a second has its poles 1e-4
-// from z = 1, and a polynomial in z keeps nothing of them where several are there (Middleton, Goodwin).
+// Linear sampled systems as ratios of polynomials: built from a state space with zero-order hold, connected in
+// series, closed, checked for stability, evaluated on the unit circle. They describe the drive between PWM and ADC
+// while no limit acts. The variable is delta = z - 1, not z: a loop that settles in a second has its poles 1e-4 from
+// z = 1, and a polynomial in z loses them to rounding if several are there (Middleton, Goodwin).
 #pragma once
 #include <array>
 #include <vector>
 
 namespace sixstep::design {
 
-/// A point of the complex plane. (std::complex asks the C library for magnitude and angle.)
+/// A complex number. (std::complex calls the C library for magnitude and angle.)
 struct Complex {
   double re = 0.0, im = 0.0;
 
@@ -40,22 +40,22 @@ struct Transfer {
   Complex at(double turn) const;
 };
 
-/// One after the other.
+/// a and b in series.
 Transfer series(const Transfer& a, const Transfer& b);
 /// Periods of pure delay: z^-periods.
 Transfer delay(int periods);
 /// L/(1 + L)
 Transfer closed(const Transfer& loop);
 
-/// Whether all roots have |z| < 1: z = (1 + w)/(1 - w) and Routh's scheme; no root is searched. For
-/// the degrees of a drive: beyond some twenty the scheme is rounding alone.
+/// True if all roots have |z| < 1: z = (1 + w)/(1 - w) and Routh's scheme; no root is computed. For the degrees of a
+/// drive: beyond some twenty the scheme is only rounding.
 bool is_stable(const Polynomial& denominator);
-/// 1 - |z| of the largest root, by halving with is_stable: the part of a disturbance that each period takes
-/// away. Negative for an unstable system.
+/// 1 - |z| of the largest root, by bisection with is_stable: the part of a disturbance that disappears per period.
+/// Negative for an unstable system.
 double slowest_decay(const Polynomial& denominator);
 
-/// x' = A x + B u with at most four states, sampled with zero-order hold: transfer from u to state `output`. With late_s, a part of a
-/// period, an input acts from so long after its sample on, and until then the one before it.
+/// x' = A x + B u with at most four states, sampled with zero-order hold: transfer from u to state `output`. With
+/// late_s, a part of a period, an input acts from that time after its sample on, and the one before it until then.
 struct Linear {
   int states = 0;
   std::array<std::array<double, 4>, 4> A{};

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The largest magnitudes of what a drive's loops compute, in SI: interval arithmetic around 0 on drive.hpp's
-// lines.
+// Largest magnitudes that occur in a drive's loops, in SI: interval arithmetic around 0 on the lines of drive.hpp.
 #pragma once
 #include "sixstep/design/scaling/scaling.hpp"
 

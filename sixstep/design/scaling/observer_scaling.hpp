@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The configuration of a back-EMF observer in the chip's own numbers.
+// Converts the configuration of a back-EMF observer to the chip's own numbers.
 #pragma once
 #include "sixstep/control/sensorless/observer.hpp"
 #include "sixstep/design/scaling/scaling.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole product's configuration in fixed point: the drive by scaling.hpp, and around it ADC gains, speed
+// Converts the whole product's configuration to fixed point: the drive by scaling.hpp, and around it ADC gains, speed
 // from edges, thresholds of faults, each with its line of the proof.
 #pragma once
 #include "sixstep/control/protected_drive.hpp"
@@ -14,12 +14,12 @@ struct ScaledProduct {
   std::vector<Headroom> proof;
 };
 
-/// In `product` gains of ADCs are A and V per eighth of a count, speeds rad/s, positions degrees: the
-/// configuration of double. Beside scaling.hpp's, Problems are
-///   - a converter's span beyond full scale, or more counts than the format counts in eighths;
-///   - a threshold that no signal can pass, since the format ends before it;
+/// In `product`, gains of ADCs are A and V per eighth of a count, speeds rad/s, positions degrees, as in the
+/// configuration of double. In addition to those of scaling.hpp, Problems are
+///   - a converter's span beyond full scale, or more eighths of counts than the format holds;
+///   - a threshold that no signal can pass, because it is beyond the format's range;
 ///   - a ratio of ticks that does not fit its sum.
-/// Position is measured in position mode only: elsewhere it has no base. Instantiated as scaled().
+/// Position is measured in position mode only: in other modes it has no base. Instantiated as scaled().
 template <class Scalar>
 base::Result<ScaledProduct<Scalar>> scaled_product(const control::ProtectedConfig<double>& product,
                                                    const OperatingRange& range, const Bases& bases,

@@ -39,7 +39,7 @@ Bases bases_for(const DriveConfig<double>& drive, const OperatingRange& range, d
   double current = std::max(m.current + m.current_ref, m.current_levels);
   if (drive.extras.on && drive.extras.limits_current) {
     const control::LimitsConfig<double>& l = drive.extras.limits;
-    const double below_the_end = 1 + 1e-3;  // a threshold at full scale is never passed
+    const double below_the_end = 1 + 1e-3;  // a signal never exceeds a threshold at full scale
     current = std::max(current, trip_ratio * l.current_A * below_the_end);
     if (l.limits_speed) speed = std::max(speed, m.speed + l.speed_rad_s);
     if (l.limits_regeneration) bus = std::max(bus, l.bus_V * below_the_end);
@@ -73,7 +73,7 @@ using Range = OperatingRange;
   template base::Result<Scaled<control::Format>> scaled(const Drive&, const Range&);
 SIXSTEP_FIXED_FORMATS(SIXSTEP_SCALED_IN)
 #undef SIXSTEP_SCALED_IN
-// Formats that tests alone have.
+// Formats for tests only.
 template base::Result<Scaled<control::Fixed<std::int16_t, 13>>> scaled(const Drive&, const Range&,
                                                                        const Bases&);
 template base::Result<Scaled<control::Fixed<std::int32_t, 29>>> scaled(const Drive&, const Range&,

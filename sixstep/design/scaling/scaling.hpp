@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which A, V, rad/s and degrees a fixed-point 1.0 means, and the drive's configuration in those units, with a
-// proof by intervals that nothing on its way saturates that must not, over a stated range of inputs.
+// Computes which A, V, rad/s and degrees a fixed-point 1.0 stands for, and converts the drive's configuration to
+// those units. Interval arithmetic proves that, over a stated range of inputs, nothing saturates except where it may.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,19 +11,19 @@
 
 namespace sixstep::design {
 
-/// What may come in: magnitudes that measurements and setpoint never pass. Beyond them a sensor or a user is
-/// at fault and saturation is the wanted answer.
+/// Range of the inputs: magnitudes that measurements and setpoint do not exceed. Beyond them a sensor or a user is at
+/// fault, and saturation is the right answer.
 struct OperatingRange {
-  double current_A = 0.0;     ///< of each phase, what the ADC spans
+  double current_A = 0.0;     ///< of each phase, the ADC's range
   double speed_rad_s = 0.0;   ///< mechanical
   double position_deg = 0.0;  ///< mechanical; only in position mode
   double bus_V = 0.0;
   double setpoint = 0.0;  ///< in the unit of the mode
   double speed_change_rad_s =
-      0.0;  ///< of the measured speed from one sample to the next; 0: any within speed
+      0.0;  ///< of the measured speed from one sample to the next; 0: any change within speed_rad_s
 };
 
-/// What 1.0 stands for. Duties and fractions of torque have the base 1.
+/// Values that 1.0 stands for. Duties and fractions of torque have the base 1.
 struct Bases {
   double current_A = 1.0;
   double voltage_V = 1.0;
@@ -31,7 +31,7 @@ struct Bases {
   double position_deg = 1.0;
 };
 
-/// That of a setpoint.
+/// Base of a setpoint.
 constexpr double setpoint_base(control::Mode mode, const Bases& b) {
   return mode == control::Mode::current    ? b.current_A
          : mode == control::Mode::speed    ? b.speed_rad_s
@@ -39,7 +39,7 @@ constexpr double setpoint_base(control::Mode mode, const Bases& b) {
                                            : 1.0;
 }
 
-/// By field (design/fields).
+/// Value of a field's base (design/fields).
 constexpr double value_of(Base base, control::Mode mode, const Bases& b) {
   switch (base) {
     case Base::one:
@@ -58,7 +58,7 @@ constexpr double value_of(Base base, control::Mode mode, const Bases& b) {
   return 1.0;
 }
 
-/// One line of the proof: a quantity, the most it reaches, and where the format ends.
+/// One line of the proof: a quantity, its largest value, and the end of the format.
 struct Headroom {
   std::string name;
   double largest = 0.0;     ///< SI
@@ -75,16 +75,16 @@ struct Scaled {
 /// The smallest bases with which every signal and every difference of signals fits the format.
 Bases bases_for(const control::DriveConfig<double>& drive, const OperatingRange& range, double full_scale);
 
-/// The drive in fixed point. Problems name the quantity that does not fit, or the gain that the format cannot
-/// hold to its last bits, with the value and the end of the range:
+/// The drive in fixed point. Problems name the quantity that does not fit, or the gain that the format cannot hold to
+/// its last bits, with the value and the end of the range:
 ///   - a signal, a limit or a difference of signals beyond full scale;
 ///   - a gain above the mantissa, or so small that its mantissa loses bits;
-///   - an integral gain that does not see an error of one digit (pi.hpp);
+///   - an integral gain for which an error of one digit has no effect (pi.hpp);
 ///   - an integral increment that could saturate its sum (14 of the 16 times the range it holds);
-///   - a derivative and the integral behind it, together beyond 14 times the range; an integral that nothing
-///     holds back.
-/// What a limit follows at once (products before a clamp, the proportional kick) may saturate: the clamp
-/// hides it. Instantiated for Q15, Q31 and the formats with one and two bits before the point.
+///   - a derivative and the integral behind it, together beyond 14 times the range; an integral without
+///     a back-calculation gain.
+/// Values that go directly into a limit (products before a clamp, the proportional kick) may saturate, because the
+/// clamp hides it. Instantiated for Q15, Q31 and the formats with one and two bits before the point.
 template <class Scalar>
 base::Result<Scaled<Scalar>> scaled(const control::DriveConfig<double>& drive, const OperatingRange& range,
                                     const Bases& bases);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bookkeeping of a scaling's proof: lines that fit, Problems for those that do not.
+// Collects the proof of a scaling: lines for values that fit, Problems for those that do not.
 #pragma once
 #include <cmath>
 #include <string>
@@ -14,7 +14,7 @@ namespace sixstep::design::detail {
 template <class Scalar>
 inline constexpr double full_scale = static_cast<double>(Scalar::max());
 
-/// Collects lines of the proof and what breaks it.
+/// Lines of the proof, and the problems that break it.
 template <class Scalar>
 struct Proof {
   std::vector<Headroom> rows;
@@ -23,13 +23,13 @@ struct Proof {
   void fits(const char* name, double largest, double base) {
     const double end = base * full_scale<Scalar>;
     rows.push_back({name, largest, end});
-    // A whole base counts as fitting where the format ends one digit below it (Q15, Q31).
+    // A whole base counts as fitting if the format ends one digit below it (Q15, Q31).
     if (std::fabs(largest) > end + base * static_cast<double>(Scalar::from_raw(1)))
       problems.push_back({name, base::written(largest), "is above full scale, " + base::written(end),
                           "take a larger base or a format with more bits before the point"});
   }
 
-  /// A threshold must lie below full scale, or no signal can ever pass it. None of 0 is beyond any.
+  /// A threshold must be below full scale, otherwise no signal can pass it. A threshold of 0 always fits.
   Scalar threshold(const char* name, double value, double base) {
     if (value != 0) fits(name, std::fabs(value) + 2 * base * static_cast<double>(Scalar::from_raw(1)), base);
     return Scalar(value / base);
@@ -48,7 +48,7 @@ struct Proof {
     return control::Gain<Scalar>(per_unit);
   }
 
-  /// Of a PI: its integral sees an error of one digit, and saturates at none.
+  /// For a PI: an error of one digit has an effect on its integral, and no increment saturates it.
   void integral(const std::string& name, const control::PiConfig<double>& c, double in, double out,
                 double largest_error) {
     const double K_i = c.d1 + c.d0, K_i_pu = K_i * in / out;

@@ -15,7 +15,7 @@ using control::SensorlessDriveConfig;
 control::DriveConfig<double> while_it_starts(const control::DriveConfig<double>& drive) {
   control::DriveConfig<double> starting = drive;
   starting.mode = control::Mode::current;
-  starting.extras.slews_setpoint = false;  // in the unit of the mode behind it
+  starting.extras.slews_setpoint = false;  // its unit is that of the mode after the start
   starting.extras.slew = {};
   return starting;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sensorless drive's configuration in fixed point: the drive by scaling.hpp, and the loop that its start runs in every
-// mode, each with its lines of the proof.
+// Converts the sensorless drive's configuration to fixed point: the drive by scaling.hpp, and the loop that runs
+// during the start in every mode, each with its lines of the proof.
 #pragma once
 #include "sixstep/control/sensorless/sensorless_drive.hpp"
 #include "sixstep/design/scaling/scaling.hpp"
@@ -14,18 +14,18 @@ struct ScaledSensorless {
   std::vector<Headroom> proof;
 };
 
-/// The same drive while it starts: it holds a current, whatever comes behind it.
+/// The same drive during its start: it controls a current, whatever its mode.
 control::DriveConfig<double> while_it_starts(const control::DriveConfig<double>& drive);
 
-/// What comes in while it starts.
+/// Range of the inputs during the start.
 OperatingRange while_it_starts(const OperatingRange& range,
                                const control::SensorlessDriveConfig<double>& sensorless);
 
-/// Bases that hold the drive in its mode and while it starts.
+/// Bases for both the drive's mode and its start.
 Bases bases_for(const control::SensorlessDriveConfig<double>& sensorless, const OperatingRange& range,
                 double full_scale);
 
-/// Problems as scaled() has them. Instantiated for Q15, Q31 and the formats with one bit before the point.
+/// Problems as in scaled(). Instantiated for Q15, Q31 and the formats with one bit before the point.
 template <class Scalar>
 base::Result<ScaledSensorless<Scalar>> scaled_sensorless(
     const control::SensorlessDriveConfig<double>& sensorless, const OperatingRange& range,

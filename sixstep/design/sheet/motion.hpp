@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whose words and units a motor is told in.
+// Words and units of a motor in messages: rotary or linear.
 #pragma once
 #include "sixstep/base/linear.hpp"
 #include "sixstep/design/sheet/parameters.hpp"

@@ -27,7 +27,7 @@ void read_printed_points(SheetReader& reader, MotorModel& m) {
     m.stall_torque_Nm = SheetReader::positive(*sheet.stall_torque_mNm, -3).value_or(0.0);
 }
 
-/// What lines make together, as K_t = 2 B l r N, is held to the same table as what one line says.
+/// Constants that follow from several lines, as K_t = 2 B l r N, are checked by the same table as those of one line.
 void check_constants(SheetReader& reader, const MotorModel& m) {
   const auto hold = [&reader](const std::string& where, double value, const base::Range& own,
                               std::string_view unit, const char* what) {
@@ -43,14 +43,14 @@ void check_constants(SheetReader& reader, const MotorModel& m) {
        base::from(0), "N m s", "the viscous friction");
 }
 
-/// Of the motors in data/motors none passes 1e4 rad/s. Ten times that and more is a slip of a unit, and would
-/// be simulated in steps of nanoseconds.
+/// No motor in data/motors exceeds 1e4 rad/s. A value ten times larger or more is a wrong unit, and its simulation
+/// would take steps of nanoseconds.
 constexpr double fastest_winding_rad_s = 1e6, fastest_swing_rad_s = 1e5;
 
-/// No winding keeps its current for minutes: what is simulated until it is forgotten would have no end.
+/// No winding keeps its current for minutes; a simulation until such a current has decayed would not end.
 constexpr double slowest_winding_rad_s = 0.01;
 
-/// R/L and K_t/sqrt(L J), terminal to terminal: how fast the winding and the shaft on it answer.
+/// R/L and K_t/sqrt(L J), terminal to terminal: rates of the winding, and of the shaft on it.
 void check_pace(SheetReader& reader, const MotorModel& m) {
   const Sheet& sheet = reader.sheet;
   const double L = 2.0 * m.machine.L_H, winding = 2.0 * m.machine.R_ohm / L;

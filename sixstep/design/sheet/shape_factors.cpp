@@ -31,8 +31,8 @@ double trapezoid_wave(double x_deg, double flat_deg) {
   return std::clamp((90.0 - x) / h, -1.0, 1.0);
 }
 
-/// Peak and mean square of f(x) - f(x - 120) over half a turn: linear between the corners of the two, so that
-/// the peak lies on a corner and Simpson's rule is exact for the square.
+/// Peak and mean square of f(x) - f(x - 120) over half a turn. It is linear between the corners of both, so that the
+/// peak is at a corner and Simpson's rule is exact for the square.
 void line_to_line(double flat_deg, ShapeFactors& out) {
   std::array<double, 6> corners = {0.0, 180.0};
   std::size_t count = 2;
@@ -87,7 +87,7 @@ ShapeFactors harmonic_factors(std::span<const double> orders, std::span<const do
   }
   out.phase_rms = std::sqrt(phase_square);
   out.line_rms = std::sqrt(line_square);
-  // The peaks, each even about its middle, by looking at half a turn in steps of a 4096th.
+  // The peaks, each symmetric about its middle, by a scan of half a turn in steps of a 4096th.
   const auto phase = [&](double x) {
     double v = base::cos(x);
     for (std::size_t n = 0; n < orders.size(); ++n) v += sizes[n] * base::cos(orders[n] * x);

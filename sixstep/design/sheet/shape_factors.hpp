@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one phase's back-EMF of peak 1 looks like between terminals, as a mean and as a fundamental: the
-// numbers that turn a printed constant of any convention into K_e.
+// Factors of a back-EMF's shape, from one phase of peak 1 to line values, means and the fundamental: they convert a
+// printed constant of any convention to K_e.
 #pragma once
 #include <span>
 
@@ -8,8 +8,8 @@
 
 namespace sixstep::design {
 
-/// Sheets speak of sine machines when they say "peak", "rms" or "flux linkage". Of a trapezoid the same
-/// measurement gives other factors; these are of the shape at hand.
+/// Sheets that print "peak", "rms" or "flux linkage" mean sine machines. For a trapezoid the same measurement gives
+/// other factors; these are the factors of the given shape.
 struct ShapeFactors {
   double sector_mean =
       0.0;  ///< of f_p - f_n over a sector: K_t/K_e; 2 for 120 degrees flat, 1.65399 for a sine
@@ -18,21 +18,21 @@ struct ShapeFactors {
   double phase_rms = 0.0;   ///< 0.88192, 0.70711
   double phase_peak = 0.0;  ///< largest |f_a|; 1 unless a table or harmonics say otherwise
   double fundamental =
-      0.0;  ///< amplitude of the first harmonic, what a field-oriented drive sees; 1.21585, 1
+      0.0;  ///< amplitude of the first harmonic, which a field-oriented drive uses; 1.21585, 1
 };
 
-/// Of a trapezoid or a sine. flat_deg in (0, 180); a sine has no flat top and does not look at it.
+/// Factors of a trapezoid or a sine. flat_deg in (0, 180); ignored for a sine.
 ShapeFactors shape_factors(BackEmfShape shape, double flat_deg);
 
-/// Of a sine with odd harmonics beside it: orders and sizes alike in number, sizes as parts of the sine's.
+/// Factors of a sine with odd harmonics: as many sizes as orders, relative to the sine's.
 ShapeFactors harmonic_factors(std::span<const double> orders, std::span<const double> sizes);
 
-/// Of a table (model.md 7), by the integrals of its straight lines, exact: angles in degrees as sheet_description.hpp has
-/// them, a value for each, two points at least. sector_mean is the mean over all six sectors, each with its pair; no symmetry
-/// is asked for. Factors are of the values as they stand.
+/// Factors of a table (model.md 7), exact by the integrals of its straight lines: angles in degrees as in
+/// sheet_description.hpp, one value each, at least two points. sector_mean is the mean over all six sectors, each
+/// with its pair; no symmetry is required. The values are not normalised.
 ShapeFactors table_factors(std::span<const double> angle_deg, std::span<const double> values);
 
-/// Torque per ampere rms of a sine in each phase, in line with the EMF: (3/2) sqrt 2 of the fundamental.
+/// Torque per ampere rms of a sine in each phase, in phase with the EMF: (3/2) sqrt 2 of the fundamental.
 inline double torque_per_rms_A(double K_e_V_s, const ShapeFactors& f) {
   return 1.5 * 1.4142135623730951 * K_e_V_s * f.fundamental;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A motor's data sheet, as printed: the sheet's own units and frames, each value with its source. Sheets of
-// different trades print one constant in different ways; a sheet gives each constant in one of them, or in
-// several that then are held against each other (sheet_constants.hpp, sheet_check.hpp). A linear motor's sheet fills the members
-// of the turning one, 1 rad for 1 m, under words of its own (base/linear.hpp, sheet_spellings.hpp).
+// A motor's data sheet as printed: the sheet's own units and frames, each value with its source. Makers print one
+// constant in different ways. A sheet gives each constant in one of them, or in several, which are then compared
+// (sheet_constants.hpp, sheet_check.hpp). A linear motor's sheet uses the same members, 1 rad for 1 m, under its own
+// key names (base/linear.hpp, sheet_spellings.hpp).
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -21,7 +21,7 @@ enum class MotorKind : std::uint8_t { rotary, linear };
 
 enum class RotorPlace : std::uint8_t { inner, outer };
 
-/// What a rotor is made of whose sheet does not say it.
+/// Default density of a rotor.
 inline constexpr double steel_kg_m3 = 7850.0;
 
 struct Sheet {
@@ -39,9 +39,9 @@ struct Sheet {
   std::string winding;  // "12N14P": 12 teeth, 14 poles
   BackEmfShape back_emf = BackEmfShape::trapezoid;
   double flat_deg = 120.0;                                 // width of the trapezoid's flat top, electrical
-  std::vector<double> harmonic_orders, harmonic_sizes;     // odd ones beside the sine's 1, by the sine's peak
+  std::vector<double> harmonic_orders, harmonic_sizes;     // without order 1; relative to its peak
   std::vector<double> back_emf_angle_deg, back_emf_shape;  // table: points of phase a over an electrical turn
-  std::string back_emf_file;  // table: where text reads the two lists from, as written
+  std::string back_emf_file;  // table: file of the two lists, as written; text/ reads it
   WindingConnection connection = WindingConnection::star;
   double mutual_inductance_mH = 0.0;  // delta: between two branches
   std::vector<double> phase_resistance_deviation,
@@ -56,7 +56,7 @@ struct Sheet {
   std::optional<base::Quantity>
       saturation_current_A;  // of a phase along the magnet: L_d i_d (1 - i_d/(2 I_sat))
 
-  // The torque constant and its other faces. The first given is used, in this order.
+  // The torque constant and its other forms. The first one given is used, in this order.
   std::optional<base::Quantity> torque_constant_mNm_A;  // terminal: torque per ampere through the driven pair
   std::optional<base::Quantity> back_emf_mV_s;  // frame phase: peak per mechanical rad/s, used as it is
   std::optional<base::Quantity> torque_constant_Nm_A;      // frame terminal, peak or rms
@@ -76,7 +76,7 @@ struct Sheet {
   std::optional<base::Quantity> coulomb_friction_mNm;
   std::optional<base::Quantity> iron_viscous_Nm_s, iron_coulomb_mNm;  // eddy currents, hysteresis
 
-  std::optional<base::Quantity> no_load_voltage_V;  // of the no-load point; without it the nominal voltage
+  std::optional<base::Quantity> no_load_voltage_V;  // of the no-load point; default: the nominal voltage
   std::optional<base::Quantity> no_load_speed_rpm, no_load_current_mA;
   std::optional<base::Quantity> second_no_load_voltage_V, second_no_load_speed_rpm, second_no_load_current_mA;
   std::optional<base::Quantity> nominal_speed_rpm, nominal_torque_mNm, nominal_current_A;

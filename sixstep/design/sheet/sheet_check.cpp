@@ -14,7 +14,7 @@ namespace {
 
 using base::Quantity;
 
-/// Why the model leaves a line alone. Keys that are not here are another print of what is used.
+/// Reason why the model does not use a line. Keys without an entry print a used value in another way.
 struct Reason {
   std::string_view key;
   std::string_view why;
@@ -50,7 +50,7 @@ constexpr Reason reasons[] = {
     {"max_winding_temperature_degC", "a limit"},
 };
 
-/// Visits a sheet and says of each quantity given whether the model is made of it.
+/// Visits a sheet and notes for each given quantity whether the model uses it.
 class Lines final : public base::Visitor {
  public:
   explicit Lines(const SheetConstants& constants) : constants_(constants) {}
@@ -81,7 +81,7 @@ class Lines final : public base::Visitor {
       return "another print of the torque constant, which is read from " + constants_.K_e_V_s->from;
     return "not enough to go with it";
   }
-  /// Friction comes of a no-load point only where the point is whole and no other line gives it.
+  /// A no-load point gives the friction only if it is complete and no other line does.
   std::string why_no_point(std::string_view key) const {
     const Friction& f = constants_.friction;
     const auto& used = constants_.used;
@@ -117,7 +117,8 @@ std::string slow_words(const char* what, double seconds, double usual_s) {
          rounded(usual_s, 3) + " s";
 }
 
-/// Slips towards the slow side, which a simulation bears and no relation of the sheet need show.
+/// Reports wrong units that make a motor too slow: a simulation runs with them, and no relation of the sheet may show
+/// them.
 void doubt_pace(const Sheet& sheet, SheetCheck& check) {
   SheetConstants& c = check.constants;
   const SheetReader reader{sheet, c};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A data sheet held against itself: most sheets print each fact twice, so that a slip of the pen, a line
-// value taken for a phase value or a doctored rating shows.
+// Checks a data sheet against itself: most sheets print each fact twice, so that misprints, a line value used as a
+// phase value, or exaggerated ratings are found.
 #pragma once
 #include <optional>
 #include <string>
@@ -13,30 +13,30 @@ namespace sixstep::design {
 
 enum class RelationVerdict {
   holds,
-  known,  ///< broken, and the sheet's file says so in known_deviation
+  known,  ///< broken, and listed in known_deviation by the sheet's file
   broken,
 };
 
 /// Two sides that physics makes equal, up to the rounding of what is printed and a stated margin.
 struct Relation {
-  std::string name;  ///< what known_deviation calls it: "stall current"
+  std::string name;  ///< its name in known_deviation: "stall current"
   std::string left_words, right_words;
   double left = 0.0;
   double right = 0.0;
   std::string unit;
   double deviation = 0.0;  ///< left/right - 1
-  double lowest = 0.0;     ///< deviation that is tolerated, from ..
+  double lowest = 0.0;     ///< tolerated deviation, from ..
   double highest = 0.0;    ///< .. to
   RelationVerdict verdict = RelationVerdict::holds;
-  std::string remark;  ///< why the tolerance is more than rounding, or what the deviation looks like
+  std::string remark;  ///< reason for a tolerance above rounding, or the probable cause of the deviation
 };
 
-/// One line of the sheet and what becomes of it.
+/// One line of the sheet and its use.
 struct LineUse {
   std::string key;     ///< as the file writes it
   double value = 0.0;  ///< in the unit of the standard key
   std::string unit;
-  bool used = false;  ///< the model is made of it
+  bool used = false;  ///< the model uses it
   std::string why;
 };
 
@@ -47,38 +47,39 @@ struct SheetCheck {
   std::optional<double> electrical_time_constant_s;  ///< L/R
   std::optional<double> mechanical_time_constant_s;  ///< R J/K_t^2
   std::optional<double> stall_current_A;             ///< U/R
-  base::Problems doubts;                             ///< slips of a unit that no relation shows
-  bool consistent = true;                            ///< no relation is broken beyond what the file admits
+  base::Problems doubts;                             ///< probable errors of a unit that no relation finds
+  bool consistent = true;                            ///< no relation is broken beyond known_deviation
 };
 
-/// Nothing but what the sheet says. Problems are those of what is written, of sheet_constants, and a
-/// known_deviation that names no relation or one that holds.
+/// Uses only the sheet. Problems: errors in the written values, those of sheet_constants, and a known_deviation that
+/// names no relation or one that holds.
 base::Result<SheetCheck> check_sheet(const Sheet& sheet);
 
-/// Of the motors in data/motors the slowest winding has L/R = 11 ms and the slowest rotor R J/K_t^2 = 1.2 s. A thousand times a usual one
-/// is a slip of a unit; what lies between, a generator of megawatts or a rotor with its flywheel, is told and stays what it is.
+/// In data/motors the slowest winding has L/R = 11 ms and the slowest rotor R J/K_t^2 = 1.2 s. A
+/// thousand times a usual value is a wrong unit. Values between, of a generator of megawatts or a rotor with its
+/// flywheel, are reported and kept.
 inline constexpr double slowest_usual_winding_s = 0.2, slowest_usual_rotor_s = 100.0;
 
-/// What commutation takes off the ideal no-load line, which the relation leaves out: the 251601 simulated to
-/// its steady state turns at 702.6 rad/s, 1.3 % below (U - R I)/K_t.
+/// Effect of commutation on the ideal no-load line, which the relation leaves out: the 251601 simulated to its steady
+/// state turns at 702.6 rad/s, 1.3 % below (U - R I)/K_t.
 inline constexpr double no_load_margin = 0.02;
 
-/// How far friction lines that are measured or derived may lie off a printed no-load current, or the other way round: they are of
-/// another motor, or of one as warm as it was. Of the 251601 the sources have 7.3e-6 to 10.6e-6 N m s, 45 % apart. What one sheet
-/// prints of both agrees within rounding: the four windings of Faulhaber's 3564 B to 0.25 %.
+/// Allowed difference between measured or derived friction lines and a printed no-load current: they may be of
+/// another motor, or of another temperature. For the 251601 the sources have 7.3e-6 to 10.6e-6 N m s, 45 % apart. If
+/// one sheet prints both, they agree within rounding: the four windings of Faulhaber's 3564 B to 0.25 %.
 inline constexpr double friction_margin = 0.5;
 
-/// The part of the voltage that a motor may lose over its winding at no load where neither I_0 nor all friction is printed. With x
-/// of it the best efficiency is at most (1 - sqrt x)/(1 + sqrt x), a third for x = 1/4: a motor that loses more is none that is sold
-/// for turning, and a factor sqrt 2 in a constant shows.
+/// Largest part of the voltage that a motor may lose over its winding at no load, if neither I_0 nor all friction is
+/// printed. With x of it the best efficiency is at most (1 - sqrt x)/(1 + sqrt x), a third for x = 1/4: no motor with
+/// a higher loss is sold, and an error of sqrt 2 in a constant is found.
 inline constexpr double most_unknown_drop = 0.25;
 
-/// By how much a no-load speed may lie above the largest speed of the mechanics: makers wind the same rotor for more volts than it may
-/// turn at without load.
+/// Allowed excess of a no-load speed over the mechanical speed limit: makers wind the same rotor for higher voltages
+/// than it may run at without load.
 inline constexpr double max_speed_margin = 1.0;
 
-/// What a rotor is beside the cylinder or ring of its measures: shaft, magnets, hub, bores. A radius taken for a diameter is a
-/// factor of 16.
+/// Allowed deviation of a rotor from the cylinder or ring of its dimensions, because of shaft, magnets, hub and
+/// bores. A diameter taken for a radius is a factor of 16.
 inline constexpr double body_margin = 0.3;
 
 }  // namespace sixstep::design

@@ -13,7 +13,7 @@ namespace {
 
 using base::Quantity;
 
-/// Star equivalent of a winding's value: half of what is measured between two terminals.
+/// Star equivalent of a winding's value: half of a value between two terminals.
 double per_phase(double value, std::string_view frame) { return frame == "phase" ? value : value / 2.0; }
 
 std::string from_frame(std::string_view key, const Quantity& q) {
@@ -49,7 +49,7 @@ void read_resistance(SheetReader& reader) {
   unknown_frame(reader, "resistance_ohm", *q, candidates, hint);
 }
 
-/// The model knows no saliency: L_d and L_q must be one number.
+/// The model has no saliency: L_d and L_q must be one number.
 void read_axes(SheetReader& reader) {
   const std::optional<Quantity>&d = reader.sheet.d_axis_inductance_mH, &q = reader.sheet.q_axis_inductance_mH;
   if (!d || !q)
@@ -95,7 +95,7 @@ void read_inductance(SheetReader& reader) {
   unknown_frame(reader, "inductance_mH", *q, candidates);
 }
 
-/// Not part of the model, but its frame must be known before it is compared with the nominal torque.
+/// Not part of the model, but its frame is required for the comparison with the nominal torque.
 void read_nominal_current(SheetReader& reader) {
   const std::optional<Quantity>& q = reader.sheet.nominal_current_A;
   const SheetConstants& c = reader.out;
@@ -112,7 +112,7 @@ void read_nominal_current(SheetReader& reader) {
   unknown_frame(reader, "nominal_current_A", *q, candidates);
 }
 
-/// What is wrong has been told: the factors are then those of some shape, for what else can be read.
+/// Errors are reported elsewhere; the factors are then those of a valid shape, so that the other values can be read.
 ShapeFactors read_shape(SheetReader& reader) {
   const Sheet& s = reader.sheet;
   const bool flat = base::strictly_between(0.0, 180.0).holds(s.flat_deg);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a sheet says about the machine: each constant of the model, read from one way of printing it, with its
-// provenance. Frames and units end here.
+// Reads the constants of the machine from a sheet: each from one printed form, with its provenance, converted to SI
+// and the model's frame.
 #pragma once
 #include <optional>
 #include <string>
@@ -14,20 +14,20 @@
 
 namespace sixstep::design {
 
-/// A value in SI and the model's frame, and how it was read: "resistance_ohm, terminal: halved".
+/// A value in SI and the model's frame, with its derivation: "resistance_ohm, terminal: halved".
 struct Constant {
   double value = 0.0;
   std::string from;
 };
 
-/// The same constant by another line of the sheet, to be held against the one used.
+/// The same constant from another line of the sheet, for comparison with the one used.
 struct OtherWay {
   std::string key;
   double K_e_V_s = 0.0;
-  double relative_doubt = 0.0;  ///< of its print
+  double relative_doubt = 0.0;  ///< of the printed value
 };
 
-/// What the iron takes of the friction: hysteresis does not depend on speed, eddy currents grow with it (model.md 7).
+/// The iron's part of the friction: hysteresis does not depend on speed, eddy currents grow with it (model.md 7).
 struct IronDrag {
   double B_Nm_s = 0.0;
   double coulomb_Nm = 0.0;
@@ -35,21 +35,21 @@ struct IronDrag {
 
 /// Friction: T = B w + T_c, of bearings and iron together. One no-load point fixes only K_t I_0 = B w_0 + T_c.
 struct Friction {
-  double B_Nm_s = 0.0;  ///< what the model uses
+  double B_Nm_s = 0.0;  ///< value of the model
   double coulomb_Nm = 0.0;
-  IronDrag iron;  ///< its part in both, where the sheet tells it apart
+  IronDrag iron;  ///< the iron's part of both, if the sheet separates it
   std::string from;
-  double no_load_speed_rad_s = 0.0;          ///< of the point used; 0: no point
-  std::optional<double> all_viscous_Nm_s;    ///< one extreme of one point: B = K_t I_0/w_0
-  std::optional<double> all_coulomb_Nm;      ///< the other: T_c = K_t I_0
-  std::optional<double> split_viscous_Nm_s;  ///< what two points say
+  double no_load_speed_rad_s = 0.0;          ///< of the no-load point used; 0: none
+  std::optional<double> all_viscous_Nm_s;    ///< one extreme for a single point: B = K_t I_0/w_0
+  std::optional<double> all_coulomb_Nm;      ///< the other extreme: T_c = K_t I_0
+  std::optional<double> split_viscous_Nm_s;  ///< from two points
   std::optional<double> split_coulomb_Nm;
 };
 
 struct SheetConstants {
   ShapeFactors shape;
-  std::optional<int> pole_pairs;       ///< of a turning motor
-  std::optional<double> pole_pitch_m;  ///< of a linear one
+  std::optional<int> pole_pairs;       ///< of a rotary motor
+  std::optional<double> pole_pitch_m;  ///< of a linear motor
   /// Electrical radians per mechanical one, or per metre: p, pi/tau.
   std::optional<double> electrical_per_mechanical() const {
     if (pole_pitch_m) return base::pi / *pole_pitch_m;
@@ -62,27 +62,26 @@ struct SheetConstants {
   std::optional<Constant> K_t_Nm_A;  ///< terminal, sector mean
   std::optional<Constant> J_kg_m2;
   std::optional<Constant>
-      J_of_body_kg_m2;  ///< by the rotor's measures, given beside a printed one or in its place
+      J_of_body_kg_m2;  ///< from the rotor's dimensions, in addition to a printed value or instead of it
   double K_e_relative_doubt = 0.0;
   std::vector<OtherWay> other_ways;
   Friction friction;
-  std::vector<std::string_view> used;  ///< keys that the model is made of
-  base::Problems problems;             ///< what is wrong with what is written
-  base::Problems missing;              ///< what a model needs beyond it
+  std::vector<std::string_view> used;  ///< keys that the model uses
+  base::Problems problems;             ///< errors in the written values
+  base::Problems missing;              ///< values that a model also needs
 };
 
-/// Pure. Two ways for one print are a Problem; two prints of one constant are kept apart as other_ways.
-/// A missing frame is a Problem that says what each candidate would mean.
+/// Without side effects. Two forms of one printed value are a Problem; two printed values of one constant are kept as
+/// other_ways. A missing frame is a Problem that gives the meaning of each candidate.
 SheetConstants sheet_constants(const Sheet& sheet);
 
-/// Half of the last printed digit over the value: what rounding leaves open. The digit is the file's where
-/// the text is known, else that of the shortest decimal.
+/// Relative rounding error: half of the last printed digit over the value. The digit is the file's if the text is
+/// known, else that of the shortest decimal.
 double relative_doubt(const base::Quantity& q);
 
-/// The sheet with everything that the model needs written in the standard keys (resistance_ohm,
-/// inductance_mH, torque_constant_mNm_A, inertia_gcm2, viscous_friction_Nm_s, coulomb_friction_mNm), whatever
-/// way it was printed. What stands in a standard key already keeps its bits. For those that change single
-/// values.
+/// The sheet with all values that the model needs in the standard keys (resistance_ohm, inductance_mH,
+/// torque_constant_mNm_A, inertia_gcm2, viscous_friction_Nm_s, coulomb_friction_mNm), whatever their printed form.
+/// Values already in a standard key keep their bits. For callers that change single values.
 Sheet in_standard_keys(Sheet sheet);
 
 }  // namespace sixstep::design

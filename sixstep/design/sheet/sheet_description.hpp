@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The keys of a motor file: the descriptions beside it are the only place of their names, units, frames and meanings.
+// The keys of a motor file: these descriptions are the only definition of their names, units, frames and meanings.
 #pragma once
 #include "sixstep/base/visitor.hpp"
 #include "sixstep/design/sheet/sheet.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a sheet says of its winding beside R, L and K_t: harmonics, delta, phases that stray, cogging.
+// Reads further data of a sheet's winding besides R, L and K_t: harmonics, delta, unequal phases, cogging.
 #include <cmath>
 
 #include "sixstep/design/sheet/parameters.hpp"
@@ -12,7 +12,7 @@ namespace {
 
 bool is_whole(double x) { return std::floor(x) == x; }
 
-/// The rotations that the general kernel has room for (plant/general/constants.hpp), the sine and a salient rotor's counted.
+/// Number of rotations in the general kernel (plant/general/constants.hpp), including the sine and a salient rotor's.
 constexpr std::size_t most_harmonics = 5, most_cogging = 4;
 
 void read_harmonics(SheetReader& reader) {
@@ -39,10 +39,10 @@ void read_harmonics(SheetReader& reader) {
     }
 }
 
-/// The lists of a table, where there is to be none.
+/// Lists of a table for a shape that is none.
 void read_table_keys(SheetReader& reader) {
   const Sheet& s = reader.sheet;
-  if (s.back_emf == BackEmfShape::table) return;  // read_shape_table() has looked
+  if (s.back_emf == BackEmfShape::table) return;  // read_shape_table() checks them
   const char* key = !s.back_emf_file.empty()        ? "back_emf_file"
                     : !s.back_emf_angle_deg.empty() ? "back_emf_angle_deg"
                     : !s.back_emf_shape.empty()     ? "back_emf_shape"

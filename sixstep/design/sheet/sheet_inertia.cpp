@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rotor's moment of inertia, as printed or from its measures: J = pi/2 rho l (r^4 - r_i^4), a cylinder or a ring.
+// Reads the rotor's moment of inertia, as printed or from its dimensions: J = pi/2 rho l (r^4 - r_i^4), a cylinder or
+// a ring.
 #include "sixstep/base/angle.hpp"
 #include "sixstep/design/sheet/sheet_reader.hpp"
 
@@ -8,7 +9,7 @@ namespace {
 
 using base::Quantity;
 
-/// The printed one, with or without the brake; nothing where neither is there or what is there is wrong.
+/// The printed inertia, with or without the brake; empty if it is missing or wrong.
 std::optional<Constant> printed_inertia(SheetReader& reader) {
   const Sheet& s = reader.sheet;
   const std::optional<Quantity>&rotor = s.inertia_gcm2, &braked = s.inertia_with_brake_gcm2;
@@ -27,7 +28,7 @@ std::optional<Constant> printed_inertia(SheetReader& reader) {
   return Constant{base::times_ten_to(printed.value, -7), SheetReader::key_of(key, printed)};
 }
 
-/// Whether measures are there, and make a body; what is wrong with them is noted.
+/// True if dimensions are given and make a body; errors are reported.
 bool has_body(SheetReader& reader) {
   const Sheet& s = reader.sheet;
   const auto needs = [&](const char* key, const char* other) {
@@ -81,7 +82,7 @@ void read_inertia(SheetReader& reader) {
   reader.out.J_kg_m2 = printed_inertia(reader);
   read_body(reader);
   const bool printed = s.with_brake ? s.inertia_with_brake_gcm2.has_value() : s.inertia_gcm2.has_value();
-  if (printed || reader.out.problems.size() > told) return;  // what is wrong with it has been told
+  if (printed || reader.out.problems.size() > told) return;  // errors in it are already reported
   if (reader.out.J_of_body_kg_m2 && !s.with_brake) {
     reader.out.J_kg_m2 = reader.out.J_of_body_kg_m2;
     return reader.use("rotor_radius_mm");

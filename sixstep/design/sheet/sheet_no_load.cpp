@@ -12,7 +12,8 @@ namespace {
 
 using base::Quantity;
 
-/// Where sources differ, or a maker prints a tolerance, the file says so in the value's range: it is known no better than that.
+/// If sources differ, or a maker prints a tolerance, the file has a range of the value, which then is the value's
+/// error.
 std::optional<Term> ranged(const std::optional<Quantity>& q, double unit = 1.0) {
   std::optional<Term> t = term(q, unit);
   if (t && q->range)
@@ -20,7 +21,7 @@ std::optional<Term> ranged(const std::optional<Quantity>& q, double unit = 1.0) 
   return t;
 }
 
-/// Whether a value is of another motor than the one that the sheet was printed of, and nobody says how far they differ.
+/// True if a value is of another motor than the sheet's, without a range for the difference.
 bool of_another_motor(const std::optional<Quantity>& q) {
   return q && !q->range && (q->kind == base::Trust::measured || q->kind == base::Trust::derived);
 }
@@ -61,13 +62,13 @@ class NoLoad {
     return p;
   }
 
-  /// The dry friction's torque, with the iron's part.
+  /// Torque of the dry friction, including the iron's part.
   Term dry_Nm() const {
     return ranged(s_.coulomb_friction_mNm, 1e-3).value_or(Term{}) +
            ranged(s_.iron_coulomb_mNm, 1e-3).value_or(Term{});
   }
 
-  /// B of its own lines; where they have none, what the first point leaves beside the dry friction.
+  /// B from its own lines, otherwise from the first point minus the dry friction.
   Term viscous_Nm_s() const {
     const Term iron = ranged(s_.iron_viscous_Nm_s).value_or(Term{});
     if (s_.viscous_friction_Nm_s) return ranged(s_.viscous_friction_Nm_s).value_or(Term{}) + iron;
@@ -77,7 +78,7 @@ class NoLoad {
     return loss.value > dry.value ? (loss - dry) / *w : Term{};
   }
 
-  /// The printed speed, else that of the ideal line.
+  /// The printed speed, otherwise that of the ideal line.
   std::optional<Term> rad_s(const SheetLine& at) const {
     if (at.speed_rpm) return *at.speed_rpm * (1.0 / base::rpm_per_rad_s);
     if (!at.U_V || !R_ || !at.current_A) return {};
@@ -88,7 +89,7 @@ class NoLoad {
     return w;
   }
 
-  /// How far friction lines may lie off a no-load current that is of another motor.
+  /// Allowed difference between friction lines and a no-load current of another motor.
   double friction_doubt(const std::optional<Quantity>& current) const {
     for (const std::optional<Quantity>* q : {&s_.viscous_friction_Nm_s, &s_.coulomb_friction_mNm,
                                              &s_.iron_viscous_Nm_s, &s_.iron_coulomb_mNm, &current})
@@ -96,7 +97,7 @@ class NoLoad {
     return 0.0;
   }
 
-  /// I_0 of the friction lines where none is printed: U = R I + K w and K I = T_c + B w give w.
+  /// I_0 of the friction lines if none is printed: U = R I + K w and K I = T_c + B w give w.
   Term current_of_friction(const Term& U) const {
     const double K = K_t_->value, R = R_->value;
     const Term dry = dry_Nm(), viscous = viscous_Nm_s();
@@ -130,7 +131,7 @@ class NoLoad {
     found_.push_back(std::move(sides));
   }
 
-  /// Of friction whose viscous part is not printed it is only known that there is more.
+  /// If the viscous part of the friction is not printed, the friction is only known to be larger.
   void without_current(const Term& I, NoLoadSides& sides) const {
     if (I.value > 0.0)
       sides.remark = "I_0 = " + base::rounded(I.value * 1e3, 4) + " mA, as the friction lines make it";
@@ -141,7 +142,7 @@ class NoLoad {
                        : "I_0 is taken as 0: neither it nor friction is printed, and both take speed off";
   }
 
-  /// Where friction was read from the very current there is nothing to hold.
+  /// If the friction was read from this current, there is nothing to compare.
   void current(const SheetLine& at) {
     const bool of_points = f_.split_viscous_Nm_s && !s_.coulomb_friction_mNm;
     const bool given =

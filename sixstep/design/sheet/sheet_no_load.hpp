@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a sheet's no-load points are held against: the speed against n_0 = (U - R I_0)/k_M, the current against the
-// friction lines, k_M I_0 = T_c + B w_0.
+// Relations of a sheet's no-load points: the speed with n_0 = (U - R I_0)/k_M, the current with the friction lines,
+// k_M I_0 = T_c + B w_0.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,17 +9,17 @@
 
 namespace sixstep::design {
 
-/// Two sides of a relation in one unit, not yet judged; `below` and `above` widen what rounding allows.
+/// Two sides of a relation in one unit, not yet judged; `below` and `above` widen the tolerance beyond rounding.
 struct NoLoadSides {
   std::string name, left_words, right_words;
   Term left, right;
   std::string unit;
   double below = 0.0, above = 0.0;
-  std::string remark;        ///< where the left side's current is from, or why so much is allowed
-  bool of_friction = false;  ///< a current against the friction lines
+  std::string remark;        ///< source of the left side's current, or reason for the tolerance
+  bool of_friction = false;  ///< a current compared with the friction lines
 };
 
-/// Of the first point and the second, each speed and each current that the sheet gives another way to.
+/// For the first and the second point: each speed and each current that the sheet also gives in another way.
 std::vector<NoLoadSides> no_load_sides(const Sheet& sheet, const SheetConstants& constants);
 
 }  // namespace sixstep::design

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of a sheet no longer holds where some of its lines are overridden.
+// Clears lines of a sheet that are invalid because others are overridden.
 #pragma once
 #include <functional>
 #include <string_view>
@@ -8,9 +8,9 @@
 
 namespace sixstep::design {
 
-/// Lines that say the same thing in other words (torque constants of every kind, inductances, pole numbers):
-/// with one of them overridden, what the sheet prints in the others is stale and is cleared. `overridden`
-/// tells of a key whether it is, in whatever spelling.
+/// Clears lines with the same meaning as an overridden one (torque constants of every kind, inductances, pole
+/// numbers): their printed values are then invalid. `overridden` returns whether a key is overridden, in any
+/// spelling.
 void drop_stale(Sheet& sheet, const std::function<bool(std::string_view key)>& overridden);
 
 }  // namespace sixstep::design

@@ -10,7 +10,7 @@ namespace sixstep::design {
 
 namespace {
 
-/// The visitor that holds each number to what it may be.
+/// Visitor that checks each number against its range.
 class Numbers final : public base::Visitor {
  public:
   explicit Numbers(SheetReader& reader) : reader_(reader) {}
@@ -29,7 +29,7 @@ class Numbers final : public base::Visitor {
   SheetReader& reader_;
 };
 
-/// The visitor that finds what one key's other spelling is worth.
+/// Visitor that converts a value to another spelling of its key.
 class Spelled final : public base::Visitor {
  public:
   Spelled(std::string_view key, std::string_view spelling) : key_(key), spelling_(spelling) {}
@@ -58,7 +58,7 @@ std::string SheetReader::value_of(std::string_view key, const base::Quantity& q)
 }
 
 void note_implausible(SheetReader& reader) {
-  Sheet described = reader.sheet;  // descriptions are written for readers, which fill what they visit
+  Sheet described = reader.sheet;  // descriptions are written for readers, which write to what they visit
   Numbers numbers(reader);
   describe(numbers, described);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads numbers off a sheet and notes whatever is wrong with them. Shared by the sources of sheet_constants.
+// Reads numbers of a sheet and collects their problems. Shared by the sources of sheet_constants.
 #pragma once
 #include <span>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace sixstep::design {
 
-/// Four digits say what a message needs.
+/// Messages use four digits.
 inline std::string rounded(double x, int digits = 4) { return base::rounded(x, digits); }
 
 struct SheetReader {
@@ -21,23 +21,23 @@ struct SheetReader {
   void problem(std::string_view where, std::string value, std::string limit, std::string cure) {
     out.problems.push_back({std::string(where), std::move(value), std::move(limit), std::move(cure)});
   }
-  /// Of a quantity: key and value as the file writes them.
+  /// Adds a problem of a quantity: key and value as the file writes them.
   void wrong(std::string_view key, const base::Quantity& q, std::string limit, std::string cure) {
     problem(key_of(key, q), value_of(key, q), std::move(limit), std::move(cure));
   }
   void missing(std::string_view where, std::string_view cure) {
     out.missing.push_back({std::string(where), "", "is missing", std::string(cure)});
   }
-  /// Of a key that lives as long as the program.
+  /// `key` must live as long as the program.
   void use(std::string_view key) { out.used.push_back(key); }
 
   /// The key as the file writes it.
   static std::string key_of(std::string_view key, const base::Quantity& q) {
     return q.key.empty() ? std::string(key) : q.key;
   }
-  /// The value in the unit of that key: 4.8e-06 beside inertia_kgm2, of a sheet whose own key would have 48.
+  /// The value in the unit of that key: 4.8e-06 for inertia_kgm2, where the standard key would have 48.
   std::string value_of(std::string_view key, const base::Quantity& q) const;
-  /// The value times 10^ten; nothing where it is out of its range, which note_implausible() has told.
+  /// The value times 10^ten; empty if it is out of its range, which note_implausible() has reported.
   static std::optional<double> positive(const base::Quantity& q, int ten = 0) {
     return base::above(0.0).holds(q.value) ? std::optional(base::times_ten_to(q.value, ten)) : std::nullopt;
   }
@@ -46,23 +46,23 @@ struct SheetReader {
   }
 };
 
-/// Every number of the sheet that is out of its key's range, or of what its unit can be.
+/// Reports every number of the sheet that is out of its key's range, or impossible for its unit.
 void note_implausible(SheetReader& reader);
 
-/// What a frame would make of a value, in words: for the message about a missing one.
+/// Meaning of a value in a frame, in words, for the message about a missing frame.
 struct FrameMeaning {
   std::string_view frame;
   std::string means;
 };
 
-/// The Problem of a frame that is missing or unknown, with what each candidate would mean.
+/// Reports a missing or unknown frame, with the meaning of each candidate.
 void unknown_frame(SheetReader& reader, std::string_view key, const base::Quantity& q,
                    std::span<const FrameMeaning> candidates, const std::string& hint = "");
 
-/// The factors of back_emf = "table"; nothing where the lists make none, which is noted.
+/// The factors of back_emf = "table"; empty if the lists are invalid, which is reported.
 std::optional<ShapeFactors> read_shape_table(SheetReader& reader);
 
-/// tau of a linear motor, m; of a turning one its pole pairs. What is of the other kind is noted.
+/// tau of a linear motor, m; the pole pairs of a rotary one. Keys of the other kind are reported.
 std::optional<double> read_pole_pitch(SheetReader& reader);
 std::optional<int> read_pole_pairs(SheetReader& reader);
 void read_inertia(SheetReader& reader);

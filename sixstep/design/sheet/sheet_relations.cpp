@@ -18,7 +18,7 @@ using base::Quantity;
 struct Factor {
   double ratio;
   std::string_view words;
-  bool of_frames = true;  ///< needs a constant that is told between terminals or of a phase, of a peak or rms
+  bool of_frames = true;  ///< applies only to a constant between terminals or of a phase, of a peak or rms
 };
 constexpr Factor factors[] = {
     {2.0, "a factor 2: terminal against phase, or poles against pole pairs?"},
@@ -58,7 +58,7 @@ class Relations {
   }
 
  private:
-  /// In the words and units of a linear motor; the deviation is what it was.
+  /// In the words and units of a linear motor; the deviation does not change.
   static void in_metres(Relation& r) {
     const base::LinearUnit unit = base::in_linear(r.unit);
     r.name = base::linear_words(r.name);
@@ -69,7 +69,7 @@ class Relations {
     r.right *= unit.factor;
   }
 
-  /// `below` and `above` widen what rounding allows; `frames`: whether a constant with a frame is what may be wrong.
+  /// `below` and `above` widen the tolerance beyond rounding; `frames`: a constant with a frame may be the wrong one.
   Relation& add(std::string name, std::string left_words, std::string right_words, Term left, Term right,
                 std::string unit, double below = 0.0, double above = 0.0, bool frames = true) {
     Relation r;
@@ -83,7 +83,7 @@ class Relations {
     const double rounding = left.doubt + right.doubt;
     r.lowest = -(rounding + below);
     r.highest = rounding + above;
-    // A hair for the arithmetic itself: an exact pair whose doubts are 0 must hold.
+    // A small tolerance for the arithmetic itself: an exact pair without rounding errors must hold.
     constexpr double arithmetic = 1e-12;
     const bool holds = r.deviation >= r.lowest - arithmetic && r.deviation <= r.highest + arithmetic;
     r.verdict = holds ? RelationVerdict::holds : RelationVerdict::broken;
@@ -91,8 +91,8 @@ class Relations {
     return found_.emplace_back(std::move(r));
   }
 
-  /// A ratio that is one of the well-known factors within the rounding, at least half a percent: the nearest
-  /// two of them lie 6 % apart.
+  /// Words for a ratio that is a well-known factor within the rounding, at least half a percent; the nearest two of
+  /// these factors are 6 % apart.
   static std::string looks_like(double ratio, double rounding, bool frames) {
     const double size = ratio < 1.0 ? 1.0 / ratio : ratio, reach = rounding > 0.005 ? rounding : 0.005;
     for (const Factor& factor : factors)
@@ -109,7 +109,7 @@ class Relations {
           *K_t_ * *stall_ * 1e3, *torque, "mNm");
   }
 
-  /// The constants printed beside the one that is used.
+  /// Constants that are printed in addition to the one used.
   void constants() {
     for (const OtherWay& other : c_.other_ways) {
       const std::optional<Quantity>& k_n = s_.speed_constant_rpm_V;
@@ -125,7 +125,7 @@ class Relations {
 
   void no_load() {
     for (const NoLoadSides& n : no_load_sides(s_, c_)) {
-      // A current against friction lines: these are torques, without a frame.
+      // A current compared with friction lines is a torque, which has no frame.
       Relation& r =
           add(n.name, n.left_words, n.right_words, n.left, n.right, n.unit, n.below, n.above, !n.of_friction);
       const bool lacks_dry = n.of_friction && r.verdict == RelationVerdict::broken && r.deviation < 0.0 &&
@@ -141,7 +141,7 @@ class Relations {
   void nominal() {
     const std::optional<Term> torque = term(s_.nominal_torque_mNm), current = term(s_.nominal_current_A);
     if (torque && current && K_t_) {
-      // Some sheets take the friction off, K_t (I_N - I_0), others do not: no torque lies above K_t I_N.
+      // Some sheets subtract the friction, K_t (I_N - I_0), others do not; no torque is above K_t I_N.
       const bool rms = s_.nominal_current_A->frame == "rms", known = idle_ && idle_->value < current->value;
       double friction = 0.0;
       if (known && !rms) {
@@ -156,9 +156,8 @@ class Relations {
     }
     if (const std::optional<Term> printed = term(s_.max_efficiency_percent);
         printed && idle_ && stall_ && idle_->value < stall_->value) {
-      // With x = sqrt(I_0/I_stall): (1 - x)^2 if friction is the same at every speed, (1 - x)/(1 + x) if it
-      // grows with speed; both at the current sqrt(I_0 I_stall). A doubt d of the ratio is x d/(1 - x) of the
-      // result.
+      // With x = sqrt(I_0/I_stall): (1 - x)^2 if friction is the same at every speed, (1 - x)/(1 + x) if it grows
+      // with speed; both at the current sqrt(I_0 I_stall). An error d of the ratio is x d/(1 - x) of the result.
       const double x = std::sqrt(idle_->value / stall_->value);
       const Term computed = {100.0 * (1.0 - x) * (1.0 - x), (idle_->doubt + stall_->doubt) * x / (1.0 - x)};
       const double viscous = 100.0 * (1.0 - x) / (1.0 + x);
@@ -178,7 +177,7 @@ class Relations {
           steepness * (base::rpm_per_rad_s * 1e-3), *printed, "rpm/mNm");
   }
 
-  /// Of the rotor's measures, as r^4 - r_i^4 has them.
+  /// Rounding error of the rotor's dimensions in r^4 - r_i^4.
   double body_doubt() const {
     const auto doubt = [](const std::optional<Quantity>& q) { return q ? relative_doubt(*q) : 0.0; };
     const double r = s_.rotor_radius_mm ? s_.rotor_radius_mm->value : 0.0;
@@ -190,7 +189,7 @@ class Relations {
     return radii + doubt(s_.rotor_length_mm) + doubt(s_.rotor_density_kg_m3);
   }
 
-  /// The printed inertia against that of the measures.
+  /// The printed inertia against that of the dimensions.
   void body() {
     if (!c_.J_of_body_kg_m2 || !s_.inertia_gcm2 || !J_) return;
     const Term printed{s_.inertia_gcm2->value, relative_doubt(*s_.inertia_gcm2)};
@@ -201,7 +200,8 @@ class Relations {
       r.remark = "a factor 16: a diameter for the radius?";
   }
 
-  /// No relation of a motor: a bus may be lower than its nominal voltage. What turns far faster than it may is a misread line.
+  /// Not a relation of the motor, because a bus may be lower than its nominal voltage. A speed far above the allowed
+  /// one is a misread line.
   void mechanics() {
     const std::optional<Term> allowed = term(s_.max_speed_rpm), printed = term(s_.no_load_speed_rpm);
     if (!allowed || !(printed || (U_ && K_t_))) return;
@@ -213,7 +213,7 @@ class Relations {
       r.remark = "at its nominal voltage it would turn far faster than its mechanics allow";
   }
 
-  /// A contradiction is a Problem long before; that both agree is worth a line.
+  /// A contradiction is a Problem already; here a line says that both agree.
   void winding() {
     if (!s_.pole_pairs || (s_.winding.empty() && !s_.poles) || !c_.pole_pairs) return;
     const double pairs = *c_.pole_pairs;

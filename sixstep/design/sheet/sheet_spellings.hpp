@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The other keys of a motor file: the numbered lines of maxon's sheets, and the same value in another unit.
+// Other keys of a motor file: the numbered lines of maxon's sheets, and the same values in other units.
 #pragma once
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/describe.hpp"
@@ -8,12 +8,12 @@ namespace sixstep::design::spellings {
 
 using base::Spelling;
 
-/// A linear motor's word.
+/// A key of linear motors.
 constexpr Spelling linear(std::string_view key, std::string_view unit, int ten = 0, double factor = 1.0) {
   return {.key = key, .ten = ten, .unit = unit, .factor = factor, .linear = true};
 }
 
-/// A line of maxon's sheets, whose numbers and frames have stayed the same over the years.
+/// A line of maxon's sheets, whose numbers and frames have not changed over the years.
 constexpr Spelling line(std::string_view key, std::string_view source, std::string_view frame = "") {
   return {.key = key, .frame = frame, .source = source};
 }

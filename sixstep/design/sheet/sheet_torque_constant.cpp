@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The torque constant and its other faces: what each way of printing it says about the peak phase EMF K_e.
-// For a sine these are model.md 1's table of constants; for a trapezoid the factors are those of its own
-// shape.
+// Reads the torque constant in all its printed forms, and computes the peak phase EMF K_e from each. For a sine the
+// factors are model.md 1's table of constants; for a trapezoid they are those of its own shape.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,7 +23,7 @@ struct Constants {
 
 constexpr int milli = -3;
 
-/// One way of printing: the frames it may have (one: no choice), and what a value in a frame means.
+/// One printed form: its possible frames (a single one: no choice), and the meaning of a value in a frame.
 struct Way {
   std::string_view key;
   const std::optional<Quantity> Sheet::*member;
@@ -86,7 +85,7 @@ constexpr Way ways[] = {
     {"speed_constant_rpm_V", &Sheet::speed_constant_rpm_V, {"six-step", "line-peak"}, by_speed},
 };
 
-/// The frame to read in; nothing where it is missing or wrong, which is noted.
+/// The frame of a value; empty if it is missing or wrong, which is reported.
 std::optional<std::string_view> frame_of(SheetReader& reader, const Way& way, const Quantity& q,
                                          double pole_pairs) {
   if (way.frames[1].empty()) {
@@ -187,7 +186,7 @@ void read_torque_constant(SheetReader& reader) {
   const Read& first = reads.front();
   Constants c = first.constants;
   std::size_t used = 1;
-  // Terminal torque constant and phase back-EMF are one fact and both used as they are: they must agree.
+  // Terminal torque constant and phase back-EMF are the same fact and both are used unchanged: they must agree.
   if (first.key == "torque_constant_mNm_A" && reads.size() > 1 && reads[1].key == "back_emf_mV_s") {
     const double implied = c.K_e_V_s;
     c.K_e_V_s = reads[1].constants.K_e_V_s;

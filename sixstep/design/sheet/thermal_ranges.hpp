@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A motor file may give a range beside a thermal value, where sources differ. What a winding stands is then told
-// twice: of the values, and of the ends of their ranges at which the winding gets warmest.
+// A motor file may give a range for a thermal value where sources differ. The limits of a winding are then computed
+// twice: with the values, and with the ends of their ranges at which the winding gets warmest.
 #pragma once
 #include <optional>
 #include <string>
@@ -11,16 +11,15 @@ namespace sixstep::design {
 
 struct WorseEnds {
   ThermalModel model;
-  std::string values;  ///< those that differ, as the motor file writes them: "key = 11.7, key = 5.3"
+  std::string values;  ///< the differing ones, as the motor file writes them: "key = 11.7, key = 5.3"
 };
 
-/// Higher resistances, shorter time constants (at a given resistance that is less copper and iron to warm) and a
-/// lower limit are worse. Empty where the sheet's thermal lines are not complete or no range has a worse end than
-/// its value.
+/// Worse are higher resistances, shorter time constants (at a given resistance less copper and iron to warm) and a
+/// lower limit. Empty if the sheet's thermal lines are incomplete or no range has an end worse than its value.
 std::optional<WorseEnds> at_worse_ends(const Sheet& sheet);
 
-/// How many times the rise of temperature above ambient may be what `model` says, a constant loss given: both
-/// resistances and both heat capacities off by the most that one of them is.
+/// Largest factor on the temperature rise above ambient by `model`, at a constant loss: both resistances and both
+/// heat capacities deviate by the largest deviation of one of them.
 double greater_rise(const ThermalModel& model, const ThermalModel& worse);
 
 }  // namespace sixstep::design

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The keys of a motor file that speak of poles and windings: the only place of their names, units, frames and meanings.
+// The keys of a motor file for poles and windings: the only definition of their names, units, frames and meanings.
 #pragma once
 #include "sixstep/base/visitor.hpp"
 #include "sixstep/design/sheet/sheet.hpp"
@@ -10,11 +10,11 @@ namespace sixstep::design {
 /// The ring motors of telescopes have a hundred pole pairs.
 inline constexpr int most_pole_pairs = 500, most_turns = 100'000;
 
-/// Of the back-EMF; what lies above is noise of a measurement.
+/// Highest harmonic of a back-EMF; higher ones are noise of a measurement.
 inline constexpr int highest_order = 23;
 
-/// Of a back-EMF given as a table: points, how close two may lie, what its mean over the turn may be as a part of its peak to
-/// peak, and the least torque of the sectors' pairs as a part of the line's peak (a sine has 0.955).
+/// Bounds for a back-EMF table: number of points, their smallest distance, mean over the turn relative to the
+/// peak-to-peak value, and the least torque of the sectors' pairs relative to the line's peak (a sine has 0.955).
 inline constexpr std::size_t most_shape_points = 1000;
 inline constexpr double least_shape_step_deg = 0.01, most_shape_mean = 1e-3, least_shape_torque = 0.2;
 

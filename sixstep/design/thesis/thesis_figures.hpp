@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The numbers that the thesis prints on its way to the gains, for who reads it beside the tool. They carry
-// its rounding, and a slip: its gains belong to the poles it prints, and those to w0 = 5504 rad/s, not 5111.
+// Intermediate numbers that the thesis prints, for comparison with the tool. They have its rounding, and an error:
+// its gains belong to the poles that it prints, and those to w0 = 5504 rad/s, not 5111.
 #pragma once
 #include <optional>
 #include <string_view>
@@ -9,8 +9,8 @@
 
 namespace sixstep::design {
 
-/// What the thesis prints for a symbol of PolePlacement::steps; empty for another motor, period or spec, and
-/// for what it does not print. Loops: "current", "speed".
+/// Printed value for a symbol of PolePlacement::steps; empty for another motor, period or spec, and for values that
+/// the thesis does not print. Loops: "current", "speed".
 std::optional<double> thesis_figure(std::string_view loop, const PolePlacement& design,
                                     std::string_view symbol);
 

@@ -10,7 +10,7 @@ namespace sixstep::design {
 double trapezoid(base::ElectricalAngle theta_e, double flat_deg) {
   const double turns = theta_e.rad / base::turn_rad;
   const double deg = (turns - std::floor(turns)) * 360.0;
-  // Even about the middle of the positive top, odd about 90 degrees from it.
+  // Symmetric about the middle of the positive top, odd about 90 degrees from it.
   double from_top = std::abs(deg - 60.0);
   if (from_top > 180.0) from_top = 360.0 - from_top;
   const double ramp = 90.0 - flat_deg / 2.0;
@@ -35,7 +35,7 @@ double electromagnetic_torque(const plant::Machine& m, const base::Abc<double>& 
 }
 
 // Thesis 3.11, corrected: the EMF enters the current rows with a minus and K_t/2 (it opposes the current),
-// the torque enters the speed row over J, -1/J stands in the speed row, each phase has its 1/(L - M). The
+// the torque enters the speed row over J, -1/J is in the speed row, each phase has its 1/(L - M). The
 // thesis's last state is theta_e with p under w; here it is theta_m with 1.
 //   L i_k' = u_kn - R i_k - K_e f_k w      J w' = K_e sum f_k i_k - B w - T_load      theta_m' = w
 StateSpace<5, 4> phase_voltage_model(const plant::Machine& m, const plant::Shaft& s,

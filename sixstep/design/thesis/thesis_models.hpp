@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The thesis's two models of the machine (chapter 3, errata applied) as state spaces x' = A(theta) x + B u.
-// They know no bridge and no diode: they are what a textbook integrates, and what the simulator's plant is
-// checked against.
+// The thesis's two models of the machine (chapter 3, errata applied) as state spaces x' = A(theta) x + B u, without
+// bridge and diodes. Textbooks integrate such models; the simulator's plant is tested against them.
 #pragma once
 #include <array>
 #include <cstddef>

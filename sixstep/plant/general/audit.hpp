@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The laws of every run (model.md 5) of the general plant: plant/audit.hpp's books, with what this kernel stores besides.
+// Checks the general plant against the laws of every run (model.md 5): the balances of plant/audit.hpp, with this
+// kernel's additional stores of energy.
 #pragma once
 #include "sixstep/plant/audit.hpp"
 #include "sixstep/plant/general/segment_energy.hpp"
@@ -55,7 +56,7 @@ void Audit<Real>::segment(const Plant<Real>& plant, Real s) {
     start_ = end_ = begins;
     noise_ = c.amp_noise * c.amp_noise / c.inv_L + c.speed_noise * c.speed_noise / c.inv_J;
   }
-  // A clamp that stopped the shaft has taken its energy, also where it let it go at the same instant (plant/audit.hpp).
+  // A clamp that stopped the shaft has taken its energy, even if it opened at the same instant (plant/audit.hpp).
   const auto& y = plant.expansion();
   const bool stopped = c.locked || (y.w[0] == 0 && plant::detail::abs(end_w_) > c.speed_noise);
   if (stopped && end_.moving > begins.moving) friction_.add(end_.moving - begins.moving);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A machine whose fluxes along the magnet's axis and across it follow laws of their own (model.md 7): lambda_d = L_d i_d
-// (1 - i_d/(2 I_sat)), lambda_q = L_q i_q, seen in the stator's two axes. The newest current of an order stands in its
-// fluxes once, times what the inductances are for a small change: that is solved for.
+// Currents and torque of a machine whose fluxes along the magnet's axis and across it have their own laws (model.md
+// 7): lambda_d = L_d i_d (1 - i_d/(2 I_sat)), lambda_q = L_q i_q, in the stator's two axes. The newest current of an
+// order enters its fluxes linearly, multiplied by the incremental inductances, so that the equations are solved for
+// it.
 #pragma once
 #include "sixstep/plant/general/constants.hpp"
 
@@ -24,7 +25,7 @@ class AxesTerms {
     z_.q[0] = cos_[0] * beta_[0] - sin_[0] * alpha_[0];
     flux_d_[0] = c_.axes.L_d * z_.d[0] * (1 - z_.d[0] * c_.axes.inv_I_sat / 2);
     flux_q_[0] = c_.axes.L_q * z_.q[0];
-    // For a small change of current: along d, along q, and so seen from the stator.
+    // Incremental inductances along d and along q, then transformed to the stator's axes.
     const Real along = c_.axes.L_d * (1 - z_.d[0] * c_.axes.inv_I_sat), across = c_.axes.L_q;
     aa_ = cos_[0] * cos_[0] * along + sin_[0] * sin_[0] * across;
     bb_ = sin_[0] * sin_[0] * along + cos_[0] * cos_[0] * across;
@@ -32,9 +33,9 @@ class AxesTerms {
     along_ = along;
   }
 
-  /// Currents of order n + 1 from u_k - R_k i_k - e_k of order n, f = h/(n + 1), the first `connected` of `leg` being connected
-  /// and `drive` in their order.
-  /// Returns what the flux's change adds to the pole voltage of a leg that floats: 3/2 of its own.
+  /// Computes the currents of order n + 1 from u_k - R_k i_k - e_k of order n; f = h/(n + 1). The first `connected`
+  /// of `leg` are connected, and `drive` is in their order. Returns the voltage that the flux's change adds to the
+  /// pole voltage of a floating leg: 3/2 of that leg's own.
   Real take_order(int n, Real f, const PerLeg<Real>& drive, int connected, const std::array<int, 3>& leg) {
     turn(n + 1);
     const Changes without = without_newest(n + 1);
@@ -63,7 +64,7 @@ class AxesTerms {
     return Real(1.5) * (axis_alpha[leg[2]] * alpha + axis_beta[leg[2]] * beta) / f;
   }
 
-  /// Of order n, per pole pair: (3/2)(lambda_d i_q - lambda_q i_d).
+  /// Order n of the torque per pole pair: (3/2)(lambda_d i_q - lambda_q i_d).
   Real torque(int n) const {
     Real sum = 0;
     for (int j = 0; j <= n; ++j) sum += flux_d_[j] * z_.q[n - j] - flux_q_[j] * z_.d[n - j];
@@ -90,7 +91,7 @@ class AxesTerms {
     beta_[n] = beta_of(n);
   }
 
-  /// All of order n but what its own currents do.
+  /// The changes of order n without the part of that order's own currents.
   Changes without_newest(int n) const {
     Changes to;
     for (int j = 1; j <= n; ++j) {
@@ -122,7 +123,7 @@ class AxesTerms {
   const Constants<Real>& c_;
   Expansion<Real>& y_;
   Series<Real>& z_;
-  Coefficients cos_, sin_, alpha_, beta_, flux_d_, flux_q_;  ///< the two first of theta_d
+  Coefficients cos_, sin_, alpha_, beta_, flux_d_, flux_q_;  ///< cos_ and sin_ are those of theta_d
   Real aa_ = 0, bb_ = 0, ab_ = 0, along_ = 0;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The general plant's numbers as its recurrence wants them, its memory beside what both kernels have (plant/state.hpp), its
-// mode, and the series of one segment.
+// Data of the general plant: its constants in the form that the recurrence uses, its state in addition to
+// plant/state.hpp, its mode, and the series of one segment.
 #pragma once
 #include "sixstep/plant/expansion.hpp"
 #include "sixstep/plant/general/shape.hpp"
@@ -27,12 +27,12 @@ struct ChargePiece {
 template <class Real>
 struct Axes {
   Real L_d = 0, L_q = 0, inv_I_sat = 0;
-  std::size_t rotation = 0;  ///< that of order 1
+  std::size_t rotation = 0;  ///< index of the rotation of order 1
 };
 
 template <class Real>
 struct Constants {
-  // Star equivalent: phases of R and L; the delta's loop has its own.
+  // Star equivalent: phases of R and L. A delta's loop has values of its own.
   PerLeg<Real> R{};
   Real L = 0, inv_L = 0;
   bool has_axes = false, has_loop = false;
@@ -41,17 +41,17 @@ struct Constants {
   ShapeTable<Real> shape;
   std::size_t rotations = 0;
   Real pole_pairs = 1;
-  // Shaft; inv_J and B: rigid with the load's, elastic the motor's side alone.
+  // Shaft. inv_J and B: with a rigid shaft including the load's, with an elastic one the motor's side alone.
   Real inv_J = 0, B = 0, coulomb = 0, breakaway = 0, gear = 1, inv_gear = 1;
   Real J_1 = 0, B_1 = 0, efficiency = 1;
   bool elastic = false, dry_friction = false, locked = false, imposed = false;
   Real load_J = 0, load_inv_J = 0, load_B = 0, stiffness = 0, damping = 0;
-  Real load_rate = 0, speed_rate = 0;  ///< of the load's torque and of an imposed speed, per s
+  Real load_rate = 0, speed_rate = 0;  ///< slopes of the load's torque and of an imposed speed, per s
   Real fan = 0, gravity = 0, gravity_angle = 0;
   std::vector<TorquePiece<Real>> over_speed;
   // Bridge.
   general::Devices devices;
-  PerLeg<PoleTable<Real>> poles;  ///< channels that are not equally warm are not alike
+  PerLeg<PoleTable<Real>> poles;  ///< one table per leg, because channels of different temperatures differ
 
   const PoleTerms<Real>& terms(std::size_t leg, Connection at) const {
     return poles[leg][static_cast<std::size_t>(at)];
@@ -61,15 +61,15 @@ struct Constants {
   Source source = Source::steady;
   Real V_0 = 0, R_b = 0, inv_R_b = 0, inv_L_b = 0, inv_C = 0, R_C = 0;
   bool source_sinks = true;
-  Real sink = 0;  ///< what it takes back at most where it does not sink without bound, A
+  Real sink = 0;  ///< largest current that the source takes back, A, if source_sinks is false
   Real brake_conductance = 0, brake_on = 0, brake_off = 0;
   std::vector<ChargePiece<Real>> open_circuit;
   Real inv_capacity = 0, inv_R_1 = 0, inv_C_1 = 0;
   Real mains_peak = 0, mains_drop = 0, mains_rate = 0,
-       mains_edge = 0;  ///< rate: rad/s; edge: of a pulse, rad
-  // What rounding is.
+       mains_edge = 0;  ///< mains_rate in rad/s; mains_edge: edge of a pulse, rad
+  // Scales and noise levels of rounding.
   Real volt_scale = 0, amp_scale = 0, speed_scale = 0, torque_scale = 0;
-  Real per_amp = 0, per_speed = 0;  ///< of their scales
+  Real per_amp = 0, per_speed = 0;  ///< 1 over their scales
   Real volt_noise = 0, amp_noise = 0, speed_noise = 0, torque_noise = 0;
   Real steady_rate = 0, turning_rate = 0;  ///< 1/s, and 1/s per mechanical rad/s
 
@@ -77,7 +77,7 @@ struct Constants {
   bool speed_is_given() const { return imposed && !elastic; }
 };
 
-/// Beside plant::State, whose bus is U_s: the delta's loop, the source, the load's side.
+/// State in addition to plant::State, whose bus is U_s: the delta's loop, the source, the load's side.
 template <class Real>
 struct More {
   using Kept = series::CompensatedSum<Real>;
@@ -85,11 +85,11 @@ struct More {
   Kept source;     ///< through L_b, A
   Kept load_w;     ///< elastic: rad/s
   Kept twist;      ///< elastic: theta_m/n - theta_load, rad
-  Kept load;       ///< the torque that the load's constant, steps and ramps ask for at present, N m
+  Kept load;       ///< present load torque from the constant, steps and ramps, N m
   Kept capacitor;  ///< v_C where the capacitor has a resistance, V
-  Kept charge;     ///< of a battery, of the whole
+  Kept charge;     ///< of a battery, relative to the whole charge
   Kept slow;       ///< v_1 of a battery, V
-  Kept phase;      ///< of the mains, from the top of its present pulse, rad
+  Kept phase;      ///< of the mains, from the top of the present pulse, rad
 };
 
 template <class Real, class Visit>
@@ -99,35 +99,35 @@ void for_each_kept(const More<Real>& m, Visit&& visit) {
     visit(*kept);
 }
 
-/// plant::Mode's members, and what only this kernel decides.
+/// The members of plant::Mode, and those of this kernel alone.
 struct Mode {
   Legs legs{};
   Motion motion = Motion::free;
-  bool source_feeds = true;  ///< false: at the limit of what it takes back
+  bool source_feeds = true;  ///< false: the source is at the limit of the current that it takes back
   std::uint8_t sector = 0;
-  std::uint16_t piece = 0;       ///< of a table there are many
+  std::uint16_t piece = 0;       ///< a back-EMF table has many pieces
   bool braking = false;          ///< the brake resistor is on
-  std::int8_t load_sign = 1;     ///< of the load's speed, for what grows with w|w|
-  std::int8_t through_sign = 1;  ///< of the torque through a lossy gear
+  std::int8_t load_sign = 1;     ///< sign of the load's speed, for the torque k w|w|
+  std::int8_t through_sign = 1;  ///< sign of the torque through a lossy gear
   std::uint8_t load_piece = 0, charge_piece = 0;
   bool operator==(const Mode&) const = default;
 };
 
-/// Terms of one segment, beside those that both kernels have.
+/// Series of one segment in addition to those of both kernels.
 template <class Real>
 struct Series {
   using Coefficients = series::Coefficients<Real>;
   PerLeg<Coefficients>
-      pole;  ///< u_k against the negative rail; fewer than two legs connected: e_k for those that float
+      pole;  ///< u_k against the negative rail; with fewer than two legs connected, e_k for those that float
   PerLeg<Coefficients> emf;
   Coefficients loop, source, load_w, twist;
-  Coefficients load, cogging;       ///< torques: the load's at its side, the cogging one at the motor's
-  Coefficients through;             ///< lossy gear: the torque that it hands on, at the load's side
-  Coefficients forward, backward;   ///< torque that pushes against what holds at rest, either way
-  Coefficients turn_cos, turn_sin;  ///< of the load's angle, for gravity
+  Coefficients load, cogging;       ///< torques: the load's at its side, cogging at the motor's
+  Coefficients through;             ///< lossy gear: the torque that it transmits, at the load's side
+  Coefficients forward, backward;   ///< torque against the breakaway torque at rest, for either direction
+  Coefficients turn_cos, turn_sin;  ///< cos and sin of the load's angle, for gravity
   Coefficients open;                ///< the source's V_0
   Coefficients capacitor, capacitor_A, charge, slow, phase, mains_cos, mains_sin;
-  Coefficients d, q;  ///< currents along the magnet's axes, where those have laws of their own
+  Coefficients d, q;  ///< currents along the magnet's axes, if these have their own laws
   std::array<Coefficients, most_rotations> cos, sin;
 };
 

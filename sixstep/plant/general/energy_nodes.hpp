@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The general plant's series at the nodes of a quadrature, and what copper and devices lose over a stretch of a segment: asked
-// by the books, and by the plant itself where it warms.
+// Values of the general plant's series at the nodes of a quadrature, and the losses of copper and devices over a part
+// of a segment. Used by the audit, and by the plant itself when it simulates temperatures.
 #pragma once
 #include "sixstep/plant/general/constants.hpp"
 #include "sixstep/series/quadrature.hpp"
@@ -27,7 +27,7 @@ struct AtNodes {
   }
 };
 
-/// Of phases and loop.
+/// Copper losses of phases and loop, J.
 template <int points, class Real>
 Real copper_energy(const AtNodes<points, Real>& at) {
   const auto& c = at.plant.constants();
@@ -44,7 +44,7 @@ Real copper_energy(const AtNodes<points, Real>& at) {
   return sum;
 }
 
-/// Of a connected leg's device.
+/// Losses of a connected leg's device, J.
 template <int points, class Real>
 Real device_energy(const AtNodes<points, Real>& at, std::size_t k) {
   const PoleTerms<Real>& terms = at.plant.constants().terms(k, at.plant.mode().legs[k]);

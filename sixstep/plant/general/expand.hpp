@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The general plant's series over one segment: order by order until what is left is rounding, or shorter where the degree
-// does not reach so far.
+// Expands the general plant's series over one segment, order by order until the rest is rounding; the segment is
+// shortened if the highest degree does not suffice.
 #pragma once
 #include "sixstep/plant/expand.hpp"
 #include "sixstep/plant/general/recurrence.hpp"
@@ -10,7 +10,8 @@ namespace sixstep::plant::general {
 
 namespace detail {
 
-/// cos and sin of m theta_e where the rotor stands: the sector by exact sixths of a turn, the angle in it by its own.
+/// cos and sin of m theta_e at the rotor's position: the sector by exact sixths of a turn, the angle within it
+/// separately.
 template <class Real>
 void rotation_at(int order, const State<Real>& s, int sector, Real& cos, Real& sin) {
   Real turn_cos, turn_sin;
@@ -20,7 +21,7 @@ void rotation_at(int order, const State<Real>& s, int sector, Real& cos, Real& s
   sin = turn_sin * Real(in.cos) + turn_cos * Real(in.sin);
 }
 
-/// The load's angle: theta_m/n, less the twist of an elastic shaft.
+/// The load's angle, rad: theta_m/n, minus the twist of an elastic shaft.
 template <class Real>
 Real load_angle(const Constants<Real>& c, const State<Real>& s, const More<Real>& m) {
   const Real rotor = (Real(s.sector) * Real(base::sector_rad) + s.x) / c.pole_pairs;
@@ -60,7 +61,7 @@ void begin(const Constants<Real>& c, const State<Real>& s, const More<Real>& m, 
   }
 }
 
-/// What follows from the states has no term of the last order.
+/// Sets the terms of the last order for quantities that follow from the states: those have none.
 template <class Real>
 void end(const Constants<Real>& c, Expansion<Real>& y, Series<Real>& z) {
   const int n = y.degree;
@@ -73,14 +74,14 @@ void end(const Constants<Real>& c, Expansion<Real>& y, Series<Real>& z) {
   if (!c.elastic) z.load_w[n] = c.inv_gear * y.w[n];
 }
 
-/// Of a plain star on a stiff bus, with a trapezoid and a rigid shaft, currents and speed are all that moves.
+/// False for a plain star on a stiff bus, with a trapezoid and a rigid shaft: only currents and speed change then.
 template <class Real>
 bool moves_more(const Constants<Real>& c) {
   return c.inv_C > 0 || c.inv_L_b > 0 || c.has_loop || c.elastic || c.mains_peak > 0 || c.rotations > 0 ||
          c.gravity != 0;
 }
 
-/// What size_of() adds for all else.
+/// Part of size_of() for all other quantities.
 template <class Real>
 [[gnu::noinline]] Real size_of_more(const Constants<Real>& c, const Expansion<Real>& y, const Series<Real>& z,
                                     int n) {
@@ -97,7 +98,8 @@ template <class Real>
   return size;
 }
 
-/// How far term n stands above the rounding level of its state, all together; 1 = at it. `more`: of moves_more().
+/// Size of term n of all states together, relative to their rounding level; 1 is that level. `more`: result of
+/// moves_more().
 template <class Real>
 [[gnu::always_inline]] inline Real size_of(const Constants<Real>& c, const Expansion<Real>& y,
                                            const Series<Real>& z, int n, bool more) {
@@ -138,7 +140,7 @@ void shorten(const Constants<Real>& c, Expansion<Real>& y, Series<Real>& z) {
   y.h *= half;
 }
 
-/// x_(n+1) = p h w_n/(n + 1): behind its first term at most half of p h times the speed's own way.
+/// x_(n+1) = p h w_n/(n + 1): after its first term at most half of p h times the change of the speed.
 template <class Real>
 [[gnu::always_inline]] inline void note_reach(const Constants<Real>& c, const Mode& mode,
                                               Expansion<Real>& y) {
@@ -158,7 +160,7 @@ template <class Real>
   ShaftTerms<Real> shaft(c, mode, m.load.value, y, z);
   Recurrence<Real> recurrence(c, mode, y, z);
   const bool more = moves_more(c);
-  // From rest and without current some terms are a symmetry's zeros: they say nothing then.
+  // At rest and without current some terms are zero by symmetry: a zero term then proves nothing.
   const bool from_nothing = s.w == 0 && s.i[0] == 0 && s.i[1] == 0;
   Real last = 0, before = 0;
   bool reached = false;
@@ -177,7 +179,7 @@ template <class Real>
 
 }  // namespace detail
 
-/// Only what begins: terms 0 of voltages and torques, terms 1 of the states.
+/// Expands only the start: terms 0 of voltages and torques, terms 1 of the states.
 template <class Real>
 void expand_first(const Constants<Real>& c, const State<Real>& s, const More<Real>& m, Mode& mode, Real h,
                   Expansion<Real>& y, Series<Real>& z) {
@@ -188,17 +190,17 @@ void expand_first(const Constants<Real>& c, const State<Real>& s, const More<Rea
   Recurrence<Real>(c, mode, y, z).take_order(0, shaft);
 }
 
-/// The state in the given mode over `wanted` seconds, or over as much of it as full accuracy allows.
+/// Expands the state in the given mode over `wanted` seconds, or over less where full accuracy requires it.
 template <class Real>
 void expand(const Constants<Real>& c, const State<Real>& s, const More<Real>& m, Mode& mode, Real wanted,
             Expansion<Real>& y, Series<Real>& z) {
   detail::grow(c, s, m, mode, wanted, y, z);
 }
-/// For double it is compiled once, for any x86-64 and for those with AVX (plant/expand.hpp): the same bits.
+/// For double it is compiled once for any x86-64 and once for those with AVX (plant/expand.hpp), with the same bits.
 void expand(const Constants<double>& c, const State<double>& s, const More<double>& m, Mode& mode,
             double wanted, Expansion<double>& y, Series<double>& z);
 
-/// `wanted`, or half of the fastest time constant present.
+/// `wanted`, or half of the fastest time constant if that is less.
 template <class Real>
 Real useful_length(const Constants<Real>& c, const State<Real>& s, Real wanted) {
   const Real rate = c.steady_rate + c.turning_rate * plant::detail::abs(s.w);

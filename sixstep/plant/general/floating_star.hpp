@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a star point that hangs at nothing is put (plant/circuit.hpp), also where wires are broken.
+// Voltage that is assumed for an unconnected star point (plant/circuit.hpp), also with broken wires.
 #pragma once
 #include <cstddef>
 
@@ -11,7 +11,8 @@ struct StarEnds {
   std::size_t high = 0, low = 0;
 };
 
-/// The highest and the lowest of the terminals, u_n = (U_s - e_high - e_low)/2 lies between. One behind a broken wire (`dead`, a mask of
+/// The highest and the lowest terminal; u_n = (U_s - e_high - e_low)/2 centres them. A terminal behind a broken wire
+/// (`dead`, a mask of legs) is not near any rail and does not count; if all wires are broken, all three count.
 /// legs) has no rails to keep a distance from; with no wire whole all three count.
 template <class Real>
 constexpr StarEnds star_ends(const PerLeg<Real>& e, unsigned dead) {

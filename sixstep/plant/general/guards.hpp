@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What must stay >= 0 while a mode of the general plant holds, by the same series as its dynamics (plant/guards.hpp). A leg
-// that floats stays between the voltages at which it would begin to conduct either way: for a leg without a gate those of its
-// diodes, for an IGBT with one that of its transistor too (model.md 2).
+// Guards of the general plant: values that stay >= 0 while a mode holds, from the same series as its dynamics
+// (plant/guards.hpp). A floating leg stays between the voltages at which it would begin to conduct in either
+// direction: without a gate those of its diodes, for an IGBT with a gate also that of its transistor (model.md 2).
 #pragma once
 #include "sixstep/plant/general/expand.hpp"
 #include "sixstep/plant/general/leg_connections.hpp"
@@ -11,7 +11,7 @@ namespace sixstep::plant::general {
 
 namespace detail {
 
-/// sign (pole voltage of `at` without current - u) as a series.
+/// sign (pole voltage of `at` without current - u), as a series.
 template <class Real>
 series::Coefficients<Real> beyond(const PoleTerms<Real>& at, const Expansion<Real>& y,
                                   const series::Coefficients<Real>& u, Real sign) {
@@ -32,7 +32,7 @@ void leg_guards(const Constants<Real>& c, const Gates& gates, const Mode& mode, 
     for (unsigned j = 0; j < 3; ++j)
       for (unsigned k = 0; k < 3; ++k) {
         if (j == k || (dead >> j & 1) != 0 || (dead >> k & 1) != 0) continue;
-        // e_j - e_k at most what j's negative way stands above k's positive one.
+        // e_j - e_k is at most the distance from k's positive connection up to j's negative one.
         series::Coefficients<Real> g = beyond(c.terms(j, ways[j].negative), y, z.pole[j], Real(1));
         const series::Coefficients<Real> low = beyond(c.terms(k, ways[k].positive), y, z.pole[k], Real(-1));
         for (int n = 0; n <= y.degree; ++n) g[n] += low[n];
@@ -73,7 +73,7 @@ void friction_guards(const Constants<Real>& c, const Mode& mode, const Expansion
   visit(guard::breakaway_backward, affine(z.backward, y.degree, Real(1), c.breakaway), y.degree, noise);
 }
 
-/// from <= of <= to, but for the ends of all pieces.
+/// Guards of from <= of <= to, except at the outer ends of the table.
 template <class Real, class Pieces, class Visit>
 void piece_guards(const Pieces& pieces, std::size_t at, const series::Coefficients<Real>& of, int degree,
                   int up, int down, Real noise, Visit&& visit) {
@@ -98,7 +98,7 @@ void shaft_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Re
                  visit);
 }
 
-/// Without L_b the current's limit is one of the voltage: V_0 + R_b I_sink.
+/// Without L_b the limit of the current is a limit of the voltage: V_0 + R_b I_sink.
 template <class Real, class Visit>
 void source_guard(const Constants<Real>& c, const Mode& mode, const Expansion<Real>& y, const Series<Real>& z,
                   Real slack, Visit&& visit) {
@@ -129,7 +129,7 @@ void supply_guards(const Constants<Real>& c, const Mode& mode, const Expansion<R
           noise_of(Real(1), Real(1)));
 }
 
-/// |i_d| <= I_sat/2, beyond which the law of its flux says nothing.
+/// |i_d| <= I_sat/2, beyond which the law of the flux is not valid.
 template <class Real, class Visit>
 void saturation_guards(const Constants<Real>& c, const Expansion<Real>& y, const Series<Real>& z,
                        Visit&& visit) {
@@ -140,8 +140,8 @@ void saturation_guards(const Constants<Real>& c, const Expansion<Real>& y, const
 
 }  // namespace detail
 
-/// Guards of conduction, motion and supply. `dead`: legs whose wire is broken; `breaking`: those whose wire opens at the next
-/// zero of their current.
+/// Guards of conduction, motion and supply. `dead`: legs whose wire is broken; `breaking`: legs whose wire opens at
+/// the next zero of their current.
 template <class Real, class Visit>
 void mode_guards(const Constants<Real>& c, const Gates& gates, const Mode& mode, unsigned dead,
                  unsigned breaking, const Expansion<Real>& y, const Series<Real>& z, Real slack,
@@ -163,7 +163,7 @@ void mode_guards(const Constants<Real>& c, const Gates& gates, const Mode& mode,
   if (c.axes.inv_I_sat > 0) detail::saturation_guards(c, y, z, visit);
 }
 
-/// The rotor stays within the present piece of the back-EMF.
+/// Guards of the present piece of the back-EMF: the rotor stays within it.
 template <class Real, class Visit>
 void edge_guards(const Piece<Real>& piece, const Expansion<Real>& y, Visit&& visit) {
   const Real noise = noise_of(Real(base::sector_rad), Real(1));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a leg may be connected by, from its gates and the kind of its devices (model.md 2 and 8).
+// Possible connections of a leg, from its gates and the kind of its devices (model.md 2 and 8).
 #pragma once
 #include "sixstep/plant/general/machine.hpp"
 
 namespace sixstep::plant::general {
 
-/// What a leg without current may become, by its gates: the connection that carries a positive current and the one that
-/// carries a negative one.
+/// Connections that a leg without current may take with its gates: the one that carries a positive current and the
+/// one that carries a negative current.
 struct LegConnections {
   Connection positive = Connection::low_diode, negative = Connection::high_diode;
 };
@@ -16,7 +16,8 @@ inline LegConnections ways_of(const Devices& devices, bool gate_high, bool gate_
   return {};
 }
 
-/// Whether a connection carries one direction only, and which: 1, -1; 0 for a MOSFET's channel.
+/// Direction of the current in a connection that carries only one: 1 or -1; 0 for a MOSFET's channel, which carries
+/// both.
 inline int direction_of(const Devices& devices, Connection c) {
   if (c == Connection::low_diode) return 1;
   if (c == Connection::high_diode) return -1;

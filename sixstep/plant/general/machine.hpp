@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the general kernel is given (model.md 7 to 9): windings that are not alike, delta, saliency, saturation, back-EMF by
-// harmonics or as a table, cogging, gear and elastic shaft with a load of its own, IGBTs, a battery, mains or a source with an
-// inductance, a brake chopper. SI units. What has its default is not there.
+// Parameters of the general kernel (model.md 7 to 9): windings with different phases, delta, saliency, saturation,
+// back-EMF by harmonics or as a table, cogging, gear and elastic shaft with a load of its own, IGBTs, a battery,
+// mains or a source with an inductance, a brake chopper. SI units. A member with its default value has no effect.
 #pragma once
 #include <vector>
 
@@ -9,7 +9,7 @@
 
 namespace sixstep::plant::general {
 
-/// c cos(n (theta - 60 deg)), n odd: a part of the back-EMF's shape.
+/// c cos(n (theta - 60 deg)), n odd: one harmonic of the back-EMF's shape.
 struct Harmonic {
   int order = 1;
   double size = 1.0;
@@ -21,9 +21,9 @@ struct ShapePoint {
   double value = 0.0;
 };
 
-/// The shape f of the back-EMF over the electrical angle (model.md 7): one of trapezoid, harmonics, table.
+/// Shape f of the back-EMF over the electrical angle (model.md 7): a trapezoid, harmonics or a table.
 struct Shape {
-  double flat_deg = 120.0;            ///< of the trapezoid, where the two below are empty
+  double flat_deg = 120.0;            ///< of the trapezoid, used if the two lists below are empty
   std::vector<Harmonic> harmonics{};  ///< a sine is {1, 1.0}
   std::vector<ShapePoint> table{};
 };
@@ -39,27 +39,27 @@ enum class Winding : std::uint8_t { star, delta };
 
 struct Machine {
   Winding winding = Winding::star;
-  PerLeg<double> R_ohm{};           ///< per phase; delta: of the branches ab, bc, ca, all alike
-  PerLeg<double> K_e_V_s{};         ///< peak EMF of a shape of peak 1 per mechanical rad/s, likewise
-  double L_H = 0.0;                 ///< star: L_s = L - M; delta: L_x of a branch
-  double M_H = 0.0;                 ///< delta: between branches
-  double L_d_H = 0.0, L_q_H = 0.0;  ///< star, in place of L_H where both are given
+  PerLeg<double> R_ohm{};    ///< per phase; delta: of the branches ab, bc, ca, all equal
+  PerLeg<double> K_e_V_s{};  ///< peak EMF of a shape of peak 1 per mechanical rad/s, per phase or branch
+  double L_H = 0.0;          ///< star: L_s = L - M; delta: L_x of a branch
+  double M_H = 0.0;          ///< delta: between branches
+  double L_d_H = 0.0, L_q_H = 0.0;  ///< star: replace L_H if both are given
   double saturation_A = 0.0;        ///< I_sat: lambda_d = L_d i_d (1 - i_d/(2 I_sat)); 0: none
-  double pole_pairs = 1;            ///< of a linear motor pi/tau
+  double pole_pairs = 1;            ///< for a linear motor pi/tau
   Shape shape{};
   std::vector<Cogging> cogging{};
 
-  /// Whether the fluxes of the magnet's two axes follow laws of their own.
+  /// True if the fluxes of the magnet's two axes have their own laws.
   bool has_axes() const { return L_d_H > 0.0 && L_q_H > 0.0 && (L_d_H != L_q_H || saturation_A > 0.0); }
 };
 
-/// A point of a torque over the load's speed: piecewise linear between, level beyond the ends.
+/// A point of a torque over the load's speed: piecewise linear between points, constant beyond the ends.
 struct TorquePoint {
   double speed_rad_s = 0.0;  ///< rising
   double torque_Nm = 0.0;    ///< positive against forward motion
 };
 
-/// At the load's side of gear and coupling.
+/// Load torques at the load's side of gear and coupling.
 struct Load {
   double torque_Nm = 0.0;
   double fan_Nm_s2 = 0.0;   ///< k w|w|
@@ -71,9 +71,8 @@ struct Load {
 struct Shaft {
   double J_kg_m2 = 0.0, B_Nm_s = 0.0;  ///< the motor's side
   double coulomb_Nm = 0.0, static_Nm = 0.0;
-  double gear = 1.0;  ///< motor turns per load turn
-  double efficiency =
-      1.0;  ///< of the gear, in (0, 1]: the driven side has this part of the driving side's torque
+  double gear = 1.0;        ///< motor turns per load turn
+  double efficiency = 1.0;  ///< of the gear, in (0, 1]: torque of the driven side over the lossless one
   double load_J_kg_m2 = 0.0, load_B_Nm_s = 0.0;
   double stiffness_Nm = 0.0;  ///< N m/rad at the load's side; 0: rigid
   double damping_Nm_s = 0.0;
@@ -84,7 +83,7 @@ struct Shaft {
   bool elastic() const { return stiffness_Nm > 0.0; }
 };
 
-/// Without a gate both are alike; an IGBT's transistor carries one direction only (model.md 2).
+/// Without a gate, MOSFET and IGBT are the same. An IGBT's transistor carries one direction only (model.md 2).
 struct Devices {
   bool igbt = false;
   double R_on_ohm = 0.0;              ///< MOSFET's channel, IGBT's r_ce
@@ -92,25 +91,26 @@ struct Devices {
   double V_f_V = 0.0, r_d_ohm = 0.0;  ///< diodes
 };
 
-/// What the source's open voltage V_0 is over time and charge (model.md 9).
+/// Law of the source's open voltage V_0 over time and charge (model.md 9).
 enum class Source : std::uint8_t { steady, battery, single_phase, three_phase };
 
-/// A point of the open-circuit voltage over the charge: piecewise linear between, its last lines beyond the ends.
+/// A point of the open-circuit voltage over the charge: piecewise linear between points; the outer lines continue
+/// beyond the ends.
 struct ChargePoint {
-  double charge = 0.0;  ///< of the whole, rising
+  double charge = 0.0;  ///< relative to the whole charge, rising
   double voltage_V = 0.0;
 };
 
 struct Battery {
   std::vector<ChargePoint> open_circuit{};
   double capacity_C = 0.0;            ///< the whole charge, A s
-  double R_1_ohm = 0.0, C_1_F = 0.0;  ///< what recovers slowly, in series; 0: none
-  double charge = 1.0;                ///< at the start
+  double R_1_ohm = 0.0, C_1_F = 0.0;  ///< slow recovery of the voltage, in series; 0: none
+  double charge = 1.0;                ///< at the start, relative to the whole
 };
 
-/// Behind a bridge of diodes; never sinking.
+/// Mains behind a bridge of diodes, which never takes current back.
 struct Mains {
-  double peak_V = 0.0;  ///< single phase: of the line; three: between lines
+  double peak_V = 0.0;  ///< single phase: of the line; three phases: between lines
   double frequency_Hz = 50.0, diode_drop_V = 0.0;
 };
 
@@ -118,7 +118,7 @@ struct Mains {
 struct Supply {
   double V_0_V = 0.0, R_b_ohm = 0.0, L_b_H = 0.0, C_F = 0.0, R_C_ohm = 0.0;
   bool sinks = true;
-  double sink_A = 0.0;     ///< where it does not sink without bound: up to this
+  double sink_A = 0.0;     ///< if `sinks` is false: the largest current that the source takes back
   double brake_ohm = 0.0;  ///< across the bus from on_V until off_V; 0: none
   double brake_on_V = 0.0, brake_off_V = 0.0;
   Source source = Source::steady;
@@ -126,7 +126,7 @@ struct Supply {
   Mains mains{};
 };
 
-/// At rest currents are zero; the load's side begins without twist.
+/// Start of a run. Currents are zero, and an elastic shaft has no twist.
 struct Start {
   double speed_rad_s = 0.0, angle_rad = 0.0, bus_V = 0.0;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The general kernel: the same members as plant::Plant, for machines, shafts, bridges and supplies that the lean one lacks
-// (model.md 7 to 9). A run chooses once which of the two it needs.
+// The general kernel: it has the members of plant::Plant, for machines, shafts, bridges and supplies that the lean
+// kernel does not model (model.md 7 to 9). A run chooses once which of the two it needs.
 #pragma once
 #include <utility>
 
@@ -29,44 +29,44 @@ class Plant {
     stale_ = true;
     return true;
   }
-  /// At the load's side, growing by `rate` a second.
+  /// Load torque at the load's side; it grows by `rate` per second.
   void set_load(double torque_Nm, double rate_Nm_s = 0.0) {
     more_.load.set(static_cast<Real>(torque_Nm));
     constants_.load_rate = static_cast<Real>(rate_Nm_s);
     stale_ = true;
   }
-  /// Of a dynamometer, at the load's side, growing by `rate` a second.
+  /// Speed imposed by a dynamometer at the load's side; it grows by `rate` per second.
   void set_speed(double speed_rad_s, double rate_rad_s2);
   void set_locked(bool locked);
-  /// Of a steady source.
+  /// Only for a steady source.
   void set_source_voltage(double V_0_V);
   void set_source_sinks(bool sinks);
-  /// Copper and magnets at a temperature: factors on what R and K_e were given as. Currents and speed go on.
+  /// Factors of temperature on the given R and K_e. Currents and speed continue.
   void set_warmth(double on_R, double on_K_e);
-  /// Whether temperatures are simulated: then a control tick that ends a thermal step changes R, K_e and R_on.
+  /// True if temperatures are simulated: a control tick that ends a thermal step then changes R, K_e and R_on.
   bool warms() const { return heat_.on(); }
   void take_thermal_step();
   const Heat& heat() const { return heat_; }
-  /// Of winding and housing at the fraction s of the segment, degC.
+  /// Temperatures of winding and housing at the fraction s of the segment, degC.
   BodyTemperatures bodies_degC(Real s) const {
     return heat_.given().motor ? heat_.bodies_degC(losses_up_to(s)) : heat_.bodies_degC();
   }
-  /// The wire of leg k breaks: it opens at its current's next zero.
+  /// Breaks the wire of leg k: it opens at the next zero of its current.
   void break_wire(int k) {
     breaking_ |= 1U << k;
     stale_ = true;
   }
-  /// The switch of leg k, upper or lower, obeys its gate no more: open for ever, its diode staying, or on for ever. The gates
-  /// follow with the next set_gates().
+  /// The upper or lower switch of leg k fails: permanently on (`shorted`), or permanently off while its diode still
+  /// works. The gates change with the next set_gates().
   void fail_switch(int k, bool high, bool shorted) {
     Gates& gates = shorted ? failed_.shorted : failed_.open;
     (high ? gates.high : gates.low).set(static_cast<std::size_t>(k));
   }
-  /// Wires that are to open and have not yet, as a mask.
+  /// Mask of the broken wires that have not yet opened.
   unsigned breaking() const { return breaking_; }
-  /// Legs whose wire is open, as a mask.
+  /// Mask of the legs whose wire is open.
   unsigned dead() const { return dead_; }
-  /// A current went where the law of saturation says nothing.
+  /// True if a current left the range in which the law of saturation is valid.
   bool beyond_model() const { return beyond_model_; }
 
   double expand(double wanted);
@@ -75,7 +75,7 @@ class Plant {
     mode_guards(constants_, gates_, mode_, dead_, breaking_, y_, z_, slack_, visit);
     edge_guards(piece(), y_, visit);
   }
-  void end_at(Real) {}  ///< nobody asks before advance()
+  void end_at(Real) {}  ///< the increments are not needed before advance()
   void advance(Real s);
   bool apply(int id);
 
@@ -126,7 +126,7 @@ class Plant {
   Failed failed_{};
   Heat heat_;
   Real cold_R_ = 1, cold_K_e_ = 1;    ///< the factors of set_warmth()
-  unsigned dead_ = 0, breaking_ = 0;  ///< legs as masks: the wire is open, and opens at the next zero
+  unsigned dead_ = 0, breaking_ = 0;  ///< masks of legs: the wire is open; the wire opens at the next zero
   bool stale_ = true, doubted_ = false, beyond_model_ = false;
   int last_event_ = -1;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the general plant settles, advances and takes its events: part of general/plant.hpp.
+// Settles and advances the general plant and applies its events: part of general/plant.hpp.
 #pragma once
 #include "sixstep/plant/general/plant.hpp"
 
@@ -45,8 +45,8 @@ bool Plant<Real>::settle_fully(Real wanted, bool& expanded) {
   return false;
 }
 
-/// Currents within rounding of zero in legs that carry one direction only, and a speed within rounding of rest where friction
-/// may hold the rotor, are zero.
+/// Sets to zero currents within rounding of zero in legs that carry one direction only, and a speed within rounding
+/// of rest where friction may hold the rotor.
 template <class Real>
 void Plant<Real>::snap() {
   const Constants<Real>& c = constants_;
@@ -117,7 +117,7 @@ bool Plant<Real>::pass_edge(bool ahead) {
       [&](std::size_t sector) { return sectors[sector].size(); });
 }
 
-/// What settle() does not seek, and what a source at its limit leaves.
+/// Events of the mode that settle() does not determine, and of a source that leaves its limit.
 template <class Real>
 void Plant<Real>::mode_event(int id) {
   switch (id) {

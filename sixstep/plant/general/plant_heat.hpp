@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a warm plant sums up while it runs, and what it becomes at the end of a thermal step: part of general/plant.hpp.
+// Sums up a plant's losses during a thermal step and changes its parameters at the step's end: part of
+// general/plant.hpp.
 #pragma once
 #include "sixstep/plant/general/energy_nodes.hpp"
 #include "sixstep/plant/general/plant.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From what is given to the numbers that the recurrence wants: part of general/plant.hpp.
+// Converts the given parameters to the constants of the recurrence: part of general/plant.hpp.
 #pragma once
 #include "sixstep/plant/general/plant.hpp"
 
@@ -7,7 +7,7 @@ namespace sixstep::plant::general {
 
 namespace detail {
 
-/// Over all charges and the whole period.
+/// Highest open voltage of the source over all charges and the whole mains period, V.
 template <class Real = double>
 Real highest_open_voltage(const Supply& s) {
   if (s.source == Source::steady) return s.V_0_V;
@@ -153,7 +153,8 @@ void Plant<Real>::set_source(const Supply& supply) {
   }
 }
 
-/// Channels as warm as they are. high by transistor: U_s - V_ce - r_ce i; low by transistor, i < 0: V_ce - r_ce i (model.md 2).
+/// Sets the poles with the channels' present temperatures. High by transistor: U_s - V_ce - r_ce i; low by
+/// transistor, i < 0: V_ce - r_ce i (model.md 2).
 template <class Real>
 void Plant<Real>::set_bridge() {
   Constants<Real>& c = constants_;
@@ -173,7 +174,7 @@ void Plant<Real>::set_bridge() {
   }
 }
 
-/// The scales by which rounding noise is told from a signal.
+/// Sets the scales that distinguish rounding noise from a signal.
 template <class Real>
 void Plant<Real>::set_scales(Real volt_scale) {
   Constants<Real>& c = constants_;
@@ -204,7 +205,7 @@ void Plant<Real>::set_rates() {
   c.turning_rate = c.pole_pairs * order;
 }
 
-/// As plant::Plant puts its rotor down.
+/// Sets the rotor's start like plant::Plant.
 template <class Real>
 void Plant<Real>::place(const Start& start) {
   state_.w = constants_.locked ? Real(0) : Real(start.speed_rad_s);
@@ -218,7 +219,7 @@ void Plant<Real>::place(const Start& start) {
   if (on_edge && state_.w < 0) pass_edge(false);
 }
 
-/// The pieces of what hangs on speed and charge, where the state was put down.
+/// Finds the pieces of the tables over speed and charge for the present state.
 template <class Real>
 void Plant<Real>::find_pieces() {
   const auto find = [](const auto& pieces, std::uint8_t& at, Real value) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// One order of the general plant's Taylor recurrence (model.md 7 to 9): voltages from currents, currents from flux linkages,
-// torques from both, then shaft and supply. Loops are counted, not unrolled: this kernel is for what the lean one lacks.
+// One order of the general plant's Taylor recurrence (model.md 7 to 9): voltages from currents, currents from flux
+// linkages, torques from both, then shaft and supply. Its loops are not unrolled, because this kernel runs only where
+// the lean one does not suffice.
 #pragma once
 #include "sixstep/plant/general/axes_terms.hpp"
 #include "sixstep/plant/general/shaft_terms.hpp"
@@ -45,8 +46,8 @@ class Recurrence {
     if (has_axes_) axes_.begin();
   }
 
-  /// Terms n + 1 of all states from terms n, and terms n of what follows from them. The shaft is not a part of this: what is
-  /// held here is looked at through no reference, so that it stays in registers.
+  /// Computes terms n + 1 of all states from terms n, and terms n of the quantities that follow from the states. The
+  /// shaft is a separate object, so that no reference points to the members here and they can stay in registers.
   template <class Shaft>
   [[gnu::always_inline]] void take_order(int n, Shaft& shaft) {
     const Real f = y_.h / Real(n + 1);
@@ -71,7 +72,7 @@ class Recurrence {
     return sum;
   }
 
-  /// The rotations turn with the speed; their products with it are the back-EMF's parts.
+  /// Advances the rotations with the speed; their products with it are the parts of the back-EMF.
   [[gnu::always_inline]] void turn(int n, Real f) {
     if (is_linear_) wx_ = later_product(y_.x, y_.w, n);
     for (std::size_t r = 0; r < rotations_; ++r) {
@@ -90,7 +91,7 @@ class Recurrence {
     return e;
   }
 
-  /// Two or three connected legs, known while compiling: nearly all segments have so many.
+  /// The number of connected legs is two or three in nearly all segments; for those it is a compile-time constant.
   [[gnu::always_inline]] void electrical(int n, Real f) {
     if (connected_ == 3) return electrical_with(std::integral_constant<int, 3>(), n, f);
     if (connected_ == 2) return electrical_with(std::integral_constant<int, 2>(), n, f);
@@ -129,7 +130,7 @@ class Recurrence {
     if (has_loop_) z_.loop[n + 1] = -f * c_.loop_inv_L * (c_.loop_R * z_.loop[n] + emf(3, n));
   }
 
-  /// T_e of all ways and of the axes, and beside it the cogging torque, which needs no current.
+  /// T_e of all phases, loop and axes, and separately the cogging torque, which needs no current.
   [[gnu::always_inline]] void torques(int n) {
     const auto current = [&](int way) { return way < 3 ? y_.i[way][n] : z_.loop[n] * Real(1.0L / 3); };
     const int used = has_loop_ ? way_count : 3;
@@ -165,12 +166,12 @@ class Recurrence {
   SupplyTerms<Real> supply_;
   std::size_t rotations_;
   bool is_linear_, has_axes_, has_loop_;
-  bool ramp_carries_ = false;  ///< a leg on a ramp of its back-EMF is connected, or a loop is closed
+  bool ramp_carries_ = false;  ///< a leg on a ramp of its back-EMF is connected, or the winding has a loop
   int connected_ = 0;
-  std::array<int, 3> leg_{};       ///< those that are connected, then those that float
-  PerLeg<PoleTerms<Real>> terms_;  ///< of the connected ones, in this order
-  PerLeg<Real> R_;                 ///< likewise
-  Real part_ = 0, change_ = 0;     ///< of each connected leg in their mean; 1/L where a current can flow
+  std::array<int, 3> leg_{};       ///< the connected legs, then the floating ones
+  PerLeg<PoleTerms<Real>> terms_;  ///< of the connected legs, in the order of leg_
+  PerLeg<Real> R_;                 ///< in the order of leg_
+  Real part_ = 0, change_ = 0;     ///< weight of a connected leg in their mean; 1/L if a current can flow
   PerWay<Real> now_{}, rise_{};
   Real wx_ = 0;
   std::array<Real, most_rotations> w_cos_, w_sin_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What moves through bridge, winding and shaft of the general plant over one segment (plant/segment_energy.hpp), and what is
-// stored at an instant: fields, masses, an elastic shaft. Cogging takes and gives back: what it gave comes beside.
+// Integrates the energies of the general plant's bridge, winding and shaft over one segment
+// (plant/segment_energy.hpp), and computes the energy stored at an instant: fields, masses, elastic shaft. Cogging
+// takes and returns energy; its sum is computed separately.
 #pragma once
 #include "sixstep/plant/general/energy_nodes.hpp"
 #include "sixstep/plant/general/plant.hpp"
@@ -50,7 +51,7 @@ void shaft_energy(const AtNodes<points, Real>& at, SegmentEnergy<Real>& out) {
 
 }  // namespace detail
 
-/// Over [0, to] of the expansion at hand.
+/// Energies over [0, to] of the present expansion.
 template <class Real>
 SegmentEnergy<Real> segment_energy(const Plant<Real>& plant, Real to) {
   SegmentEnergy<Real> out;
@@ -75,7 +76,7 @@ Real brake_energy(const Plant<Real>& plant, Real to) {
   return heat;
 }
 
-/// What cogging gave to the shaft over [0, to], J.
+/// Energy from cogging into the shaft over [0, to], J.
 template <class Real>
 Real cogging_energy(const Plant<Real>& plant, Real to) {
   Real given = 0;
@@ -108,7 +109,7 @@ Real field_energy(const Plant<Real>& plant, Real s) {
   return energy;
 }
 
-/// Of both masses and the twist between them at the fraction s, J.
+/// Energy of both masses and of the twist between them at the fraction s, J.
 template <class Real>
 Real moving_energy(const Plant<Real>& plant, Real s) {
   const auto& c = plant.constants();

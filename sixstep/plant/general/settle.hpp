@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// settle() finds the general plant's consistent mode (plant/settle.hpp): gates and currents name what they can, legs without
-// current, a rotor at rest and a source at its limit are tried, those with fewest legs on first. First values decide; only
-// ties are expanded.
+// settle() finds the general plant's consistent mode (plant/settle.hpp). Gates and currents determine part of it; the
+// rest is tried: legs without current (fewest legs on first), a rotor at rest and a source at its limit. First values
+// decide; only ties are expanded.
 #pragma once
 #include "sixstep/plant/general/guards.hpp"
 #include "sixstep/plant/settle.hpp"
@@ -26,7 +26,7 @@ using plant::detail::both;
 using plant::detail::judge;
 using plant::detail::Judgement;
 
-/// The connections that gates and currents name; returns the legs that they leave open, as a mask.
+/// Connections that gates and currents determine. Returns a mask of the legs that they leave open.
 template <class Real>
 unsigned named_legs(const Question<Real>& q, Legs& legs) {
   unsigned open = 0;
@@ -50,7 +50,7 @@ unsigned named_legs(const Question<Real>& q, Legs& legs) {
   return open;
 }
 
-/// By first values: what expand_first() left in y and z.
+/// Checks the legs by first values, which expand_first() has written to y and z.
 template <class Real>
 Judgement judge_legs(const Question<Real>& q, const Mode& mode, const Expansion<Real>& y,
                      const Series<Real>& z) {
@@ -60,7 +60,7 @@ Judgement judge_legs(const Question<Real>& q, const Mode& mode, const Expansion<
     const PoleTerms<Real>& terms = c.terms(k, to);
     return terms.bus_share * y.bus[0] + terms.offset_V;
   };
-  PerLeg<Real> up{}, down{};  // where it would begin to carry a negative and a positive current
+  PerLeg<Real> up{}, down{};  // voltage at which it would begin to carry a negative and a positive current
   for (unsigned k = 0; k < 3; ++k) {
     const LegConnections ways = ways_of(c.devices, q.gates.high[k], q.gates.low[k]);
     up[k] = at(k, ways.negative);
@@ -103,7 +103,7 @@ Judgement judge_rest(const Question<Real>& q, const Mode& mode, const Expansion<
   return both(all, judge(mode.source_feeds ? below : -below, c.volt_noise * q.slack));
 }
 
-/// What settle() does not seek: events turn it over.
+/// False for the parts of the mode that settle() does not determine: only events change those.
 constexpr bool is_sought(int id) { return id < guard::brake; }
 
 /// Lexicographic (plant/settle.hpp).
@@ -118,7 +118,7 @@ bool holds_in_series(const Question<Real>& q, const Mode& mode, const Expansion<
   return ok;
 }
 
-/// `expanded`: whether y and z hold the accepted mode's whole expansion.
+/// True if the mode is consistent. `expanded`: y and z hold its whole expansion.
 template <class Real>
 bool accepts(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series<Real>& z, bool& expanded) {
   const std::int8_t through_sign = mode.through_sign;
@@ -129,7 +129,7 @@ bool accepts(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series<Rea
   if (expanded) expand(q.constants, q.state, q.more, mode, q.h, y, z);
   const bool holds = expanded ? holds_in_series(q, mode, y, z) : all == Judgement::holds;
   if (!holds)
-    mode.through_sign = through_sign;  // what a refused candidate takes for it is no answer of the next one
+    mode.through_sign = through_sign;  // a refused candidate must not change the sign for the next one
   return holds;
 }
 
@@ -148,13 +148,13 @@ bool settle_legs(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series
       const Connection as = tried.leg[static_cast<std::size_t>(n)];
       mode.legs[k] = is_floating(as) ? as : as == Connection::low_diode ? ways.positive : ways.negative;
     }
-    if (tried.on >= 1 && connected_count(mode.legs) == 1) continue;  // one leg alone carries nothing
+    if (tried.on >= 1 && connected_count(mode.legs) == 1) continue;  // one leg alone carries no current
     if (accepts(q, mode, y, z, expanded)) return true;
   }
   return false;
 }
 
-/// A source at the limit of what it takes back feeds again where the bus stands below it.
+/// A source at its limit of current taken back feeds again when the bus is below it.
 template <class Real>
 bool settle_source(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series<Real>& z, bool& expanded) {
   const Constants<Real>& c = q.constants;
@@ -171,8 +171,9 @@ bool settle_source(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Seri
 
 }  // namespace detail
 
-/// Where nothing has to be tried, which is nearly always: gates and currents name all, and what they leave open stands clear
-/// within its window, or one leg beside two that conduct stands clear beyond it. False, and `mode` may be written: the rest.
+/// Settles the mode without trials, which nearly always suffices: gates and currents determine all connections, and
+/// each open leg is clearly inside its window; or one open leg beside two that conduct is clearly outside it. False:
+/// trials are necessary; `mode` may have been changed.
 template <class Real>
 bool settle_fast(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series<Real>& z) {
   const Constants<Real>& c = q.constants;
@@ -181,7 +182,8 @@ bool settle_fast(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series
   for (int k = 0; k < 3; ++k)
     if (s.i[k] != 0 && plant::detail::abs(s.i[k]) <= c.amp_noise) return false;
   mode.motion = c.locked ? Motion::locked : c.dry_friction ? motion_at(s.w) : Motion::free;
-  // Whether such a source feeds may hang on the current that it feeds: guessed by what the bus was, and judged.
+  // Whether such a source feeds may depend on the current that it feeds: it is guessed from the present bus and then
+  // checked.
   const Real open_V = c.source == Source::steady ? c.V_0 : z.open[0];
   mode.source_feeds =
       c.source_sinks || (c.inv_L_b > 0 && q.more.source.value > -c.sink) || s.bus < open_V + c.R_b * c.sink;
@@ -194,7 +196,7 @@ bool settle_fast(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series
   if (legs == Judgement::holds) return true;
   if (legs == Judgement::tie || connected_count(mode.legs) != 2 || (open & (open - 1)) != 0 || open == 0)
     return false;
-  // With the third leg on, L di/dt is two thirds of what it stands beyond.
+  // With the third leg on, L di/dt is two thirds of the excess voltage.
   const unsigned k = open >> 1;
   const LegConnections ways = ways_of(c.devices, q.gates.high[k], q.gates.low[k]);
   const auto stands = [&](Connection to) {

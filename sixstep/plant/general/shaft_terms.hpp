@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shaft (model.md 7): what the load asks for at its side, what gear and coupling hand on, how both sides move. The speed
-// of an imposed load is given; its torque is then what is left over.
+// Terms of the shaft (model.md 7): the load's torque at its own side, the torque through gear and coupling, the
+// motion of both sides. If the load's speed is imposed, its torque is the remainder of the balance.
 #pragma once
 #include "sixstep/plant/general/constants.hpp"
 #include "sixstep/plant/torques.hpp"
 
 namespace sixstep::plant::general {
 
-/// What the motor's side feels of a torque through a lossy gear, as a part of it: the driven side has less than the driving one.
+/// Factor from the torque through a lossy gear to the motor's side: the driven side has less torque than the driving
+/// one.
 template <class Real>
 constexpr Real gear_factor(Real efficiency, bool motor_drives) {
   return motor_drives ? 1 / efficiency : efficiency;
@@ -21,7 +22,7 @@ class ShaftTerms {
   ShaftTerms(const Constants<Real>& c, Mode& mode, Real load, Expansion<Real>& y, Series<Real>& z)
       : c_(c), mode_(mode), load_(load), y_(y), z_(z), plain_(is_plain(c)), turns_(turns(mode.motion)) {}
 
-  /// Terms n of the torques and n + 1 of speeds and angles, y.torque[n] and z.cogging[n] being there.
+  /// Computes terms n of the torques and n + 1 of speeds and angles; y.torque[n] and z.cogging[n] must be set.
   [[gnu::always_inline]] void take_order(int n, Real f) {
     if (!plain_) return take_any_order(n, f);
     const Real w = y_.w[n], load = steps(n);
@@ -36,12 +37,12 @@ class ShaftTerms {
   }
 
  private:
-  /// A rigid shaft whose load asks for steps and ramps alone.
+  /// A rigid shaft whose load has only steps and ramps.
   static bool is_plain(const Constants<Real>& c) {
     return !c.elastic && !c.imposed && !c.lossy_gear() && c.fan == 0 && c.gravity == 0 &&
            c.over_speed.empty();
   }
-  /// What steps and ramps of the load ask for.
+  /// Load torque of steps and ramps.
   Real steps(int n) const { return n == 0 ? load_ : n == 1 ? c_.load_rate * y_.h : Real(0); }
 
   [[gnu::noinline]] void take_any_order(int n, Real f) {
@@ -66,7 +67,7 @@ class ShaftTerms {
     return sum;
   }
 
-  /// Steps and ramps, fan, weight, torque over speed.
+  /// Load torque: steps and ramps, fan, weight, torque over speed.
   Real asked_for(int n, Real f) {
     Real load = steps(n);
     if (c_.fan != 0) load += Real(mode_.load_sign) * c_.fan * product(z_.load_w, z_.load_w, n);
@@ -81,12 +82,13 @@ class ShaftTerms {
     }
     return load;
   }
-  /// What pushes at rest where a gear without losses takes `through` at the load's side.
+  /// Torques that act against the breakaway torque at rest. `through`: at the load's side, without the gear's losses.
   void push(int n, Real drive, Real through) {
     z_.forward[n] = drive - c_.inv_gear * through;
     z_.backward[n] = z_.forward[n];
     if (!c_.lossy_gear()) return;
-    // Forward, a torque that the load asks for is handed on with losses, and one that it gives; backward the other way round.
+    // Forward, the gear's factor follows from the sign of `through`: a load that resists is driven, one that pushes
+    // drives. Backward it is the other way round.
     const bool asks = z_.through[0] > 0;
     z_.forward[n] = drive - c_.inv_gear * through * gear_factor(c_.efficiency, asks);
     z_.backward[n] = drive - c_.inv_gear * through * gear_factor(c_.efficiency, !asks);
@@ -100,7 +102,8 @@ class ShaftTerms {
     turn(n, f, c_.inv_J, sum);
   }
 
-  /// Rigid: the gear hands on J_2 dw_2/dt + B_2 w_2 + T_load, whose sign does not depend on what is lost of it.
+  /// Rigid: the gear transmits J_2 dw_2/dt + B_2 w_2 + T_load. The sign of this torque does not depend on the gear's
+  /// losses.
   void move_through_losses(int n, Real f, Real drive, Real dry) {
     const Real at_load = c_.load_B * z_.load_w[n] + z_.load[n];
     const Real at_motor = drive - dry - c_.B_1 * y_.w[n];
@@ -116,12 +119,13 @@ class ShaftTerms {
     turn(n, f, 1 / (c_.J_1 + k * own * c_.inv_gear), at_motor - k * c_.inv_gear * at_load);
     z_.through[n] = f > 0 ? own * y_.w[n + 1] / f + at_load : at_load;
   }
-  /// J_2 dw_2/dt + B_2 w_2 + T_load of what has its sign: where J_2 is much of the whole it is a small part of that, and noise.
+  /// J_2 dw_2/dt + B_2 w_2 + T_load, from a sum that has the same sign. If J_2 is most of the inertia, the torque is
+  /// a small part of that sum, down to its noise.
   Real handed_on(Real sign_of, Real own, bool forward) const {
     const Real k = gear_factor(c_.efficiency, (sign_of > 0) == forward);
     return sign_of / (1 + k * own * c_.inv_gear / c_.J_1);
   }
-  /// What stands clear has a sign; what does not keeps that of its event.
+  /// A torque clearly different from zero determines the sign; otherwise the sign of the last event remains.
   void judge_through() {
     if (plant::detail::abs(z_.through[0]) > c_.torque_noise * c_.gear)
       mode_.through_sign = z_.through[0] > 0 ? 1 : -1;
@@ -147,7 +151,7 @@ class ShaftTerms {
     }
   }
 
-  /// Rigid and imposed: the speed is given, the load takes what the shaft does not need.
+  /// Rigid and imposed: the speed is given, and the load takes the torque that the shaft does not need.
   void follow(int n, Real f, Real drive, Real dry) {
     const Real rate = n == 0 && turns(mode_.motion) ? c_.speed_rate * c_.gear : Real(0);
     y_.w[n + 1] = f * rate;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The back-EMF's shapes of a, b, c and of the delta's loop as sums of few functions of the angle, so that one product with
-// the speed serves all: 1 and x (the angle since the sector's start) piece by piece, cos m theta and sin m theta for each
-// order m. A delta is the star that has its terminal behaviour: e_a = (e_ab - e_ca)/3, and sum e drives the loop (model.md (9)).
+// Shapes of the back-EMF of a, b, c and of the delta's loop as sums of few functions of the angle, so that one
+// product with the speed serves all: 1 and x (the angle since the sector's start) piece by piece, cos m theta and sin
+// m theta for each order m. A delta is replaced by the star with the same terminal behaviour: e_a = (e_ab - e_ca)/3,
+// and sum e drives the loop (model.md (9)).
 #pragma once
 #include <algorithm>
 #include <array>
@@ -15,19 +16,19 @@
 
 namespace sixstep::plant::general {
 
-/// Of phases a, b, c and of the loop.
+/// A "way" is one of the phases a, b, c or the loop.
 inline constexpr int way_count = 4;
 template <class Real>
 using PerWay = std::array<Real, way_count>;
 
-/// A piece of a sector: the part of each way's EMF per speed that is linear in x, V s.
+/// A piece of a sector: for each way the part of the EMF per speed that is linear in x, V s.
 template <class Real>
 struct Piece {
   Real from = 0, to = 0;
   PerWay<Real> now{}, rise{};
 };
 
-/// cos(m theta_e) and sin(m theta_e), and what they are in each way's EMF per speed and in the cogging torque.
+/// cos(m theta_e) and sin(m theta_e): their coefficients in each way's EMF per speed and in the cogging torque.
 template <class Real>
 struct Rotation {
   int order = 1;
@@ -39,9 +40,9 @@ template <class Real>
 struct ShapeTable {
   std::array<std::vector<Piece<Real>>, 6> sector;
   std::vector<Rotation<Real>> rotations;
-  bool is_linear = false;  ///< pieces carry more than zeros
+  bool is_linear = false;  ///< some pieces are not zero
 
-  /// The rotation of that order, made where there is none.
+  /// The rotation of that order; added if there is none.
   Rotation<Real>& rotation(int order) {
     for (Rotation<Real>& r : rotations)
       if (r.order == order) return r;
@@ -52,7 +53,7 @@ struct ShapeTable {
 
 namespace detail {
 
-/// cos and sin of a multiple of 30 degrees, exact where they are.
+/// cos and sin of a multiple of 30 degrees, exact where representable.
 template <class Real>
 void turn_by(int thirties, Real& cos, Real& sin) {
   constexpr Real half_root3 = Real(0.86602540378443864676372317075293618L);
@@ -63,7 +64,7 @@ void turn_by(int thirties, Real& cos, Real& sin) {
   sin = table[at(thirties - 3)];
 }
 
-/// The trapezoid's corners: 1 within half the flat width of 60 degrees, -1 half a turn later.
+/// Corners of the trapezoid: 1 within half the flat width around 60 degrees, -1 half a turn later.
 inline std::vector<ShapePoint> corners(double flat_deg) {
   const double half = flat_deg / 2;
   std::vector<ShapePoint> points;
@@ -75,7 +76,7 @@ inline std::vector<ShapePoint> corners(double flat_deg) {
   return points;
 }
 
-/// Value and slope per degree of a periodic line of points at an angle that is no point, and from there on.
+/// Value and slope per degree of a periodic line of points, at an angle between two points and up to the next one.
 struct Line {
   double value = 0.0, slope = 0.0;
 };
@@ -92,7 +93,7 @@ inline Line line_at(const std::vector<ShapePoint>& points, double angle_deg) {
   return {a.value + slope * from, slope};
 }
 
-/// Of the branches or phases, how each way is made: star a, b, c; delta (ab - ca)/3 and so on, and the sum.
+/// Values of the ways from those of phases or branches: star a, b, c; delta (ab - ca)/3 and so on, and the sum.
 template <class Real>
 PerWay<Real> as_ways(Winding winding, const PerLeg<Real>& branch) {
   if (winding == Winding::star) return {branch[0], branch[1], branch[2], Real(0)};
@@ -101,7 +102,7 @@ PerWay<Real> as_ways(Winding winding, const PerLeg<Real>& branch) {
           branch[0] + branch[1] + branch[2]};
 }
 
-/// The angle by which branch k sees the shape later, degrees: f(theta + 30) for ab, f(theta) for a.
+/// Angle by which branch or phase k follows the shape later, degrees: f(theta + 30) for ab, f(theta) for a.
 inline int seen_later_deg(Winding winding, int k) { return 120 * k - (winding == Winding::delta ? 30 : 0); }
 
 template <class Real>
@@ -174,8 +175,8 @@ ShapeTable<Real> shape_table(const Machine& m) {
   return table;
 }
 
-/// Torque per ampere through the driven pair for K_e = 1, mean over a sector, without loop current: K_t/K_e (model.md 1). The
-/// sectors of a table need not be alike: there the mean of all six, each with its own pair.
+/// Torque per ampere through the driven pair for K_e = 1, mean over a sector, without loop current: K_t/K_e (model.md
+/// 1). The sectors of a table may differ: the mean is over all six, each with its own pair.
 inline double sector_mean(const Machine& m) {
   const ShapeTable<double> table = shape_table<double>(m);
   constexpr std::array<std::pair<std::size_t, std::size_t>, 6> pairs{

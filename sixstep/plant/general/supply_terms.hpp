@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What feeds the bridge (model.md 9): the source's open voltage, its current, the capacitor with its resistance, the brake
-// resistor. The bus voltage of an order comes before the winding's, since a capacitor with a resistance lets it jump with
-// the current; what moves on comes after.
+// Terms of the supply (model.md 9): the source's open voltage, its current, the capacitor with its resistance, the
+// brake resistor. The bus voltage of an order is computed before the winding's, because a capacitor with a resistance
+// makes it jump with the current; the terms of the next order are computed after the winding's.
 #pragma once
 #include "sixstep/plant/general/constants.hpp"
 
@@ -20,7 +20,7 @@ class SupplyTerms {
     if (c_.inv_C == 0) return;
     z_.open[n] = open_voltage(n);
     if (c_.R_C == 0) return;
-    // U_s = v_C + R_C (i_src - i_dc - U_s/R_br), i_src its own or (V_0 - U_s)/R_b
+    // U_s = v_C + R_C (i_src - i_dc - U_s/R_br); i_src is a state (with L_b) or (V_0 - U_s)/R_b
     Real share = mode_.braking ? c_.brake_conductance : Real(0), in = -drawn(n);
     if (!mode_.source_feeds) {
       if (n == 0) in -= c_.sink;

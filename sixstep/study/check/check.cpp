@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What no range of a single value can say: keys that contradict each other or ask for what is not there.
+// Finds contradictions that no single value's range shows: keys that contradict each other or need something
+// absent.
 #include "sixstep/study/check/check.hpp"
 
 #include <algorithm>
@@ -60,7 +61,7 @@ void check_regeneration(const Scenario& s, base::Problems& out) {
                    "give it, or supply.capacitance_F"});
 }
 
-/// Without a current loop there is nothing that could hold a current, or a torque, within bounds.
+/// Without a current loop nothing can hold a current or a torque within bounds.
 void check_speed_output(const Scenario& s, base::Problems& out) {
   const Control& c = s.control;
   if (c.speed.output != SpeedOutput::duty) return;
@@ -77,7 +78,7 @@ void check_speed_output(const Scenario& s, base::Problems& out) {
   if (c.regeneration.limit_V) refuse("control.regeneration.limit_V");
 }
 
-/// A duty is set whatever flows.
+/// In duty mode the duty is set regardless of the current.
 void check_limited_mode(const Scenario& s, base::Problems& out) {
   const Control& c = s.control;
   if (c.mode != control::Mode::off && c.mode != control::Mode::duty) return;
@@ -92,7 +93,7 @@ void check_limited_mode(const Scenario& s, base::Problems& out) {
   refuse("control.regeneration.limit_V", c.regeneration.limit_V);
 }
 
-/// A loop of second order takes two samples at least until it stands: dead beat.
+/// A second-order loop needs at least two samples to settle (dead beat).
 void check_settling(const std::optional<double>& settle_s, const char* key, const Scenario& s,
                     base::Problems& out) {
   const double least = 2 * s.pwm.period_s;
@@ -127,8 +128,8 @@ void check_control(const Scenario& s, base::Problems& out) {
                    "remove d1, d0, kp, ki, ki_per_s, settle_s and damping, or set type = \"pi\""});
 }
 
-/// The speed controller's full output is a torque; where the sheet says what the motor stands it is 2.5 times
-/// the nominal current's.
+/// The speed controller's full output is a torque. If the sheet gives a nominal current, the default is 2.5
+/// times its torque.
 void check_torque_limit(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
   const bool speed = s.control.mode == control::Mode::speed || s.control.mode == control::Mode::position;
   const bool asks_torque = speed && s.control.speed.output == SpeedOutput::current;
@@ -138,7 +139,7 @@ void check_torque_limit(const Scenario& s, const design::MotorModel& motor, base
                    "give the torque that the drive may ask for"});
 }
 
-/// What a controller can be wrong in, as an event leaves it: what was so from the start has been told.
+/// Checks the controller as each event leaves it. Problems that it has from the start are not repeated.
 void check_tunings(const Scenario& s, const std::optional<design::MotorModel>& motor, base::Problems& out) {
   const auto wrong = [&motor](const Scenario& then) {
     base::Problems found;
@@ -168,7 +169,7 @@ void check_tunings(const Scenario& s, const std::optional<design::MotorModel>& m
 
 }  // namespace
 
-/// What turns has no place on a line.
+/// Refuses keys that need a rotation.
 void check_linear(const Scenario& s, base::Problems& out) {
   if (s.sheet.kind != design::MotorKind::linear) return;
   if (s.load.gravity_Nm != 0)
@@ -182,7 +183,7 @@ void check_linear(const Scenario& s, base::Problems& out) {
 }
 
 base::Problems check(const Scenario& s) {
-  // What follows computes with the numbers: an absurd one makes no sense of it.
+  // The checks below compute with the numbers, and cannot use one that is out of range.
   if (base::Problems absurd = check_numbers(s); !absurd.empty()) return absurd;
   base::Problems out;
   std::optional<design::MotorModel> model;

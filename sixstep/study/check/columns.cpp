@@ -6,7 +6,7 @@ namespace sixstep::study {
 
 namespace {
 
-/// Why a column has nothing to show, by the key that decides it.
+/// The reason why a column has no values, and the key that decides it.
 struct NoValue {
   const char *limit, *cure;
 };
@@ -50,10 +50,10 @@ NoValue no_value(ColumnId id, const Scenario& s) {
 base::Problems check_columns(const Scenario& s) {
   base::Problems out;
   const auto columns = record_indices(s);
-  if (!columns || s.record.columns.empty()) return out;  // unknown ones are told by check()
+  if (!columns || s.record.columns.empty()) return out;  // check() reports unknown ones
   for (const std::size_t n : *columns) {
     const auto id = static_cast<ColumnId>(n);
-    if (applies(id, s) || id == ColumnId::loop_A) continue;  // a star's is 0
+    if (applies(id, s) || id == ColumnId::loop_A) continue;  // a star's loop current is 0
     const NoValue why = no_value(id, s);
     out.push_back({"record.columns", "\"" + all_columns(s.sheet.kind)[n].name + "\"", why.limit, why.cure});
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What [[at]] asks for that the run at hand cannot do.
+// Finds requests of [[at]] that the scenario's run cannot do.
 #include <cmath>
 
 #include "sixstep/base/written.hpp"
@@ -35,13 +35,13 @@ bool changes_nothing(const At& at) {
          at.motor.broken_wire == Wire::none && at.sensors.broken_divider == Wire::none;
 }
 
-/// A reference that goes on from where it stood can not do so in another unit.
+/// Whether a reference continues from the present one; it cannot do so in another unit.
 bool goes_on(const Reference& r) {
   const bool moves = r.shape == Shape::ramp || r.shape == Shape::trapezoid;
   return (moves && !r.start) || (r.shape == Shape::steps && !r.times_s.empty() && r.times_s.front() > 0);
 }
 
-/// One event: where it stands in the file, and the modes before and from it.
+/// One event, its place in the file, and the modes before and after it.
 struct Event {
   const At& at;
   std::string where;
@@ -72,7 +72,7 @@ void check_mode(const Event& e) {
           "give control.slew beside it");
 }
 
-/// What would change nothing, or could not hold.
+/// Refuses changes of the chip without effect, and dead times that are not allowed.
 void check_chip(const Event& e) {
   if (e.at.control.current.band_A && e.s.control.current.type != CurrentLoopType::hysteresis)
     e.say(".control.current.band_A", written(*e.at.control.current.band_A),
@@ -86,7 +86,7 @@ void check_chip(const Event& e) {
     check_dead_time(e.where + ".bridge.dead_time_s", *e.at.bridge.dead_time_s, e.s.pwm, e.out);
 }
 
-/// Amplifiers that drift are between the bridge and a converter.
+/// Refuses a drift without an amplifier between bridge and converter.
 void check_drift(const Event& e) {
   const Sensors& sensors = e.s.sensors;
   if (!drifts(e.at)) return;

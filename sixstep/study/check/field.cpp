@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* other_drive = "remove it, or set control.drive = \"lean\"";
 
-/// Three legs in the middle of the period, all of them complementary.
+/// Requires centred pulses with all three legs complementary.
 void check_pwm(const Scenario& s, base::Problems& out) {
   if (s.pwm.alignment != Alignment::centre)
     out.push_back({"pwm.alignment", "\"edge\"",
@@ -71,7 +71,7 @@ void check_field_loops(const Scenario& s, base::Problems& out) {
   refuse(c.smooth_chopping.on, "control.smooth_chopping", of_pair, other_drive);
 }
 
-/// The angle is estimated: nothing else may be said of the rotor.
+/// Refuses keys of a measured angle, because the angle is estimated.
 void check_unsensed(const Scenario& s, base::Problems& out) {
   const auto angle = [&s] { return std::string(base::word(field_angle_choices, s.control.field.angle)); };
   if (s.sensors.rotor != RotorSensing::ideal)
@@ -95,7 +95,7 @@ void check_unsensed(const Scenario& s, base::Problems& out) {
                    "set drive = \"lean\" or \"product\""});
 }
 
-/// An angle between two samples, of the motor's own shaft.
+/// Requires sensors that give the angle of the motor's own shaft between two samples.
 void check_sensing(const Scenario& s, base::Problems& out) {
   const Sensors& x = s.sensors;
   if (x.currents == rig::CurrentMeasurement::dc_link)

@@ -5,13 +5,14 @@
 
 namespace sixstep::study {
 
-/// What the field-oriented drive does not do, and what is its own.
+/// Checks the keys that the field-oriented drive does not support, and the keys that only this drive has.
 void check_field(const Scenario& scenario, base::Problems& out);
 
-/// What the choice among the legs' states does not do, and what is its own.
+/// Checks the keys that the finite control set does not support, and the keys that only the finite control set
+/// has.
 void check_finite_set(const Scenario& scenario, base::Problems& out);
 
-/// Of a drive that answers three legs: what is taken of a pair that moves on.
+/// Refuses figures of commutation: a drive that commands three legs has no driven pair.
 void check_pair_figures(const Scenario& scenario, base::Problems& out);
 
 }  // namespace sixstep::study

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A field-oriented drive that chooses among the states of its legs has no gains, no pulses and no voltage in between.
+// Checks a field-oriented drive with a finite control set, which has no gains, no pulses and no intermediate
+// voltages.
 #include "sixstep/study/check/field.hpp"
 #include "sixstep/study/scenario/field_description.hpp"
 
@@ -7,7 +8,7 @@ namespace sixstep::study {
 
 namespace {
 
-/// What has a meaning for it only.
+/// Refuses keys that only the finite set has.
 void check_beside_pi(const Field& f, base::Problems& out) {
   const auto refuse = [&out](bool given, const char* key) {
     if (given)

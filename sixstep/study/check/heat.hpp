@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What [heat] and the bridge's losses say together.
+// Checks [heat] together with the bridge's losses.
 #pragma once
 #include "sixstep/base/result.hpp"
 #include "sixstep/study/scenario/scenario.hpp"

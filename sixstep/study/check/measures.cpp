@@ -24,7 +24,7 @@ std::string quoted(std::string_view word) {
 std::string quoted(MetricKind kind) { return quoted(base::word(metric_choices, kind)); }
 std::string quoted(Signal signal) { return quoted(fact_of(signal).word); }
 
-/// One measure, where it stands, and where its problems go.
+/// One measure, its place in the file, and the list for its problems.
 struct Asked {
   const Measure& m;
   const std::string& where;
@@ -48,7 +48,7 @@ void check_window(const Asked& a) {
              "shorten the window or lengthen duration_s");
 }
 
-/// The band is the event comparators': nothing else holds one.
+/// Requires event comparators, because nothing else holds a band.
 void check_band(const Asked& a) {
   const CurrentLoop& loop = a.s.control.current;
   const bool closed = a.s.control.mode != Mode::off && a.s.control.mode != Mode::duty;
@@ -59,7 +59,7 @@ void check_band(const Asked& a) {
              "set control.current.type = \"hysteresis\" and comparator = \"event\", or measure max and min");
 }
 
-/// Which signal a metric goes with. Without a word of the file's the signal is the motor current.
+/// Checks which signal a metric can have. If the file names no signal, it is the motor current.
 void check_signal(const Asked& a) {
   const Signal signal = a.m.signal;
   const bool given = signal != Signal::current;
@@ -92,7 +92,7 @@ void check_signal(const Asked& a) {
   }
 }
 
-/// What only a field-oriented drive holds, in a mode in which it holds currents.
+/// Requires a field-oriented drive for its own signals.
 void check_drive(const Asked& a) {
   if (!is_of_field(a.m.signal)) return;
   if (a.s.control.drive != FirmwareKind::field)
@@ -100,7 +100,7 @@ void check_drive(const Asked& a) {
              "set control.drive = \"field-oriented\", or name another signal");
 }
 
-/// A reference that the mode does not have, and the error against it.
+/// Refuses a reference that the mode does not have, and the error against it.
 void check_mode(const Asked& a) {
   const Mode mode = a.s.control.mode;
   const bool position = comes_into(a.s, Mode::position), speed = position || comes_into(a.s, Mode::speed);
@@ -147,7 +147,7 @@ void check_level(const Asked& a) {
              "remove it and set from_s and to_s");
 }
 
-/// Steps are told apart by the reference's levels: while it moves it has none.
+/// Steps are separated by the reference's levels, and a moving reference has none.
 void check_levels_of_reference(const Asked& a) {
   const bool takes_levels = fact_of(a.m.metric).over != TakenOver::window;
   if (takes_levels && !a.m.level && is_controlled(a.m.signal, a.s.control) &&

@@ -12,10 +12,10 @@ namespace sixstep::study {
 
 namespace {
 
-/// So many entries of one list are told of.
+/// At most so many entries of one list are reported.
 constexpr std::size_t most_told = 5;
 
-/// The visitor that holds each number to what it may be.
+/// Checks each number against its allowed range.
 class Numbers final : public base::Visitor {
  public:
   explicit Numbers(const Scenario& s)
@@ -42,7 +42,7 @@ class Numbers final : public base::Visitor {
   }
   template <class Other>
   void hold(std::string_view, const Other&, const base::About&) {}
-  /// The sheet is held to its own limits (design/sheet/sheet_reader.hpp).
+  /// Skips the sheet, which has limits of its own (design/sheet/sheet_reader.hpp).
   void visit_table(std::string_view key, base::TableMember& member, const base::About&) override {
     if (member.is_there() && key != sheet_table) within(std::string(key), [&] { member.walk(*this); });
   }
@@ -55,7 +55,7 @@ class Numbers final : public base::Visitor {
     reference_unit_ = at_start;
   }
 
-  /// A reference is in its mode's unit.
+  /// The range of a number; a reference has its mode's unit.
   base::Range range_of(const base::About& about) const {
     return about.mode_unit == "*" ? base::allowed(about.range, reference_unit_) : base::allowed(about);
   }
@@ -76,14 +76,14 @@ class Numbers final : public base::Visitor {
   }
 
   std::string path_;
-  std::vector<control::Mode> modes_;  ///< from each event on
+  std::vector<control::Mode> modes_;  ///< the mode after each event
   std::string_view reference_unit_;
 };
 
 }  // namespace
 
 base::Problems check_numbers(const Scenario& s) {
-  Scenario described = s;  // descriptions are written for readers, which fill what they visit
+  Scenario described = s;  // a copy, because descriptions also serve readers, which write the members
   Numbers numbers(s);
   describe(numbers, described);
   return std::move(numbers.found);

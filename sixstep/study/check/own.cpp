@@ -14,7 +14,7 @@ namespace {
 
 static_assert(sizeof(sixstep_real) == sizeof(double), "SIXSTEP_REAL is for what goes onto a chip");
 constexpr std::uint32_t most_bytes = 65536, most_numbers = 64;
-/// Of a controller compiled for a chip.
+/// Interface number of a controller that was compiled for a chip.
 constexpr std::uint32_t in_float = SIXSTEP_OWN_INTERFACE + 256;
 
 bool is_name(const char* text) {
@@ -59,7 +59,7 @@ void check_own_numbers(const Own& own, base::Problems& out) {
   }
 }
 
-/// What the library's own loops would do.
+/// Refuses keys of the library's own loops.
 void check_around(const Scenario& s, base::Problems& out) {
   const Control& c = s.control;
   const auto refuse = [&out](bool given, const char* key, const char* limit, const char* cure) {

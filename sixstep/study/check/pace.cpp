@@ -16,7 +16,7 @@ using base::written;
 using plant::fastest_answer_1_s;
 using plant::fastest_field_rad_s;
 
-/// "3.2 ns, and no board's is below 100 ns"
+/// "3.2 ns, and on no board it is below 100 ns"
 std::string too_short(double rate_1_s) {
   return base::three_digits(1e9 / rate_1_s) + " ns, and on no board it is below " +
          base::three_digits(1e9 / fastest_answer_1_s) + " ns";
@@ -35,7 +35,7 @@ void check_bridge(const Scenario& s, const plant::Machine& m, base::Problems& ou
 
 void check_bus(const Scenario& s, const plant::Machine& m, base::Problems& out) {
   const Supply& from = s.supply;
-  if (!(from.resistance_ohm > 0 && from.capacitance_F > 0)) return;  // check_supply tells
+  if (!(from.resistance_ohm > 0 && from.capacitance_F > 0)) return;  // check_supply() reports it
   const double rate =
       plant::bus_rate(m, {from.voltage_V, from.resistance_ohm, from.capacitance_F, from.sinks});
   if (rate > fastest_answer_1_s)
@@ -56,10 +56,10 @@ void check_friction(const Scenario& s, const design::MotorModel& motor, base::Pr
                    "check its unit, or set load.locked = true to hold the rotor"});
 }
 
-/// C_1 of a battery between R_1 and the bus behind R_b, which is the slower.
+/// C_1 of a battery between R_1 and the bus behind R_b; the slower one counts.
 void check_recovery(const Supply& from, base::Problems& out) {
   if (!(from.battery_recovery_ohm > 0 && from.battery_recovery_F > 0 && from.resistance_ohm > 0))
-    return;  // check_supply tells
+    return;  // check_supply() reports it
   const double rate = (1 / from.battery_recovery_ohm + 1 / from.resistance_ohm) / from.battery_recovery_F;
   if (rate > fastest_answer_1_s)
     out.push_back({"supply.battery_recovery_F", written(from.battery_recovery_F),
@@ -68,10 +68,10 @@ void check_recovery(const Supply& from, base::Problems& out) {
                    "check its unit: a cell recovers over milliseconds to minutes"});
 }
 
-/// Inductance and capacitor of the source, and the brake resistor on it.
+/// Checks the source's inductance and capacitor, and the brake resistor at them.
 void check_source(const Scenario& s, const plant::Machine& m, base::Problems& out) {
   const Supply& from = s.supply;
-  if (!(from.capacitance_F > 0)) return;  // check_supply tells
+  if (!(from.capacitance_F > 0)) return;  // check_supply() reports it
   const double L = std::min(2 * m.L_H, from.inductance_H > 0 ? from.inductance_H : 2 * m.L_H);
   if (const double rate = from.capacitor_resistance_ohm / L; rate > fastest_answer_1_s)
     out.push_back({"supply.capacitor_resistance_ohm", written(from.capacitor_resistance_ohm),
@@ -93,7 +93,7 @@ void check_source(const Scenario& s, const plant::Machine& m, base::Problems& ou
   }
 }
 
-/// An elastic shaft's swing, and what grows with the square of the speed.
+/// Checks the oscillation of an elastic shaft, and loads that grow with the square of the speed.
 void check_coupling(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
   const Load& l = s.load;
   const double square = l.gear * l.gear, J_1 = motor.shaft.J_kg_m2 * square, J_2 = l.inertia_kg_m2;
@@ -113,7 +113,7 @@ void check_coupling(const Scenario& s, const design::MotorModel& motor, base::Pr
   look(fan.key.c_str(), fan.Nm_s2, fan.Nm_s2 * fastest_load / (elastic ? J_2 : J_1 + J_2));
 }
 
-/// A torque that throws the rotor out of all bounds within a few PWM periods.
+/// Refuses a torque that accelerates the rotor beyond all bounds within a few PWM periods.
 void check_torque(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
   if (s.load.locked) return;
   const double J = motor.shaft.J_kg_m2 + s.load.inertia_kg_m2 / (s.load.gear * s.load.gear);
@@ -160,7 +160,7 @@ void check_field_pace(const Scenario& s, const plant::Machine& m, base::Problems
        "lower it: it is the speed of the shaft in rad/s");
 }
 
-/// The whole bus takes the current from one end of the band to the other.
+/// At worst the whole bus voltage drives the current from one end of the band to the other.
 void check_band(const Scenario& s, const plant::Machine& m, base::Problems& out) {
   const CurrentLoop& loop = s.control.current;
   if (loop.type != CurrentLoopType::hysteresis || loop.comparator != Comparator::event) return;
@@ -178,7 +178,7 @@ void check_timer(const Scenario& s, base::Problems& out) {
                    "give the timer's clock in Hz, 16e6 for 16 MHz; 0 rounds nothing"});
 }
 
-/// Longer ones would leave no duty but 0 and 1.
+/// Longer pulses would leave no duty except 0 and 1.
 void check_minimum_pulse(const Scenario& s, base::Problems& out) {
   if (s.pwm.minimum_pulse_s > s.pwm.period_s / 2)
     out.push_back({"pwm.minimum_pulse_s", written(s.pwm.minimum_pulse_s),
@@ -194,7 +194,7 @@ double dead_time_in_counts_s(double dead_time_s, const Pwm& pwm) {
 
 void check_dead_time(const std::string& where, double dead_time_s, const Pwm& pwm, base::Problems& out) {
   constexpr double worth_a_word = 0.9;
-  // A leg that is turned on and off within a period waits twice.
+  // A leg that turns on and off within a period waits for two dead times.
   if (!(2 * dead_time_s < pwm.period_s)) {
     out.push_back(
         {where, written(dead_time_s), "must be shorter than half of pwm.period_s = " + written(pwm.period_s),

@@ -5,7 +5,7 @@
 
 namespace sixstep::study {
 
-/// What contradicts [control.position.profile], or has no room for it.
+/// Refuses keys that contradict [control.position.profile], and an arithmetic without room for it.
 void check_position(const Scenario& scenario, base::Problems& out);
 
 }  // namespace sixstep::study

@@ -20,7 +20,7 @@ namespace {
 using base::written;
 using control::Mode;
 
-/// Registers are all that it is given.
+/// Requires measurements that a register shows, because the product drive reads registers only.
 void check_registers(const Scenario& s, base::Problems& out) {
   const std::string asks =
       "is nothing that a register shows, and control.drive = \"product\" reads registers";
@@ -49,7 +49,7 @@ void check_missing(const char* key, const std::optional<double>& threshold, cons
                    "is missing: without it the product drive trusts nothing and never starts", cure});
 }
 
-/// A threshold that the converter's end hides.
+/// Refuses a threshold beyond the converter's range.
 void check_threshold(const char* key, const std::optional<double>& threshold, double end,
                      const std::string& range, base::Problems& out) {
   if (threshold && !(*threshold < end))
@@ -110,7 +110,7 @@ void check_advance(const Scenario& s, base::Problems& out) {
                    "lower it or raise the limit"});
 }
 
-/// A sector passes unseen, and the next code is a jump, where it does not hold as many samples.
+/// If a sector is shorter than the stable samples, it passes undetected, and the next code looks like a jump.
 void check_hall_filter(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
   const std::optional<double>& fastest = s.protection.over_speed_rad_s;
   const double stands_s = s.sensors.hall_stable_samples * s.pwm.period_s;
@@ -134,7 +134,7 @@ void check_braking(const Scenario& s, base::Problems& out) {
                    "lower it"});
 }
 
-/// Of the lean drive, which is told sector and edges as they are.
+/// Refuses keys that only the product drive has: the lean drive gets sector and edges directly.
 void check_lean(const Scenario& s, base::Problems& out) {
   const Protection& p = s.protection;
   const auto refuse = [&out](const char* key, const std::string& value, const char* limit,
@@ -162,7 +162,7 @@ std::optional<double> current_limit_A(const Scenario& s, const design::MotorMode
   double per_A = motor.K_t_Nm_A;
   if (s.control.drive == FirmwareKind::field) {
     const design::FieldMachine machine = design::field_machine(motor, s.sheet);
-    if (machine.L_d_H != machine.L_q_H) return std::nullopt;  // its torque is no multiple of its current
+    if (machine.L_d_H != machine.L_q_H) return std::nullopt;  // its torque is not proportional to its current
     per_A = design::torque_per_q_A(machine);
   }
   if (!(per_A > 0.0) || !(torque > 0.0)) return limit_A;
@@ -182,7 +182,7 @@ void check_product(const Scenario& s, const std::optional<design::MotorModel>& m
 
 namespace {
 
-/// A deadbeat loop has one design, and the back-EMF in it.
+/// A deadbeat loop has only one design, which includes the back-EMF.
 void check_deadbeat(const CurrentLoop& loop, base::Problems& out) {
   const auto refuse = [&out](bool given, const char* key, const char* limit, const char* cure) {
     if (given) out.push_back({std::string("control.current.") + key, "", limit, cure});
@@ -201,7 +201,7 @@ void check_deadbeat(const CurrentLoop& loop, base::Problems& out) {
   refuse(loop.back_emf_feed_forward, "back_emf_feed_forward", "is in a deadbeat loop already", "remove it");
 }
 
-/// What has no duty of its own, or no pair that it could be held on.
+/// Refuses loops without a duty of their own, and chopping that leaves no switch on to hold the current.
 void check_commutation_step(const Scenario& s, base::Problems& out) {
   if (s.control.current.commutation == CurrentCommutation::plain) return;
   const std::string word(base::word(current_commutation_choices, s.control.current.commutation));

@@ -8,17 +8,18 @@
 
 namespace sixstep::study {
 
-/// What [protection] and [sensors] lack for the product drive, and what of its keys the lean one ignores.
-/// `motor`: empty where its sheet is wrong.
+/// Finds what [protection] and [sensors] lack for the product drive, or the keys of the product drive that the
+/// lean drive ignores. `motor` is empty if its sheet is wrong.
 void check_product(const Scenario& scenario, const std::optional<design::MotorModel>& motor,
                    base::Problems& out);
 
-/// The most that a speed loop asks of the current loop, in A: its full torque over K_t (of a field-oriented drive over the torque
-/// of an ampere across the magnet), or control.current.limit_A if that is less. Empty where there is no such pair of loops, and of a salient
-/// rotor in a field-oriented drive.
+/// The largest current that a speed loop requests from the current loop, A: its full torque over K_t
+/// (field-oriented drive: over the torque per ampere of q-axis current), or control.current.limit_A if that is
+/// less. Empty without such a pair of loops, and for a salient rotor in a field-oriented drive, whose torque is
+/// not proportional to its current.
 std::optional<double> current_limit_A(const Scenario& scenario, const design::MotorModel& motor);
 
-/// Extras that contradict the loops they would be added to.
+/// Refuses extras that contradict the loops to which they would be added.
 void check_extras(const Scenario& scenario, base::Problems& out);
 
 }  // namespace sixstep::study

@@ -18,10 +18,10 @@ namespace {
 
 using base::written;
 
-/// More levels than anybody looks at, and what a run can hold in memory: 144 MB.
+/// More levels than a user can read, and as many as a run holds in 144 MB of memory.
 constexpr double most_half_periods = 2e6;
 
-/// One reference: where it stands in the file, and how long it holds.
+/// One reference, its place in the file, and how long it applies.
 struct Place {
   const Reference& r;
   std::string table;  ///< "reference", "at[0].reference"
@@ -70,7 +70,7 @@ void check_ramp(const Place& p) {
           "a jump is shape = \"steps\"");
 }
 
-/// Seen less often than twice a turn, a sine looks like another one.
+/// A sine with fewer than two samples per period looks like another sine.
 void check_sine(const Place& p) {
   const double most_Hz = 0.5 / p.s.pwm.period_s;
   if (!(p.r.frequency_Hz > 0))
@@ -96,7 +96,7 @@ void check_rows(const Place& p) {
   const Reference& r = p.r;
   if (r.times_s.empty() && r.values.empty())
     return p.missing("file", "give file = \"NAME.csv\", or times_s and values");
-  // Rows behind the end of the run are allowed: a measurement is as long as it is.
+  // Rows after the end of the run are allowed, because a measurement has its own length.
   const double endless = std::numeric_limits<double>::infinity();
   check_steps(r.times_s, r.values, p.table, "values", endless, p.out);
 }
@@ -125,7 +125,7 @@ void check_shape(const Place& p) {
   }
 }
 
-/// The key that holds the largest value.
+/// The key with the largest value.
 const char* value_key(const Reference& r) {
   switch (r.shape) {
     case Shape::constant:
@@ -145,7 +145,7 @@ const char* value_key(const Reference& r) {
   return "value";
 }
 
-/// Each reference alone, so that a duty out of range is told of the one that holds it.
+/// Checks each reference separately, so that the message names the reference with the wrong duty.
 void check_duty(const Place& p) {
   if (p.mode != control::Mode::duty) return;
   Scenario alone;
@@ -173,7 +173,7 @@ void check_steps(const std::vector<double>& times, const std::vector<double>& va
         {table + "." + value_key, std::to_string(values.size()) + " entries",
          std::string("must be as many as ") + times_key + ", which has " + std::to_string(times.size()),
          "give one value per time"});
-  constexpr std::size_t most_told = 5;  // of a list that falls each entry would be
+  constexpr std::size_t most_told = 5;  // otherwise a falling list would report each entry
   for (std::size_t n = 0, before = out.size(); n < times.size() && out.size() < before + most_told; ++n) {
     if (times[n] < 0 || (n > 0 && !(times[n] > times[n - 1])))
       out.push_back({table + "." + times_key, written(times[n]), "must rise from entry to entry, from 0 on",

@@ -9,15 +9,15 @@
 
 namespace sixstep::study {
 
-/// Times and values of steps: as many of both, rising, within the run. `what` is where they end, in words.
+/// Checks times and values of steps: as many values as times, rising times, all within the run.
 void check_steps(const std::vector<double>& times, const std::vector<double>& values,
                  const std::string& table, const char* value_key, double duration_s, base::Problems& out,
                  const char* times_key = "times_s");
 
-/// [reference] and those of [[at]].
+/// Checks [reference] and the references of [[at]].
 void check_references(const Scenario& scenario, base::Problems& out);
 
-/// What else [[at]] asks for.
+/// Checks all other keys of [[at]].
 void check_events(const Scenario& scenario, base::Problems& out);
 
 }  // namespace sixstep::study

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What to write instead of a reference that its mode cannot have.
+// Suggests what to write instead of a reference that its mode cannot have.
 #pragma once
 #include <cmath>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace sixstep::study {
 
-/// Who gave a unit knows what the reference is: the mode that has it was probably meant.
+/// If the given unit belongs to another mode, that mode was probably meant.
 inline std::string cure_of_unit(std::string_view unit, control::Mode mode, const base::Motion& motion) {
   const auto own = [&](control::Mode of) { return std::string(motion.unit(reference_unit(of)).linear); };
   const std::string in_mode = "give the reference in \"" + own(mode) + "\"";
@@ -22,7 +22,7 @@ inline std::string cure_of_unit(std::string_view unit, control::Mode mode, const
          "\", if it is of that kind, or change control.mode";
 }
 
-/// A duty is a share of the period; who writes 50 means percent.
+/// A duty is a share of the period; a user who writes 50 means percent.
 inline std::string cure_of_duty(double value) {
   std::string what = "a duty is the signed share of the period that the switch is on";
   if (!(std::fabs(value) <= 100.0)) return what;

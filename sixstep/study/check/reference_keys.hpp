@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which shapes of a reference read which of its keys: the one place that says so. A key that only another shape reads was meant
-// to do something, and is refused. tests/study/reference_keys_test.cpp walks every key through every shape.
+// Lists which shapes of a reference read which of its keys; no other place says so. A key that only another
+// shape reads is refused, because its author expected an effect. tests/study/reference_keys_test.cpp tests
+// every key with every shape.
 #pragma once
 #include <initializer_list>
 #include <string>
@@ -12,8 +13,8 @@ namespace sixstep::study {
 
 struct ShapeKey {
   const char* key;
-  unsigned read_by;                 ///< a bit per Shape
-  bool (*given)(const Reference&);  ///< is something else than the default
+  unsigned read_by;                 ///< one bit per Shape
+  bool (*given)(const Reference&);  ///< whether it differs from the default
 };
 
 constexpr unsigned shapes(std::initializer_list<Shape> list) {
@@ -29,7 +30,7 @@ inline constexpr unsigned constant = shapes({Shape::constant}), lists = shapes({
                           sine = shapes({Shape::sine}), csv = shapes({Shape::csv});
 }  // namespace by_shape
 
-/// All of a reference's keys but shape and unit, which each shape has.
+/// All keys of a reference except shape and unit, which every shape has.
 inline constexpr ShapeKey shape_keys[] = {
     {"value", by_shape::constant, [](const Reference& r) { return r.value != 0; }},
     {"times_s", by_shape::lists, [](const Reference& r) { return !r.times_s.empty(); }},
@@ -55,7 +56,7 @@ inline constexpr ShapeKey shape_keys[] = {
 
 constexpr bool reads(Shape shape, const ShapeKey& key) { return (key.read_by & shapes({shape})) != 0; }
 
-/// The shapes that read a key, as a file has them: "ramp" or "trapezoid", in quotes.
+/// The shapes that read a key, quoted as in a file: "ramp" or "trapezoid".
 inline std::string readers_of(const ShapeKey& key) {
   std::string words;
   for (const auto& choice : shape_choices)

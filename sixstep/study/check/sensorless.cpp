@@ -11,7 +11,7 @@ namespace sixstep::study {
 
 namespace {
 
-/// In the middle of the on-time the pair puts the star point at half of the bus.
+/// The sample must lie in the middle of the on-time, where the pair holds the star point at half of the bus.
 void check_sample(const Scenario& s, base::Problems& out) {
   const std::string why =
       "leaves the sample outside of the on-time, in which the floating terminal shows its back-EMF";
@@ -57,7 +57,7 @@ void check_source(const Scenario& s, base::Problems& out) {
                    "asks for probes that the board does not read", "set sensors.rotor = \"hall\""});
 }
 
-/// Each pulse is judged by what runs into its pair and out of it.
+/// Pulses need a converter per phase, because each pulse is judged by the currents into and out of its pair.
 void check_start(const Scenario& s, base::Problems& out) {
   if (s.control.sensorless.starts_by != StartsBy::pulses) return;
   if (s.sensors.currents == rig::CurrentMeasurement::phases) return;
@@ -79,7 +79,7 @@ void check_others(const Scenario& s, base::Problems& out) {
                    "set drive = \"lean\" or \"product\""});
 }
 
-/// Values of the three terminals are given for all or none.
+/// Requires the values of all three terminals or of none.
 void check_terminals(const Scenario& s, base::Problems& out) {
   const auto three = [&](const char* key, const std::vector<double>& values) {
     if (!values.empty() && values.size() != 3)
@@ -93,7 +93,7 @@ void check_terminals(const Scenario& s, base::Problems& out) {
                    "set control.sensorless.follows = \"comparators\", or remove it"});
 }
 
-/// Of a drive that looks at no terminal.
+/// Refuses keys of the terminals for a drive that does not measure them.
 void check_no_terminals(const Scenario& s, base::Problems& out) {
   const auto refuse = [&](const std::string& key) {
     out.push_back({key, "", "applies to the terminals, which only the sensorless drive measures",

@@ -5,7 +5,7 @@
 
 namespace sixstep::study {
 
-/// What a drive without a rotor sensor cannot do, and what only it does.
+/// Checks the keys that a drive without a rotor sensor does not support, and the keys that only this drive has.
 void check_sensorless(const Scenario& scenario, base::Problems& out);
 
 }  // namespace sixstep::study

@@ -28,7 +28,7 @@ void check_currents(const Scenario& s, base::Problems& out) {
                    "set pwm.sample = \"middle\", best with pwm.alignment = \"centre\""});
 }
 
-/// The converter's sample and hold sees one instant of the period before.
+/// The converter samples one instant of the period before, so the delay must be shorter than a period.
 void check_front_end(const Scenario& s, base::Problems& out) {
   if (s.sensors.current_delay_s >= s.pwm.period_s)
     out.push_back({"sensors.current_delay_s", base::written(s.sensors.current_delay_s),
@@ -57,7 +57,7 @@ void check_hall(const Scenario& s, base::Problems& out) {
                    "lengthen duration_s or break the line earlier"});
 }
 
-/// Room between neighbouring Hall edges, of which one may not be there before the other has been passed.
+/// Least distance between neighbouring Hall edges, after the hysteresis: edges must come one after the other.
 constexpr double least_gap_deg = 1.0;
 constexpr double most_glitches = 1e5;
 

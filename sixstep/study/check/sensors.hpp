@@ -9,7 +9,7 @@
 
 namespace sixstep::study {
 
-/// `motor`: the sheet's, where it says enough.
+/// `motor`: from the sheet; empty if the sheet lacks values.
 void check_sensors(const Scenario& scenario, const std::optional<design::MotorModel>& motor,
                    base::Problems& out);
 

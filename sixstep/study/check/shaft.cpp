@@ -11,9 +11,9 @@ namespace sixstep::study {
 
 namespace {
 
-constexpr double endless = std::numeric_limits<double>::infinity();  // a line may lead beyond the end
+constexpr double endless = std::numeric_limits<double>::infinity();  // a line may end after the run
 
-/// Speeds closer than that are one to a run: its rounding is about a hundredth of it.
+/// Speeds with a smaller distance are equal in a run: its rounding is about a hundredth of it.
 constexpr double least_step_rad_s = 1e-6;
 
 void check_table(const Load& l, base::Problems& out) {
@@ -33,7 +33,7 @@ void check_table(const Load& l, base::Problems& out) {
     }
 }
 
-/// A torque that the table has replaced before the run's first instant is over, and a way from point to point of no table.
+/// Refuses a torque that the table replaces at the run's first instant, and an interpolation without a table.
 void check_torques(const Scenario& s, base::Problems& out) {
   const Load& l = s.load;
   check_steps(l.times_s, l.torques_Nm, "load", "torques_Nm",
@@ -47,7 +47,7 @@ void check_torques(const Scenario& s, base::Problems& out) {
                    "give load.times_s and load.torques_Nm, or remove it"});
 }
 
-/// Whose speed is given has no other law.
+/// Refuses other laws of a load whose speed is imposed.
 void check_dynamometer(const Scenario& s, base::Problems& out) {
   const Load& l = s.load;
   if (l.dynamometer_times_s.empty() && l.dynamometer_rad_s.empty()) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the keys of [load] and the start say together.
+// Checks the keys of [load] together with the start.
 #pragma once
 #include "sixstep/base/result.hpp"
 #include "sixstep/study/scenario/scenario.hpp"

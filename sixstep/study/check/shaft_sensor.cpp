@@ -57,7 +57,7 @@ void check_resolver(const Scenario& s, const std::optional<design::MotorModel>& 
           "lower one of them");
 }
 
-/// A drive whose speed and position are not from captured Hall edges has no use for their places.
+/// Refuses sensors.hall_angle if the drive does not compute speed and position from captured Hall edges.
 void check_hall_angle(const Scenario& s, base::Problems& out) {
   if (s.sensors.hall_angle == rig::HallAngleFrom::sectors) return;
   std::string word(1, '"');  // GCC 12 warns of a literal before it
@@ -73,7 +73,7 @@ void check_hall_angle(const Scenario& s, base::Problems& out) {
                    "set hall_angle = \"sectors\", or control.drive = \"lean\""});
 }
 
-/// What happens to a sensor that is not there.
+/// Refuses events of a sensor that is absent.
 void check_shaft_events(const Scenario& s, base::Problems& out) {
   for (std::size_t n = 0; n < s.at.size(); ++n) {
     const AtSensors& at = s.at[n].sensors;
@@ -99,7 +99,7 @@ void check_shaft_events(const Scenario& s, base::Problems& out) {
   }
 }
 
-/// A scale along a linear motor, or lines of a turn.
+/// Checks the scale along a linear motor, or the lines per turn.
 void check_lines(const Scenario& s, base::Problems& out) {
   const Encoder& e = s.sensors.encoder;
   const bool linear = s.sheet.kind == design::MotorKind::linear;
@@ -133,7 +133,7 @@ void check_encoder(const Scenario& s, base::Problems& out) {
                    "lower one of them"});
 }
 
-/// Of all but a scale with lines the shaft turns.
+/// With a linear motor, refuses all sensors except a scale with lines, because they need a turning shaft.
 void check_linear(const Scenario& s, const std::string& word, base::Problems& out) {
   if (s.sheet.kind != design::MotorKind::linear) return;
   if (s.sensors.rotor != RotorSensing::encoder)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// check_shaft_sensor(): what an encoder or a resolver asks of the chip's clock and of the motor.
+// check_shaft_sensor() checks an encoder or a resolver against the chip's clock and the motor.
 #pragma once
 #include <optional>
 

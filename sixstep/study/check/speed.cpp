@@ -10,7 +10,7 @@ namespace sixstep::study {
 
 namespace {
 
-/// What only the PI's positional form has.
+/// Refuses keys that only the PI's positional form has.
 void check_positional(const Scenario& s, base::Problems& out) {
   const SpeedLoop& loop = s.control.speed;
   const auto refuse = [&](const char* key, const std::optional<double>& value) {
@@ -32,7 +32,7 @@ void check_positional(const Scenario& s, base::Problems& out) {
                    "set control.speed.law, or remove it"});
 }
 
-/// A law that is designed for a settling time has no gains to give.
+/// Refuses gains for a law that is designed from a settling time.
 void check_designed(const Scenario& s, base::Problems& out) {
   const SpeedLoop& loop = s.control.speed;
   const std::string law(base::word(speed_law_choices, loop.law));

@@ -5,7 +5,7 @@
 
 namespace sixstep::study {
 
-/// Keys that one law of the speed loop has and another has not.
+/// Refuses keys that the speed loop's law does not have.
 void check_speed_law(const Scenario& scenario, base::Problems& out);
 
 }  // namespace sixstep::study

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the keys of [supply] say together.
+// Checks the keys of [supply] against each other.
 #pragma once
 #include "sixstep/base/result.hpp"
 #include "sixstep/study/scenario/scenario.hpp"

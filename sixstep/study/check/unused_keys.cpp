@@ -16,7 +16,7 @@ namespace {
 void of_power(const Scenario& s, Unused& out) {
   if (!s.heat.motor && !s.heat.devices)
     out.add("heat.step_s", s.heat.step_s, Heat{}.step_s, "nothing warms up");
-  // By the sheet's thermal values a remark puts the copper loss into a motor that starts from there.
+  // With the sheet's thermal values a remark estimates the winding's temperature from there.
   if (!s.heat.motor && !s.heat.devices && !design::thermal_model(s.sheet))
     out.add("heat.ambient_degC", s.heat.ambient_degC, Heat{}.ambient_degC, "nothing warms up");
   const Bridge& b = s.bridge;
@@ -75,7 +75,7 @@ void of_control(const Scenario& s, Unused& out) {
   }
 }
 
-/// A loop that is never closed: neither in the mode that the run begins in, nor by one that an event brings.
+/// Finds keys of loops that are closed neither in the first mode nor in the mode of an event.
 void of_idle_loops(const Scenario& s, Unused& out) {
   using control::Mode;
   const bool position = comes_into(s, Mode::position), speed = position || comes_into(s, Mode::speed);
@@ -111,8 +111,9 @@ void of_idle_loops(const Scenario& s, Unused& out) {
   out.add("control.current.measured_bus_from_V", y.measured_bus_from_V, none.measured_bus_from_V, open);
 }
 
-/// Lines of the sheet that the scenario overrides, and that the model is not made of. Others stand for what a run shows or chooses: a
-/// nominal current the torque limit where none is given, a nominal voltage beside a bus that nobody chose, limits in its remarks.
+/// Finds overridden lines of the sheet that the model does not use. Other unused lines still affect what a run
+/// shows or chooses: the nominal current the default torque limit, the nominal voltage the remark on a default
+/// bus, limits the remarks.
 void of_sheet(const Scenario& s, Unused& out) {
   if (!s.motor_sheet) return;
   const base::Result<design::SheetCheck> now = design::check_sheet(s.sheet),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keys that a scenario gives and that change nothing in its run, because what they belong to is not there.
+// Finds keys that a scenario gives without effect on its run, because the thing that they belong to is absent.
 #pragma once
 #include <string>
 
@@ -7,8 +7,8 @@
 
 namespace sixstep::study {
 
-/// "sensors.current_noise_A (sensors.currents is ideal), heat.ambient_degC (nothing warms up)"; empty where all act. A key
-/// that stands at its default counts as not given.
+/// "sensors.current_noise_A (sensors.currents is ideal), heat.ambient_degC (nothing warms up)"; empty if all
+/// given keys have an effect. A key with its default value counts as not given.
 std::string unused_keys(const Scenario& scenario);
 
 }  // namespace sixstep::study

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keys that a scenario gives and that change nothing, as they are collected.
+// Collects keys that a scenario gives without effect.
 #pragma once
 #include <string>
 #include <variant>
@@ -10,7 +10,8 @@
 
 namespace sixstep::study {
 
-/// The numbers and switches of a described table, in their order. Which word is chosen is never told to be in vain.
+/// The numbers and switches of a described table, in its order. Choices of words are left out: they are never
+/// reported as unused.
 class NumbersAndSwitches final : public base::Visitor {
  public:
   struct Entry {
@@ -39,7 +40,7 @@ class Unused {
     if (given == usual) return;
     text_ += (text_.empty() ? "" : ", ") + key + " (" + reason + ")";
   }
-  /// Each key of a table that has no effect at all.
+  /// Adds each given key of a table that has no effect at all.
   template <class Table>
   void add_table(const std::string& table, Table given, const std::string& reason) {
     Table usual;
@@ -57,7 +58,7 @@ class Unused {
   std::string text_;
 };
 
-/// Of [sensors]: of a device that is not there, of a converter that nothing goes through.
+/// Adds the keys of [sensors] whose device is absent, or whose converter converts nothing.
 void unused_of_sensors(const Scenario& scenario, Unused& out);
 
 }  // namespace sixstep::study

@@ -16,7 +16,7 @@ void of_ideal_rotor(const Scenario& s, Unused& out) {
   out.add("sensors.watched", x.watched, usual.watched, reason);
 }
 
-/// Noise of a converter is drawn, jumps of lines, and what a series' drives are.
+/// Random numbers are drawn for converters' noise, Hall glitches and a series' drives.
 bool draws_nothing(const Scenario& s) {
   const Sensors& x = s.sensors;
   return x.currents == rig::CurrentMeasurement::ideal && x.bus == BusSensing::ideal &&
@@ -24,14 +24,14 @@ bool draws_nothing(const Scenario& s) {
          s.control.drive != FirmwareKind::sensorless && s.spread.empty();
 }
 
-/// Of the lean drive: others watch it, or go by it.
+/// For the lean drive only: the others monitor the bus or compute with it.
 bool is_bus_unread(const Scenario& s) {
   const auto reads = [](const Control& c) { return c.current.measured_bus_from_V || c.regeneration.limit_V; };
   return s.control.drive == FirmwareKind::lean && !reads(s.control) &&
          std::none_of(s.at.begin(), s.at.end(), [&](const At& at) { return retunes(at); });
 }
 
-/// Of a sensor on the shaft that is not the one chosen.
+/// Adds the keys of a shaft sensor that is not the chosen one.
 template <class Sensor>
 void of_other_sensor(RotorSensing kind, const Sensor& given, RotorSensing chosen, Unused& out) {
   if (kind == chosen) return;
@@ -53,19 +53,19 @@ void unused_of_sensors(const Scenario& s, Unused& out) {
     out.add("sensors.calibrated", x.calibrated, usual.calibrated, reason);
     if (no_terminals)
       out.add("sensors.current_bandwidth_Hz", x.current_bandwidth_Hz, usual.current_bandwidth_Hz, reason);
-    if (no_terminals && s.control.drive != FirmwareKind::field)  // else it scales what an estimator injects
+    if (no_terminals && s.control.drive != FirmwareKind::field)  // else it scales an injection
       out.add("sensors.current_range_A", x.current_range_A, usual.current_range_A, reason);
     if (no_bus && no_terminals && x.rotor != RotorSensing::resolver)
       out.add("sensors.adc_bits", x.adc_bits, usual.adc_bits, "nothing is converted");
   }
-  if ((no_bus && no_terminals) || is_bus_unread(s)) {  // a terminal's channel is as the bus's is
+  if ((no_bus && no_terminals) || is_bus_unread(s)) {  // terminals are measured like the bus
     const char* const reason = no_bus ? "sensors.bus is ideal" : "the drive does not read the bus";
     out.add("sensors.bus_offset_V", x.bus_offset_V, usual.bus_offset_V, reason);
     out.add("sensors.bus_noise_V", x.bus_noise_V, usual.bus_noise_V, reason);
     out.add("sensors.bus_gain_error", x.bus_gain_error, usual.bus_gain_error, reason);
     out.add("sensors.bus_bandwidth_Hz", x.bus_bandwidth_Hz, usual.bus_bandwidth_Hz, reason);
     if (no_bus)
-      out.add("sensors.bus_range_V", x.bus_range_V, usual.bus_range_V, reason);  // else the board has it
+      out.add("sensors.bus_range_V", x.bus_range_V, usual.bus_range_V, reason);  // else the board uses it
   }
   if (no_hall && no_terminals) {
     constexpr char reason[] = "sensors.rotor is not hall";

@@ -23,7 +23,7 @@ namespace {
 
 using control::Mode;
 
-/// What the drive needs; where a file names a full scale, the base that this makes of 1.0.
+/// The drive's own bases; if the file gives a full scale, the base that results from it for 1.0.
 template <class Scalar>
 design::Bases bases_of(const Scenario& s, const Compiled& c, const design::OperatingRange& range) {
   constexpr int before_the_point =
@@ -31,7 +31,7 @@ design::Bases bases_of(const Scenario& s, const Compiled& c, const design::Opera
   const double greatest = static_cast<double>(Scalar::max());
   design::Bases bases = c.sensorless ? design::bases_for(c.sensorless->drive, range, greatest)
                                      : design::bases_for(c.drive, range, greatest);
-  constexpr double below_the_end = 1 + 1e-3;  // a threshold at full scale is never passed
+  constexpr double below_the_end = 1 + 1e-3;  // a threshold at full scale would never be passed
   if (c.product)
     bases.speed_rad_s =
         std::max(bases.speed_rad_s, c.product->faults.over_speed_rad_s * below_the_end / greatest);
@@ -46,7 +46,7 @@ design::Bases bases_of(const Scenario& s, const Compiled& c, const design::Opera
   return bases;
 }
 
-/// The proof speaks of the drive's quantities; a reader knows the scenario's keys.
+/// Renames problems: the proof names the drive's quantities, but a user's file has the scenario's keys.
 base::Problems under_the_key(const Scenario& s, const base::Problems& problems) {
   const std::string word(base::word(arithmetic_choices, s.control.arithmetic));
   base::Problems out;
@@ -57,13 +57,13 @@ base::Problems under_the_key(const Scenario& s, const base::Problems& problems) 
   return out;
 }
 
-/// Speed from captured edges (hall_speed.hpp): (pi/3)/p f_timer k is a wide number of the format's digits.
+/// Speed from captured edges (hall_speed.hpp): (pi/3)/p f_timer k is a wide number with the format's digits.
 template <class Scalar>
 base::Problems unheld_speed(const Scenario& s, const Compiled& c, const design::Bases& b) {
   if (s.sensors.rotor != RotorSensing::hall) return {};
   using Wide = typename Scalar::WideInt;
   const double ratio = base::pi / 3 / c.motor.machine.pole_pairs * s.sensors.capture_Hz;
-  // An angle that runs on counts in electrical turns, whatever it is taken over.
+  // A continuous angle is counted in electrical turns, whatever edges the speed uses.
   const int sectors = s.sensors.hall_angle == rig::HallAngleFrom::sectors ? c.board.sensors.edges : 6;
   const double digits = ratio * sectors / b.speed_rad_s / static_cast<double>(Scalar::from_raw(1));
   const double most = static_cast<double>(control::detail::greatest<Wide>);
@@ -77,8 +77,7 @@ rig::Bases units_of(Mode mode, const design::Bases& b) {
   return {b.current_A, b.voltage_V, b.speed_rad_s, b.position_deg, design::setpoint_base(mode, b)};
 }
 
-/// Per sample, by all torques there are at once. Hall edges tell of a speed as late and as suddenly as they
-/// come.
+/// Change per sample with all torques together. Hall edges show a change of speed late and suddenly.
 double fastest_change_of_speed(const Scenario& s, const Compiled& c, const design::OperatingRange& range) {
   if (s.sensors.rotor != RotorSensing::ideal || c.sensorless) return 0.0;
   double load = std::fabs(s.load.torque_Nm);
@@ -207,7 +206,7 @@ base::Result<FieldIn<Scalar>> field_in(const Compiled& c) {
 
 template base::Result<FieldIn<double>> field_in(const Compiled&);
 template base::Result<FieldIn<float>> field_in(const Compiled&);
-// NOLINTBEGIN(bugprone-macro-parentheses): a type in parentheses is none
+// a type in parentheses is no type
 #define SIXSTEP_DRIVES_IN(Scalar)                                                              \
   template base::Result<SensorlessIn<Scalar>> sensorless_in(const Scenario&, const Compiled&); \
   template base::Result<ProductIn<Scalar>> product_in(const Scenario&, const Compiled&);       \

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The drive that was designed in double, in the number its chip computes in: the same figures as float, or
-// scaled to fixed point with a proof that they fit.
+// Converts the drive, which is designed in double, to the chip's arithmetic: the same numbers as float, or
+// numbers scaled to fixed point with a proof that they fit.
 #pragma once
 #include "sixstep/control/commissioning/pulse_start.hpp"
 #include "sixstep/control/field/sensorless_field_drive.hpp"
@@ -10,18 +10,18 @@
 
 namespace sixstep::study {
 
-/// What the loops may meet in this scenario, in magnitude:
+/// The largest magnitudes that the loops can meet in this scenario:
 ///   current   twice the largest reference or limit, which leaves room for the overshoot of a reversal whose
 ///             error would saturate (7.3.1 turning shows it), at most the bus and a back-EMF against it
 ///             over R
 ///   speed     what the bus reaches without load and loss, U/K_t, and the speed of the start
 ///   position  the largest reference and the start
 ///   bus       the source, and the bus of the start
-/// The product drive meets what its converters span, and a speed that its threshold can pass.
+/// The product drive's range is that of its converters, and a speed that its threshold can pass.
 design::OperatingRange operating_range(const Scenario& scenario, const Compiled& compiled);
 
-/// What this scenario asks for or starts with, and no range may be less than: largest reference, limits, source,
-/// start; of the product drive what its converters span.
+/// The smallest allowed range: what this scenario requests or starts with (largest reference, limits, source,
+/// start), and for the product drive the range of its converters.
 design::OperatingRange least_range(const Scenario& scenario, const Compiled& compiled);
 
 /// The same controller in float or double.
@@ -39,7 +39,7 @@ struct DriveIn {
 template <class Scalar>
 base::Result<DriveIn<Scalar>> drive_in(const Scenario& scenario, const Compiled& compiled);
 
-/// The product drive alike, of a scenario whose chip runs it.
+/// The same for the product drive.
 template <class Scalar>
 struct ProductIn {
   control::ProtectedConfig<Scalar> config;
@@ -48,7 +48,7 @@ struct ProductIn {
 template <class Scalar>
 base::Result<ProductIn<Scalar>> product_in(const Scenario& scenario, const Compiled& compiled);
 
-/// And the sensorless one; its pulses are whole numbers in every arithmetic.
+/// The same for the sensorless drive; its pulses are integers in every arithmetic.
 template <class Scalar>
 struct SensorlessIn {
   control::PulsedDriveConfig<Scalar> config;
@@ -57,7 +57,7 @@ struct SensorlessIn {
 template <class Scalar>
 base::Result<SensorlessIn<Scalar>> sensorless_in(const Scenario& scenario, const Compiled& compiled);
 
-/// And the field-oriented one, in floating point alone: no scaling is proved of it yet.
+/// The same for the field-oriented drive, in floating point only: no scaling of it is proved yet.
 template <class Scalar>
 struct FieldIn {
   control::SensorlessFieldConfig<Scalar> config;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a compiled scenario's parts are designed on, and the parts that have a file of their own.
+// The quantities on which a compiled scenario's parts are designed, and the parts that have a file of their
+// own.
 #pragma once
 #include "sixstep/design/loops/field_current.hpp"
 #include "sixstep/design/loops/limit_bounds.hpp"
@@ -7,32 +8,32 @@
 
 namespace sixstep::study {
 
-/// What the controller is designed on: the motor at hand, or the nominal one of a series.
+/// The controller's design basis: the scenario's motor, or the nominal motor of a series.
 struct Basis {
   const design::MotorModel& motor;
   plant::Shaft shaft;
   double bus_V;
 };
 
-/// What was found wrong with the scenario as an event leaves it, under the event's keys.
+/// Returns the problems with the prefix of the event after which the scenario has them: "at[0].control...".
 base::Problems told_of_event(const Scenario& scenario, const At& at, base::Problems problems);
 
-/// Settling time of the current loop, as designed: the thesis's (chapter 6) where the scenario names none.
+/// Settling time with which the current loop is designed: the scenario's, else the thesis's (chapter 6).
 double current_settling_s(const Scenario& scenario);
 
-/// Sets drive.extras (drive_extras.hpp) where the scenario asks for any; `drive` has its loops already.
+/// Sets drive.extras (drive_extras.hpp) if the scenario requests any; `drive` must have its loops already.
 void add_extras(const Scenario& scenario, const Basis& basis, control::DriveConfig<double>& drive);
 
-/// Sets the position loop's profile, where the scenario has one; `tuned` has its loops and limits already.
+/// Sets the position loop's profile, if the scenario has one; `tuned` must have its loops and limits already.
 void add_position_profile(const Scenario& scenario, const Basis& basis, Tuned& tuned);
-/// Of a motion that the drive as designed cannot make.
+/// Refuses a motion that the designed drive cannot make.
 base::Problems check_position_profile(const Scenario& scenario, const Basis& basis,
                                       const control::DriveConfig<double>& drive);
 
-/// What control/limits.hpp has to hold against, at the worst that supply, start and limits allow.
+/// The worst case that control/limits.hpp must hold, over the range of supply, start and limits.
 design::LimitSetting limit_setting(const Scenario& scenario, const Basis& basis,
                                    const control::DriveConfig<double>& drive);
-/// Of limits that no drive can keep, and currents that its converter does not see.
+/// Refuses limits that no drive can keep, and currents beyond its converter's range.
 base::Problems check_limits(const Scenario& scenario, const Basis& basis,
                             const control::DriveConfig<double>& drive);
 
@@ -43,16 +44,17 @@ control::ProtectedConfig<double> product_around(const Scenario& scenario, const 
 
 struct SensorlessAround {
   control::PulsedDriveConfig<double> config;  ///< SI
-  std::vector<design::DerivationStep> steps;  ///< how its numbers came about
+  std::vector<design::DerivationStep> steps;  ///< how its numbers follow
 };
-/// The sensorless drive around `drive`, as design/loops/sensorless_start.hpp makes it, and its pulses, where it starts by them,
-/// as pulse_start.hpp does. Problems: a load that it cannot start, a back-EMF that its converter does not see, pulses too strong.
+/// The sensorless drive around `drive`, made by design/loops/sensorless_start.hpp; its pulses, if it starts by
+/// pulses, by pulse_start.hpp. Problems: a load that it cannot start, a back-EMF outside its converter's range,
+/// pulses that are too strong.
 base::Result<SensorlessAround> sensorless_around(const Scenario& scenario, const Basis& basis,
                                                  const control::DriveConfig<double>& drive);
 
 struct FieldAround {
   control::FieldDriveConfig<double> config;    ///< SI
-  control::EstimatorConfig<double> estimator;  ///< on where no sensor tells the angle
+  control::EstimatorConfig<double> estimator;  ///< on if no sensor measures the angle
   std::vector<LoopGains> gains;                ///< of the current loops
   std::vector<design::DerivationStep> steps, estimator_steps;
 };
@@ -61,30 +63,31 @@ struct FieldAround {
 base::Result<FieldAround> field_around(const Scenario& scenario, const Basis& basis,
                                        const control::DriveConfig<double>& drive);
 
-/// Adds its estimator, where no sensor tells the angle (design/loops/field_estimate.hpp). `loop_rad_s`: bandwidth of its current loops.
+/// Adds the estimator if no sensor measures the angle (design/loops/field_estimate.hpp). `loop_rad_s`:
+/// bandwidth of the current loops.
 base::Problems add_estimator(const Scenario& scenario, const Basis& basis,
                              const design::FieldMachine& machine, const control::DriveConfig<double>& drive,
                              double loop_rad_s, FieldAround& out);
 
-/// A controller of one's own, as it designs itself by the nominal motor, the board and the loops of `drive`. Problems: what it says
-/// that it cannot.
+/// Calls the design function of the user's controller with the nominal motor, the board and the loops of `drive`.
+/// Problems: those that the controller reports.
 base::Result<rig::OwnConfig> own_designed(const Scenario& scenario, const Basis& basis,
                                           const control::DriveConfig<double>& drive);
 
-/// By how many samples its current across the magnet comes late in the mean (design/loops/speed_laws.hpp).
+/// Mean delay of the q-axis current, in samples (design/loops/speed_laws.hpp).
 double field_lag_periods(const Scenario& scenario, const Basis& basis);
 
-/// The speed loop of `tuned`, whose limits and current loop are known, by the law that the scenario asks for
-/// (design/loops/speed_laws.hpp); a PI is left as it is. `full_rad_s2`: what a full output accelerates by, `fades_1_s`: what
-/// friction takes.
+/// Designs the speed loop of `tuned`, whose limits and current loop are already set, by the scenario's law
+/// (design/loops/speed_laws.hpp); a PI is left as it is. `full_rad_s2`: acceleration at full output.
+/// `fades_1_s`: decay rate of the speed by friction.
 base::Problems add_speed_law(const Scenario& scenario, const Basis& basis, double full_rad_s2,
                              double fades_1_s, Tuned& tuned);
 
-/// N m per A of what the scenario's drive calls the current: the driven pair's, or i_q.
+/// Torque constant in N m/A for the current that the scenario's drive controls: of the driven pair, or i_q.
 double torque_per_A(const Scenario& scenario, const Basis& basis);
 
-/// A speed that a board learns of by six sectors where the loop stands their delay (design/loops/rotor_sensing.hpp), s; 0
-/// without a speed loop.
+/// Time in s within which six Hall edges must come to be averaged; with slower edges the board measures the
+/// speed over one edge (design/loops/rotor_sensing.hpp). 0 without a speed loop.
 double speed_window_s(const Scenario& scenario, const Basis& basis,
                       const control::DriveConfig<double>& drive);
 

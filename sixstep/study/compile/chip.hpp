@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a firmware is given in the number its chip computes in: at the start, and by each event that changes
-// it. Fixed point has one scaling for the whole run, that of the start: what comes later must fit it.
+// Converts a firmware's configuration, at the start and at each event that changes it, to the chip's
+// arithmetic. Fixed point keeps the scaling of the start for the whole run: later configurations must fit it.
 #pragma once
 #include <cmath>
 #include <type_traits>
@@ -17,7 +17,7 @@
 
 namespace sixstep::study {
 
-/// [control.full_scale] that makes these bases of it, to the bit. Floating point has none.
+/// The [control.full_scale] from which these bases follow, to the bit. Empty for floating point.
 template <class Scalar>
 FullScale full_scale_of(const rig::Bases& bases) {
   if constexpr (std::is_arithmetic_v<Scalar>) {
@@ -44,7 +44,7 @@ template <class Scalar>
 auto given_to(std::type_identity<rig::FieldDrive<Scalar>>, const Scenario&, const Compiled& c) {
   return field_in<Scalar>(c);
 }
-/// What an own controller's chip is given: it computes in SI.
+/// Configuration of a user's own controller, which computes in SI.
 struct OwnGiven {
   rig::OwnConfig config;
   rig::Bases bases;
@@ -53,7 +53,7 @@ template <class Command>
 auto given_to(std::type_identity<rig::OwnDrive<Command>>, const Scenario&, const Compiled& c) {
   return base::Result<OwnGiven>(OwnGiven{c.own, {}});
 }
-/// A chip that runs a firmware of its own has its configuration in its flash; what stands here is the board's.
+/// A chip with its own firmware has its configuration in its flash; this is the board's part.
 struct ChipGiven {
   rig::ChipConfig config;
   rig::Bases bases;
@@ -92,7 +92,7 @@ base::Problems add_later(const Scenario& s, const Compiled& c, Chip<Firmware>& o
 
 }  // namespace detail
 
-/// Problems name what the format cannot hold. The scenario is the one that was compiled.
+/// Problems name what the format cannot hold. `s` is the scenario from which `c` was compiled.
 template <class Firmware>
 base::Result<Chip<Firmware>> chip_of(const Scenario& s, const Compiled& c) {
   const std::optional<Scenario> alone = changes_mode(s) ? std::optional(settled(s, nullptr)) : std::nullopt;

@@ -23,7 +23,7 @@ namespace {
 
 plant::Shaft shaft_of(const design::MotorModel& motor, const Load& load) {
   plant::Shaft shaft = motor.shaft;
-  // At the motor's side of the gear, as if the shaft were rigid.
+  // Referred to the motor's side of the gear, as if the shaft were rigid.
   shaft.J_kg_m2 += load.inertia_kg_m2 / (load.gear * load.gear);
   shaft.B_Nm_s += load.viscous_Nm_s / (load.gear * load.gear);
   shaft.coulomb_Nm += load.coulomb_Nm / load.gear;
@@ -36,7 +36,7 @@ plant::Shaft shaft_of(const design::MotorModel& motor, const Load& load) {
 
 namespace {
 
-/// Above which a pulse has lasted `late_s` where it is sampled.
+/// The duty above which a pulse has lasted `late_s` at its sample.
 double duty_of_a_pulse(const Scenario& s, double late_s) {
   const double late = (late_s + pulse_late_s(s)) / s.pwm.period_s;
   return s.pwm.alignment == Alignment::centre ? 2 * late : 0.5 + late;
@@ -56,7 +56,7 @@ double least_shown_duty(const Scenario& s) {
 double unseen_at_rest_A(const Scenario& s, double R_ohm) {
   const Bridge& b = s.bridge;
   const double d = least_shown_duty(s), off = 1 - d;
-  // While the pulse lasts two switches conduct; beside it a switch and a diode, two switches or two diodes.
+  // During the pulse two switches conduct; otherwise a switch and a diode, two switches or two diodes.
   double switches = 2 * d, diodes = 0.0, volts = d * s.supply.voltage_V;
   switch (s.pwm.chopping) {
     case control::Chopping::soft:
@@ -64,7 +64,7 @@ double unseen_at_rest_A(const Scenario& s, double R_ohm) {
       diodes = off;
       break;
     case control::Chopping::complementary: {
-      // Beside each edge a lower diode conducts for a dead time, and the pulse is shorter by one.
+      // At each edge a lower diode conducts for a dead time, and the pulse is shorter by one.
       const double dead = std::min(b.dead_time_s / s.pwm.period_s, d);
       volts -= dead * s.supply.voltage_V;
       diodes = 2 * dead;
@@ -98,7 +98,7 @@ rig::SensorsConfig sensors_of(const Scenario& s, double L_over_R_s) {
   to.commutation_samples = static_cast<std::uint8_t>(from.commutation_samples);
   to.fade = base::exp(-s.pwm.period_s / L_over_R_s);
   to.measures_bus = from.bus == BusSensing::adc;
-  // Terminals hang at converters like the bus's, whether that is read or not.
+  // Terminals have converters like the bus's, even if the bus is not measured.
   const double usual_V = s.control.drive == FirmwareKind::sensorless ? 1.25 * s.supply.voltage_V : 0.0;
   to.bus = {
       from.adc_bits,   from.bus_range_V.value_or(usual_V), false, from.bus_offset_V, from.bus_gain_error,
@@ -107,7 +107,7 @@ rig::SensorsConfig sensors_of(const Scenario& s, double L_over_R_s) {
   to.decodes_hall = breaks_a_hall_line(s) || inverts_a_hall_line(s);
   to.capture_Hz = from.capture_Hz;
   to.timeout_s = from.timeout_s;
-  to.edges = static_cast<std::uint8_t>(from.speed_edges);  // 0 is settled where the loops are known
+  to.edges = static_cast<std::uint8_t>(from.speed_edges);  // settle_edges() replaces 0
   take_hall_angle(s, to);
   to.seed = static_cast<std::uint64_t>(from.seed);
   to.shaft = shaft_sensor_config(s);
@@ -139,7 +139,8 @@ rig::ProbeGiven probes_of(const Sensors& s) {
           sim::to_instant(s.hall_delay_s).ticks};
 }
 
-/// Edges for the loop that looks at them (design/loops/rotor_sensing.hpp); a drive that learns its edges takes six until it has.
+/// Sets the edges for the loop that uses them (design/loops/rotor_sensing.hpp). A drive that learns its edges
+/// uses six until they are learned.
 void settle_edges(const Scenario& s, const Basis& basis, Compiled& out) {
   rig::SensorsConfig& sensors = out.board.sensors;
   const bool learns = sensors.hall_angle == rig::HallAngleFrom::learned_edges;
@@ -160,7 +161,7 @@ base::Problems add_sensorless(const Scenario& s, const Basis& basis,
   return {};
 }
 
-/// The gains of its current loops come first, as the innermost.
+/// The current loops' gains come first, because they are the innermost.
 base::Problems add_field(const Scenario& s, const Basis& basis, Tuned& tuned, Compiled* told = nullptr) {
   if (s.control.drive != FirmwareKind::field) return {};
   auto around = field_around(s, basis, tuned.drive);
@@ -174,7 +175,7 @@ base::Problems add_field(const Scenario& s, const Basis& basis, Tuned& tuned, Co
   return {};
 }
 
-/// The library's loops are what it was given, and are not run.
+/// The library's loops are the controller's input only, and do not run.
 base::Problems add_own(const Scenario& s, const Basis& basis, Tuned& tuned) {
   if (s.control.drive != FirmwareKind::own) return {};
   auto designed = own_designed(s, basis, tuned.drive);
@@ -184,7 +185,7 @@ base::Problems add_own(const Scenario& s, const Basis& basis, Tuned& tuned) {
   return {};
 }
 
-/// What [[at]] makes of it. Sensors stay as they were laid out for the start.
+/// Adds the configurations after each event. Sensors stay as laid out at the start.
 base::Problems add_later_actions(const Scenario& s, const Basis& basis, Compiled& out) {
   const std::vector<const At*> order = in_order(s);
   out.later.reserve(order.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// compile() turns a scenario into what a run is made of: plant parameters, controller configuration, board,
+// compile() turns a scenario into the parts of a run: plant parameters, controller configuration, board,
 // timeline, gains with their origin.
 #pragma once
 #include "sixstep/base/result.hpp"
@@ -15,18 +15,19 @@
 
 namespace sixstep::study {
 
-/// The controller as one event leaves it.
+/// The controller's configuration after one event.
 struct Tuned {
   control::DriveConfig<double> drive;
   std::vector<LoopGains> gains;
-  std::optional<control::ProtectedConfig<double>> product;       ///< around the drive, where the chip runs it
-  std::optional<control::PulsedDriveConfig<double>> sensorless;  ///< alike
-  std::optional<control::FieldDriveConfig<double>> field;        ///< alike
-  rig::OwnConfig own;                                            ///< in its place, where it is one's own
-  control::EstimatorConfig<double> estimator;  ///< of the field-oriented drive without a rotor sensor
+  std::optional<control::ProtectedConfig<double>> product;       ///< around `drive`, if the chip runs it
+  std::optional<control::PulsedDriveConfig<double>> sensorless;  ///< the same
+  std::optional<control::FieldDriveConfig<double>> field;        ///< the same
+  rig::OwnConfig own;                          ///< instead of `drive`, for a user's controller
+  control::EstimatorConfig<double> estimator;  ///< of a field-oriented drive without a rotor sensor
 };
 
-/// What the general kernel is given, where the scenario asks for what the lean one lacks (plant/general/).
+/// Parameters of the general kernel; present if the scenario needs a feature that the lean kernel lacks
+/// (plant/general/).
 struct GeneralPlant {
   plant::general::Machine machine;
   plant::general::Shaft shaft;
@@ -38,44 +39,46 @@ struct GeneralPlant {
 
 struct Compiled {
   design::MotorModel motor;
-  plant::Shaft shaft;  ///< the motor's with the load's share added
+  plant::Shaft shaft;  ///< the motor's plus the load's
   plant::Devices devices;
   plant::Supply supply;
   plant::Start start;
   rig::BoardConfig board;
-  rig::Wiring wiring;      ///< at the start; straight where the lean kernel runs
-  rig::ProbeGiven probes;  ///< as the sectors are where the lean kernel runs
+  rig::Wiring wiring;      ///< at the start; straight with the lean kernel
+  rig::ProbeGiven probes;  ///< at the sector edges with the lean kernel
   rig::Timeline timeline;
   control::DriveConfig<double> drive;
-  std::optional<control::ProtectedConfig<double>> product;       ///< around the drive, where the chip runs it
-  std::optional<control::PulsedDriveConfig<double>> sensorless;  ///< alike
-  std::optional<control::FieldDriveConfig<double>> field;        ///< alike
-  rig::OwnConfig own;                                            ///< in its place, where it is one's own
-  control::EstimatorConfig<double> estimator;  ///< of the field-oriented drive without a rotor sensor
+  std::optional<control::ProtectedConfig<double>> product;       ///< around `drive`, if the chip runs it
+  std::optional<control::PulsedDriveConfig<double>> sensorless;  ///< the same
+  std::optional<control::FieldDriveConfig<double>> field;        ///< the same
+  rig::OwnConfig own;                          ///< instead of `drive`, for a user's controller
+  control::EstimatorConfig<double> estimator;  ///< of a field-oriented drive without a rotor sensor
   std::vector<LoopGains> gains;
-  std::vector<design::DerivationStep> sensorless_steps;  ///< of the sensorless drive's numbers
-  std::vector<design::DerivationStep> field_steps;       ///< of the field-oriented drive's
-  std::vector<design::DerivationStep> estimator_steps;   ///< of its estimator's
-  std::vector<Tuned> later;                              ///< what the timeline's retune actions name
-  double setpoint_range = 1.0;  ///< that a chip's potentiometer has to reach, either way (setpoint_range.hpp)
-  std::optional<GeneralPlant> general;  ///< runs in the place of motor, shaft, devices and supply
+  std::vector<design::DerivationStep> sensorless_steps;  ///< how the sensorless drive's numbers follow
+  std::vector<design::DerivationStep> field_steps;       ///< the field-oriented drive's
+  std::vector<design::DerivationStep> estimator_steps;   ///< its estimator's
+  std::vector<Tuned> later;             ///< configurations for the timeline's retune actions, by their number
+  double setpoint_range = 1.0;          ///< full scale of a chip's potentiometer, +- (setpoint_range.hpp)
+  std::optional<GeneralPlant> general;  ///< replaces motor, shaft, devices and supply
   sim::Instant end;
 };
 
-/// Of a shunt in the DC link: the duty above which the middle of the period lies in the on-time and the amplifier has settled. With
-/// complementary chopping the on-time begins a dead time later.
+/// With a shunt in the DC link: the duty above which the middle of the period lies in the on-time and the
+/// amplifier has settled. With complementary chopping the on-time begins later by one dead time.
 double least_visible_duty(const Scenario& scenario);
-/// The same with what delays the reading behind the pulse, and with the shortest pulse that the modulator makes.
+/// The same, including the delay of the reading behind the pulse and the shortest pulse that the modulator
+/// makes.
 double least_shown_duty(const Scenario& scenario);
-/// The current that flows at that duty with the rotor at rest, A, through a pair of phases of 2 R and what conducts of the bridge: what is
-/// below it is not seen. 0 where that duty drives no current forwards, as with hard chopping below one half.
+/// Current in A that flows at the duty least_shown_duty() with the rotor at rest, through a pair of phases of
+/// 2 R and the bridge's conducting devices; the shunt does not show smaller currents. 0 where that duty drives no
+/// current forwards, as with hard chopping below one half.
 double unseen_at_rest_A(const Scenario& scenario, double R_ohm);
 
-/// Assumes that check() found nothing.
+/// Requires that check() found nothing.
 base::Result<Compiled> compile(const Scenario& scenario);
 
-/// The gains as a loop's keys give them, per sample; empty where they are left to the pole placement. Problems: given in more
-/// than one way, or half.
+/// A loop's gains per sample, as its keys give them; empty if the pole placement designs them. Problems: gains
+/// given in more than one way, or incompletely.
 struct GivenGains {
   std::optional<design::PiGains> gains;
   std::string origin;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a scenario adds inside the drive's loops.
+// Adds the extras that a scenario requests inside the drive's loops.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,15 +12,15 @@ namespace {
 
 using control::Mode;
 
-/// The most current that the reference may ask for without a limit: the window's start.
+/// The largest current reference without a limit: the initial bound of the window.
 double unlimited_current(const Scenario& s, const control::DriveConfig<double>& drive) {
   return s.control.mode == Mode::current ? std::max(drive.current_limit_A, largest_reference(s))
                                          : drive.current_limit_A;
 }
 
-/// limits.hpp. Without gains of their own, the bus comes to rest below its limit as exp(-g t/C), which ten
-/// periods make slow against the sampling; and the speed below its limit with J/(K_t K), which the settling
-/// time of the current loop makes slow against that loop.
+/// limits.hpp. Default gains: the bus approaches its limit as exp(-g t/C), with ten periods as its time
+/// constant, slow against the sampling. The speed approaches its limit with J/(K_t K) equal to the current
+/// loop's settling time.
 void add_limits(const Scenario& s, const Basis& basis, control::DriveConfig<double>& drive) {
   const Limits& wanted = s.control.limits;
   const Regeneration& regeneration = s.control.regeneration;
@@ -55,7 +55,7 @@ void add_smooth_chopping(const Scenario& s, const Basis& basis, control::DriveEx
                      .complementary_below_A = below};
 }
 
-/// A wider one has flanks that are no ramps to a chip's samples.
+/// With a wider top the flanks are too short to be ramps at a chip's samples.
 constexpr double widest_flat_deg = 175.0;
 
 /// commutation_step.hpp.
@@ -79,7 +79,7 @@ void add_commutation_step(const Scenario& s, const Basis& basis, control::DriveC
                         .flat_flanks = (flat_deg - 120) / 2 / (180 - flat_deg)};
 }
 
-/// The gains of drive.speed in positional form, and D = K T_d s/(T_f s + 1) of the measured speed.
+/// Converts the gains of drive.speed to positional form, with D = K T_d s/(T_f s + 1) of the measured speed.
 void add_speed_form(const Scenario& s, control::DriveConfig<double>& drive) {
   const SpeedLoop& loop = s.control.speed;
   const bool runs_speed = s.control.mode == Mode::speed || s.control.mode == Mode::position;

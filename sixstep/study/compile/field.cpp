@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The field-oriented drive of a scenario, around the loops that every drive has.
+// Designs a scenario's field-oriented drive around the loops that every drive has.
 #include "sixstep/design/loops/field_current.hpp"
 
 #include "sixstep/base/angle.hpp"
@@ -11,7 +11,8 @@ namespace sixstep::study {
 
 namespace {
 
-/// Periods from a sample to the middle of the one that answers it: a sample in the middle waits half a period.
+/// Periods from a sample to the middle of the period that answers it: a sample in the middle waits half a
+/// period.
 double periods_to_answer(const Pwm& pwm) {
   return pwm.delay_periods + (pwm.sample == SampleAt::middle ? 1.0 : 0.5);
 }
@@ -27,7 +28,7 @@ struct AxisLoop {
   std::vector<design::DerivationStep> steps;
 };
 
-/// As given, placed by settle_s and damping, or by cancellation.
+/// Gains as given, placed by settle_s and damping, or by cancellation.
 base::Result<AxisLoop> axis_loop(const Scenario& s, const char* name, double R_ohm, double L_H) {
   const CurrentLoop& loop = s.control.current;
   AxisLoop out;
@@ -60,7 +61,7 @@ base::Result<AxisLoop> axis_loop(const Scenario& s, const char* name, double R_o
   return out;
 }
 
-/// One loop twice where the rotor is round.
+/// A round rotor has the same loop in both axes.
 base::Problems add_axes(const Scenario& s, const design::FieldMachine& machine, FieldAround& out) {
   const bool round = machine.L_d_H == machine.L_q_H;
   auto d = axis_loop(s, round ? "current" : "current d", machine.R_ohm, machine.L_d_H);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The estimator of a field-oriented drive that has no sensor on its rotor, as a scenario asks for it.
+// Designs a scenario's estimator for a field-oriented drive without a rotor sensor.
 #include "sixstep/design/loops/field_estimate.hpp"
 
 #include <cmath>
@@ -12,7 +12,8 @@ namespace sixstep::study {
 
 namespace {
 
-/// What drive and motor stand: a cascade's own limit, the sheet's nominal current, or a tenth of what the bus drives at rest.
+/// A current that drive and motor withstand: a cascade's own limit, the sheet's nominal current, or a tenth of the
+/// bus's current at rest.
 double current_that_is_safe_A(const Basis& basis, const control::DriveConfig<double>& drive, double R_ohm) {
   constexpr double by_root_3 = 0.57735026918962576;
   if (drive.current_limit_A > 0) return drive.current_limit_A;
@@ -20,7 +21,7 @@ double current_that_is_safe_A(const Basis& basis, const control::DriveConfig<dou
   return 0.1 * basis.bus_V * by_root_3 / R_ohm;
 }
 
-/// Of pulses whose answer differs between north and south by less than a digit of the converters.
+/// Refuses pulses whose responses at north and south differ by less than a digit of the converters.
 base::Problems too_weak(const Scenario& s, const design::FieldMachine& machine, double saturation_A,
                         const control::EstimatorConfig<double>& c) {
   if (s.sensors.currents != rig::CurrentMeasurement::phases || !(c.injection.voltage_V > 0)) return {};

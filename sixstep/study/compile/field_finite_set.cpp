@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The choice among the states of three legs, of a scenario.
+// Designs a scenario's finite control set for three legs.
 #include "sixstep/design/loops/finite_set.hpp"
 #include "sixstep/study/compile/field_parts.hpp"
 

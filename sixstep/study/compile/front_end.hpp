@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The board's analogue front end, as a scenario's [sensors] have it.
+// The board's analogue front end, from a scenario's [sensors].
 #pragma once
 #include "sixstep/base/angle.hpp"
 #include "sixstep/rig/front_end_config.hpp"
@@ -8,20 +8,20 @@
 
 namespace sixstep::study {
 
-/// A corner's time constant; 0 where there is none.
+/// Time constant of a corner frequency; 0 without one.
 inline double lag_s(const std::optional<double>& bandwidth_Hz) {
   return bandwidth_Hz ? 1 / (2 * base::pi * *bandwidth_Hz) : 0.0;
 }
 
-/// One value each of terminals a, b, c, or none.
+/// One value for each of terminals a, b, c; zeros if none are given.
 inline plant::PerLeg<double> per_terminal(const std::vector<double>& given) {
   plant::PerLeg<double> out{};
   for (std::size_t k = 0; k < out.size() && k < given.size(); ++k) out[k] = given[k];
   return out;
 }
 
-/// What the controller is told as it is goes through no amplifier and no divider. Terminals that are looked at hang at
-/// dividers like the bus's, whether that is read or not; comparators there are for a drive that follows them.
+/// An ideal measurement has no amplifier and no divider. Terminals that the drive measures have dividers like
+/// the bus's, even if the bus itself is not measured. Only a drive that follows comparators has comparators.
 inline rig::FrontEndConfig front_end_of(const Sensors& s, bool looks_at_terminals, bool follows_comparators) {
   rig::FrontEndConfig to;
   if (s.currents != rig::CurrentMeasurement::ideal) {

@@ -29,8 +29,8 @@ general::Shape shape_of(const design::Sheet& s, const plant::Machine& from) {
   return to;
 }
 
-/// Of the branches, whose R and L between two terminals the model has as those of a star, and K_x from K_t by the sector mean
-/// without loop current (model.md 7).
+/// Converts to the branches of a delta. The model has R and L between two terminals as those of a star; K_x
+/// follows from K_t by the sector mean without loop current (model.md 7).
 void connect_delta(const design::Sheet& s, double K_t_Nm_A, general::Machine& m) {
   m.winding = general::Winding::delta;
   const double R = 3 * m.R_ohm[0], M = 1e-3 * s.mutual_inductance_mH;
@@ -81,7 +81,7 @@ std::vector<general::TorquePoint> torque_over_speed(const Load& l) {
   return points;
 }
 
-/// Dry friction acts at the motor's side, whichever side it is given for.
+/// Dry friction acts at the motor's side, also if it is given for the load.
 general::Shaft shaft_of(const Scenario& s, const Compiled& c) {
   const plant::Shaft& motor = c.motor.shaft;
   return {.J_kg_m2 = motor.J_kg_m2,
@@ -151,7 +151,7 @@ general::Supply supply_of(const Supply& s) {
           .mains = {std::sqrt(2.0) * s.mains_rms_V, s.mains_Hz, s.rectifier_drop_V}};
 }
 
-/// The motor's own friction warms its housing; the load's does not.
+/// Motor friction heats the housing; the load's friction does not.
 general::HeatGiven heat_of(const Scenario& s, const Compiled& c) {
   const Heat& h = s.heat;
   general::HeatGiven to{.motor = h.motor,
@@ -179,7 +179,7 @@ general::HeatGiven heat_of(const Scenario& s, const Compiled& c) {
   return to;
 }
 
-/// What the battery has without a load, where nothing else is said.
+/// The default start: a battery's open-circuit voltage.
 double start_bus_V(const Scenario& s, double usual_V) {
   if (s.initial.bus_V || s.supply.source != SourceKind::battery) return usual_V;
   return open_circuit_V(s.supply, s.supply.battery_charge);

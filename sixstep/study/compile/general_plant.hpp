@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which scenarios the general kernel runs, and what it is given: a delta, harmonics, a salient rotor, phases that
-// stray, cogging, a gear, an elastic shaft, a fan, a weight, IGBTs, an inductance before the bus, a brake chopper, a wire that
-// breaks, wires that are crossed, Hall probes that are not where the sectors are. All others run on the lean one.
+// Decides which scenarios the general kernel runs, and fills in its parameters. The lean kernel runs all
+// scenarios without its features: needs_general_plant() lists them, from a delta winding over a gear to crossed
+// wires.
 #pragma once
 #include "sixstep/study/compile/compile.hpp"
 
 namespace sixstep::study {
 
-/// Whether a scenario asks for what the lean kernel lacks.
+/// Whether a scenario needs a feature that the lean kernel lacks.
 bool needs_general_plant(const Scenario& scenario);
 
-/// The windings of a motor as the general kernel is given them.
+/// The motor's windings as parameters of the general kernel.
 plant::general::Machine general_machine(const design::Sheet& sheet, const design::MotorModel& motor);
 
-/// Empty where the lean kernel runs it. `compiled` has the motor's model, the lean shaft and the start.
+/// Empty if the lean kernel runs the scenario. `compiled` already has the motor's model, the lean shaft and the
+/// start.
 std::optional<GeneralPlant> general_plant(const Scenario& scenario, const Compiled& compiled);
 
 }  // namespace sixstep::study

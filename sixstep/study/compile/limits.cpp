@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A limit is a promise: what it cannot hold to (design/loops/limit_bounds.hpp) is refused, with what would
-// help.
+// Refuses a limit that the drive cannot guarantee (design/loops/limit_bounds.hpp), and proposes a cure.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -21,7 +20,7 @@ double highest_start_V(const Scenario& s) {
   return std::max(highest_supply_V(s), s.initial.bus_V.value_or(0.0));
 }
 
-/// A loop that reads less than it was asked for drives without an end.
+/// A loop that reads less than its reference drives the current up without end.
 void check_converter(const Scenario& s, const control::DriveConfig<double>& drive, base::Problems& out) {
   const Sensors& sensors = s.sensors;
   if (sensors.currents == rig::CurrentMeasurement::ideal || !sensors.current_range_A) return;
@@ -39,7 +38,7 @@ void check_converter(const Scenario& s, const control::DriveConfig<double>& driv
                                                  : "widen it, or lower control.current.limit_A"});
 }
 
-/// One shunt shows no current that runs through the lower switches, or in a pulse too short for it.
+/// One shunt shows no current that flows through the lower switches, or in a pulse too short for it.
 void check_shunt(const Scenario& s, base::Problems& out) {
   if (s.sensors.currents != rig::CurrentMeasurement::dc_link) return;
   const auto refuse = [&out](const char* key, const std::optional<double>& value) {
@@ -53,14 +52,14 @@ void check_shunt(const Scenario& s, base::Problems& out) {
   refuse("control.regeneration.limit_V", s.control.regeneration.limit_V);
 }
 
-/// With one full pulse above the limit there is nothing between too little and too much.
+/// If one full pulse already exceeds the limit, a full pulse is too much and no pulse too little.
 void check_current(const Scenario& s, const design::LimitSetting& setting, base::Problems& out) {
   const Limits& wanted = s.control.limits;
   if (!wanted.current_A && !wanted.torque_Nm) return;
   const double pulse_A = setting.bus_V * s.pwm.period_s / (2 * setting.machine.L_H);
   if (pulse_A <= setting.current_A) return;
   const bool by_current = wanted.current_A.has_value();
-  // A current loop is never asked for more than its largest reference.
+  // The current loop's reference never exceeds its largest value.
   const bool narrowed = by_current && setting.current_A < *wanted.current_A;
   out.push_back({by_current ? "control.limits.current_A" : "control.limits.torque_Nm",
                  base::three_digits(by_current ? *wanted.current_A : *wanted.torque_Nm),
@@ -74,14 +73,14 @@ void check_current(const Scenario& s, const design::LimitSetting& setting, base:
                      (narrowed ? ", or remove the limit" : " or raise the limit")});
 }
 
-/// Mechanical angle in which the drive does not learn of a speed: k sectors that it is the mean of and the
-/// one that has not ended, and what the filter holds edges back. A sensorless drive takes six crossings as edges.
+/// Mechanical angle by which a measured speed is late: the k sectors over which it averages, the
+/// present one, and the filter's delay of edges. A sensorless drive averages over six crossings.
 double late_rad(const Scenario& s, const plant::Machine& machine, double speed_rad_s) {
   const bool crossings = s.control.drive == FirmwareKind::sensorless;
   if (crossings) return 7 * base::pi / 3 / machine.pole_pairs;
   if (s.sensors.rotor != RotorSensing::hall) return 0.0;
   const bool learns = s.sensors.hall_angle == rig::HallAngleFrom::learned_edges;
-  const int edges = learns ? 6 : s.sensors.speed_edges;  // six until they are learned
+  const int edges = learns ? 6 : s.sensors.speed_edges;  // six until learned
   return (edges + 1) * base::pi / 3 / machine.pole_pairs +
          (s.sensors.hall_stable_samples - 1) * s.pwm.period_s * speed_rad_s;
 }
@@ -89,7 +88,7 @@ double late_rad(const Scenario& s, const plant::Machine& machine, double speed_r
 void check_speed(const Scenario& s, const design::LimitSetting& setting, base::Problems& out) {
   if (!s.control.limits.speed_rad_s || s.load.locked) return;
   const double limit = *s.control.limits.speed_rad_s, fastest = 1.25;
-  if (limit >= setting.speed_rad_s) return;  // the bus does not reach it
+  if (limit >= setting.speed_rad_s) return;  // the bus cannot drive it that fast
   const auto most = [&](double w) {
     return design::most_speed_rad_s(setting, w, late_rad(s, setting.machine, w * fastest));
   };
@@ -108,13 +107,13 @@ void check_bus(const Scenario& s, design::LimitSetting setting, base::Problems& 
   const std::optional<double>& wanted = s.control.regeneration.limit_V;
   if (!wanted || !(s.supply.capacitance_F > 0)) return;
   const double from = highest_start_V(s);
-  if (!(*wanted > from)) {  // check.cpp says so of the supply at the start
+  if (!(*wanted > from)) {  // check.cpp checks the supply at the start
     out.push_back({"control.regeneration.limit_V", base::three_digits(*wanted),
                    "must be above the highest supply or start, " + base::three_digits(from) + " V",
                    "the drive could never brake"});
     return;
   }
-  // Beyond the limit at most as much again as the limit is above the supply.
+  // The bus may exceed the limit by at most the distance from the supply to the limit.
   const auto holds = [&](double limit_V, double C_F) {
     setting.bus_V = 2 * limit_V - from + 2 * s.bridge.diode_drop_V;
     return design::most_bus_V(setting, limit_V, C_F) <= 2 * limit_V - from;
@@ -135,7 +134,7 @@ void check_bus(const Scenario& s, design::LimitSetting setting, base::Problems& 
                      ", or lower the current limit"});
 }
 
-/// The bounds know one inductance. A salient rotor's torque and current at the limit depend on where it stands.
+/// The bounds assume one inductance. A salient rotor's torque and current at the limit depend on its angle.
 void check_saliency(const Scenario& s, base::Problems& out) {
   const double ratio = s.sheet.q_axis_inductance_mH->value / s.sheet.d_axis_inductance_mH->value;
   const auto refuse = [&](const char* key, const std::optional<double>& value) {
@@ -163,7 +162,7 @@ design::LimitSetting limit_setting(const Scenario& s, const Basis& basis,
   const double from = highest_start_V(s);
   double bus = std::max(from, limit_V.value_or(0.0));
   out.speed_rad_s = std::max(std::fabs(s.initial.speed_rad_s), from / basis.motor.K_t_Nm_A);
-  // What the source does not take back lifts the bus, at worst by all that the rotor has.
+  // Energy that the source does not take back raises the bus, at worst all of the rotor's.
   if (C > 0 && s.supply.sinks) bus += 1.25 * out.current_A * s.supply.resistance_ohm;
   if (C > 0 && !s.supply.sinks && !limit_V)
     bus = std::sqrt(bus * bus + J * out.speed_rad_s * out.speed_rad_s / C);

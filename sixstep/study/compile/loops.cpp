@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loops of a scenario's controller: gains as given, or placed on motor and load.
+// Designs the loops of a scenario's controller: gains as given, or placed for motor and load.
 #include "sixstep/study/compile/loops.hpp"
 
 #include "sixstep/base/written.hpp"
@@ -34,7 +34,7 @@ control::Watch watch_of(const CurrentLoop& loop) {
   return loop.on == HysteresisOn::motor ? control::Watch::motor : control::Watch::phase;
 }
 
-/// By smooth chopping the current chooses between two that are the same to the pair.
+/// Smooth chopping changes between two ways that are equal for the pair's voltage.
 control::Chopping loop_chopping(const Scenario& s) {
   return s.control.smooth_chopping.on ? control::Chopping::complementary : s.pwm.chopping;
 }
@@ -80,8 +80,8 @@ base::Problems add_current_loop(const Scenario& s, const Basis& basis, Tuned& ou
   return {};
 }
 
-/// What the speed controller's output does to the speed: torque at once, or the bus through the winding,
-/// whose inductance is too fast to count (thesis 6.2.2): J dw/dt = K_t (d U - K_t w)/R - B w.
+/// The effect of the speed controller's output on the speed: a torque at once, or the bus through the winding,
+/// whose inductance is neglected because it is fast (thesis 6.2.2): J dw/dt = K_t (d U - K_t w)/R - B w.
 struct SpeedPlant {
   double full_Nm, B_Nm_s;
 };
@@ -109,7 +109,7 @@ base::Problems add_speed_loop(const Scenario& s, const Basis& basis, Tuned& out)
   }
   out.drive.current_at_full_torque_A = torque_limit / torque_per_A(s, basis);
   out.drive.current_limit_A = s.control.current.limit_A.value_or(out.drive.current_at_full_torque_A);
-  // A bound behind the PI that the PI does not know of would let its integral wind up.
+  // A bound behind the PI that the PI does not include would cause integral windup.
   if (out.drive.current_limit_A < out.drive.current_at_full_torque_A)
     out.drive.speed.limit = out.drive.current_limit_A / out.drive.current_at_full_torque_A;
   return add_speed_law(s, basis, plant.full_Nm / J, plant.B_Nm_s / J, out);
@@ -117,10 +117,10 @@ base::Problems add_speed_loop(const Scenario& s, const Basis& basis, Tuned& out)
 
 base::Problems add_loops(const Scenario& s, const Basis& basis, Tuned& out) {
   const control::Mode mode = s.control.mode;
-  // A start without a rotor sensor holds a current, whatever comes behind it.
+  // A start without a rotor sensor controls a current, in every mode.
   const bool starts_blindly = s.control.drive == FirmwareKind::sensorless;
   if (mode == control::Mode::off || (mode == control::Mode::duty && !starts_blindly)) return {};
-  const bool in_the_field = s.control.drive == FirmwareKind::field;  // has current loops of its own
+  const bool in_the_field = s.control.drive == FirmwareKind::field;  // has its own current loops
   const bool has_current_loop = mode == control::Mode::current || mode == control::Mode::duty ||
                                 starts_blindly || s.control.speed.output == SpeedOutput::current;
   if (has_current_loop && !in_the_field)
@@ -158,7 +158,7 @@ base::Result<Tuned> tuned(const Scenario& s, const Basis& basis) {
   if (base::Problems problems = add_loops(s, basis, out); !problems.empty()) return problems;
   add_extras(s, basis, out.drive);
   add_position_profile(s, basis, out);
-  // What a limit can hold is judged on the drive as designed; one of a series that strays from it is run.
+  // Limits are judged for the designed drive; a drive of a series that varies from it is run in any case.
   if (!s.designed_for) {
     base::Problems problems = check_limits(s, basis, out.drive);
     base::append(problems, check_position_profile(s, basis, out.drive));

@@ -5,10 +5,12 @@
 
 namespace sixstep::study {
 
-/// The controller of a scenario that does not change it: loops, extras, and limits that it can keep.
+/// The controller of a scenario, without the changes of its events: loops, extras, and limits that the drive
+/// can keep.
 base::Result<Tuned> tuned(const Scenario& scenario, const Basis& basis);
 
-/// The winding as the current controller's voltage sees it: by smooth chopping it is that of one switch on.
+/// The winding on which the current controller's voltage acts. With smooth chopping it is that of a pair with
+/// one switch chopped.
 design::LoopWinding winding_of(const Scenario& scenario, const design::MotorModel& motor);
 
 }  // namespace sixstep::study

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A controller of one's own of a scenario: what it is given to design itself by.
+// Gives a user's own controller the data from which it designs itself.
 #include "sixstep/control/own/own_controller.h"
 
 #include <algorithm>
@@ -52,8 +52,7 @@ sixstep_given given_of(const Scenario& s, const Basis& basis, const control::Dri
 }
 
 std::vector<double> values_of(const Own& own) {
-  std::vector<double> values(own.loaded->parameters +
-                             1);  // a controller without numbers gets an array all the same
+  std::vector<double> values(own.loaded->parameters + 1);  // not empty even without numbers
   for (std::uint32_t n = 0; n < own.loaded->parameters; ++n) {
     const sixstep_parameter& is = own.loaded->parameter[n];
     const auto given = std::find_if(own.number.begin(), own.number.end(),

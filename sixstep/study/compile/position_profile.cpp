@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The position loop's profile and what it tells ahead (control/profiled_position.hpp). What a scenario does not say follows from
-// the drive: four fifths of the torque limit accelerate, so that a fifth is left for what is not known; nine tenths of the speed
-// that the bus still drives this at, or of the loop's limit, so that a tenth is left to catch up; and the acceleration rises in
-// the time that the speed loop settles in.
+// Designs the position loop's profile and its feed-forward (control/profiled_position.hpp). Values that a
+// scenario does not give follow from the drive. Four fifths of the torque limit accelerate: a fifth is reserved
+// for unknown loads. The speed is nine tenths of the speed that the bus reaches at this torque, or of the
+// loop's limit: a tenth is reserved to catch up. The acceleration rises within the settling time of the speed
+// loop.
 #include <algorithm>
 #include <numbers>
 #include <string>
@@ -20,7 +21,7 @@ constexpr double torque_part = 0.8, speed_part = 0.9, least_speed_part = 0.1;
 
 bool sets_duty(const Scenario& s) { return s.control.speed.output == SpeedOutput::duty; }
 
-/// What the drive may ask for.
+/// The largest torque that the drive can request.
 double most_torque_Nm(const Scenario& s, const Basis& basis, const control::DriveConfig<double>& drive) {
   if (sets_duty(s)) return design::usual_torque_limit_Nm(basis.motor, basis.bus_V);
   double most_A = std::min(drive.current_at_full_torque_A, drive.current_limit_A);
@@ -28,7 +29,8 @@ double most_torque_Nm(const Scenario& s, const Basis& basis, const control::Driv
   return most_A * torque_per_A(s, basis);
 }
 
-/// The speed at which the bus still drives that torque: a driven pair's, or that of three legs within their circle.
+/// The speed that the bus still reaches at this torque: of a driven pair, or of three legs within their voltage
+/// circle.
 double reached_rad_s(const Scenario& s, const Basis& basis, double torque_Nm) {
   const double per_A = torque_per_A(s, basis), i = torque_Nm / per_A, R_ohm = basis.motor.machine.R_ohm;
   const bool field = s.control.drive == FirmwareKind::field;
@@ -53,7 +55,8 @@ control::JerkProfileLimits profile_limits(const Scenario& s, const Basis& basis,
   return out;
 }
 
-/// Of the full torque; of a duty it is the bus's share of what that torque's current, and turning, need.
+/// Relative to the full torque. If the output is a duty: relative to the bus, for the torque's current and the
+/// back-EMF.
 control::MotionFeedForwardConfig<double> told_ahead(const Scenario& s, const Basis& basis,
                                                     const control::DriveConfig<double>& drive) {
   if (!s.control.position.profile.feed_forward) return {};

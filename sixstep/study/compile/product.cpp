@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The product drive of a scenario: converters and capture as [sensors] has them, thresholds of [protection].
+// Configures a scenario's product drive: converters and capture from [sensors], thresholds from [protection].
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,7 +23,7 @@ control::AdcConfig<double> decoded(const rig::AdcPath& path, double tolerance) {
       .offset_tolerance = static_cast<std::uint16_t>(std::min(std::ceil(tolerance / path.lsb()), 65535.0))};
 }
 
-/// To how many counts an edge's time is known: captured by the timer, or found at a control tick.
+/// Resolution of an edge's time in counts: captured by the timer, or found at a control tick.
 std::uint32_t edge_grain(const Scenario& s) {
   const bool captured = s.pwm.commutation == CommutationAt::hall_edge && s.sensors.hall_stable_samples <= 1;
   if (captured) return 1;
@@ -43,7 +43,7 @@ control::FaultConfig<double> faults_of(const Scenario& s) {
           .voltage_ticks = static_cast<std::uint8_t>(p.voltage_samples)};
 }
 
-/// 60 electrical degrees are a sector.
+/// Converts electrical degrees to sectors of 60 degrees.
 control::AdvanceConfig<double> advance_of(const Advance& a) {
   if (!advances(a)) return {};
   return {a.angle_deg / 60, a.gain_deg_s_per_rad / 60, a.limit_deg / 60};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motor, bridge, chip and timeline of a run as the rig that sim::run drives.
+// Builds the rig of a run, which sim::run advances, from motor, bridge, chip and timeline.
 #pragma once
 #include "sixstep/plant/general/plant.hpp"
 #include "sixstep/rig/rig.hpp"
@@ -7,13 +7,13 @@
 
 namespace sixstep::study {
 
-/// What a firmware is given in the number its chip computes in.
+/// A firmware's configuration in the chip's arithmetic.
 template <class Firmware>
 struct Chip {
   typename Firmware::Config config;
   rig::Bases bases;
-  std::vector<rig::Tuning<typename Firmware::Config>> later;  ///< what the timeline's retune actions name
-  FullScale full_scale{};                                     ///< of fixed point: for the whole run
+  std::vector<rig::Tuning<typename Firmware::Config>> later;  ///< configurations for the retune actions
+  FullScale full_scale{};                                     ///< fixed point: the whole run's
 };
 
 template <class Firmware>
@@ -24,7 +24,7 @@ rig::Rig<double, Firmware> rig_of(const Compiled& c, const Chip<Firmware>& chip,
   return {plant, chip.config, board, std::move(timeline), chip.later};
 }
 
-/// Of a scenario that the general kernel runs.
+/// The rig of a scenario that the general kernel runs.
 template <class Firmware>
 using GeneralRig = rig::Rig<double, Firmware, plant::general::Plant<double>>;
 template <class Firmware>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sensorless drive of a scenario: board and motor as they are told, every other number by design/loops/.
+// Configures a scenario's sensorless drive: board and motor as given, all other numbers from design/loops/.
 #include <algorithm>
 #include <cmath>
 
@@ -68,7 +68,7 @@ design::PulseSpec pulse_spec_of(const Scenario& s, const Basis& basis, double st
   return spec;
 }
 
-/// The rule speaks of its own quantities; a reader knows the scenario's keys.
+/// Renames problems: the rule names its own quantities, but a user's file has the scenario's keys.
 base::Problems under_their_keys(const base::Problems& problems) {
   constexpr std::pair<const char*, const char*> keys[] = {
       {"greatest_load", "control.sensorless.greatest_load"},

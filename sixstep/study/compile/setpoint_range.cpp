@@ -10,9 +10,9 @@ namespace sixstep::study {
 
 namespace {
 
-/// Ends of a potentiometer are not to be reached: counts end there.
+/// Margin at a potentiometer's ends, because the converter's counts end there.
 constexpr double room = 1.02;
-/// Of a setpoint that moves; a sine is not as much higher between two of them as there is room.
+/// Samples of a moving setpoint; between two of them a sine rises by less than the margin.
 constexpr int looks = 256;
 
 double largest(const rig::Action& action, double until_s) {

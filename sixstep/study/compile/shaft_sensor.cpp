@@ -14,8 +14,8 @@ namespace sixstep::study {
 
 namespace {
 
-/// Of what the drive, or the chip, makes of the windings. A sampled signal is half the difference of two samples, each rounded to
-/// a count; a chip's is one sample.
+/// Limits of the signals that the drive, or the chip, computes from the windings. A sampled signal is half the
+/// difference of two samples, each rounded to a count; a converter chip's signal is one sample.
 rig::ResolverWatch watch_of(const rig::ShaftSensorConfig& given) {
   const plant::Resolver r = rig::windings_of(given.resolver);
   const bool sampled = given.resolver.reading == rig::ResolverReading::sampled;
@@ -28,37 +28,37 @@ rig::ResolverWatch watch_of(const rig::ShaftSensorConfig& given) {
     whole.noise = std::sqrt((noise * noise + count * count / 12) / 2);
     whole.k_1 = base::cos(r.phase_1_rad);
     whole.k_2 *= base::cos(r.phase_2_rad);
-    // Taken off, it is made up for by gain, which noise has as well.
+    // Calibration compensates the imbalance by a gain, which also amplifies the noise.
     if (given.resolver.calibrated)
       whole = {.noise = whole.noise / std::min(whole.k_1, whole.k_2 * base::cos(r.quadrature_rad))};
   }
   const design::ResolverLimits limits = design::resolver_limits(whole);
-  // The first result behind a fault is half of a sample before it: what is named is of two.
+  // The first result after a fault is half of a sample before the fault, so that two results are needed.
   const int results = sampled ? 2 : 1;
-  // Of normal noise six deviations are rarer than once in 10^8, and rounding reaches a count.
+  // Six standard deviations of normal noise are rarer than 10^-8; rounding adds up to a count.
   return {.least_square = limits.least_square,
           .greatest_square = limits.greatest_square,
           .silent = 6 * whole.noise + count,
           .in_a_row = std::max(limits.in_a_row, results)};
 }
 
-/// The loop that follows it, the drive's or the chip's, and what it watches.
+/// Designs the loop that tracks the resolver, the drive's or the chip's, and the monitoring.
 void take_resolver(const Scenario& s, rig::ShaftSensorConfig& to) {
   const Resolver& r = s.sensors.resolver;
   to.samples_per_peak = samples_per_peak(s);
   to.watch = watch_of(to);
-  // check() has held the bandwidth below half the rate of the loop's steps.
+  // check() limits the bandwidth to half the rate of the loop's steps.
   if (const auto loop = design::tracking_loop({.bandwidth_rad_s = 2 * base::pi * r.bandwidth_Hz,
                                                .damping = r.damping,
                                                .period_s = tracking_period_s(s)}))
     to.tracking = design::tracking_config(*loop);
 }
 
-/// Of a linear motor the magnets' period is a turn.
+/// With a linear motor one period of the magnets is a turn.
 void take_encoder(const Scenario& s, rig::ShaftSensorConfig& to) {
   if (!s.sensors.encoder.pitch_mm || !s.sheet.pole_pitch_mm) return;
   to.linear = true;
-  // check() holds them to a million, but a design may ask before it.
+  // check() allows up to a million, but a design can call this before check().
   to.encoder.lines = static_cast<int>(std::clamp(std::floor(lines_to_period(s) + 0.5), 0.0, 0x7fffffffp0));
   to.gear = base::times_ten_to(s.sheet.pole_pitch_mm->value, -3) / base::pi;
 }

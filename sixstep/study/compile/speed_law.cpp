@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The speed controller where it is another one than a PI, designed for the settling time that a PI would be.
+// Designs a speed controller that is not a PI, for the settling time that a PI would have.
 #include "sixstep/design/loops/speed_laws.hpp"
 
 #include "sixstep/study/compile/basis.hpp"
@@ -9,7 +9,8 @@ namespace sixstep::study {
 
 namespace {
 
-/// By how many samples what is asked for comes late, in the mean: the current loop, or the winding at a duty.
+/// Mean delay in samples of the speed controller's output: by the current loop, or by the winding if the output
+/// is a duty.
 double lag_periods(const Scenario& s, const Basis& basis, const control::DriveConfig<double>& drive) {
   const double R_ohm = 2 * basis.motor.machine.R_ohm, L_H = 2 * basis.motor.machine.L_H;
   const double late = s.pwm.delay_periods + (s.pwm.sample == SampleAt::middle ? 0.5 : 0.0);
@@ -20,7 +21,7 @@ double lag_periods(const Scenario& s, const Basis& basis, const control::DriveCo
   return design::current_lag_periods(R_ohm, drive.current.d1 + drive.current.d0);
 }
 
-/// The design speaks of its own quantities; a reader knows the scenario's keys.
+/// Renames problems: the design names its own quantities, but a user's file has the scenario's keys.
 base::Problems under_the_keys(base::Problems problems) {
   for (base::Problem& p : problems) p.where = "control.speed." + p.where;
   return problems;

@@ -15,10 +15,10 @@ namespace {
 
 using rig::ActionKind;
 
-/// Which line or track sticks, and its level as the sign.
+/// The number of the stuck line or track, with its level as the sign.
 double stuck_line(int line, bool high) { return high ? line : -1.0 * line; }
 
-/// Behind `same` the words stand in the order of what they name.
+/// The number of a word without `same`: the following words have the order of the other enumeration.
 template <class Word>
 constexpr double behind_same(Word word) {
   return static_cast<double>(static_cast<int>(word) - 1);
@@ -28,7 +28,7 @@ static_assert(behind_same(AtHallLines::line_1) == static_cast<int>(HallLines::li
               behind_same(AtHallLines::lines_12) == static_cast<int>(HallLines::lines_12) &&
               behind_same(AtHallLines::all) == static_cast<int>(HallLines::all));
 
-/// Of an encoder or a resolver.
+/// Adds the faults of an encoder or a resolver.
 template <class Add>
 void add_shaft_faults(const AtSensors& at, const Add& add) {
   const auto stick = [&](ActionKind sticks, ActionKind whole, int line, EncoderLevel level) {
@@ -87,7 +87,7 @@ void add_event(const At& at, rig::Timeline& timeline) {
   if (at.request == DriveRequest::clear) add(ActionKind::clear_request, 1.0);
 }
 
-/// On the sample that sees them, before the setpoint of that instant.
+/// Adds configurations at the first control sample at or after their event, before the setpoint of that instant.
 void add_tunings(const Scenario& s, rig::Timeline& timeline) {
   double number = 0.0;
   for (const At* at : in_order(s))
@@ -96,7 +96,7 @@ void add_tunings(const Scenario& s, rig::Timeline& timeline) {
           {{sample_from_ticks(s.pwm, sim::to_instant(at->time_s).ticks), 0.0}, ActionKind::retune, number++});
 }
 
-/// Each point from its time on, along its line to the next where there are lines.
+/// Adds each point at its time; with lines it moves linearly to the next point.
 void add_table(ActionKind kind, const std::vector<double>& times_s, const std::vector<double>& values,
                Between between, rig::Timeline& timeline) {
   for (std::size_t n = 0; n < times_s.size(); ++n) {
@@ -107,7 +107,7 @@ void add_table(ActionKind kind, const std::vector<double>& times_s, const std::v
   }
 }
 
-/// Edges that an encoder misses one by one, as a Poisson process brings them.
+/// Adds single missed edges of an encoder as a Poisson process.
 void add_missed_edges(const Scenario& s, rig::Timeline& timeline) {
   if (s.sensors.rotor != RotorSensing::encoder || !(s.sensors.encoder.missed_Hz > 0)) return;
   const auto seed = static_cast<std::uint64_t>(s.sensors.seed);
@@ -120,7 +120,7 @@ void add_missed_edges(const Scenario& s, rig::Timeline& timeline) {
   }
 }
 
-/// Glitches come as a Poisson process does: the gaps between them are drawn, and the line.
+/// Adds glitches as a Poisson process: their distances and their lines are drawn.
 void add_glitches(const Scenario& s, rig::Timeline& timeline) {
   if (!(s.sensors.hall_glitches_Hz > 0)) return;
   const auto seed = static_cast<std::uint64_t>(s.sensors.seed);

@@ -7,21 +7,21 @@
 
 namespace sixstep::study {
 
-/// Assumes that check() found nothing.
+/// Requires that check() found nothing.
 rig::Timeline timeline_of(const Scenario& scenario);
 
 /// Whether a Hall line breaks anywhere in the run.
 bool breaks_a_hall_line(const Scenario& scenario);
 /// Whether a wire of the motor breaks or a switch fails during the run.
 bool breaks_wire_or_switch(const Scenario& scenario);
-/// Whether any wire between board and motor or probes is not straight, at the start or later.
+/// Whether any wire between board and motor or probes is crossed, at the start or later.
 bool crosses_wires(const Scenario& scenario);
 /// Whether a Hall line reads its probe inverted at any time.
 bool inverts_a_hall_line(const Scenario& scenario);
-/// Whether the Hall probes show anything but the sectors of the back-EMF at once, 120 degrees apart.
+/// Whether the Hall probes show anything but the back-EMF's sectors, without delay and 120 degrees apart.
 bool displaces_probes(const Scenario& scenario);
 
-/// The highest voltage of the source during the run.
+/// Highest voltage of the source during the run.
 double highest_supply_V(const Scenario& scenario);
 
 }  // namespace sixstep::study

@@ -38,7 +38,7 @@ MadeRun made_by(const Scenario& s, const Compiled& c, rig::Timeline timeline) {
     case FirmwareKind::lean:
       break;
   }
-  // Of ideal sensors the sensed drive is the lean one: the same bits.
+  // With ideal sensors the lean drive has the same bits as the sensed one.
   const bool alone = c.board.sensors.ideal() && !c.board.core && !c.general;
   return alone && s.control.arithmetic == Arithmetic::float64
              ? lean_run(s, c, std::move(timeline))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run that can stop and go on: advance it, look at its present, change its future, copy it. Which kernel and which kind of drive
-// it has is decided once, where it is made; one virtual call a slice.
+// A run that can stop and go on. It can be advanced, sampled at the present instant, given another future, and
+// copied. The kernel and the kind of drive are chosen once, when the run is made; after that each slice costs
+// one virtual call.
 #pragma once
 #include <memory>
 
@@ -20,22 +21,22 @@ class AnyRun {
   virtual std::unique_ptr<AnyRun> clone() const = 0;
   virtual sim::Instant now() const = 0;
   virtual sim::Instant next_tick() const = 0;
-  /// Up to the first event at or behind slice.until, or to the end of the run.
+  /// Advances up to the first event at or after slice.until, or to the end of the run.
   virtual sim::Stop advance(const sim::Instant& end, Slice& slice) = 0;
-  /// The present instant; *this stays as it is: a copy does what is due.
+  /// Samples the present instant. Actions that are due are done in a copy, so that *this stays unchanged.
   virtual void look(Slice& slice) const = 0;
-  /// From now on the future of this scenario, whose past is this run's.
+  /// Replaces the run's future by that of `scenario`, whose past must be this run's.
   virtual base::Problems take(const Scenario& scenario, const Compiled& compiled, rig::Timeline timeline) = 0;
-  /// What the run leaves behind where it stands.
+  /// Writes the results of the run up to the present instant.
   virtual base::Problems end(sim::Stop stop, Observers& watchers, Outcome& out) const = 0;
-  /// Of the controller's number, for the whole run.
+  /// Full scale of the controller's arithmetic, for the whole run.
   virtual FullScale full_scale() const = 0;
 
  protected:
   AnyRun(const AnyRun&) = default;
 };
 
-/// The scenario's run at its start. Problems: the arithmetic cannot hold the drive.
+/// Makes the scenario's run at t = 0. Problems: the arithmetic cannot hold the drive.
 base::Result<std::unique_ptr<AnyRun>> made_by(const Scenario& scenario, const Compiled& compiled,
                                               rig::Timeline timeline);
 

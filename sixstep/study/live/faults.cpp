@@ -52,7 +52,7 @@ void note_unseen(const rig::Diagnosis& found, Outcome& out) {
       " are certain; it was aligned. Nothing shows on a motor that does not saturate (its saturation_current_A)");
 }
 
-/// A sensorless drive that lost its rotor: found again it is a note, given up it is a fault.
+/// A sensorless drive that lost its rotor: a note if the drive caught it again, a fault if it gave up.
 void note_losses(const rig::Diagnosis& found, Outcome& out) {
   const LossWords words = words_of(found.lost);
   const std::string times = found.losses == 1 ? "once" : std::to_string(found.losses) + " times";
@@ -68,7 +68,7 @@ void note_losses(const rig::Diagnosis& found, Outcome& out) {
       words.cure};
 }
 
-/// What an encoder or a resolver showed that a whole one cannot.
+/// The problem of an encoder or a resolver whose signals cannot come from an intact one.
 base::Problem lost_sensor(const rig::ShaftFinding& found, double t_s) {
   using rig::ShaftLoss;
   const std::string part =
@@ -102,7 +102,7 @@ base::Problem lost_sensor(const rig::ShaftFinding& found, double t_s) {
   return {};
 }
 
-/// What a controller of one's own answered that is not carried out.
+/// The problem of a user's controller whose answer is not carried out.
 base::Problem refused_answer(rig::OwnWrong wrong, double t_s) {
   using rig::OwnWrong;
   switch (wrong) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernels with the kinds of drive, each compiled in the file rig_* that is named after it.
+// Combines each kernel with each kind of drive; each combination is compiled in the file rig_* with its name.
 #pragma once
 #include "sixstep/study/live/any_run.hpp"
 #include "sixstep/study/live/chips.hpp"
@@ -8,19 +8,19 @@ namespace sixstep::study::detail {
 
 using MadeRun = base::Result<std::unique_ptr<AnyRun>>;
 
-/// The loops alone in double on the lean kernel, without an interface between: what most plans consist of.
+/// The loops alone, in double on the lean kernel, without a chip's interface between; most plans run this one.
 MadeRun lean_run(const Scenario& s, const Compiled& c, rig::Timeline timeline);
-/// A pair and one duty.
+/// Drives that command a pair and one duty.
 MadeRun pair_run(PairChip (*chip)(const Scenario&, const Compiled&), const Scenario& s, const Compiled& c,
                  rig::Timeline timeline);
 MadeRun pair_run_on_general(PairChip (*chip)(const Scenario&, const Compiled&), const Scenario& s,
                             const Compiled& c, rig::Timeline timeline);
-/// Three legs.
+/// Drives that command three legs.
 MadeRun leg_run(LegChip (*chip)(const Scenario&, const Compiled&), const Scenario& s, const Compiled& c,
                 rig::Timeline timeline);
 MadeRun leg_run_on_general(LegChip (*chip)(const Scenario&, const Compiled&), const Scenario& s,
                            const Compiled& c, rig::Timeline timeline);
-/// A chip that runs a firmware of its own and sets the gates itself.
+/// A chip with its own firmware, which sets the gates itself.
 MadeRun gate_run(const Scenario& s, const Compiled& c, rig::Timeline timeline);
 MadeRun gate_run_on_general(const Scenario& s, const Compiled& c, rig::Timeline timeline);
 

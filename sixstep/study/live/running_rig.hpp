@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One kernel with one kind of drive as a run. Included only by the files named rig_*: each compiles the engine once.
+// Implements AnyRun for one kernel with one kind of drive. Only the files rig_* include it: each compiles the
+// engine once.
 #pragma once
 #include <utility>
 
@@ -23,7 +24,7 @@ void count_events(const Rig& rig, Outcome& out) {
   out.events.push_back({"diode starts to conduct", rig.plant().diodes_started()});
 }
 
-/// What a run leaves behind that has stopped, or stands where it is now.
+/// Writes the results of a run up to the present instant, where it has stopped or can go on.
 template <class Rig>
 base::Problems note_end(const Rig& rig, sim::Stop stop, Observers& w, Outcome& out) {
   const double t_s = rig.now().seconds();
@@ -55,7 +56,7 @@ base::Problems note_end(const Rig& rig, sim::Stop stop, Observers& w, Outcome& o
 template <class Firmware, class PlantType>
 class RunningRig final : public AnyRun {
  public:
-  /// The chip of a scenario: once at the start, and once for each change of its future.
+  /// Makes the chip of a scenario: once at the start, and once for each change of its future.
   using MakeChip = base::Result<Chip<Firmware>> (*)(const Scenario&, const Compiled&);
 
   static base::Result<std::unique_ptr<AnyRun>> made(MakeChip make_chip, const Scenario& scenario,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A slice of a run: who watches it, and how far it goes. A whole run is one slice, a session many.
+// A slice of a run: its observers and its end. A whole run is one slice, a session many.
 #pragma once
 #include <algorithm>
 #include <optional>
@@ -12,14 +12,14 @@
 
 namespace sixstep::study::detail {
 
-/// The segment that passed the instant asked for last: what lies within it can still be looked at.
+/// The segment that contains the last requested instant, kept so that instants within it can still be sampled.
 struct LastSegment {
   std::variant<plant::Plant<double>, plant::general::Plant<double>> plant;
   sim::Instant from;
-  double part;  ///< of its polynomials' length
+  double part;  ///< simulated fraction of the polynomials' length
   int probe_sector;
 
-  /// Puts what moves where it stood at t.
+  /// Sets the moving quantities of `row` to their values at t.
   void look(FullRow& row, const sim::Instant& t) const {
     std::visit(
         [&](const auto& seen) {
@@ -35,19 +35,19 @@ struct LastSegment {
   }
 };
 
-/// The observer of one slice: everybody who watches the run, the row at the instant asked for, and how far
-/// ahead the segments' polynomials looked. It ends the slice behind an event, so that no segment is cut. A whole
-/// run is asked for no row, and nothing changes it.
+/// The observer of one slice. It forwards to all observers of the run, takes the row at the requested instant,
+/// and records how far ahead the segments were expanded. The slice ends after an event, so that
+/// no segment is cut. A whole run takes no row and is not changed.
 struct Slice {
   Observers& watchers;
   Present& present;
   std::optional<LastSegment>& last;
-  sim::Instant until;   ///< the row is taken here, on the polynomial of the segment that passes it
-  sim::Instant& reach;  ///< of segments that skipped ticks: nothing that happens sooner may be news to them
+  sim::Instant until;   ///< the row is taken here, on this instant's segment
+  sim::Instant& reach;  ///< end of segments that skipped ticks: a change must not come sooner
   std::int64_t period_ticks;
-  bool whole_run = false;  ///< up to its end, whatever `until` is
+  bool whole_run = false;  ///< runs to the end of the run, whatever `until` is
   bool taken = false;
-  bool stopped = false;  ///< by who watches, not by its end
+  bool stopped = false;  ///< by an observer, not at its end
 
   template <class Rig>
   void segment(const Rig& rig, double s) {
@@ -56,7 +56,7 @@ struct Slice {
     const double h = rig.plant().expansion().h;
     const sim::Instant from = rig.now();
     if (rig.next_tick().ticks - from.ticks > period_ticks) {
-      // What it wanted, not what came of it: a series that did not converge over all of that is shorter.
+      // The requested length, not the achieved one: a series that does not converge over all of it is shorter.
       const double wanted = useful_length(rig.plant().constants(), rig.plant().state(), 1e6);
       reach = std::max(reach, sim::Instant{from.plus_seconds(wanted).ticks + 2, 0.0});
     }

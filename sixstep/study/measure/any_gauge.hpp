@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which gauge a metric has: the one list of them.
+// Chooses the gauge of each metric; this is the only list of them.
 #pragma once
 #include <limits>
 #include <variant>
@@ -10,7 +10,7 @@
 
 namespace sixstep::study {
 
-/// A metric that is not taken of one signal's curve has none.
+/// For metrics that are not taken of one signal's curve.
 struct NoGauge {
   void part(const Series&, int, double, double) {}
   void sample(double, double) {}

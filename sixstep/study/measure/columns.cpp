@@ -12,7 +12,7 @@ namespace sixstep::study {
 
 namespace {
 
-/// A signal's column has its word, the older one where it has two, and its unit.
+/// The column of a signal: the signal's unit, and its word or its older word if it has two.
 Column of(Signal signal, const char* frame, const char* meaning) {
   const std::string_view older = base::word(column_words, signal);
   return {std::string(older.empty() ? fact_of(signal).word : older), std::string(unit_of(signal)), frame,
@@ -85,7 +85,7 @@ std::vector<Column> turning_columns() {
   };
 }
 
-/// The same columns for a motor that moves along a line, by their names there.
+/// A column's name and unit for a linear motor.
 struct LinearColumn {
   std::string_view turning, linear, unit;
   double factor = 1.0;
@@ -117,7 +117,7 @@ std::vector<Column> linear_columns() {
   return columns;
 }
 
-/// Whether the sensor is there whose signal this is.
+/// Whether the sensor of this column is fitted.
 bool fitted(ColumnId id, RotorSensing rotor) {
   if (id <= ColumnId::encoder_Z) return rotor == RotorSensing::encoder;
   if (id == ColumnId::absolute_code) return rotor == RotorSensing::absolute;
@@ -159,7 +159,7 @@ bool applies(ColumnId id, const Scenario& s) {
   if (id >= ColumnId::i_d && s.control.drive != FirmwareKind::field) return false;
   if (id == ColumnId::angle_error && s.sensors.rotor == RotorSensing::ideal &&
       s.control.field.angle == FieldAngle::sensors)
-    return false;  // it is 0
+    return false;  // it would be 0
   if (id >= ColumnId::encoder_A && id < ColumnId::i_d) return fitted(id, s.sensors.rotor);
   if (id == ColumnId::loop_A) return s.sheet.connection == design::WindingConnection::delta;
   for (const Mode mode : {Mode::off, Mode::duty, Mode::current, Mode::speed, Mode::position})

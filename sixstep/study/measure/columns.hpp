@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One table names the trace's columns with unit, frame and meaning.
+// One table lists the trace's columns with unit, frame and meaning.
 #pragma once
 #include <array>
 #include <vector>
@@ -43,7 +43,7 @@ enum class ColumnId : std::uint8_t {
   gate_T6,
   hall,
   sector,
-  load_speed,  // from here on: what only the general kernel has
+  load_speed,  // from here on: only with the general kernel
   load_angle,
   source_A,
   loop_A,
@@ -53,13 +53,13 @@ enum class ColumnId : std::uint8_t {
   winding_degC,
   housing_degC,
   junction_degC,
-  encoder_A,  // from here on: what an encoder or a resolver gives
+  encoder_A,  // from here on: signals of an encoder or a resolver
   encoder_B,
   encoder_Z,
   absolute_code,
   resolver_cos_V,
   resolver_sin_V,
-  i_d,  // from here on: what a field-oriented drive holds
+  i_d,  // from here on: only with a field-oriented drive
   i_q,
   i_d_ref,
   i_q_ref,
@@ -71,21 +71,21 @@ enum class ColumnId : std::uint8_t {
 inline constexpr std::size_t column_count = static_cast<std::size_t>(ColumnId::count);
 using FullRow = std::array<double, column_count>;
 
-/// Whether a column means anything in a mode (a duty run has no current reference): rows hold NaN in others.
+/// Whether a column has a meaning in a mode (a duty run has no current reference). Otherwise its rows hold NaN.
 bool applies(ColumnId id, control::Mode mode);
-/// In a mode that comes into the run, and to the machine and supply at hand.
+/// The same for any mode of the run, and for the scenario's motor and supply.
 bool applies(ColumnId id, const Scenario& scenario);
 
-/// Every column there is: t_s i_a_A i_b_A i_c_A u_a_V .. hall.
+/// All columns: t_s i_a_A i_b_A i_c_A u_a_V .. hall.
 const std::vector<Column>& all_columns();
-/// The same by their names where the motor is linear: speed_m_s, position_mm, force_N (base/linear.hpp). Rows that a scenario
-/// records are in these units; those of events stay as the turning motor's.
+/// The same with a linear motor's names and units: speed_m_s, position_mm, force_N (base/linear.hpp). The
+/// scenario's recorded rows have these units; event rows keep the rotary motor's units.
 const std::vector<Column>& all_columns(design::MotorKind kind);
 
-/// Those the scenario's record.columns asks for, t_s always first; Problems name unknown ones.
+/// The columns of the scenario's record.columns, t_s always first. Problems: unknown names.
 base::Result<std::vector<Column>> record_columns(const Scenario& scenario);
 
-/// Indices into the full row of what the scenario records, t first; Problems name unknown columns.
+/// Indices of the recorded columns in the full row, t first. Problems: unknown names.
 base::Result<std::vector<std::size_t>> record_indices(const Scenario& scenario);
 
 }  // namespace sixstep::study

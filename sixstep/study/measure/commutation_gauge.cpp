@@ -9,7 +9,7 @@ namespace sixstep::study {
 
 namespace {
 
-/// 0 to 5: whose positive pair it is.
+/// The sector, 0 to 5, whose positive pair it is; -1 if none.
 int sector_of_pair(const control::Pair& pair) {
   for (std::uint8_t k = 0; k < 6; ++k)
     if (control::positive_pair(k) == pair) return k;

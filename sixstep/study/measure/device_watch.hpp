@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each switch and diode of the bridge lost over a whole run, and how warm that makes its junction.
+// Measures the losses of each switch and diode of the bridge over a whole run, and the junction temperature
+// that follows.
 #pragma once
 #include <string_view>
 #include <vector>
@@ -10,7 +11,7 @@
 
 namespace sixstep::study {
 
-/// Mean powers, W; the junction's temperature by bridge.junction_K_W, 0 where that is not known.
+/// Mean powers, W; the junction's temperature follows from bridge.junction_K_W and is 0 without it.
 struct DeviceLoss {
   std::string_view device;  // "T1" to "T6"
   double conduction_W = 0.0, turn_on_W = 0.0, turn_off_W = 0.0, diode_W = 0.0, recovery_W = 0.0;
@@ -21,7 +22,7 @@ class DeviceWatch {
  public:
   explicit DeviceWatch(const Bridge& bridge);
   void segment(const SegmentView& g, double s);
-  /// T1 to T6 in order; empty where no time went by.
+  /// T1 to T6 in order; empty if no time has passed.
   std::vector<DeviceLoss> losses() const;
 
  private:
@@ -30,7 +31,8 @@ class DeviceWatch {
   double sink_degC_, junction_K_W_, seconds_ = 0.0;
 };
 
-/// Whether a bridge says enough for a table of its losses: energies of switching, or what a junction stands on.
+/// Whether a bridge has values for a table of its losses: switching energies, or a junction's thermal
+/// resistance.
 bool tells_losses(const Bridge& bridge);
 
 }  // namespace sixstep::study

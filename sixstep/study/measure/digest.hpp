@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A digest is a whole trajectory in 64 bits: two runs with the same digest went through the same bits at
-// every event.
+// Reduces a whole trajectory to 64 bits. Two runs with the same digest had the same bits at every event.
 #pragma once
 #include <cstdint>
 
@@ -10,8 +9,9 @@
 
 namespace sixstep::study {
 
-/// Observer of a run: time, currents, speed, angle and bus where each segment begins, which is where the one
-/// before ended, its event applied. A copy goes on from where the original stood, as a copy of the rig does.
+/// Observer of a run. It reads time, currents, speed, angle and bus at the begin of each segment; this is the
+/// end of the segment before, after the event. A copy goes on from the original's state, like a copy of the
+/// rig.
 class Digest {
  public:
   template <class Rig, class Real>
@@ -19,7 +19,8 @@ class Digest {
     take(rig);
   }
 
-  /// Of all segments seen and of the state the rig is in now, down to the remainders of its running sums.
+  /// Digest of all segments so far and of the rig's present state, including the remainders of its running
+  /// sums.
   template <class Rig>
   std::uint64_t after(const Rig& rig) const {
     Digest whole = *this;

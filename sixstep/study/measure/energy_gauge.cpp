@@ -32,7 +32,7 @@ void EnergyGauge::add_up_to(const SegmentView& g, double s, double sign) {
 
 namespace {
 
-/// Every power, and the energy that it is over time.
+/// Maps each power to its energy.
 struct EnergyOf {
   Signal power;
   double (*taken)(const Energies&);

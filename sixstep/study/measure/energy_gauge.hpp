@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An EnergyGauge integrates energies over a window and the efficiency they make, from the same series as the
-// energy book (plant/segment_energy.hpp).
+// Integrates energies over a window and computes the efficiency from them, with the series of the energy book
+// (plant/segment_energy.hpp).
 #pragma once
 #include <optional>
 
@@ -10,12 +10,12 @@
 
 namespace sixstep::study {
 
-/// The part of the shaft's friction that belongs to the load: what it takes is delivered, not lost.
+/// The load's part of the shaft's friction: its energy counts as delivered, not as lost.
 struct LoadFriction {
   double viscous_Nm_s = 0.0, coulomb_Nm = 0.0;
 };
 
-/// J over a window, in sums that keep what they round away.
+/// J over a window, in sums that keep their rounding errors.
 struct Energies {
   series::CompensatedSum<double> supplied, copper, devices, air_gap, friction, load;
   series::CompensatedSum<double> load_friction;  ///< the load's share of friction
@@ -23,16 +23,16 @@ struct Energies {
 
 class EnergyGauge {
  public:
-  /// switching: what comes to the bus's energy where an efficiency is asked for.
+  /// `switching`: switching losses, added to the bus's energy when an efficiency is measured.
   EnergyGauge(const Window& window, const LoadFriction& load, const plant::SwitchingLaw& switching = {})
       : window_(window), load_(load), switches_(switching.any()), losses_(switching) {}
 
   void segment(const SegmentView& g, double s);
-  /// J, of a signal that is a power; empty where the window saw nothing.
+  /// J, for a signal that is a power; empty if no time of the window was simulated.
   std::optional<double> energy(Signal signal) const;
-  /// Out over in, 0 to 1. As a motor: energy given to load and inertias over energy from the bus. Braking,
-  /// both flow back: energy into the bus over energy taken from the shaft. 0 where shaft and bus both feed
-  /// the losses. Empty where nothing came in, or the window saw nothing.
+  /// Energy out over energy in, 0 to 1. Motoring: energy to load and inertias over energy from the bus.
+  /// Braking, where both reverse: energy into the bus over energy from the shaft. 0 if shaft and bus both
+  /// supply the losses. Empty if no energy came in, or no time of the window was simulated.
   std::optional<double> efficiency() const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figures by the largest and the smallest value in a window. What is read off the two says which of them
-// matters: a part of the signal that cannot move it is not searched.
+// Figures from the largest and the smallest value in a window. Parts of the signal that cannot change the value
+// that a figure uses are not searched.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -57,13 +57,13 @@ class ExtremeGauge {
  public:
   explicit ExtremeGauge(const Reading& reading) : reading_(reading) {}
 
-  /// Whether a signal that stays within these bounds cannot change the result.
+  /// Whether a signal within these bounds cannot change the result.
   bool holds(const Extremes& bounds) const {
     return (!reading_.high() || bounds.high <= seen_.high) && (!reading_.low() || bounds.low >= seen_.low);
   }
   void part(const Series& c, int degree, double, double) {
     reading_.begin(c[0]);
-    // Most segments cannot move the extremes at all.
+    // Most segments cannot change the extremes.
     const double reach = series::magnitude_of(c, degree) - std::fabs(c[0]);
     if (holds({c[0] - reach, c[0] + reach})) return;
     const Extremes range = series::extremes(c, degree);

@@ -8,7 +8,7 @@ std::string figure_name(const Measure& m) {
   const MetricFact& fact = fact_of(m.metric);
   std::string words(fact.phrase);
   const std::string phrase(fact_of(m.signal).phrase);
-  constexpr std::string_view power = "power ";  // "power from the bus" is "energy from the bus" over time
+  constexpr std::string_view power = "power ";  // "power from the bus" becomes "energy from the bus"
   switch (fact.of) {
     case TakenOf::energies:
     case TakenOf::transitions:

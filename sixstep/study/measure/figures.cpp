@@ -11,8 +11,8 @@ namespace sixstep::study {
 namespace {
 
 /// A window per reference step inside the measure's own window; without `start` the step goes from the level
-/// before to the new one. For reaching a square's level the whole level counts, not the part of the reversal:
-/// the stricter reading of "98 %".
+/// before to the new one. For the reach time of a square's level the full level counts, not only the distance
+/// of the reversal: this is the stricter reading of "98 %".
 Gauges step_gauges(const Measure& m, const std::vector<Level>& levels, Window window, bool square) {
   Gauges gauges;
   for (std::size_t n = 0; n < levels.size(); ++n) {
@@ -26,8 +26,8 @@ Gauges step_gauges(const Measure& m, const std::vector<Level>& levels, Window wi
   return gauges;
 }
 
-/// A window per level of the reference that the measure's own window meets: its tail, or, where the window's
-/// begin was chosen, all of it.
+/// A window for each level of the reference within the measure's own window: the level's tail, or all of it if
+/// the window's begin was chosen.
 Gauges level_gauges(const Measure& m, const std::vector<Level>& levels, Window window) {
   const double tail = m.tail.value_or(m.from_s ? 1.0 : default_tail);
   Gauges gauges;
@@ -57,7 +57,7 @@ void watch_with(Gauge& gauge, Signal signal, const SegmentView& g, double s) {
   });
 }
 
-/// A reference may step a million times: those whose window has passed, or has not begun, cost nothing.
+/// A reference can have a million steps; only gauges whose window is open cost time.
 void watch_with(Gauges& gauges, const Measure& m, std::size_t& behind, const SegmentView& g, double s) {
   while (behind < gauges.size() && gauges[behind].window().to_s < g.t_s) ++behind;
   const double end_s = g.t_s + g.plant.expansion().h;
@@ -76,8 +76,8 @@ void watch_with(auto& gauge, const Measure&, std::size_t&, const SegmentView& g,
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-/// The worst over the steps, of a signed error the one of the greatest size; NaN, which meets no requirement,
-/// where the run ended before the window.
+/// The worst value over the steps; for a signed error the one with the largest magnitude. NaN, which meets no
+/// requirement, if the run ended before the window.
 double value_of(const Gauges& gauges, const Measure& m) {
   const auto size = [&](double v) { return m.metric == MetricKind::steady_error ? std::fabs(v) : v; };
   double worst = nothing;
@@ -90,8 +90,8 @@ double value_of(const Gauges& gauges, const Measure& m) {
 }
 double value_of(const auto& taken, const Measure&) { return taken.value(); }
 
-/// What is judged by the controller's samples is taken of the whole signal too: a sample stands at one place of the PWM's ripple.
-/// A time until a band that the ripple leaves says nothing of it.
+/// Whether a figure of samples is also taken of the whole signal, because all samples lie at one place of the
+/// PWM's ripple. Not for times until a band, because the ripple can leave the band.
 bool looks_beside_samples(const Measure& m) {
   return m.sampled && fact_of(m.metric).of == TakenOf::signal && !is_time(m.metric);
 }
@@ -100,26 +100,27 @@ bool meets(const Requirement& r, double v) {
   return v == v && (!r.min || v >= *r.min) && (!r.max || v <= *r.max);
 }
 
-/// Whether the whole signal says something else than its samples, as far as the requirement tells.
+/// Whether the whole signal differs from its samples enough to change the requirement's result.
 bool tells_apart(const Requirement& r, double samples, double whole) {
   if (whole != whole) return false;
   if (r.min && r.max && std::fabs(whole - samples) > (*r.max - *r.min) / 2) return true;
   return meets(r, samples) != meets(r, whole);
 }
 
-/// Of a figure that a ripple does not enter: what it is of the whole signal, samples beside the ripple's mean tell too.
+/// Whether ripple does not enter the figure: samples at the ripple's mean then give the whole signal's value.
 bool levels_the_ripple(MetricKind metric) {
   return metric == MetricKind::mean || metric == MetricKind::rms || metric == MetricKind::steady_error;
 }
 
-/// Comparators wait for no sample, a deadbeat step answers one at the period's start, three legs have their own place for it.
+/// Comparators need no sample, a deadbeat step answers one at the period's start, and three legs have a sample
+/// instant of their own.
 bool may_sample_in_the_middle(const Control& c) {
   return (c.drive == FirmwareKind::lean || c.drive == FirmwareKind::product) &&
          c.current.type == CurrentLoopType::pi;
 }
 
-/// In the middle of a centred pulse a current passes its mean, but for the dead time by which a pulse begins late. A largest value, an
-/// overshoot or a ripple has the ripple in it wherever the sample stands.
+/// In the middle of a centred pulse a current passes its mean, apart from a dead time that delays the pulse. A
+/// maximum, an overshoot or a ripple includes the ripple wherever the sample lies.
 std::string cure_of_samples(const Scenario& s, const Measure& m) {
   std::string whole = "sampled = false judges the whole signal";
   if (!levels_the_ripple(m.metric)) return whole + ", with the ripple that no sample sees";
@@ -196,7 +197,7 @@ void Figures::judge(const Scenario& scenario, Outcome& outcome) const {
     const Figure& figure = figures_[n++];
     const double v =
         std::visit([&](const auto& gauge) { return value_of(gauge, figure.measure); }, figure.taken_by);
-    // A time may never come; of anything else an infinite value is none.
+    // A time may be infinite; another infinite value is invalid.
     return is_time(figure.measure.metric) || v - v == 0.0 ? v : nothing;
   };
   std::vector<double> judged;

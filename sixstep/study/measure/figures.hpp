@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figures takes all figures of merit of a run, fed segment by segment, and then the verdicts.
+// Takes all figures of merit of a run, segment by segment, and then judges the requirements.
 #pragma once
 #include <string>
 #include <variant>
@@ -18,10 +18,10 @@
 
 namespace sixstep::study {
 
-/// Several: one per step or level of the reference, in the order of their windows; the worst counts.
+/// One per step or level of the reference, in the order of their windows; the worst one counts.
 using Gauges = std::vector<Gauge>;
 
-/// What one figure is taken by: fed segment by segment, and asked for its value at the end.
+/// The measuring parts of the figures: each takes segments, and returns its value at the end.
 struct BandExcess {
   HysteresisGauge gauge;
   void segment(const SegmentView& g, double s) { gauge.segment(g, s); }
@@ -61,7 +61,7 @@ class Figures {
  public:
   Figures(const Scenario& scenario, const std::vector<Level>& levels);
 
-  /// A run that is asked nothing pays nothing.
+  /// Costs nothing in a run without figures.
   template <class Rig>
   void segment(const Rig& rig, double s) {
     if (!figures_.empty()) watch(segment_view(rig), s);
@@ -73,20 +73,19 @@ class Figures {
   struct Figure {
     Measure measure;
     Taken taken_by;
-    std::size_t behind = 0;  ///< gauges whose window has passed
+    std::size_t behind = 0;  ///< number of gauges whose window has passed
   };
   void watch(const SegmentView& g, double s);
 
-  std::vector<Figure>
-      figures_;  ///< requirements, comparisons, and the whole signals beside requirements of samples
+  std::vector<Figure> figures_;  ///< requirements, comparisons, and whole signals of sampled ones
 };
 
-/// Shown for a measure without a label: "settling time of motor current".
+/// Name of a measure without a label: "settling time of motor current".
 std::string figure_name(const Measure& measure);
-/// In the words of the scenario's motor: "final force".
+/// The same in the words of the scenario's motor: "final force".
 std::string figure_name(const Scenario& scenario, const Measure& measure);
 
-/// How results show a unit of measure_choices.hpp: of a linear motor the one that stands for it, with its factor.
+/// Unit of a figure in results, with its factor: a linear motor's unit replaces that of measure_choices.hpp.
 inline base::LinearUnit unit_in(const Scenario& scenario, std::string_view unit) {
   return scenario.sheet.kind == design::MotorKind::linear ? base::in_linear(unit)
                                                           : base::LinearUnit{unit, unit, 1.0};

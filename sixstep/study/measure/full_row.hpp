@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One instant of a run as a row of all columns.
+// Fills the row of all columns at one instant of a run.
 #pragma once
 #include "sixstep/design/sheet/thermal.hpp"
 #include "sixstep/rig/shaft_raw.hpp"
@@ -8,7 +8,8 @@
 
 namespace sixstep::study {
 
-/// What moves within a segment: the row at the fraction s of it, at time t. `sector`: that the probes show.
+/// Sets the quantities that move within a segment, at its fraction s and time t. `sector`: the sector of the
+/// Hall code.
 template <class Plant>
 void set_moving(FullRow& row, const Plant& plant, int sector, double s, double t) {
   const auto set = [&](ColumnId id, double v) { row[static_cast<std::size_t>(id)] = v; };
@@ -30,7 +31,7 @@ void set_moving(FullRow& row, const Plant& plant, int sector, double s, double t
   set(ColumnId::i_m, w[0] * now.i[0] + w[1] * now.i[1] + w[2] * now.i[2]);
 }
 
-/// Beside that, what only the general kernel has.
+/// Sets the columns that only the general kernel has.
 inline void set_load_side(FullRow& row, const plant::Plant<double>& plant, double s) {
   const auto& c = plant.constants();
   const auto& bus = plant.expansion().bus;
@@ -38,7 +39,7 @@ inline void set_load_side(FullRow& row, const plant::Plant<double>& plant, doubl
   of(ColumnId::winding_degC) = of(ColumnId::housing_degC) = of(ColumnId::junction_degC) = design::sheet_degC;
   of(ColumnId::load_speed) = of(ColumnId::speed);
   of(ColumnId::load_angle) = of(ColumnId::angle);
-  of(ColumnId::source_A) = of(ColumnId::bus_A);  // a stiff bus is all source
+  of(ColumnId::source_A) = of(ColumnId::bus_A);  // with a stiff bus the two are equal
   if (!(c.inv_C > 0)) return;
   const double above = c.V_0 - series::evaluate(bus, plant.expansion().degree, s);
   of(ColumnId::source_A) = plant.mode().source_feeds ? above * c.inv_R_b : 0.0;
@@ -65,7 +66,7 @@ inline void set_load_side(FullRow& row, const plant::general::Plant<double>& pla
   if (c.has_loop) set(ColumnId::loop_A, value(plant.series().loop));
 }
 
-/// What an encoder or a resolver gives, where a firmware has one.
+/// Sets the columns of an encoder or a resolver, if the firmware has one.
 template <class Rig>
 void set_shaft_sensor(FullRow& row, const Rig& rig, double s, double t) {
   const rig::ShaftPorts* const ports = rig::shaft_ports_of(rig.firmware());
@@ -92,8 +93,8 @@ inline void set_field(FullRow& row, const rig::FieldTelemetry& held) {
   row[static_cast<std::size_t>(ColumnId::angle_error)] = held.angle_error_deg;
 }
 
-/// Everything there is to say of the rig at the fraction s of its segment, at time t, whether it applies or
-/// not.
+/// The full row of the rig at the fraction s of its segment, at time t. Columns that do not apply are filled
+/// too.
 template <class Rig>
 FullRow full_row(const Rig& rig, double s, double t) {
   FullRow row{};

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// FundamentalFit is a least-squares fit of 1, cos and sin to a signal that passes part by part, and what it leaves.
+// Fits 1, cos and sin to a signal by least squares, part by part, and computes the residual.
 //
-// It sums the normal equations, and of the signal not the square itself but the square of its distance from a
-// reference, a fundamental that follows the fit: what is left is then no difference of large squares, and a pure
-// sine leaves rounding and not its root. A new reference d away from the old one changes the sums by closed forms,
+// The fit sums the normal equations. It sums the square not of the signal but of its distance from a reference:
+// a fundamental that follows the fit. So the residual is not a difference of large squares, and a pure sine
+// leaves a residual of rounding's size instead of its root. A reference moved by d changes the sums by closed
+// forms,
 //   sum (r - d f)^2 = sum r^2 - 2 d . sum r f + d . (sum f f) d,
-// so no part is seen twice. The reference is the fit itself whenever what was seen has doubled: a part then lies
-// at most as far behind the fit as all before it, and is at most some ripples away from it.
+// so no part is read twice. The reference is set to the fit whenever the length so far has doubled: a new part
+// then lies at most as far from the fit as all before it, some ripples away.
 //
-// The functions are 1, sin p and 1 - cos p of the phase p since the begin. They span the same as 1, cos and sin,
-// and their sums keep their digits over the first degrees as well, where 1 and cos are not to be told apart.
+// The functions are 1, sin p and 1 - cos p of the phase p since the begin. They span the same space as 1, cos
+// and sin. Their sums keep their digits also over the first degrees, where 1 and cos are almost equal.
 #pragma once
 #include <array>
 
@@ -18,14 +19,14 @@
 
 namespace sixstep::study {
 
-/// sin p and 1 - cos p, the latter with all its digits where p is small.
+/// sin p and 1 - cos p; the latter keeps all its digits if p is small.
 struct Phase {
   double sin = 0.0, versine = 0.0;
 };
 Phase phase_of(double rad);
 
-/// A part of the signal at the nodes of a Gauss rule. The turns are those since the part's begin, in rad and 1/2 at
-/// most; the weights are of what is integrated over, which need not be the phase.
+/// A part of the signal at the nodes of a Gauss rule. Turns are in rad since the part's begin, 1/2 at most.
+/// Weights are for the variable of integration, which need not be the phase.
 template <int points>
 struct FittedPart {
   series::Nodes<points, double> weight, turn, signal;
@@ -33,10 +34,10 @@ struct FittedPart {
 
 class FundamentalFit {
  public:
-  /// Parts follow upon each other; `begin` is where this one does.
+  /// Adds a part; parts must follow each other without gaps. `begin` is the phase at this part's begin.
   template <int points>
   void add(const Phase& begin, const FittedPart<points>& part);
-  /// rms of the distortion over rms of the fundamental; NaN where the signal is zero.
+  /// rms of the distortion over rms of the fundamental; NaN if the signal is zero.
   double distortion() const;
 
  private:
@@ -69,15 +70,15 @@ class FundamentalFit {
   void pass_through(const std::array<Phase, 3>& at, const Three& distance);
 
   Integrals sums_ = Integrals::everywhere(0.0),
-            low_ = sums_;  ///< over all that was seen; what rounding has left
+            low_ = sums_;  ///< sums over all parts, and their rounding errors
   Three reference_{};
-  double fitted_at_ = 0.0;  ///< how much had been seen when the reference was last moved
+  double fitted_at_ = 0.0;  ///< length so far when the reference was last moved
 };
 
 namespace detail {
 
-/// sin x and 1 - cos x with all their digits, by as many terms as points: a rule of n points is taken for turns x
-/// with x^(2 n) below 2^-53 (2 n)!.
+/// sin x and 1 - cos x with all their digits, by as many terms as points: a rule of n points is used for turns
+/// x with x^(2 n) below 2^-53 (2 n)!.
 template <int points>
 [[gnu::always_inline]] inline void small_turn(const series::Nodes<points, double>& x,
                                               series::Nodes<points, double>& sin,
@@ -95,7 +96,7 @@ template <int points>
 
 }  // namespace detail
 
-/// Sums of products that keep their digits where both angles are small.
+/// Sums of products that keep their digits if both angles are small.
 template <int points>
 [[gnu::always_inline]] inline FundamentalFit::Phases<points> FundamentalFit::phases_of(
     const Phase& begin, const series::Nodes<points, double>& turn) {
@@ -123,7 +124,7 @@ template <int points>
 void FundamentalFit::add(const Phase& begin, const FittedPart<points>& part) {
   const Phases<points> at = phases_of<points>(begin, part.turn);
   auto weight = part.weight;
-  if constexpr (points % 2 != 0) weight.set(points, 0.0);  // the lane left over
+  if constexpr (points % 2 != 0) weight.set(points, 0.0);  // the unused lane
   constexpr double far_more = 8.0;
   if (series::totals(weight, weight)[0] > far_more * sums_[one]) {
     const auto off = distance<points>(at, part.signal);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// One figure of merit of a signal over one window, taken from the trajectory's polynomials as they pass:
-// exact integrals, extremes and crossings, no samples between which something could hide. What each figure
-// looks for stands in mean_gauges.hpp, extreme_gauges.hpp and step_gauges.hpp.
+// Measures one figure of merit of a signal over one window, from the trajectory's polynomials: exact integrals,
+// extremes and crossings, without samples between which something could be missed. mean_gauges.hpp,
+// extreme_gauges.hpp and step_gauges.hpp define the single figures.
 #pragma once
 #include <optional>
 
@@ -12,13 +12,13 @@ namespace sixstep::study {
 
 class Gauge {
  public:
-  /// `level` and `start` are what the step goes to and from (reach, rise and settling times, overshoot), and
-  /// `level` what an error is counted from; without `start` the signal's value at the window's begin counts.
+  /// A step goes from `start` to `level` (reach, rise and settling times, overshoot); errors are counted from
+  /// `level`. Without `start` the step starts at the signal's value at the window's begin.
   Gauge(const Measure& measure, Window window, double level, std::optional<double> start);
 
   const Window& window() const { return window_; }
-  /// Whether a signal that stays within its bounds cannot change the result: its part may then be left out.
-  /// `bounds` is asked only where that can be.
+  /// Whether a signal within its bounds cannot change the result, so that its part may be left out. `bounds` is
+  /// called only for figures where that is possible.
   template <class Bounds>
   bool holds(Bounds&& bounds) const {
     return std::visit(
@@ -30,12 +30,12 @@ class Gauge {
         },
         gauge_);
   }
-  /// The signal over [t0, t0 + length], inside the window, as a polynomial of s in [0, 1].
+  /// Adds the signal over [t0, t0 + length], inside the window, as a polynomial of s in [0, 1].
   void part(const Series& c, int degree, double t0, double length);
-  /// What the controller sampled (measures with `sampled`).
+  /// Adds a value that the controller sampled (measures with `sampled`).
   void sample(double t, double value);
-  /// Infinite where the level was never reached or the signal never settled; empty where the window saw
-  /// nothing.
+  /// Infinite if the level was never reached or the signal never settled; empty if no time of the window was
+  /// simulated.
   std::optional<double> value() const;
 
  private:
@@ -45,7 +45,7 @@ class Gauge {
   Window window_;
   bool sampled_;
   bool seen_ = false;
-  bool numbers_ = true;  ///< nothing that was seen was infinite or no number
+  bool numbers_ = true;  ///< no value so far was infinite or NaN
 };
 
 }  // namespace sixstep::study

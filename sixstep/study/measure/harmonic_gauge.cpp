@@ -13,10 +13,10 @@ namespace {
 
 constexpr double whole_turn = 6 * base::sector_rad;
 
-/// A part turns by no more than this for a frequency of its own.
+/// With a given frequency a part turns by at most this angle, rad.
 constexpr double largest_turn = 0.5;
 
-/// A degree behind which the series of cos x and sin x have no term above rounding, even, as few points as
+/// An even degree after which the series of cos x and sin x have no term above rounding, with as few points as
 /// possible: x^n/n! <= 2^-53. Products with them are integrated like those of the engine's own series of that
 /// degree (series/quadrature.hpp).
 constexpr int degree_of_turn(double rad) {
@@ -60,7 +60,7 @@ double HarmonicGauge::swept(const SegmentView& g, double s) const {
          (series::evaluate(y.x, y.degree, s) - first_x_);
 }
 
-/// Where a turn is completed within the part, all up to there is put aside.
+/// Adds a part of the signal. If it completes a turn, the fit up to there is stored.
 void HarmonicGauge::turn(const SegmentView& g, const Piece& y, double from, double to) {
   const plant::Expansion<double>& e = g.plant.expansion();
   const double moved = swept(g, to) - swept(g, from);
@@ -85,16 +85,16 @@ void HarmonicGauge::turn(const SegmentView& g, const Piece& y, double from, doub
   if (root < 1.0) turn_part(g, share(root, 1.0), full, to);
 }
 
-/// Since the window's begin; whole turns are left out, so that none of its digits goes into them.
+/// Phase since the window's begin. Whole turns are left out, so that they cost no digits.
 Phase HarmonicGauge::phase_at(const SegmentView& g, double s) const {
   const plant::Expansion<double>& y = g.plant.expansion();
   const double sectors = static_cast<double>((g.plant.state().sector - first_sector_) % 6);
   return phase_of(sectors * base::sector_rad + (series::evaluate(y.x, y.degree, s) - first_x_));
 }
 
-/// The electrical angle turns no faster than the series of a segment change, so that their degree says how
-/// many points do. Products have three factors here, the speed being the weight: series/quadrature.hpp's
-/// bound is then (pi/2) (3/4)^n e^(3 x) u M^3 for degree n, below u M^3/5 where n is 8 or more.
+/// The electrical angle turns no faster than the series of a segment change, so that their degree determines
+/// the number of points. Products have three factors here, because the speed is the weight: the bound of
+/// series/quadrature.hpp is then (pi/2) (3/4)^n e^(3 x) u M^3 for degree n, below u M^3/5 for n of 8 or more.
 void HarmonicGauge::turn_part(const SegmentView& g, const Piece& y, double from, double to) {
   const plant::Expansion<double>& e = g.plant.expansion();
   const double per_s = direction_ * g.plant.pole_pairs() * e.h * (to - from);

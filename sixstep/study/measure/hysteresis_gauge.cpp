@@ -13,7 +13,7 @@ void HysteresisGauge::segment(const SegmentView& g, double s) {
     Series c{};
     for (int j = 0; j <= y.degree; ++j) c[j] = w[0] * y.i[0][j] + w[1] * y.i[1][j] + w[2] * y.i[2][j];
     const rig::BoardCommand& command = g.modulator.pair->command();
-    // The sign of the reference is part of what is watched: a reversal changes which current is compared.
+    // The key includes the sign of the reference, because a reversal changes which current is compared.
     const double key = g.setpoint < 0.0 ? -command.off_above_A : command.off_above_A;
     part(watched_[which], g, c, {command.on_below_A, command.off_above_A, key}, s);
   }

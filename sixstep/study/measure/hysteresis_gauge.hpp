@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A HysteresisGauge measures how well an event hysteresis keeps its band: excess above the upper limit,
-// shortfall below the lower one outside of the recovery from a commutation or a new reference, and the
-// switching frequency.
+// Measures how well an event hysteresis keeps its band: the excess above the upper limit, and the shortfall
+// below the lower one. The recovery from a commutation or a new reference is left out.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -12,7 +11,7 @@
 
 namespace sixstep::study {
 
-/// NaN, which meets no requirement, where no comparator was ever armed.
+/// NaN if no comparator was ever armed; NaN meets no requirement.
 struct HysteresisFigures {
   double excess_A = std::numeric_limits<double>::quiet_NaN(), deficit_A = excess_A;
 };
@@ -21,14 +20,15 @@ class HysteresisGauge {
  public:
   explicit HysteresisGauge(const Window& window = {}) : window_(window) {}
 
-  /// One segment, up to its fraction s, by every armed comparator. Outside of the window it is followed too:
-  /// what is excused at the window's begin hangs on what was before.
+  /// Adds one segment, up to its fraction s, for every armed comparator. Segments outside of the window are
+  /// followed too, because they decide what is excused at the window's begin.
   void segment(const SegmentView& g, double s);
   const HysteresisFigures& figures() const { return figures_; }
 
  private:
-  /// What one comparator has seen last. A new reference excuses both limits until the current is back in the
-  /// band, a sector edge only the lower one: the mean of two phases drops there, it has no reason to rise.
+  /// The last state of one comparator. A new reference excuses both limits until the current is back in the
+  /// band. A sector edge excuses only the lower limit: the mean of two phases drops there, and nothing makes it
+  /// rise.
   struct Watched {
     int sector = -1;
     double key = 0.0;  ///< upper limit with the sign of the reference

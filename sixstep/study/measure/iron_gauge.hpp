@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// IronGauge tells the iron's drag from the bearings' friction: integrals of B_iron w^2 and of the dry drag along the way that
-// the motor's shaft turns, J, by the segments' own series (model.md 7). Only runs whose sheet tells them apart have one.
+// Separates the iron's drag from the bearings' friction: integrals in J of B_iron w^2 and of the dry drag over
+// the motor shaft's angle, by the segments' own series (model.md 7). Only runs whose sheet gives the two
+// separately have one.
 #pragma once
 #include "sixstep/design/sheet/sheet_constants.hpp"
 #include "sixstep/plant/state.hpp"
@@ -13,7 +14,7 @@ class IronGauge {
  public:
   explicit IronGauge(const design::IronDrag& iron) : iron_(iron) {}
 
-  /// Over [0, s] of the plant's segment.
+  /// Adds [0, s] of the plant's segment.
   template <class Plant>
   void segment(const Plant& plant, double s) {
     if (!plant::turns(plant.mode().motion)) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The logic signals are what a logic analyser on the board would show: gates, Hall lines, timer, comparators,
-// faults, at the rig's own integer picoseconds.
+// The signals that a logic analyser on the board would show: gates, Hall lines, timer, comparators, faults, at
+// the rig's own integer picoseconds.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace sixstep::study {
 
 enum class LogicKind : std::uint8_t {
   level,  ///< a number of `bits` bits, or logic_unknown
-  event   ///< happens where its number, a count, goes up
+  event   ///< occurs where its number, a count, increases
 };
 
 struct LogicSignal {
@@ -47,7 +47,7 @@ enum class LogicId : std::uint8_t {
   shoot_through,
   impossible_hall,
   shaft_sensor,
-  over_current,  ///< from here in the order of control::Fault's bits
+  over_current,  ///< from here on in the order of control::Fault's bits
   over_voltage,
   under_voltage,
   over_speed,
@@ -60,14 +60,14 @@ enum class LogicId : std::uint8_t {
 inline constexpr std::size_t logic_count = static_cast<std::size_t>(LogicId::count);
 using LogicRow = std::array<std::uint32_t, logic_count>;
 
-/// A comparator that nobody armed tells nothing, nor does an encoder that is not there.
+/// Level of a comparator that is not armed, and of an encoder that is absent.
 inline constexpr std::uint32_t logic_unknown = 0xffff'ffffu;
 
 /// In the order of LogicId.
 const std::vector<LogicSignal>& logic_signals();
 
-/// An instant in ps and every signal from there on. Instants rise, and each row differs from the one before;
-/// but the last, which tells the end of the run.
+/// Takes an instant in ps and all signals from that instant on. Instants rise, and each row differs from the
+/// one before, except the last row, which marks the end of the run.
 using LogicSink = std::function<void(std::int64_t ps, std::span<const std::uint32_t>)>;
 
 }  // namespace sixstep::study

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// This observer tells the logic signals. It reads the rig and cannot change the run by a bit.
+// Records the logic signals. It only reads the rig, so the run keeps its bits.
 #pragma once
 #include "sixstep/rig/rig.hpp"
 #include "sixstep/rig/shaft_raw.hpp"
@@ -13,7 +13,7 @@ inline void set_lines(LogicRow& row, std::uint8_t pins) {
     row[static_cast<std::size_t>(LogicId::encoder_A) + n] = pins >> (2 - n) & 1U;
 }
 
-/// Where the segment begins.
+/// Sets the encoder's signals at the segment's begin.
 template <class Rig>
 void set_encoder(LogicRow& row, const Rig& rig) {
   auto& code = row[static_cast<std::size_t>(LogicId::absolute_code)];
@@ -31,7 +31,8 @@ LogicRow logic_row(const Rig& rig) {
   const auto set = [&row](LogicId id, auto v) {
     row[static_cast<std::size_t>(id)] = static_cast<std::uint32_t>(v);
   };
-  // The timer's, which the plant has unless they would short the bus: that is to be seen too.
+  // The timer's gates. The plant has the same ones except where they would short the bus, and that must be
+  // visible.
   const plant::Gates gates = rig.modulator().gates();
   for (std::size_t k = 0; k < 3; ++k) {
     row[2 * k] = gates.high[k] ? 1 : 0;
@@ -51,7 +52,7 @@ LogicRow logic_row(const Rig& rig) {
   set(LogicId::pwm, modulator.enabled() && modulator.drives() ? 1 : 0);
   for (int which = 0; which < 2; ++which) {
     const rig::ArmedComparator c = modulator.comparator(which);
-    const std::uint32_t output = c.switches_off ? 1 : 0;  // one that waits to switch off is on
+    const std::uint32_t output = c.switches_off ? 1 : 0;  // it is on while it waits to switch off
     row[static_cast<std::size_t>(LogicId::comparator_1) + static_cast<std::size_t>(which)] =
         c.armed ? output : logic_unknown;
   }
@@ -64,7 +65,7 @@ LogicRow logic_row(const Rig& rig) {
   return row;
 }
 
-/// Of several things at one picosecond the last counts: an analyser sees no pulse without length.
+/// If several events share one picosecond, the last one counts: an analyser shows no pulse without length.
 class LogicRecorder {
  public:
   explicit LogicRecorder(LogicSink sink) : sink_(std::move(sink)) {}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figures by integrals over a window, and the value at its end. As all that gauge.hpp is made of, each is fed
-// either the signal over [t0, t0 + length] as a polynomial of s in [0, 1], or the controller's samples.
+// Figures by integrals over a window, and the value at its end. Like all parts of gauge.hpp, each takes either
+// the signal over [t0, t0 + length] as a polynomial of s in [0, 1], or the controller's samples.
 #pragma once
 #include <cmath>
 
@@ -64,7 +64,7 @@ class Rms {
   double integral_ = 0.0, seconds_ = 0.0;
 };
 
-/// Rms about the mean, which is not known before the end.
+/// Rms about the mean, which is unknown before the end.
 class RippleRms {
  public:
   void part(const Series& c, int degree, double, double length) {
@@ -77,8 +77,8 @@ class RippleRms {
   double value(double) const { return std::sqrt(squares_ / seconds_); }
 
  private:
-  /// Two stretches into one (Chan, Golub, LeVeque 1983): no difference of large squares, so that a ripple of
-  /// a millionth of its mean keeps its digits.
+  /// Merges two intervals into one (Chan, Golub, LeVeque 1983) without a difference of large squares, so that a
+  /// ripple of a millionth of its mean keeps its digits.
   void merge(double mean, double squares, double length) {
     const double all = seconds_ + length;
     if (!(all > 0.0)) return;

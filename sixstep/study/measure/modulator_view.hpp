@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The modulator as figures and recorders see it, whichever it is: six-step's, which has a pair, a sign and comparators, that of
-// three legs, which has none of them, or the gates that a chip sets itself.
+// A common view of the modulators for figures and recorders. The six-step modulator has a pair, a sign and
+// comparators; the three-leg modulator has none of them; a chip with its own firmware sets the gates itself.
 #pragma once
 #include <algorithm>
 
@@ -10,7 +10,7 @@
 
 namespace sixstep::study {
 
-/// One of the three.
+/// Points to one of the three.
 struct ModulatorView {
   const rig::SixStepModulator* pair = nullptr;
   const rig::ThreeLegModulator* legs = nullptr;
@@ -26,9 +26,10 @@ struct ModulatorView {
   std::int64_t turn_ons() const {
     return pair ? pair->turn_ons() : legs ? legs->turn_ons() : pins->turn_ons();
   }
-  /// Switches that are chopped side by side: turn_ons are of all of them.
+  /// Number of switches that are chopped side by side; turn_ons() counts all of them.
   int chopped() const { return legs ? 3 : 1; }
-  /// The bus stands between two legs: the source's switch is told to be on, or three legs are not told the same.
+  /// Whether the bus voltage is applied between two legs: the source's switch is commanded on, or the three
+  /// legs' commands differ.
   bool drives() const {
     if (pair) return pair->source_on();
     if (pins) return pins->drives();
@@ -40,7 +41,7 @@ struct ModulatorView {
   }
 };
 
-/// The largest difference of two legs' duties in effect: of a pair it would be the pair's own.
+/// The largest difference between two legs' duties in effect; for a driven pair it would be the pair's duty.
 inline double duty_between(const control::LegCommands<double>& c) {
   if (!c.enabled) return 0.0;
   const auto [least, most] = std::minmax({c.leg[0].duty, c.leg[1].duty, c.leg[2].duty});

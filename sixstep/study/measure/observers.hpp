@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Observers joins all observers of a run in one: energy book, digest, figures of merit, recorders of rows and
-// of logic.
+// Joins all observers of a run: energy book, digest, figures of merit, recorders of rows and of logic.
 #pragma once
 #include <functional>
 #include <optional>
@@ -17,7 +16,7 @@
 
 namespace sixstep::study {
 
-/// The books of whichever kernel runs.
+/// The energy books of both kernels; only those of the running kernel are filled.
 struct Audits {
   plant::Audit<double> lean;
   plant::general::Audit<double> general;
@@ -37,8 +36,8 @@ struct Observers {
   std::optional<LogicRecorder> logic{};
   std::function<bool(double)> keep_going{};
   std::int64_t segments = 0;
-  sim::Instant looked{};  ///< when done() last looked
-  bool crowded = false;   ///< events crowd so closely that time hardly goes on
+  sim::Instant looked{};  ///< when done() last checked
+  bool crowded = false;   ///< events so dense that time hardly advances
 
   template <class Rig>
   void segment(const Rig& rig, double s) {
@@ -54,7 +53,7 @@ struct Observers {
     if (logic) logic->segment(rig, s);
     ++segments;
   }
-  /// Looks often enough to answer a person at once, and seldom enough to cost nothing.
+  /// Checks often enough for a quick response to a user, and seldom enough to cost almost nothing.
   template <class Rig>
   bool done(const Rig& rig) {
     if (segments % 256 != 0) return false;

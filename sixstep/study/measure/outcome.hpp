@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An Outcome holds what a run leaves behind: numbers and verdicts.
+// The results of a run: numbers and verdicts.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -27,79 +27,76 @@ struct ComparisonResult {
   std::string figure;
   std::string unit;
   double measured = 0.0;
-  double value = 0.0;  // what the source says
+  double value = 0.0;  // the source's value
   std::string source;
 };
 
 using plant::EnergyBook;
 
-/// How often each kind of event happened.
+/// How often one kind of event occurred.
 struct EventCount {
   std::string event;
   std::int64_t count = 0;
 };
 
-/// Gains a loop ran with and where they come from.
+/// Gains of a loop in the run, and their origin.
 struct LoopGains {
   std::string loop;           // "current", "speed", "position"
   double d1 = 0.0, d0 = 0.0;  // position: d1 is the gain, d0 = 0
   std::string origin;         // "given as d1, d0", "pole placement, settle_s = 0.001, damping = 0.9"
   std::optional<design::PolePlacement> derivation;  // of the exact design for the same loop
-  std::vector<design::DerivationStep> steps{};      // of what is no PI: d1 is its gain on the error, d0 = 0
+  std::vector<design::DerivationStep> steps{};  // of a law that is no PI: d1 is its gain on the error, d0 = 0
 };
 
 /// The product drive turned the bridge off and latched why; the motor coasted on to the end of the run.
 struct Trip {
   double at_s = 0.0;                 // the tick that latched it
-  std::vector<std::string> reasons;  // "over-current", all that were seen in that tick
-  int hall_line = 0;                 // 1..3: the line to blame; 0: none, or it cannot be told
+  std::vector<std::string> reasons;  // "over-current"; all that were detected in that tick
+  int hall_line = 0;                 // 1..3: the faulty line; 0: none or undecidable
 };
 
-/// A core that ran the drive beside the host (rig/lockstep_core.hpp); each of its answers was the host's, to the
-/// bit, unless the fault says otherwise.
+/// A core that ran the drive beside the host (rig/lockstep_core.hpp). Each of its answers equalled the host's
+/// to the bit, unless there is a fault.
 struct CoreRun {
   std::string core;         // "Cortex-M4F"
-  std::uint64_t calls = 0;  // of its entries
+  std::uint64_t calls = 0;  // of its entry functions
 };
 
-/// A chip that ran a firmware of its own in the drive's place (rig/chip_drive.hpp).
+/// A chip that ran its own firmware instead of the library's drive (rig/chip_drive.hpp).
 struct ChipReport {
   std::string chip;  // "ATmega2560"
   double clock_Hz = 0.0, period_s = 0.0;
   rig::ChipTimes times;
-  double latest_edge_s = 0.0;  // by which a Hall edge was shown late at worst
+  double latest_edge_s = 0.0;  // largest delay of a shown Hall edge
   std::string sent;            // by its serial line, in whole lines
 
-  /// Periods went by without a control interrupt; the one at the end may not have been answered yet.
+  /// Whether periods passed without a control interrupt; the last one may still be unanswered.
   bool overran() const { return times.periods > times.conversions + 1; }
 };
 
 struct Outcome {
   std::vector<Verdict> verdicts;
   std::vector<ComparisonResult> comparisons;
-  std::optional<plant::EnergyBook> energy;  // empty where nobody kept books (Listeners::keep_books)
+  std::optional<plant::EnergyBook> energy;  // empty without Listeners::keep_books
   std::optional<plant::Laws> laws;
-  std::vector<DeviceLoss> devices;  // empty where the bridge does not say enough (tells_losses)
+  std::vector<DeviceLoss> devices;  // empty if the bridge lacks values (tells_losses)
   std::vector<EventCount> events;
   std::vector<LoopGains> gains;
-  std::vector<design::DerivationStep> sensorless_steps;  // how a sensorless drive's numbers came about
-  std::vector<design::DerivationStep> field_steps;       // how a field-oriented drive's did
-  std::vector<design::DerivationStep> estimator_steps;   // and those of its estimator
+  std::vector<design::DerivationStep> sensorless_steps;  // how a sensorless drive's numbers follow
+  std::vector<design::DerivationStep> field_steps;       // a field-oriented drive's
+  std::vector<design::DerivationStep> estimator_steps;   // its estimator's
   design::MotorModel motor;
-  std::optional<base::Problem>
-      fault;                       // what stopped the run (shoot-through, impossible Hall code) or the drive
-  std::optional<Trip> trip;        // the same in parts, where it was the drive that stopped
-  std::vector<std::string> notes;  // what was asked for and did not come about, a sentence each
-  std::vector<std::string>
-      remarks;                  // what the numbers mean and nobody asked, a sentence each (run/remarks.hpp)
-  std::optional<CoreRun> core;  // empty: the host alone ran it
-  std::optional<ChipReport> chip;  // empty: none did
+  std::optional<base::Problem> fault;  // of the run (shoot-through, impossible Hall code) or of the drive
+  std::optional<Trip> trip;            // the same in parts, if the drive stopped
+  std::vector<std::string> notes;      // requested events that did not occur, a sentence each
+  std::vector<std::string> remarks;    // unasked explanations, a sentence each (run/remarks.hpp)
+  std::optional<CoreRun> core;         // empty: only the host ran
+  std::optional<ChipReport> chip;      // empty: no chip
   double simulated_s = 0.0;
   std::int64_t segments = 0;
-  std::int64_t turn_ons =
-      0;  // of the role that the duty or the first comparator chops, wherever commutation puts it, or of three upper switches
-  int chopped_switches = 1;  // that turn_ons are of
-  std::uint64_t digest = 0;  // of every bit of the trajectory (study/measure/digest.hpp)
+  std::int64_t turn_ons = 0;  // of the chopped role, wherever commutation puts it, or of three upper switches
+  int chopped_switches = 1;   // the switches that turn_ons counts
+  std::uint64_t digest = 0;   // of every bit of the trajectory (study/measure/digest.hpp)
 
   bool passed() const {
     for (const Verdict& v : verdicts)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Observers that write rows: on a grid, or at every event with both sides of each jump. They read the dense
-// output and cannot change the run by a bit.
+// Observers that write rows: on a grid, or at every event with both sides of each jump. They only read the
+// dense output, so the run keeps its bits.
 #pragma once
 #include <functional>
 #include <limits>
@@ -13,17 +13,17 @@ namespace sixstep::study {
 
 using RowSink = std::function<void(std::span<const double>)>;
 
-/// The columns asked for out of the full row; NaN where a column means nothing in the mode at hand.
+/// The selected columns of the full row; NaN where a column has no meaning in the present mode.
 class Selection {
  public:
   explicit Selection(const std::vector<std::size_t>& columns) : columns_(columns) { choose(); }
-  /// The mode from here on.
+  /// Sets the mode of the following rows.
   void follow(control::Mode mode) {
     if (mode == mode_) return;
     mode_ = mode;
     choose();
   }
-  /// True where a number differs from the row before.
+  /// Returns whether a number differs from the row before.
   bool take(const FullRow& full) {
     bool differs = false;
     double all = 0.0;
@@ -36,7 +36,7 @@ class Selection {
     sound_ = all == 0.0;
     return differs;
   }
-  /// Every number of the row is one; a run away leaves rows of others before it is stopped.
+  /// Whether all numbers of the row are finite; a run away can produce others before it is stopped.
   bool sound() const { return sound_; }
   std::span<const double> row() const { return row_; }
 
@@ -62,7 +62,8 @@ class Selection {
   bool sound_ = true;
 };
 
-/// Rows at n * grid up to the end of the run, included where it lies on the grid: right limits at a jump.
+/// Writes rows at n * grid up to the end of the run, and at the end itself if it lies on the grid. At a jump
+/// the row has the value after it.
 class GridRecorder {
  public:
   GridRecorder(std::int64_t grid_ticks, sim::Instant end, const std::vector<std::size_t>& columns,
@@ -75,7 +76,7 @@ class GridRecorder {
     const sim::Instant from = rig.now(), to = from.plus_seconds(length);
     for (;;) {
       const bool last = next_ == end_ && sim::seconds_between(to, end_) <= 0.5e-12;
-      // An end between picoseconds is rounded: a row on it belongs to what follows.
+      // A segment's end between picoseconds is rounded: a row on it belongs to the next segment.
       if (!(sim::seconds_between(next_, to) > 0x1p-50 * length) && !last) return;
       const double at = length > 0 ? sim::seconds_between(from, next_) / rig.plant().expansion().h : 0.0;
       selection_.follow(rig.firmware().mode());
@@ -92,8 +93,8 @@ class GridRecorder {
   RowSink sink_;
 };
 
-/// Both ends of every segment, and points between where a segment is long against `gap_s`, so that lines
-/// drawn from row to row show the curve. A row equal to the one before is left out.
+/// Writes both ends of every segment, and points between if a segment is long compared with `gap_s`, so that
+/// lines from row to row show the curve. A row equal to the one before is left out.
 class EventRecorder {
  public:
   EventRecorder(double gap_s, const std::vector<std::size_t>& columns, RowSink sink)
@@ -108,7 +109,7 @@ class EventRecorder {
     for (int n = 0; n <= parts; ++n) {
       const double at = s * n / parts;
       const double t = rig.now().plus_seconds(at * h).seconds();
-      last_s_ = t > last_s_ ? t : last_s_;  // rounding may not turn time back
+      last_s_ = t > last_s_ ? t : last_s_;  // time must not go back by rounding
       const bool differs = selection_.take(full_row(rig, at, last_s_));
       if ((differs || first_) && selection_.sound()) sink_(selection_.row());
       first_ = false;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// RunWatch keeps what the remarks on a run are made of (study/run/remarks.hpp): its extremes, and how often a shunt saw nothing.
+// Collects the values for a run's remarks (study/run/remarks.hpp): extremes, and how often a shunt showed no
+// current.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -11,12 +12,12 @@ namespace sixstep::study {
 
 struct RunWatch {
   double fastest_rad_s = 0.0;
-  double emf_rad_s = 0.0, emf_bus_V = 1.0;  ///< speed and bus where the back-EMF was greatest beside the bus
+  double emf_rad_s = 0.0, emf_bus_V = 1.0;  ///< speed and bus at the largest ratio of back-EMF to bus
   double highest_bus_V = 0.0;
   double lowest_charge = 1.0, highest_charge = 0.0;  ///< of a battery
-  std::optional<double> empty_s{}, full_s{};       ///< when it first had nothing left, and more than it holds
-  double winding_degC = 0.0, junction_degC = 0.0;  ///< the hottest; of kernels that warm up
-  double shunt_least_duty = -1.0;                ///< a shunt shows a current above this duty; negative: none
+  std::optional<double> empty_s{}, full_s{};         ///< when it was first empty; when first overfull
+  double winding_degC = 0.0, junction_degC = 0.0;    ///< the hottest; only with kernels that warm up
+  double shunt_least_duty = -1.0;  ///< a shunt shows a current above this duty; negative: no shunt
   std::int64_t samples = 0, hidden_samples = 0;  ///< of the shunt
 
   template <class Rig>
@@ -37,7 +38,7 @@ struct RunWatch {
     }
   }
 
-  /// Rounding, and a part in a thousand of what a full one may be given back, is no news.
+  /// Ignores rounding, and a thousandth of the charge that flows back into a full battery.
   template <class Rig>
   void look_at_charge(double charge, const Rig& rig) {
     if (charge < lowest_charge) {
@@ -50,7 +51,7 @@ struct RunWatch {
     }
   }
 
-  /// Now and then and at the end: temperatures move slowly, and cost an exponential each.
+  /// Called now and then and at the end, because temperatures move slowly and cost an exponential each.
   template <class Rig>
   void look(const Rig& rig) {
     if constexpr (requires { rig.plant().heat(); }) {

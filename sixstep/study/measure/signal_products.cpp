@@ -21,7 +21,7 @@ PerLeg<double> bus_current_weights(const plant::View& plant) {
 
 namespace {
 
-/// The segment's own series seen over [from, to], with zeros behind their degree.
+/// The segment's own series over [from, to], with zeros after their degree.
 struct Span {
   const SegmentView& g;
   double from, to;
@@ -70,9 +70,10 @@ Series emf_series(const Span& part, int k) {
   return e;
 }
 
-/// Nothing connected: the star point is put midway, u_n = (U_s - e_high - e_low)/2 (plant/circuit.hpp). Which
-/// legs are highest and lowest changes at edges of sectors and pieces only: the shapes are even about their
-/// tops and cross there. Where the rotor turns backwards the two change places, which changes no sum.
+/// Without a connected leg the star point lies midway, u_n = (U_s - e_high - e_low)/2 (plant/circuit.hpp). The
+/// highest and the lowest leg change only at edges of sectors and pieces, because the shapes are even about
+/// their tops and cross there. If the rotor turns backwards the two change places, which does not change the
+/// sum.
 void add_floating_star(const Span& part, const SpeedShapes& shapes, Series& u) {
   const plant::Plant<double>& plant = *part.g.plant.lean;
   const plant::EmfPiece<double>& p = emf_piece(plant);
@@ -89,7 +90,8 @@ void add_floating_star(const Span& part, const SpeedShapes& shapes, Series& u) {
   add(u, -(p.beta[high] + p.beta[low]) / 2, shapes.w1);
 }
 
-/// The same of the general kernel, which has e_k in the place of the pole voltages then: by the ends of the stretch.
+/// The same for the general kernel, whose pole voltages are then e_k; the legs are chosen in the middle of the
+/// part.
 void add_general_floating_star(const Span& part, Series& u) {
   const auto& emf = part.g.plant.general->series().emf;
   const int degree = part.g.plant.expansion().degree;
@@ -101,7 +103,7 @@ void add_general_floating_star(const Span& part, Series& u) {
   add(u, -0.5, part.of(emf[low]));
 }
 
-/// u_n + e_k of a leg that floats (model.md 2).
+/// u_n + e_k for a floating leg (model.md 2).
 Series floating_series(const Span& part, int k) {
   const bool free = plant::connected_count(part.g.plant.legs()) == 0;
   Series u{};
@@ -126,7 +128,7 @@ Series floating_series(const Span& part, int k) {
   return u;
 }
 
-/// u_k by the leg's device (model.md 2).
+/// u_k with the voltage of the leg's device (model.md 2).
 Series pole_series(const Span& part, int k) {
   const plant::View& plant = part.g.plant;
   if (plant::is_floating(plant.legs()[k])) return floating_series(part, k);
@@ -144,7 +146,7 @@ Series line_series(const Span& part, int from_leg, int to_leg) {
   return u;
 }
 
-/// sum_k r_k i_k^2 - offset_k i_k: what the devices keep of u_k i_k (plant/circuit.hpp).
+/// sum_k r_k i_k^2 - offset_k i_k: the part of u_k i_k that the devices dissipate (plant/circuit.hpp).
 Series device_loss(const Span& part) {
   Series loss{};
   for (int k = 0; k < 3; ++k) {
@@ -170,7 +172,7 @@ Series copper_loss(const Span& part) {
   return loss;
 }
 
-/// B w^2 + T_c |w|, and what an elastic shaft keeps: of the torques against the turning all but the load's.
+/// B w^2 + T_c |w|, and the loss in an elastic shaft: all torques against the motion except the load's.
 Series friction_loss(const Span& part) {
   const plant::View& plant = part.g.plant;
   const Series w = part.of(plant.expansion().w);
@@ -193,7 +195,7 @@ Series friction_loss(const Span& part) {
   return loss;
 }
 
-/// At the load's side of gear and coupling.
+/// Power at the load's side of gear and coupling.
 Series load_power(const Span& part) {
   const plant::View& plant = part.g.plant;
   if (plant.general)
@@ -209,7 +211,7 @@ Series supply_power(const Span& part) {
   return part.product(part.of(y.bus), part.of(weighted_current(bus_current_weights(part.g.plant), y)));
 }
 
-/// What the bridge takes less what its devices keep.
+/// The bridge's input power minus its devices' losses.
 Series motor_power(const Span& part) {
   Series p = supply_power(part);
   add(p, -1.0, device_loss(part));

@@ -15,7 +15,7 @@ namespace {
 using plant::PerLeg;
 using Extremes = series::Extremes<double>;
 
-/// The angle since theta_e = 0, times `per_electrical_rad`; the sectors passed are counted, not summed.
+/// The angle since theta_e = 0, times `per_electrical_rad`; passed sectors are counted, not summed.
 Series angle_series(const SegmentView& g, double per_electrical_rad, double per_sector) {
   Series c = g.plant.expansion().x;
   for (int j = 0; j <= g.plant.expansion().degree; ++j) c[j] *= per_electrical_rad;
@@ -68,17 +68,17 @@ Series mechanical_angle(const SegmentView& g) {
 
 using General = plant::general::Series<double>;
 
-/// 0 of what the lean kernel's plants do not have.
+/// A series of the general kernel; 0 with the lean kernel.
 Series of_general(const SegmentView& g, Series General::*which) {
   return g.plant.general ? g.plant.general->series().*which : Series{};
 }
 
-/// Where none is simulated it is what the sheet's numbers belong to.
+/// Without a thermal simulation the temperature is the one for which the sheet's numbers apply.
 Series junction_temperature(const SegmentView& g) {
   return {g.plant.general ? g.plant.general->heat().hottest_junction_degC() : design::sheet_degC};
 }
 
-/// A segment is short of the bodies' time constants: a parabola through begin, middle and end.
+/// A segment is short against the bodies' time constants: a parabola through begin, middle and end.
 Series temperature(const SegmentView& g, double plant::BodyTemperatures::*which) {
   if (!g.plant.general) return {design::sheet_degC};
   const auto at = [&](double s) { return g.plant.general->bodies_degC(s).*which; };
@@ -101,7 +101,7 @@ Series load_angle(const SegmentView& g) {
   return angle;
 }
 
-/// (V_0 - U_s)/R_b; a stiff bus is all source.
+/// (V_0 - U_s)/R_b; with a stiff bus the bus current itself.
 Series source_current(const SegmentView& g) {
   const auto& y = g.plant.expansion();
   const bool has_capacitor =
@@ -140,12 +140,11 @@ Extremes phase_bounds(const SegmentView& g) {
   return bounds_of_currents(g, weights);
 }
 
-/// A signal that is a sum of the segment's own series, or stands still: over the whole segment, of the
-/// segment's degree.
+/// A signal that is constant or a sum of the segment's own series, over the whole segment and with its degree.
 struct PlainSignal {
   Signal signal;
   Series (*series)(const SegmentView&);
-  Extremes (*bounds)(const SegmentView&) = nullptr;  ///< where the expansion comes with any
+  Extremes (*bounds)(const SegmentView&) = nullptr;  ///< if the expansion has bounds for it
 };
 constexpr PlainSignal plain_signals[] = {
     {Signal::current, motor_current,
@@ -207,7 +206,7 @@ constexpr PlainSignal plain_signals[] = {
     {Signal::gate_T6, gate<5>},
 };
 
-/// nullptr where it is none of them.
+/// nullptr for all other signals.
 constexpr const PlainSignal* plain(Signal signal) {
   for (const PlainSignal& row : plain_signals)
     if (row.signal == signal) return &row;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A signal over one segment as a polynomial: what the figures of merit integrate and search.
+// A signal over one segment as a polynomial, which the figures of merit integrate and search.
 #pragma once
 #include <vector>
 
@@ -14,17 +14,18 @@ namespace sixstep::study {
 
 using Series = series::Coefficients<double>;
 
-/// What figures see of a segment: all that they need is the same for every firmware, and compiled once.
+/// The data of a segment that figures read. It has one type for all firmwares, so that the figures are compiled
+/// once.
 struct SegmentView {
   plant::View plant;
   ModulatorView modulator;
-  double t_s = 0.0;  ///< where the segment begins
+  double t_s = 0.0;  ///< begin of the segment
   double current_reference_A = 0.0, speed_reference_rad_s = 0.0, position_reference_deg = 0.0, setpoint = 0.0;
   rig::FieldTelemetry field{};  ///< of a field-oriented drive
   plant::Gates gates{};         ///< of the board's legs
-  int board_sector = 0;         ///< that the board takes the rotor to be in
-  int probe_sector = 0;         ///< that the motor's probes show
-  bool ticked = false;          ///< a control sample was taken where the segment begins
+  int board_sector = 0;         ///< the rotor's sector according to the board
+  int probe_sector = 0;         ///< of the motor's Hall code
+  bool ticked = false;          ///< a control sample was taken at the segment's begin
 };
 template <class Rig>
 SegmentView segment_view(const Rig& rig) {
@@ -52,24 +53,24 @@ inline plant::PerLeg<double> motor_current_weights(int sector) {
   return w;
 }
 
-/// The duty in effect, negative where the source is not that of the board's sector's positive pair; with armed
-/// comparators whether the upper switch is on. Of three legs the largest difference of two duties.
+/// The duty in effect, negative if the source is not that of the positive pair of the board's sector. With
+/// armed comparators: whether the upper switch is on. With three legs: the largest difference of two duties.
 double signed_duty(const ModulatorView& modulator, int sector);
 
-/// Whether a signal is no polynomial over the whole segment, or would need more than max_degree of one; and
-/// where: the cuts of [from, to], both ends included.
+/// Whether a signal is no polynomial of at most max_degree over the whole segment, and where it must be cut:
+/// points of [from, to], both ends included.
 bool is_cut(const SegmentView& g, Signal signal);
 std::vector<double> cuts_of(const SegmentView& g, Signal signal, double from, double to);
 
-/// Over [from, to] of the segment, which no cut divides, as a polynomial of its own s in [0, 1].
+/// A signal over [from, to] of the segment, without a cut inside, as a polynomial of its own s in [0, 1].
 struct Piece {
   Series c{};
   int degree = 0;
 };
 Piece piece_of(const SegmentView& g, Signal signal, double from, double to);
 
-/// Calls visit(piece, from, to) for the parts of [from, to] in order. Most signals are one part, and nothing
-/// is allocated.
+/// Calls visit(piece, from, to) for the parts of [from, to] in order. Most signals are one part; nothing is
+/// allocated.
 template <class Visit>
 void for_each_piece(const SegmentView& g, Signal signal, double from, double to, Visit&& visit) {
   if (!is_cut(g, signal)) return visit(piece_of(g, signal, from, to), from, to);
@@ -78,11 +79,11 @@ void for_each_piece(const SegmentView& g, Signal signal, double from, double to,
     visit(piece_of(g, signal, cuts[n], cuts[n + 1]), cuts[n], cuts[n + 1]);
 }
 
-/// At the segment's begin.
+/// Value at the segment's begin.
 double signal_now(const SegmentView& g, Signal signal);
 
-/// Where a signal stays over the whole segment, from the bounds that the expansion comes with: wider than the
-/// curve, and by more than rounding. Without limits where no bound is at hand.
+/// Bounds of a signal over the whole segment, from the expansion's own bounds: wider than the curve, by more
+/// than rounding. Infinite if no bound is available.
 series::Extremes<double> signal_bounds(const SegmentView& g, Signal signal);
 
 }  // namespace sixstep::study

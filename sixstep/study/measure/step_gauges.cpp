@@ -20,7 +20,7 @@ double Step::height() const { return std::fabs(level - *start); }
 std::optional<double> Step::crossing(double fraction, const Series& c, int degree, double t0,
                                      double length) const {
   const double target = *start + fraction * (level - *start);
-  Series missing = c;  // positive until the target is reached
+  Series missing = c;  // positive until the level is reached
   for (double& v : missing) v *= -sign();
   missing[0] += sign() * target;
   if (missing[0] <= 0.0) return t0;
@@ -65,7 +65,7 @@ void SettlingTime::part(const Series& c, int degree, double t0, double length) {
     outside_until_ = t0 + length;
     return;
   }
-  // Every crossing of a limit is an end of an excursion or its begin; the latest is where the last one ended.
+  // Every crossing of a limit begins or ends an excursion; the last excursion ends at the latest crossing.
   const double scale = series::magnitude_of(c, degree);
   for (const Series* side : {&above, &below})
     series::for_each_sign_change(

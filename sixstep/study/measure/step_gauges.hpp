@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a signal goes from where it starts to its level: when it gets there, and when it stays. Times are
-// infinite where that never comes.
+// Measures how a signal goes from its start to its level: when it arrives, and when it stays. A time is
+// infinite if that never happens.
 #pragma once
 #include <optional>
 
@@ -8,10 +8,10 @@
 
 namespace sixstep::study {
 
-/// Rise times are taken between these parts of the way, as control textbooks do.
+/// Rise times are taken between these fractions of the step, as in control textbooks.
 inline constexpr double rise_from = 0.1, rise_to = 0.9;
 
-/// Without a start the signal's first value is one.
+/// Without `start` the signal's first value is the start.
 struct Step {
   double level = 0.0;
   std::optional<double> start;
@@ -21,10 +21,10 @@ struct Step {
   }
   double height() const;
   double sign() const { return level < start.value_or(0.0) ? -1.0 : 1.0; }
-  /// When that part of the way is made, if within this part of the signal.
+  /// Time at which that fraction of the step is reached; empty if not within this part of the signal.
   std::optional<double> crossing(double fraction, const Series& c, int degree, double t0,
                                  double length) const;
-  /// Whether a value has made that part of the way.
+  /// Whether a value has reached that fraction of the step.
   bool made(double fraction, double value) const {
     return sign() * (value - *start - fraction * (level - *start)) >= 0.0;
   }
@@ -59,7 +59,7 @@ class SettlingTime {
  public:
   SettlingTime(const Step& step, double band) : step_(step), band_(band) {}
   void part(const Series& c, int degree, double t0, double length);
-  /// Settled from the first sample on after which every one lies inside.
+  /// Settled from the first sample after which all samples lie inside the band.
   void sample(double t, double value);
   double value(double from_s) const;
 

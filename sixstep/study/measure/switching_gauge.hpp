@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turn-ons per second: of what the modulator chops, of three legs the mean of their upper switches, or of one switch's gate.
+// Measures turn-ons per second: of the chopped switch, of three legs' upper switches in the mean, or of one
+// switch's gate.
 #pragma once
 #include <cstdint>
 #include <limits>
@@ -11,11 +12,11 @@ namespace sixstep::study {
 
 class SwitchingGauge {
  public:
-  /// `signal`: a gate, else whatever is chopped.
+  /// `signal`: a gate; other signals mean the chopped switch.
   SwitchingGauge(const Window& window, Signal signal) : window_(window), signal_(signal) {}
 
   void segment(const SegmentView& g, double s);
-  /// Hz; NaN where the run ended before the window.
+  /// Hz; NaN if the run ended before the window.
   double value() const {
     if (!(last_s_ > window_.from_s)) return std::numeric_limits<double>::quiet_NaN();
     return static_cast<double>(after_ - before_) / switches_ / (last_s_ - window_.from_s);
@@ -26,7 +27,7 @@ class SwitchingGauge {
 
   Window window_;
   Signal signal_;
-  bool on_ = false;  ///< the gate, before the run off
+  bool on_ = false;  ///< the gate; off before the run
   int switches_ = 1;
   std::int64_t gate_turn_ons_ = 0;
   std::int64_t before_ = 0, after_ = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Trace is a recorded run.
+// A recorded run.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -13,23 +13,22 @@ struct Column {
   std::string unit;   // "A"
   std::string frame;  // "phase, into the motor"
   std::string meaning;
-  double per_turning =
-      1.0;  // of a linear motor's column: its number over the turning motor's, 1000 mm for a rad
+  double per_turning = 1.0;  // a linear motor's number over the rotary motor's: 1000 mm per rad
 };
 
 struct TimeSpan {
   double from_s = 0.0, to_s = 0.0;
 };
 
-/// Column-major: values[c][row]. Rows are in time order; at a jump both sides stand, with equal times.
+/// Column-major: values[c][row]. Rows are in time order; at a jump both sides are present, with equal times.
 struct Trace {
   std::vector<Column> columns;
   std::vector<std::vector<double>> values;
-  bool every_event = false;  // else on a grid
-  /// Where every row stands, rising; empty: everywhere. Elsewhere an envelope stands for the rows: of each
-  /// short stretch those where a column is lowest or highest.
+  bool every_event = false;  // otherwise on a grid
+  /// Where all rows are kept, rising; empty: everywhere. Elsewhere an envelope replaces the rows: of each short
+  /// interval only the rows where a column is lowest or highest.
   std::vector<TimeSpan> whole{};
-  std::size_t left_out = 0;  // rows that an envelope stands for
+  std::size_t left_out = 0;  // number of rows that the envelope replaces
 };
 
 }  // namespace sixstep::study

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Window is the stretch of time that a figure looks at.
+// The time interval over which a figure is taken.
 #pragma once
 #include <cmath>
 #include <limits>
@@ -11,8 +11,8 @@ struct Window {
   double to_s = std::numeric_limits<double>::infinity();
 };
 
-/// What of [0, s] of a segment lies inside: fractions of its length h, which begins at t0. Empty where from
-/// is not below to.
+/// The part of [0, s] of a segment that lies inside the window, as fractions of its length h from t0. Empty if
+/// from is not below to.
 struct Clip {
   double from, to;
   bool empty() const { return !(from < to); }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every kind of run leaves behind beside its trajectory: a whole one (run.hpp) and one in slices (session.hpp).
+// Makes the parts of an outcome that every kind of run has: a whole one (run.hpp) and one in slices
+// (session.hpp).
 #pragma once
 #include "sixstep/study/compile/compile.hpp"
 #include "sixstep/study/measure/observers.hpp"
@@ -7,10 +8,11 @@
 
 namespace sixstep::study {
 
-/// Motor, gains and how they came about, before anything ran.
+/// The outcome before the run: motor, gains and how they follow.
 Outcome outcome_of(const Compiled& compiled);
 
-/// Adds what the observers of a run that has ended hold: energy, laws, losses of the switches, remarks. Figures are judged apart.
+/// Adds the observers' results after the run's end: energy, laws, losses of the switches, remarks. Figures are
+/// judged separately.
 void conclude(const Scenario& scenario, const Compiled& compiled, const Observers& watchers,
               Outcome& outcome);
 

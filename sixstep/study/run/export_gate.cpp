@@ -23,7 +23,7 @@ namespace {
 using base::written;
 using control::Mode;
 
-/// Comparators on the board switch at once, and look at currents that nobody converts.
+/// Comparators on the board switch at once, and need no converter of the currents.
 bool by_comparators(const Scenario& s) {
   const CurrentLoop& loop = s.control.current;
   return loop.type == CurrentLoopType::hysteresis && loop.comparator == Comparator::event;
@@ -41,12 +41,12 @@ bool reads_currents(const Scenario& s) {
   return (has_current_loop(s) && !by_comparators(s)) || s.control.smooth_chopping.on;
 }
 
-/// Three legs go by the bus, and turn by the rotor's angle.
+/// A field-oriented drive computes with the bus voltage and the rotor's angle.
 bool in_the_field(const Scenario& s) {
   return s.control.drive == FirmwareKind::field && s.control.mode != Mode::off;
 }
 
-/// Its terminals are read against the bus.
+/// A sensorless drive measures its terminals relative to the bus.
 bool by_terminals(const Scenario& s) {
   return s.control.drive == FirmwareKind::sensorless && s.control.mode != Mode::off;
 }
@@ -63,7 +63,8 @@ bool reads_rotor(const Scenario& s) {
   return is_cascade(s) || in_the_field(s) || (has_current_loop(s) && within_current_loop);
 }
 
-/// What is of the sensor that goes, by its keys: found by asking for the scenario without it. Empty where nothing is.
+/// Keys that belong to the replaced sensor: those with new problems in the scenario without it. Empty if there
+/// are none.
 std::string of_this_sensor(const Scenario& s, const Scenario& without) {
   const auto found = [](const Scenario& x) {
     base::Problems all = check_columns(x);
@@ -82,7 +83,7 @@ std::string of_this_sensor(const Scenario& s, const Scenario& without) {
   return words;
 }
 
-/// All that has to change for Hall probes in the place of another sensor, at once.
+/// All changes that replace another sensor by Hall probes.
 std::string cure_by_hall(const Scenario& s) {
   Scenario without = s;
   without.sensors.rotor = RotorSensing::hall;
@@ -127,14 +128,14 @@ void look_at_design(const Scenario& s, base::Problems& out) {
                    "design it anew until it is usable, or delete the line where you know better"});
 }
 
-/// A controller of one's own has its constants at home.
+/// A user's controller has its constants in its own source.
 void look_at_drive(const Scenario& s, base::Problems& out) {
   if (s.control.drive == FirmwareKind::own)
     out.push_back({"control.drive", "\"own\"", "has its configuration in its own source, and needs no header",
                    "compile that source for the chip"});
 }
 
-/// What is sampled in the middle of a period is answered at the next one's start: that is a delay.
+/// A sample in the middle of a period is answered at the next period's start, which already is a delay.
 void look_at_delay(const Scenario& s, base::Problems& out) {
   const bool samples = reads_currents(s) || reads_bus(s) || reads_rotor(s);
   if (samples && !by_comparators(s) && s.pwm.delay_periods == 0 && s.pwm.sample == SampleAt::start)
@@ -143,9 +144,10 @@ void look_at_delay(const Scenario& s, base::Problems& out) {
                    "set delay_periods = 1, or sample = \"middle\""});
 }
 
-/// Of every drive: where the torque reverses, a leg changes over from one switch to the other, whichever way it is chopped.
+/// For every drive: when the torque reverses, a leg changes from one switch to the other, with every kind of
+/// chopping.
 void look_at_dead_time(const Scenario& s, base::Problems& out) {
-  constexpr double shortest_s = 20e-9;  // two clocks of a fast timer; no switch turns off sooner
+  constexpr double shortest_s = 20e-9;  // two clocks of a fast timer; no switch turns off faster
   const double counted_s = dead_time_in_counts_s(s.bridge.dead_time_s, s.pwm);
   if (s.control.mode != Mode::off && s.bridge.dead_time_s > 0 && counted_s < shortest_s)
     out.push_back({"bridge.dead_time_s", written(s.bridge.dead_time_s),
@@ -157,7 +159,7 @@ void look_at_dead_time(const Scenario& s, base::Problems& out) {
                    "give what the gate drivers need, as 500e-9"});
 }
 
-/// A chip keeps the constants that were written for it, and the bridge its dead time.
+/// A chip keeps its configured constants, and the bridge its dead time.
 void look_at_changes(const Scenario& s, base::Problems& out) {
   for (std::size_t n = 0; n < s.at.size(); ++n) {
     const auto changes = [&](const char* what) {
@@ -178,7 +180,7 @@ std::string required(const Verdict& v) {
   return v.max ? "<= " + written(*v.max) + unit : "";
 }
 
-/// In as many digits as tell it from the limit that it misses.
+/// With enough digits to differ from the limit that it misses.
 std::string measured(const Verdict& v) {
   std::string text;
   for (int digits = 5; digits <= 17; ++digits) {
@@ -232,7 +234,7 @@ base::Result<Clearance> clear_for_export(const Scenario& scenario, const Listene
   Clearance c{.outcome = std::move(*outcome), .unmeasured = never_measured(scenario), .unheld = {}};
   const SeenPeaks peaks = take_peaks(scenario, c.outcome);
   c.unheld = not_held(c.outcome);
-  // Inertia hides it from requirements of the speed.
+  // The rotor's inertia hides this instability from requirements on the speed.
   for (const LoopGains& gains : c.outcome.gains)
     if (auto unstable = unstable_current_loop(scenario, c.outcome.motor, gains))
       c.unheld.push_back(std::move(*unstable));

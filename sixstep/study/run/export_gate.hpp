@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The export gate keeps from a real bridge's chip what a run has not shown to hold, and what the run was
-// spared and a board is not.
+// The export gate refuses to export a drive for a chip at a real bridge if the run has not shown that it works,
+// or if the run omitted an effect that a board has.
 #pragma once
 #include "sixstep/base/result.hpp"
 #include "sixstep/study/measure/outcome.hpp"
@@ -9,15 +9,15 @@
 
 namespace sixstep::study {
 
-/// What a run of this scenario leaves unmeasured, each with its cure: sensors that the drive reads and no
-/// board has, an answer that takes no time, a stall that is never seen, switches that need none, constants that the run changed on its way,
-/// a run of which nothing is asked. What the drive does not read may stay ideal.
+/// Finds the effects that a run of this scenario omits, each with a cure: ideal sensors that the drive reads,
+/// an answer without delay, a stall that is never detected, a missing dead time, constants that change during
+/// the run, a run without requirements. Sensors that the drive does not read may stay ideal.
 base::Problems never_measured(const Scenario& scenario);
 
-/// What a run of it has shown against it: each requirement missed, and the fault that stopped it.
+/// Finds what a run has shown against the drive: each missed requirement, and the fault that stopped it.
 base::Problems not_held(const Outcome& outcome);
 
-/// A scenario that was run to be taken to a chip, and what stands against that.
+/// The result of a run before export, and the reasons against the export.
 struct Clearance {
   Outcome outcome;
   base::Problems unmeasured, unheld;
@@ -25,7 +25,7 @@ struct Clearance {
   bool clear() const { return unmeasured.empty() && unheld.empty(); }
 };
 
-/// Runs it. Problems mean that it could not start: those nobody can override.
+/// Runs the scenario. Problems: the run could not start; no option overrides those.
 base::Result<Clearance> clear_for_export(const Scenario& scenario, const Listeners& listeners = {});
 
 }  // namespace sixstep::study

@@ -19,12 +19,12 @@ namespace {
 using base::written;
 using control::Mode;
 
-/// Faster than this times the no-load speed of the bus no load drives a rotor that anybody meant to protect.
+/// No load drives a rotor that needs protection faster than this multiple of the no-load speed.
 constexpr double beyond_no_load = 2.0;
 
 std::string rounded_down(double x) { return written(base::shortened(x, 2, base::Towards::down)); }
 
-/// The most current that is asked for, and what says so.
+/// The largest requested current, and the key that sets it.
 struct MostCurrent {
   double ampere = 0.0;
   std::string by;
@@ -52,7 +52,7 @@ std::optional<MostCurrent> most_current(const Scenario& s, const design::MotorMo
 
 void look_at_stalling(const Scenario& s, const MostCurrent& most, base::Problems& out) {
   const Protection& p = s.protection;
-  // What is held at the limit is read a count and a little noise beside it.
+  // A current held at the limit is read with an error of a count and a little noise.
   const double count_A = s.sensors.current_range_A.value_or(0.0) * 2 / std::ldexp(1.0, s.sensors.adc_bits);
   const double surely_A = 0.98 * most.ampere - 2 * count_A;
   if (!p.stall_current_A || *p.stall_current_A <= surely_A) return;
@@ -67,7 +67,7 @@ void look_at_stalling(const Scenario& s, const MostCurrent& most, base::Problems
        lower_A > 0 ? "lower it, as to " + rounded_down(lower_A) + (coarse ? ", or " + finer : "") : finer});
 }
 
-/// A drive that does what it is told to is not to be stopped for it.
+/// The threshold must not stop a drive that works as requested.
 void look_at_over_current(const Scenario& s, const MostCurrent& most, base::Problems& out) {
   const std::optional<double>& over_A = s.protection.over_current_A;
   if (!over_A || *over_A > most.ampere) return;
@@ -77,7 +77,7 @@ void look_at_over_current(const Scenario& s, const MostCurrent& most, base::Prob
                  "raise it above that and the ripple, or lower what the drive may ask for"});
 }
 
-/// A rotor that is held has its current in two phases, and no friction.
+/// A blocked rotor has its current in two phases, and no friction.
 void look_at_stall_time(const Scenario& s, const design::MotorModel& motor, const MostCurrent& most,
                         base::Problems& out) {
   const auto thermal = design::thermal_model(s.sheet);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Thresholds of the product drive that a check accepts and that would protect nothing on a bridge: a run tells of them, and export
-// refuses them.
+// Finds thresholds of the product drive that check() accepts and that would protect nothing on a bridge. A run
+// mentions them, and export refuses them.
 #pragma once
 #include "sixstep/base/problem.hpp"
 #include "sixstep/design/sheet/parameters.hpp"
@@ -8,8 +8,8 @@
 
 namespace sixstep::study {
 
-/// A stall threshold above the current that the drive asks for, a stall that lasts longer than the winding stands that current, an
-/// over-speed that neither bus nor motor comes near.
+/// Finds a stall threshold above the drive's largest requested current, a stall time longer than the winding
+/// withstands that current, and an over-speed that neither bus nor motor approaches.
 void look_at_protection(const Scenario& scenario, const design::MotorModel& motor, base::Problems& out);
 
 }  // namespace sixstep::study

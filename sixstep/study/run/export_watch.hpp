@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run shows against a drive that is to be exported although no [[require]] asked for it: currents and a bus beyond what their
-// converters read, a bus that braking has raised, a stop that ends in a fault.
+// Finds faults of a drive before its export that no [[require]] covers: currents and bus voltages beyond the
+// converters' ranges, a bus that braking has raised, a stop that ends in a fault.
 #pragma once
 #include "sixstep/design/sheet/parameters.hpp"
 #include "sixstep/study/measure/outcome.hpp"
@@ -14,17 +14,18 @@ struct SeenPeaks {
   double bus_V = 0.0;    ///< highest voltage of the bus
 };
 
-/// The scenario with the measures that take_peaks() reads, behind its own [[compare]].
+/// The scenario with the measures of take_peaks() after its own [[compare]].
 Scenario watching_peaks(const Scenario& scenario);
-/// Takes them out again: the outcome is then that of `scenario` itself.
+/// Takes these measures out again: the outcome is then that of `scenario` itself.
 SeenPeaks take_peaks(const Scenario& scenario, Outcome& outcome);
 
-/// A current above the converter's end is neither seen nor limited.
+/// Refuses a current above the converter's range: it is neither measured nor limited.
 void look_at_current_range(const Scenario& scenario, const SeenPeaks& peaks, base::Problems& out);
-/// A bus above its converter's end where the drive reads it, and one that braking raises where nothing bounds it.
+/// Refuses a bus above its converter's range if the drive reads it, and a bus that braking raises without a
+/// bound.
 void look_at_bus(const Scenario& scenario, const SeenPeaks& peaks, bool is_read, base::Problems& out);
-/// A product drive that brakes when it is let go does so on the first bench: here it is run at its highest setpoint, unless the
-/// scenario has a stop of its own.
+/// A product drive that brakes when its run request ends does so at its first test. Therefore it is stopped
+/// here at its highest setpoint, unless the scenario has a stop of its own.
 void look_at_stop(const Scenario& scenario, const design::MotorModel& motor, const Listeners& listeners,
                   base::Problems& out);
 

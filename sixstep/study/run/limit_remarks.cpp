@@ -28,7 +28,7 @@ std::string on_battery(const Scenario& s, const RunWatch& w) {
   return {};
 }
 
-/// A part in a thousand is what a rotor may pass its print by.
+/// A rotor may exceed its printed speed by a thousandth without a remark.
 constexpr double past = 1.001;
 
 std::string on_fastest(const Scenario& s, const RunWatch& w) {
@@ -61,7 +61,7 @@ std::string on_bus(const Scenario& s, const RunWatch& w) {
          "control.regeneration.limit_V";
 }
 
-/// The mean copper loss of the books, put into the sheet's thermal model from ambient temperature.
+/// Applies the mean copper loss to the sheet's thermal model, starting at ambient temperature.
 std::string on_cold_winding(const Scenario& s, const Outcome& out) {
   if (s.heat.motor || !out.energy || !(out.simulated_s > 0.0)) return {};
   const auto model = design::thermal_model(s.sheet);

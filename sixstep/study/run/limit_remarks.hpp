@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits that a run passed and that the model does not hold: what a battery has, what a rotor's mechanics stand, what lifts a bus, what
-// a winding stands that does not warm up.
+// Finds limits that a run passed and that the model does not enforce: a battery's charge, a rotor's maximum
+// speed, a raised bus, the winding's heat in a run without temperatures.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,10 +11,11 @@
 
 namespace sixstep::study {
 
-/// Three digits; of what is larger, whole numbers.
+/// Three digits; larger numbers as integers.
 std::string few_digits(double x);
 
-/// A sentence each, with the numbers and what helps. `outcome` holds the energy books where somebody kept them, and the motor.
+/// One sentence each, with numbers and a cure. `outcome` holds the motor, and the energy books if they were
+/// kept.
 std::vector<std::string> passed_limits(const Scenario& scenario, const RunWatch& watch,
                                        const Outcome& outcome);
 

@@ -15,7 +15,8 @@ double wait_periods(const Pwm& pwm) {
   return pwm.delay_periods + (pwm.sample == SampleAt::middle ? 0.5 : 0.0);
 }
 
-/// A PI on R and L of the driven pair, or of an axis of the field-oriented drive: stable, as long as no limit acts?
+/// Whether a PI on R and L of the driven pair, or of an axis of the field-oriented drive, is stable while no
+/// limit acts.
 bool is_stable_current(const Scenario& s, const design::MotorModel& motor, const LoopGains& g) {
   design::DriveLoops loops{.motor = motor,
                            .winding = design::driven_pair(motor, s.pwm.chopping),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a current loop is stable with the gains that a run had.
+// Checks whether a current loop is stable with the gains of a run.
 #pragma once
 #include <optional>
 
@@ -10,8 +10,8 @@
 
 namespace sixstep::study {
 
-/// What is wrong with a PI current loop that is unstable on the motor's R and L, sampled and answered as `scenario` has it. Empty
-/// where it is stable, and of loops that are no current PI.
+/// The problem of a PI current loop that is unstable on the motor's R and L, with the scenario's sampling and
+/// delay. Empty for a stable loop, and for loops that are no current PI.
 std::optional<base::Problem> unstable_current_loop(const Scenario& scenario, const design::MotorModel& motor,
                                                    const LoopGains& gains);
 

@@ -8,10 +8,10 @@ namespace sixstep::study {
 
 namespace {
 
-/// Curves drawn from row to row need about this many points over a run.
+/// Number of points over a run that curves drawn from row to row need.
 constexpr double drawn_points = 2000.0;
 
-/// Rows in the units of their columns, where the motor is linear.
+/// Converts rows to the units of a linear motor's columns.
 std::function<void(Row)> in_metres(const Scenario& s, const std::vector<std::size_t>& indices,
                                    const std::function<void(Row)>& to) {
   if (!to || s.sheet.kind == design::MotorKind::rotary) return to;

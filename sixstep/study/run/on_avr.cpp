@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The AVR's board as a scenario has to describe it: what its timer and its converter do is not to be chosen.
+// Checks a scenario against the AVR's board, whose timer and converter cannot be configured.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -17,7 +17,7 @@ constexpr int converter_bits = 10;
 constexpr double clock_Hz = 16e6;
 /// Timer 1 counts up and down again, with 16 bits.
 constexpr double most_counts = 65535;
-/// Its program waits it out within an interrupt.
+/// The program waits for the dead time within an interrupt.
 constexpr double most_dead_time_s = 5e-6;
 
 void need(bool has, base::Problems& out, const char* where, const char* what, const char* cure) {
@@ -56,7 +56,7 @@ void need_timer(const Scenario& s, base::Problems& out) {
        "pwm.period_s", "is no whole number of timer 1's 125 ns", "take a multiple of 125 ns up to 8 ms");
 }
 
-/// What the other boards' transducers can do on the way, and this one's do not.
+/// Changes of transducers that other boards simulate and this board does not.
 bool drifts(const At& at) { return at.sensors.current_offset_A || at.sensors.current_gain_error; }
 
 void need_converter(const Scenario& s, base::Problems& out) {

@@ -22,11 +22,11 @@ namespace sixstep::study {
 
 namespace {
 
-/// What silicon switches stand by their data sheets: 150 or 175 degC.
+/// Silicon switches withstand 150 or 175 degC according to their data sheets.
 constexpr double usual_junction_limit_degC = 150.0;
-/// A commutation step of fewer control periods is a coarse one: its current is controlled a handful of times.
+/// With fewer control periods in a commutation step, its current is controlled only a few times.
 constexpr double least_periods_per_step = 5.0;
-/// Of a shunt's samples outside of the pulse, what is worth a sentence.
+/// Part of the shunt's samples outside of the pulse above which a remark follows.
 constexpr double hidden_part = 0.01;
 
 std::string speed(const Scenario& s, double rad_s) {
@@ -35,7 +35,7 @@ std::string speed(const Scenario& s, double rad_s) {
 std::string ms(double t_s) { return few_digits(1e3 * t_s) + " ms"; }
 std::string us(double t_s) { return few_digits(1e6 * t_s) + " us"; }
 
-/// A bus nobody has chosen, beside the voltage that the motor is made for.
+/// Compares a default bus with the voltage for which the motor is made.
 std::string on_supply(const Scenario& s) {
   const auto& nominal = s.sheet.nominal_voltage_V;
   const double usual_V = Supply{}.voltage_V;
@@ -46,10 +46,10 @@ std::string on_supply(const Scenario& s) {
          " V, which is its default; the motor's nominal voltage is " + few_digits(nominal->value) + " V";
 }
 
-/// Values whose times are behind the run's end. The first of them may end a straight line that the run is on.
+/// Finds values after the run's end. The first of them may end a line on which the run still is.
 std::string on_late_values(const Scenario& s) {
   const Reference& r = s.reference;
-  if (r.shape != Shape::csv || s.control.mode == control::Mode::off) return {};  // steps there are refused
+  if (r.shape != Shape::csv || s.control.mode == control::Mode::off) return {};  // check() refuses late steps
   const auto behind =
       std::count_if(r.times_s.begin(), r.times_s.end(), [&s](double t) { return t > s.duration_s; });
   const auto unreached = behind - (r.interpolation == Interpolation::linear ? 1 : 0);
@@ -59,12 +59,12 @@ std::string on_late_values(const Scenario& s) {
          ": it never comes to them" + (r.file.empty() ? "" : "; a time without a unit is in s");
 }
 
-/// Time from one sector edge to the next.
+/// Time between two sector edges.
 double sector_s(const Compiled& c, double rad_s) {
   return base::pi / 3 / (c.motor.machine.pole_pairs * rad_s);
 }
 
-/// The shortest pulse that counts as seen is sampled when an amplifier of one pole has come to 1 - exp(-2 pi f t) of it.
+/// At the shortest measured pulse an amplifier of one pole has reached 1 - exp(-2 pi f t) of the current.
 std::string on_shunt_amplifier(const Scenario& s) {
   constexpr double enough = 0.9;
   if (s.sensors.currents != rig::CurrentMeasurement::dc_link || !s.sensors.current_bandwidth_Hz) return {};
@@ -78,7 +78,8 @@ std::string on_shunt_amplifier(const Scenario& s) {
          " us it shows 90 %";
 }
 
-/// The drive knows of shunt_settle_s and of the dead time alone. Between what it takes and what is shown it reads 0 A for the current.
+/// The drive computes with shunt_settle_s and the dead time only. For duties between its own limit and the real
+/// one it reads 0 A.
 std::string on_samples_taken_too_soon(const Scenario& s, double shown_duty) {
   const double taken_duty = least_visible_duty(s);
   if (!(shown_duty > taken_duty * (1 + 1e-9))) return {};
@@ -109,7 +110,7 @@ std::string on_shunt(const Scenario& s, const Compiled& c, const RunWatch& w) {
   return text + on_samples_taken_too_soon(s, w.shunt_least_duty);
 }
 
-/// The smallest speed other than 0 that is asked for.
+/// The smallest reference speed other than 0.
 double slowest_reference(const Scenario& s) {
   double slowest = 0.0;
   for (const Level& level : reference_levels(s)) {
@@ -137,7 +138,7 @@ std::string on_gains(const LoopGains& g, const std::string& key, double period_s
          base::six_digits(ki) + ", which is ki = " + base::six_digits(ki * period_s);
 }
 
-/// Poles that are slower than the plant's own ask the loop to hold it back.
+/// Poles slower than the plant's own require a loop that slows the plant down.
 std::string on_sign(const LoopGains& g, const std::string& key) {
   if (!(g.d1 < 0.0) || g.origin.starts_with("given")) return {};
   return "the " + g.loop + " loop's gain on its error is negative, d1 = " + few_digits(g.d1) +
@@ -164,7 +165,8 @@ std::string on_back_emf(const Scenario& s, const Compiled& c, const RunWatch& w)
          " V: without a current against the magnet the diodes feed the bus, whatever the bridge is told";
 }
 
-/// A winding that stays below its limit by the motor file's thermal values may pass it by their ranges.
+/// Finds a winding that stays below its limit with the motor file's thermal values, but may exceed it within
+/// their ranges.
 std::string on_worse_ends(const Scenario& s, const RunWatch& w) {
   const auto model = design::thermal_model(s.sheet);
   const auto worse = design::at_worse_ends(s.sheet);

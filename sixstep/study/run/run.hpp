@@ -17,29 +17,30 @@ namespace sixstep::study {
 /// One recorded instant, in the order of the columns.
 using Row = std::span<const double>;
 
-/// Who listens to a run. Each may be empty. None of them can change the run's result by a bit.
+/// Callbacks of a run. Each may be empty. None of them changes the run's result by a bit.
 struct Listeners {
-  std::function<void(Row)> on_record{};  ///< the scenario's [record]: columns record_columns(scenario)
-  std::function<void(Row)> on_event{};   ///< every event, both sides of each jump: columns all_columns()
-  LogicSink on_logic{};  ///< gates, Hall lines, timer and the like, as logic_signals() names them
-  std::function<bool(double t_s)> keep_going{};  ///< now and then; false ends the run early
-  bool keep_books = true;  ///< energy and standing laws: about a third on top of the run itself
+  std::function<void(Row)> on_record{};  ///< rows of [record], with the columns of record_columns(scenario)
+  std::function<void(Row)> on_event{};   ///< every event, both sides of each jump; columns all_columns()
+  LogicSink on_logic{};                  ///< gates, Hall lines, timer and others: logic_signals()
+  std::function<bool(double t_s)> keep_going{};  ///< called now and then; false ends the run early
+  bool keep_books = true;  ///< energy books and standing laws: about a third of run time more
 };
 
-/// A core in an emulator: one that runs the drive too, and must answer as the host does, or a chip that runs a firmware of its own
-/// in the drive's place. Which scenarios they can run: on_core.hpp.
+/// A core in an emulator. Either it runs the drive beside the host, and each answer must equal the host's; or
+/// it is a chip that runs its own firmware instead of the drive. on_core.hpp checks which scenarios they can
+/// run.
 struct OnCore {
   rig::CorePort beside{};
   rig::ChipPort instead{};
-  /// What its potentiometer's ends mean to that firmware, in the mode's unit; 0: what the run has use for.
+  /// Setpoint at the ends of the potentiometer, in the mode's unit; 0: the run's own range.
   double setpoint_range = 0.0;
 };
 
-/// Runs it. A fault (shoot-through, impossible Hall code, a trip of the product drive) is part of the
-/// outcome; Problems mean it could not start.
+/// Runs the scenario. A fault (shoot-through, impossible Hall code, a trip of the product drive) is part of the
+/// outcome; Problems: the run could not start.
 base::Result<Outcome> run(const Scenario& scenario, const Listeners& listeners = {}, const OnCore& core = {});
 
-/// Someone ended the run before its time (Listeners::keep_going); a run that a fault stopped is whole.
+/// Whether Listeners::keep_going ended the run early. A run that a fault stopped is not cut short.
 bool cut_short(const Scenario& scenario, const Outcome& outcome);
 
 }  // namespace sixstep::study

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What changes at an instant of the run, as a scenario says it; what is not given stays as it was. What each
-// key means stands in at_description.hpp.
+// Changes at an instant of the run, as a scenario states them; values that are not given stay as they were.
+// at_description.hpp says what each key means.
 #pragma once
 #include "sixstep/study/scenario/control.hpp"
 #include "sixstep/study/scenario/reference.hpp"
@@ -18,7 +18,7 @@ struct AtLoad {
   std::optional<bool> locked;
 };
 
-/// What a line's pin reads: a level it sticks at, or what its probe says.
+/// Level of a Hall line's pin: stuck, or its probe's.
 enum class PinLevel : std::uint8_t { low, high, probe };
 
 struct AtHallBreak {
@@ -26,9 +26,9 @@ struct AtHallBreak {
   PinLevel level = PinLevel::low;
 };
 
-/// rig::WireOrder, or as before.
+/// rig::WireOrder; `same` leaves the order as it is.
 enum class AtOrder : std::uint8_t { same, abc, bca, cab, acb, cba, bac };
-/// HallLines one further on, or as before.
+/// HallLines with their values increased by one; `same` leaves them as they are.
 enum class AtHallLines : std::uint8_t {
   same,
   none,
@@ -41,10 +41,10 @@ enum class AtHallLines : std::uint8_t {
   all
 };
 
-/// What a line or a track of an encoder shows: a level it sticks at, or what it should.
+/// Level of an encoder's line or track: stuck, or the right one.
 enum class EncoderLevel : std::uint8_t { low, high, whole };
 
-/// A track of an absolute encoder that shows one level from then on, 1 the finest.
+/// A track of an absolute encoder that is stuck from then on; 1 is the finest.
 struct AtTrack {
   int track = 1;
   EncoderLevel level = EncoderLevel::low;
@@ -57,10 +57,10 @@ struct AtEncoderLine {
   EncoderLevel level = EncoderLevel::low;
 };
 
-/// A resolver's winding whose line breaks, beside those broken before; or both are whole again.
+/// A resolver's winding whose line breaks, in addition to earlier breaks; `whole` repairs both.
 enum class Winding : std::uint8_t { none, cosine, sine, whole };
 
-/// A wire or a divider, by its terminal.
+/// A wire or a divider, named by its terminal.
 enum class Wire : std::uint8_t { none, a, b, c };
 
 struct AtSensors {
@@ -77,10 +77,10 @@ struct AtSensors {
   Wire broken_divider = Wire::none;
 };
 
-/// What the product drive is asked for.
+/// Request to the product drive.
 enum class DriveRequest : std::uint8_t { none, off, on, clear };
 
-/// A PI's gains as CurrentLoop has them. Whichever way they are given, they take the place of those before.
+/// A PI's gains as in CurrentLoop. They replace the gains before, whichever way they are given.
 struct AtGains {
   std::optional<double> settle_s, damping;
   std::optional<double> d1, d0;
@@ -108,11 +108,11 @@ struct AtLimits {
   bool operator==(const AtLimits&) const = default;
 };
 
-/// control::Mode and control::Chopping, or as before.
+/// control::Mode and control::Chopping; `same` leaves them as they are.
 enum class AtMode : std::uint8_t { same, off, duty, current, speed, position };
 enum class AtChopping : std::uint8_t { same, soft, hard, complementary };
 
-/// Commutates, or as before.
+/// study::Commutates; `same` leaves it as it is.
 enum class AtCommutates : std::uint8_t { same, back_emf, hall };
 
 struct AtSensorless {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The keys of [[at]]: what may change while a run goes on.
+// The keys of [[at]]: values that can change during a run.
 #pragma once
 #include "sixstep/base/visitor.hpp"
 #include "sixstep/study/scenario/at_sensors_description.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The keys of [[at]].sensors: what may happen to Hall lines, amplifiers, encoders and resolvers while a run goes on.
+// The keys of [[at]].sensors: changes of Hall lines, amplifiers, encoders and resolvers during a run.
 #pragma once
 #include "sixstep/base/visitor.hpp"
 #include "sixstep/study/scenario/at.hpp"
@@ -7,7 +7,7 @@
 
 namespace sixstep::study {
 
-/// What is told to whoever asks for anything else.
+/// Message for any other key.
 inline constexpr std::string_view what_may_change =
     "during a run change only: reference; supply.voltage_V, supply.sinks; load.torque_Nm, load.locked; "
     "sensors.hall_break, .hall_lines, .hall_inverted, .current_offset_A, .current_gain_error, .missed_edges, "

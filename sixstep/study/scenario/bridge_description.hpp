@@ -10,10 +10,11 @@ using base::above;
 using base::between;
 using base::from;
 
-/// Ten times what the largest switches take that are built for drives, of 6.5 kV and 1 kA: 10 J, 3 mC, 20 A.
+/// Upper ends: ten times the values of the largest switches that are built for drives
+/// (6.5 kV, 1 kA: 10 J, 3 mC, 20 A).
 inline constexpr double most_energy_J = 100, most_charge_C = 0.03, most_gate_A = 200;
 
-/// What acts on efficiency and temperatures alone.
+/// Keys that affect efficiency and temperatures only.
 inline void describe_losses(base::Visitor& v, Bridge& s) {
   v.value("turn_on_J", s.turn_on_J,
           {.meaning = "energy of a turn-on at energies_at_V and energies_at_A",

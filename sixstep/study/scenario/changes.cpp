@@ -11,7 +11,7 @@ namespace {
 
 using control::Mode;
 
-/// Behind AtMode::same and AtChopping::same the words stand in the same order.
+/// After `same` AtMode and AtChopping have the order of the other enumeration.
 Mode mode_of(AtMode mode, Mode before) {
   return mode == AtMode::same ? before : static_cast<Mode>(static_cast<int>(mode) - 1);
 }
@@ -36,7 +36,7 @@ void take(T& member, const std::optional<double>& given) {
   if (given) member = *given;
 }
 
-/// Of settle_s and damping one alone leaves the other as it was; gains that are given replace them.
+/// If only one of settle_s and damping is given, the other one stays; given gains replace both.
 template <class Loop>
 void take_gains(Loop& loop, const AtGains& given) {
   if (given == AtGains{}) return;
@@ -128,7 +128,7 @@ Scenario settled(const Scenario& s, const At* event) {
     kept.control = {};
     kept.pwm = {};
     kept.bridge.dead_time_s = std::nullopt;
-    // Where another mode's reference takes over, this one's does not go on.
+    // The reference ends where another mode's reference takes over.
     if (mode != out.control.mode && (kept.reference || other_mode)) kept.reference = Reference{};
     if (kept.reference || kept.supply.voltage_V || kept.load.torque_Nm || kept.sensors.hall_break ||
         kept.motor.broken_wire != Wire::none || kept.bridge.open_switch != Switch::none ||

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What [[at]] makes of a scenario: which mode is in effect when, and the scenario as it is from an event on.
+// The effect of [[at]] on a scenario: its mode over time, and the scenario after an event.
 #pragma once
 #include <vector>
 
@@ -7,27 +7,27 @@
 
 namespace sixstep::study {
 
-/// Whether the chip is given another configuration.
+/// Whether the event gives the chip another configuration.
 inline bool retunes(const At& at) { return at.control != AtControl{} || at.pwm != AtPwm{}; }
 
-/// The events in the order in which they happen; of two at one instant the one written first.
+/// The events in time order; of two at one instant the one written first comes first.
 std::vector<const At*> in_order(const Scenario& scenario);
 
-/// When an event happens. One that changes the mode waits for the control sample at or behind its time_s, so
-/// that mode and reference change together.
+/// The time of an event, s. An event that changes the mode waits for the control sample at or after its time_s,
+/// so that mode and reference change together.
 double happens_at_s(const Scenario& scenario, const At& at);
-/// The control sample at or behind an instant, on which the chip takes up another configuration.
+/// The control sample at or after an instant, where the chip takes up another configuration.
 std::int64_t sample_from_ticks(const Pwm& pwm, std::int64_t ticks);
 
-/// The mode from each of scenario.at on.
+/// The mode after each event of scenario.at.
 std::vector<control::Mode> modes_from(const Scenario& scenario);
-/// Whether a mode is in effect anywhere in the run.
+/// Whether a mode is in effect at any time of the run.
 bool comes_into(const Scenario& scenario, control::Mode mode);
 bool changes_mode(const Scenario& scenario);
 
-/// The scenario as if the chip had been so from the start: with what the events up to `event` (nullptr: none)
-/// change of control, PWM and bridge, without such changes behind it, and with the references of its own mode
-/// only.
+/// The scenario as if the chip had its configuration after `event` (nullptr: before all events) from the start:
+/// with the changes of control, PWM and dead time up to `event`, without later ones, and with the references of
+/// its own mode only.
 Scenario settled(const Scenario& scenario, const At* event);
 
 }  // namespace sixstep::study

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The words by which a scenario file names the enumerations, and what they mean.
+// The words for enumerations in a scenario file, and their meanings.
 #pragma once
 #include "sixstep/base/describe.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
@@ -158,8 +158,7 @@ inline constexpr Choice<Distribution> distribution_choices[] = {
     {"normal", Distribution::normal, "bell curve, cut off at cut_sigma standard deviations"},
 };
 
-/// The unit a reference is meant in: it follows from the control mode alone. Empty where nothing is asked
-/// for.
+/// Unit of a reference; the control mode alone determines it. Empty for a mode without a reference.
 constexpr std::string_view reference_unit(control::Mode mode) {
   switch (mode) {
     case control::Mode::off:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is controlled and how, as a scenario says it. What each key means stands in control_description.hpp.
+// The controller of a scenario. control_description.hpp says what each key means.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -12,15 +12,16 @@
 namespace sixstep::study {
 
 enum class CurrentLoopType : std::uint8_t { pi, hysteresis, deadbeat };
-/// Which current a loop is told: (i_p - i_n)/2, or that of the phase that the last commutation left where it was.
+/// The current that a loop controls: (i_p - i_n)/2, or that of the phase that the last commutation left
+/// connected.
 enum class CurrentFeedback : std::uint8_t { mean, staying_phase };
-/// What the duty does while a commutation lasts: the loop goes on, or the duty that holds the staying phase.
+/// The duty during a commutation: the loop's, or a duty that holds the staying phase's current.
 enum class CurrentCommutation : std::uint8_t { plain, duty_step, overlap };
 enum class HysteresisOn : std::uint8_t { motor, phase };
 enum class Comparator : std::uint8_t { event, sampled };
 
-/// Gains of a discrete PI: given as d1, d0, as kp with ki (per sample) or ki_per_s (per second), or left to the pole
-/// placement by settle_s, damping.
+/// Gains of a discrete PI: given as d1, d0, as kp with ki (per sample) or ki_per_s (per second), or designed by
+/// pole placement from settle_s, damping.
 struct CurrentLoop {
   CurrentLoopType type = CurrentLoopType::pi;
   std::optional<double> settle_s, damping;
@@ -33,11 +34,11 @@ struct CurrentLoop {
   bool back_emf_feed_forward = false;
   CurrentFeedback feedback = CurrentFeedback::mean;
   CurrentCommutation commutation = CurrentCommutation::plain;
-  std::optional<double> correction;           // deadbeat: part of a prediction's miss taken over per sample
+  std::optional<double> correction;           // deadbeat: part of the prediction error corrected per sample
   std::optional<double> measured_bus_from_V;  // duty = u/measured bus from this voltage on, else u/nominal
 };
 
-/// Whether a loop's keys say anything of a PI's gains.
+/// Whether a loop's keys set or design a PI's gains.
 template <class Loop>
 bool gives_gains(const Loop& loop) {
   return loop.d1 || loop.d0 || loop.kp || loop.ki || loop.ki_per_s || loop.settle_s || loop.damping;
@@ -48,7 +49,7 @@ enum class SpeedOutput : std::uint8_t { current, duty };
 /// pi.hpp, or pi_positional.hpp with derivative.hpp.
 enum class SpeedForm : std::uint8_t { incremental, positional };
 
-/// What makes a torque of a speed error (design/loops/speed_laws.hpp).
+/// The law that computes a torque from a speed error (design/loops/speed_laws.hpp).
 enum class SpeedLaw : std::uint8_t { pi, state_feedback, disturbance_rejection, sliding_mode };
 
 struct SpeedLoop {
@@ -65,9 +66,9 @@ struct SpeedLoop {
   std::optional<double> observer_ratio;
 };
 
-/// control/profiled_position.hpp; what is not given follows from the drive.
+/// control/profiled_position.hpp; values that are not given follow from the drive.
 struct PositionProfile {
-  bool on = false;  // else the setpoint goes to the loop as it comes
+  bool on = false;  // false: the setpoint goes to the loop unshaped
   std::optional<double> speed_rad_s, acceleration_rad_s2;
   std::optional<double> jerk_rad_s3, smoothing_s;
   bool feed_forward = true;
@@ -80,21 +81,21 @@ struct PositionLoop {
   PositionProfile profile;
 };
 
-/// The number the controller computes in; the fixed ones are named by their fraction bits.
+/// Number format of the controller; fixed-point formats are named by their fraction bits.
 enum class Arithmetic : std::uint8_t { float64, float32, q15, q14, q31, q30 };
 
-/// Fixed point: the largest value of each quantity; without one it follows from what the drive needs.
+/// Fixed point: the largest value of each quantity; if not given, it follows from the drive's needs.
 struct FullScale {
   std::optional<double> current_A, voltage_V, speed_rad_s, position_deg;
 };
 
-/// Keeps the bus of a supply that cannot take current back below a limit: the drive brakes less.
+/// Limits the bus voltage of a supply that cannot take current back: the drive brakes less.
 struct Regeneration {
   std::optional<double> limit_V;
   std::optional<double> gain_A_per_V;
 };
 
-/// A window for the current reference (control/limits.hpp); what is not given does not narrow it.
+/// Bounds of the current reference (control/limits.hpp); one that is not given does not act.
 struct Limits {
   std::optional<double> current_A;
   std::optional<double> torque_Nm;
@@ -102,7 +103,7 @@ struct Limits {
   std::optional<double> gain_A_s_per_rad;
 };
 
-/// Chopping by the current that flows (control/smooth_chopping.hpp), instead of pwm.chopping.
+/// Chopping chosen by the current (control/smooth_chopping.hpp), instead of pwm.chopping.
 struct SmoothChopping {
   bool on = false;
   std::optional<double> soft_above_A;
@@ -117,7 +118,7 @@ struct Advance {
 };
 constexpr bool advances(const Advance& a) { return a.angle_deg > 0 || a.gain_deg_s_per_rad > 0; }
 
-/// What the chip runs (rig/firmware.hpp, rig/sensorless_drive.hpp, rig/field_drive.hpp, rig/own_drive.hpp).
+/// The chip's program (rig/firmware.hpp, rig/sensorless_drive.hpp, rig/field_drive.hpp, rig/own_drive.hpp).
 enum class FirmwareKind : std::uint8_t { lean, product, sensorless, field, own };
 
 struct Control {

@@ -15,7 +15,8 @@ using base::above;
 using base::between;
 using base::from;
 
-/// The ways to give a PI's gains, the same in every loop. A current loop's are in V/A, a speed loop's in full output per rad/s.
+/// Meanings of a PI's gains, the same in every loop. Units: V/A in a current loop, full output per rad/s in a
+/// speed loop.
 struct GainMeanings {
   std::string_view d1, d0, kp, ki, ki_per_s;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a field-oriented drive (control/field/) holds its currents, as a scenario says it. What each key means stands in
-// field_description.hpp.
+// Current control of a field-oriented drive (control/field/) in a scenario. field_description.hpp says what
+// each key means.
 #pragma once
 #include <optional>
 
@@ -8,9 +8,9 @@
 
 namespace sixstep::study {
 
-/// What tells where the magnet points.
+/// Source of the magnet's angle.
 enum class FieldAngle : std::uint8_t { sensors, injection, observer, injection_observer };
-/// What holds the currents: field_current.hpp or finite_set.hpp of control/field/.
+/// The current controller: field_current.hpp or finite_set.hpp of control/field/.
 enum class FieldLaw : std::uint8_t { pi, finite_set };
 
 struct Field {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From control.arithmetic to the type that a controller computes with: the one switch over them.
+// Maps control.arithmetic to the controller's number type; this is the only switch over them.
 #pragma once
 #include <utility>
 
@@ -8,7 +8,8 @@
 
 namespace sixstep::study {
 
-/// `visit` called with the type as its template argument: `in_arithmetic(a, [&]<class Scalar>() { ... })`. All answers have one type.
+/// Calls `visit` with the type as its template argument: `in_arithmetic(a, [&]<class Scalar>() { ... })`. All
+/// calls must return one type.
 template <class Visit>
 auto in_arithmetic(Arithmetic arithmetic, Visit&& visit) {
   switch (arithmetic) {

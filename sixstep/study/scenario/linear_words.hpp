@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The keys of a scenario whose motor is linear, each beside the turning motor's it stands for (base/linear.hpp).
+// The keys of a scenario with a linear motor, each beside the rotary motor's key that it replaces
+// (base/linear.hpp).
 #pragma once
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/describe.hpp"
@@ -29,7 +30,7 @@ inline constexpr Spelling speed_limit[] = {{.key = "speed_limit_m_s", .unit = "m
 inline constexpr Spelling over_speed[] = {{.key = "over_speed_m_s", .unit = "m/s", .linear = true}};
 inline constexpr Spelling short_below[] = {{.key = "short_below_m_s", .unit = "m/s", .linear = true}};
 inline constexpr Spelling standing[] = {{.key = "standing_m_s", .unit = "m/s", .linear = true}};
-/// 1 mm stands for 0.18/pi degrees.
+/// 1 mm corresponds to 0.18/pi degrees.
 inline constexpr Spelling position_gain[] = {
     {.key = "gain_m_s_per_mm", .unit = "m/s/mm", .factor = base::pi / 0.18, .linear = true}};
 inline constexpr Spelling full_position[] = {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What may be asked of a run: a figure of merit, taken of a signal over a window. docs/reference/figures.md defines
-// each by its formula.
+// A figure of merit in a scenario: which metric, of which signal, over which window. docs/reference/figures.md
+// defines each by its formula.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace sixstep::study {
 
-/// What a figure is taken of; signal_facts (signal_choices.hpp) has word, unit and meaning of each.
+/// The signals of figures; signal_facts (signal_choices.hpp) has word, unit and meaning of each.
 enum class Signal : std::uint8_t {
   current,
   phase_a,
@@ -63,7 +63,7 @@ enum class Signal : std::uint8_t {
   winding_temperature,
   housing_temperature,
   junction_temperature,
-  direct_current,  // from here on: what a field-oriented drive holds
+  direct_current,  // from here on: only with a field-oriented drive
   quadrature_current,
   direct_current_reference,
   quadrature_current_reference,
@@ -76,17 +76,17 @@ struct Measure {
   MetricKind metric = MetricKind::final_value;
   Signal signal = Signal::current;
   std::optional<double> from_s, to_s;  // window; default: whole run
-  std::optional<double> level;         // metrics of a step: what is to be reached
-  std::optional<double> start;  // value the step starts from; default: the signal's, or the level before
+  std::optional<double> level;         // metrics of a step: the value to reach
+  std::optional<double> start;  // initial value of the step; default: the signal's, or the level before
   double fraction = 0.98;       // reach_time: of the way from start to level
   double band = 0.02;           // settling_time: of the step's height
-  std::optional<double> tail;   // steady_error, largest_error: part of each level that is looked at
+  std::optional<double> tail;   // steady_error, largest_error: last part of each level
   std::optional<double> frequency_Hz;  // thd: of the fundamental; default: the electrical frequency
-  bool sampled = false;                // look at the controller's samples only
+  bool sampled = false;                // use only the controller's samples
   std::string label;                   // shown instead of metric and signal
 };
 
-/// The tail where none is given: its last tenth.
+/// The tail if none is given: the last tenth of a level.
 inline constexpr double default_tail = 0.1;
 
 }  // namespace sixstep::study

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A figure of merit with its signal: in what unit it is told.
+// The unit in which a figure of merit is shown.
 #pragma once
 #include <string_view>
 

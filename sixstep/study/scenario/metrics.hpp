@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The figures of merit: their words, in files and in results, and what they mean.
+// The figures of merit: their words in files and in results, and their meanings.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace sixstep::study {
 
-/// Exact on the trajectory's polynomials (gauge.hpp and its like).
+/// Figures, each exact on the trajectory's polynomials (gauge.hpp and the other gauges).
 enum class MetricKind : std::uint8_t {
   final_value,
   mean,
@@ -36,7 +36,7 @@ enum class MetricKind : std::uint8_t {
   commutation_error_rms
 };
 
-/// What a figure looks at.
+/// The quantity that a figure is taken of.
 enum class TakenOf : std::uint8_t {
   signal,
   fundamental,
@@ -48,12 +48,12 @@ enum class TakenOf : std::uint8_t {
   commutations
 };
 
-/// Over which stretches of its window, where no level is given: all of it, each step or each level of the
-/// reference, of which the worst counts.
+/// The intervals of a figure within its window if no level is given: all of it, each step or each level of the
+/// reference; the worst one counts.
 enum class TakenOver : std::uint8_t { window, steps, levels };
 
-/// One row per figure. `phrase` stands before the signal's: "mean line voltage a to b". Without a unit the
-/// figure has that of its signal.
+/// One row per figure. `phrase` precedes the signal's: "mean line voltage a to b". An empty unit means the
+/// signal's unit.
 struct MetricFact {
   MetricKind kind;
   std::string_view word;
@@ -139,10 +139,10 @@ static_assert([] {
   return std::size(metric_facts) == static_cast<std::size_t>(MetricKind::commutation_error_rms) + 1;
 }());
 
-/// The figures that belong to steps or levels of the reference where no level is given.
+/// Whether the figure belongs to a step of the reference if no level is given.
 constexpr bool is_of_a_step(MetricKind kind) { return fact_of(kind).over == TakenOver::steps; }
 constexpr bool is_of_a_level(MetricKind kind) { return fact_of(kind).over == TakenOver::levels; }
-/// Infinite where it never comes.
+/// A time is infinite if its event never occurs.
 constexpr bool is_time(MetricKind kind) { return fact_of(kind).unit == "s"; }
 
 }  // namespace sixstep::study

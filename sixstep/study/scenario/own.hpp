@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A controller of one's own (control/own/own_controller.h), as a scenario names it. What each key means stands in
-// own_description.hpp.
+// A user's own controller (control/own/own_controller.h) in a scenario. own_description.hpp says what each key
+// means.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace sixstep::study {
 
-/// One of its numbers that is not as it presets it.
+/// A number of the controller that replaces its preset.
 struct OwnNumber {
   std::string name;
   double value = 0.0;
@@ -17,14 +17,14 @@ struct OwnNumber {
 };
 
 struct Own {
-  std::string controller;  ///< the shared object, beside the file that names it
+  std::string controller;  ///< path of the shared object, relative to the file that names it
   std::vector<OwnNumber> number;
   const sixstep_controller* loaded =
-      nullptr;  ///< what stands in it, for as long as the program runs (filled by text)
+      nullptr;  ///< its contents, valid until the program ends (filled by text)
   bool operator==(const Own&) const = default;
 };
 
-/// Whether it answers three legs; else a pair that moves on.
+/// Whether the controller commands three legs; otherwise it commands a driven pair.
 inline bool answers_legs(const Own& own) {
   return own.loaded != nullptr && own.loaded->answers == SIXSTEP_ANSWERS_LEGS;
 }

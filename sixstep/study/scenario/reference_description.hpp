@@ -6,7 +6,7 @@
 
 namespace sixstep::study {
 
-/// Time is counted in picoseconds of 63 bits, 106 days; and what repeats must be many of them long.
+/// A run counts time in picoseconds of 63 bits, 106 days; a period must fit into it many times.
 inline constexpr double longest_s = 9e6;
 inline constexpr double shortest_period_s = 1e-9;
 

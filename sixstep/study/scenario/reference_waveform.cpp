@@ -11,7 +11,7 @@ namespace sixstep::study {
 
 namespace {
 
-/// Adds a reference's stretches, its times counted from from_s; `before` is where the reference stood.
+/// Adds a reference's intervals. Its times count from from_s; `before` is the value so far.
 class StretchWriter {
  public:
   StretchWriter(const Reference& r, double from_s, double until_s, double before, std::vector<Stretch>& out)
@@ -67,8 +67,8 @@ class StretchWriter {
     put(r_.begin_s + length_s, r_.end);
   }
 
-  /// Way s from rest to rest within the rate v and its change a: for t_a = v/a the rate rises, for s/v - t_a
-  /// it stays, for t_a it falls. A way shorter than v^2/a never gets to v: t_a = sqrt(s/a).
+  /// Movement s from rest to rest with the rate v and its change a: the rate rises for t_a = v/a, stays for s/v
+  /// - t_a, falls for t_a. A movement shorter than v^2/a never reaches v: t_a = sqrt(s/a).
   void trapezoid() {
     const double start = r_.start.value_or(before_), way = r_.end - start, size = std::fabs(way);
     const double v = r_.slope.value_or(1.0), a = r_.acceleration.value_or(1.0), sign = way < 0 ? -1.0 : 1.0;
@@ -84,7 +84,7 @@ class StretchWriter {
     put(begin_s + 2 * rise_s + cruise_s, r_.end);
   }
 
-  /// Held before the first row and behind the last.
+  /// The first and the last row hold before and after the table.
   void rows() {
     const std::vector<double>&t = r_.times_s, &y = r_.values;
     if (t.empty()) return put(0.0, before_);
@@ -100,7 +100,7 @@ class StretchWriter {
   std::vector<Stretch>& out_;
 };
 
-/// Where stretch n ends.
+/// The end of interval n.
 double end_of(const std::vector<Stretch>& stretches, std::size_t n, double duration_s) {
   return n + 1 < stretches.size() ? stretches[n + 1].at_s : duration_s;
 }
@@ -136,7 +136,7 @@ std::vector<Level> reference_levels(const Scenario& s) {
 double largest_reference(const Scenario& s) {
   const std::vector<Stretch> stretches = reference_waveform(s);
   double largest = 0.0;
-  // No stretch turns back on its way, so that its ends bound it.
+  // No interval but a sine reverses, so that its ends are its extremes.
   for (std::size_t n = 0; n < stretches.size(); ++n) {
     const Stretch& stretch = stretches[n];
     const double swing = std::fabs(stretch.waveform.amplitude);
@@ -161,7 +161,7 @@ std::optional<double> reference_rests_from_s(const Scenario& s) {
   const Reference* last = &s.reference;
   for (const At* at : in_order(s))
     if (at->reference) last = &*at->reference;
-  // A square wave has a level each half period for ever, and the one that the run ends in is as good as those behind it.
+  // A square wave repeats its levels without end, so that the run's last one is enough.
   if (last->shape != Shape::square) longer.duration_s = longest_s;
   const std::vector<Stretch> stretches = reference_waveform(longer);
   if (stretches.back().waveform.moves()) return std::nullopt;

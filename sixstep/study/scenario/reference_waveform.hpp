@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference over a whole run, in closed form: stretches that stand or move, [[at]] events included.
+// The reference over a whole run in closed form: intervals that are constant or move, [[at]] events included.
 #pragma once
 #include <optional>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace sixstep::study {
 
-/// From at_s on, until the next stretch begins.
+/// An interval from at_s to the begin of the next one.
 struct Stretch {
   double at_s = 0.0;
   double value = 0.0;  ///< at at_s
@@ -18,25 +18,26 @@ struct Stretch {
   double at(double t_s) const { return waveform.after(value, t_s - at_s); }
 };
 
-/// Rising in time, the first at 0. Assumes that check_reference() found nothing.
+/// Rising in time, the first at 0. Requires that check_references() found nothing.
 std::vector<Stretch> reference_waveform(const Scenario& scenario);
 
-/// The reference's values over time: {instant, value}, first at 0. A stretch that moves counts as its end's
-/// value, for what comes after it is no step.
+/// The reference's constant values over time: {instant, value}, the first at 0. A moving interval has its end's
+/// value, because the value after it is no step.
 struct Level {
   double at_s = 0.0;
   double value = 0.0;
 };
 std::vector<Level> reference_levels(const Scenario& scenario);
 
-/// The largest magnitude of the reference during the run; of a sine a bound.
+/// The largest magnitude of the reference during the run; for a sine an upper bound.
 double largest_reference(const Scenario& scenario);
 
 /// Whether the reference moves anywhere in [from_s, to_s).
 bool reference_moves(const Scenario& scenario, double from_s, double to_s);
 
-/// The instant in s from which on the reference would not move any more if the run went on, behind its end too; 0 where it never
-/// moves. Steps and square waves are no movement. Empty: a sine, or a way longer than any run.
+/// Time in s after which the reference would not move any more, even if the run went on; it may lie after the
+/// run's end. 0 if it never moves. Steps and square waves are no movement. Empty: a sine, or a movement longer
+/// than any run.
 std::optional<double> reference_rests_from_s(const Scenario& scenario);
 
 }  // namespace sixstep::study

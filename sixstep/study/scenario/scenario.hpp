@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scenario as typed data: everything one run needs, files already resolved to numbers. What each key means,
-// its unit, range and default stands in scenario_description.hpp and nowhere else.
+// A scenario as typed data: everything that one run needs, with files already resolved to numbers. Only
+// scenario_description.hpp says what each key means, with unit, range and default.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -19,7 +19,8 @@
 
 namespace sixstep::study {
 
-/// What the source's open voltage does by itself; voltage_V is then what the bus is nominally.
+/// How the source's open-circuit voltage behaves; except with `steady`, voltage_V is only the nominal bus
+/// voltage.
 enum class SourceKind : std::uint8_t { steady, battery, single_phase, three_phase };
 
 struct Supply {
@@ -31,22 +32,22 @@ struct Supply {
   double inductance_H = 0.0;          // in series with resistance_ohm
   double brake_resistance_ohm = 0.0;  // across the bus from brake_on_V until brake_off_V; 0: no chopper
   double brake_on_V = 0.0, brake_off_V = 0.0;
-  double sink_limit_A = 0.0;              // sinks = false: what the source takes back all the same
+  double sink_limit_A = 0.0;              // sinks = false: current that the source takes back nevertheless
   double capacitor_resistance_ohm = 0.0;  // of the bus capacitor
   std::vector<double> battery_charges,
-      battery_voltages_V;  // open-circuit voltage over the charge, of the whole
+      battery_voltages_V;  // open-circuit voltage over charge
   double battery_capacity_Ah = 0.0;
   double battery_charge = 1.0;  // at the start
   double battery_recovery_ohm = 0.0, battery_recovery_F = 0.0;
-  double mains_rms_V = 0.0;  // single phase: of the line; three phases: between lines
+  double mains_rms_V = 0.0;  // single phase: of the line; three phases: line-to-line
   double mains_Hz = 50.0;
-  double rectifier_drop_V = 0.0;  // of each of the two diodes in the way
+  double rectifier_drop_V = 0.0;  // of each of the two conducting diodes
 };
 
 enum class Device : std::uint8_t { mosfet, igbt };
 
 struct Bridge {
-  rig::WireOrder phases = rig::WireOrder::abc;  // of the motor, at legs a, b, c
+  rig::WireOrder phases = rig::WireOrder::abc;  // the motor's phases at legs a, b, c
   Device device = Device::mosfet;
   double on_resistance_ohm = 0.0;
   double saturation_V = 0.0;  // igbt
@@ -54,14 +55,15 @@ struct Bridge {
   double diode_resistance_ohm = 0.0;
   double dead_time_s = 0.0;
   bool dead_time_at_commutation = false;
-  // Switching energies as an IGBT's sheet gives them, at a voltage and a current; or a MOSFET's charges over a gate current.
+  // Switching energies from an IGBT's sheet, at a voltage and a current; or a MOSFET's charges with a gate
+  // current.
   double turn_on_J = 0.0, turn_off_J = 0.0, recovery_J = 0.0, energies_at_V = 0.0, energies_at_A = 0.0;
   double gate_current_A = 0.0, gate_source_charge_C = 0.0, gate_drain_charge_C = 0.0, recovery_charge_C = 0.0;
   double sink_degC = 25.0, junction_K_W = 0.0;  // of each switch, from junction to heat sink
-  double on_resistance_percent_K = 0.0;         // of on_resistance_ohm, which is given at 25 degC
+  double on_resistance_percent_K = 0.0;         // of on_resistance_ohm, which applies at 25 degC
 };
 
-/// Which temperatures a run simulates, and where they begin.
+/// The simulated temperatures and their start values.
 struct Heat {
   bool motor = false, devices = false;
   double ambient_degC = 25.0;
@@ -82,7 +84,7 @@ struct Pwm {
   SampleAt sample = SampleAt::start;
   int delay_periods = 0;
   double timer_Hz = 0.0;         // 0: edges are not quantised
-  double minimum_pulse_s = 0.0;  // a shorter pulse does not come, a shorter gap closes
+  double minimum_pulse_s = 0.0;  // shorter pulses are dropped, shorter gaps are closed
 };
 
 struct Initial {
@@ -110,18 +112,18 @@ struct Comparison {
 
 enum class Distribution : std::uint8_t { uniform, normal };
 
-/// How one number of motor, supply, bridge, load or start strays from one drive of a series to the next.
+/// Variation of one number of motor, supply, bridge, load or start within a series of drives.
 struct Spread {
   std::string key;  // as written in the scenario: "motor_override.resistance_ohm", "supply.voltage_V"
   Distribution distribution = Distribution::uniform;
   std::optional<double>
-      relative;  // half width (uniform) or standard deviation (normal), as part of the value
+      relative;  // half width (uniform) or standard deviation (normal), relative to the value
   std::optional<double> absolute;  // the same in the key's unit, instead of relative
-  double cut_sigma = 3.0;          // normal: standard deviations beyond which no drive lies
+  double cut_sigma = 3.0;          // normal: largest deviation of a drive, in standard deviations
   std::string source;
 };
 
-/// What the designer of a controller goes by.
+/// The values on which a controller is designed.
 struct Nominal {
   design::Sheet sheet;
   Supply supply;
@@ -130,15 +132,13 @@ struct Nominal {
 
 struct Scenario {
   std::string title;
-  std::vector<std::string>
-      extends;        // files it is laid over, as written; their keys are in it (filled by text)
-  std::string motor;  // name or path as written
+  std::vector<std::string> extends;  // base files as written; their keys are merged (filled by text)
+  std::string motor;                 // name or path as written
   double duration_s = 0.0;
-  std::string notes;       // what the run teaches, shown in the report
-  std::string not_usable;  // what its design found against it; empty where nothing was found
-  design::Sheet sheet;     // the motor's sheet with overrides applied (filled by text)
-  std::optional<design::Sheet>
-      motor_sheet;  // the same without overrides (filled by text); not given: it has none
+  std::string notes;                         // shown in the report
+  std::string not_usable;                    // reason why its design is not usable; empty if none
+  design::Sheet sheet;                       // the motor's sheet with overrides applied (filled by text)
+  std::optional<design::Sheet> motor_sheet;  // without overrides (filled by text); not given: there is none
   Supply supply;
   Bridge bridge;
   Heat heat;
@@ -154,7 +154,7 @@ struct Scenario {
   std::vector<Requirement> require;
   std::vector<Comparison> compare;
   std::vector<Spread> spread;           // over a batch of runs; a single run is the nominal one
-  std::optional<Nominal> designed_for;  // else for the motor, supply and load at hand (set by study::varied)
+  std::optional<Nominal> designed_for;  // not given: motor, supply, load as here (set by study::varied)
 };
 
 }  // namespace sixstep::study

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a drive without a rotor sensor starts and follows (control/sensorless/), as a scenario says it. What each key means
-// stands in sensorless_description.hpp.
+// Start and operation of a drive without a rotor sensor (control/sensorless/) in a scenario.
+// sensorless_description.hpp says what each key means.
 #pragma once
 #include <cstdint>
 
@@ -8,10 +8,10 @@
 
 namespace sixstep::study {
 
-/// By what the pairs are commutated.
+/// The signal that commutates the pairs.
 enum class Commutates : std::uint8_t { back_emf, hall };
 
-/// How a rotor at rest is found.
+/// How the position of a rotor at rest is found.
 enum class StartsBy : std::uint8_t { alignment, pulses };
 
 struct Sensorless {
@@ -24,7 +24,7 @@ struct Sensorless {
   control::Follow follows = control::Follow::crossings;
   bool catches_spin = true;
   StartsBy starts_by = StartsBy::alignment;
-  Commutates commutates = Commutates::back_emf;  // changed by [[at]] in flight
+  Commutates commutates = Commutates::back_emf;  // [[at]] can change it during the run
   bool falls_back = true;
   bool operator==(const Sensorless&) const = default;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the board measures with, as a scenario says it. The default is ideal throughout. What each key means
-// stands in sensors_description.hpp.
+// The board's measurements in a scenario. By default all are ideal. sensors_description.hpp says what each key
+// means.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -17,7 +17,7 @@ enum class BusSensing : std::uint8_t { ideal, adc };
 enum class RotorSensing : std::uint8_t { ideal, hall, encoder, absolute, resolver };
 enum class Level01 : std::uint8_t { low, high };
 
-/// On which shaft an encoder or a resolver stands.
+/// The shaft on which an encoder or a resolver is mounted.
 enum class SensorShaft : std::uint8_t { motor, load };
 
 /// Hall lines whose pins read their probe inverted, as bits of a Hall code.
@@ -39,12 +39,13 @@ struct HallBreak {
   Level01 level = Level01::low;
 };
 
-// What stands on the shaft in the place of Hall probes: said here as the board takes it. Only that of `rotor` counts.
+// Sensors on the shaft that replace Hall probes, in the board's own structs. Only the one that `rotor` names is
+// used.
 using rig::AbsoluteEncoder;
 using rig::Encoder;
 using rig::Resolver;
 
-/// Comparators at the terminals; they count where control.sensorless.follows names them.
+/// Comparators at the terminals; used only if control.sensorless.follows names them.
 struct Comparators {
   std::optional<double> bandwidth_Hz;
   rig::CrossingReference against = rig::CrossingReference::virtual_star;
@@ -74,7 +75,7 @@ struct Sensors {
   std::vector<double> terminal_gain_error{};  // 3, of a, b, c
   RotorSensing rotor = RotorSensing::ideal;
   double capture_Hz = 1e6;
-  int speed_edges = 0;  // 0: six where the speed loop stands their delay, else one
+  int speed_edges = 0;  // 0: six if the speed loop tolerates their delay, else one
   rig::HallAngleFrom hall_angle = rig::HallAngleFrom::sectors;
   int hall_calibration_turns = 8;
   double timeout_s = 0.05;

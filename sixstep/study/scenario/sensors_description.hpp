@@ -115,7 +115,7 @@ inline void describe_currents(base::Visitor& v, Sensors& s) {
            .range = base::between(0, 255)});
 }
 
-/// How the probes are built in, of the motor's angle in electrical degrees.
+/// Mounting of the probes, in electrical degrees of the motor's angle.
 inline void describe_probes(base::Visitor& v, Sensors& s) {
   v.choice("hall_spacing", s.hall_spacing, hall_spacing_choices,
            {.meaning = "how many electrical degrees the Hall probes stand apart"});

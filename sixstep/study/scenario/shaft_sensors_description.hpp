@@ -15,7 +15,7 @@ inline constexpr base::Choice<rig::ResolverReading> resolver_reading_choices[] =
 
 }  // namespace sixstep::study
 
-// Of the board's own structs: a visitor looks for their descriptions in the namespace that they are of.
+// The structs are the board's, and argument-dependent lookup finds their descriptions only in their namespace.
 namespace sixstep::rig {
 
 inline void describe(base::Visitor& v, Encoder& s) {

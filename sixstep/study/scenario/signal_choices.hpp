@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a figure may be taken of: each signal's word, unit and meaning, and what can be asked of it.
+// The signals of figures: each one's word, unit and meaning, and which figures it allows.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -11,20 +11,20 @@
 
 namespace sixstep::study {
 
-/// What a signal is, which says what can be asked of it.
+/// The kind of a signal decides which figures it allows.
 enum class SignalKind : std::uint8_t {
-  series,         ///< as the engine has it, or a sum of such
-  phase_current,  ///< the same, and swings about zero
+  series,         ///< a series of the engine, or a sum of them
+  phase_current,  ///< the same, alternating about zero
   magnitude,      ///< a sum of magnitudes
   voltage,        ///< of a terminal or a line: jumps with the gates
   emf,
-  held,  ///< stands from one control sample to the next
-  duty,  ///< stands from one event to the next
+  held,  ///< constant between control samples
+  duty,  ///< constant between events
   gate,
   power
 };
 
-/// One row per signal. `phrase` stands behind a figure's name: "mean line voltage a to b".
+/// One row per signal. `phrase` follows the figure's name: "mean line voltage a to b".
 struct SignalFact {
   Signal signal;
   std::string_view word;
@@ -34,7 +34,7 @@ struct SignalFact {
   SignalKind kind;
 };
 
-/// A signal that is a column of the trace by another word carries the column's own name.
+/// A signal that is also a column of the trace under another word has the column's name too.
 inline constexpr SignalFact signal_facts[] = {
     {Signal::current, "current", "motor current", "A", "motor current (i_p - i_n)/2 of the positive pair, A",
      SignalKind::series},
@@ -138,7 +138,7 @@ inline constexpr SignalFact signal_facts[] = {
      SignalKind::held},
 };
 
-/// Columns of the trace that have an older word.
+/// Older words of columns in the trace.
 inline constexpr base::Choice<Signal> column_words[] = {
     {"i_m_A", Signal::current, "the same as current"},
     {"i_a_A", Signal::phase_a, "the same as i_a"},
@@ -150,7 +150,7 @@ inline constexpr base::Choice<Signal> column_words[] = {
     {"bus_A", Signal::bus_current, "the same as bus_current"},
 };
 
-/// Of a linear motor (base/linear.hpp), each beside the turning motor's word.
+/// Words of a linear motor (base/linear.hpp), each beside the rotary motor's word.
 inline constexpr base::Choice<Signal> linear_signal_words[] = {
     {"force", Signal::torque, "linear motor: electromagnetic force, N", "torque"},
     {"force_N", Signal::torque, "linear motor: the same as force", "torque_Nm"},
@@ -191,21 +191,21 @@ static_assert([] {
 /// Unit of a signal, as shown behind a figure.
 constexpr std::string_view unit_of(Signal signal) { return fact_of(signal).unit; }
 
-/// Of a field-oriented drive only.
+/// Whether only a field-oriented drive has the signal.
 constexpr bool is_of_field(Signal signal) { return signal >= Signal::direct_current; }
 constexpr bool is_gate(Signal signal) { return fact_of(signal).kind == SignalKind::gate; }
 constexpr bool is_power(Signal signal) { return fact_of(signal).kind == SignalKind::power; }
-/// A product of two of the engine's series (signal_products.hpp).
+/// Whether it is a product of two of the engine's series (signal_products.hpp).
 constexpr bool is_product(Signal signal) {
   const SignalKind kind = fact_of(signal).kind;
   return kind == SignalKind::voltage || kind == SignalKind::emf || kind == SignalKind::power;
 }
-/// Swings about zero at the electrical frequency.
+/// Whether it alternates about zero at the electrical frequency.
 constexpr bool alternates(Signal signal) {
   const SignalKind kind = fact_of(signal).kind;
   return kind == SignalKind::phase_current || kind == SignalKind::voltage || kind == SignalKind::emf;
 }
-/// Says something of every instant of a period, not only of the controller's samples.
+/// Whether the controller's samples represent the signal. False for signals that jump at the sample instants.
 constexpr bool is_known_at_samples(Signal signal) {
   const SignalKind kind = fact_of(signal).kind;
   return !is_power(signal) && kind != SignalKind::gate && kind != SignalKind::duty &&

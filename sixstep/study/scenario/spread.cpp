@@ -20,7 +20,7 @@ namespace {
 constexpr std::string_view torque_key = "motor_override.torque_constant_mNm_A",
                            back_emf_key = "motor_override.back_emf_mV_s";
 
-/// What drives differ in. The rest of the sheet is print: it describes no part of the motor.
+/// Motor values that can vary. Other lines of the sheet do not describe a part of the motor.
 constexpr std::string_view motor_keys[] = {"motor_override.resistance_ohm",
                                            "motor_override.inductance_mH",
                                            torque_key,
@@ -39,15 +39,14 @@ bool may_stray(std::string_view key) {
                      [&](std::string_view table) { return key.starts_with(table); });
 }
 
-/// Six digits say what a message needs, without the rounding of 1.03 - 1.5 * 1.03.
-/// The visitor that looks for the number at a key's path.
+/// Finds the number at a key's path.
 class NumberAt final : public base::Visitor {
  public:
   explicit NumberAt(std::string_view path) : path_(path) {}
 
-  double* number = nullptr;  ///< null: no such number
+  double* number = nullptr;  ///< null: not found
   base::Range range;
-  bool left_out = false;  ///< the key is there, its value is not
+  bool left_out = false;  ///< the key exists, its value does not
 
  private:
   void visit_value(std::string_view key, const base::ValueMember& member, const base::About& about) override {
@@ -82,8 +81,8 @@ NumberAt find_number(Scenario& scenario, std::string_view key) {
   return finder;
 }
 
-/// The scenario with everything written out that would otherwise be derived from a value that strays, and
-/// every constant in its standard key, whatever way the sheet prints it.
+/// The scenario with all values that would be derived from a varying value written out, and all constants under
+/// their standard keys, whatever the sheet prints.
 Scenario written_out(const Scenario& scenario) {
   Scenario s = scenario;
   s.sheet = design::in_standard_keys(std::move(s.sheet));
@@ -101,8 +100,8 @@ std::uint64_t stream_of(std::string_view key) {
   return hash.value();
 }
 
-/// In units of the width. What lies beyond the cut is drawn again: with cut_sigma >= 1 at least 68 % are
-/// inside, so that 64 draws all miss once in 10^31 drives; that one is nominal.
+/// In units of the width. Values beyond the cut are drawn again: with cut_sigma >= 1 at least 68 % are inside,
+/// so that 64 draws all miss once in 10^31 drives; the value is then nominal.
 double deviation(const Spread& spread, std::uint64_t seed, std::uint64_t number) {
   const std::uint64_t stream = stream_of(spread.key);
   if (spread.distribution == Distribution::uniform) return 2.0 * base::uniform({seed, stream, number}) - 1.0;
@@ -113,7 +112,7 @@ double deviation(const Spread& spread, std::uint64_t seed, std::uint64_t number)
   return 0.0;
 }
 
-/// No two drives share their noise. Where nothing is noisy the seed says nothing.
+/// Each drive has its own noise. Without noise the seed has no effect.
 int noise_seed(const Scenario& scenario, std::uint64_t seed, std::uint64_t number) {
   const std::uint64_t stream = stream_of("sensors.seed") + static_cast<std::uint64_t>(scenario.sensors.seed);
   return static_cast<int>(base::random_bits({seed, stream, number})[0] >> 33);
@@ -121,7 +120,7 @@ int noise_seed(const Scenario& scenario, std::uint64_t seed, std::uint64_t numbe
 
 void set_number(Scenario& s, std::string_view key, double x) {
   double* const number = find_number(s, key).number;
-  if (number == nullptr) return;  // check_spread() has told so
+  if (number == nullptr) return;  // check_spread() has reported it
   const double before = std::exchange(*number, x);
   if (key != torque_key && key != back_emf_key) return;
   const NumberAt partner = find_number(s, key == torque_key ? back_emf_key : torque_key);
@@ -129,7 +128,7 @@ void set_number(Scenario& s, std::string_view key, double x) {
 }
 
 struct Checker {
-  Scenario scenario;  // written out
+  Scenario scenario;  // with derived values written out
   base::Problems problems;
 
   void check(const Spread& spread, const std::string& where) {
@@ -171,14 +170,14 @@ struct Checker {
   }
 };
 
-/// The controller stays the one designed for what stands there now.
+/// The scenario with its present values as the controller's design basis.
 Scenario with_its_designer(const Scenario& scenario) {
   Scenario s = written_out(scenario);
   if (!s.designed_for) s.designed_for = Nominal{scenario.sheet, scenario.supply, scenario.load};
   return s;
 }
 
-/// The key whose spread is the same thing: of the two constants each means the other.
+/// The key that is spread: back-EMF constant and torque constant are one quantity.
 std::string_view spread_fact(std::string_view key) { return key == back_emf_key ? torque_key : key; }
 
 }  // namespace

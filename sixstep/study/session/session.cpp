@@ -20,7 +20,7 @@ using sim::Instant;
 
 namespace {
 
-/// A run as a value: a copy goes on by itself.
+/// A run with value semantics: a copy continues independently.
 class Run {
  public:
   explicit Run(std::unique_ptr<AnyRun> run) : run_(std::move(run)) {}
@@ -39,7 +39,7 @@ class Run {
 
 struct Session::State {
   Scenario scenario;
-  Compiled compiled;  ///< its timeline is the rig's
+  Compiled compiled;  ///< without the timeline, which the rig holds
   Observers watchers;
   Run run;
   Present present{};
@@ -47,10 +47,10 @@ struct Session::State {
   Instant reach{};
   sim::Stop stop = sim::Stop::observer;
   bool over = false;
-  bool figures_moved = false;  ///< windows are not those that were known when it began
+  bool figures_moved = false;  ///< windows differ from those at the begin
 
   Instant now() const { return run->now(); }
-  /// Already simulated: the segment that passed it shows it, or it is gone.
+  /// Samples an instant that is already simulated, if the last segment contains it.
   bool look_back(const Instant& asked) {
     if (last && !(asked < last->from)) {
       present.t_s = asked.seconds();
@@ -65,7 +65,7 @@ struct Session::State {
 
 namespace {
 
-/// The chip as the run has felt it. How far a setpoint may go is felt by none that stays within.
+/// Whether two configurations are equal for the past. A setpoint limit has no effect on setpoints within it.
 bool same_chip(const Tuned& a, const Tuned& b) {
   if (!(a.drive == b.drive) || a.product.has_value() != b.product.has_value()) return false;
   if (!(a.sensorless == b.sensorless) || !(a.field == b.field)) return false;
@@ -76,7 +76,7 @@ bool same_chip(const Tuned& a, const Tuned& b) {
   return one == other;
 }
 
-/// Whether what was compiled anew had been the same run up to now.
+/// Whether the newly compiled scenario has the same run up to now.
 bool same_past(const Scenario& s, const Compiled& before, const Compiled& anew, const Instant& now) {
   if (!same_chip(
           {before.drive, {}, before.product, before.sensorless, before.field, before.own, before.estimator},
@@ -92,7 +92,8 @@ bool same_past(const Scenario& s, const Compiled& before, const Compiled& anew, 
   return true;
 }
 
-/// The first control tick that the next segment can still be told of. In seconds that a file can name.
+/// The first control tick before which the segments so far have not looked. Its seconds must convert back to a
+/// tick not earlier.
 Instant next_change(const Instant& now, const Instant& next_tick, const Instant& reach, std::int64_t period) {
   std::int64_t from = std::max(now.ticks + (now.offset > 0 ? 1 : 0), reach.ticks);
   if (now < next_tick) from = std::max(from, now.ticks + 1);
@@ -101,8 +102,8 @@ Instant next_change(const Instant& now, const Instant& next_tick, const Instant&
   return {tick, 0.0};
 }
 
-/// What asked for the general kernel may have lain behind the end. It asks for it again: wires that are as they are at the
-/// start are no event.
+/// Keeps the run on the general kernel if the event that needed it lay after the end: adds an event with
+/// straight wires, which changes nothing.
 Scenario on_same_kernel(Scenario s, const Compiled& before) {
   if (!before.general || needs_general_plant(s)) return s;
   At straight;
@@ -159,7 +160,7 @@ bool Session::advance(double to_s) {
   if (!to_end && !(s.now() < asked)) return s.look_back(asked);
   Slice slice = s.slice(to_end ? end : asked);
   s.stop = s.now() < slice.until ? s.run->advance(end, slice) : sim::Stop::observer;
-  // The end of the run is an instant too: what is due there is done.
+  // Actions due at the end of the run are done.
   if (s.stop == sim::Stop::observer && !slice.stopped && to_end) s.stop = s.run->advance(end, slice);
   s.over = s.stop != sim::Stop::observer || slice.stopped;
   if (!slice.taken) s.run->look(slice);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run that is lived: it goes on in slices, is looked at, changed, saved and taken up again, and in the end
-// is a scenario that anybody can run again. What a bench with knobs, a co-simulation or a script stands on.
+// A run in slices. It can be advanced, read, changed, saved and resumed, and ends as a scenario that can be run
+// again. Test benches with knobs, co-simulations and scripts are built on it.
 //
-//   bits     however it is sliced and looked at, it has the bits of the uncut run: a slice ends behind an event
-//   change   what [[at]] can say, at the next control tick. The session writes it into its scenario; what
-//            cannot be so is refused as a file would be, and then nothing has changed
-//   copy     a session is a value: a copy is a saved state, and goes on alone
+//   bits     slices and reads do not change a bit of the run: a slice ends after an event
+//   change   everything that [[at]] can change, at the next control tick. The session adds it to its scenario. An
+//            invalid change is refused like an invalid file, and then nothing has changed
+//   copy     a session is a value: a copy is a saved state, and goes on independently
 //   replay   run(session.scenario()) has the digest of the session that was run to its end, or closed
 #pragma once
 #include <memory>
@@ -17,7 +17,7 @@ namespace sixstep::study {
 
 class Session {
  public:
-  /// At t = 0, nothing done. Fixed point: its scaling, [control.full_scale], is that of the whole session.
+  /// Opens a session at t = 0. Fixed point: the scaling [control.full_scale] holds for the whole session.
   static base::Result<Session> open(const Scenario& scenario, const Listeners& listeners = {});
 
   Session(const Session& other);
@@ -26,26 +26,28 @@ class Session {
   Session& operator=(Session&&) noexcept;
   ~Session();
 
-  /// Goes on to to_s, then up to the next event: now_s() may lie a little behind it, present() does not.
-  /// False where the run is over: its end, a fault, or a listener that told it to stop.
+  /// Advances to to_s, then up to the next event: now_s() may lie a little after to_s, present() does not.
+  /// False if the run is over: its end, a fault, or a listener that stopped it.
   bool advance(double to_s);
-  /// The same, and asks done(present()) once a PWM period: true ends it there.
+  /// The same, and calls done(present()) once per PWM period; `true` ends the advance.
   template <class Done>
   bool advance_until(double to_s, Done&& done);
 
-  /// At the next control tick. `at.time_s` is not read: the instant is the answer, and stands in scenario().
+  /// Changes values at the next control tick. `at.time_s` is not read: the result is the instant, also in
+  /// scenario().
   base::Result<double> change(At at);
 
-  /// The instant asked for by the last advance; where the run stopped before it, or has not gone yet, now.
+  /// Values at the instant of the last advance; if the run stopped before it, or has not begun, at the present
+  /// instant.
   const Present& present() const;
   double now_s() const;
   bool over() const;
-  /// The scenario as it has become.
+  /// The scenario with all changes so far.
   const Scenario& scenario() const;
 
-  /// What came out. A run that is not over ends at the next control tick: from then on that is its scenario's
-  /// duration_s, and what lay behind it is dropped. Figures of a session whose reference was changed, or that
-  /// ends early, have other windows than were known when it began: they are taken from a replay.
+  /// Ends the session and returns the results. A run that is not over ends at the next control tick: this
+  /// becomes the scenario's duration_s, and later events are dropped. If the reference was changed or the
+  /// session ends early, figures have other windows than at the begin: they are then taken from a replay.
   base::Result<Outcome> close();
 
  private:

@@ -18,7 +18,7 @@ void shorten(std::vector<double>& times_s, std::vector<double>& values, double e
   values.resize(std::min(values.size(), kept));
 }
 
-/// Steps that are all behind the end leave what stood before: a ramp that has not set off.
+/// If all steps lie after the end, the value before remains: a ramp that has not begun.
 void shorten(Reference& r, double length_s) {
   if (r.shape != Shape::steps) return;
   shorten(r.times_s, r.values, length_s);
@@ -27,7 +27,7 @@ void shorten(Reference& r, double length_s) {
   r.begin_s = length_s;
 }
 
-/// What check() finds wrong with a figure of the shorter run.
+/// Removes the figures in which check() finds problems for the shorter run.
 template <class Item>
 void drop_named(std::vector<Item>& items, const char* list, const base::Problems& problems) {
   for (std::size_t n = items.size(); n-- > 0;) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands around the chip, as the scenario simulated it: a transducer in each phase on ADC0..ADC2, of which each period's sample is
-// that of the leg that feeds the driven pair; a potentiometer on ADC3 as the setpoint, 0 in its middle; Hall pins on PK0..PK2.
+// Describes the board around the chip, as the scenario simulated it. A transducer in each phase on ADC0..ADC2;
+// each period samples the leg that feeds the driven pair. A potentiometer on ADC3 as the setpoint, 0 in its
+// middle. Hall pins on PK0..PK2.
 #pragma once
 #include <drive_config.hpp>
 
@@ -23,7 +24,7 @@ static_assert(exported::pwm_centre_aligned,
               "timer 1 counts up and down; its compare registers are taken at the top");
 static_assert(exported::adc_bits == 10, "the converter that is there");
 static_assert(sizeof(Scalar) == 2, "eighths of counts as signals of 16 bits");
-#ifndef SIXSTEP_DESPITE  // tools/firmware_image.sh --despite, and a chip that is emulated
+#ifndef SIXSTEP_DESPITE  // tools/firmware_image.sh --despite, and an emulated chip
 static_assert(
     exported::cleared,
     "the header says that its drive is not cleared for a bridge; tools/firmware_image.sh builds it with --despite");
@@ -32,25 +33,26 @@ static_assert(exported::dead_time_ps > 0,
               "a leg would change between its two switches with both on: set bridge.dead_time_s");
 
 constexpr std::uint32_t clock_Hz = 16'000'000;
-// Up and down again, of 1/16 MHz.
+// Timer counts of 62.5 ns in half a period, because it counts up and down.
 constexpr std::uint64_t pwm_counts = exported::pwm_period_ps / 62'500 / 2;
 static_assert(pwm_counts >= 3 && pwm_counts < 65536, "timer 1 has 16 bits");
-// Rounded up; four are the least that change_over() can wait.
+// Rounded up; change_over() waits at least four.
 constexpr std::uint64_t dead_cycles =
     exported::dead_time_ps <= 250'000 ? 4 : (exported::dead_time_ps + 62'499) / 62'500;
 static_assert(dead_cycles <= 80, "5 us at most: an interrupt waits it out");
 
-// What no sound board reads, in counts.
+// Readings in counts that no sound board has:
 constexpr std::uint16_t middle = 512;
-/// Above it a phase current is a fault: 0.9 of what its transducer reaches. Set it below what the switches and the motor stand.
+/// A phase current above it is a fault: 0.9 of its transducer's range. Set it below the limits of switches and
+/// motor.
 constexpr std::uint16_t over_current_counts = 461;
-/// So near to an end of the converter lies a wire that is lost: each input needs a resistor of 10 kohm at most to ground that pulls it
-/// there, against what the holding capacitor brings from the channel before.
+/// A reading so near to an end of the converter means a broken wire. Each input needs a resistor of at most 10
+/// kohm to ground, which pulls a broken wire there against the charge of the previous channel.
 constexpr std::uint16_t end_counts = 8;
-/// The three currents' sum, whose samples lie half a period apart: a part of the range that no ripple has.
+/// Bound of the three currents' sum, larger than any ripple, because their samples are half a period apart.
 constexpr std::uint16_t sum_counts = 192;
 constexpr std::uint8_t strange_sums = 3;
-/// Of the potentiometer about its middle: 0.
+/// Band of the potentiometer around its middle that counts as 0.
 constexpr std::uint16_t zero_counts = 10;
 
 constexpr bool is_within(std::uint16_t counts, std::uint16_t of_middle) {
@@ -68,7 +70,7 @@ constexpr AdcConfig<Scalar> potentiometer{
     .offset_counts = middle};
 constexpr std::uint8_t potentiometer_channel = 3;
 
-/// By the Hall pins as port K has them: looked up in a few cycles, worked out in dozens.
+/// Tables indexed by the Hall pins as in port K: a look-up takes a few cycles, the computation dozens.
 struct ByPins {
   std::uint8_t code[8], source[8], second[8], third[8];
 };
@@ -84,8 +86,9 @@ constexpr ByPins by_pins = [] {
   return by;
 }();
 
-/// Three readings six cycles apart, by majority: an edge of the bridge disturbs the pins for about 0.3 us, 4.8 cycles, and so one of them.
-/// An edge of the rotor between them asks for the Hall interrupt again. By hand, for the compiler keeps no distance: 19 cycles.
+/// Majority of three readings six cycles apart: an edge of the bridge disturbs the pins for about 0.3 us (4.8
+/// cycles), and so only one reading. An edge of the rotor between them causes the Hall interrupt again. In
+/// assembly (19 cycles), because a compiler keeps no distance.
 inline std::uint8_t hall_pins() {
   std::uint8_t pins, second, third;
   asm volatile(
@@ -105,16 +108,17 @@ inline std::uint8_t hall_pins() {
   return pins & 7;
 }
 static_assert(clock_Hz == 16'000'000);
-/// As the Hall interrupt has them, whose pair is at the gates: where an edge is not in them yet, it comes next.
+/// The pins as the last Hall interrupt read them, whose pair is at the gates. A newer edge causes the next Hall
+/// interrupt.
 inline volatile std::uint8_t pins_seen = 0;
 
-/// As adc_value(): of 10 bits nothing saturates, and 32-bit differences would cost a hundred cycles.
+/// Like adc_value(), but 10 bits cannot saturate, and 32-bit differences would cost a hundred cycles.
 inline Scalar value_of(const AdcConfig<Scalar>& config, std::int16_t offset, std::uint16_t counts) {
   const auto eighths = static_cast<std::int16_t>(static_cast<std::int16_t>(counts * 8) - offset);
   return ScalarTraits<Scalar>::product(Scalar::from_raw(eighths), config.per_eighth);
 }
 
-/// Of a product of 32 bits the upper half: by the library's call it takes 100 cycles, so 20.
+/// The upper half of a 32-bit product in 20 cycles; the library's function takes 100.
 inline std::uint16_t upper_half(std::uint16_t a, std::uint16_t b) {
   std::uint16_t half;
   std::uint8_t low, zero;
@@ -138,7 +142,7 @@ inline std::uint16_t upper_half(std::uint16_t a, std::uint16_t b) {
   return half;
 }
 
-/// Of a duty from 0 to 1.
+/// The on-time in timer counts for a duty from 0 to 1.
 inline std::uint16_t counts_of(Scalar duty) {
   constexpr int ahead = 16 - Scalar::fraction_bits;
   static_assert(ahead > 0 && pwm_counts << (ahead - 1) < 65536, "a product of 32 bits, a duty of 1 included");

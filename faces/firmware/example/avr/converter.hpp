@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The converter: at the timer's bottom, in the middle of the on-time, a phase current. Between two of those, in turns, the potentiometer,
-// and the other two currents, the second of them from TOP on.
+// Uses the converter: at the timer's bottom, in the middle of the on-time, it samples a phase current. Between
+// two of these samples it converts in turns the potentiometer, and the other two currents, the second of them
+// from TOP on.
 #pragma once
 #include "faces/firmware/example/avr/board.hpp"
 
@@ -12,17 +13,19 @@ inline void look_at_channel(std::uint8_t channel) {
   byte(atmega2560::ADMUX) = static_cast<std::uint8_t>(atmega2560::REFS0 | channel);
 }
 
-/// The transducer of the leg that feeds the positive pair: it carries the motor current, whatever its sign.
+/// Selects the transducer of the leg that feeds the positive pair: it carries the motor current of either sign.
 inline void look_at_source(std::uint8_t pins) { look_at_channel(by_pins.source[pins]); }
 
-/// 16 MHz / 16: a conversion is 13 us. One that BOTTOM starts is 13.5 us and holds its sample 2 us behind it, and up to three cycles of the
-/// trigger's. The data sheet has its 10 bits up to 200 kHz; a microsecond is worth one or two of them here.
+/// 16 MHz / 16: a conversion takes 13 us. A conversion started by BOTTOM takes 13.5 us and holds its sample 2 us
+/// after it, plus up to three cycles of the trigger. The data sheet guarantees 10 bits only up to 200 kHz; here
+/// the shorter time is worth the loss of one or two bits.
 constexpr std::uint8_t converter_on = atmega2560::ADEN | atmega2560::ADPS2;
 constexpr std::uint16_t conversion_half_us = 2 * 13;
 
 inline bool converts() { return (byte(atmega2560::ADCSRA) & atmega2560::ADSC) != 0; }
 
-/// Its channel is held from the next edge of the converter's clock on: no interrupt that moves ADMUX may come within 16 cycles.
+/// The channel is locked at the next edge of the converter's clock: no interrupt that changes ADMUX may come
+/// within 16 cycles.
 inline void convert(std::uint8_t channel) {
   look_at_channel(channel);
   byte(atmega2560::ADCSRA) = converter_on | atmega2560::ADSC;
@@ -33,8 +36,9 @@ inline std::uint16_t conversion() {
   return converted();
 }
 
-/// The next BOTTOM, in the middle of the on-time, starts a conversion. The flag is cleared last: one set before the converter
-/// listens would stand for ever, and only its edge counts. TOP's is cleared with it, for the next one.
+/// Lets the next BOTTOM, in the middle of the on-time, start a conversion. The flag is cleared last: set before
+/// the converter listens, it would stay set, and only its edge starts a conversion. TOP's flag is cleared with
+/// it, for the next TOP.
 inline void convert_at_bottom(std::uint8_t pins) {
   using namespace atmega2560;
   look_at_source(pins);

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The six gates as they are, and how they change: what goes is off, and after the dead time what comes is on. No gate comes earlier than
-// that after any other went, also where two changes follow each other. All of it with interrupts off.
+// Changes the six gates: first all that go off, and after the dead time those that come on. No gate comes on
+// earlier than the dead time after any other went off, also if two changes follow each other. All of it runs
+// with interrupts off.
 #pragma once
 #include "faces/firmware/example/avr/board.hpp"
 #include "faces/firmware/example/avr/bridge.hpp"
 
 namespace firmware {
 
-/// The sign of the voltage that the pins give; a number from which on its pins stand, by the reading of the Hall pins.
+/// The sign of the pair's voltage. The number plus the reading of the Hall pins is the index in pins_by_way.
 enum class Way : std::uint8_t { off = 0, positive = 8, negative = 16 };
 
-/// What on_hall() answers, for every sign and every reading: worked out by the compiler.
+/// The result of on_hall() for every sign and every reading, computed at compile time.
 struct PinsByWay {
   Pins at[24];
 };
@@ -27,9 +28,10 @@ constexpr PinsByWay pins_by_way = [] {
 }();
 
 inline Way shown = Way::off;   // at the pins
-inline Way wanted = Way::off;  // from the next TOP on, where the timer takes the on-time too
+inline Way wanted = Way::off;  // from the next TOP on, where the timer also takes the on-time
 
-/// From the write that turns off a lower gate to the one that lets out the upper gate: exactly dead_cycles. The other way round two more.
+/// Exactly dead_cycles from the write that turns off a lower gate to the one that enables the upper gate. In the
+/// other direction two cycles more.
 inline void change_over(Pins stay, Pins to) {
   constexpr std::uint8_t loops = (dead_cycles - 1) / 3, rest = (dead_cycles - 1) % 3;
   static_assert(loops > 0 && (dead_cycles - 1) / 3 < 256, "one byte counts it");
@@ -52,7 +54,8 @@ inline void change_over(Pins stay, Pins to) {
       : "memory");
 }
 
-/// The pair of `shown` by these Hall pins. A gate that stays is let alone, it may be amid its pulse.
+/// Sets the pair of `shown` for these Hall pins. A gate that stays on is not touched, because it may be in its
+/// pulse.
 inline void show(std::uint8_t hall) {
   const Pins to = pins_by_way.at[static_cast<std::uint8_t>(shown) | hall];
   volatile std::uint8_t &uppers = byte(atmega2560::DDRB), &lowers = byte(atmega2560::PORTA);

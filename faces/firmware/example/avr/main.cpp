@@ -1,36 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole program of an ATmega2560 at 16 MHz around an exported drive, a current or duty loop: what tools/firmware_image.sh makes an
-// image of, and what `sixstep run SCENARIO --on avr` runs in the loop. The control interrupt comes once a period, behind the conversion;
-// amid it may come the Hall interrupt, which moves the bridge, and TOP's, from which on the new sign counts. The main loop logs to the
-// serial line and keeps the watchdog from biting. A fault turns the gates off and its reason is told, for as long as the drive stands.
+// Runs an exported current or duty loop on an ATmega2560 at 16 MHz. tools/firmware_image.sh makes an image of
+// this program, and `sixstep run SCENARIO --on avr` runs it in the loop. The control interrupt comes once a
+// period, after the conversion. Two interrupts may interrupt it: the Hall interrupt, which moves the bridge, and
+// TOP's, from which on a new sign is in effect. The main loop logs to the serial line and feeds the watchdog. A
+// fault turns the gates off, and its reason is printed as long as the drive stands.
 #include "faces/firmware/example/avr/set_up.hpp"
 #include "faces/firmware/example/log.hpp"
 
 namespace firmware {
 
 DriveState<Scalar> state;
-std::int16_t offset_eighths[3] = {};  // measured at the first
+std::int16_t offset_eighths[3] = {};  // measured by calibrate()
 std::uint16_t offset_sum = 0;         // in counts
 Setpoint<Scalar> setpoint;
 Telemetry<Scalar> telemetry;  // the drive never reads it
 std::uint8_t sums_too_far = 0;
 
-/// The other two legs' currents, each second period: which of them is at the converter.
+/// The other two legs' currents, measured every second period: which of them is being converted.
 enum class Legs : std::uint8_t { none, second, third } legs = Legs::none;
 std::uint8_t third_leg = 0;
 std::uint16_t second_counts = 0;
 
-/// What the log has of a control tick.
+/// The log's values of a control tick.
 struct Row {
   std::uint16_t clock;
   std::uint8_t heart, hall;
   Scalar current, reference, duty;
 };
 LogSlot<Row> log;
-std::uint16_t row_clock = 0;      // at the control interrupt's begin
-volatile std::uint8_t heart = 0;  // beats with each control interrupt
+std::uint16_t row_clock = 0;      // at the beginning of the control interrupt
+volatile std::uint8_t heart = 0;  // counts control interrupts
 
-/// All three compare registers, so that a leg that comes in mid-period has its pulse at once.
+/// All three compare registers, so that a leg that a commutation brings in has its pulse at once.
 void set_on_time(std::uint16_t counts) {
   word(atmega2560::OCR1AL) = counts;
   word(atmega2560::OCR1BL) = counts;
@@ -41,12 +42,13 @@ void note_row(std::uint8_t pins, Scalar current, Scalar reference, Scalar duty) 
   if (log.waiting() == nullptr) log.take({row_clock, heart, by_pins.code[pins], current, reference, duty});
 }
 
-/// A current that no sound drive has.
+/// Stops because of a current that no sound drive has.
 void stop_by_current(std::uint16_t counts) {
   stop(is_at_end(counts) ? Reason::current_sensor : Reason::over_current);
 }
 
-/// With the bridge off, since the reset: 0 A. The sum of eight samples is their mean in eighths of a count.
+/// The bridge has been off since the reset, so the current is 0 A. The sum of eight samples is their mean in
+/// eighths of a count.
 void calibrate() {
   static std::uint8_t samples = 0;
   for (std::uint8_t leg = 0; leg < 3; ++leg) {
@@ -63,7 +65,8 @@ void calibrate() {
   phase = Phase::waits;
 }
 
-/// However it came to be on: the motor starts only behind somebody who turned the setpoint to 0.
+/// Whatever the potentiometer's position at power-up, the motor starts only after somebody turned the setpoint
+/// to 0.
 void wait_for_zero() {
   convert(potentiometer_channel);
   const std::uint16_t counts = conversion();
@@ -71,7 +74,7 @@ void wait_for_zero() {
   if (is_within(counts, zero_counts)) phase = Phase::drives;
 }
 
-/// A period without a drive. A gate that is on all the same, by whatever fault, is so for one period.
+/// A period without a drive. A gate that is on by some fault is on for one period at most.
 __attribute__((noinline)) void stand_by(std::uint16_t counts) {
   if (phase == Phase::stands) turn_off();
   const std::uint8_t pins = hall_pins();
@@ -83,8 +86,9 @@ __attribute__((noinline)) void stand_by(std::uint16_t counts) {
   convert_at_bottom(pins_seen);
 }
 
-/// Without extras a drive asks the Hall code for nothing but the pair, which is at the pins already: its loop turns in one sector all
-/// along, whose legs the compiler knows. The current's way through the legs and back takes 100 cycles less.
+/// Without extras a drive uses the Hall code only for the pair, which is at the pins already. Its loop therefore
+/// computes in one fixed sector, whose legs the compiler knows; this saves 100 cycles of conversion between
+/// motor and phase currents.
 constexpr std::uint8_t code_of_loop = 0b101;
 
 void control(std::uint8_t pins, std::uint16_t counts) {
@@ -97,15 +101,15 @@ void control(std::uint8_t pins, std::uint16_t counts) {
   step(drive, state, m, setpoint, telemetry);
 }
 
-/// From the next TOP on, where the timer takes the on-time. The interrupt comes there where the sign changes, and where the third leg's
-/// conversion is to begin.
+/// Takes effect at the next TOP, where the timer takes the on-time. The interrupt comes there if the sign
+/// changes, or if the third leg's conversion must begin.
 void answer(bool legs_are_next) {
   set_on_time(counts_of(state.command.duty));
   wanted = state.reversed ? Way::negative : Way::positive;
   byte(atmega2560::TIMSK1) = legs_are_next || wanted != shown ? atmega2560::ICIE1 : std::uint8_t{0};
 }
 
-/// All three currents of this period, unless the pair changed on the way.
+/// Checks all three currents of this period; their sum only if the pair did not change in between.
 void check_legs(bool commutated, std::uint16_t first, std::uint16_t third) {
   if (!is_within(second_counts, over_current_counts)) return stop_by_current(second_counts);
   if (!is_within(third, over_current_counts)) return stop_by_current(third);
@@ -125,7 +129,7 @@ void put(char c) {
   byte(atmega2560::UDR0) = static_cast<std::uint8_t>(c);
 }
 
-/// A signal in thousandths of its unit, of which 1.0 means `scale`.
+/// A signal in thousandths of its unit; 1.0 means `scale` thousandths.
 template <std::int32_t scale>
 std::int32_t thousandths(Scalar x) {
   return static_cast<std::int32_t>(x.raw) * scale >> Scalar::fraction_bits;
@@ -135,11 +139,12 @@ constexpr auto full_mA = static_cast<std::int32_t>(units.current_A * 1000);
 constexpr std::int32_t full_setpoint = drive.mode == Mode::duty ? 1000 : full_mA;
 static_assert(full_mA < 65536, "times a signal of 16 bits");
 
-/// Periods between two rows that had no control interrupt: by the clock, to the nearest, less the interrupts that came.
+/// Periods between two rows without a control interrupt: elapsed time in periods, rounded, minus the interrupts
+/// that came.
 std::uint8_t missed(std::uint16_t half_us, std::uint8_t came) {
   constexpr std::uint16_t period_half_us = pwm_counts / 4;
   std::uint16_t periods = 0;
-  if constexpr (pwm_counts % 4 == 0) {  // a division of 32 bits takes as long as the rest of the row
+  if constexpr (pwm_counts % 4 == 0) {  // a 32-bit division takes as long as the rest of the row
     for (; half_us > period_half_us; half_us = static_cast<std::uint16_t>(half_us - period_half_us))
       ++periods;
     if (half_us > period_half_us / 2) ++periods;
@@ -152,7 +157,7 @@ std::uint8_t missed(std::uint16_t half_us, std::uint8_t came) {
 
 void send(const Row& row) {
   static Instant now;
-  static std::uint16_t clock = conversion_half_us;  // a row's instant is its sample's
+  static std::uint16_t clock = conversion_half_us;  // a row's time is that of its sample
   static std::uint8_t seen = 0;
   static bool begun = false;
   const auto passed = static_cast<std::uint16_t>(row.clock - clock);
@@ -174,7 +179,7 @@ void send(const Row& row) {
   begun = true;
 }
 
-/// As long as control interrupts come, and as long as the drive stands: that the reason goes on being told.
+/// While control interrupts come, and while the drive stands, so that it continues to print the reason.
 void feed_watchdog() {
   static std::uint8_t seen = 0;
   if (heart == seen && phase != Phase::stands) return;
@@ -182,9 +187,9 @@ void feed_watchdog() {
   asm volatile("wdr");
 }
 
-/// When the drive comes to stand or to wait, and once a second from then on.
+/// Prints when the drive begins to stand or to wait, and then once a second.
 void tell_phase() {
-  constexpr std::uint8_t second = 31;  // turns of timer 3, of 33 ms
+  constexpr std::uint8_t second = 31;  // overflows of timer 3, each 33 ms
   static Phase told = Phase::calibrates;
   static std::uint8_t turns = 0;
   const Phase now = phase;
@@ -223,10 +228,10 @@ extern "C" __attribute__((signal, used)) void INTERRUPT_ADC() {
     stop_by_current(counts);
   }
   const std::uint16_t last = conversion();
-  const bool has_legs = legs == Legs::third;  // else TOP did not come in time
+  const bool has_legs = legs == Legs::third;  // otherwise TOP did not come in time
   legs = Legs::none;
   const std::uint8_t last_pins = pins_seen;
-  convert_at_bottom(last_pins);  // as early as may be: a BOTTOM before it is a period without control
+  convert_at_bottom(last_pins);  // as early as possible: a BOTTOM before it would be a period without control
   if (phase != Phase::drives) return;
   note_row(pins, telemetry.motor_current_A, setpoint.value, telemetry.duty);
   answer(!looks_at_legs);
@@ -244,7 +249,7 @@ extern "C" __attribute__((signal, used)) void INTERRUPT_TIMER1_CAPT() {
     show(pins_seen);
   }
   if (legs == Legs::second) {
-    if (converts()) return;  // at the next one
+    if (converts()) return;  // not done: at the next TOP
     second_counts = converted();
     convert(third_leg);
     legs = Legs::third;
@@ -262,12 +267,12 @@ extern "C" __attribute__((signal, used)) void INTERRUPT_PCINT2() {
   show(pins);
 }
 
-/// No control interrupt for too long.
+/// No control interrupt came for too long.
 extern "C" __attribute__((signal, used)) void INTERRUPT_TIMER0_OVF() {
   firmware::stop(firmware::Reason::converter);
 }
 
-/// Freestanding, clang would give it a C++ name.
+/// extern "C", because clang mangles the name of a freestanding main.
 extern "C" int main() {
   using namespace firmware;
   const Reason before = reason_after_reset(set_up_watchdog());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the registers hold before the first interrupt. All gates are inputs, pulled down outside, until a command lets one out.
+// Sets the registers before the first interrupt. All gates are inputs with external pull-downs until a command
+// enables one.
 #pragma once
 #include "faces/firmware/example/avr/converter.hpp"
 #include "faces/firmware/example/avr/standing.hpp"
@@ -8,7 +9,8 @@ namespace firmware {
 
 constexpr std::uint32_t baud = 1'000'000;
 
-/// Of the watchdog's 16 ms; the two writes may be four cycles apart. What brought the reset.
+/// Sets the watchdog to 16 ms; the two writes must be within four cycles. Returns the cause of the reset
+/// (MCUSR).
 inline std::uint8_t set_up_watchdog() {
   using namespace atmega2560;
   const std::uint8_t cause = byte(MCUSR);
@@ -27,7 +29,7 @@ inline void set_up_serial_line() {
   byte(UCSR0B) = TXEN0;
 }
 
-/// Up and down (mode 10), pulses high around the bottom at PB5..PB7.
+/// Counts up and down (mode 10), pulses high around the bottom at PB5..PB7.
 inline void set_up_timer() {
   using namespace atmega2560;
   word(ICR1L) = static_cast<std::uint16_t>(pwm_counts);
@@ -35,7 +37,8 @@ inline void set_up_timer() {
   byte(TCCR1B) = WGM13 | CS10;
 }
 
-/// Timer 0 overflows where no control interrupt sets it back for half a millisecond, or two periods and a half of a long one.
+/// Timer 0 overflows if no control interrupt resets it for half a millisecond or, with long periods, for two and
+/// a half of them.
 constexpr bool is_long_period = exported::pwm_period_ps > 200'000'000;
 constexpr std::uint64_t patience_ps = is_long_period ? exported::pwm_period_ps / 2 * 5 : 500'000'000;
 constexpr std::uint64_t patience_counts = patience_ps / (is_long_period ? 64'000'000 : 4'000'000);
@@ -52,8 +55,8 @@ inline void set_up_supervisor() {
   byte(TIMSK0) = TOIE0;
 }
 
-/// Timer 3 counts half microseconds, whatever the interrupts do, 33 ms around. Before main() variables are filled for a quarter of a
-/// millisecond: it is set off before that (avr-libc's sections .init).
+/// Timer 3 counts half microseconds independent of interrupts, and wraps after 33 ms. It is started in .init3 of
+/// avr-libc, because the initialisation of variables before main() takes a quarter of a millisecond.
 inline std::uint16_t log_clock() { return word(atmega2560::TCNT3L); }
 static_assert(atmega2560::TCCR3B == 0x91 && atmega2560::by_8 == 2);
 asm(".pushsection .init3,\"ax\",@progbits\n\t"
@@ -61,12 +64,12 @@ asm(".pushsection .init3,\"ax\",@progbits\n\t"
     "sts 0x91, r24\n\t"
     ".popsection");
 
-/// With the pull-ups of port K: a wire that is lost reads 1, and not what lies beside it.
+/// With the pull-ups of port K: a broken wire reads 1, not the signal of its neighbour.
 inline void set_up_hall_pins() {
   byte(atmega2560::PORTK) = 7;
   byte(atmega2560::PCMSK2) = 7;
   byte(atmega2560::PCICR) = atmega2560::PCIE2;
-  pins_seen = hall_pins();  // an edge from here on is the Hall interrupt's
+  pins_seen = hall_pins();  // from here on the Hall interrupt handles edges
 }
 
 inline void set_up_converter() {

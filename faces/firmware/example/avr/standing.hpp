@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the drive is about, and why it stands. It begins to drive by itself at one place alone: with its offsets measured and the
-// potentiometer at its middle. A reason to stand is kept over resets.
+// Holds the phase of the drive and the reason why it stands. It starts to drive at one place only: after the
+// offsets are measured and the potentiometer is at its middle. A reason to stand is kept over resets.
 #pragma once
 #include "faces/firmware/example/avr/gates.hpp"
 #include "faces/firmware/example/fault_reason.hpp"
@@ -8,19 +8,20 @@
 namespace firmware {
 
 enum class Phase : std::uint8_t {
-  calibrates,  ///< the bridge is off, no current flows: what do the transducers read?
+  calibrates,  ///< the bridge is off, no current flows: the transducers' offsets are measured
   waits,       ///< until the potentiometer is at its middle
   drives,
-  stands  ///< for a reason, until the supply goes or the reset pin is pulled
+  stands  ///< by a fault, until a power-up or a reset by the pin
 };
 
-// By an interrupt amid the control interrupt, too.
+// An interrupt during the control interrupt also writes these.
 inline volatile Phase phase = Phase::calibrates;
 inline volatile Reason reason = Reason::none;
 
 }  // namespace firmware
 
-/// Where avr-libc's start code clears nothing. As a section of clang's it would be in the image, with zeros.
+/// In .noinit, which avr-libc's start code does not clear. Declared in assembly, because clang would put such a
+/// section into the image, with zeros.
 asm(".pushsection .noinit,\"aw\",@nobits\n"
     ".global kept_reason\n"
     "kept_reason: .skip 6\n"
@@ -30,7 +31,8 @@ static_assert(sizeof(firmware::KeptReason) == 6);
 
 namespace firmware {
 
-/// The first reason stays. The control tick stops with interrupts on: one that came amid this would let the pair out again.
+/// Keeps the first reason. The control tick calls it with interrupts on; an interrupt in between would enable
+/// the pair again, therefore it disables them.
 inline void stop(Reason why) {
   const std::uint8_t interrupts = byte(atmega2560::SREG);
   asm volatile("cli" ::: "memory");
@@ -46,8 +48,8 @@ inline void stop(Reason why) {
   byte(atmega2560::SREG) = interrupts;
 }
 
-/// By what MCUSR said and what was kept. Nobody asks for a reset that no bit tells of: a boot loader has hidden the watchdog's, or the
-/// program ran into its own beginning.
+/// From MCUSR and the kept reason. A reset without any bit in MCUSR was not requested: a boot loader has cleared
+/// the watchdog's bit, or the program jumped to its own beginning.
 inline Reason reason_after_reset(std::uint8_t cause) {
   const bool ran_before = kept_reason.key == KeptReason::right_key;
   if ((cause & atmega2560::WDRF) == 0 && (cause != 0 || !ran_before)) return Reason::none;

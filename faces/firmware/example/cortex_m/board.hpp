@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands around the chip, as the scenario simulated it. Pins as an STM32F303RE Nucleo leads them out:
+// Describes the board around the chip, as the scenario simulated it. Pins as an STM32F303RE Nucleo has them:
 //
 //   PA8 PA9 PA10       upper gates a b c     TIM1_CH1..3
 //   PB13 PB14 PB15     lower gates a b c     TIM1_CH1N..3N
@@ -25,17 +25,18 @@ using namespace sixstep::control;
 using exported::Scalar;
 
 constexpr std::uint32_t clock_Hz = 72'000'000;
-/// The Nucleo's 8 MHz come from its debugger, as a clock; with a crystal this is false.
+/// The Nucleo's 8 MHz come from its debugger as a clock; with a crystal this is false.
 constexpr bool has_external_clock = true;
 
-/// The power stage. Upper gates that live on a charge, which their switch node brings when it is low (IR21xx, L638x and most shields):
-/// before the first pulse all lower gates pulse for a while, no on-time leaves less than a gap, and no pattern keeps an upper gate on.
+/// Whether bootstrap capacitors feed the upper gates; they charge while the leg's output is low (IR21xx, L638x
+/// and most shields). Then all lower gates pulse for a while before the first pulse, every on-time leaves a
+/// least gap, and no pattern keeps an upper gate on.
 constexpr bool upper_gates_by_bootstrap = true;
 constexpr std::uint32_t charge_ns = 2'000, charge_periods = 100, least_gap_ns = 1'500;
-/// The level of the break input that turns all gates off. Nothing at the pin is high: it is pulled up.
+/// The level of the break input that turns all gates off. An open pin is high, because it is pulled up.
 constexpr bool break_active_high = false;
 
-// From here on what follows from the drive.
+// The rest follows from the drive.
 static_assert(
     exported::cleared || accepts_uncleared,
     "the header says that its drive is not cleared for a bridge; tools/firmware_image.sh builds it with --despite");
@@ -45,8 +46,9 @@ constexpr std::uint32_t counts_of_ns(std::uint64_t ns) {
 }
 constexpr auto pwm_counts =
     static_cast<std::uint32_t>(exported::pwm_period_ps * (clock_Hz / 1'000'000) / 1'000'000);
-/// The instructions of a control tick and a Hall interrupt at worst, a count each: below it each Hall edge costs a period. The flash's wait
-/// states come on top; an answer that is too late counts a period later, and is told (tests/target/image_load.py).
+/// Worst-case instructions of a control tick and a Hall interrupt, one count each: with a shorter period each
+/// Hall edge would cost a period. The flash's wait states come on top. A late answer takes effect a period later
+/// and is reported (tests/target/image_load.py).
 constexpr std::uint32_t least_period_counts = 1600;
 static_assert(pwm_counts >= least_period_counts && pwm_counts <= 65536,
               "TIM1 has 16 bits, and the interrupts take 22.2 us at least");
@@ -57,8 +59,8 @@ static_assert(
     "without a dead time both switches of a leg are on for a moment: give the scenario bridge.dead_time_s");
 static_assert(dead_counts <= 1008, "14 us, as TIM1 counts it");
 static_assert(dead_counts <= pwm_counts / 4, "interrupts wait for it");
-/// The samples are taken one microsecond before the update: the switching at the period's start comes when all four are held. Some
-/// counts before the update, the period's change of outputs.
+/// Samples are taken one microsecond before the update, so that all four are held before the switching at the
+/// period's start. The period's change of outputs comes some counts before the update (event_count).
 constexpr std::uint32_t sample_count = pwm_counts - clock_Hz / 1'000'000, event_count = pwm_counts - 12;
 constexpr std::uint32_t most_on_counts = pwm_counts - counts_of_ns(least_gap_ns);
 constexpr std::uint32_t charge_counts = counts_of_ns(charge_ns);
@@ -87,14 +89,14 @@ static_assert(
     exported::capture_Hz == clock_Hz,
     "TIM2 counts the core's clock: set sensors.capture_Hz to it, or every speed is wrong by their ratio");
 
-/// Three readings a quarter of a microsecond apart, by majority: an edge of the bridge disturbs one of them.
+/// Majority of three readings a quarter of a microsecond apart: an edge of the bridge disturbs one of them.
 inline std::uint8_t hall_pins_once() {
   const std::uint32_t a = gpio_a().IDR, b = gpio_b().IDR;
   return static_cast<std::uint8_t>((a >> 15 & 1) << 2 | (b >> 3 & 1) << 1 | (b >> 10 & 1));
 }
 inline void quarter_of_a_microsecond() {
 #pragma GCC unroll 18
-  for (int n = 0; n < 18; ++n) asm volatile("nop");  // a clock each, at least
+  for (int n = 0; n < 18; ++n) asm volatile("nop");  // at least one clock each
 }
 static_assert(clock_Hz / 4'000'000 == 18);
 /// PA15 is H1, the highest bit.

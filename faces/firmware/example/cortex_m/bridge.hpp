@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A bridge command as TIM1's output modes, one per leg, and which of them may follow which.
+// Converts a bridge command to TIM1's output modes, one per leg, and decides which mode may follow which.
 //
-// What the manual says of the two outputs of a channel, with MOE = OSSR = 1 (RM0316, table of the output control bits of complementary
-// channels, and "dead-time insertion is enabled by setting both CCxE and CCxNE"):
+// States of the two outputs of a channel with MOE = OSSR = 1 (RM0316, table of the output control bits of
+// complementary channels, and "dead-time insertion is enabled by setting both CCxE and CCxNE"):
 //
 //   CCxE CCxNE   upper OCx             lower OCxN
 //    0     0     let go (Hi-Z)         let go (Hi-Z)
@@ -10,20 +10,22 @@
 //    0     1     driven low            OCxREF                no dead time
 //    1     1     OCxREF                not OCxREF            dead time at each edge of OCxREF
 //
-// A leg of which only one switch is ever on needs one enable; with it the timer puts no dead time anywhere. So a leg that is to change
-// between its switches passes through "off" for the dead time: two commutation events (COM), no closer than that. At the first one
-// it is off, and all other legs have their new outputs; at the second one it has its own. Only a leg with both enables before
-// and behind changes at once, for there the timer's own dead time stands between. Off is driven: CCxE or CCxNE alone, OCxREF forced low.
-// A leg goes off by its mode alone and changes its enables while OCxREF is low, so that no order within one event matters.
+// A leg with only one switch in use needs one enable; the timer then inserts no dead time. Therefore a leg that
+// changes between its switches is off for the dead time, by two commutation events (COM) at least the dead time
+// apart. At the first event it goes off, and all other legs get their new outputs; at the second one it gets its
+// own. Only a leg with both enables before and after changes at once, because the timer inserts its own dead
+// time. Off is driven: CCxE or CCxNE alone, OCxREF forced low. A leg goes off by its mode alone and changes its
+// enables while OCxREF is low, so that no order within one event matters.
 //
-// bridge_timer.hpp says when the events come.
+// bridge_timer.hpp decides when the events come.
 #pragma once
 #include "faces/firmware/example/cortex_m/registers.hpp"
 #include "sixstep/control/gates.hpp"
 
 namespace firmware {
 
-/// OCxM, CCxE as bit 0 and CCxNE as bit 2, and the switches that it may turn on, in one byte: interrupts compare them.
+/// OCxM, CCxE as bit 0 and CCxNE as bit 2, and the switches that it may turn on, in one byte, so that interrupts
+/// compare it quickly.
 class LegOutput {
  public:
   static constexpr unsigned upper_alone = 1, lower_alone = 4, both = 5;
@@ -32,7 +34,7 @@ class LegOutput {
       : bits_(static_cast<std::uint8_t>(mode | enables << 3 | switches_of(mode, enables) << 6)) {}
   constexpr std::uint32_t mode() const { return bits_ & 7u; }
   constexpr std::uint32_t enables() const { return bits_ >> 3 & 7u; }
-  /// At any time of a period: 1 the upper one, 2 the lower one.
+  /// Switches that are on at any time of a period: 1 the upper one, 2 the lower one.
   constexpr unsigned switches() const { return bits_ >> 6; }
   constexpr bool operator==(const LegOutput&) const = default;
 
@@ -44,32 +46,34 @@ class LegOutput {
   std::uint8_t bits_;
 };
 
-/// Of a leg's two gates within the on-time and in the rest, each as a bit for the upper and one for the lower one.
+/// From a leg's two gates in the on-time and in the rest of the period; bit 0 the upper one, bit 1 the lower
+/// one.
 constexpr LegOutput leg_output(unsigned on, unsigned off) {
   constexpr unsigned upper = 1, lower = 2;
   if (on & off & upper) return {bit::force_high, LegOutput::upper_alone};
   if (on & upper) return {bit::pwm_1, off & lower ? LegOutput::both : LegOutput::upper_alone};
   if (on & off & lower) return {bit::force_low, LegOutput::both};
   if (on & lower && off & upper)
-    return {bit::pwm_2, LegOutput::both};  // the upper gate's on-time is the rest of the period
-  if (on & lower) return {bit::pwm_1, LegOutput::lower_alone};  // the lower gate alone follows the on-time
+    return {bit::pwm_2, LegOutput::both};  // the upper gate is on in the rest of the period
+  if (on & lower) return {bit::pwm_1, LegOutput::lower_alone};  // only the lower gate follows the on-time
   return {};
 }
 
-/// Both switches off, from whatever it does.
+/// Both switches off, from any state.
 constexpr LegOutput leg_off(LegOutput from) {
   const bool lower = from.enables() == LegOutput::lower_alone;
   return {bit::force_low, lower ? LegOutput::lower_alone : LegOutput::upper_alone};
 }
 
-/// Whether a leg has to be off in between: one switch before, the other one behind, and not the timer's own dead time all along.
+/// Whether a leg must be off in between: it changes from one switch to the other, without the timer's own dead
+/// time before and after.
 constexpr bool needs_pause(LegOutput from, LegOutput to) {
   const unsigned before = from.switches(), behind = to.switches();
   if (((before >> 1 & behind) | (behind >> 1 & before)) == 0 || from == to) return false;
   return from.enables() != LegOutput::both || to.enables() != LegOutput::both;
 }
 
-/// Of legs a, b, c.
+/// Legs a, b, c.
 struct BridgeOutputs {
   LegOutput leg[3];
   constexpr bool operator==(const BridgeOutputs& other) const {
@@ -84,7 +88,7 @@ constexpr BridgeOutputs outputs(const sixstep::control::BridgeCommand<Scalar>& c
       {leg_output(on & 3, off & 3), leg_output(on >> 2 & 3, off >> 2 & 3), leg_output(on >> 4, off >> 4)}};
 }
 
-/// On the way from one to the other: off where a leg has to pause.
+/// The intermediate state: off for each leg that must pause.
 constexpr BridgeOutputs between(const BridgeOutputs& from, const BridgeOutputs& to) {
   BridgeOutputs way = to;
   for (int n = 0; n < 3; ++n)
@@ -92,19 +96,20 @@ constexpr BridgeOutputs between(const BridgeOutputs& from, const BridgeOutputs& 
   return way;
 }
 
-/// All off, at once.
+/// All legs off at once.
 constexpr BridgeOutputs legs_off(const BridgeOutputs& from) {
   return {{leg_off(from.leg[0]), leg_off(from.leg[1]), leg_off(from.leg[2])}};
 }
 
-/// Whether a switch may come on by it that could not before.
+/// Whether a switch may come on that could not before.
 constexpr bool turns_on(const BridgeOutputs& from, const BridgeOutputs& to) {
   unsigned more = 0;
   for (int n = 0; n < 3; ++n) more |= to.leg[n].switches() & ~from.leg[n].switches();
   return more != 0;
 }
 
-/// As registers. CCMR2 has the fourth channel's mode too, whose reference rises at its compare value and starts the converter.
+/// The registers. CCMR2 also has the mode of the fourth channel, whose reference rises at its compare value and
+/// starts the converter.
 struct GateOutputs {
   std::uint32_t CCMR1, CCMR2, CCER;
 };
@@ -115,7 +120,7 @@ constexpr GateOutputs registers(const BridgeOutputs& o) {
           o.leg[0].enables() | o.leg[1].enables() << 4 | o.leg[2].enables() << 8};
 }
 
-/// DTG of a dead time in counts, never shorter (20.4.18): steps of 1, 2, 8 and 16 counts.
+/// DTG for a dead time in counts, rounded up (20.4.18): steps of 1, 2, 8 and 16 counts.
 constexpr std::uint32_t dead_time_bits(std::uint32_t counts) {
   const auto steps = [counts](std::uint32_t of, std::uint32_t from) { return (counts + of - 1) / of - from; };
   if (counts < 128) return counts;

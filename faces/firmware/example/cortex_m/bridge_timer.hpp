@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// When TIM1's legs change. As in a simulation that answers a period later (control/bridge_command.hpp, the rig's act()):
+// Decides when TIM1's legs change, as in a simulation that answers a period later (control/bridge_command.hpp,
+// the rig's act()):
 //
-//   control tick      duty and pair count together from the next period on. The duty waits in the preloaded compare registers; where a
+//   control tick      duty and pair take effect together at the next period. The duty waits in the preloaded compare registers. If a
 //                     leg's output changes too, the interrupt of the fourth compare unit, shortly before the period's end, waits for the
 //                     update and gives the commutation event there. A leg that changes sides is off from that event on, and has its new
-//                     switch the dead time later.
-//                     An answer that comes too late for that waits for the next end as a whole, and is counted as missed.
-//   Hall interrupt    the pair moves at once, in what is in effect and in what waits; the pulse goes on in the leg that takes over. The
-//                     duty stays.
+//                     switch after the dead time.
+//                     A later answer waits as a whole for the next period's end, and is counted as missed.
+//   Hall interrupt    the pair moves at once, in the present and in the waiting command; the pulse goes on in the leg that takes over.
+//                     The duty stays.
 //   off, and a fault  at once
 //
-// The manual leaves open when the reference of a leg that leaves a forced level follows PWM: at once, or at the next match of its compare
-// unit. So the pulse of a leg that a Hall edge brings in may begin with the next period instead of amid this one: never both switches
-// either way.
+// The manual does not say when the reference of a leg that leaves a forced level follows PWM: at once, or at the
+// next match of its compare unit. So the pulse of a leg that a Hall edge brings in may begin with the next
+// period instead of within this one. In neither case are both switches on.
 //
-// No two commutation events that matter to one leg come closer than the dead time: each that turns anything on waits for that
-// first. Interrupts are off while outputs change, so that the one at the period's end finds them whole.
+// Two commutation events that matter to one leg are never closer than the dead time: each event that turns
+// anything on waits for it first. Interrupts are off while outputs change, so that the interrupt at the period's
+// end finds them complete.
 #pragma once
 #include "faces/firmware/example/cortex_m/board.hpp"
 #include "faces/firmware/example/cortex_m/bridge.hpp"
@@ -36,16 +38,17 @@ class InterruptsOff {
   std::uint32_t were_off_;
 };
 
-/// A command, and whether it was made for the negative direction: a Hall edge moves the pair of either kind its own way.
+/// A command, and whether it is for the negative direction: a Hall edge moves the pair of each direction
+/// differently.
 struct Commanded {
   BridgeCommand<Scalar> bridge;
   bool reversed;
 };
 
-Commanded in_effect, waiting;  // of this period, and of the next
-BridgeOutputs legs;            // as the last commutation event left them
+Commanded in_effect, waiting;  // for this period, and for the next one
+BridgeOutputs legs;            // after the last commutation event
 std::uint32_t changed_at = 0;  // TIM2's count at that event
-bool charging = false;         // bootstraps, by short pulses of all lower gates while no command is enabled
+bool charging = false;         // short pulses of all lower gates charge the bootstraps, no command is on
 
 constexpr std::uint32_t compare_of(Scalar duty) {
   const auto counts = static_cast<std::uint32_t>(duty * static_cast<float>(pwm_counts));
@@ -58,7 +61,7 @@ inline void preload(const GateOutputs& out) {
   tim1().CCER = out.CCER;
 }
 
-/// The commutation event: all channels at once take what is preloaded.
+/// The commutation event: all channels take their preloaded values at once.
 inline void commutation_event() {
   tim1().EGR = bit::COMG;
   changed_at = tim2().CNT;
@@ -68,7 +71,7 @@ inline void wait_for_dead_time() {
   while (tim2().CNT - changed_at < dead_counts) continue;
 }
 
-/// From what the legs do to something else: by one event, or by two where a leg pauses between them.
+/// A change of the legs, by one event, or by two if a leg pauses between them.
 struct Change {
   BridgeOutputs to;
   bool waits_before, pauses;
@@ -82,7 +85,7 @@ inline Change change(const BridgeOutputs& way, const BridgeOutputs& to) {
 }
 inline Change change(const BridgeOutputs& to) { return change(between(legs, to), to); }
 
-/// Its first event, which is preloaded, is due.
+/// Makes a change whose first event is preloaded and due.
 inline void make(const Change& change) {
   commutation_event();
   if (change.pauses) {
@@ -93,7 +96,7 @@ inline void make(const Change& change) {
   legs = change.to;
 }
 
-/// Now. Whoever calls has interrupts off.
+/// Changes the outputs now. The caller has disabled interrupts.
 inline void change_at_once(const BridgeOutputs& to) {
   if (to == legs) return;
   const Change now = change(to);
@@ -103,22 +106,23 @@ inline void change_at_once(const BridgeOutputs& to) {
 }
 
 Change coming;            // at the period's end,
-bool change_due = false;  // if any is
+bool change_due = false;  // if there is one
 
 inline void compare_next(std::uint32_t counts) {
   for (int n = 0; n < 3; ++n) tim1().CCR[n] = counts;
 }
 
-/// The interrupt at the period's end. Its flag is that of this period: control ticks clear it as they begin.
+/// Enables the interrupt at the period's end. Its flag belongs to this period, because control ticks clear it as
+/// they begin.
 inline void arm_period_end(bool on) { tim1().DIER = (tim1().DIER & bit::BIE) | (on ? bit::CC4IE : 0); }
 
-/// Two enabled commands with the same gates, whatever their duty.
+/// Whether two enabled commands have the same gates, whatever their duty.
 inline bool same_gates(const BridgeCommand<Scalar>& a, const BridgeCommand<Scalar>& b) {
   return a.enabled && b.enabled && a.pair == b.pair && a.chopping == b.chopping && a.chopped == b.chopped;
 }
 
-/// What the period's end is to bring, from what the legs do now. Where nobody knows what they did before, what turns on waits for the
-/// dead time, as in a simulation.
+/// Prepares the change at the period's end, from the present state of the legs. If their earlier state is
+/// unknown, a switch that turns on waits for the dead time, as in a simulation.
 inline void prepare_period_end() {
   change_due = false;
   if (same_gates(waiting.bridge, in_effect.bridge))
@@ -133,7 +137,7 @@ inline void prepare_period_end() {
   arm_period_end(change_due || in_effect.bridge.enabled != waiting.bridge.enabled);
 }
 
-/// All six gates off now, and in what waits.
+/// Turns all six gates off now and in the waiting command.
 [[gnu::noinline]] void gates_off() {
   const InterruptsOff hold;
   in_effect.bridge.enabled = waiting.bridge.enabled = charging = change_due = false;
@@ -141,11 +145,12 @@ inline void prepare_period_end() {
   arm_period_end(false);
 }
 
-/// The fourth compare unit's interrupt: waits for the update, some counts away, and makes the period's change there. The event comes
-/// with the update or some counts before it, in the gap of the old on-time: behind it, the old pair would have a pulse of some counts.
+/// The fourth compare unit's interrupt: waits for the update, some counts away, and makes the period's change
+/// there. The event comes with the update or some counts before it, in the gap of the old on-time; later, the
+/// old pair would have a pulse of some counts.
 [[gnu::noinline]] void at_period_end() {
   const InterruptsOff hold;
-  // Taken back after the core had seen it, or made by a control tick that came too late.
+  // Revoked after the core had accepted it, or already made by a late control tick.
   if ((tim1().DIER & bit::CC4IE) == 0 || (tim1().SR & bit::CC4IF) == 0) return;
   if (change_due) {
     preload(coming.first);
@@ -159,8 +164,9 @@ inline void prepare_period_end() {
   arm_period_end(false);
 }
 
-/// Whether the period for whose end an answer was meant is over, or so nearly that its duty and its pair might not count together: then
-/// both wait for the next end. What waited for that one is made first, where the core has not come to it.
+/// Whether the period's end for which an answer was meant is over, or so near that its duty and its pair might
+/// not take effect together; then both wait for the next end. A change still waiting for the passed end is made
+/// first.
 inline bool period_is_over() {
   if ((tim1().SR & bit::CC4IF) == 0) return false;  // control ticks clear it as they begin
   at_period_end();
@@ -169,8 +175,8 @@ inline bool period_is_over() {
   return true;
 }
 
-/// The control tick's answer. `charges`: the drive is about to start, and pulses of the lower gates charge the bootstraps. False: it came
-/// too late, and counts a period later.
+/// The control tick's answer. `charges`: the drive is about to start, and pulses of the lower gates charge the
+/// bootstraps. False: the answer was late and takes effect a period later.
 [[gnu::noinline]] bool at_next_period(const BridgeCommand<Scalar>& command, bool reversed, bool charges) {
   if (!command.enabled && (!charges || in_effect.bridge.enabled)) {
     gates_off();
@@ -185,7 +191,7 @@ inline bool period_is_over() {
   return in_time;
 }
 
-/// The Hall interrupt's answer, whose pair is that of the last tick's sign.
+/// The Hall interrupt's answer; its pair has the sign of the last tick.
 [[gnu::noinline]] void at_once(const BridgeCommand<Scalar>& command, bool reversed) {
   if (!command.enabled) {
     if (!charging) gates_off();

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole program of an STM32F303 (Cortex-M4F, 72 MHz) around an exported product drive in float: what tools/firmware_image.sh makes an
-// image of. The control interrupt comes once a period, behind four conversions; the Hall interrupt moves the bridge; the period's end
-// takes what waits. The main loop takes commands from the serial line, logs to it, and keeps the watchdog from biting.
+// Runs an exported product drive in float on an STM32F303 (Cortex-M4F, 72 MHz); tools/firmware_image.sh makes an
+// image of this program. The control interrupt comes once a period, after four conversions; the Hall interrupt
+// moves the bridge; the interrupt at the period's end puts a waiting command into effect. The main loop takes
+// commands from the serial line, logs to it, and feeds the watchdog.
 #include "faces/firmware/example/commands.hpp"
 #include "faces/firmware/example/cortex_m/standing.hpp"
 
@@ -12,16 +13,16 @@ ProtectedState<Scalar> state;
 ProtectedTelemetry<Scalar> telemetry;  // the drive never reads it
 Setpoint<Scalar> setpoint;
 
-/// By the main loop, with interrupts off. A stop and a clear each last until a control tick has seen them, whatever is typed behind
-/// them.
+/// Written by the main loop with interrupts off. A stop and a clear each stay set until a control tick has read
+/// them, whatever is typed afterwards.
 struct Asked {
   bool run, stop, clear;
 };
 Asked asked;
 bool wants_to_run = false;      // at this tick
-std::uint32_t charge_left = 0;  // periods until the bootstraps have their charge
+std::uint32_t charge_left = 0;  // periods until the bootstraps are charged
 
-/// What the log has of a control tick.
+/// The log's values of a control tick.
 struct Row {
   Instant t;
   Scalar speed, speed_reference, current, duty, bus;
@@ -31,11 +32,11 @@ struct Row {
 };
 LogSlot<Row> log;
 Ring<64> received;
-volatile std::uint8_t heart = 0;  // beats with each control interrupt
-volatile bool listening = false;  // to control interrupts
+volatile std::uint8_t heart = 0;  // counts control interrupts
+volatile bool listening = false;  // control interrupts are enabled
 
-/// By the counter that runs on: a period that had no control interrupt takes its time, and is counted as missed; so is one whose answer
-/// came behind its end.
+/// Measures time with the free-running counter. A period without a control interrupt still takes its time and is
+/// counted as missed; so is a period whose answer came after its end.
 struct LogClock {
   Instant t;
   std::uint32_t rest = 0;  // counts beyond the last microsecond
@@ -52,7 +53,7 @@ struct LogClock {
 };
 LogClock log_clock;
 
-/// A request to run waits until the bootstraps are charged; then it is the drive's.
+/// A request to run waits until the bootstraps are charged; then it goes to the drive.
 Request request_now() {
   const bool clear = asked.clear;
   wants_to_run = asked.run && !asked.stop;
@@ -64,7 +65,7 @@ Request request_now() {
   return {.run = wants_to_run && charge_left == 0, .clear = clear};
 }
 
-/// Asked to run and not yet there.
+/// Whether a run is requested and the drive does not run yet.
 bool charges() {
   const Activity now = state.activity.activity;
   return upper_gates_by_bootstrap && wants_to_run && (now == Activity::off || now == Activity::calibrate);
@@ -96,7 +97,7 @@ void send(const Row& row) {
   put('\n');
 }
 
-/// As long as control interrupts come, or no gate can work.
+/// While control interrupts come, or while the board waits for a reset with the gates disabled.
 void feed_watchdog() {
   static std::uint8_t seen = 0;
   const bool stands = needs_reset && !gates_may_work();
@@ -105,12 +106,13 @@ void feed_watchdog() {
   iwdg().KR = bit::reload;
 }
 
-/// When it happens, and about once a second for as long as it stands.
+/// Prints a fault when it happens, and about once a second while it lasts.
 void tell_fault() {
   static Reason told = Reason::none;
   static std::uint32_t told_at = 0;
   const Reason of_board = board_fault;
-  const bool stands = telemetry.activity == Activity::fault && !asked.clear;  // which the next tick sees
+  const bool stands = telemetry.activity == Activity::fault && !asked.clear;  // the next tick reads
+                                                                              // asked.clear
   const Reason why = of_board != Reason::none ? of_board
                      : stands                 ? reason_of(telemetry.first_fault)
                                               : Reason::none;
@@ -131,7 +133,7 @@ constexpr const char* unit = config.drive.mode == Mode::speed      ? "rad/s"
                              : config.drive.mode == Mode::position ? "deg"
                                                                    : "of the bus";
 
-/// What is obeyed is what is echoed.
+/// Limits the typed setpoint, and prints the one that is in effect.
 void take_setpoint(std::int32_t typed) {
   constexpr Scalar limit = config.setpoint_limit;
   constexpr auto most = static_cast<std::int32_t>(limit < 2e6f ? limit * 1000.0f : 2e9f);
@@ -146,7 +148,7 @@ void run() {
   asked.run = true;
 }
 
-/// Obeyed first, then told.
+/// Stops first and prints afterwards.
 void stop() {
   {
     const InterruptsOff hold;
@@ -188,7 +190,7 @@ void obey(const Command& command) {
   }
 }
 
-/// The line goes on as one that makes no sense.
+/// Treats the rest of the line as invalid.
 void miss(Commands& commands) {
   commands.lost();
   put_text(put, "# a character was lost: nothing but s counts before the next Enter\n");
@@ -206,7 +208,7 @@ void miss(Commands& commands) {
   }
 }
 
-/// After a watchdog's reset the reason that was kept, or that the watchdog bit.
+/// The kept reason, or `watchdog` after a watchdog's reset without one.
 Reason reason_before_reset() {
   const bool bit_me = (rcc().CSR & bit::IWDGRSTF) != 0;
   rcc().CSR = rcc().CSR | bit::RMVF;
@@ -216,7 +218,7 @@ Reason reason_before_reset() {
 }
 
 void set_up() {
-  set_up_watchdog();  // before what may hang
+  set_up_watchdog();  // before code that may hang
   const bool ready = set_up_clock();
   iwdg().KR = bit::reload;
   switch_parts_on();
@@ -241,11 +243,12 @@ void set_up() {
 
 }  // namespace firmware
 
-/// Once per PWM period: TIM1 triggers the injected group, its end calls here. The same priority as the Hall interrupt.
+/// Comes once per PWM period at the end of the injected group that TIM1 triggers. It has the same priority as
+/// the Hall interrupt.
 extern "C" void ADC1_2_IRQHandler() {
   using namespace firmware;
   adc1().ISR = bit::JEOS;
-  tim1().SR = ~bit::CC4IF;  // that of the instant that started these conversions
+  tim1().SR = ~bit::CC4IF;  // the flag of the instant that started these conversions
   BoardInput in;
   for (int n = 0; n < 3; ++n) in.current_counts[n] = static_cast<std::uint16_t>(adc1().JDR[n]);
   in.bus_counts = static_cast<std::uint16_t>(adc1().JDR[3]);
@@ -284,13 +287,13 @@ extern "C" void USART2_IRQHandler() {
     const char c = static_cast<char>(usart2().RDR);
     const bool disturbed = (status & (bit::FE | bit::NF)) != 0;
     if (disturbed) received.lose();
-    if (!disturbed || c == 's') received.put(c);  // rather a stop too many
+    if (!disturbed || c == 's') received.put(c);  // a false stop is better than a lost one
   }
-  if ((status & bit::ORE) != 0) received.lose();  // behind the one that was read
+  if ((status & bit::ORE) != 0) received.lose();  // behind the character that was read
   usart2().ICR = status & (bit::FE | bit::NF | bit::ORE);
 }
 
-/// The bridge stays off until somebody says r, after the watchdog's reset as after any other.
+/// The bridge stays off until r is typed, after a watchdog's reset as after any other.
 int main() {
   using namespace firmware;
   const Reason before = reason_before_reset();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The registers of an STM32F303 that the program touches, and their bits. Source: ST RM0316; beside each the section that describes it.
-// Of the core itself (SCB, NVIC): Arm's ARMv7-M reference, B3.2 and B3.4.
+// Lists the registers of an STM32F303 that the program uses, and their bits. Source: ST RM0316, with the section
+// beside each; for the core itself (SCB, NVIC) Arm's ARMv7-M reference, B3.2 and B3.4.
 #pragma once
 #include <cstdint>
 
@@ -22,7 +22,7 @@ struct Rcc {
 };
 static_assert(sizeof(Rcc) == 0x34);
 
-/// Layout shared by TIM1 and TIM2, 20.4 and 21.4; what one of them lacks is not used of it.
+/// Layout shared by TIM1 and TIM2, 20.4 and 21.4; registers that one of them lacks are not used there.
 struct Timer {
   Register CR1, CR2, SMCR, DIER, SR, EGR, CCMR1, CCMR2, CCER, CNT, PSC, ARR, RCR, CCR[4], BDTR;
 };
@@ -66,7 +66,8 @@ inline Watchdog& iwdg() { return block<Watchdog>(0x40003000); }
 inline Register& debug_apb1_freeze() { return word_at(0xE0042008); }
 inline Register& debug_apb2_freeze() { return word_at(0xE004200C); }
 inline Register& syscfg_cfgr2() { return word_at(0x40010018); }  // 12.1
-/// Of the parts' interrupts: 32 a word to enable and to disable, a byte of priority each, of which the upper four bits count.
+/// Interrupts of the peripherals: 32 per word to enable and to disable; one priority byte each, of which only
+/// the upper four bits are implemented.
 inline Register& nvic_enable(unsigned irq) { return word_at(0xE000E100 + 4 * (irq / 32)); }
 inline Register& nvic_disable(unsigned irq) { return word_at(0xE000E180 + 4 * (irq / 32)); }
 inline volatile std::uint8_t& nvic_priority(unsigned irq) {
@@ -118,7 +119,7 @@ constexpr std::uint32_t SYSRESETREQ = 0x05FA0004;
 
 }  // namespace bit
 
-/// Of the vector table behind the core's own sixteen (14.1).
+/// Numbers in the vector table behind the core's own sixteen entries (14.1).
 constexpr unsigned irq_adc1_2 = 18, irq_tim1_break = 24, irq_tim1_compare = 27, irq_tim2 = 28,
                    irq_usart2 = 38;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the registers hold before the first interrupt. tests/target/images.py runs it and reads each of them as RM0316 says.
+// Sets the registers before the first interrupt. tests/target/images.py runs it and compares each of them with
+// RM0316.
 #pragma once
 #include "faces/firmware/example/cortex_m/board.hpp"
 #include "faces/firmware/example/cortex_m/bridge.hpp"
@@ -8,8 +9,8 @@ namespace firmware {
 
 constexpr std::uint32_t baud = 1'000'000;
 
-/// Whether it came within so many looks: a part that is broken must not keep the rest from saying so. At 8 MHz they take 20 ms, less
-/// than the watchdog waits; a crystal comes within 10.
+/// Whether the condition became true within `looks` checks, so that a broken part does not keep the others from
+/// reporting it. At 8 MHz they take 20 ms, less than the watchdog's time; a crystal starts within 10.
 template <class Condition>
 bool waited_for(Condition condition, std::uint32_t looks = 20'000) {
   for (; looks > 0; --looks)
@@ -18,10 +19,10 @@ bool waited_for(Condition condition, std::uint32_t looks = 20'000) {
 }
 
 constexpr std::uint32_t own_clock_Hz =
-    8'000'000;  // of the chip itself, after a reset and where the other one is missing
+    8'000'000;  // the chip's own clock, after a reset and if the external one is missing
 
-/// 8 MHz times nine. False: no clock came, and the chip runs on its own 8 MHz. One that stops later turns the gates off by TIM1's
-/// break, and calls NMI_Handler (9.2.7).
+/// 8 MHz times nine. False: no external clock came, and the chip runs on its own 8 MHz. If the clock stops
+/// later, TIM1's break turns the gates off, and NMI_Handler is called (9.2.7).
 inline bool set_up_clock() {
   rcc().CR = rcc().CR | bit::HSEON | (has_external_clock ? bit::HSEBYP : 0);
   if (!waited_for([] { return (rcc().CR & bit::HSERDY) != 0; })) return false;
@@ -35,17 +36,18 @@ inline bool set_up_clock() {
   return true;
 }
 
-/// Back to the chip's own 8 MHz, which it has switched to by itself where the external clock stopped.
+/// Back to the chip's own 8 MHz, to which it has already switched when the external clock stopped.
 inline void fall_back_to_own_clock() { rcc().CFGR = 0; }
 
 inline void switch_parts_on() {
   rcc().AHBENR = rcc().AHBENR | bit::IOPAEN | bit::IOPBEN | bit::IOPCEN | bit::ADC12EN;
   rcc().APB2ENR = rcc().APB2ENR | bit::TIM1EN | bit::SYSCFGEN;
   rcc().APB1ENR = rcc().APB1ENR | bit::TIM2EN | bit::USART2EN;
-  // A debugger that stops the core stops the timer too, whose outputs are then off, the log's clock, and the watchdog.
+  // A debugger that stops the core also stops the timer, whose outputs are then off, the log's clock, and the
+  // watchdog.
   debug_apb2_freeze() = bit::TIM1_STOP;
   debug_apb1_freeze() = bit::IWDG_STOP | bit::TIM2_STOP;
-  syscfg_cfgr2() = bit::LOCKUP_LOCK;  // a core that gives up is a break, too
+  syscfg_cfgr2() = bit::LOCKUP_LOCK;  // a core in lockup is a break too
 }
 
 enum class PinMode : std::uint32_t { input, output, alternate, analog };
@@ -81,7 +83,7 @@ inline void set_up_pins() {
   }
 }
 
-/// Of a bus that runs at `bus_Hz`. With eight samples a bit where sixteen do not go into it (29.5.4).
+/// For a bus that runs at `bus_Hz`. With eight samples per bit if sixteen are too many for it (29.5.4).
 inline void set_up_serial_line(std::uint32_t bus_Hz) {
   const bool eight = bus_Hz < 16 * baud;
   const std::uint32_t divider = (eight ? 2 * bus_Hz : bus_Hz) / baud;
@@ -90,15 +92,15 @@ inline void set_up_serial_line(std::uint32_t bus_Hz) {
   usart2().CR1 = (eight ? bit::OVER8 : 0) | bit::RXNEIE | bit::UE | bit::TE | bit::RE;
 }
 
-/// Gates work from here on. The break input must have its quiet level.
+/// Enables the gates. The break input must have its quiet level.
 inline void let_gates_work() { tim1().BDTR = tim1().BDTR | bit::MOE; }
-/// No gate works, in hardware, whatever the outputs are told.
+/// Disables the gates in hardware, whatever the output registers say.
 inline void forbid_gates() { tim1().BDTR = tim1().BDTR & ~bit::MOE; }
 inline bool gates_may_work() { return (tim1().BDTR & bit::MOE) != 0; }
 
-/// Counts up; its update begins a period. Which outputs run, and how, is preloaded and taken by all three channels at once, at a
-/// commutation event. The fourth channel has no pin: its reference rises a microsecond before the update, and starts the converter.
-/// Without MOE the outputs are driven low (OSSI), too.
+/// Counts up; its update begins a period. Enables and modes are preloaded, and all three channels take them at
+/// once at a commutation event. The fourth channel has no pin: its reference rises a microsecond before the
+/// update and starts the converter. Without MOE the outputs are driven low too (OSSI).
 inline void set_up_bridge_timer() {
   const GateOutputs off = registers(BridgeOutputs{});
   tim1().PSC = 0;
@@ -117,8 +119,8 @@ inline void set_up_bridge_timer() {
   tim1().CR1 = bit::ARPE | bit::CEN;
 }
 
-/// 32 bits of 72 MHz; each edge of the XOR of its three inputs is captured, once it stands for 256 counts, 3.6 us: the ringing of a
-/// bridge's edge is shorter.
+/// 32 bits at 72 MHz. Each edge of the XOR of its three inputs is captured after it has been stable for 256
+/// counts, 3.6 us: the ringing of a bridge's edge is shorter.
 inline void set_up_hall_timer() {
   tim2().PSC = 0;
   tim2().ARR = 0xFFFFFFFF;
@@ -130,8 +132,8 @@ inline void set_up_hall_timer() {
   tim2().CR1 = bit::CEN;
 }
 
-/// Injected: a, b, c, bus, 7.5 and 12.5 clocks of 72 MHz each: from 72 to 64 counts before the update, 52 to 44, 32 to 24, 12 to 4.
-/// False: it does not answer.
+/// Injected sequence a, b, c, bus, 7.5 and 12.5 clocks of 72 MHz each: from 72 to 64 counts before the update,
+/// 52 to 44, 32 to 24, 12 to 4. False: the converter does not answer.
 inline bool set_up_converter() {
   adc12_ccr() = bit::CKMODE_HCLK;
   adc1().CR = 0;
@@ -140,7 +142,8 @@ inline bool set_up_converter() {
     asm volatile("");  // 10 us for its regulator (15.3.6)
   adc1().CR = bit::ADVREGEN | bit::ADCAL;
   if (!waited_for([] { return (adc1().CR & bit::ADCAL) == 0; })) return false;
-  // Four of its clocks after the calibration (15.3.9): asked until it is ready.
+  // ADEN takes effect only four converter clocks after the calibration (15.3.9): it is written until the
+  // converter is ready.
   if (!waited_for([] {
         adc1().CR = bit::ADVREGEN | bit::ADEN;
         return (adc1().ISR & bit::ADRDY) != 0;
@@ -155,7 +158,7 @@ inline bool set_up_converter() {
   return true;
 }
 
-/// Bites after 40 ms by its own clock of about 40 kHz.
+/// Resets after 40 ms by its own clock of about 40 kHz.
 inline void set_up_watchdog() {
   iwdg().KR = bit::start;
   iwdg().KR = bit::unlock;
@@ -165,8 +168,8 @@ inline void set_up_watchdog() {
   iwdg().KR = bit::reload;
 }
 
-/// The control tick and the Hall interrupt have one priority: neither comes amid the other. The period's end and the break come amid
-/// both; the serial line waits for all. The chip has the upper four bits.
+/// The control tick and the Hall interrupt have one priority, so that neither interrupts the other. The period's
+/// end and the break interrupt both; the serial line waits for all. The chip implements the upper four bits.
 inline void listen_to_interrupts() {
   nvic_priority(irq_tim1_compare) = 0x00;
   nvic_priority(irq_tim1_break) = 0x00;

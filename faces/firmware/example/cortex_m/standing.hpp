@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Why the board itself lets no gate work, beside the faults that the drive sees: its comparator, its sensors, its clock, a converter that
-// stopped, and what a reset left behind. Nothing goes on by itself: the drive waits for c, and then for r.
+// Handles the board's own reasons to keep the gates off, beside the drive's faults: its comparator, its sensors,
+// its clock, a converter that stopped, and a reason kept over a reset. Nothing restarts by itself: the drive
+// waits for c, and then for r.
 #pragma once
 #include "faces/firmware/example/cortex_m/bridge_timer.hpp"
 #include "faces/firmware/example/cortex_m/kept.hpp"
@@ -9,12 +10,12 @@
 namespace firmware {
 
 volatile Reason board_fault = Reason::none;
-volatile bool needs_reset = false;  // no control tick comes any more
+volatile bool needs_reset = false;  // there are no more control ticks
 std::uint32_t counts_a_us = clock_Hz / 1'000'000;
 volatile std::uint32_t last_tick = 0;  // TIM2's count
 std::uint8_t strange_sums = 0;
 
-/// Beside the bits of Fault: the drive stops for it, and says so in the log's column, too.
+/// A bit beside those of Fault: it stops the drive and appears in the log's column.
 constexpr std::uint16_t fault_board = 1u << 15;
 
 inline void trip(Reason why) {
@@ -22,7 +23,7 @@ inline void trip(Reason why) {
   if (board_fault == Reason::none) board_fault = why;
 }
 
-/// In hardware, and until the chip is reset.
+/// Disables the gates in hardware until the chip is reset.
 inline void stand_until_reset(Reason why) {
   forbid_gates();
   stop_control_interrupts();
@@ -30,8 +31,8 @@ inline void stand_until_reset(Reason why) {
   needs_reset = true;
 }
 
-/// What flows into a star comes out of it: the sum of three readings is that of their offsets. Over 4 times the tolerance of one
-/// offset, one of them is wrong.
+/// Currents into a star point sum to zero, so the sum of three readings is that of their offsets. If it differs
+/// by more than 4 times the tolerance of one offset, a reading is wrong.
 inline bool sum_is_strange(const ProtectedState<Scalar>& state, const BoardInput& in) {
   std::int32_t eighths = 0;
   for (int n = 0; n < 3; ++n) {
@@ -42,7 +43,7 @@ inline bool sum_is_strange(const ProtectedState<Scalar>& state, const BoardInput
   return eighths > most || eighths < -most;
 }
 
-/// Before the tick: three readings in a row, since one may be a disturbance.
+/// Before the tick: three wrong sums in a row count, because one may be a disturbance.
 inline void watch_sensors(const ProtectedState<Scalar>& state, const BoardInput& in) {
   strange_sums = !sum_is_strange(state, in)
                      ? std::uint8_t{0}
@@ -50,7 +51,7 @@ inline void watch_sensors(const ProtectedState<Scalar>& state, const BoardInput&
   if (strange_sums == 3) trip(Reason::current_sensor);
 }
 
-/// Of a drive that stands; never none, so that there is a line as long as it does.
+/// The reason of a drive that stands; never none, so that the line "# fault" is printed as long as it stands.
 constexpr Reason reason_of(std::uint16_t faults) {
   return faults & fault_hall            ? Reason::hall
          : faults & fault_calibration   ? Reason::calibration
@@ -63,10 +64,10 @@ constexpr Reason reason_of(std::uint16_t faults) {
                                         : Reason::board;
 }
 
-/// A conversion ends each period. Without one for a millisecond nobody looks at the current.
+/// A conversion ends each period. Without one for a millisecond the current is not watched.
 inline void watch_converter(bool listening) {
   constexpr std::uint32_t longest = clock_Hz / 1000 > 4 * pwm_counts ? clock_Hz / 1000 : 4 * pwm_counts;
-  // Asked twice: a tick between its two readings is none that is missing.
+  // Checked twice: a tick between the two reads of one check looks like a missing one.
   const auto late = [] {
     const std::uint32_t seen = last_tick;
     return tim2().CNT - seen > longest;
@@ -74,7 +75,8 @@ inline void watch_converter(bool listening) {
   if (listening && !needs_reset && late() && late()) stand_until_reset(Reason::converter);
 }
 
-/// c was typed: what is over is forgotten. Whoever calls has interrupts off, since DIER is the period's end's, too.
+/// c was typed: clears faults that are over. The caller has disabled interrupts, because DIER is also written
+/// for the period's end.
 inline void clear_board_fault() {
   kept_reason.forget();
   if (needs_reset) {
@@ -91,14 +93,16 @@ inline void clear_board_fault() {
 
 }  // namespace firmware
 
-/// The break input or a core that gives up: MOE is gone already. Its flag comes again for as long as the level stands.
+/// The break input or a core in lockup: MOE is cleared already. The flag is set again as long as the level
+/// lasts.
 extern "C" void TIM1_BRK_IRQHandler() {
   using namespace firmware;
   tim1().DIER = tim1().DIER & ~bit::BIE;
   trip(Reason::comparator);
 }
 
-/// The external clock stopped: the chip runs on its own 8 MHz, TIM1's break has turned the gates off, and the line keeps its speed.
+/// The external clock stopped: the chip runs on its own 8 MHz, TIM1's break has turned the gates off, and the
+/// serial line keeps its speed.
 extern "C" void NMI_Handler() {
   using namespace firmware;
   rcc().CIR = rcc().CIR | bit::CSSC;

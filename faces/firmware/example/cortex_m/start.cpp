@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the reset to the program, and where a fault ends.
+// Runs from the reset to the program, and handles faults of the core.
 #include "faces/firmware/example/cortex_m/kept.hpp"
 #include "faces/firmware/example/cortex_m/registers.hpp"
 
@@ -20,7 +20,7 @@ extern const Constructor constructors_begin[], constructors_end[];
   for (;;) continue;
 }
 
-/// All gates off at once, and then the watchdog bites.
+/// Turns all gates off at once, then waits for the watchdog's reset.
 [[noreturn]] void fault() {
   using namespace firmware;
   tim1().BDTR = tim1().BDTR & ~bit::MOE;

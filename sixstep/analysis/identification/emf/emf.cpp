@@ -17,10 +17,10 @@ namespace sixstep::analysis {
 namespace {
 
 double size_of(const Harmonic& h) { return std::sqrt(h.a_V * h.a_V + h.b_V * h.b_V); }
-/// Of a cos x + b sin x = size cos(x + angle).
+/// The angle in a cos x + b sin x = size cos(x + angle).
 double angle_of(const Harmonic& h) { return base::atan2(-h.b_V, h.a_V); }
 
-/// As parts of the fundamental, whose peak is at 0.
+/// The channel's harmonics as parts of the fundamental, whose peak is at 0.
 ShapeHarmonics seen_by(const ChannelFit& channel) {
   ShapeHarmonics out;
   out.resize(channel.harmonics.size());
@@ -34,14 +34,14 @@ ShapeHarmonics seen_by(const ChannelFit& channel) {
   return out;
 }
 
-/// What the channel lags behind the first one, in [0, 360).
+/// Lag of the channel behind the first one, in [0, 360).
 double lag_deg(const HarmonicFit& fit, std::size_t channel) {
   const double lag = (angle_of(fit.channels[0].harmonics[0]) - angle_of(fit.channels[channel].harmonics[0])) /
                      base::rad_per_deg;
   return lag - 360.0 * std::floor(lag / 360.0);
 }
 
-/// Which way the channels follow each other, or that they are no three phases.
+/// Finds in which order the channels follow each other; a Problem where they are no three phases.
 base::Problems direction(const EmfRequest& request, const HarmonicFit& fit, EmfResult& out) {
   constexpr double near_deg = 10.0;
   out.all_phases = fit.channels.size() > 1;
@@ -91,12 +91,12 @@ void take_channels(const EmfRequest& request, const HarmonicFit& fit, EmfResult&
   }
 }
 
-/// Of an order that all phases have alike, and that no voltage between two of them can show.
+/// Whether an order is equal in all phases, so that no voltage between two of them shows it.
 bool is_common(int order, const EmfResult& result) {
   return order % 3 == 0 && result.between == EmfBetween::lines;
 }
 
-/// The phase's shape as the mean of what the channels say, and how sure each harmonic is.
+/// The phase's shape as the mean over the channels, with the deviation of each harmonic.
 struct MeanShape {
   ShapeHarmonics phase;
   std::vector<double> deviation;  ///< of each part's coordinates
@@ -148,7 +148,8 @@ void take_harmonics(MeanShape& mean, EmfResult& out) {
   }
 }
 
-/// A constant that is the fundamental's times a figure of the shape; the harmonics in it add their doubt.
+/// Uncertainty of a constant that is the fundamental's times a figure of the shape; the shape's harmonics add to
+/// it.
 struct Doubt {
   double fundamental = 0.0;  ///< relative, deviation
   double shape = 0.0;        ///< of a value of the shape, absolute
@@ -178,7 +179,7 @@ void take_constants(const HarmonicFit& fit, const MeanShape& mean, EmfResult& ou
   const double phase = out.between == EmfBetween::lines ? size / root3 : size, line = phase * root3;
   const ShapeHarmonics between = line_of_phase(mean.phase);
   EmfConstants& k = out.constants;
-  // To an rms value, harmonics of parts small against the fundamental hardly add.
+  // Harmonics that are small against the fundamental hardly change an rms value.
   const auto peak = [&doubt](double fundamental, const ShapeHarmonics& shape) {
     const WavePeak wave = wave_peak(shape);
     Interval out_of = doubt.of(fundamental, wave.peak.value, 1.0);
@@ -218,14 +219,14 @@ void take_table(const ShapeHarmonics& phase, EmfResult& out) {
   ShapeTable table = table_of(phase, peak, 1, 2);
   out.angle_deg = std::move(table.angle_deg);
   out.shape = std::move(table.shape);
-  // Straight lines between two degrees take a ten-thousandth from the mean of a round shape. Their error falls with the square of
-  // the step: two steps tell it (Richardson).
+  // Straight lines between two degrees reduce the mean of a round shape by 1e-4. Their error falls with the square
+  // of the step, so that two steps give it (Richardson).
   const double told = wave_peak(phase).peak.value;
   out.shape_sector_mean =
       (4 * table_of(phase, told, 2, 1).sector_mean() - table_of(phase, told, 1, 1).sector_mean()) / 3;
 }
 
-/// From the speed that someone read off; it has to be a whole number.
+/// Finds the pole pairs from the speed that the user read off; they must be a whole number.
 base::Problems find_pole_pairs(const EmfRequest& request, const HarmonicFit& fit, EmfResult& out) {
   constexpr double rpm = 30.0 / base::pi, whole = 0.1;
   out.pole_pairs = request.pole_pairs.value_or(0);

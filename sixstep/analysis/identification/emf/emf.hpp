@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What open-circuit voltages say of a motor: its constants in every frame, its harmonics, its shape.
+// Measures a motor's constants in every frame, its harmonics and its back-EMF shape from open-circuit voltages.
 //
-// Constants come per electrical rad/s, which is the flux linkage of phase or line; with the pole pairs or the
-// shaft's speed also per mechanical one, as notation.md has K_e.
+// Constants are per electrical rad/s, which is the flux linkage of phase or line; with the pole pairs or the
+// shaft's speed also per mechanical rad/s, as K_e in notation.md.
 #pragma once
 #include <optional>
 #include <string>
@@ -22,11 +22,11 @@ struct EmfRequest {
 
 struct EmfHarmonic {
   int order = 1;
-  Interval part;       ///< of the fundamental
-  double floor = 0.0;  ///< what noise alone stays below, in all orders of 95 of 100 recordings
+  Interval part;       ///< amplitude over the fundamental's
+  double floor = 0.0;  ///< limit that noise alone stays below, in all orders of 95 of 100 recordings
   bool stands_out = false;
-  double in_phase = 0.0,
-         across = 0.0;  ///< of a phase's shape, as parts: cos and sin of order (theta_e - 60 deg)
+  /// Of a phase's shape, over the fundamental: factors of cos and sin of order (theta_e - 60 deg).
+  double in_phase = 0.0, across = 0.0;
 };
 
 struct EmfChannelResult {
@@ -35,15 +35,15 @@ struct EmfChannelResult {
   Interval peak_V;     ///< of the fundamental
   Interval phase_deg;  ///< behind the first channel
   double residual_rms_V = 0.0;
-  double step_V = 0.0;   ///< the least that two values differ by
-  double clipped = 0.0;  ///< part of the rows that stand at the greatest or the least value in one go
+  double step_V = 0.0;   ///< least difference of two successive rows: the converter's step
+  double clipped = 0.0;  ///< longest run of rows at the greatest or least value, as a part of a period
 };
 
 /// V s per electrical rad; times the pole pairs per mechanical one.
 struct EmfConstants {
   Interval line_peak, line_rms, line_fundamental;
-  Interval phase_peak, phase_rms,
-      phase_fundamental;  ///< of probes between lines, without harmonics of order 3, 9, ..
+  /// From probes between lines: without harmonics of order 3, 9, ..
+  Interval phase_peak, phase_rms, phase_fundamental;
 };
 
 struct EmfResult {
@@ -51,23 +51,23 @@ struct EmfResult {
   std::size_t rows = 0;
   double seconds = 0.0, periods = 0.0;
   Interval frequency_Hz;     ///< at the recording's middle
-  double change_Hz_s = 0.0;  ///< there
-  int pole_pairs = 0;        ///< 0: not known
+  double change_Hz_s = 0.0;  ///< of the frequency, at the middle
+  int pole_pairs = 0;        ///< 0: unknown
   std::vector<EmfChannelResult> channels;
-  bool backward = false;    ///< with three channels or two: the voltages follow each other as c, b, a
-  bool all_phases = false;  ///< two or three channels, of which it can be told
+  bool backward = false;               ///< the voltages follow each other as c, b, a
+  bool all_phases = false;             ///< two or three channels: `backward` is known
   std::vector<EmfHarmonic> harmonics;  ///< from the second on
   EmfConstants constants;
-  double crest = 0.0;     ///< peak over rms, of what was probed
-  double flat_deg = 0.0;  ///< width above 95 % of the peak, likewise
-  /// Phase a over an electrical turn, peak 1; positive half wave's middle at 60 degrees (notation.md). Harmonics that
-  /// do not stand out of the noise are left out.
+  double crest = 0.0;     ///< peak over rms of the probed voltage
+  double flat_deg = 0.0;  ///< width above 95 % of its peak
+  /// Phase a over an electrical turn, peak 1; positive half wave's middle at 60 degrees (notation.md). Harmonics
+  /// that do not stand out of the noise are not included.
   std::vector<double> angle_deg, shape;
   HarmonicFit fit;                 ///< for a picture
   double shape_sector_mean = 0.0;  ///< K_t over K_e of the fitted shape; of the table within 1e-4
 };
 
-/// A sine that is flat for so much of its top, and a trapezoid of 120 degrees: what flat_deg is compared with.
+/// flat_deg of a sine and of a trapezoid with a top of 120 degrees, for comparison.
 inline constexpr double flat_of_sine_deg = 36.39, flat_of_trapezoid_deg = 123.0;
 
 base::Result<EmfResult> measure_emf(const EmfRequest& request);

@@ -11,7 +11,8 @@
 namespace sixstep::analysis {
 namespace {
 
-/// A whole top within one step of the converter seems to have lost that step, and with noise more: this cannot be told from it.
+/// Loss that a converter's step can hide: a whole top within one step seems to have lost that step, and with noise
+/// more.
 double hidden_V(const EmfChannelResult& channel) { return 2.0 * (channel.step_V + channel.residual_rms_V); }
 
 double middle_of(std::vector<double> values) {
@@ -21,7 +22,8 @@ double middle_of(std::vector<double> values) {
   return *middle;
 }
 
-/// How far rows lie from the straight line between their neighbours, at the middle of all that do not stand at an extreme.
+/// Distance of a row from the straight line between its neighbours, median of all rows that do not stand at an
+/// extreme.
 double bend_of_flanks(const std::vector<double>& t, const std::vector<double>& u) {
   const auto [low, high] = std::minmax_element(u.begin(), u.end());
   std::vector<double> bends;
@@ -33,14 +35,14 @@ double bend_of_flanks(const std::vector<double>& t, const std::vector<double>& u
   return middle_of(std::move(bends));
 }
 
-/// What is left of a top: a run of rows at the extreme of half width h, and how far the voltage lies below it on the mean over
-/// h .. 2 h from the run's middle and over 2 h .. 3 h, on both sides.
+/// A clipped top: a run of rows at the extreme, of half width h, and the voltage's mean distance from the extreme
+/// over h .. 2 h from the run's middle and over 2 h .. 3 h, on both sides.
 struct Top {
   std::size_t from = 0, to = 0;
   double near = 0.0, far = 0.0;
 };
 
-/// The rows of the windows are those of an even recording; a top at the recording's ends is none.
+/// The windows assume rows at even times; a top at the recording's ends is ignored.
 std::optional<Top> measured_top(const std::vector<double>& u, std::size_t from, std::size_t to) {
   const std::size_t rows = to - from + 1, half = rows / 2;
   if (half == 0 || from < rows || to + rows >= u.size()) return {};
@@ -54,7 +56,7 @@ std::optional<Top> measured_top(const std::vector<double>& u, std::size_t from, 
   return top;
 }
 
-/// The last row of a top that begins at `from`: noise makes it leave its ends and come back.
+/// The last row of a top that begins at `from`. Near its ends, noise makes it leave the extreme and come back.
 std::size_t end_of_top(const std::vector<double>& u, std::size_t from) {
   std::size_t end = from;
   for (std::size_t n = from + 1; n < u.size() && n - end <= std::max<std::size_t>(2, (end - from) / 4); ++n)
@@ -62,7 +64,7 @@ std::size_t end_of_top(const std::vector<double>& u, std::size_t from) {
   return end;
 }
 
-/// Whether nothing leaves the inner part of a top. What is flat by itself is noisy there, too.
+/// Whether no row leaves the extreme in the inner part of a top. A top that is flat by itself is noisy there, too.
 bool stands_still(const std::vector<double>& u, std::size_t from, std::size_t to) {
   const std::size_t edge = (to - from + 1) / 5;
   return std::all_of(u.begin() + static_cast<std::ptrdiff_t>(from + edge),
@@ -70,7 +72,7 @@ bool stands_still(const std::vector<double>& u, std::size_t from, std::size_t to
                      [&](double x) { return x == u[from]; });
 }
 
-/// The tops at one extreme that stand still, those that are about as long as the longest.
+/// The tops at one extreme that stand still and are at least half as long as the longest.
 std::vector<Top> tops_at(const std::vector<double>& u, double extreme) {
   constexpr std::size_t fewest_rows = 8;
   std::vector<Top> all;
@@ -87,14 +89,15 @@ std::vector<Top> tops_at(const std::vector<double>& u, double extreme) {
   return all;
 }
 
-/// How far the voltage would have gone beyond its extreme, by the parabola u = V - b x^2 through the rows beside the run: b h^2 = V,
-/// and near is 4/3 V. Nothing where the flanks are no parabola's: far is 4 times near there, 3.4 of a sine that has lost a fifth;
-/// straight flanks have 3 and less, a top that is flat by itself and round at its ends more than both.
+/// How far the voltage would have gone beyond its extreme, by the parabola u = V - b x^2 through the rows beside
+/// the run: b h^2 = V, and near is 4/3 V. 0 where the flanks are no parabola: far is 4 times near for a parabola,
+/// and 3.4 times for a sine that has lost a fifth. Straight flanks have 3 and less, a top that is flat by itself
+/// and round at its ends more than both.
 double lost_beyond(const std::vector<double>& u, double extreme, double periods) {
   constexpr double straight = 3.2, round = 4.6, near_of_lost = 4.0 / 3.0, most_periods = 0.6;
   std::vector<double> lost, bent;
   const std::vector<Top> tops = tops_at(u, extreme);
-  // A rail stops every period; a flat top that hum lifts onto a step of the converter does so now and then.
+  // A rail clips every period; hum lifts a flat top onto a step of the converter only now and then.
   if (static_cast<double>(tops.size()) + 1.0 < most_periods * periods) return 0.0;
   for (const Top& top : tops) {
     lost.push_back(top.near / near_of_lost);
@@ -153,8 +156,8 @@ bool may_be_clipped(const EmfChannelResult& channel) {
   return channel.clipped > much && channel.residual_rms_V > dithered * channel.step_V;
 }
 
-/// A sine of peak A that has lost V at both ends, and stands there for a part q of the period at each, has 8/3 q V/A less in its
-/// fundamental and its rms, and V/A in its peak.
+/// A sine of peak A that has lost V at both ends, and stands there for a part q of the period at each, has 8/3 q
+/// V/A less in its fundamental and its rms, and V/A in its peak.
 void allow_for_clipping(EmfResult& result) {
   double peak = 0.0, fundamental = 0.0;
   for (const EmfChannelResult& channel : result.channels) {
@@ -198,7 +201,8 @@ double unlike(const EmfResult& result) {
   return (greatest->peak_V.value - least->peak_V.value) / (greatest->peak_V.value + least->peak_V.value);
 }
 
-/// Phases of one motor differ by a few per cent, ten times by a probe's divider, a thousand times by a unit.
+/// Phases of one motor differ by a few per cent; a probe's divider makes a factor of ten, a unit one of a
+/// thousand.
 base::Problems check_alike(const EmfResult& result) {
   constexpr double most = 0.05;
   if (!(unlike(result) > most)) return {};
@@ -211,7 +215,7 @@ base::Problems check_alike(const EmfResult& result) {
            .cure = "look at the dividers of the probes and at the units of the columns"}};
 }
 
-/// Which of the channels is right nobody knows: the constants' bounds reach as far as each.
+/// It is unknown which channel is right, so that the constants' bounds reach as far as each.
 void allow_for_unlike_channels(EmfResult& result) {
   constexpr double usual = 0.01;
   const double half = unlike(result), part = half * (1.0 + half);  // a mean of squares lies beyond the middle

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recordings that give numbers, but none of the motor: noise, gaps, clipped tops.
+// Finds recordings whose numbers do not describe the motor: noise, gaps, clipped tops.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -10,23 +10,26 @@
 
 namespace sixstep::analysis {
 
-/// Why a channel shows no period: a gap in time, half waves of all lengths, or next to none. `passed` times it passes its mean in all.
+/// Why a channel shows no period: a gap in time, half waves of irregular length, or too few of them. `passed`: how
+/// often it crosses its mean; `regular`: its half waves are of similar length.
 base::Problem no_period(const std::vector<double>& t_s, const std::string& channel, std::size_t passed,
                         bool regular);
 
-/// What the fit leaves over is more than what it explains.
+/// A Problem where the fit's residual exceeds the fitted part.
 base::Problems check_noise(const EmfRecord& record, const HarmonicFit& fit);
 
-/// Tops that are exactly flat, while the flanks are curved or noisy by more than a step of the converter, or go on beyond the top by
-/// the parabola that they are: there the voltage went beyond the range. The straight flanks of a trapezoid and steps that hide the noise say nothing.
+/// A Problem where tops are clipped: they are exactly flat, while the flanks are curved or noisy by more than a
+/// step of the converter, or continue beyond the top as a parabola. The straight flanks of a trapezoid, and steps
+/// that hide the noise, prove nothing.
 base::Problems check_clipped(const EmfRecord& record, const EmfResult& result);
 
-/// Tops that stand still for long, and of which too little is lost to tell it from a step of the converter: the upper ends of the
-/// constants move by what such a loss would hide.
+/// Whether tops stand still for long, but have lost too little to distinguish it from a step of the converter.
+/// allow_for_clipping() raises the constants' upper bounds by such a loss.
 bool may_be_clipped(const EmfChannelResult& channel);
 void allow_for_clipping(EmfResult& result);
 
-/// Fundamentals that differ by more than those of one motor; by less, but more than usual, they widen the constants' bounds.
+/// A Problem where fundamentals differ by more than those of one motor. allow_for_unlike_channels() widens the
+/// constants' bounds for smaller but unusual differences.
 base::Problems check_alike(const EmfResult& result);
 void allow_for_unlike_channels(EmfResult& result);
 

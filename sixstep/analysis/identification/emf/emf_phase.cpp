@@ -28,7 +28,7 @@ struct Curve {
   std::vector<double> t_s, u_V;
 };
 
-/// So many rows averaged into one.
+/// Averages so many rows into one.
 Curve averaged(const std::vector<double>& t, const std::vector<double>& u, std::size_t rows) {
   Curve out;
   for (std::size_t n = 0; n + rows <= u.size(); n += rows) {
@@ -40,8 +40,8 @@ Curve averaged(const std::vector<double>& t, const std::vector<double>& u, std::
   return out;
 }
 
-/// Times at which the voltage passes its mean, up and down in turn: it has to go beyond a part of its rms
-/// before the next one counts, so that noise crosses nothing.
+/// Times at which the voltage passes its mean, up and down in turn. It must go beyond a part of its rms before the
+/// next passage counts, so that noise adds none.
 std::vector<double> crossings(const Curve& curve, const Level& level) {
   constexpr double beyond = 0.5;
   std::vector<double> out;
@@ -59,7 +59,7 @@ std::vector<double> crossings(const Curve& curve, const Level& level) {
   return out;
 }
 
-/// Half waves follow each other nearly alike; spikes do not.
+/// Whether successive half waves have similar lengths, as spikes do not.
 bool are_regular(const std::vector<double>& passed) {
   constexpr double alike = 3.0;
   for (std::size_t n = 2; n < passed.size(); ++n) {
@@ -69,7 +69,7 @@ bool are_regular(const std::vector<double>& passed) {
   return true;
 }
 
-/// Averages more and more rows, until nothing but half waves is left.
+/// Averages more and more rows, until only half waves are left.
 std::vector<double> regular_crossings(const std::vector<double>& t, const std::vector<double>& u,
                                       const Level& level) {
   constexpr std::size_t fewest_points = 24;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How fast the motor turned: the phase of the fundamental over time, first by zero crossings, then by least squares.
+// Finds how fast the motor turned: the phase of the fundamental over time, first by zero crossings, then by least
+// squares.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -10,8 +11,8 @@
 
 namespace sixstep::analysis {
 
-/// phase(t) = sum of rate[k] tau^(k+1)/(k+1)!, tau from the recording's middle: a speed that is steady, or
-/// changes as a line or a parabola. A drill slows down under a load, a motor let go coasts.
+/// phase(t) = sum of rate[k] tau^(k+1)/(k+1)!, tau from the recording's middle. The speed is constant, linear or a
+/// parabola, because a drill slows down under a load and a motor that is let go coasts.
 struct EmfPhase {
   static constexpr std::size_t most_terms = 3;
   double middle_s = 0.0;
@@ -22,10 +23,10 @@ struct EmfPhase {
   double speed(double t_s) const;  ///< rad/s
 };
 
-/// How many terms so many periods fix.
+/// Number of terms that so many periods determine.
 std::size_t phase_terms(double periods);
 
-/// Of the channel with the greatest voltage. Or why there is no period to be seen.
+/// The phase of the channel with the greatest voltage, or the Problem why no period is visible.
 base::Result<EmfPhase> rough_phase(const EmfRecord& record);
 
 }  // namespace sixstep::analysis

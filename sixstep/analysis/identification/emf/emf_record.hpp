@@ -10,7 +10,7 @@
 
 namespace sixstep::analysis {
 
-/// What a probe hung between.
+/// The two points that a probe was connected to.
 enum class EmfBetween : std::uint8_t {
   lines,  ///< two terminals: u_ab, u_bc, u_ca
   star    ///< a terminal and the star point, real or made of three equal resistors
@@ -27,11 +27,11 @@ struct EmfRecord {
   EmfBetween between = EmfBetween::lines;
 };
 
-/// What no reader of a file lets through.
+/// Problems: number of channels, too few rows, times that do not rise, columns of different lengths, no numbers.
 base::Problems check(const EmfRecord& record);
 
 inline constexpr std::size_t most_emf_channels = 3;
-/// Periods that a recording must hold at the least: with fewer, harmonics and an offset cannot be told apart.
+/// Least number of periods in a recording: with fewer, harmonics and an offset cannot be distinguished.
 inline constexpr double least_periods = 1.5;
 
 }  // namespace sixstep::analysis

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A shape by its harmonics: from what a probe saw to the phase and back to the lines.
+// Describes a back-EMF shape by its harmonics, and converts it between the probed voltage, phase and line.
 #pragma once
 #include <cstddef>
 #include <vector>
@@ -22,24 +22,26 @@ struct ShapeHarmonics {
   double rms() const;
 };
 
-/// Of a shape seen over time while the rotor turned backwards: what it is over the angle.
+/// The shape over the angle, from the shape over time of a rotor that turned backwards.
 ShapeHarmonics seen_backward(ShapeHarmonics seen);
 
-/// Of a voltage between two terminals the phase's, and the other way round; both with a fundamental of 1, which between lines
-/// is sqrt 3 of a phase's. What is of order 3, 6, 9 is the same in all phases: between lines there is none of it.
+/// Convert the shape of a voltage between two terminals to that of a phase, and back. Both have a fundamental of
+/// 1, which between lines is sqrt 3 of a phase's. Harmonics of order 3, 6, 9 are the same in all phases, so that
+/// none is left between lines.
 ShapeHarmonics phase_of_line(const ShapeHarmonics& line);
 ShapeHarmonics line_of_phase(const ShapeHarmonics& phase);
 
 struct ShapePeak {
-  double value = 0.0;  ///< the greatest size
+  double value = 0.0;  ///< greatest |shape|
   double x_rad = 0.0;
-  double flat_deg = 0.0;  ///< how wide it is above 95 % of that
+  double flat_deg = 0.0;  ///< width above 95 % of it
 };
 ShapePeak peak_of(const ShapeHarmonics& shape);
 
-/// The peak of the wave whose first harmonics these are. A flat top's harmonics go on: their sum without the rest overshoots it by
-/// 1 to 5 % beside the flanks (Gibbs). Averaged over a turn of the first one that is missing (Lanczos) the sum leaves a tenth of that. A
-/// pointed top lacks what the missing ones would add, and stays as summed. `below` and `above` is what is not known of either.
+/// The peak of the wave of which these are the first harmonics. The harmonics of a flat top go on beyond these:
+/// the sum without the rest overshoots by 1 to 5 % beside the flanks (Gibbs). The sum averaged over a turn of the
+/// first missing harmonic (Lanczos) leaves a tenth of that. A pointed top lacks the part of the missing harmonics,
+/// and stays as summed. `below` and `above`: uncertainty of the peak.
 struct WavePeak {
   ShapePeak peak;
   double below = 0.0, above = 0.0;

@@ -41,7 +41,8 @@ class Checks {
  public:
   explicit Checks(double tolerance) : tolerance_(tolerance) {}
 
-  /// `as` makes of a constant in V s what the sheet prints; `only` is the frame of a key that has one.
+  /// `as` converts a constant in V s to the unit of the print; `only` is the frame of a key that has one frame
+  /// only.
   template <class As>
   void add(std::string_view key, const std::optional<Quantity>& q, std::string_view unit,
            const std::vector<Frame>& frames, std::string_view only, As as) {

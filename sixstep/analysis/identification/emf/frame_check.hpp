@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A measured back-EMF held against what a sheet prints of it: which frame each printed number is in.
+// Compares a measured back-EMF with the sheet's printed values, to find the frame of each printed value.
 #pragma once
 #include <string>
 #include <string_view>
@@ -10,12 +10,12 @@
 
 namespace sixstep::analysis {
 
-/// What the printed number would be, were it in this frame.
+/// The measured value in one of the frames that the printed number may be in.
 struct FrameReading {
-  std::string_view frame;   ///< as motor files have it, or in words where they have no such frame
+  std::string_view frame;   ///< as in motor files; in words where they have no such frame
   Interval measured;        ///< in the unit of the print
   double deviation = 0.0;   ///< measured/printed - 1
-  bool is_printed = false;  ///< the sheet's file says so
+  bool is_printed = false;  ///< this is the frame that the sheet's file names
   bool fits = false;
 };
 
@@ -29,12 +29,13 @@ struct FrameCheck {
   bool holds() const { return as_printed() && as_printed()->fits; }
 };
 
-/// What motors of one kind differ by, and a sheet from its motors: magnets as they come, and their temperature.
+/// Usual difference between motors of one kind, and between them and their sheet, by magnets and their
+/// temperature.
 inline constexpr double usual_emf_tolerance = 0.05;
 
-/// One for each line of the sheet that speaks of the back-EMF. A reading fits where its interval, widened by
-/// the tolerance and by half of the last printed digit, holds the print. Nothing without pole pairs but the
-/// flux linkage.
+/// One check for each line of the sheet about the back-EMF. A reading fits where its interval, widened by the
+/// tolerance and by half of the last printed digit, holds the printed value. Without pole pairs, only the flux
+/// linkage is checked.
 std::vector<FrameCheck> check_frames(const EmfResult& measured, const design::Sheet& sheet, double tolerance);
 
 }  // namespace sixstep::analysis

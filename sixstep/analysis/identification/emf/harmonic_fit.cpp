@@ -41,8 +41,8 @@ class Fitter {
     return out;
   }
 
-  /// What the residual asks of the phase's rates, the harmonics given free (Gauss and Newton, the linear
-  /// unknowns eliminated).
+  /// Adds the equations for the phase's rates that follow from the residual while the harmonics are free (Gauss
+  /// and Newton, the linear unknowns eliminated).
   void add_phase_equations(std::size_t channel, const EmfPhase& phase, const Linear& linear, Symmetric& left,
                            std::vector<double>& right) {
     const std::size_t free = 2 * harmonics_ + 1, terms = phase.terms;
@@ -73,7 +73,7 @@ class Fitter {
     }
   }
 
-  /// Calls with the phase and the residual of each point.
+  /// Calls `take` with the phase and the residual of each point.
   template <class Take>
   void each_residual(std::size_t channel, const EmfPhase& phase, const Linear& linear, Take take) {
     std::vector<double> row(2 * harmonics_ + 1);
@@ -133,7 +133,7 @@ double least_step(const std::vector<double>& u) {
   return least;
 }
 
-/// The noise of single rows, without what rounding to the converter's steps adds to it. Some rows are enough.
+/// The noise of single rows, without the part from rounding to the converter's steps. Some of the rows are enough.
 double row_noise(const EmfRecord& record, std::size_t channel, const EmfPhase& phase, const Linear& linear,
                  double step_V) {
   constexpr std::size_t enough = 20'000;
@@ -182,14 +182,14 @@ ChannelFit channel_of(Fitter& fitter, const EmfRecord& record, const HarmonicPoi
   return out;
 }
 
-/// All channels at the phase so far, and what they ask of it.
+/// Fits all channels at the phase so far, and corrects the phase by them.
 class Iteration {
  public:
   Iteration(const EmfRecord& record, const HarmonicPoints& points, std::size_t harmonics)
       : record_(record), fitter_(points, harmonics), linear_(record.channels.size()) {}
 
-  /// One step of Gauss and Newton; how far the phase moved at the recording's ends, rad. Nothing where no step can be
-  /// made.
+  /// One step of Gauss and Newton. Returns how far the phase moved at the recording's ends, rad; empty: no step is
+  /// possible.
   std::optional<double> step(EmfPhase& phase) {
     left_ = Symmetric(phase.terms);
     std::vector<double> right(phase.terms);
@@ -218,7 +218,7 @@ class Iteration {
 
   const Linear& linear(std::size_t channel) const { return linear_[channel]; }
   Fitter& fitter() { return fitter_; }
-  /// Of the speed at the middle, were the residual white.
+  /// Deviation of the speed at the middle, if the residual were white.
   double speed_deviation() const {
     const std::optional<Cholesky> factors = Cholesky::of(left_);
     return factors ? std::sqrt(factors->inverse().at(0, 0)) : 0.0;
@@ -231,11 +231,11 @@ class Iteration {
   Symmetric left_;
 };
 
-/// The channels as the last step left them, and what is beside their fundamentals for the speed.
+/// Takes the channels from the last step; the noise beside their fundamentals gives the speed's deviation.
 base::Problems take_channels(const EmfRecord& record, const HarmonicPoints& points, Iteration& iteration,
                              HarmonicFit& out) {
   constexpr double least_explained = 0.5;
-  double coloured = 0.0;  // noise beside the fundamental over what it would be were it white
+  double coloured = 0.0;  // noise beside the fundamental over that of a white residual
   for (std::size_t c = 0; c < record.channels.size(); ++c) {
     out.channels.push_back(channel_of(iteration.fitter(), record, points, c, out, iteration.linear(c)));
     const ChannelFit& of_c = out.channels.back();
@@ -283,7 +283,7 @@ base::Result<HarmonicFit> fit_harmonics(const EmfRecord& record, const EmfPhase&
     if (*moved < nothing_rad) break;
   }
   out.periods = seconds * out.phase.rate[0] / base::turn_rad;
-  if (!(out.periods > 1.0)) return out;  // no spectrum beside its harmonics: who asked refuses it
+  if (!(out.periods > 1.0)) return out;  // no spectrum beside its harmonics: the caller refuses it
   if (base::Problems problems = take_channels(record, points, iteration, out); !problems.empty())
     return problems;
   return out;

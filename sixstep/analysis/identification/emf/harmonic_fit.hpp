@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A periodic voltage of a speed that nearly holds: frequency and harmonics by least squares, with the noise
-// beside each harmonic.
+// Fits frequency and harmonics of a periodic voltage at nearly constant speed by least squares, and finds the
+// noise beside each harmonic.
 //
 //   u(t) = offset + w(t)/w_0 sum over h of (a_h cos h phase + b_h sin h phase)
 //
-// An induced voltage grows with the speed w. What is left over is no white noise, as a rule: a drill's wobble,
-// a mains hum, an oscilloscope's steps. So each harmonic's interval is made of the residual's own spectrum
-// beside that harmonic (D. R. Brillinger, "Time Series: Data Analysis and Theory", 1975, 5.4).
+// An induced voltage grows with the speed w. The residual is usually no white noise: a drill wobbles, the mains
+// hum, an oscilloscope has steps. So each harmonic's interval follows from the residual's own spectrum beside that
+// harmonic (D. R. Brillinger, "Time Series: Data Analysis and Theory", 1975, 5.4).
 #pragma once
 #include <cstddef>
 #include <vector>
@@ -17,7 +17,7 @@ namespace sixstep::analysis {
 
 struct Harmonic {
   double a_V = 0.0, b_V = 0.0;
-  double deviation_V = 0.0;  ///< of each
+  double deviation_V = 0.0;  ///< of a_V and of b_V
   double degrees_of_freedom = 0.0;
 };
 
@@ -25,9 +25,9 @@ struct ChannelFit {
   double offset_V = 0.0;
   std::vector<Harmonic> harmonics;  ///< harmonics[0] is the fundamental
   double residual_rms_V = 0.0;
-  double step_V = 0.0;          ///< the least that two rows differ by: the converter's
-  double step_at_peak_V = 0.0;  ///< by how much the steps may falsify the peak, rms
-  double explained = 0.0;       ///< part of the power about the mean
+  double step_V = 0.0;          ///< least difference of two successive rows: the converter's
+  double step_at_peak_V = 0.0;  ///< error of the peak by the steps, rms
+  double explained = 0.0;       ///< fitted part of the power about the mean
 };
 
 struct HarmonicFit {
@@ -38,12 +38,12 @@ struct HarmonicFit {
   std::vector<ChannelFit> channels;
 };
 
-/// The model at a time.
+/// The fitted voltage at a time.
 double fitted_V(const HarmonicFit& fit, std::size_t channel, double t_s);
 
 inline constexpr std::size_t most_harmonics = 25;
 
-/// From a phase that is right within half a radian. Without channels where the recording holds one period or less.
+/// `rough` must be right within half a radian. Without channels where the recording holds one period or less.
 base::Result<HarmonicFit> fit_harmonics(const EmfRecord& record, const EmfPhase& rough);
 
 }  // namespace sixstep::analysis

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A recording thinned out to what its harmonics need.
+// Reduces a recording to as many points as its harmonics need.
 #pragma once
 #include <cstddef>
 #include <vector>
@@ -9,17 +9,17 @@
 
 namespace sixstep::analysis {
 
-/// Rows, several averaged into one where there are far more than harmonics need.
+/// Points of a recording. Each is the mean of several rows where there are far more than harmonics need.
 struct HarmonicPoints {
   std::vector<double> t_s;
   std::vector<std::vector<double>> u_V;  ///< of each channel
-  double averaged_s = 0.0;               ///< time between the rows that one is the mean of
-  std::size_t averaged = 1;              ///< rows
+  double averaged_s = 0.0;               ///< time between two rows
+  std::size_t averaged = 1;              ///< rows per point
 };
 
 HarmonicPoints harmonic_points(const EmfRecord& record, double periods);
 
-/// What averaging leaves of a sine.
+/// Factor by which averaging reduces a sine.
 double left_by_averaging(const HarmonicPoints& points, double rad_s);
 
 /// cos and sin of phase, 2 phase and so on.

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// How noisy a fit's residual is beside each harmonic.
+// Finds how noisy a fit's residual is beside each harmonic.
 #pragma once
 #include <cstddef>
 #include <vector>
 
 namespace sixstep::analysis {
 
-/// Power of the residual at a few orders beside each harmonic, which the fit did not touch.
+/// Power of the residual at a few orders beside each harmonic, which are not part of the fit.
 class ResidualSpectrum {
  public:
   static constexpr std::size_t ordinates = 6;  ///< on each side, one over the recording's periods apart
@@ -14,10 +14,10 @@ class ResidualSpectrum {
   ResidualSpectrum(std::size_t harmonics, double periods)
       : periods_(periods), sums_(harmonics * 2 * ordinates), harmonics_(harmonics) {}
 
-  /// One residual and the fundamental's phase there.
+  /// Adds one residual, with the fundamental's phase at its time.
   void take(double phase, double residual);
 
-  /// The variance that white noise of as much power beside the harmonic (0 is the fundamental) would have.
+  /// Variance of white noise with as much power as the residual has beside the harmonic (0 is the fundamental).
   double variance(std::size_t harmonic) const;
   double degrees_of_freedom(std::size_t harmonic) const;
 
@@ -25,7 +25,7 @@ class ResidualSpectrum {
   struct Sum {
     double re = 0.0, im = 0.0;
   };
-  /// The fit has taken its own part out of the ordinates, one in so many as there are periods.
+  /// The fit has removed its own part from the ordinates, one in as many as there are periods.
   double left_part() const { return 1.0 - 1.0 / periods_; }
   /// Below the fundamental the ordinates end at the offset.
   bool counts(std::size_t harmonic, std::size_t ordinate) const;

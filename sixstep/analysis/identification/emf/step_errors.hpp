@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a converter's steps do to harmonics.
+// Computes the errors of harmonics by a converter's steps.
 #pragma once
 #include <vector>
 
 namespace sixstep::analysis {
 
-/// Offset, a_1, b_1, a_2 and so on of a voltage over its phase, the converter's step, and how much noise spreads each value
-/// over its steps.
+/// Offset, a_1, b_1, a_2 and so on of a voltage over its phase, the converter's step, and the noise of a single
+/// value, rms.
 struct Converted {
   std::vector<double> unknowns;
   double step_V = 0.0, noise_V = 0.0;
@@ -14,13 +14,14 @@ struct Converted {
 
 struct StepErrors {
   std::vector<double> harmonics_V;  ///< of a or b
-  double peak_V = 0.0;              ///< of the sum of the harmonics, where it is greatest
+  double peak_V = 0.0;              ///< of the sum of the harmonics at its greatest value
 };
 
-/// By how much the steps falsify each harmonic, rms over all places that the steps may have. No spectrum beside
-/// a harmonic shows it, for it repeats with the period; flat tops, which may all lie on one step, suffer most.
-/// Averaged over the noise s, in steps, a value u reads as u plus the sum over n of (-1)^n/(pi n) exp(-2 pi^2
-/// n^2 s^2) sin(2 pi n u), in steps (B. Widrow, I. Kollar, "Quantization Noise", 2008, 4).
+/// Error of each harmonic by the steps, rms over all positions of the steps. No spectrum beside a harmonic shows
+/// it, because it repeats with the period. Flat tops suffer most, because a whole top may lie on one step.
+/// Averaged over the noise s, in steps, a value u reads as u plus, in steps (B. Widrow, I. Kollar, "Quantization
+/// Noise", 2008, 4),
+///   sum over n of (-1)^n/(pi n) exp(-2 pi^2 n^2 s^2) sin(2 pi n u)
 StepErrors step_errors(const Converted& converted);
 
 }  // namespace sixstep::analysis

@@ -20,7 +20,8 @@ struct Size {
   double Vs = 0.0, deviation_Vs = 0.0;
 };
 
-/// Between two terminals, in turn: of terminals against any one point only these are alike, for the point may be one of them.
+/// The voltage between two terminals, in turn. Voltages of terminals against any one point are not alike, because
+/// the point may be one of them.
 std::vector<double> between_terminals(const HallLog& log, std::size_t from) {
   const std::size_t rows = log.t_s.size();
   const bool lines = log.voltages == RecordedVoltages::lines;
@@ -36,7 +37,8 @@ std::vector<double> between_terminals(const HallLog& log, std::size_t from) {
   return out;
 }
 
-/// A fit of w cos, w sin and an offset. What it leaves over is wrong in each edge's own way, so that the edges are what it is a mean of.
+/// Fits w cos, w sin and an offset. The residual depends on the error of each edge, so that the number of edges is
+/// that of independent values.
 std::optional<Size> size_of(const HallLog& log, const std::vector<double>& u_V, const MotionPath& path,
                             std::size_t edges) {
   NormalEquations equations(3);
@@ -59,7 +61,8 @@ std::optional<Size> size_of(const HallLog& log, const std::vector<double>& u_V, 
 }  // namespace
 
 base::Problems check_alike(const HallLog& log, const MotionPath& path, std::size_t edges) {
-  // Of one motor they differ by a few per cent, by a factor with a divider or a unit; a noisy log shows each off by chance.
+  // Voltages of one motor differ by a few per cent, with another divider or unit by a factor. In a noisy log each
+  // is off by chance.
   constexpr double most = 0.05, deviations = 4.0;
   constexpr const char* names[] = {"u_ab", "u_bc", "u_ca"};
   double least = HUGE_VAL, greatest = 0.0, deviation = 0.0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Voltages of a log that are not those of one motor: a probe's divider or a column's unit is another than that of the rest.
+// Finds voltages of a log that do not belong to one motor, because one probe's divider or one column's unit is
+// different.
 #pragma once
 #include "sixstep/analysis/identification/hall/hall_log.hpp"
 #include "sixstep/analysis/identification/hall/smooth_motion.hpp"
@@ -7,7 +8,8 @@
 
 namespace sixstep::analysis {
 
-/// Whether the three voltages between terminals have fundamentals of one size over the rotor's way, `edges` of which say where it is.
+/// A Problem where the fundamentals of the three voltages between terminals differ in size over the rotor's path.
+/// `edges` is the number of edges that the path was found from.
 base::Problems check_alike(const HallLog& log, const MotionPath& path, std::size_t edges);
 
 }  // namespace sixstep::analysis

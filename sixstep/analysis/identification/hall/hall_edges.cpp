@@ -19,8 +19,8 @@ std::string times(std::size_t count) { return count == 1 ? "once" : std::to_stri
 
 using Codes = std::vector<std::uint8_t>;
 
-/// The codes one after the other, but where they only go back and forth between two: a contact that is loose for a while, or
-/// an edge that bounces, happened once, however often it is seen.
+/// The codes one after the other, without further changes back and forth between two: a contact that is loose for
+/// a while, or an edge that bounces, counts once, however often it is seen.
 Codes happenings(const std::vector<Stay>& stays) {
   Codes out;
   for (std::size_t n = 0; n < stays.size(); ++n) {
@@ -39,8 +39,8 @@ std::array<std::size_t, 3> changes_of(const Codes& codes) {
   return out;
 }
 
-/// A line that does not work, by name: one that never changes, or hardly. Half a turn that is missing at the log's ends leaves
-/// the counts of good lines within one of each other; a probe without magnet does not.
+/// A Problem for each line that never changes, or hardly. Half a turn that is missing at the log's ends leaves the
+/// counts of good lines within one of each other; a probe without magnet does not.
 base::Problems dead_lines(const std::vector<Stay>& stays, const Codes& codes) {
   Codes seen;
   for (const Stay& s : stays) seen.push_back(s.code);
@@ -62,7 +62,7 @@ base::Problems dead_lines(const std::vector<Stay>& stays, const Codes& codes) {
   return problems;
 }
 
-/// Two lines that are one: they change in the same rows.
+/// A Problem where two lines change in the same rows, as if they were one.
 base::Problems bridged_lines(const Codes& codes) {
   const std::array<std::size_t, 3> changes = changes_of(codes);
   for (unsigned a = 0; a < 3; ++a)
@@ -80,8 +80,8 @@ base::Problems bridged_lines(const Codes& codes) {
   return {};
 }
 
-/// Which pair of codes never occurs: that of the mask and its complement. Each happening is a glitch with one
-/// chance for all, of which nothing but its size, some per cent, is known beforehand (beta 1/2, 19/2).
+/// Finds which pair of codes never occurs: the mask and its complement. Each code is a glitch with one probability
+/// for all, of which only the size, some per cent, is known beforehand (beta 1/2, 19/2).
 void find_mask(const Codes& codes, HallEdges& out) {
   constexpr std::uint8_t masks[] = {0b000, 0b100, 0b010, 0b001};
   double logs[4], best = 0.0;
@@ -106,7 +106,7 @@ void find_mask(const Codes& codes, HallEdges& out) {
   out.mask_probability = 1.0 / sum;
 }
 
-/// Follows the way from one stay that shows its sector to the next.
+/// Follows the path from one stay that shows its sector to the next.
 class EdgeList {
  public:
   EdgeList(const std::vector<Stay>& stays, const RotorPath& way, HallEdges& out)
@@ -128,7 +128,8 @@ class EdgeList {
   }
 
  private:
-  /// Nothing but glitches lies between the two: a few sectors of them, and nobody knows how far the rotor went.
+  /// Only glitches lie between the two stays. Where they last longer than this part of a sector, the path is
+  /// unknown.
   static constexpr double too_long_part = 0.75;
   void go_on(std::size_t last, std::size_t next) {
     const double unseen_s = stays_[next].came_before_s - stays_[last].left_s;
@@ -137,7 +138,7 @@ class EdgeList {
     if (steps == 0) return;
     if (steps == 3) {
       out_.skipped += 2;
-      return lose(next);  // by which way, nobody knows
+      return lose(next);  // in an unknown direction
     }
     sector_ += steps;
     if (steps == 2 || steps == -2)
@@ -169,8 +170,8 @@ class EdgeList {
   bool begins_ = true;
 };
 
-/// A rotor that turns back stays in one sector for a while; a glitch there looks as if it had gone on to the next one and
-/// come back at once. Where it was no glitch, so short a time tells next to nothing.
+/// A rotor that turns back stays in one sector for a while. A glitch there looks like a passage to the next sector
+/// and back at once, and is removed. If it was no glitch, so short a time gives very little information.
 void drop_short_turns(HallEdges& out) {
   constexpr double short_part = 0.25;
   std::vector<HallEdge> kept;

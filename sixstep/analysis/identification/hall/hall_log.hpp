@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What was recorded of a motor that someone or something turned: Hall lines, and voltages where a probe hung there.
+// A recording of a motor whose shaft is turned: Hall lines, and voltages where probes were connected.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -23,10 +23,10 @@ struct HallLog {
   std::array<std::vector<double>, 3> u_V{};  ///< empty, or as long as t_s
 };
 
-/// What no reader of a file lets through: columns of different lengths, times that do not rise, no numbers.
+/// Problems: columns of different lengths, times that do not rise, codes above 7, no numbers.
 base::Problems check(const HallLog& log);
 
-/// Electrical turns that a log must hold at the least.
+/// Least number of electrical turns in a log.
 inline constexpr int least_turns = 3;
 
 }  // namespace sixstep::analysis

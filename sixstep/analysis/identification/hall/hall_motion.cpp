@@ -13,12 +13,13 @@ namespace {
 
 constexpr double sector_deg = 60.0;
 
-/// Of deviations: of normal noise one in two million lies beyond.
+/// In deviations: one normal value in two million lies beyond.
 constexpr double contradiction = 5.0;
-/// More than these are no slips but what the log is like.
+/// Largest part of sightings that are left out: more are no exceptions.
 constexpr double most_left_out = 0.05;
 
-/// The one that contradicts most of each neighbourhood: an edge that is far off pulls those beside it.
+/// Leaves out the sighting of each neighbourhood that contradicts most, because an edge that is far off pulls
+/// those beside it.
 void leave_out(FoundMotion& m) {
   const auto size = m.points.size();
   std::vector<std::size_t> worst;
@@ -95,7 +96,7 @@ std::vector<double> in_step_deg(const FoundMotion& m) {
     for (const Effect& e : s.effects)
       if (e.factor != 0.0) place_deg -= e.factor * m.fit.effects[e.index];
     const base::SinCos at = base::sin_cos(turn * (place_deg - m.points[n].angle_deg) / open_deg);
-    // Jitter moves an edge between its rows, as its way is reckoned.
+    // Jitter blurs the computed place of an edge between its rows.
     const double steps = m.noise.jitter_deg / open_deg, left = base::exp(-0.5 * turn * turn * steps * steps);
     Sum& sum =
         sums[repeating(static_cast<std::int64_t>(std::floor(s.says_deg / sector_deg + 0.5)), m.effects.own)];
@@ -122,8 +123,8 @@ std::optional<FoundMotion> motion_of_edges(const HallEdges& edges, std::size_t o
   m.effects.relative = true;
   m.sector_s = edges.sector_s;
   const std::vector<double> rough = rough_speeds(edges.edges);
-  // Where the rotor turns back only a voltage sees it: how far it went beyond the last edge, and by how much hysteresis
-  // moved the next one, would both be guessed.
+  // A stretch begins where the rotor turns back: without voltages, the way beyond the last edge and the hysteresis
+  // of the next one would both be guesses.
   std::vector<HallEdge> one_way = edges.edges;
   for (std::size_t n = 1; n < one_way.size(); ++n)
     if (one_way[n].direction != one_way[n - 1].direction) one_way[n].begins = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From edges to the rotor's way between them, and to where each edge stands.
+// Finds the rotor's path between the edges, and the place of each edge.
 #pragma once
 #include <functional>
 #include <optional>
@@ -10,25 +10,25 @@
 
 namespace sixstep::analysis {
 
-/// The unknowns that an edge's place is the sum of, and their indices: how far each of the edges that repeat
-/// stands behind its place; half the hysteresis, in the direction of motion; the way during the delay.
+/// The unknowns whose sum is an edge's place, and their indices: distance of each of the repeating edges behind
+/// its nominal place; hysteresis, half of it in the direction of motion; path during the delay.
 struct EdgeEffects {
   std::size_t own = 6;  ///< edges before they repeat: 6, or 6 for each pole pair
-  bool relative =
-      false;  ///< nothing says where the rotor is: places are against the last one's, which is no unknown
-  bool hysteresis = false;         ///< the log turns both ways
-  bool delay = false;              ///< voltages say where the rotor is
-  double usual_speed_deg_s = 0.0;  ///< at which the delay's way counts as the edges' own
+  /// The rotor's angle is unknown: places count from that of the last edge, which is no unknown.
+  bool relative = false;
+  bool hysteresis = false;         ///< is an unknown: the log turns both ways
+  bool delay = false;              ///< is an unknown: voltages show the rotor's angle
+  double usual_speed_deg_s = 0.0;  ///< at which the delay's path counts as the edges' own places
 
   std::size_t hysteresis_at() const { return own - static_cast<std::size_t>(relative); }
   std::size_t delay_at() const { return hysteresis_at() + static_cast<std::size_t>(hysteresis); }
   std::size_t count() const { return delay_at() + static_cast<std::size_t>(delay); }
 };
 
-/// The edge as a sighting: what sampling leaves open of its time is a place left open, with the speed at hand.
+/// The edge as a sighting. The time that sampling leaves open becomes an uncertainty of the place, by the speed.
 Sighting sighting_of(const HallEdge& edge, const EdgeEffects& effects, double speed_deg_s);
 
-/// A slope through the edges beside each: good enough for what sampling leaves open.
+/// Speed at each edge in deg/s, a slope through the edges beside it: exact enough for that uncertainty.
 std::vector<double> rough_speeds(const std::vector<HallEdge>& edges);
 
 struct FoundMotion {
@@ -42,16 +42,18 @@ struct FoundMotion {
   KeepGoing keep_going{};
 };
 
-/// Finds noise, effects and way; leaves out what contradicts all others; lets `refine` bring the sightings up
-/// to date; and again, `rounds` times. False where the sightings do not fix the effects.
+/// Finds noise, effects and path, `rounds` times. Between two rounds it leaves out sightings that contradict all
+/// others, and calls `refine` to update the sightings. False where the sightings do not determine the effects, or
+/// keep_going ended it.
 bool find_motion(FoundMotion& motion, int rounds, const std::function<void(FoundMotion&)>& refine);
 
-/// How far each of the edges that repeat may lie off because rows came in step with it: by the rotor's way, the edge always
-/// fell into the same part of the time between two rows. Then sampling does not average out, and what it leaves open
-/// stays open. Half widths, 95 %; 0 where chance would bring edges and rows together as often (Rayleigh's test, 5 %).
+/// Possible error of each of the repeating edges because the rows came in step with it: at the rotor's speed, the
+/// edge always fell into the same part of the time between two rows. Then sampling does not average out, and its
+/// uncertainty stays. Half widths, 95 %; 0 where chance would bring edges and rows as close together (Rayleigh's
+/// test, 5 %).
 std::vector<double> in_step_deg(const FoundMotion& motion);
 
-/// By the edges alone, `own` of them before they repeat.
+/// The motion from the edges alone, `own` of them before they repeat; empty where they do not determine it.
 std::optional<FoundMotion> motion_of_edges(const HallEdges& edges, std::size_t own,
                                            const KeepGoing& keep_going = {});
 

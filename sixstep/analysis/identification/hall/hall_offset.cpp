@@ -16,7 +16,7 @@ std::string parity_columns(const HallLog& log) {
   return log.u_V[2].empty() ? "u_ab, u_bc" : "u_ab, u_bc, u_ca";
 }
 
-/// The same way in another angle.
+/// The same path with its angle scaled and moved.
 MotionPath turned(std::vector<MotionPoint> points, double factor, double off_deg) {
   for (MotionPoint& p : points) {
     p.angle_deg = factor * p.angle_deg + off_deg;
@@ -36,11 +36,12 @@ std::vector<HallEdge> in_place(const std::vector<HallEdge>& edges, const HallOff
 
 constexpr std::size_t fewest_each_way = 6;
 
-/// An edge beyond which the rotor turns back says where that was, not how wide the hysteresis is. There the voltages are
-/// next to nothing, and the way bends most, more on one side of the turn than on the other: a spline of one stiffness is
-/// beside it, and what it lacks would be taken for hysteresis. And where jitter decides whether the edge is passed at all,
-/// those that are passed are no fair sample. So these are left out, in all rounds; where too few are passed between the
-/// turns they stay, and nothing is said of the hysteresis.
+/// Whether enough edges lie between the rotor's reversals to find the hysteresis. An edge beyond which the rotor
+/// turns back shows where that was, not how wide the hysteresis is. The voltages are very low there, and the path
+/// bends most, more on one side of the reversal than on the other: a spline of one stiffness does not fit it, and
+/// its error would count as hysteresis. Where jitter decides whether the edge is passed at all, the passed ones
+/// are no fair sample. So these edges are left out in all rounds. Where too few lie between the reversals they
+/// stay, and no hysteresis is given.
 bool tell_between_turns(const std::vector<HallEdge>& edges, std::size_t own) {
   std::vector<std::size_t> seen(own);
   std::size_t forward = 0, backward = 0;
@@ -58,13 +59,13 @@ class Sightings {
   Sightings(const std::vector<VoltageVector>& vectors, std::vector<HallEdge> edges)
       : vectors_(vectors), edges_(std::move(edges)), left_out_(edges_.size()) {}
 
-  /// How many they are.
+  /// Leaves out the edges at reversals, and returns their number.
   std::size_t leave_out_turns() {
     for (std::size_t n = 0; n < edges_.size(); ++n) left_out_[n] = edges_[n].at_turn;
     return static_cast<std::size_t>(std::count(left_out_.begin(), left_out_.end(), true));
   }
 
-  /// With the way as it is known so far.
+  /// Makes the sightings of `m`, with the path as it is known so far.
   void bring(FoundMotion& m, VoltageModel& model, const MotionPath& path) {
     if (const std::optional<VoltageModel> better = fit_voltages(vectors_, path)) model = *better;
     turned_into_place(model);
@@ -77,7 +78,7 @@ class Sightings {
       const std::optional<MotionPath::At> at = path.at(edges_[n].t_s);
       m.sightings.push_back(sighting_of(edges_[n], m.effects, at ? at->speed_deg_s : 0.0));
       m.sightings.back().left_out = left_out_[n];
-      while (next < seen.size() && seen[next].t_s < edges_[n].t_s) ++next;  // of no stretch
+      while (next < seen.size() && seen[next].t_s < edges_[n].t_s) ++next;  // outside all stretches
     }
   }
 
@@ -106,12 +107,12 @@ bool speeds_differ(const std::vector<MotionPoint>& points, double usual) {
   });
 }
 
-/// Which way round, with the odds of the two; or that neither fits.
+/// Finds which way round the lines are, with the odds of the two; a Problem where neither fits.
 base::Result<HallOffsetEstimate> which_way(const HallLog& log, const std::vector<VoltageVector>& vectors,
                                            const FoundMotion& by_edges, MotionPath& path) {
-  // Of logarithms of likelihoods. Noise alone lets ten unknowns reach 20 once in 60000 logs (half of chi square), and 14 once
-  // in 500, but then it explains next to nothing: where most of the power is the rotor's, 14 will do, as of a log that goes
-  // to and fro by a few edges.
+  // Differences of log likelihoods. Noise alone lets ten unknowns reach 20 once in 60000 logs (half of chi
+  // square), and 14 once in 500, but then it explains very little. Where most of the power is the rotor's, 14 is
+  // enough, for example for a log that goes to and fro by a few edges.
   constexpr double sure = 20.0, likely = 14.0;
   HallOffsetEstimate out;
   std::optional<VoltageModel> models[2];

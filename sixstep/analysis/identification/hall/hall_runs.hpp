@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From rows to stays: how long each code stood.
+// Groups rows into stays: how long each code stood.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -8,17 +8,17 @@
 
 namespace sixstep::analysis {
 
-/// A code and the time it stood. It came at some instant of [came_after_s, came_before_s]: the last row
-/// without it and the first one with it.
+/// A code and the time for which it stood. It began at some instant of [came_after_s, came_before_s], between the
+/// last row without it and the first one with it.
 struct Stay {
   std::uint8_t code = 0;
   double came_after_s = 0.0, came_before_s = 0.0;
-  double left_s = 0.0;  ///< first row of the next stay; of the last one the log's last row
+  double left_s = 0.0;  ///< first row of the next stay; for the last stay the log's last row
 
   double duration_s() const { return left_s - came_before_s; }
 };
 
-/// One per change of code. Where most rows bring a change, rows are changes, and their times exact.
+/// One stay per change of code. Where most rows bring a change, rows are changes, and their times are exact.
 std::vector<Stay> stays_of(const HallLog& log);
 bool rows_are_changes(const HallLog& log);
 

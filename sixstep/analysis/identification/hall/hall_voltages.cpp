@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t orders = vector_orders.size();
 
-/// What the model is made of at one place: w exp(j h theta).
+/// The model's basis at one place: w exp(j h theta).
 struct Basis {
   std::array<double, orders> re{}, im{};
 };
@@ -33,7 +33,7 @@ struct Vector {
   double re = 0.0, im = 0.0;
 };
 
-/// The model there, and how it changes with the angle, per rad.
+/// The model there, and its derivative by the angle, per rad.
 struct Modelled {
   Vector value, slope;
 };
@@ -50,8 +50,9 @@ Modelled modelled(const VoltageModel& m, const Basis& b) {
   return out;
 }
 
-/// Residuals of neighbouring rows that go together say as much as fewer independent ones: by how alike two neighbours are, where
-/// each row forgets by chance. What turns with the rotor is smooth instead, and its neighbours are as good as the same.
+/// Counts rows as independent ones: correlated residuals of neighbouring rows carry as much information as fewer
+/// independent ones, here by the correlation of two neighbours, if it decays geometrically with their distance. A
+/// residual that turns with the rotor is smooth instead, and its neighbours are almost equal.
 class Memory {
  public:
   void take(const Vector& r) {
@@ -69,11 +70,11 @@ class Memory {
   Vector before_;
 };
 
-/// How sure the amplitude is: half turns say it independently of each other, with whatever is wrong in them of noise and speed.
-/// Few of them, or a few fast ones among slow ones, pull the amplitude after themselves and look better than they are: each
-/// counts by what it is without its own pull, and Student's degrees of freedom are those of the weights (R. M. Bell and
-/// D. F. McCaffrey, "Bias reduction in standard errors for linear regression with multi-stage samples", Survey Methodology 28,
-/// 2002, for one unknown).
+/// Uncertainty of the amplitude. Half turns give it independently of each other, with all their errors of noise
+/// and speed. Few of them, or a few fast ones among slow ones, pull the amplitude towards themselves and look
+/// better than they are. So each counts by its residual without its own pull, and Student's degrees of freedom are
+/// those of the weights (R. M. Bell and D. F. McCaffrey, "Bias reduction in standard errors for linear regression
+/// with multi-stage samples", Survey Methodology 28, 2002, for one unknown).
 class HalfTurns {
  public:
   void take(double angle_deg, const Vector& fundamental, const Vector& residual) {
@@ -83,7 +84,7 @@ class HalfTurns {
     off_ += fundamental.re * residual.re + fundamental.im * residual.im;
   }
   std::size_t count() const { return clusters_.size() + (part_ > 0.0 ? 1 : 0); }
-  /// As a part of the amplitude.
+  /// Half width as a part of the amplitude.
   double half_width() {
     close();
     if (clusters_.size() < 2) return 1.0;
@@ -114,7 +115,7 @@ class HalfTurns {
   std::vector<Cluster> clusters_;
 };
 
-/// What the residuals say of the model's certainty.
+/// Computes the model's uncertainty from the residuals.
 void judge(const std::vector<VoltageVector>& vectors, const MotionPath& path, VoltageModel& model) {
   Memory memory;
   HalfTurns half_turns;
@@ -130,7 +131,8 @@ void judge(const std::vector<VoltageVector>& vectors, const MotionPath& path, Vo
                      model.re_Vs[0] * b.im[0] + model.im_Vs[0] * b.re[0]},
                     residual);
   }
-  // However smooth they are: each edge jitters by itself, and what the way between two of them lacks ends with the sector.
+  // The limit holds however smooth the residuals are, because each edge jitters by itself, and the path's error
+  // between two edges ends with the sector.
   constexpr double sectors = 3.0;  // in half a turn
   const double most = static_cast<double>(model.rows) /
                       (sectors * static_cast<double>(std::max<std::size_t>(half_turns.count(), 1)));
@@ -211,7 +213,8 @@ double turned_into_place(VoltageModel& model) {
 
 namespace {
 
-/// Rows over a few degrees of way, and what they say together: the angle that the path lacks, by one step of Gauss and Newton.
+/// Rows over a few degrees of the path, and the correction of the path's angle that they give together, by one
+/// step of Gauss and Newton.
 class Window {
  public:
   bool holds(double angle_deg) const { return rows_ == 0 || std::fabs(angle_deg - begin_deg_) < longest_deg; }
@@ -241,7 +244,7 @@ class Window {
 
  private:
   static constexpr double longest_deg = 30.0;
-  static constexpr double blurred_deg = 20.0;  ///< too slow to tell, and no angle that a step could reach
+  static constexpr double blurred_deg = 20.0;  ///< a sighting that is less exact is not used
   double begin_deg_ = 0.0, weight_ = 0.0, product_ = 0.0, t_s_ = 0.0;
   std::size_t rows_ = 0;
 };

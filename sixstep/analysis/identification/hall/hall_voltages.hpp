@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the rotor really is: the voltages that it induces, held against the way that the Hall lines tell.
+// Finds the rotor's true angle: compares the voltages that it induces with the path from the Hall lines.
 //
-// The vector of the three voltages turns with the rotor, as long as the speed is high, and its phase is the electrical angle
-// (notation.md): e_a = lambda w cos(theta - 60 degrees) and its harmonics, w < 0 where the rotor turns backwards.
+// The vector of the three voltages turns with the rotor, as long as the speed is high, and its phase is the
+// electrical angle (notation.md): e_a = lambda w cos(theta - 60 degrees) and its harmonics, w < 0 where the rotor
+// turns backwards.
 #pragma once
 #include <array>
 #include <optional>
@@ -19,29 +20,30 @@ struct VoltageVector {
 };
 std::vector<VoltageVector> vectors_of(const HallLog& log);
 
-/// Orders of the vector's harmonics: what is no multiple of 3, turning forward (+) or backward (-).
+/// Orders of the vector's harmonics: no multiples of 3, turning forward (+) or backward (-).
 inline constexpr std::array<int, 5> vector_orders = {1, -5, 7, -11, 13};
 
-/// The vector over the way: sum over orders h of K_h w exp(j h theta), and an offset. K_1 is the flux linkage of a phase, its
-/// phase -60 degrees where theta is the electrical angle.
+/// The vector over the path: sum over orders h of K_h w exp(j h theta), and an offset. K_1 is the flux linkage of
+/// a phase, its phase -60 degrees where theta is the electrical angle.
 struct VoltageModel {
   std::array<double, vector_orders.size()> re_Vs{}, im_Vs{};
   double offset_alpha_V = 0.0, offset_beta_V = 0.0;
   double variance_V2 = 0.0;         ///< of each component, white
-  double flux_half_width_Vs = 0.0;  ///< of |K_1|, 95 %, by how much half turns differ
+  double flux_half_width_Vs = 0.0;  ///< of |K_1|, 95 %, from the differences of half turns
   double residual_V2 = 0.0;         ///< sum of squares over both components
-  double still_V2 = 0.0;            ///< the same with the offset alone
+  double still_V2 = 0.0;            ///< the same for an offset alone
   std::size_t rows = 0;
-  double memory_rows = 1.0;  ///< rows that say as much as one independent one
+  double memory_rows = 1.0;  ///< rows with as much information as one independent row
 };
 
-/// Nothing where the rotor hardly moves while voltages are recorded.
+/// Empty where the rotor hardly moves while voltages are recorded.
 std::optional<VoltageModel> fit_voltages(const std::vector<VoltageVector>& vectors, const MotionPath& path);
 
-/// The same with the angle of the fundamental as notation.md has it: the path then is off by the degrees that come back.
+/// Turns the model so that the fundamental's angle is that of notation.md. Returns the degrees by which the path
+/// is off.
 double turned_into_place(VoltageModel& model);
 
-/// The phase of every few degrees of way as a sighting.
+/// The voltages' phase as sightings, one for every few degrees of the path.
 std::vector<Sighting> voltage_sightings(const std::vector<VoltageVector>& vectors, const VoltageModel& model,
                                         const MotionPath& path);
 

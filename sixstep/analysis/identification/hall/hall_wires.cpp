@@ -11,14 +11,14 @@
 namespace sixstep::analysis {
 namespace {
 
-/// The code of probes 60 degrees apart that the drive's own function takes for that of probes 120 degrees apart.
+/// The code of probes 60 degrees apart that control::as_120_degrees() converts to this code.
 std::uint8_t as_60_degrees(std::uint8_t code) {
   for (std::uint8_t of_60 = 0; of_60 < 8; ++of_60)
     if (control::as_120_degrees(control::HallArrangement::degrees_60, of_60) == code) return of_60;
   return 0;
 }
 
-/// Ways to have gone wrong: one stage or magnet inverts all three lines, two lines invert each by itself.
+/// Number of errors: one stage or magnet inverts all three lines, but two lines are inverted each by itself.
 int inversions(std::uint8_t inverted) { return inverted == 0b111 ? 1 : std::popcount(inverted); }
 
 constexpr rig::WireOrder wire_orders[] = {rig::WireOrder::abc, rig::WireOrder::bca, rig::WireOrder::cab,

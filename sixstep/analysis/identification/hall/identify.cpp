@@ -17,7 +17,7 @@ namespace {
 
 constexpr double sector_deg = 60.0;
 
-/// The weights whose sum of effects is an answer.
+/// Weights of the effects whose sum is a result.
 class Weights {
  public:
   explicit Weights(const EdgeEffects& effects) : effects_(effects), values_(effects.count()) {}
@@ -31,7 +31,7 @@ class Weights {
     if (!effects_.relative || n + 1 < effects_.own) values_[n] += factor;
     return *this;
   }
-  /// At standstill: what the delay adds at the usual speed is no hysteresis.
+  /// The hysteresis at standstill: without the delay's path at the usual speed.
   Weights& hysteresis() {
     values_[effects_.hysteresis_at()] = 1.0;
     if (effects_.delay) values_[effects_.delay_at()] = -2.0 * effects_.usual_speed_deg_s;
@@ -54,12 +54,12 @@ base::Problem not_fixed() {
           .cure = "turn the shaft by more turns in one go"};
 }
 
-/// Sectors by which edges lie off the nearest place: with an offset beyond 30 degrees another sector is nearer.
+/// Whole sectors in an offset: beyond 30 degrees another sector is nearer.
 int whole_sectors(double offset_deg) {
   return static_cast<int>(std::floor((offset_deg + sector_deg / 2.0) / sector_deg));
 }
 
-/// The same, less sure by what adds to it independently.
+/// The interval widened by an independent half width.
 Interval widened(Interval x, double by) {
   const auto side = [by](double width) { return std::sqrt(width * width + by * by); };
   return {x.value, x.value - side(x.value - x.low), x.value + side(x.high - x.value)};
@@ -98,7 +98,7 @@ std::vector<EdgePassage> passages_of(const FoundMotion& motion, int shift) {
   return out;
 }
 
-/// What one edge in a sector's place asks for: each of them seen twice.
+/// A Problem where an edge of the shaft's turn is passed less than twice.
 std::optional<base::Problem> too_rare(const HallEdges& edges, std::size_t own) {
   std::vector<std::size_t> seen(own);
   for (const HallEdge& e : edges.edges) ++seen[repeating(e.boundary, own)];
@@ -112,7 +112,8 @@ std::optional<base::Problem> too_rare(const HallEdges& edges, std::size_t own) {
                        .cure = "turn the shaft by two turns and more in one go, or leave the pole pairs out"};
 }
 
-/// What contradicts all others: edges, those at turns of the rotor apart, and readings of the voltages.
+/// Counts sightings that contradict all others: edges, without those at reversals of the rotor, and voltage
+/// readings.
 void count_left_out(const FoundMotion& motion, std::size_t at_turns, HallIdentity& out) {
   std::size_t edges = 0;
   for (const Sighting& s : motion.sightings) {
@@ -172,7 +173,7 @@ void take_codes(const FoundMotion& motion, const MotionPosterior& posterior, Hal
   out.jitter_deg.low = 0.0;
 }
 
-/// What the edges alone say, all but how sure it is.
+/// The results from the edges alone, without their uncertainty.
 HallIdentity counted(const HallLog& log, const HallEdges& edges) {
   return {.rows = log.t_s.size(),
           .seconds = log.t_s.back() - log.t_s.front(),
@@ -233,7 +234,7 @@ base::Result<HallIdentity> identify(const HallLog& log, int pole_pairs, const Ke
   if (keep_going && !keep_going()) return base::Problem{"identify", "", "was interrupted", "start it again"};
   if (!found) return found;
   const double frequency_Hz = 1.0 / (6.0 * found->sector_s);
-  const int known_pairs = pole_pairs > 1 ? pole_pairs : 0;  // 1 asks for the six edges that all pairs share
+  const int known_pairs = pole_pairs > 1 ? pole_pairs : 0;  // 1: the six edges that all pairs share
   base::Problems wrong = check_built_speed(frequency_Hz, known_pairs);
   if (wrong.empty() && found->place)
     wrong =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kalman's filter for an angle whose derivative of some order is white noise. One update for all columns that
-// ride along.
+// Kalman's filter for an angle of which one derivative is white noise. One update serves all columns that are
+// filtered together.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -29,7 +29,7 @@ class Step {
     for (std::size_t i = 0; i < order; ++i)
       for (std::size_t k = i + 1; k < order; ++k) x[i] += terms_[k - i] * x[k];
   }
-  /// The same backwards, for what the way back carries.
+  /// The transposed step, for the backward pass of the smoother.
   void pass_back(MotionState<order>& r) const {
     for (std::size_t i = order; i-- > 0;)
       for (std::size_t k = 0; k < i; ++k) r[i] += terms_[i - k] * r[k];
@@ -61,7 +61,7 @@ struct MotionSpread {
 
 template <std::size_t order>
 struct MotionGain {
-  double F = 0.0;  ///< variance of the innovation; 0 where nothing was taken
+  double F = 0.0;  ///< variance of the innovation; 0: no update
   std::array<double, order> K{};
 };
 

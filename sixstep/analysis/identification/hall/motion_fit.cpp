@@ -9,7 +9,7 @@
 namespace sixstep::analysis {
 namespace {
 
-/// Columns that the filter runs on at once: the data, each effect, and each unknown of a stretch's begin.
+/// Columns that are filtered together: the data, each effect, and each unknown of a stretch's begin.
 template <std::size_t order>
 class Columns {
  public:
@@ -21,7 +21,8 @@ class Columns {
     begin_stretch();
   }
 
-  /// What the stretch says of data and effects, its begin eliminated; nothing where it is too short to have one.
+  /// Adds the stretch's sums of data and effects, with its begin eliminated; a stretch too short to have one adds
+  /// nothing.
   void end_stretch() {
     if (seen_ >= order) {
       Symmetric begin(order);

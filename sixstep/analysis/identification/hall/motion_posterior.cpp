@@ -11,8 +11,8 @@
 namespace sixstep::analysis {
 namespace {
 
-/// Logarithms: of the degrees that the angle strays from its course within a sector, of the jitter in
-/// degrees, of the scale of the voltages' variance.
+/// Logarithms of the degrees by which the angle strays from its course within a sector, of the jitter in degrees,
+/// of the scale of the voltages' variance.
 using Place = std::array<double, 3>;
 
 struct Bounds {
@@ -39,7 +39,8 @@ class Likelihood {
   Place place_of(const MotionNoise& n) const {
     return {0.5 * base::log(n.intensity * stray2_), base::log(n.jitter_deg), base::log(n.voltage_scale)};
   }
-  /// Nothing, too, where nobody wants it: then nothing is likely, and every search ends at once.
+  /// Empty also where keep_going has ended the work: then no place has a likelihood, and every search ends at
+  /// once.
   std::optional<MotionFit> fit_at(const Place& p) const {
     if (keep_going_ && !keep_going_()) return {};
     return fit_motion(sightings_, effects_, noise_at(p));
@@ -67,7 +68,7 @@ struct Top {
   double height = none;
 };
 
-/// Along each axis in turn, by steps that halve where none leads up.
+/// Climbs along each axis in turn, by steps that halve where none leads up.
 Top climbed(const Likelihood& likelihood, Top top, double first_step) {
   const std::size_t axes = likelihood.axes();
   for (double step = first_step; step > 0.04; step *= 0.5)
@@ -99,7 +100,7 @@ Top highest(const Likelihood& likelihood) {
   return top.height > none ? climbed(likelihood, top, 1.0) : top;
 }
 
-/// How far along an axis the likelihood is worth a look: until it has lost `enough`.
+/// Distance along an axis at which the log likelihood has lost `enough`, or the bound.
 double reach(const Likelihood& likelihood, const Top& top, std::size_t axis, double way, double enough) {
   const auto lost = [&](double step) {
     Place p = top.place;
@@ -205,7 +206,7 @@ double MotionPosterior::probability(std::span<const double> weights, double low,
 }
 
 Interval MotionPosterior::jitter_deg() const {
-  // Each point stands for its part of the axis; spread over it, as wide as a step is, the steps do not show.
+  // Each point stands for its part of the axis. It is spread over that part, so that the steps do not show.
   std::vector<Component> mixture;
   for (const Possible& p : all_)
     mixture.push_back({p.weight, base::log(p.noise.jitter_deg), 0.29 * jitter_step_});

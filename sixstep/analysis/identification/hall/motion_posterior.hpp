@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// How freely the rotor moved and how much its edges jitter is not known beforehand, and what is read from a
-// log depends on both. They are looked for by restricted likelihood, and every answer is the mean over all
-// values that the log leaves open, each with its weight: an interval that took the likeliest ones for granted
-// would be too narrow where the log is short.
+// Finds results as means over the noise that a log leaves open. How freely the rotor moved and how much its edges
+// jitter is unknown beforehand, and every result depends on both. They are found by restricted likelihood, and
+// each result is the mean over all values that the log leaves open, with their weights. An interval for the
+// likeliest values alone would be too narrow where the log is short.
 #pragma once
 #include <optional>
 #include <span>
@@ -13,26 +13,26 @@
 
 namespace sixstep::analysis {
 
-/// The likeliest noise; nothing where the sightings do not fix the effects. `sector_s` is the time that a
-/// sector typically takes: it only says where to look. Where no sighting is a voltage, the scale stays 1.
+/// The likeliest noise; empty where the sightings do not determine the effects. `sector_s`: typical time of a
+/// sector, which only sets where to search. Where no sighting is a voltage, the scale stays 1.
 std::optional<MotionNoise> likeliest_noise(std::span<const Sighting> sightings, std::size_t effects,
                                            double sector_s, const KeepGoing& keep_going = {});
-/// From one that was likely for nearly the same sightings.
+/// The same from a noise that was likely for nearly the same sightings.
 MotionNoise likelier_noise(std::span<const Sighting> sightings, std::size_t effects, double sector_s,
                            const MotionNoise& likely, const KeepGoing& keep_going = {});
 
 class MotionPosterior {
  public:
-  /// Around the likeliest noise.
+  /// From the possible noises around the likeliest one.
   static std::optional<MotionPosterior> of(std::span<const Sighting> sightings, std::size_t effects,
                                            double sector_s, const MotionNoise& likeliest,
                                            const KeepGoing& keep_going = {});
 
-  /// Of the sum of the effects with these weights.
+  /// Interval of the sum of the effects with these weights.
   Interval effects(std::span<const double> weights) const;
-  /// That it lies in [low, high].
+  /// Probability that this sum lies in [low, high].
   double probability(std::span<const double> weights, double low, double high) const;
-  /// Down from 0 where none at all would explain the log as well.
+  /// Begins at 0 where the log is explained as well without jitter.
   Interval jitter_deg() const;
 
  private:

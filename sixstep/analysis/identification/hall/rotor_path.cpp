@@ -11,8 +11,8 @@
 namespace sixstep::analysis {
 namespace {
 
-// Logarithms of how much rarer something is than the usual. No answer hangs on their size: a glitch that
-// leads back is told from a rotor that turned back twice by all that lies between 3 and 16.
+// Costs: logarithms of how much rarer an event is than the usual. Their exact size has no influence on results: a
+// glitch that leads back costs 3, a rotor that turned back twice 16.
 constexpr double step_cost = 0.1, turn_cost = 8.0, skip_cost = 6.0, lost_cost = 12.0, glitch_cost = 3.0,
                  glitch_cost_per_sector = 16.0;
 
@@ -33,7 +33,7 @@ double move_cost(std::size_t from, std::size_t to) {
 
 using Costs = std::array<double, states>;
 
-/// Of all ways that end in each state the cheapest, and where each came from.
+/// The cheapest path: finds for each state the cheapest path that ends in it, and the state from which it came.
 std::vector<Whereabouts> cheapest(const std::vector<Stay>& stays, std::uint8_t mask, double sector_s) {
   std::array<Costs, states> moves;
   for (std::size_t to = 0; to < states; ++to)
@@ -65,7 +65,7 @@ std::vector<Whereabouts> cheapest(const std::vector<Stay>& stays, std::uint8_t m
   return way;
 }
 
-/// The time in a sector of that way that is the middle one by length, of an even count the longer of two.
+/// Median time in a sector of that path; of an even count the longer one of two.
 double usual_sector_s(const std::vector<Stay>& stays, const std::vector<Whereabouts>& way) {
   std::vector<double> times;
   double from_s = stays.front().came_before_s;
@@ -84,7 +84,7 @@ double usual_sector_s(const std::vector<Stay>& stays, const std::vector<Whereabo
 
 RotorPath likeliest_way(const std::vector<Stay>& stays, std::uint8_t mask) {
   if (stays.empty()) return {};
-  RotorPath way{cheapest(stays, mask, 0.0), 0.0};  // glitches of any length alike, to find what is usual
+  RotorPath way{cheapest(stays, mask, 0.0), 0.0};  // a glitch's length does not count, to find the usual time
   way.sector_s = usual_sector_s(stays, way.at_stays);
   if (way.sector_s > 0.0) way.at_stays = cheapest(stays, mask, way.sector_s);
   return way;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way a rotor went, as the codes tell it where some of them are glitches.
+// Finds the rotor's path from codes of which some are glitches.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -8,22 +8,22 @@
 
 namespace sixstep::analysis {
 
-/// Where the rotor was during a stay.
+/// Place and direction of the rotor during a stay.
 struct Whereabouts {
   std::uint8_t sector = 0;  ///< 0..5, with each line at its own pin
-  bool forward = true;      ///< the way it came there
-  bool glitch = false;      ///< the stay shows another code
+  bool forward = true;      ///< direction in which it came there
+  bool glitch = false;      ///< the stay's code is not that of the sector
 };
 
 struct RotorPath {
   std::vector<Whereabouts> at_stays;  ///< one per stay
-  double sector_s =
-      0.0;  ///< time in a sector, the middle one by length, of an even count the longer; 0 where there is none
+  /// Median time in a sector, of an even count the longer; 0: none.
+  double sector_s = 0.0;
 };
 
-/// The likeliest way (A. J. Viterbi's algorithm): a rotor goes on more often than it turns back, and passes
-/// sectors one by one; a code that is none of its sector's is a spike, a bounce or a contact that is off, the
-/// less likely the longer it stands beside a sector's time. `mask`: HallEdges.
+/// The likeliest path (A. J. Viterbi's algorithm): a rotor goes on more often than it turns back, and passes
+/// sectors one by one. A code that is not its sector's is a spike, a bounce or a loose contact, the less likely
+/// the longer it stands against a sector's time. `mask`: HallEdges.
 RotorPath likeliest_way(const std::vector<Stay>& stays, std::uint8_t mask);
 
 }  // namespace sixstep::analysis

@@ -9,7 +9,7 @@
 namespace sixstep::analysis {
 namespace {
 
-/// What filtering forward leaves of a sighting for the way back.
+/// Results of the forward pass at a sighting, for the backward pass.
 template <std::size_t order>
 struct Passed {
   Step<order> step{0.0};     ///< since the one before
@@ -19,8 +19,8 @@ struct Passed {
   MotionGain<order> gain;
 };
 
-/// One stretch forward from its likeliest begin, then back (P. de Jong, "Smoothing and interpolation with the
-/// state-space model", J. Amer. Statist. Assoc. 84, 1989).
+/// Filters one stretch forward from its likeliest begin, then smooths it backward (P. de Jong, "Smoothing and
+/// interpolation with the state-space model", J. Amer. Statist. Assoc. 84, 1989).
 template <std::size_t order>
 class Stretch {
  public:
@@ -40,7 +40,7 @@ class Stretch {
     return x;
   }
 
-  /// Least squares, the effects being known: the filter once more, with the begin's unknowns as columns.
+  /// Least squares with known effects: the filter once more, with the begin's unknowns as columns.
   MotionState<order> find_begin() {
     NormalEquations equations(order);
     std::array<MotionState<order>, order> columns{};
@@ -96,7 +96,7 @@ class Stretch {
     }
   }
 
-  /// r is what the sightings from here on say of the state, N how sure they are.
+  /// r is the information of the sightings from here on about the state, N its precision.
   void back(std::vector<MotionPoint>& points) const {
     MotionState<order> r{};
     std::array<std::array<double, order>, order> N{};
@@ -175,7 +175,7 @@ std::optional<MotionPath::At> MotionPath::at(double t_s) const {
   const double T = b.t_s - a.t_s;
   if (!(T > 0.0)) return At{a.angle_deg, a.speed_deg_s};
   const double x = (t_s - a.t_s) / T, y = 1.0 - x, rise = b.angle_deg - a.angle_deg;
-  // Hermite: a line, and what the two speeds bend it by.
+  // Hermite: a line, bent by the two speeds.
   const double bend_a = a.speed_deg_s * T - rise, bend_b = rise - b.speed_deg_s * T;
   const double bend = bend_a * y + bend_b * x;
   return At{a.angle_deg + rise * x + x * y * bend, (rise + (y - x) * bend + x * y * (bend_b - bend_a)) / T};

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rotor turned by hand, by a drill or by itself: its angle over time as far as sightings of it tell, and
-// what is the same in all of them (where the edges really stand, hysteresis, delay).
+// Estimates a rotor's angle over time from sightings of it, together with effects that are the same in all of them
+// (places of the edges, hysteresis, delay). The rotor is turned by hand, by a drill or by itself.
 //
-// Model: the angle's second or its third derivative is white noise, the least that can be said of a shaft
-// that someone turns; the best estimate between sightings is then a spline whose stiffness follows from the
-// data (G. Wahba, "Improper priors, spline smoothing and the problem of guarding against model errors in
-// regression", J. R. Statist. Soc. B 40, 1978). Every sighting says
+// Model: the angle's second or its third derivative is white noise, the weakest assumption for a shaft that
+// someone turns. The best estimate between sightings is then a spline whose stiffness follows from the data (G.
+// Wahba, "Improper priors, spline smoothing and the problem of guarding against model errors in regression", J. R.
+// Statist. Soc. B 40, 1978). Every sighting is
 //
 //   says = angle(t) + sum of its effects + noise
 //
-// and Kalman's filter carries the angle, while the effects and each stretch's unknown begin ride along as
-// further columns (P. de Jong, "The diffuse Kalman filter", Ann. Statist. 19, 1991): nothing has to be known
-// of them beforehand, and their likelihood is the restricted one.
+// Kalman's filter follows the angle. The effects and each stretch's unknown begin are further columns of the
+// filter (P. de Jong, "The diffuse Kalman filter", Ann. Statist. 19, 1991): nothing has to be known of them
+// beforehand, and their likelihood is the restricted one.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -25,10 +25,10 @@
 
 namespace sixstep::analysis {
 
-/// Asked now and then; false: nobody wants the answer any more. Empty: go on.
+/// Called now and then; false ends the work. Empty: go on.
 using KeepGoing = std::function<bool()>;
 
-/// An unknown that is the same in every sighting it enters, and with which factor it does.
+/// An unknown that is the same in every sighting, and the factor with which it enters this one.
 struct Effect {
   std::size_t index = 0;
   double factor = 0.0;
@@ -37,14 +37,14 @@ struct Effect {
 struct Sighting {
   double t_s = 0.0;                 ///< rising within a stretch
   double says_deg = 0.0;            ///< electrical
-  double known_deg2 = 0.0;          ///< variance that is known: sampling
-  bool is_edge = true;              ///< jitter adds to it; else, of a voltage, the known variance is scaled
-  bool begins = false;              ///< nothing is known of the way since the last one: a stretch begins
+  double known_deg2 = 0.0;          ///< variance by sampling
+  bool is_edge = true;              ///< jitter adds to known_deg2; else, of a voltage, known_deg2 is scaled
+  bool begins = false;              ///< the path since the last one is unknown: a stretch begins
   bool left_out = false;            ///< it contradicts all others
   std::array<Effect, 4> effects{};  ///< a factor of 0 is none
 };
 
-/// Which derivative of the angle is white noise: torques that jump, or torques that bend.
+/// Which derivative of the angle is white noise: second for torques that jump, third for torques that bend.
 enum class Smoothness : std::uint8_t { second = 2, third = 3 };
 
 struct MotionNoise {
@@ -54,7 +54,7 @@ struct MotionNoise {
   double voltage_scale = 1.0;
 };
 
-/// Of the sighting. One without any noise would leave no variance to divide by.
+/// Variance of the sighting. It is above 0 even without noise, because the filter divides by it.
 inline double variance_of(const Sighting& s, const MotionNoise& noise) {
   constexpr double least_deg2 = 1e-8;
   const double known =
@@ -68,14 +68,14 @@ struct MotionFit {
   double log_likelihood = 0.0;
 };
 
-/// Nothing where the sightings do not fix the effects.
+/// Empty where the sightings do not determine the effects.
 std::optional<MotionFit> fit_motion(std::span<const Sighting> sightings, std::size_t effects,
                                     const MotionNoise& noise);
 
 /// The rotor at a sighting, given all of them.
 struct MotionPoint {
   double t_s = 0.0, angle_deg = 0.0, speed_deg_s = 0.0;
-  /// What the sighting itself says beyond all others, over its deviation; 0 where it was left out.
+  /// Difference between the sighting and all others, over its deviation; 0 where it was left out.
   double surprise = 0.0;
   bool begins = false;
 };
@@ -90,7 +90,7 @@ class MotionPath {
   struct At {
     double angle_deg = 0.0, speed_deg_s = 0.0;
   };
-  /// Nothing before, behind and between the stretches. Fast for times that lie close to the last one asked for.
+  /// Empty before, after and between the stretches. Fast for times that lie close to the last one asked for.
   std::optional<At> at(double t_s) const;
   const std::vector<MotionPoint>& points() const { return points_; }
 

@@ -21,7 +21,8 @@ const Values* values_of(const study::Trace& trace, const std::string& column) {
   return nullptr;
 }
 
-/// A column along its rising times. Behind a jump at that very instant; nothing beyond the ends, nor where a row holds no number.
+/// The value of a column at a time; at a jump, the value after it. Empty beyond the ends, and where a row holds no
+/// number.
 std::optional<double> value_at(const Values& t_s, const Values& values, double t) {
   const auto next = static_cast<std::size_t>(std::upper_bound(t_s.begin(), t_s.end(), t) - t_s.begin());
   if (next == 0) return {};
@@ -45,7 +46,7 @@ std::optional<Both> both(const study::Trace& simulated, const study::Trace& log,
   return found;
 }
 
-/// Of every so manieth row.
+/// Compares each `every`-th row.
 TraceComparison compared(const Both& b, double shift_s, std::size_t every = 1) {
   TraceComparison out;
   double low = std::numeric_limits<double>::infinity(), high = -low, squares = 0.0;
@@ -87,7 +88,7 @@ std::vector<TraceComparison> trace_comparison(const study::Trace& simulated, con
 
 namespace {
 
-/// The least that two values of a column differ by.
+/// Least difference of two values of a column.
 double least_step(Values values) {
   std::sort(values.begin(), values.end());
   double least = std::numeric_limits<double>::infinity();
@@ -96,12 +97,12 @@ double least_step(Values values) {
   return std::isfinite(least) ? least : 0.0;
 }
 
-/// A column that tells a shift.
+/// A column from which the shift is found.
 struct Weighed {
   Both both;
   double scale = 1.0;  ///< its span, or its log's least step
   double step = 0.0;
-  std::size_t rows = 0;  ///< that are compared without a shift
+  std::size_t rows = 0;  ///< compared without a shift
 };
 
 std::vector<Weighed> weighed_columns(const study::Trace& simulated, const study::Trace& log,
@@ -114,21 +115,21 @@ std::vector<Weighed> weighed_columns(const study::Trace& simulated, const study:
     const double step = least_step(*found->log), scale = std::max(here.span, step);
     if (scale > 0.0) out.push_back({*found, scale, step, here.rows});
   }
-  // A column that the run has no value of meets nothing at any shift.
+  // A column without a value in the run has no common row at any shift.
   if (std::any_of(out.begin(), out.end(), [](const Weighed& w) { return w.rows > 0; }))
     std::erase_if(out, [](const Weighed& w) { return w.rows == 0; });
   return out;
 }
 
-/// Geometric mean of the columns' rms, as parts of their scales: the likelihood where nobody knows how exact each column is. A column that
-/// fits at no shift, as a duty that acts a period later, then does not outweigh one that does. Nothing where a shift leaves little to
-/// compare: it would win.
+/// Geometric mean of the columns' rms, as parts of their scales: the likelihood where the accuracy of each column
+/// is unknown. A column that fits at no shift, such as a duty that acts a period later, then does not outweigh one
+/// that does. Empty where a shift leaves too few rows to compare, because it would win.
 struct Apart {
   double rms = 0.0;
   bool within_steps = true;  ///< no column differs by more than its log's step
 };
 std::optional<Apart> apart(const std::vector<Weighed>& columns, double shift_s, std::size_t every) {
-  // What a log's step alone leaves over.
+  // The rms that a log's step alone leaves.
   constexpr double rms_of_a_step = 0.28867513459481287, least_part = 1e-6;
   double logs = 0.0;
   Apart out;
@@ -146,7 +147,8 @@ std::optional<Apart> apart(const std::vector<Weighed>& columns, double shift_s, 
 }  // namespace
 
 double best_shift_s(const study::Trace& simulated, const study::Trace& log, double most_s, double step_s) {
-  // The difference has many lows where a current ripples: looked for on a grid, then on finer ones around the best.
+  // The difference has many minima where a current ripples, so that it is searched on a grid, then on finer ones
+  // around the best.
   constexpr int asked_values = 4000, times_finer = 10, grids = 4;
   constexpr double counts = 1e-3, much_less = 0.9;
   const Values* const times = values_of(log, "t_s");
