@@ -78,7 +78,7 @@ bool holds(std::string_view text, std::string_view word) {
   const auto same = [](char a, char b) {
     return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
   };
-  return !std::ranges::search(text, word, same).empty();
+  return std::search(text.begin(), text.end(), word.begin(), word.end(), same) != text.end();
 }
 
 /// The keys, and the words of keys, whose name or meaning has `word` in it, a line each; "" where there is none. The keys of `at`,
