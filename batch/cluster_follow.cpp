@@ -42,7 +42,7 @@ letters::Letter letter_of(const Mail& mail) {
 /// The plan ended before a question was answered: the leader may have gone, and the run is no longer needed.
 struct OverUnanswered {};
 
-/// Makes one plan's runs on its own threads; the calling thread handles the letters.
+/// Executes one plan's runs on `jobs` threads; the calling thread exchanges messages with the leader.
 class Hand {
  public:
   Hand(Cluster& cluster, const letters::Begin& begin) : cluster_(cluster), begin_(begin) {}

@@ -75,8 +75,8 @@ base::Problems refused(const Destination& to, const std::string& partial) {
   for (const std::string& path : {to.path, partial})
     if (!to.force && is_foreign(path))
       return {{.where = path + ":",
-               .limit = "holds what sixstep has not written",
-               .cure = "name another file, or add --force to lose that one"}};
+               .limit = "was not written by sixstep, or was changed since",
+               .cure = "name another file, or add --force to replace it"}};
   struct stat unused {};
   if (::lstat(partial.c_str(), &unused) != 0 && errno == ENAMETOOLONG)
     return {unwritable(to.path, ENAMETOOLONG)};
@@ -155,7 +155,7 @@ base::Result<AtomicFile> AtomicFile::create(const Destination& to) {
   if (to.path == "-")  // the caller decides what can go to standard output
     return base::Problem{.where = "-",
                          .limit = "means standard output elsewhere, and this output must be a file",
-                         .cure = "name a file; ./- is one of that name"};
+                         .cure = "name a file; ./- is a file that is called -"};
   AtomicFile file;
   file.path_ = to.path;
   struct stat there {};

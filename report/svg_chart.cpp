@@ -29,7 +29,8 @@ class Axis {
     high_ = std::max(high_, v);
   }
   bool empty() const { return !(low_ <= high_); }
-  /// Adds a little room beyond the curves; a flat curve also gets some.
+  /// Widens the range by `part` of its span on each side; a flat curve by 5 % of its value. A logarithmic axis
+  /// stays.
   void widen(double part) {
     if (logarithmic_) return;
     const double span = high_ - low_, size = std::max(std::abs(low_), std::abs(high_));

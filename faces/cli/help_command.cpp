@@ -137,7 +137,10 @@ Exit help_command(const CLI::App& app, const std::string& key) {
   for (const std::string& path : known)  // "voltage_V" is in a table; a misspelt key may be too
     if (near.empty() && text::edit_distance(path.substr(path.rfind('.') + 1), key) <= 1) near = path;
   constexpr std::size_t shortest_word = 3;
-  if (near.empty() && key.size() >= shortest_word) {
+  const bool is_word = key.size() >= shortest_word &&
+                       std::all_of(key.begin(), key.end(),
+                                   [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; });
+  if (near.empty() && is_word) {
     const std::string text = with_word(scenario, key) + with_word(sheet, key) + with_word(plan, key);
     if (!text.empty()) {
       print(fmt::format("No key is called {}. Keys and words that have it in their name or meaning:\n",

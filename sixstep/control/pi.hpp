@@ -22,8 +22,8 @@ struct PiState {
 };
 
 /// u[n] = u[n-1] + d1 e[n] + d0 e[n-1], clamped; the clamped u is the state, so the integral cannot wind up.
-/// This overload clamps to any two ends, for a term that is added to u afterwards (feed-forward) and shares its
-/// limit.
+/// This overload clamps to low..high. A feed-forward term e that is added afterwards shifts both by -e, so that
+/// the sum stays within the limit.
 template <class Scalar>
 constexpr Scalar pi_step(const PiConfig<Scalar>& config, PiState<Scalar>& state, Scalar error, Scalar low,
                          Scalar high) {

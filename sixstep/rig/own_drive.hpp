@@ -22,7 +22,8 @@
 
 namespace sixstep::rig {
 
-/// A controller with the configuration from its design function; `is` is null if there is none.
+/// A user's controller and the bytes that its `design` function wrote. `is` is null if the scenario has no
+/// user's controller.
 struct OwnConfig {
   const sixstep_controller* is = nullptr;
   std::vector<std::uint64_t> config;

@@ -63,8 +63,8 @@ TEST_F(ReplacedFiles, WhatSixstepHasNotWrittenIsRefusedUnlessForced) {
     const std::string path = with("a.csv", foreign);
     EXPECT_EQ(told_writing(path, "new"),
               path +
-                  ": holds what sixstep has not written; name another file, or add --force to lose "
-                  "that one");
+                  ": was not written by sixstep, or was changed since; name another file, or add --force to "
+                  "replace it");
     EXPECT_EQ(*read_text(path), foreign);
     EXPECT_EQ(entries(), 1U);
     EXPECT_EQ(told_writing({path, true}, "new"), "");
@@ -92,7 +92,7 @@ TEST_F(ReplacedFiles, ATextThatTheUserWentOnWithIsTheUsers) {
 
 TEST_F(ReplacedFiles, TheNameOfAPartialFileIsGuardedToo) {
   with("a.partial.csv", "precious");
-  EXPECT_THAT(told_writing(at("a.csv"), "new"), HasSubstr("a.partial.csv: holds what sixstep"));
+  EXPECT_THAT(told_writing(at("a.csv"), "new"), HasSubstr("a.partial.csv: was not written by sixstep"));
 }
 
 TEST_F(ReplacedFiles, PermissionsStayAsTheyWere) {

@@ -83,8 +83,10 @@ TEST(Units, AWrongOneIsToldWithThoseThatFit) {
   EXPECT_EQ(refused("20 ms", ""),
             "carries the unit ms, and this key is a plain number; write the number alone, or in %");
   EXPECT_EQ(refused("0,5 A", "A"), "has a decimal comma; write the decimal point as a point");
-  EXPECT_EQ(refused("1e400 A", "A"), "is beyond what a number holds; look at its exponent");
-  EXPECT_EQ(refused("1e99999999999 A", "A"), "is beyond what a number holds; look at its exponent");
+  EXPECT_EQ(refused("1e400 A", "A"),
+            "is outside the range of a double, 4.9e-324 to 1.8e308; correct its exponent");
+  EXPECT_EQ(refused("1e99999999999 A", "A"),
+            "is outside the range of a double, 4.9e-324 to 1.8e308; correct its exponent");
   for (const char* no_number : {"a lot", "", " ", "nan A", "-inf A", "A", "--5 A", "e5 A"})
     EXPECT_THAT(refused(no_number, "A"), ::testing::HasSubstr("must be a number, in A")) << no_number;
   for (const char* no_unit :

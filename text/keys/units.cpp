@@ -257,7 +257,9 @@ base::Result<double> in_unit(std::string_view text, const Wanted& wanted) {
   const base::Result<Conversion> by = conversion(w->unit, wanted);
   if (!by) return by.problems();
   const std::optional<double> x = shifted(w->number, by->ten);
-  if (!x) return base::Problem{.limit = "is beyond what a number holds", .cure = "look at its exponent"};
+  if (!x)
+    return base::Problem{.limit = "is outside the range of a double, 4.9e-324 to 1.8e308",
+                         .cure = "correct its exponent"};
   return by->multiply == by->divide ? *x : *x * by->multiply / by->divide;
 }
 

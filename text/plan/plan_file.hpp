@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a plan: which runs of a scenario are made, from a file or from command line words.
+// Reads a plan, the list of a scenario's runs, from a file or from command-line words.
 #pragma once
 #include <string>
 #include <string_view>

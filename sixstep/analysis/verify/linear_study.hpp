@@ -14,7 +14,7 @@ void say_in_metres(study::Scenario& scenario);
 /// rotary motor's study stays as it is.
 void tell_in_metres(DesignStudy& study);
 
-/// Rewrites problems that name members of the rotary motor's spec.
+/// Replaces the rotary motor's words and units in each Problem by the linear motor's.
 base::Problems told_in_metres(base::Problems problems);
 
 }  // namespace sixstep::analysis

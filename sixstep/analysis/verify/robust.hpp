@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests a design over a sheet's tolerances, while its controller stays as it is: each one alone, and all corners
-// of them together.
+// Varies the motor within the data sheet's tolerances; the controller stays as designed. Runs each tolerance
+// level alone, then each combination of outermost levels.
 #pragma once
 #include <cstddef>
 #include <cstdint>

@@ -34,9 +34,9 @@ constexpr bool runs_well(WiringDoes does) {
   return does == WiringDoes::forward || does == WiringDoes::backward;
 }
 
-/// Least mean and least torque of a wiring that runs well, over the mean of straight wires. A shift by a sector
-/// leaves half of their mean. Reluctance may add to that half, but at one end of each sector the torque is still
-/// nothing.
+/// Lower bounds for a wiring that runs well, as fractions of straight wiring's mean torque: of its mean, and of
+/// its least torque. A shift by one sector halves the mean. Reluctance torque can raise this mean, but the
+/// torque still falls to 0 at one end of each sector.
 inline constexpr double well_above_part = 0.75, well_above_least = 0.2;
 
 /// Each torque is per ampere through the driven pair.

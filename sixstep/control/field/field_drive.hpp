@@ -26,7 +26,7 @@
 
 namespace sixstep::control {
 
-/// Every default leaves the bridge off.
+/// With the default configuration (Mode::off) the bridge is off.
 template <class Scalar>
 struct FieldDriveConfig {
   DriveConfig<Scalar> drive{};  ///< mode and the loops around the currents

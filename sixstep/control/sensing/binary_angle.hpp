@@ -123,7 +123,8 @@ struct AngleTraits {
   static constexpr Scalar half_turns(std::int32_t angle) {
     return static_cast<Scalar>(angle) * static_cast<Scalar>(0x1p-31);
   }
-  /// A signed whole number of up to 32 bits as a signal; fixed: the gain in raw digits.
+  /// x times `per_unit` as a signal, for a signed whole number x of up to 32 bits. Fixed point: `per_unit` is
+  /// in raw signal digits per unit of x.
   static constexpr Scalar scaled(std::int32_t x, Gain<Scalar> per_unit) {
     return static_cast<Scalar>(x) * per_unit;
   }

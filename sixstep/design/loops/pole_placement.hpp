@@ -21,7 +21,7 @@ struct PiGains {
   double d0 = 0.0;
 };
 
-/// One line of a derivation: symbol, formula in words, number.
+/// One line of a derivation: symbol, formula or meaning as text, value, unit.
 struct DerivationStep {
   std::string symbol;
   std::string formula;

@@ -24,7 +24,7 @@ bool draws_nothing(const Scenario& s) {
          s.control.drive != FirmwareKind::sensorless && s.spread.empty();
 }
 
-/// For the lean drive only: the others monitor the bus or compute with it.
+/// Only the lean drive can leave the bus unread; the other drives monitor it or compute with it.
 bool is_bus_unread(const Scenario& s) {
   const auto reads = [](const Control& c) { return c.current.measured_bus_from_V || c.regeneration.limit_V; };
   return s.control.drive == FirmwareKind::lean && !reads(s.control) &&

@@ -97,7 +97,8 @@ double lost_beyond(const std::vector<double>& u, double extreme, double periods)
   constexpr double straight = 3.2, round = 4.6, near_of_lost = 4.0 / 3.0, most_periods = 0.6;
   std::vector<double> lost, bent;
   const std::vector<Top> tops = tops_at(u, extreme);
-  // A rail clips every period; hum lifts a flat top onto a step of the converter only now and then.
+  // Clipping shows in every period. Hum puts a flat top within one step of the converter only in some periods:
+  // fewer flat tops than `most_periods` per period are no clipping.
   if (static_cast<double>(tops.size()) + 1.0 < most_periods * periods) return 0.0;
   for (const Top& top : tops) {
     lost.push_back(top.near / near_of_lost);

@@ -15,7 +15,7 @@
 namespace sixstep::analysis {
 namespace {
 
-/// Peak of a voltage's fundamental over the electrical speed, and one deviation of it.
+/// Peak of a voltage's fundamental divided by the electrical speed, and its standard deviation; both in V s.
 struct Size {
   double Vs = 0.0, deviation_Vs = 0.0;
 };

@@ -19,7 +19,8 @@ struct HallEdge {
   std::int64_t boundary = 0;  ///< between sector boundary - 1 and sector boundary; 6 is 0 one turn later
   int direction = 1;          ///< +1, -1
   bool begins = false;        ///< the path between the last edge and this one is unknown
-  /// The rotor turned back beyond it: the edge before or after is the same one, passed the other way.
+  /// The rotor reversed just before or just after this edge: the previous or next edge is at the same boundary,
+  /// in the other direction.
   bool at_turn = false;
 };
 

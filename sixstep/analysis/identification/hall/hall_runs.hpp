@@ -18,7 +18,8 @@ struct Stay {
   double duration_s() const { return left_s - came_before_s; }
 };
 
-/// One stay per change of code. Where most rows bring a change, rows are changes, and their times are exact.
+/// Stays of the log: a new one begins at the first row and at each change of code. Where rows are changes,
+/// their times are exact.
 std::vector<Stay> stays_of(const HallLog& log);
 bool rows_are_changes(const HallLog& log);
 
