@@ -206,7 +206,7 @@ base::Result<FieldIn<Scalar>> field_in(const Compiled& c) {
 
 template base::Result<FieldIn<double>> field_in(const Compiled&);
 template base::Result<FieldIn<float>> field_in(const Compiled&);
-// a type in parentheses is no type
+// NOLINTBEGIN(bugprone-macro-parentheses): a type in parentheses is no type
 #define SIXSTEP_DRIVES_IN(Scalar)                                                              \
   template base::Result<SensorlessIn<Scalar>> sensorless_in(const Scenario&, const Compiled&); \
   template base::Result<ProductIn<Scalar>> product_in(const Scenario&, const Compiled&);       \
