@@ -40,7 +40,7 @@ letters::Letter letter_of(const Mail& mail) {
 }
 
 /// The plan ended before a question was answered: the leader may have gone, and the run is no longer needed.
-struct OverUnanswered {};
+struct PlanEnded {};
 
 /// Executes one plan's runs on `jobs` threads; the calling thread exchanges messages with the leader.
 class Hand {
@@ -53,7 +53,7 @@ class Hand {
     questions_.push_back({number, std::move(question)});
     moved_.notify_all();
     moved_.wait(lock, [&] { return over_ || answers_.contains(number); });
-    if (!answers_.contains(number)) throw OverUnanswered{};
+    if (!answers_.contains(number)) throw PlanEnded{};
     return answers_.extract(number).mapped();
   }
 
@@ -72,7 +72,7 @@ class Hand {
     const std::jthread crew([&] {
       try {
         make_runs(runs, runs.jobs, [this] { return next(); });
-      } catch (const OverUnanswered&) {
+      } catch (const PlanEnded&) {
         // Runs in progress are not sent; `open_` lists them.
       } catch (...) {
         error = std::current_exception();

@@ -33,7 +33,7 @@ std::string constant(std::string_view type, std::string_view name, const std::st
   return fmt::format("{:<72}  // {}\n", code, about);
 }
 
-std::string timing(const study::Scenario& scenario, const study::Compiled& c, bool cleared) {
+std::string timing(const study::Compiled& c, bool cleared) {
   const sixstep::rig::ModulatorConfig& m = c.board.modulator;
   const auto flag = [](bool on) { return std::string(on ? "true" : "false"); };
   const auto us = [](double ps) { return fmt::format("{:.9g} us", ps / 1e6); };
@@ -53,29 +53,21 @@ std::string timing(const study::Scenario& scenario, const study::Compiled& c, bo
                              "else in the Hall interrupt")) +
          constant("bool", "command_delayed", flag(c.board.delayed),
                   "a command counts from the next period on") +
-         constant("bool", "sampled_in_middle",
-                  flag(m.centre_aligned && scenario.pwm.sample == study::SampleAt::middle),
+         constant("bool", "sampled_in_middle", flag(c.board.sampled_in_middle),
                   "of the period; else at its start");
 }
 
-/// The parts that a lean drive leaves to its board: the scenario's converters and the setpoint's range; for a
-/// sensorless drive also its timer.
-/// A product drive gets the clock of its Hall edges: with another clock every speed is wrong by their ratio, and so is the
-/// over-speed check.
-std::string around_lean(const ConfigHeader& w, const study::Compiled& c) {
+/// Constants for the board's own code. A drive that times edges gets the clock of that timer: with another clock every speed is wrong
+/// by their ratio, and so is the over-speed check. A lean drive also gets its converters and the setpoint's range.
+std::string board_constants(const ConfigHeader& w, const study::Compiled& c) {
+  using study::RotorSensing;
   const study::Sensors& sensors = w.scenario.sensors;
-  if (c.product &&
-      (sensors.rotor == study::RotorSensing::hall || sensors.rotor == study::RotorSensing::encoder))
-    return constant(
-        "double", "capture_Hz", hex_float(sensors.capture_Hz),
-        sixstep::base::six_digits(sensors.capture_Hz) +
-            " Hz, of the counter that takes the time of Hall edges; 32 bits, counts up and wraps");
-  if (c.product || c.field) return "";
+  const bool has_probes = sensors.rotor == RotorSensing::hall || sensors.rotor == RotorSensing::encoder;
   std::string timer;
-  if (c.sensorless)
+  if (c.sensorless || (c.product && has_probes))
     timer = constant("double", "timer_Hz", hex_float(sensors.capture_Hz),
                      sixstep::base::six_digits(sensors.capture_Hz) + " Hz, counts up and wraps at 2^32");
-  if (sensors.currents != sixstep::rig::CurrentMeasurement::phases) return timer;
+  if (c.product || c.field || sensors.currents != sixstep::rig::CurrentMeasurement::phases) return timer;
   const double lsb = c.board.sensors.current.lsb(), range = c.setpoint_range;
   return timer + constant("int", "adc_bits", std::to_string(sensors.adc_bits), "of each phase's transducer") +
          constant("double", "adc_amperes_per_count", hex_float(lsb), sixstep::base::six_digits(lsb) + " A") +
@@ -148,7 +140,7 @@ std::string header(const ConfigHeader& w, const study::Compiled& c, std::string_
   const control::DriveConfig<double>& drive = c.field        ? c.field->drive
                                               : c.sensorless ? c.sensorless->drive.drive
                                                              : c.drive;
-  text += timing(w.scenario, c, w.clearance && w.clearance->clear()) + around_lean(w, c) + "\n" +
+  text += timing(c, w.clearance && w.clearance->clear()) + board_constants(w, c) + "\n" +
           made("DriveConfig", "drive", config_lines<Scalar>(c.drive.mode, drive, kept.drive, b));
   const auto around = [&](const char* type_name, const char* name, const char* within, const auto& designed,
                           const auto& own) {

@@ -22,6 +22,7 @@ static_assert(!(Scalar{} < drive.extras.commutation.overlap_bus_V),
               "the leg in no pair has no pulse of its own here");
 static_assert(exported::pwm_centre_aligned,
               "timer 1 counts up and down; its compare registers are taken at the top");
+static_assert(exported::sampled_in_middle, "BOTTOM starts the conversion, the middle of the on-time");
 static_assert(exported::adc_bits == 10, "the converter that is there");
 static_assert(sizeof(Scalar) == 2, "eighths of counts as signals of 16 bits");
 #ifndef SIXSTEP_DESPITE  // tools/firmware_image.sh --despite, and an emulated chip

@@ -86,7 +86,7 @@ static_assert(exported::command_delayed,
 static_assert(!exported::commutate_at_sample, "the Hall interrupt moves the pair");
 static_assert(!exported::sampled_in_middle, "the converter samples at a period's start");
 static_assert(
-    exported::capture_Hz == clock_Hz,
+    exported::timer_Hz == clock_Hz,
     "TIM2 counts the core's clock: set sensors.capture_Hz to it, or every speed is wrong by their ratio");
 
 /// Majority of three readings a quarter of a microsecond apart: an edge of the bridge disturbs one of them.

@@ -73,7 +73,7 @@ inline constexpr std::uint64_t dead_time_ps = 500000;                     // 0.5
 inline constexpr bool commutate_at_sample = false;                        // else in the Hall interrupt
 inline constexpr bool command_delayed = true;                             // a command counts from the next period on
 inline constexpr bool sampled_in_middle = false;                          // of the period; else at its start
-inline constexpr double capture_Hz = 0x1.12a88p+26;                       // 7.2e+07 Hz, of the counter that takes the time of Hall edges; 32 bits, counts up and wraps
+inline constexpr double timer_Hz = 0x1.12a88p+26;                         // 7.2e+07 Hz, counts up and wraps at 2^32
 
 constexpr sixstep::control::DriveConfig<Scalar> make_drive() {
   using namespace sixstep::control;
