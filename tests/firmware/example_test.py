@@ -12,6 +12,7 @@ import shlex
 import subprocess
 import sys
 import tempfile
+import tomllib
 import unittest
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
@@ -56,6 +57,7 @@ class Examples(unittest.TestCase):
         for pattern, instead, said in (("adc_bits = 10;", "adc_bits = 12;", "the converter that is there"),
                                        (r"dead_time_ps = \d+;", "dead_time_ps = 0;", "bridge.dead_time_s"),
                                        ("bool cleared = true;", "bool cleared = false;", "not cleared for a bridge"),
+                                       ("in_middle = true;", "in_middle = false;", "the middle of the on-time"),
                                        (r"dead_time_ps = \d+;", "dead_time_ps = 5062501;", "5 us at most")):
             text, times = re.subn(pattern, instead, (EXAMPLES / "avr" / "drive_config.hpp").read_text())
             self.assertEqual(times, 1)
@@ -82,6 +84,20 @@ class Examples(unittest.TestCase):
                 self.assertFalse((pathlib.Path(folder) / "out").exists())
                 if "is missing; tools/" not in image.stderr:
                     self.assertIn("has no dead time" if "dead" in old else "--despite builds the image all the same", image.stderr)
+
+    @unittest.skipUnless(KIND == "cortex_m", "the AVR's drive times no edges")
+    def test_a_header_of_another_clock_does_not_compile(self):
+        """Of a clock of 1 MHz, the scenario's default, every speed would be 72 times too low, and so the over-speed check."""
+        text = (EXAMPLES / "cortex_m" / "drive_config.hpp").read_text()
+        held = re.search(r"double timer_Hz = (\S+);", text)[1]
+        scenario = tomllib.loads((REPOSITORY / "data/scenarios/firmware/cortex-m.toml").read_text())
+        self.assertEqual(float.fromhex(held), scenario["sensors"]["capture_Hz"])
+        for old, new, words in ((held, (1e6).hex(), "set sensors.capture_Hz to it"), ("in_middle = false", "in_middle = true", "at a period's start")):
+            with self.subTest(new), tempfile.TemporaryDirectory() as folder:
+                (pathlib.Path(folder) / "drive_config.hpp").write_text(text.replace(old, new))
+                done, _ = self.compiled("cortex_m", folder)
+                self.assertNotEqual(done.returncode, 0)
+                self.assertIn(words, done.stderr)
 
     @unittest.skipIf(KIND == "configs", "compiles")
     def test_a_compiler_that_is_known_to_be_wrong_is_stopped(self):
