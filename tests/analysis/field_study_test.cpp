@@ -138,6 +138,29 @@ TEST(FieldStudy, TheStepIsTheRuns) {
   EXPECT_NEAR(figures_of(s)[0], f.design.loops[0].step.settling_s, T);
 }
 
+/// As of a six-step drive's loops: with less than 20 degrees of phase, and unstable ones.
+TEST(FieldStudy, LittlePhaseIsGrave) {
+  int usable = 0, little = 0;
+  for (double settle_s = 0.5e-3; settle_s < 20e-3; settle_s *= 1.1) {
+    study::Scenario s = field_oriented(Mode::speed, 300.0);
+    s.control.speed.settle_s = settle_s;
+    const auto f = analysis::study_field(s);
+    if (!f) continue;
+    const LoopDesign& loop = f->design.loops.back();
+    ASSERT_EQ(loop.name, "speed");
+    const bool stable = loop.figures.stable && loop.built.stable;
+    const double phase_deg = stable ? loop.built.phase_rad.value_or(base::pi) * 180 / base::pi : 0;
+    bool grave = false;
+    for (const auto& w : f->warnings)
+      grave = grave || (w.grave && w.what.find("speed loop") != std::string::npos);
+    EXPECT_EQ(grave, phase_deg < 20) << settle_s << ": " << phase_deg;
+    little += stable && phase_deg < 20;
+    usable += !grave;
+  }
+  EXPECT_GT(usable, 5);
+  EXPECT_GT(little, 0);
+}
+
 TEST(FieldStudy, WhatIsWrongIsTold) {
   study::Scenario fast = field_oriented(Mode::speed, 300.0);
   fast.control.speed.settle_s = 1e-3;

@@ -226,6 +226,24 @@ bool warns(const DriveDesign& d, const std::string& of) {
   return false;
 }
 
+/// A loop with little phase is not usable: |1 + L| at the crossover is 2 sin(phase/2), so that it amplifies at least 2.9 times.
+TEST(DriveDesign, LittlePhaseIsGrave) {
+  int usable = 0, unusable = 0;
+  for (double settle_s = 0.15e-3; settle_s < 0.5e-3; settle_s *= 1.03) {
+    const DriveDesign d = designed({.mode = Mode::current, .settle_s = settle_s, .delay_periods = 1});
+    const LoopFigures& f = d.loop("current").figures;
+    if (!f.stable || !f.phase_rad) continue;
+    const double phase_deg = *f.phase_rad * 180 / base::pi;
+    EXPECT_GE(f.sensitivity_peak * (1 + 1e-3), 1 / (2 * std::sin(*f.phase_rad / 2))) << settle_s;
+    bool grave = false;
+    for (const Warning& w : d.warnings) grave = grave || (w.grave && w.of == Concern::delay);
+    EXPECT_EQ(grave, phase_deg < 20) << settle_s << ": " << phase_deg;
+    ++(phase_deg < 20 ? unusable : usable);
+  }
+  EXPECT_GT(usable, 5);
+  EXPECT_GT(unusable, 5);
+}
+
 TEST(DriveDesign, WarnsOfWhatIsOffAndOfNothingElse) {
   const DriveDesign good = designed({.mode = Mode::current, .chopping = control::Chopping::complementary});
   ASSERT_EQ(good.warnings.size(), 1u);

@@ -171,7 +171,7 @@ void look_at_loop(const LoopDesign& loop, FieldStudy& f) {
   if (phase_deg < design::least_phase_deg - 0.1)
     warn("keeps " + base::three_digits(phase_deg) + " degrees of phase" + with + ", less than " +
              base::three_digits(design::least_phase_deg),
-         false);
+         phase_deg < design::unusable_phase_deg);
   else if (built.sensitivity_peak > design::greatest_sensitivity)
     warn("amplifies disturbances up to " + base::three_digits(built.sensitivity_peak) + " times", false);
   if (loop.name != "position" && std::isfinite(loop.step.overshoot) && loop.step.overshoot > 0.1)

@@ -172,7 +172,7 @@ void look_at_tolerances(DesignStudy& s) {
   if (!s.robustness) return;
   for (const RobustFigure& f : s.robustness->figures) look_at_worst(s, f);
   for (const RobustFigure& f : s.robustness->phases)
-    if (f.worst <= 0.0 && s.design.spec.delay_periods > 0 && s.usable())
+    if (f.nominal > 0.0 && f.worst <= 0.0 && s.design.spec.delay_periods > 0)
       warn(s, design::Concern::settling,
            std::string(within) + " the " + f.figure.substr(f.figure.find(" of the ") + 8) + " is unstable" +
                with_which(f),

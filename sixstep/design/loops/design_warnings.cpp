@@ -31,8 +31,10 @@ void look_at_stability(const DriveDesign& d, const LoopDesign& loop, Collector& 
   const std::string with = late > 0.0 ? "with " + periods_words(late) + " of delay the " : "the ";
   const double phase_deg = loop.figures.phase_rad.value_or(base::pi) * 180.0 / base::pi;
   if (phase_deg < least_phase_deg)
-    out.add(Concern::delay, with + loop.name + " loop keeps " + base::three_digits(phase_deg) +
-                                " degrees of phase, less than " + base::three_digits(least_phase_deg));
+    out.add(Concern::delay,
+            with + loop.name + " loop keeps " + base::three_digits(phase_deg) +
+                " degrees of phase, less than " + base::three_digits(least_phase_deg),
+            phase_deg < unusable_phase_deg);
   else if (loop.figures.sensitivity_peak > greatest_sensitivity)
     out.add(Concern::delay, with + loop.name + " loop amplifies disturbances up to " +
                                 base::three_digits(loop.figures.sensitivity_peak) + " times");
@@ -52,7 +54,8 @@ void look_at_sensing(const DriveDesign& d, Collector& out) {
   // A tenth of a degree may be lost by rounding a settling time.
   if (phase_deg < least_phase_deg - 0.1)
     out.add(Concern::sensing,
-            "the speed loop keeps " + base::three_digits(phase_deg) + " degrees of phase" + at);
+            "the speed loop keeps " + base::three_digits(phase_deg) + " degrees of phase" + at,
+            phase_deg < unusable_phase_deg);
 }
 
 /// Only in speed mode: a position drive's speed depends on the move, so its run shows the effect.
