@@ -68,6 +68,14 @@ class OwnController(Started):
             self.assertEqual(out, "", "no verdict")
             self.nothing_is_left()
 
+    def test_no_header_of_another_drive_is_written_for_it(self):
+        """A header configures the library's drives: one under the figures of this run would flash another controller."""
+        for words in ((), ("--despite", "a trial")):
+            made = subprocess.run([PROGRAM, "export", "header", "a.toml", *words, "--out", "d.hpp"], cwd=self.path, capture_output=True, text=True, check=False)
+            self.assertEqual(made.returncode, 2, made.stderr)
+            self.assertIn('control.drive = "own" has its constants in its own source', made.stderr)
+            self.nothing_is_left()
+
     def test_whatever_ends_the_program_is_told_by_name_and_place(self):
         for way, said in WAYS.items():
             for place, where in PLACES.items():

@@ -276,6 +276,11 @@ base::Result<std::string> config_header(const ConfigHeader& w) {
   if (w.scenario.control.mode == control::Mode::off)
     return base::Problem{"control.mode", "off", "leaves no drive to export",
                          "set it to duty, current, speed or position"};
+  // The header would configure the library's drive, which is not the one that ran.
+  if (w.scenario.control.drive == study::FirmwareKind::own)
+    return base::Problem{"control.drive", "\"own\"",
+                         "has its constants in its own source; a header configures the library's drives only",
+                         "compile that source for the chip"};
   const base::Result<study::Compiled> c = study::compile(w.scenario);
   if (!c) return c.problems();
   const study::Arithmetic arithmetic = w.arithmetic.value_or(w.scenario.control.arithmetic);

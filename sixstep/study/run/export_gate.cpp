@@ -128,13 +128,6 @@ void look_at_design(const Scenario& s, base::Problems& out) {
                    "design it anew until it is usable, or delete the line where you know better"});
 }
 
-/// A user's controller has its constants in its own source.
-void look_at_drive(const Scenario& s, base::Problems& out) {
-  if (s.control.drive == FirmwareKind::own)
-    out.push_back({"control.drive", "\"own\"", "has its configuration in its own source, and needs no header",
-                   "compile that source for the chip"});
-}
-
 /// A sample in the middle of a period is answered at the next period's start, which already is a delay.
 void look_at_delay(const Scenario& s, base::Problems& out) {
   const bool samples = reads_currents(s) || reads_bus(s) || reads_rotor(s);
@@ -198,7 +191,6 @@ std::string measured(const Verdict& v) {
 base::Problems never_measured(const Scenario& s) {
   base::Problems out;
   look_at_design(s, out);
-  look_at_drive(s, out);
   look_at_sensors(s, out);
   look_at_delay(s, out);
   look_at_dead_time(s, out);
