@@ -64,16 +64,16 @@ function(sixstep_apart target name size level)
   target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_${name}>)
 endfunction()
 
-# The text files of a folder as C++ constants, so that the program needs nothing beside itself.
-#   sixstep_embed(TARGET report NAMESPACE report::assets FILES a.html b.js)
-# makes report_assets.hpp-style code: for each file a std::string_view named after it, dots and dashes as underscores.
+# Text files as C++ functions, so that the program needs nothing beside itself. PACKED: the program holds them compressed.
+#   sixstep_embed(PACKED TARGET report NAMESPACE report::assets HEADER report_assets.hpp FILES a.html b.js)
+# makes a function for each file, named after it with dots and dashes as underscores: report::assets::a_html().
 function(sixstep_embed)
-  cmake_parse_arguments(E "" "TARGET;NAMESPACE;HEADER" "FILES" ${ARGN})
+  cmake_parse_arguments(E "PACKED" "TARGET;NAMESPACE;HEADER" "FILES" ${ARGN})
   set(out ${CMAKE_CURRENT_BINARY_DIR}/embedded/${E_HEADER})
   add_custom_command(OUTPUT ${out}
-    COMMAND python3 ${PROJECT_SOURCE_DIR}/tools/embed.py --namespace ${E_NAMESPACE} --out ${out} ${E_FILES}
+    COMMAND python3 ${PROJECT_SOURCE_DIR}/tools/embed.py --namespace ${E_NAMESPACE} --out ${out} $<$<BOOL:${E_PACKED}>:--packed> ${E_FILES}
     DEPENDS ${PROJECT_SOURCE_DIR}/tools/embed.py ${E_FILES}
-    COMMENT "Embedding ${E_HEADER}" VERBATIM)
+    COMMENT "Embedding ${E_HEADER}" VERBATIM COMMAND_EXPAND_LISTS)
   target_sources(${E_TARGET} PRIVATE ${out})
   target_include_directories(${E_TARGET} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/embedded)
 endfunction()

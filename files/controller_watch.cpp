@@ -88,16 +88,16 @@ void tell(const ControllerThread& at, const char* what, std::string_view more) {
   Words words;
   words << (at.controller ? at.controller : "a controller") << ": the controller " << what;
   tell_place(words, at);
-  if (at.run >= 0) words << ", of run " << static_cast<std::uint64_t>(at.run);
+  if (at.runs > 0) words << ", of run " << at.runs - 1;
   write_out(STDERR_FILENO, (words << more).line());
 }
 
 void note_run(const ControllerThread& at, const char* what) {
-  if (at.run < 0 || noted_in[0] == '\0') return;
+  if (at.runs == 0 || noted_in[0] == '\0') return;
   const int descriptor = ::open(noted_in, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (descriptor < 0) return;
   Words words;
-  words << static_cast<std::uint64_t>(at.run) << "\t" << at.controller << ": the controller " << what;
+  words << at.runs - 1 << "\t" << at.controller << ": the controller " << what;
   tell_place(words, at);
   write_out(descriptor, words.line());
   ::close(descriptor);
@@ -205,7 +205,7 @@ struct Membership {
   }
   ~Membership() {
     if (at->place != ControllerPlace::outside) return;  // exit() also comes here; its own handler reports it
-    at->run = -1;
+    at->runs = 0;
     at->thread = 0;
   }
   Membership(const Membership&) = delete;
@@ -229,7 +229,7 @@ void watch_controllers(const char* path) {
 bool controllers_are_watched() { return watched; }
 
 void controllers_make_run(std::uint64_t number) {
-  if (watched) controller_thread().run = static_cast<std::int64_t>(number);
+  if (watched) controller_thread().runs = number + 1;
 }
 
 void note_stopped_runs_in(const std::string& path) {

@@ -22,7 +22,8 @@ struct ControllerThread {
   std::atomic<std::uint64_t> calls{0}, calls_at_stop{0};
   std::uint64_t steps = 0;  ///< of the current run
   double period_s = 0.0;
-  std::int64_t run = -1;  ///< number in a plan; -1: no plan
+  std::uint64_t runs =
+      0;  ///< number in a plan plus 1; 0: no plan. All zero, the table takes no room in the program's file
 };
 
 /// The record of the calling thread. From now on its crashes and its end are watched.

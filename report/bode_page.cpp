@@ -95,12 +95,12 @@ std::string facts(const BodeStudy& s) {
 std::string render_bode(const BodePage& page) {
   const std::string title = escaped(text::visible("Frequency response of " + page.name));
   const std::string body =
-      filled(assets::bench_html, {{"title", title},
-                                  {"subtitle", escaped(in_print(text::bode_place(page.study)))},
-                                  {"facts", facts(page.study)},
-                                  {"pictured", "Measured on the switching simulation"},
-                                  {"charts", charts(page.study)},
-                                  {"text", escaped(in_print(text::bode_text(page.name, page.study)))}});
+      filled(assets::bench_html(), {{"title", title},
+                                    {"subtitle", escaped(in_print(text::bode_place(page.study)))},
+                                    {"facts", facts(page.study)},
+                                    {"pictured", "Measured on the switching simulation"},
+                                    {"charts", charts(page.study)},
+                                    {"text", escaped(in_print(text::bode_text(page.name, page.study)))}});
   return in_shell({.title = title, .body = body, .command = page.command, .version = page.version});
 }
 

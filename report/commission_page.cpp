@@ -96,7 +96,7 @@ std::string render_commission(const CommissionPage& page) {
   const CommissionStudy& s = page.study;
   const std::string title = escaped(text::visible("What the chip found of " + s.subject.sheet.name));
   const std::string body = filled(
-      assets::bench_html,
+      assets::bench_html(),
       {{"title", title},
        {"subtitle", escaped(fmt::format("{} of test current{}, {}", computed(s.bench.wish.test_A, "A"),
                                         text::stand_in_words(s.bench), computed(s.seconds, "s")))},

@@ -233,7 +233,7 @@ std::string render_comparison(const ComparisonInput& in) {
   const std::string title =
       with_log ? "A board's log over its simulation" : fmt::format("{} runs compared", in.runs.size());
   const std::string body =
-      filled(assets::comparison_html,
+      filled(assets::comparison_html(),
              {{"title", title},
               {"subtitle", escaped(names) + "; differences are against the first"},
               {"runs", run_rows(in.runs)},
@@ -242,13 +242,13 @@ std::string render_comparison(const ComparisonInput& in) {
                                        : difference_table(in.runs)},
               {"figures", table("Figure", in.runs.size(), named_figures(in.runs) + usual_figures(in.runs)) +
                               chips(in.runs) + trace_comparison_table(in)},
-              {"plots", assets::plots_html},
+              {"plots", assets::plots_html()},
               {"grid", escaped(given(common_grid_s(scenarios), "s"))},
               {"between", with_log ? ", the log straight between its rows" : ""},
               {"gains", gain_table(in.runs)}});
   return in_shell(
       {.title = title + " · " + escaped(names), .body = body, .command = in.command, .version = in.version},
-      comparison_data(in.runs), run_scripts);
+      comparison_data(in.runs), run_scripts());
 }
 
 }  // namespace report

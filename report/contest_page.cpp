@@ -163,16 +163,16 @@ std::string render_contest(const ContestPage& page) {
       "rated torque, load step, way down to the lowest speed",
       c.entries.size());
   const std::string body =
-      filled(assets::contest_html, {{"title", title},
-                                    {"subtitle", escaped(subtitle)},
-                                    {"notes", html_list(text::contest_notes(c), "alert")},
-                                    {"facts", facts(c)},
-                                    {"words", html_list(text::contest_words(c), "")},
-                                    {"tables", tables(c)},
-                                    {"legend", html_list(text::contest_legend(c), "legend")},
-                                    {"trade", svg_chart(trade(c))},
-                                    {"steps", load_steps(c)},
-                                    {"rules", html_list(c.bench.rules, "")}});
+      filled(assets::contest_html(), {{"title", title},
+                                      {"subtitle", escaped(subtitle)},
+                                      {"notes", html_list(text::contest_notes(c), "alert")},
+                                      {"facts", facts(c)},
+                                      {"words", html_list(text::contest_words(c), "")},
+                                      {"tables", tables(c)},
+                                      {"legend", html_list(text::contest_legend(c), "legend")},
+                                      {"trade", svg_chart(trade(c))},
+                                      {"steps", load_steps(c)},
+                                      {"rules", html_list(c.bench.rules, "")}});
   return in_shell({.title = title, .body = body, .command = page.command, .version = page.version});
 }
 

@@ -175,17 +175,18 @@ std::string render_curve(const CurvePageInput& in) {
   const std::string title = escaped(in.request.sheet.name);
   const CurveUnits u = curve_units(in.request);
   const std::string kind = u.motion.words("Torque-speed curve");
-  const std::string body = filled(assets::curve_html, {{"kind", kind},
-                                                       {"title", title},
-                                                       {"subtitle", escaped(subtitle(in.request))},
-                                                       {"facts", facts(in.request, in.curve, u)},
-                                                       {"notes", alerts(in.curve, u.motion)},
-                                                       {"table", table(in.request, in.curve, u)},
-                                                       {"sheet", sheet_section(in.request.sheet)},
-                                                       {"model", model_section(in.request.bench.motor)}});
-  return in_shell({.title = kind + " · " + title, .body = body, .command = in.command, .version = in.version},
-                  curve_charts(in.request, in.curve),
-                  {assets::curves_js, assets::chart_js, assets::rows_js, assets::page_js, assets::curve_js});
+  const std::string body = filled(assets::curve_html(), {{"kind", kind},
+                                                         {"title", title},
+                                                         {"subtitle", escaped(subtitle(in.request))},
+                                                         {"facts", facts(in.request, in.curve, u)},
+                                                         {"notes", alerts(in.curve, u.motion)},
+                                                         {"table", table(in.request, in.curve, u)},
+                                                         {"sheet", sheet_section(in.request.sheet)},
+                                                         {"model", model_section(in.request.bench.motor)}});
+  return in_shell(
+      {.title = kind + " · " + title, .body = body, .command = in.command, .version = in.version},
+      curve_charts(in.request, in.curve),
+      {assets::curves_js(), assets::chart_js(), assets::rows_js(), assets::page_js(), assets::curve_js()});
 }
 
 }  // namespace report

@@ -204,7 +204,7 @@ std::string render_design(const DesignPage& page) {
   const std::string word = page.verdict.substr(0, colon),
                     line = colon == page.verdict.npos ? "" : page.verdict.substr(colon + 1);
   const std::string body =
-      filled(assets::design_html,
+      filled(assets::design_html(),
              {{"title", escaped(s.scenario.title)},
               {"subtitle", escaped(s.scenario.sheet.name) + " · " + escaped(given(s.design.bus_V, "V"))},
               {"standing_class", s.usable() ? "pass" : "fail"},

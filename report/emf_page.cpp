@@ -111,13 +111,13 @@ std::string render_emf(const EmfPage& page) {
   const EmfResult& r = page.measured.result;
   const std::string title = escaped(text::visible("Back-EMF of " + page.measured.name));
   const std::string body = filled(
-      assets::bench_html, {{"title", title},
-                           {"subtitle", escaped(fmt::format("{:.3g} periods, {} rows", r.periods, r.rows))},
-                           {"facts", facts(page.measured)},
-                           {"pictured", "Recording and shape"},
-                           {"charts", svg_chart(recording(page)) + svg_chart(residual(page)) +
-                                          svg_chart(harmonics(r)) + svg_chart(shape(r))},
-                           {"text", escaped(text::emf_text(page.measured))}});
+      assets::bench_html(), {{"title", title},
+                             {"subtitle", escaped(fmt::format("{:.3g} periods, {} rows", r.periods, r.rows))},
+                             {"facts", facts(page.measured)},
+                             {"pictured", "Recording and shape"},
+                             {"charts", svg_chart(recording(page)) + svg_chart(residual(page)) +
+                                            svg_chart(harmonics(r)) + svg_chart(shape(r))},
+                             {"text", escaped(text::emf_text(page.measured))}});
   return in_shell({.title = title, .body = body, .command = page.command, .version = page.version});
 }
 

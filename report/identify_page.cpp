@@ -123,7 +123,7 @@ std::string render_identify(const IdentifyPage& page) {
   const HallIdentity& f = page.found;
   const std::string title = escaped(text::visible("Hall probes of " + page.name));
   const std::string body = filled(
-      assets::bench_html,
+      assets::bench_html(),
       {{"title", title},
        {"subtitle", escaped(fmt::format("{} edges in {}", f.forward + f.backward, computed(f.seconds, "s")))},
        {"facts", facts(f)},

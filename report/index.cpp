@@ -132,12 +132,13 @@ std::string render_index(const std::vector<IndexEntry>& entries, std::string_vie
   for (std::size_t n = 0; n < entries.size(); ++n)
     if (entries[n].finished) sections += experiment(entries[n], n);
   const Standing verdict = standing_of(entries);
-  const std::string body = filled(assets::index_html, {{"standing_class", verdict.css},
-                                                       {"standing", verdict.word},
-                                                       {"standing_line", verdict.line},
-                                                       {"failed", failed_list(entries)},
-                                                       {"overview", overview(entries)},
-                                                       {"sections", sections + unfinished_section(entries)}});
+  const std::string body =
+      filled(assets::index_html(), {{"standing_class", verdict.css},
+                                    {"standing", verdict.word},
+                                    {"standing_line", verdict.line},
+                                    {"failed", failed_list(entries)},
+                                    {"overview", overview(entries)},
+                                    {"sections", sections + unfinished_section(entries)}});
   return in_shell({.title = fmt::format("{} · {}", verdict.word, verdict.line),
                    .body = body,
                    .command = command,

@@ -226,7 +226,7 @@ std::string render_plan(const PlanPageInput& in) {
   std::string motors = in.plans.front().motor;
   if (in.plans.back().motor != motors) motors += " and " + in.plans.back().motor;
   const std::string body =
-      filled(assets::plan_html,
+      filled(assets::plan_html(),
              {{"title", title},
               {"subtitle", escaped(motors)},
               {"verdicts", for_each_plan(in, [&](std::size_t p) { return verdict(in, p); })},
@@ -239,14 +239,14 @@ std::string render_plan(const PlanPageInput& in) {
               {"worst", for_each_plan(
                             in, [&](std::size_t p) { return worst_section(in.plans[p]); }, true)}});
   return in_shell({.title = "Plan · " + title,
-                   .body = fmt::format("<style>{}</style>\n", assets::plan_css) + body,
+                   .body = fmt::format("<style>{}</style>\n", assets::plan_css()) + body,
                    .command = in.command,
                    .version = in.version,
                    .charts = false},
                   plan_data(in.plans),
-                  {assets::curves_js, assets::chart_js, assets::plan_table_js, assets::plan_canvas_js,
-                   assets::plan_cloud_js, assets::plan_heat_js, assets::plan_parallel_js,
-                   assets::plan_front_js, assets::plan_js});
+                  {assets::curves_js(), assets::chart_js(), assets::plan_table_js(), assets::plan_canvas_js(),
+                   assets::plan_cloud_js(), assets::plan_heat_js(), assets::plan_parallel_js(),
+                   assets::plan_front_js(), assets::plan_js()});
 }
 
 }  // namespace report

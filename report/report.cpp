@@ -89,7 +89,7 @@ std::string render(const ReportInput& in) {
   const double pole_pairs = in.outcome.motor.machine.pole_pairs;
   const std::optional<Spectra> found = spectra(in.trace, in.scenario, pole_pairs);
   const std::string body =
-      filled(assets::page_html,
+      filled(assets::page_html(),
              {{"title", title},
               {"subtitle", subtitle(in)},
               {"standing_class", verdict.css},
@@ -109,12 +109,12 @@ std::string render(const ReportInput& in) {
                                                  device_section(in.outcome.devices)
                                            : "<p class=\"quiet\">No books were kept.</p>\n"},
               {"events", event_section(in.outcome)},
-              {"plots", assets::plots_html},
+              {"plots", assets::plots_html()},
               {"spectra", spectra_section(found)},
               {"scenario", escaped(in.scenario_text)}});
   return in_shell(
       {.title = verdict.word + " · " + title, .body = body, .command = in.command, .version = in.version},
-      plot_data(in.trace, in.scenario, pole_pairs, size_of(in), found), run_scripts);
+      plot_data(in.trace, in.scenario, pole_pairs, size_of(in), found), run_scripts());
 }
 
 }  // namespace report

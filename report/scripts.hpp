@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lists the scripts of a page, in the order in which they depend on each other.
 #pragma once
-#include <initializer_list>
 #include <report_assets.hpp>
 #include <string_view>
+#include <vector>
 
 namespace report {
 
 /// For pages whose charts run over time: one run, or several compared.
-inline constexpr std::initializer_list<std::string_view> run_scripts = {
-    assets::units_js,       assets::curves_js,  assets::chart_js,  assets::rows_js,
-    assets::page_js,        assets::instant_js, assets::bridge_js, assets::plane_js,
-    assets::instruments_js, assets::spectra_js, assets::report_js};
+inline std::vector<std::string_view> run_scripts() {
+  return {assets::units_js(),       assets::curves_js(),  assets::chart_js(),  assets::rows_js(),
+          assets::page_js(),        assets::instant_js(), assets::bridge_js(), assets::plane_js(),
+          assets::instruments_js(), assets::spectra_js(), assets::report_js()};
+}
 
 }  // namespace report

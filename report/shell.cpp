@@ -13,7 +13,7 @@ namespace {
 std::string style(std::string_view css) { return fmt::format("<style>{}</style>\n", css); }
 
 std::string filled_shell(const Shell& s, std::string_view styles, std::string_view scripts) {
-  return filled(assets::shell_html,
+  return filled(assets::shell_html(),
                 {{"title", s.title},
                  {"styles", styles},
                  {"main", s.main_class.empty() ? "" : fmt::format(" class=\"{}\"", s.main_class)},
@@ -25,22 +25,22 @@ std::string filled_shell(const Shell& s, std::string_view styles, std::string_vi
 
 }  // namespace
 
-std::string in_shell(const Shell& shell) { return filled_shell(shell, style(assets::report_css), ""); }
+std::string in_shell(const Shell& shell) { return filled_shell(shell, style(assets::report_css()), ""); }
 
 std::string in_shell(const Shell& shell, std::string_view data,
-                     std::initializer_list<std::string_view> scripts) {
+                     const std::vector<std::string_view>& scripts) {
   std::string code = "<script type=\"application/json\" id=\"data\">";
   code += script_safe(data);  // nearly all of the page
   code += "</script>\n";
   if (shell.charts) {
-    code.append("<!-- Charts: uPlot.\n").append(assets::LICENSE).append("-->\n<script>");
-    code.append(assets::uPlot_iife_min_js).append("</script>\n");
+    code.append("<!-- Charts: uPlot.\n").append(assets::LICENSE()).append("-->\n<script>");
+    code.append(assets::uPlot_iife_min_js()).append("</script>\n");
   }
   code += "<script>\n(() => {\n\"use strict\";\n";
   for (const std::string_view script : scripts) code.append(script);
   code += "})();\n</script>\n";
-  const std::string styles = style(assets::report_css);
-  return filled_shell(shell, shell.charts ? style(assets::uPlot_min_css) + styles : styles, code);
+  const std::string styles = style(assets::report_css());
+  return filled_shell(shell, shell.charts ? style(assets::uPlot_min_css()) + styles : styles, code);
 }
 
 }  // namespace report

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes the parts that every page has: head, style, the line with its command, the scripts.
 #pragma once
-#include <initializer_list>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace report {
 
@@ -21,7 +21,6 @@ std::string in_shell(const Shell& shell);
 
 /// A page with charts. `data` is the JSON that its scripts read. `scripts` share one scope, in this order,
 /// behind uPlot if they draw with it.
-std::string in_shell(const Shell& shell, std::string_view data,
-                     std::initializer_list<std::string_view> scripts);
+std::string in_shell(const Shell& shell, std::string_view data, const std::vector<std::string_view>& scripts);
 
 }  // namespace report

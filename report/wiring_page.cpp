@@ -94,7 +94,7 @@ std::string render_wiring(const WiringPageInput& in) {
   const Panel grid = wiring_grid(s);
   const sixstep::base::Motion motion = sixstep::design::motion_of(s.subject.sheet);
   const std::string body = filled(
-      assets::wiring_html,
+      assets::wiring_html(),
       {{"title", title},
        {"subtitle", escaped(text::bench_text(s))},
        {"class", all ? "pass" : "fail"},

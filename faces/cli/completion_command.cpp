@@ -14,9 +14,9 @@ namespace cli {
 namespace {
 
 Exit print_script(const std::string& shell) {
-  constexpr base::Choice<std::string_view> shells[] = {{"bash", scripts::sixstep_bash, ""},
-                                                       {"zsh", scripts::sixstep_zsh, ""},
-                                                       {"fish", scripts::sixstep_fish, ""}};
+  const base::Choice<std::string_view> shells[] = {{"bash", scripts::sixstep_bash(), ""},
+                                                   {"zsh", scripts::sixstep_zsh(), ""},
+                                                   {"fish", scripts::sixstep_fish(), ""}};
   std::string_view script;
   base::Problems found;
   choose("SHELL", shell, shells, script, found);

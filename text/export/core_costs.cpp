@@ -98,7 +98,7 @@ std::string blocks_beside(const study::Compiled& c) {
 
 std::optional<CoreCost> core_cost(std::string_view core, std::string_view drive,
                                   std::string_view arithmetic) {
-  const std::vector<Words> counts = rows(cores::drives_txt), sizes = rows(cores::sizes_txt);
+  const std::vector<Words> counts = rows(cores::drives_txt()), sizes = rows(cores::sizes_txt());
   const Words* tick = row_of(counts, {core, drive, arithmetic, "tick"});
   const Words* size = row_of(sizes, {core, drive, arithmetic});
   if (!tick || !size) return std::nullopt;
@@ -119,7 +119,7 @@ std::string core_cost_lines(const study::Compiled& c) {
   if (c.sensorless)
     return "//\n// What its entries take on a core is counted in docs/reference/block-costs.md: sensorless_drive_step, sensorless_drive_commutate and\n"
            "// sensorless_drive_hall.\n";
-  const std::vector<Words> counts = rows(cores::drives_txt), sizes = rows(cores::sizes_txt);
+  const std::vector<Words> counts = rows(cores::drives_txt()), sizes = rows(cores::sizes_txt());
   std::string text = fmt::format(
       "//\n// On a core, the {} drive of tests/target/scenarios/ takes, by count over 80 000 recorded periods, for a\n"
       "// control tick and a Hall interrupt at worst, without an interrupt's entry and exit (docs/reference/core-costs.md):\n"

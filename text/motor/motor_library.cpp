@@ -30,8 +30,8 @@ std::string motor_meant(const std::string& name) {
 
 std::vector<std::string> built_in_motors() {
   std::vector<std::string> names;
-  names.reserve(motors::all.size());
-  for (const motors::File& file : motors::all) names.emplace_back(file.name);
+  names.reserve(motors::all().size());
+  for (const motors::File& file : motors::all()) names.emplace_back(file.name);
   return names;
 }
 
@@ -44,7 +44,7 @@ base::Result<Document> find_motor(const std::string& name, const std::string& fr
   if (found) return Document::parse(std::move(found->name), std::move(found->text));
   const base::Problem& missing = found.problems().front();
   if (!missing.limit.empty()) return missing;
-  for (const motors::File& file : motors::all)
+  for (const motors::File& file : motors::all())
     if (file.name == name)
       return Document::parse(fmt::format("built-in {}", file.name), std::string(file.text));
   return base::Problem{.limit = missing.where.empty()

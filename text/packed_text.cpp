@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/packed_text.hpp"
+
+#include <zlib.h>
+
+namespace text {
+
+std::string unpacked(std::string_view packed, std::size_t size) {
+  std::string out(size, '\0');
+  uLongf written = size;
+  const int wrong = ::uncompress(reinterpret_cast<Bytef*>(out.data()), &written,
+                                 reinterpret_cast<const Bytef*>(packed.data()), packed.size());
+  if (wrong != Z_OK || written != size) out.clear();  // a damaged program; each text is then missing
+  return out;
+}
+
+}  // namespace text
