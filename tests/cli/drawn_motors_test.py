@@ -13,8 +13,8 @@ import unittest
 from program import ProgramTest
 
 MODES = ("speed", "current", "position", "duty")
-COUNT, SEED = int(os.environ.get("SIXSTEP_DRAWN_MOTORS", "24")), int(os.environ.get("SIXSTEP_SEED", "1"))
-QUICK = 24  # so many are drawn in each test of the program, and of them a quarter is designed: that takes three times as long
+COUNT, SEED = int(os.environ.get("SIXSTEP_DRAWN_MOTORS", "8")), int(os.environ.get("SIXSTEP_SEED", "1"))
+QUICK = 8  # so many are drawn in each test of the program, and of them half is designed: that takes three times as long
 LONGEST_S = 20.0  # of computing, all cores together and without optimising: what this guards against took minutes
 
 # Ranges of sheets: pole pairs, bus in V, no-load speed in rad/s, L/R in s, mechanical time constant R J/K_t^2 in s, stall current

@@ -103,7 +103,7 @@ CHIPS = (
          nm="avr-nm", size="avr-size"),
 )
 
-# Who is asked for bits each time: the chips, and one host for a word in time where all differ. What the emulated hosts, another compiler
-# and the Cortex-M3, whose instructions the M4F has, could tell alone is asked in the long run.
-USUAL = tuple(core.name for core in (*HOSTS[:1], *CHIPS) if core.name != "Cortex-M3")
+# Who is asked for bits each time: the two chips that have an image to flash, and one host for a word in time where all differ. What the
+# emulated hosts, another compiler, the M0, the M3 and RV32 could tell alone is asked in the long run.
+USUAL = tuple(core.name for core in (*HOSTS[:1], *CHIPS) if core.name in (HOSTS[0].name, "Cortex-M4F", "ATmega2560"))
 BY_NAME = {core.name: core for core in (*HOSTS, *CHIPS)}
