@@ -85,6 +85,30 @@ TEST(Session, SlicesHaveTheBitsOfTheUncutRunInEveryFirmwareAndArithmetic) {
   EXPECT_GE(examined, 24);
 }
 
+TEST(Session, SkippingChangesNothingAndReadingGoesOnAfterIt) {
+  for (const Scenario& s : each()) {
+    auto read = Session::open(s), skipped = Session::open(s);
+    ASSERT_TRUE(read && skipped);
+    for (int k = 1; k <= 20; ++k) {
+      const double t_s = s.duration_s * k / 23.0;
+      read->advance(t_s);
+      skipped->skip(t_s);
+      EXPECT_EQ(skipped->now_s(), read->now_s());
+    }
+    EXPECT_EQ(skipped->present().t_s, 0.0);
+    const double later_s = s.duration_s * 21.5 / 23.0;
+    read->advance(later_s);
+    skipped->advance(later_s);
+    EXPECT_EQ(skipped->present().t_s, read->present().t_s);
+    for (std::size_t c = 0; c < column_count; ++c)
+      if (!std::isnan(read->present().signals[c]))
+        EXPECT_EQ(skipped->present().signals[c], read->present().signals[c]);
+    skipped->skip(s.duration_s);
+    read->advance(s.duration_s);
+    EXPECT_EQ(skipped->close()->digest, read->close()->digest);
+  }
+}
+
 TEST(Session, ListenersHearTheSame) {
   for (const Scenario& s : each()) {
     std::vector<double> whole, parts;

@@ -46,6 +46,7 @@ struct Slice {
   sim::Instant& reach;  ///< end of segments that skipped ticks: a change must not come sooner
   std::int64_t period_ticks;
   bool whole_run = false;  ///< runs to the end of the run, whatever `until` is
+  bool unread = false;     ///< no row is taken
   bool taken = false;
   bool stopped = false;  ///< by an observer, not at its end
 
@@ -60,7 +61,7 @@ struct Slice {
       const double wanted = useful_length(rig.plant().constants(), rig.plant().state(), 1e6);
       reach = std::max(reach, sim::Instant{from.plus_seconds(wanted).ticks + 2, 0.0});
     }
-    if (taken || sim::seconds_between(from.plus_seconds(h * s), until) > 0.5e-12) return;
+    if (unread || taken || sim::seconds_between(from.plus_seconds(h * s), until) > 0.5e-12) return;
     last.emplace(LastSegment{rig.plant(), from, s, rig.probe_sector()});
     take(rig, last->fraction(h, until), until.seconds());
   }

@@ -52,7 +52,7 @@ struct Session::State {
   Instant now() const { return run->now(); }
   /// Samples an instant that is already simulated, if the last segment contains it.
   bool look_back(const Instant& asked) {
-    if (last && !(asked < last->from)) {
+    if (!(asked < last->from)) {
       present.t_s = asked.seconds();
       last->look(present.signals, asked);
     }
@@ -152,18 +152,28 @@ base::Result<Session> Session::open(const Scenario& scenario, const Listeners& l
   return Session(std::move(state));
 }
 
-bool Session::advance(double to_s) {
+bool Session::advance(double to_s) { return go(to_s, true); }
+bool Session::skip(double to_s) { return go(to_s, false); }
+
+bool Session::go(double to_s, bool read) {
   State& s = *state_;
   const Instant asked = sim::to_instant(to_s), end = s.compiled.end;
   const bool to_end = !(asked < end);
   if (s.over) return false;
-  if (!to_end && !(s.now() < asked)) return s.look_back(asked);
+  if (!to_end && !(s.now() < asked)) {
+    if (read && s.last) return s.look_back(asked);
+    Slice here = s.slice(asked);
+    if (read) s.run->look(here);  // skipped to here: of the instants before, nothing was kept
+    return true;
+  }
   Slice slice = s.slice(to_end ? end : asked);
+  slice.unread = !read;
+  if (!read) s.last.reset();
   s.stop = s.now() < slice.until ? s.run->advance(end, slice) : sim::Stop::observer;
   // Actions due at the end of the run are done.
   if (s.stop == sim::Stop::observer && !slice.stopped && to_end) s.stop = s.run->advance(end, slice);
   s.over = s.stop != sim::Stop::observer || slice.stopped;
-  if (!slice.taken) s.run->look(slice);
+  if (!slice.taken && read) s.run->look(slice);
   return !s.over;
 }
 

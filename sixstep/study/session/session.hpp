@@ -29,7 +29,10 @@ class Session {
   /// Advances to to_s, then up to the next event: now_s() may lie a little after to_s, present() does not.
   /// False if the run is over: its end, a fault, or a listener that stopped it.
   bool advance(double to_s);
-  /// The same, and calls done(present()) once per PWM period; `true` ends the advance.
+  /// The same without reading: present() keeps its values. Reading costs as much as one or two PWM periods. An advance()
+  /// to an instant before now_s() then reads the values of now_s().
+  bool skip(double to_s);
+  /// The same as advance(), and calls done(present()) once per PWM period; `true` ends the advance.
   template <class Done>
   bool advance_until(double to_s, Done&& done);
 
@@ -54,6 +57,7 @@ class Session {
   struct State;
   explicit Session(std::unique_ptr<State> state);
   double period_s() const;
+  bool go(double to_s, bool read);
 
   std::unique_ptr<State> state_;
 };
