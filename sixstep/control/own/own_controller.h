@@ -125,7 +125,10 @@ typedef struct {
   void (*hall)(const void* config, void* state, uint8_t code, sixstep_answer* answer);
 } sixstep_controller;
 
-/* The only symbol of the shared object. */
+/* The only symbol of the shared object; found there also if the object was compiled with -fvisibility=hidden. */
+#ifdef __GNUC__
+__attribute__((visibility("default")))
+#endif
 const sixstep_controller* sixstep_own_controller(void);
 
 #ifdef __cplusplus

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/control/own/own_pair.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace SIXSTEP_TEST_FILE {
+
+using namespace sixstep;
+
+/// Back-EMF shapes of the three phases in the middle of a sector, by the convention of docs/reference/model.md 3: the phase of the positive pair's
+/// source is at +1, that of its sink at -1. A pair's torque per ampere is their difference.
+double torque_per_ampere(std::uint8_t sector, const sixstep_answer& a) {
+  const control::Pair positive = control::positive_pair(sector);
+  const auto shape = [&](int leg) {
+    return leg == static_cast<int>(positive.source) ? 1.0
+           : leg == static_cast<int>(positive.sink) ? -1.0
+                                                    : 0.0;
+  };
+  return shape(a.source) - shape(a.sink);
+}
+
+TEST(OwnPair, TorqueHasTheSignOfTheDuty) {
+  for (std::uint8_t sector = 0; sector < 6; ++sector)
+    for (const double duty : {-1.0, -0.25, 0.0, 0.25, 1.0}) {
+      sixstep_answer a{};
+      control::command_pair(duty, control::hall_of_sector(sector), a);
+      EXPECT_EQ(a.enabled, 1);
+      EXPECT_EQ(a.duty, std::fabs(duty));
+      EXPECT_EQ(torque_per_ampere(sector, a), duty < 0 ? -2.0 : 2.0);
+    }
+}
+
+TEST(OwnPair, ABrokenProbesCodeTurnsTheBridgeOff) {
+  for (const std::uint8_t code : {0b000, 0b111}) {
+    sixstep_answer a{};
+    a.enabled = 1;
+    control::command_pair(0.5, code, a);
+    EXPECT_EQ(a.enabled, 0);
+  }
+}
+
+TEST(OwnPair, WhatIsNoNumberStaysOneForTheCheckOfTheAnswer) {
+  sixstep_answer a{};
+  control::command_pair(std::nan(""), 0b100, a);
+  EXPECT_TRUE(std::isnan(a.duty));
+}
+
+}  // namespace SIXSTEP_TEST_FILE
