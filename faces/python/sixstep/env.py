@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: Apache-2.0
+"""An environment for learning, with the interface of Gymnasium, over many drives at a time."""
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _core
+from .scenario import Scenario
+
+Array = NDArray[np.float64]
+
+
+class Box:
+    """Bounds of an array; gymnasium.spaces.Box takes its place where gymnasium is installed."""
+
+    def __init__(self, low: Array, high: Array) -> None:
+        self.low, self.high, self.shape = low, high, low.shape
+
+    def sample(self, rng: np.random.Generator | None = None) -> Array:
+        return (rng or np.random.default_rng()).uniform(self.low, self.high)
+
+
+def _box(low: Array, high: Array) -> Any:
+    try:
+        from gymnasium.spaces import Box as GymnasiumBox
+    except ImportError:
+        return Box(low, high)
+    return GymnasiumBox(low, high, dtype=np.float64)
+
+
+class Env:
+    """Drives of one scenario side by side, each commanded once per step.
+
+    scenario   its reference, load, sensors and [[at]] changes are the task; its controller is replaced by the actions
+    drives     how many; arrays have one row per drive
+    action     "duty": the duty of the driven pair, -1..1, commutated by the Hall code; "legs": duties of the three legs, 0..1
+    hold       control periods per step
+    spread     True: each drive is another one of the scenario's [[spread]]; False: all are as written
+    reward     function of (observation, action) with one row per drive; without it minus the distance of `target` from the setpoint
+    target     the observed value that follows the setpoint: "speed_rad_s", "motor_current_A" or another of `Env.observed`
+    workers    threads; without it one per core. Results do not depend on it
+
+    An observation is what the board measures at a control tick (`Env.observed`); the action of a step acts from the next tick on,
+    as the output of a firmware that needs one period to compute.
+
+    >>> import numpy as np, sixstep
+    >>> s = sixstep.Scenario(motor="maxon-251601", duration_s=0.01, control={"mode": "speed"}, reference={"value": 100, "unit": "rad/s"})
+    >>> env = sixstep.Env(s, drives=4)
+    >>> seen, info = env.reset(seed=1)
+    >>> seen, reward, terminated, truncated, info = env.step(np.full((4, 1), 0.3))
+    >>> seen.shape, bool((seen[:, 5] > 0).all())
+    ((4, 10), True)
+    """
+
+    observed: tuple[str, ...] = _core.observed
+
+    def __init__(self, scenario: Scenario, drives: int = 1, *, action: str = "duty", hold: int = 1, spread: bool = False,
+                 target: str | None = None, reward: Callable[[Array, Array], Array] | None = None, workers: int | None = None) -> None:
+        if action not in ("duty", "legs"):
+            raise ValueError(f'action = "{action}" must be "duty" or "legs"')
+        if drives < 1 or hold < 1:
+            raise ValueError("drives and hold must be at least 1")
+        self.num_envs, self.hold = drives, hold
+        self._spread, self._seed, self._numbers = spread, 1, np.arange(drives)
+        self._columns = {"duty": 1, "legs": 3}[action]
+        usual = {"speed": "speed_rad_s", "position": "position_deg"}.get(str(scenario["control.mode"]), "motor_current_A")
+        self._target = usual if target is None else target
+        if self._target not in (*self.observed, "motor_current_A"):
+            raise ValueError(f'target = "{self._target}" is not observed; take one of {", ".join(self.observed)}, motor_current_A')
+        self._reward = reward
+        self._core = _core.Environment(scenario._core, drives, action == "legs", workers or os.cpu_count() or 1)
+        low = -1.0 if action == "duty" else 0.0
+        self.action_space = _box(np.full((drives, self._columns), low), np.ones((drives, self._columns)))
+        bound = np.full((drives, len(self.observed)), np.inf)
+        self.observation_space = _box(-bound, bound)
+
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Array, dict[str, Any]]:
+        """Starts all drives anew. `seed` chooses the series of drives that `spread` draws from."""
+        if seed is not None:
+            self._seed = seed
+        self._start(np.arange(self.num_envs))
+        return self._core.observations(), {}
+
+    def step(self, actions: Any) -> tuple[Array, Array, NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
+        """One step of all drives. A drive that has ended stays where it is until `reset_where`."""
+        given = np.ascontiguousarray(actions, dtype=np.float64).reshape(self.num_envs, self._columns)
+        self._core.step(given, self.hold)
+        seen = self._core.observations()
+        over = self._core.over()
+        return seen, self.rewarded(seen, given), np.zeros_like(over), over, {}
+
+    def reset_where(self, which: Any) -> Array:
+        """Starts the drives of this mask anew, each as the next one of the series; returns all observations."""
+        chosen = np.flatnonzero(np.asarray(which))
+        self._numbers[chosen] += self.num_envs
+        self._start(chosen)
+        return self._core.observations()
+
+    def _start(self, which: NDArray[np.int_]) -> None:
+        numbers = [int(self._numbers[n]) if self._spread else None for n in which]
+        self._core.reset([int(n) for n in which], self._seed, numbers)
+
+    def rewarded(self, seen: Array, actions: Array) -> Array:
+        """The reward of each drive."""
+        if self._reward is not None:
+            return self._reward(seen, actions)
+        distance: Array = np.abs(seen[:, -1] - self.value(seen, self._target))
+        return -distance
+
+    @classmethod
+    def value(cls, seen: Array, name: str) -> Array:
+        """A column of the observation by its name; "motor_current_A" is the largest phase current."""
+        if name == "motor_current_A":
+            largest: Array = np.abs(seen[:, :3]).max(axis=1)
+            return largest
+        column: Array = seen[:, cls.observed.index(name)]
+        return column
+
+    def close(self) -> None:
+        """Nothing to do: memory is freed with the object."""

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Many runs of one scenario: the program's plan, on all cores."""
+from __future__ import annotations
+
+import json
+import math
+import os
+import pathlib
+import re
+import subprocess
+import tempfile
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _toml
+from .program import _raise, program, scenario_file
+from .scenario import Scenario
+
+
+class Sweep:
+    """Results of many runs, a row each. `s["run"]` and `s["settling time of motor current"]` are numpy arrays."""
+
+    def __init__(self, told: Mapping[str, Any]) -> None:
+        self.summary = dict(told)
+        self.columns: list[str] = []
+        self.units: dict[str, str] = {}
+        self._values: dict[str, NDArray[Any]] = {}
+        for n, heading in enumerate(told["columns"]):
+            name, unit = _name_and_unit(heading)
+            self.columns.append(name)
+            self.units[name] = unit
+            self._values[name] = _array([row[n] for row in told["rows"]])
+
+    @property
+    def passed(self) -> int:
+        """Runs in which every requirement holds."""
+        return int(self.summary["passed"])
+
+    @property
+    def complete(self) -> bool:
+        """False if the plan was interrupted."""
+        return bool(self.summary["complete"])
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        return self._values[name]
+
+    def __len__(self) -> int:
+        return len(self._values["run"])
+
+    def frame(self) -> Any:
+        """A pandas DataFrame; `attrs["units"]` has the units."""
+        import pandas
+
+        frame = pandas.DataFrame(self._values).set_index("run")
+        frame.attrs["units"] = dict(self.units)
+        return frame
+
+    def __repr__(self) -> str:
+        return f"<sixstep.Sweep: {len(self)} runs, {self.passed} hold every requirement>"
+
+
+def sweep(scenario: Scenario, vary: Mapping[str, Any] | None = None, *, drives: int = 0, seed: int = 1, sampling: str = "grid",
+          points: int | None = None, store: str | os.PathLike[str] | None = None, resume: bool = False, jobs: int | None = None,
+          tolerances: bool = False) -> Sweep:
+    """Runs the scenario at each point of `vary`, and each point with `drives` drives of its [[spread]].
+
+    vary    {"control.current.settle_s": [1e-3, 2e-3]} lists values; (1e-3, 5e-3, 9) is nine values from 1e-3 to 5e-3
+    store   keeps each finished run in this SQLite file; with resume=True only what is missing is run
+    jobs    runs side by side; without it one per core
+
+    >>> import sixstep
+    >>> s = sixstep.Scenario(motor="maxon-251601", duration_s=2e-3, control={"mode": "duty"}, reference={"value": 0.2},
+    ...                      require=[{"metric": "max", "signal": "speed", "max": 500}])
+    >>> len(sixstep.sweep(s, {"supply.voltage_V": [12, 24]}))
+    2
+    """
+    words = ["--sampling", sampling] if sampling != "grid" else []
+    for key, values in (vary or {}).items():
+        words += ["--vary", f"{key}={_values_text(values)}"]
+    for option, given in (("--runs", drives or None), ("--points", points), ("--jobs", jobs)):
+        words += [] if given is None else [option, str(given)]
+    words += [] if store is None else ["--store", os.fspath(store)]
+    words += ["--seed", str(seed)] if drives or sampling != "grid" else []
+    words += ["--tolerances"] if tolerances else []
+    words += ["--resume"] if resume else []
+    with scenario_file(scenario) as file, tempfile.TemporaryDirectory() as folder:
+        out = pathlib.Path(folder) / "plan.json"
+        made = subprocess.run([program(), "run", *file, *words, "--quiet", "--json", str(out)], capture_output=True, text=True, check=False)
+        if made.returncode not in (0, 1, 3) or not out.exists():
+            _raise(made.stderr)
+        return Sweep(json.loads(out.read_text()))
+
+
+def _values_text(values: Any) -> str:
+    if isinstance(values, tuple) and len(values) == 3 and isinstance(values[2], int):
+        return ":".join(_toml.value_text(v) for v in values)
+    if isinstance(values, str):
+        return values
+    items: Sequence[Any] = values.tolist() if hasattr(values, "tolist") else list(values)
+    return ",".join(_toml.setting_text(v) for v in items)
+
+
+def _name_and_unit(heading: str) -> tuple[str, str]:
+    found = re.fullmatch(r"(.*) \[(.*)\]", heading)
+    return (found[1], found[2]) if found else (heading, "")
+
+
+def _array(values: list[Any]) -> NDArray[Any]:
+    """Numbers with "never" as infinity and missing ones as NaN; texts as they are."""
+    if all(v is None or isinstance(v, (int, float)) or v == "never" for v in values):
+        if values and all(isinstance(v, bool) for v in values):
+            return np.array(values)
+        if values and all(isinstance(v, int) for v in values):
+            return np.array(values)
+        return np.array([math.inf if v == "never" else math.nan if v is None else float(v) for v in values])
+    return np.array(values, dtype=object)

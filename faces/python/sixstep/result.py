@@ -1,0 +1,207 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One run and its results."""
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _core
+from ._errors import Interrupted
+from ._progress import shown
+from .controllers import as_controller
+from .scenario import Scenario
+
+
+class Column(NamedTuple):
+    """A recorded signal: its name with the unit's suffix, its unit, its frame and its meaning."""
+
+    name: str
+    unit: str
+    frame: str
+    meaning: str
+
+
+class Verdict(NamedTuple):
+    """One requirement of the scenario and what the run measured; `measured` is infinite for "never"."""
+
+    figure: str
+    measured: float
+    unit: str
+    min: float | None
+    max: float | None
+    ok: bool
+
+
+class Result:
+    """Results of a run. Recorded columns are read-only numpy arrays: `r.speed`, `r["speed_rad_s"]`.
+
+    >>> import sixstep
+    >>> r = sixstep.run(sixstep.Scenario(motor="maxon-251601", duration_s=2e-3, control={"mode": "current"},
+    ...                                  reference={"value": 2, "unit": "A"}))
+    >>> r.units["i_a_A"]
+    'A'
+    >>> bool(abs(r.i_a + r.i_b + r.i_c).max() < 1e-9)
+    True
+    """
+
+    def __init__(self, core: Any, scenario: Scenario) -> None:
+        self._outcome = core
+        self.scenario = scenario
+        self.columns = [Column(*c) for c in core.columns]
+        self._index = {c.name: n for n, c in enumerate(self.columns)}
+        self.units = {c.name: c.unit for c in self.columns}
+        self.summary: dict[str, Any] = json.loads(core.summary)
+
+    @property
+    def passed(self) -> bool:
+        """Whether every requirement holds and no fault stopped the run."""
+        return bool(self._outcome.passed)
+
+    @property
+    def complete(self) -> bool:
+        """False if the run was stopped before its end."""
+        return bool(self._outcome.complete)
+
+    @property
+    def digest(self) -> str:
+        """Digest of every bit of the trajectory, in hexadecimal as the program prints it."""
+        return f"{self._outcome.digest:016x}"
+
+    @property
+    def simulated_s(self) -> float:
+        """Simulated time, s."""
+        return float(self._outcome.simulated_s)
+
+    @property
+    def verdicts(self) -> list[Verdict]:
+        """The scenario's requirements and what was measured."""
+        return [Verdict(v["figure"], _number(v["measured"]), v["unit"], v["min"], v["max"], v["ok"]) for v in self.summary["require"]]
+
+    @property
+    def figures(self) -> dict[str, float]:
+        """Measured figures by name, required or compared."""
+        rows = [*self.summary["require"], *self.summary["compare"]]
+        return {row["figure"]: _number(row["measured"]) for row in rows}
+
+    @property
+    def energy(self) -> Mapping[str, float]:
+        """Energies of the run in J, and the residuals of their balance; empty with books=False."""
+        return dict(self.summary.get("energy") or {})
+
+    def _name(self, name: str) -> int:
+        if name in self._index:
+            return self._index[name]
+        found = [n for full, n in self._index.items() if full.startswith(name + "_") and full[len(name) + 1:] in _SUFFIXES]
+        if len(found) == 1:
+            return found[0]
+        raise KeyError(f"{name} is not recorded; recorded are {', '.join(self._index)}")
+
+    def __getitem__(self, name: str) -> NDArray[np.float64]:
+        """A column, with or without its unit's suffix."""
+        return self._outcome.column(self._name(name))  # type: ignore[no-any-return]
+
+    def __getattr__(self, name: str) -> NDArray[np.float64]:
+        if name.startswith("_") or "_index" not in self.__dict__:
+            raise AttributeError(name)
+        try:
+            return self[name]
+        except KeyError as error:
+            raise AttributeError(error.args[0]) from None
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._index]
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self._index)
+
+    @property
+    def time(self) -> NDArray[np.float64]:
+        """Instants of the recorded rows, s."""
+        return self["t_s"]
+
+    @property
+    def events(self) -> dict[str, NDArray[np.float64]]:
+        """All columns at every event, both sides of each jump; only with run(..., events=True)."""
+        names = [Column(*c).name for c in self._outcome.event_columns]
+        return {name: self._outcome.event_column(n) for n, name in enumerate(names)}
+
+    def frame(self) -> Any:
+        """A pandas DataFrame of the recorded columns; `attrs["units"]` has the units."""
+        import pandas  # only here: the rest works without
+
+        frame = pandas.DataFrame({c.name: self[c.name] for c in self.columns})
+        frame.attrs["units"] = dict(self.units)
+        return frame
+
+    def plot(self, *names: str, **options: Any) -> Any:
+        """A matplotlib figure: one chart for each of `names`; see `sixstep.plots.run_chart`."""
+        from .plots import run_chart
+
+        return run_chart(self, *names, **options)
+
+    def to_dict(self) -> dict[str, Any]:
+        """All results but the recorded columns."""
+        return dict(self.summary)
+
+    def __repr__(self) -> str:
+        word = "passed" if self.passed else "FAILED" if self.complete else "incomplete"
+        return f"<sixstep.Result {self.summary['title']}: {word}, {self.simulated_s:g} s, {len(self.time)} rows, digest {self.digest}>"
+
+    def __str__(self) -> str:
+        lines = [repr(self)[1:-1]]
+        for v in self.verdicts:
+            limit = " ".join(f"{sign} {_short(x)}" for sign, x in ((">=", v.min), ("<=", v.max)) if x is not None)
+            lines.append(f"  {'ok  ' if v.ok else 'FAIL'} {v.figure}: {_short(v.measured)} {v.unit} ({limit} {v.unit})".rstrip())
+        return "\n".join(lines)
+
+    def _repr_html_(self) -> str:
+        from .notebook import result_html
+
+        return result_html(self)
+
+
+_SUFFIXES = frozenset({"s", "A", "V", "W", "rad_s", "rad", "deg", "Nm", "N", "m_s", "mm", "degC"})
+
+
+def _number(value: Any) -> float:
+    return math.inf if value == "never" else math.nan if value is None else float(value)
+
+
+def _short(x: float) -> str:
+    return "never" if x == math.inf else f"{x:.5g}"
+
+
+def run(scenario: Scenario, controller: Any = None, *, books: bool = True, events: bool = False,
+        progress: bool | Callable[[float], None] = False) -> Result:
+    """Simulates the scenario. Other Python threads go on meanwhile.
+
+    controller  a function f(m, setpoint) or an object with step(m, setpoint): takes the place of the drive
+                (`sixstep.Measured` lists what m has); its exception stops the run and is raised here
+    books       energy balance and standing laws: about a third of the time more
+    events      keep all columns at every event, in `result.events`
+    progress    True: a bar on the terminal or in the notebook; or a function of the simulated time in s
+
+    Raises `Interrupted` on Ctrl-C, with the finished part in `.result`.
+
+    >>> import sixstep
+    >>> s = sixstep.Scenario(motor="maxon-251601", duration_s=2e-3, control={"mode": "duty"}, reference={"value": 0.5})
+    >>> sixstep.run(s, lambda m, setpoint: setpoint).complete
+    True
+    """
+    core = scenario._core
+    if controller is not None:
+        core = scenario._checked({**scenario._settings, "control.drive": "own", "control.own.controller": "python"},
+                                 as_controller(controller))
+    with shown(progress, scenario.duration_s) as told:
+        result = Result(_core.run(core, books, events, told), scenario)
+    stopped_by = result._outcome.stopped_by
+    if isinstance(stopped_by, KeyboardInterrupt):
+        raise Interrupted(result)
+    if stopped_by is not None:
+        raise stopped_by
+    return result

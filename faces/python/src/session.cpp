@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sixstep/study/session/session.hpp"
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "faces/python/src/outcome.hpp"
+#include "faces/python/src/problems.hpp"
+#include "faces/python/src/scenario.hpp"
+#include "faces/python/src/session.hpp"
+#include "sixstep/study/measure/columns.hpp"
+#include "text/scenario/scenario_text.hpp"
+
+namespace python {
+
+namespace py = pybind11;
+
+namespace {
+
+/// One call at a time: while one advances without the GIL, another thread may ask for the same session.
+class Busy {
+ public:
+  explicit Busy(std::atomic<bool>& busy) : busy_(busy) {
+    if (busy_.exchange(true))
+      throw py::value_error("the session is in use by another thread; give each thread a copy()");
+  }
+  ~Busy() { busy_ = false; }
+  Busy(const Busy&) = delete;
+  Busy& operator=(const Busy&) = delete;
+
+ private:
+  std::atomic<bool>& busy_;
+};
+
+/// Where rows of this thread's call go. A copied session keeps its own rows, but copies its listener with all that it holds.
+thread_local Rows* recording = nullptr;
+
+class Recording {
+ public:
+  explicit Recording(Rows& rows) { recording = &rows; }
+  ~Recording() { recording = nullptr; }
+  Recording(const Recording&) = delete;
+  Recording& operator=(const Recording&) = delete;
+};
+
+class Session {
+ public:
+  explicit Session(const HeldScenario& held)
+      : controller_(held.controller),
+        columns_(taken(study::record_columns(held.scenario))),
+        rows_(rows_of(columns_.size())) {
+    const Designing designing(controller_.get());
+    const Recording into(*rows_);
+    study::Listeners listeners;
+    listeners.on_record = [](study::Row row) {
+      if (recording) recording->add(row);
+    };
+    session_.emplace(taken(study::Session::open(held.scenario, listeners)));
+  }
+
+  /// The copy has the rows so far.
+  std::unique_ptr<Session> copied() {
+    if (controller_)
+      throw py::value_error(
+          "a session with a controller in Python cannot be copied: the copy would share its state");
+    const Busy busy(busy_);
+    return std::unique_ptr<Session>(new Session(open(), columns_, *rows_));
+  }
+
+  bool advance(double to_s) {
+    const Busy busy(busy_);
+    study::Session& session = open();
+    bool goes_on;
+    {
+      const py::gil_scoped_release free;
+      const Recording into(*rows_);
+      goes_on = session.advance(to_s);
+    }
+    if (controller_)
+      if (std::optional<py::error_already_set> raised = controller_->take_error()) throw std::move(*raised);
+    return goes_on;
+  }
+
+  double change(const HeldScenario& with) {
+    const Busy busy(busy_);
+    if (with.scenario.at.empty()) throw py::value_error("the text has no change");
+    const Designing designing(controller_.get());
+    return taken(open().change(with.scenario.at.back()));
+  }
+
+  Outcome close() {
+    const Busy busy(busy_);
+    study::Session& session = open();
+    const Designing designing(controller_.get());
+    const Recording into(*rows_);
+    study::Outcome outcome = taken(session.close());
+    Outcome out = outcome_of(session.scenario(), outcome);
+    out.columns = columns_;
+    out.rows = rows_;
+    session_.reset();
+    return out;
+  }
+
+  py::array_t<double> signals() {
+    const study::Present& present = open().present();
+    return py::array_t<double>(static_cast<py::ssize_t>(present.signals.size()), present.signals.data());
+  }
+  double present_s() { return open().present().t_s; }
+  double now_s() { return open().now_s(); }
+  bool over() { return !session_ || session_->over(); }
+  std::string text() { return text::scenario_text(open().scenario()); }
+
+ private:
+  Session(const study::Session& other, const std::vector<study::Column>& columns, const Rows& rows)
+      : columns_(columns), rows_(std::make_shared<Rows>(rows)), session_(other) {}
+
+  study::Session& open() {
+    if (!session_) throw py::value_error("the session is closed");
+    return *session_;
+  }
+
+  std::shared_ptr<Controller> controller_;
+  std::vector<study::Column> columns_;
+  std::shared_ptr<Rows> rows_;
+  std::optional<study::Session> session_;
+  std::atomic<bool> busy_ = false;
+};
+
+}  // namespace
+
+void declare_session(py::module_& module) {
+  py::class_<Session>(module, "Session")
+      .def(py::init<const HeldScenario&>())
+      .def("advance", &Session::advance)
+      .def("change", &Session::change)
+      .def("close", &Session::close)
+      .def("copy", &Session::copied)
+      .def("signals", &Session::signals)
+      .def("text", &Session::text)
+      .def_property_readonly("present_s", &Session::present_s)
+      .def_property_readonly("now_s", &Session::now_s)
+      .def_property_readonly("over", &Session::over);
+  std::vector<std::tuple<std::string, std::string, std::string, std::string>> signals;
+  for (const study::Column& c : study::all_columns())
+    signals.emplace_back(c.name, c.unit, c.frame, c.meaning);
+  module.attr("signals") = signals;
+}
+
+}  // namespace python

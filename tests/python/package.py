@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Shared by the tests of the Python package: scenarios, and the program beside which results are held."""
+import json
+import pathlib
+import subprocess
+
+import sixstep
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+DATA = SOURCE / "data" / "scenarios"
+
+
+def current(**more):
+    """A short run of the current loop."""
+    return sixstep.Scenario({"motor": "maxon-251601", "duration_s": 5e-3, "control": {"mode": "current"},
+                             "reference": {"value": 2, "unit": "A"}, **more})
+
+
+def program_summary(file, *words):
+    """What `sixstep run` says of the scenario."""
+    made = subprocess.run([sixstep.program(), "run", str(file), *words, "--quiet", "--json", "-"], capture_output=True, text=True, check=False)
+    assert made.returncode in (0, 1, 3), made.stderr
+    return json.loads(made.stdout)
