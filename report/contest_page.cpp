@@ -72,10 +72,10 @@ SvgChart trade(const Contest& c) {
       .title = "Torque ripple against losses", .x_label = "rms torque ripple, mN m", .y_label = "W"};
   std::vector<const ContestRow*> front;
   for (const ContestRow& row : c.rows) {
-    if (!analysis::may_win(c, place_of(c, row))) continue;
+    if (!row.nominal_held) continue;
     const double x = 1e3 * row.values[analysis::ripple_figure], y = row.values[analysis::loss_figure];
     if (!std::isfinite(x) || !std::isfinite(y)) continue;
-    const bool best = on_front(c, row);
+    const bool best = analysis::may_win(c, place_of(c, row)) && on_front(c, row);
     if (best) front.push_back(&row);
     chart.marks.push_back({x, y, number_of(c, row), best ? "main" : "c"});
   }
