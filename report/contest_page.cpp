@@ -23,20 +23,20 @@ using analysis::contest_figures;
 using analysis::ContestRow;
 using analysis::ContestTrace;
 
-/// The controller with the least value of a figure, among those that hold the course; null if none has the
-/// figure.
+std::size_t place_of(const Contest& c, const ContestRow& row) {
+  return static_cast<std::size_t>(&row - c.rows.data());
+}
+
+/// The controller with the least value of a figure, among those that may win; null if none has the figure.
 const ContestRow* least_of(const Contest& c, std::size_t figure) {
   const ContestRow* least = nullptr;
   for (const ContestRow& row : c.rows)
-    if (row.nominal_held && std::isfinite(row.values[figure]) &&
+    if (analysis::may_win(c, place_of(c, row)) && std::isfinite(row.values[figure]) &&
         (least == nullptr || row.values[figure] < least->values[figure]))
       least = &row;
   return least;
 }
 
-std::size_t place_of(const Contest& c, const ContestRow& row) {
-  return static_cast<std::size_t>(&row - c.rows.data());
-}
 std::string name_of(const Contest& c, const ContestRow& row) {
   return std::string(c.entries[place_of(c, row)].who->name);
 }
@@ -61,7 +61,7 @@ std::string facts(const Contest& c) {
 bool on_front(const Contest& c, const ContestRow& row) {
   const auto ripple = analysis::ripple_figure, loss = analysis::loss_figure;
   return std::none_of(c.rows.begin(), c.rows.end(), [&](const ContestRow& other) {
-    return other.nominal_held && other.values[ripple] <= row.values[ripple] &&
+    return analysis::may_win(c, place_of(c, other)) && other.values[ripple] <= row.values[ripple] &&
            other.values[loss] <= row.values[loss] &&
            (other.values[ripple] < row.values[ripple] || other.values[loss] < row.values[loss]);
   });
@@ -75,7 +75,7 @@ SvgChart trade(const Contest& c) {
     if (!row.nominal_held) continue;
     const double x = 1e3 * row.values[analysis::ripple_figure], y = row.values[analysis::loss_figure];
     if (!std::isfinite(x) || !std::isfinite(y)) continue;
-    const bool best = on_front(c, row);
+    const bool best = analysis::may_win(c, place_of(c, row)) && on_front(c, row);
     if (best) front.push_back(&row);
     chart.marks.push_back({x, y, number_of(c, row), best ? "main" : "c"});
   }

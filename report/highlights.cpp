@@ -74,6 +74,17 @@ double step_size(const Change& change, bool blind_start) {
   return blind_start && (change.from == 0.0 || change.to == 0.0) ? 0.0 : change.size();
 }
 
+/// The row of the first Hall edge after the current has come near its goal: what follows are commutations of a
+/// steady current, no longer its step. The last row where there is no such edge.
+std::size_t end_of_current_step(const Values* hall, const Values& signal, const Change& step,
+                                std::size_t last) {
+  if (!hall) return last;
+  std::size_t n = step.row;
+  while (n < last && std::abs(signal[n] - step.to) > near * step.size()) ++n;
+  while (n < last && (*hall)[n + 1] == (*hall)[n]) ++n;
+  return n;
+}
+
 /// The whole run, if there is no setpoint.
 Step from_start(const Values& time, const Scenario& scenario) {
   return {.of = "start",
@@ -114,15 +125,19 @@ std::optional<Step> largest_step(const Trace& trace, const Scenario& scenario) {
       changes, {}, [blind](const Change& change) { return step_size(change, blind); });
   if (largest == changes.end() || step_size(*largest, blind) == 0.0) return from_start(*time, scenario);
   const std::size_t next = largest + 1 == changes.end() ? time->size() - 1 : (largest + 1)->row;
+  const bool of_pair = loop == &current_loop;
+  const std::size_t until =
+      of_pair ? end_of_current_step(find_column(trace, "hall"), *signal, *largest, next) : next;
   std::size_t outside = largest->row;  // last row outside the goal's neighbourhood
-  for (std::size_t n = largest->row; n <= next; ++n)
+  for (std::size_t n = largest->row; n <= until; ++n)
     if (std::abs((*signal)[n] * loop->factor - largest->to) > near * largest->size()) outside = n;
   const double at = (*time)[largest->row], end = (*time)[next];
   // A reference that changes all the time has no step that could be seen.
   constexpr double least_periods = 3.0;
   if (end - at < least_periods * scenario.pwm.period_s && largest + 1 != changes.end())
     return from_start(*time, scenario);
-  const double shown = std::max(1.5 * ((*time)[outside] - at), 20.0 * scenario.pwm.period_s);
+  const double shown =
+      std::min(std::max(1.5 * ((*time)[outside] - at), 20.0 * scenario.pwm.period_s), (*time)[until] - at);
   return Step{.of = loop->of,
               .unit = loop->unit,
               .at_s = at,

@@ -69,6 +69,9 @@ std::string sheet_section(const sixstep::design::Sheet& s) {
   html += row("Back-EMF constant", s.back_emf_constant_V_krpm, "V/krpm");
   html += row("Flux linkage ψ<sub>f</sub>", s.flux_linkage_mWb, "mWb", "phase");
   html += row("Back-EMF constant", s.back_emf_mV_s, "mV s", "phase, mechanical");
+  html += row("Flux density in the air gap", s.flux_density_T, "T");
+  html += row("Active length", s.active_length_mm, "mm");
+  html += row("Air gap, radius", s.air_gap_radius_mm, "mm");
   html += row("Rotor inertia J", s.inertia_gcm2, "g cm²");
   html += row("Inertia with brake", s.inertia_with_brake_gcm2, "g cm²");
   html += row("Rotor, outer radius", s.rotor_radius_mm, "mm");
@@ -79,15 +82,27 @@ std::string sheet_section(const sixstep::design::Sheet& s) {
   html += row("Coulomb friction", s.coulomb_friction_mNm, "mNm");
   html += row("Iron drag, viscous", s.iron_viscous_Nm_s, "Nm s", "mechanical");
   html += row("Iron drag, dry", s.iron_coulomb_mNm, "mNm");
+  html += row("No-load voltage", s.no_load_voltage_V, "V", "terminal");
   html += row("No-load speed", s.no_load_speed_rpm, "rpm", "mechanical");
   html += row("No-load current", s.no_load_current_mA, "mA", "terminal");
+  html += row("Second no-load voltage", s.second_no_load_voltage_V, "V", "terminal");
+  html += row("Second no-load speed", s.second_no_load_speed_rpm, "rpm", "mechanical");
+  html += row("Second no-load current", s.second_no_load_current_mA, "mA", "terminal");
   html += row("Nominal speed", s.nominal_speed_rpm, "rpm", "mechanical");
   html += row("Nominal torque", s.nominal_torque_mNm, "mNm");
   html += row("Nominal current", s.nominal_current_A, "A", "terminal");
   html += row("Stall torque", s.stall_torque_mNm, "mNm");
   html += row("Stall current", s.stall_current_A, "A", "terminal");
   html += row("Speed constant", s.speed_constant_rpm_V, "rpm/V", "terminal");
+  html += row("Largest efficiency", s.max_efficiency_percent, "%");
+  html += row("Speed/torque gradient", s.speed_torque_gradient_rpm_mNm, "rpm/mNm", "mechanical");
+  html += row("Mechanical time constant τ<sub>m</sub>", s.mechanical_time_constant_ms, "ms");
   html += row("Largest speed", s.max_speed_rpm, "rpm", "mechanical");
+  html += row("Thermal resistance, winding to housing", s.thermal_resistance_winding_housing_K_W, "K/W");
+  html += row("Thermal resistance, housing to ambient", s.thermal_resistance_housing_ambient_K_W, "K/W");
+  html += row("Thermal time constant of the winding", s.thermal_time_constant_winding_s, "s");
+  html += row("Thermal time constant of the motor", s.thermal_time_constant_motor_s, "s");
+  html += row("Largest winding temperature", s.max_winding_temperature_degC, "°C");
   return html + "</tbody></table>\n";
 }
 

@@ -14,6 +14,17 @@
 namespace report {
 namespace {
 
+/// A curve of less than a whole turn ends elsewhere than it began: its strongest lines are those of the cut.
+std::string cut_short(const Stretch& stretch) {
+  constexpr double least_turn = 0.01;  // a held rotor that trembles has no electrical frequency
+  if (!(stretch.part > least_turn)) return "";
+  return fmt::format(
+      "<p class=\"alert\">The stretch holds {} of an electrical turn only. Lines of the electrical frequency and its "
+      "multiples are not resolved: a strong line below the PWM may come from where the stretch begins and ends. A "
+      "longer run shows whole turns.</p>\n",
+      escaped(plain(stretch.part, 2)));
+}
+
 std::string how(const Spectra& s) {
   const Lines& lines = s.all.front().lines;
   const std::string part = s.stretch.turns > 0 ? fmt::format("{} electrical turns", grouped(s.stretch.turns))
@@ -80,8 +91,8 @@ std::optional<Spectra> spectra(const sixstep::study::Trace& trace, const sixstep
 
 std::string spectra_section(const std::optional<Spectra>& found) {
   if (!found) return "";
-  std::string html =
-      "<h2>Spectrum</h2>\n" + how(*found) + "<div id=\"spectra\" class=\"columns wide\"></div>\n";
+  std::string html = "<h2>Spectrum</h2>\n" + cut_short(found->stretch) + how(*found) +
+                     "<div id=\"spectra\" class=\"columns wide\"></div>\n";
   html += "<div class=\"columns wide\">\n";
   for (const DrawnSpectrum& d : found->all) html += table(*found, d);
   return html + "</div>\n";

@@ -106,6 +106,7 @@ std::optional<Stretch> steady_stretch(const sixstep::study::Trace& trace,
     const double whole = std::trunc(turned);
     const auto from =
         last_crossing(*time, *angle, angle->back() - whole * 2 * pi / pole_pairs, out.time.from);
+    if (whole == 0.0) out.part = std::abs(turned);
     if (whole != 0.0 && from) out = {{*from, end}, std::llabs(static_cast<long long>(whole))};
   }
   if (out.time.to - out.time.from < fewest_periods * scenario.pwm.period_s) return std::nullopt;

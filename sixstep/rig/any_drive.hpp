@@ -20,8 +20,9 @@ namespace sixstep::rig {
 template <class Command>
 struct DriveAnswer {
   Command command{};
-  bool reversed = false;  ///< six-step: sign of the command
-  bool moved_on = false;  ///< the tick found a commutation that was due already
+  bool reversed = false;           ///< six-step: sign of the command
+  bool moved_on = false;           ///< the tick found a commutation that was due already
+  bool holds_commutation = false;  ///< six-step: the command has the duty of a commutation
   sim::Instant next_commutation = sim::Instant::never();  ///< awaited compare match
   control::Telemetry<double> told{};
   FieldTelemetry field{};  ///< only of a field-oriented drive
@@ -137,6 +138,7 @@ class AnyDrive {
   static bool reads_arrangement(const Config& config) { return config->decodes_arrangement(); }
   bool reversed() const { return answer_.reversed; }
   bool moved_on() const { return answer_.moved_on; }
+  bool holds_commutation() const { return answer_.holds_commutation; }
   const sim::Instant& next_commutation() const { return answer_.next_commutation; }
   const control::Telemetry<double>& telemetry() const { return answer_.told; }
   const FieldTelemetry& field_held() const { return answer_.field; }

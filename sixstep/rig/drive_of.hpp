@@ -130,6 +130,8 @@ class DriveOf final : public DriveInterface<SiCommand<Firmware>> {
   DriveOf(const DriveOf&) = default;
   void note(Answer& out) const {
     if constexpr (requires { firmware_.reversed(); }) out.reversed = firmware_.reversed();
+    if constexpr (requires { firmware_.holds_commutation(); })
+      out.holds_commutation = firmware_.holds_commutation();
     if constexpr (has_clock) out.next_commutation = firmware_.next_commutation();
   }
 

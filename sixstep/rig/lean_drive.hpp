@@ -57,6 +57,8 @@ class LeanDrive {
            // mutant: !(config_.extras.on && config_.extras.slews_setpoint) => true
            !(config_.extras.on && config_.extras.slews_setpoint);
   }
+  /// True while the duty of a commutation is in the command (control/commutation_step.hpp).
+  bool holds_commutation() const { return control::detail::holds_current(config_, state_); }
   const control::Telemetry<Scalar>& telemetry() const { return telemetry_; }
   Diagnosis diagnosis() const { return {}; }
 
@@ -109,6 +111,7 @@ class SensedDrive {
   bool reversed() const { return drive_.reversed(); }
   bool open_loop() const { return drive_.open_loop(); }
   bool follows_setpoint_at_once() const { return drive_.follows_setpoint_at_once(); }
+  bool holds_commutation() const { return drive_.holds_commutation(); }
   const control::Telemetry<Scalar>& telemetry() const { return drive_.telemetry(); }
   Diagnosis diagnosis() const {
     return {.hall_line = sensors_.broken_line(),

@@ -47,6 +47,7 @@ class ProductDrive {
   bool reversed() const { return state_.drive.reversed; }
   bool open_loop() const { return false; }
   bool follows_setpoint_at_once() const { return false; }
+  bool holds_commutation() const { return control::detail::holds_current(config_.drive, state_.drive); }
   const control::Telemetry<Scalar>& telemetry() const { return telemetry_.drive; }
   control::Activity activity() const { return telemetry_.activity; }
   const Diagnosis& diagnosis() const { return diagnosis_; }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <variant>
 
 #include "report/conduction.hpp"
 #include "report/cost_card.hpp"
@@ -15,6 +17,7 @@
 #include "report/spectra.hpp"
 #include "report/spectrum.hpp"
 #include "report/summary.hpp"
+#include "sixstep/design/sheet/sheet_description.hpp"
 #include "sixstep/study/measure/trace.hpp"
 #include "tests/report/synthetic_run.hpp"
 
@@ -68,6 +71,55 @@ TEST(Highlights, the_largest_step_is_found_with_its_current) {
   // Half a second of 6 A, then 6 A to 0 in five seconds, then nothing: 18 As in 6.5 s.
   EXPECT_DOUBLE_EQ(*current->then_mean_A, 18.0 / 6.5);
   EXPECT_EQ(*current->then_span_A, 6.0);
+}
+
+/// A current step ends at the first Hall edge after the current has come near its goal: a later peak is a commutation's.
+TEST(Highlights, a_current_step_ends_where_commutations_of_a_steady_current_begin) {
+  SyntheticRun run = stepped_run();
+  run.scenario.control.mode = sixstep::control::Mode::current;
+  run.trace.columns = {
+      {"t_s", "s", "", ""}, {"i_m_A", "A", "", ""}, {"i_ref_A", "A", "", ""}, {"hall", "1", "", ""}};
+  run.trace.values = {{0, 1, 2, 3, 4, 5, 6, 7},
+                      {0, 1, 3, 4.2, 4, 2, 5, 4},
+                      {4, 4, 4, 4, 4, 4, 4, 4},
+                      {5, 4, 4, 4, 4, 6, 6, 6}};
+  const auto step = largest_step(run.trace, run.scenario);
+  ASSERT_TRUE(step);
+  EXPECT_EQ(step->of, "current");
+  EXPECT_LE(step->window.to, 4.0);
+  EXPECT_GE(step->window.to, 3.0);
+  const auto current = step_current(run.trace, *step);
+  ASSERT_TRUE(current);
+  EXPECT_EQ(current->peak_A, 4.2);
+  EXPECT_EQ(current->peak_after_s, 3.0);
+  // Without edges all that leaves the goal is the step's.
+  run.trace.values[3] = {4, 4, 4, 4, 4, 4, 4, 4};
+  EXPECT_EQ(step_current(run.trace, *largest_step(run.trace, run.scenario))->peak_A, 5.0);
+}
+
+/// Gives each quantity of a sheet a value.
+class AllQuantities final : public sixstep::base::Visitor {
+ public:
+  std::size_t count = 0;
+
+ private:
+  void visit_quantity(std::string_view, const sixstep::base::QuantityMember& member,
+                      const sixstep::base::About&) override {
+    ++count;
+    if (const auto* of = std::get_if<std::optional<sixstep::base::Quantity>*>(&member))
+      (*of)->emplace().value = 1.0;
+  }
+};
+
+TEST(Parameters, each_line_of_the_data_sheet_has_its_row) {
+  sixstep::design::Sheet sheet;
+  AllQuantities given;
+  sixstep::design::describe(given, sheet);
+  EXPECT_GT(given.count, 30u);
+  const std::string html = sheet_section(sheet), row = "<tr><th scope=\"row\">";
+  std::size_t rows = 0;
+  for (std::size_t at = html.find(row); at != std::string::npos; at = html.find(row, at + 1)) ++rows;
+  EXPECT_EQ(rows, given.count);
 }
 
 /// Of a field-oriented drive the step is i_q's, which it holds, and the page shows what it holds.

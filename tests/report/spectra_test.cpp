@@ -50,6 +50,20 @@ TEST(Spectra, of_a_drift_alone_no_line_stands_out) {
   EXPECT_THAT(html, Not(HasSubstr("<table")));
 }
 
+/// Two pole pairs, turned by 0.38 of an electrical turn in the later half of the run; then by none, and by a whole one.
+TEST(Spectra, less_than_an_electrical_turn_is_told) {
+  for (const double turned : {0.38, 0.0, 1.2}) {
+    sixstep::study::Trace trace = trace_of(rounding, tone);
+    trace.columns.push_back({"angle_rad", "", "", ""});
+    trace.values.emplace_back();
+    for (const double t : trace.values[0]) trace.values.back().push_back(2 * t * turned * 2 * M_PI / 2);
+    const std::string html = spectra_section(spectra(trace, scenario(), 2));
+    const char* told = "holds 0.38 of an electrical turn only";
+    EXPECT_EQ(html.find(told) != std::string::npos, turned == 0.38) << html;
+    EXPECT_EQ(html.find("electrical turn only") != std::string::npos, turned == 0.38) << html;
+  }
+}
+
 TEST(Spectra, a_tone_is_one_from_a_billionth_of_its_unit_on) {
   for (const double amplitude : {0.9e-9, 1.1e-9, 1e-3}) {
     std::vector<double> time, values;

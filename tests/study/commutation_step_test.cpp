@@ -3,7 +3,10 @@
 // torque's ripple behind a current loop.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "sixstep/study/check/check.hpp"
 #include "tests/support/scenarios.hpp"
@@ -148,6 +151,33 @@ TEST(CommutationStep, InTheNumbersOfAChip) {
        {study::Arithmetic::float32, study::Arithmetic::q15, study::Arithmetic::q31})
     EXPECT_NEAR(ripple_Nm(CurrentCommutation::duty_step, PwmPattern::pwm_on, 150.0, 3.0, 1, arithmetic),
                 ripple_Nm(CurrentCommutation::duty_step, PwmPattern::pwm_on, 150.0, 3.0, 1), 0.02 * K_t);
+}
+
+/// Told exactly where the run is the plain one to the bit: the current of the leaving phase lasts L I/u at most, u = 2 E + 3 R I/2, and
+/// the drive leaves out what lasts no longer than the wait until its command acts; so does a braked motor, and one that stands.
+TEST(CommutationStep, TellsARunInWhichItNeverActs) {
+  for (const double speed_rad_s : {0.0, 60.0, 300.0})
+    for (const double current_A : {0.5, 3.0, -3.0})
+      for (const double period_s : {10e-6, 30e-6, 60e-6}) {
+        const auto of = [&](CurrentCommutation commutation) {
+          Scenario s = turned(commutation, PwmPattern::pwm_on, speed_rad_s, current_A);
+          s.pwm.period_s = period_s;
+          s.control.current.settle_s = 40 * period_s;
+          s.duration_s = 20e-3;
+          const auto out = study::run(s);
+          if (!out) ADD_FAILURE() << to_string(out.problems()[0]);
+          return std::pair{out ? out->digest : 0,
+                           out && std::any_of(out->remarks.begin(), out->remarks.end(), [](const auto& text) {
+                             return text.find("\"duty-step\" has no effect in this run") != text.npos;
+                           })};
+        };
+        SCOPED_TRACE(::testing::Message() << speed_rad_s << " rad/s, " << current_A << " A, " << period_s);
+        const auto [digest, told] = of(CurrentCommutation::duty_step);
+        EXPECT_EQ(told, digest == of(CurrentCommutation::plain).first);
+        const double lasts_s = L * current_A / (K_t * speed_rad_s + 1.5 * R * current_A);
+        if (speed_rad_s == 0 || current_A < 0 || lasts_s < 0.4 * period_s) EXPECT_TRUE(told);
+        if (speed_rad_s > 0 && current_A > 0 && lasts_s > 0.7 * period_s) EXPECT_FALSE(told);
+      }
 }
 
 /// What has no duty of its own, or no pair to hold it on, is told so.

@@ -47,6 +47,18 @@ TEST(VerdictTable, OneLineEachWithItsNumbersInOnePrefix) {
             "  overshoot            0 A       0.37497 A          none wanted\n");
 }
 
+/// Nothing is required of a compared figure, and the head says so.
+TEST(VerdictTable, AColumnOfComparisonsAloneIsWhatIsExpected) {
+  study::Outcome outcome;
+  outcome.comparisons = {{"overshoot", "A", 0.4, 0.5, "hand"}};
+  EXPECT_EQ(table_of(outcome),
+            "experiment   expected  measured         source\n"
+            "x\n"
+            "  overshoot  0.5 A     0.4 A     -20 %  hand\n");
+  outcome.verdicts = {{"settling time", "s", 0.00099, std::nullopt, 1e-3, true}};
+  EXPECT_THAT(table_of(outcome), ::testing::StartsWith("experiment       required"));
+}
+
 TEST(VerdictTable, ShowsAsManyDigitsAsTellMeasuredFromLimit) {
   study::Outcome outcome;
   outcome.verdicts = {{"hair", "s", 0.0010000000003, std::nullopt, 1e-3, false},

@@ -48,8 +48,8 @@ const ContestValues* worst_of(const ContestRow& row) { return row.worst ? &*row.
 /// The least value of a column; NaN if there is none.
 double least_of(const Contest& c, std::size_t figure, FiguresOf figures) {
   double least = std::nan("");
-  for (const ContestRow& row : c.rows)
-    if (const ContestValues* values = figures(row); values && row.nominal_held)
+  for (std::size_t n = 0; n < c.rows.size(); ++n)
+    if (const ContestValues* values = figures(c.rows[n]); values && analysis::may_win(c, n))
       least = std::fmin(least, (*values)[figure]);
   return least;
 }
@@ -72,7 +72,8 @@ std::vector<ContestColumn> contest_columns(const Contest& c, ContestGroup group,
       shown.push_back({std::string(contest_figures[f].name),
                        [&c, f, figures, least = least_of(c, f, figures)](std::size_t n) {
                          const double x = (*figures(c.rows[n]))[f];
-                         return contest_value(x, contest_figures[f]) + (x == least ? " *" : "");
+                         const bool wins = x == least && analysis::may_win(c, n);
+                         return contest_value(x, contest_figures[f]) + (wins ? " *" : "");
                        }});
   if (group != ContestGroup::moving) return shown;
   if (figures == worst_of) {
@@ -132,6 +133,20 @@ Json figures_json(const ContestValues& values) {
   return out;
 }
 
+/// The first requirement that the nominal drive does not meet: its mean speed, and the bounds.
+std::string missed_speed(const ContestRow& row) {
+  const std::vector<analysis::FigureColumn>& columns = row.nominal->columns().figures;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const double x = (*row.nominal)->figures[k];
+    if (columns[k].holds(x)) continue;
+    const auto speed = [](double rad_s) { return quantity_text(rad_s, "rad/s", 4); };
+    return fmt::format("{}: {} in the mean, {} to {} are asked for", columns[k].name,
+                       std::isnan(x) ? std::string("no value") : speed(x),
+                       speed(columns[k].min.value_or(0.0)), speed(columns[k].max.value_or(0.0)));
+  }
+  return "the run did not come to its end";
+}
+
 }  // namespace
 
 std::string contest_value(double x, const ContestFigure& figure) {
@@ -151,9 +166,21 @@ std::vector<std::string> contest_notes(const Contest& c) {
                                   base::to_string(scenario.problems().front())));
     else if (!problem.empty())
       notes.push_back(fmt::format("{} stopped: {}", controller_name(c, n), problem));
-    else if (!c.rows[n].nominal_held)
-      notes.push_back(fmt::format("{} does not hold the speed that is asked for, and wins nothing",
-                                  controller_name(c, n)));
+    else if (c.rows[n].nominal && !c.rows[n].nominal_held)
+      notes.push_back(fmt::format("{} does not hold the speed that is asked for, and wins nothing: {}",
+                                  controller_name(c, n), missed_speed(c.rows[n])));
+    else if (c.rows[n].nominal_held && !analysis::may_win(c, n))
+      notes.push_back(fmt::format(
+          "{} starts with a peak of {}, {:.1f} times the current of the torque limit, and wins nothing: "
+          "commutation and ripple explain up to {}",
+          controller_name(c, n), quantity_text(c.rows[n].values[analysis::peak_figure], "A", 3),
+          c.rows[n].values[analysis::peak_figure] / c.bench.design.current_at_full_torque_A,
+          quantity_text(analysis::most_peak_A(c.bench), "A", 3)));
+    if (scenario && scenario->control.drive == study::FirmwareKind::own)
+      notes.push_back(
+          fmt::format("{} runs with the parameters that its own file presets, not with those of a "
+                      "scenario's control.own.number",
+                      controller_name(c, n)));
     if (scenario && scenario->control.speed.output == study::SpeedOutput::duty)
       notes.push_back(
           fmt::format("{} has no current loop, and the torque limit does not bound its current: its setpoint "
@@ -176,12 +203,19 @@ std::vector<ContestTable> contest_tables(const Contest& c) {
 
 std::vector<std::string> contest_legend(const Contest& c) {
   return {
-      "* least of those that hold the course", "lowest: speed still held against the rated torque, by halves",
+      fmt::format(
+          "* least of those that hold the course and start with a peak of at most {}: 1.5 times the torque "
+          "limit's current, and the PWM's ripple",
+          quantity_text(analysis::most_peak_A(c.bench), "A", 3)),
+      "lowest: speed still held against the rated torque, by halves",
       fmt::format(
           "ripple to turn-ons: at the rated speed against half of the rated torque; slow swing, slow ripple: at "
           "{} rad/s against all of it",
           base::rounded(c.bench.course.slow_rad_s, 4)),
-      fmt::format("tick, flash: {} {}, instructions at worst and bytes", contest_core, arithmetic)};
+      fmt::format(
+          "tick, flash: {} {}, instructions at worst and bytes; -: not counted; tools/own_cost.sh counts "
+          "a controller of your own",
+          contest_core, arithmetic)};
 }
 
 std::string contest_text(const Contest& c) {

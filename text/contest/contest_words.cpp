@@ -28,7 +28,7 @@ std::string larger(double a, double b, const analysis::ContestFigure& figure) {
   return b / a >= 2.0 ? fmt::format("{:.1f} times", b / a) : fmt::format("{:.0f} % more", 100 * (b / a - 1));
 }
 
-/// The two rows with the least values, among those that hold the course and have the figure.
+/// The two rows with the least values, among those that may win and have the figure.
 struct Ranked {
   std::optional<std::size_t> first, second;
 };
@@ -36,7 +36,7 @@ Ranked ranked(const Contest& c, std::size_t figure, const std::function<bool(std
   Ranked r;
   const auto value = [&](std::size_t n) { return c.rows[n].values[figure]; };
   for (std::size_t n = 0; n < c.rows.size(); ++n) {
-    if (!c.rows[n].nominal_held || !std::isfinite(value(n)) || !counts(n)) continue;
+    if (!analysis::may_win(c, n) || !std::isfinite(value(n)) || !counts(n)) continue;
     if (!r.first || value(n) < value(*r.first)) {
       r.second = r.first;
       r.first = n;
@@ -51,11 +51,11 @@ bool are_alike(double a, double b) {
   return std::fabs(b - a) <= alike * std::fmin(std::fabs(a), std::fabs(b));
 }
 
-/// All rows that hold the course and are equal to the least within `alike`.
+/// All rows that may win and are equal to the least within `alike`.
 std::vector<std::size_t> sharing(const Contest& c, std::size_t figure, double least) {
   std::vector<std::size_t> who;
   for (std::size_t n = 0; n < c.rows.size(); ++n)
-    if (c.rows[n].nominal_held && std::isfinite(c.rows[n].values[figure]) &&
+    if (analysis::may_win(c, n) && std::isfinite(c.rows[n].values[figure]) &&
         are_alike(least, c.rows[n].values[figure]))
       who.push_back(n);
   return who;
@@ -70,13 +70,13 @@ std::string who_share(const Contest& c, const std::vector<std::size_t>& who) {
   return fmt::format("{} and {} share", fmt::join(names, ", "), c.entries[who.back()].who->name);
 }
 
-/// Whether only one of several rows that hold the course has the figure, because the others never settle.
+/// Whether only one of several rows that may win has the figure, because the others never settle.
 bool is_alone(const Contest& c, std::size_t figure) {
   std::size_t have = 0, never = 0;
-  for (const analysis::ContestRow& row : c.rows) {
-    if (!row.nominal_held) continue;
-    have += std::isfinite(row.values[figure]) ? 1U : 0U;
-    never += std::isinf(row.values[figure]) ? 1U : 0U;
+  for (std::size_t n = 0; n < c.rows.size(); ++n) {
+    if (!analysis::may_win(c, n)) continue;
+    have += std::isfinite(c.rows[n].values[figure]) ? 1U : 0U;
+    never += std::isinf(c.rows[n].values[figure]) ? 1U : 0U;
   }
   return have == 1 && never > 0;
 }

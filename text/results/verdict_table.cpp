@@ -100,7 +100,10 @@ std::string deviation_text(const study::ComparisonResult& c) {
 }
 
 std::string verdict_table(std::span<const TableEntry> entries, bool colour) {
-  std::vector<Line> lines{{Kind::heading, {"experiment", "required", "measured", "", "source"}}};
+  const bool only_compares = std::none_of(entries.begin(), entries.end(),
+                                          [](const TableEntry& e) { return !e.outcome->verdicts.empty(); });
+  const char* beside = only_compares ? "expected" : "required";
+  std::vector<Line> lines{{Kind::heading, {"experiment", beside, "measured", "", "source"}}};
   for (const TableEntry& entry : entries) add_entry(lines, entry);
   const bool has_source = std::any_of(entries.begin(), entries.end(),
                                       [](const TableEntry& e) { return !e.outcome->comparisons.empty(); });

@@ -54,6 +54,16 @@ Contest contest_of(ContestBench bench, std::vector<ContestEntry> entries, std::s
   return {std::move(bench), std::move(entries), std::move(rows), std::move(plan), std::move(columns)};
 }
 
+double most_peak_A(const ContestBench& bench) {
+  constexpr double with_commutations = 1.5;
+  return with_commutations * bench.design.current_at_full_torque_A + bench.design.ripple.worst_A;
+}
+
+bool may_win(const Contest& contest, std::size_t row) {
+  const ContestRow& r = contest.rows[row];
+  return r.nominal_held && !(r.values[peak_figure] > most_peak_A(contest.bench));
+}
+
 GaugeValues gauges_of(const RunRecord& record) {
   GaugeValues gauges{};
   gauges.fill(none);

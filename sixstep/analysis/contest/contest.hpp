@@ -49,6 +49,13 @@ struct Contest {
 Contest contest_of(ContestBench bench, std::vector<ContestEntry> entries, std::size_t drives,
                    std::uint64_t seed, const UnitOfKey& unit_of = {});
 
+/// The largest peak current of a start within the torque limit: commutations add up to half of the limit's
+/// current to it, and PWM its ripple.
+double most_peak_A(const ContestBench& bench);
+/// Whether a row's figures may be the least: its nominal drive holds the course, with a start within
+/// most_peak_A(). A larger current would win by what the others may not use.
+bool may_win(const Contest& contest, std::size_t row);
+
 /// The gauges of a run, found by their labels; NaN: the run has none.
 GaugeValues gauges_of(const RunRecord& record);
 

@@ -156,8 +156,9 @@ inline constexpr ContestFigure contest_figures[] = {
 };
 
 /// Indices in contest_figures that rules and pictures use.
-inline constexpr std::size_t ripple_figure = 7, loss_figure = 13;
-static_assert(contest_figures[ripple_figure].name == "ripple rms" &&
+inline constexpr std::size_t peak_figure = 2, ripple_figure = 7, loss_figure = 13;
+static_assert(contest_figures[peak_figure].name == "peak" &&
+              contest_figures[ripple_figure].name == "ripple rms" &&
               contest_figures[loss_figure].name == "losses");
 
 /// One value per gauge, and one per figure.

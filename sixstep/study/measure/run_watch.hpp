@@ -19,6 +19,7 @@ struct RunWatch {
   double winding_degC = 0.0, junction_degC = 0.0;    ///< the hottest; only with kernels that warm up
   double shunt_least_duty = -1.0;  ///< a shunt shows a current above this duty; negative: no shunt
   std::int64_t samples = 0, hidden_samples = 0;  ///< of the shunt
+  bool held_a_commutation = false;               ///< the drive's duty step acted at least once
 
   template <class Rig>
   void segment(const Rig& rig) {
@@ -30,6 +31,8 @@ struct RunWatch {
       emf_bus_V = state.bus;
     }
     if (state.bus > highest_bus_V) highest_bus_V = state.bus;
+    if constexpr (requires { rig.firmware().holds_commutation(); })
+      held_a_commutation = held_a_commutation || rig.firmware().holds_commutation();
     if constexpr (requires { rig.plant().more(); }) look_at_charge(rig.plant().more().charge.value, rig);
     if (shunt_least_duty >= 0.0 && rig.ticked()) {
       ++samples;

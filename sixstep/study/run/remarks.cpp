@@ -13,6 +13,7 @@
 #include "sixstep/design/sheet/thermal_ranges.hpp"
 #include "sixstep/study/check/unused_keys.hpp"
 #include "sixstep/study/compile/pulse.hpp"
+#include "sixstep/study/run/commutation_remarks.hpp"
 #include "sixstep/study/run/export_protection.hpp"
 #include "sixstep/study/run/limit_remarks.hpp"
 #include "sixstep/study/run/loop_stability.hpp"
@@ -238,6 +239,7 @@ void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, Outcom
   add(on_back_emf(s, c, w));
   add(on_heat(s, w, out));
   add(on_steps(s, c, w));
+  add(on_idle_duty_step(s, w));
 }
 
 }  // namespace sixstep::study

@@ -2,7 +2,7 @@
 """Which law judges which block. A block is found by its page and a piece of its text or heading."""
 import re
 
-from laws import bench, contest, curve, design, drives, run_output, series, tables
+from laws import bench, commutation, contest, curve, design, drives, run_output, series, tables
 from page import REPOSITORY
 
 # What a reader writes or runs is no result.
@@ -166,6 +166,7 @@ BY_TEXT = [
     ("docs/howto/choose-a-rotor-sensor.md", "known by", tables.position), ("docs/reference/motor-sheets.md", "$ sixstep motor list", tables.motor_list),
     ("docs/reference/motor-sheets.md", "  Relation ", motor_check), ("docs/start/tour.md", "  Relation ", motor_check),
     ("docs/start/sheet-questions.md", "motor show kv.toml | grep K_t", drives.kv), ("docs/start/sheet-questions.md", "torque_constant_Nm_A = 0.42", drives.frames),
+    ("docs/explanation/currents.md", "edge before", commutation.judge_edge), ("docs/explanation/currents.md", "spike.toml --set", commutation.judge),
     ("docs/explanation/currents.md", "braking, soft", drives.braking), ("docs/howto/check-heat.md", '"device"', drives.devices),
     ("docs/start/tour-bench-and-chip.md", "held as", drives.exported), ("docs/explanation/accuracy.md", "cases match", counted),
     ("docs/start/tour.md", "settles to", design.judge), ("docs/howto/tune-a-speed-loop.md", "", design.judge), ("docs/howto/choose-pwm.md", "verdict", series.judge_plan), ("docs/howto/choose-pwm.md", "$ ./run design", design.judge),

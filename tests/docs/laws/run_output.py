@@ -120,7 +120,7 @@ def summary_agrees(test, spot, table, line):
 
 
 def judges(spot):
-    return "experiment  " in spot.text and "required" in spot.text
+    return "experiment  " in spot.text and ("required" in spot.text or "expected" in spot.text)
 
 
 def judge(test, spot, command, written):

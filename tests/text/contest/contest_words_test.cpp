@@ -11,6 +11,7 @@ namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -54,6 +55,29 @@ TEST(ContestWords, AllWhoShareAFigureAreNamed) {
   EXPECT_THAT(
       words({{0, 1.0, 3.1}, {1, 2.0, 3.0}, {2, 3.0, 3.01}, {3, 4.0, 3.1}, {4, 5.0, 3.05}, {5, 6.0, 9.0}}),
       Contains("5 controllers share the least loss in all, within 5 %."));
+}
+
+/// A start with more than 1.5 times the limit's current uses what the others may not: it has no star, no sentence, and a note why.
+TEST(ContestWords, WhoeverStartsBeyondTheLimitWinsNothing) {
+  analysis::Contest c;
+  c.bench.design.current_at_full_torque_A = 4.0;
+  for (const double peak_A : {5.9, 6.1}) {
+    c.entries.push_back({&analysis::contestants()[c.rows.size()], {}, study::Scenario{}});
+    analysis::ContestRow row;
+    row.values[analysis::peak_figure] = peak_A;
+    row.values[settle] = 1.0 / peak_A;  // the one beyond the limit is faster
+    row.nominal_held = true;
+    c.rows.push_back(row);
+  }
+  EXPECT_TRUE(analysis::may_win(c, 0));
+  EXPECT_FALSE(analysis::may_win(c, 1));
+  EXPECT_THAT(text::contest_words(c), Not(Contains(HasSubstr(name(1) + " has the least"))));
+  EXPECT_THAT(text::contest_notes(c),
+              ElementsAre(name(1) + " starts with a peak of 6.1 A, 1.5 times the current of "
+                                    "the torque limit, and wins nothing: commutation and ripple "
+                                    "explain up to 6 A"));
+  for (const text::ContestTable& table : text::contest_tables(c))
+    for (const std::string& cell : table.rows.back()) EXPECT_THAT(cell, Not(HasSubstr("*")));
 }
 
 TEST(ContestWords, AgainstNothingStandsAValue) {

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds a duty step or an overlap (control/commutation_step.hpp) that a scenario asks for and that never acts.
+#pragma once
+#include <string>
+
+#include "sixstep/study/measure/run_watch.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
+
+namespace sixstep::study {
+
+/// A sentence with the shortest current that the drive steps for, and a cure; empty where it acted. The drive
+/// leaves out a step that would come too late.
+std::string on_idle_duty_step(const Scenario& scenario, const RunWatch& watch);
+
+}  // namespace sixstep::study

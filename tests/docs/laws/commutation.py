@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Laws of the torque's dip and the current's peak at commutations, by the three legs' mean voltages, docs/explanation/currents.md.
+
+E is a phase's back-EMF, R and L are a phase's. While all three phases carry current, the star point lies at a third of the legs'
+voltages less that of the back-EMFs. With the staying phase positive and the leaving one through its upper diode:
+  entering leg chopped:  leaving falls at (u + 2 E)/(3 L),      staying falls at (4 E + 3 R i - u)/(3 L)
+  staying leg chopped:   leaving falls at (2 U - u + 2 E)/(3 L), staying falls at (4 E + 3 R i + U - 2 u)/(3 L)
+"""
+import re
+from math import pi
+
+from gallery_sheet import K_E, K_T, L, PAIRS, R as R_PAIR, T, U
+
+R = R_PAIR / 2
+I = 3.0
+ROW = re.compile(r"^  (least torque|peak of a phase current, as sampled|peak of a phase current, with ripple) +\S+ \S.*?  +([\d.]+) (m?)(?:N m|A) +([-+][\d.]+) %", re.M)
+
+
+def left_at_a_fixed_duty(emf, bus_part):
+    """The staying phase's current where the leaving one is gone; bus_part: the staying leg is chopped."""
+    u = 2 * emf + 2 * R * I
+    leaving = (2 * U - u + 2 * emf if bus_part else u + 2 * emf) / (3 * R)
+    staying = (4 * emf + U - 2 * u if bus_part else 4 * emf - u) / (3 * R)
+    return (I + staying) * leaving / (leaving + I) - staying
+
+
+def ripple(emf, current, period_s):
+    d = min((2 * emf + 2 * R * current) / U, 1.0)
+    return U * period_s * d * (1 - d) / L
+
+
+def runs(text):
+    """(command, {row: (SI value, told deviation)}) of each run in the block."""
+    for part in re.split(r"^\$ ", text, flags=re.M)[1:]:
+        rows = {m[1]: (float(m[2]) * (1e-3 if m[3] else 1.0), float(m[4])) for m in ROW.finditer(part)}
+        if rows:
+            yield part.splitlines()[0], rows
+
+
+def judge_run(test, spot, command, rows):
+    told = f"{spot}: {command}"
+    test.assertEqual(3, len(rows), told)
+    speed = float((re.search(r"dynamometer_rad_s=\[([\d.]+)\]", command) or [0, "150"])[1])
+    period = float((re.search(r"pwm.period_s=(\S+)", command) or [0, T])[1])
+    emf = K_E * speed
+    (torque, dip), (sampled, spike), (peak, rise) = (rows[name] for name in sorted(rows))
+    for value, against, deviation in ((torque, K_T * I, dip), (sampled, I, spike), (peak, I, rise)):
+        test.assertLess(abs(100 * (value / against - 1) - deviation), 0.06, told)
+    # The loop holds the ripple's foot at the reference: the torque dips below K_t I only at commutations, and no loop lets more of
+    # it go than a duty that stays, but for the wait of a sample and a period.
+    floor = left_at_a_fixed_duty(emf, "pattern=upper" in command) - ripple(emf, I, period) / 2
+    test.assertLess(K_T * floor, torque, told)
+    test.assertLess(torque, K_T * I, told)
+    # The rows differ by the ripple at the peak. There the duty is that of the peak's current, or still on its way down to it.
+    apart = (peak - sampled) / ripple(emf, sampled, period)
+    test.assertTrue(0.7 < apart < 1.1, f"{told}: {apart} ripples apart")
+    test.assertLess(I, sampled, told)
+    return torque, sampled
+
+
+def judge(test, spot):
+    """Each run by its bounds; a measure that the page calls a cure is one, and twice the window shows the same."""
+    found = {command: judge_run(test, spot, command, rows) for command, rows in runs(spot.text)}
+    test.assertTrue(found, str(spot))
+
+    def of(*words, but=()):
+        return next((x for command, x in found.items() if all(w in command for w in words) and not any(w in command for w in but)), None)
+
+    plain = (K_T * I * (1 - 0.185), I * 1.128)  # as the page's first run tells in words
+    if twice := of("duration_s=130e-3"):
+        for a, b in zip(twice, plain):
+            test.assertLess(abs(a / b - 1), 3e-3, str(spot))
+    if of("pattern=upper"):
+        step, short = of("duty-step", but=["period_s"]), of("period_s", but=["duty-step"])
+        both, slow = of("period_s", "duty-step"), of("settle_s=2e-3")
+        test.assertTrue(of("pattern=upper")[0] < plain[0] < step[0] < short[0] < both[0], str(spot))
+        test.assertTrue(both[1] < step[1] < short[1] < plain[1] < slow[1], str(spot))
+    if overlap := of("overlap"):
+        step, none = of("duty-step"), of("dynamometer", but=["commutation"])
+        test.assertTrue(none[0] < step[0] < overlap[0] and overlap[1] < step[1] < none[1], str(spot))
+
+
+def judge_edge(test, spot):
+    """Rows around an edge: three currents sum to nothing, i_m is half the pair's difference, edges are a sector apart; and the run."""
+    judge(test, spot)
+    edges = [float(x) for x in re.findall(r"edge before ([\d.]+) ms", spot.text)]
+    test.assertLess(abs(edges[1] - edges[0] - 1e3 * pi / 3 / PAIRS / 150), 1e3 * T, str(spot))
+    rows = re.findall(r"^([\d.]+) ms: i_a +(\S+), i_b +(\S+), i_c +(\S+), i_m +(\S+) A, duty ([\d.]+)", spot.text, re.M)
+    test.assertGreater(len(rows), 4, str(spot))
+    for row in rows:
+        t, a, b, c, motor, duty = (float(x) for x in row)
+        test.assertLess(abs(a + b + c), 0.016, f"{spot}: {row}")
+        before = t < edges[0]
+        test.assertLess(abs(((c if before else a) - b) / 2 - motor), 0.011, f"{spot}: {row}")
+        test.assertTrue(0 < duty < 1, f"{spot}: {row}")
