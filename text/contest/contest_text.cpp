@@ -176,7 +176,8 @@ std::vector<ContestTable> contest_tables(const Contest& c) {
 
 std::vector<std::string> contest_legend(const Contest& c) {
   return {
-      "* least of those that hold the course", "lowest: speed still held against the rated torque, by halves",
+      "* least of those that hold the course",
+      "lowest: slowest speed held against the rated torque, found by halving the speed",
       fmt::format(
           "ripple to turn-ons: at the rated speed against half of the rated torque; slow swing, slow ripple: at "
           "{} rad/s against all of it",
