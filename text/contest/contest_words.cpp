@@ -61,17 +61,17 @@ std::vector<std::size_t> sharing(const Contest& c, std::size_t figure, double le
   return who;
 }
 
-/// "a", "a and b", "a, b and c".
+/// "a", "a and b", "a; b and c": names have commas.
 std::string names_of(const Contest& c, const std::vector<std::size_t>& who) {
   std::vector<std::string_view> names;
   for (const std::size_t n : who) names.push_back(c.entries[n].who->name);
   if (names.size() == 1) return std::string(names[0]);
   const std::string_view last = names.back();
   names.pop_back();
-  return fmt::format("{} and {}", fmt::join(names, ", "), last);
+  return fmt::format("{} and {}", fmt::join(names, "; "), last);
 }
 
-/// "a, b and c share"; of more than four, the others are named where they are fewer: "all but d and e share".
+/// "a; b and c share"; of more than four, the others are named where they are fewer: "all but d and e share".
 std::string who_share(const Contest& c, const std::vector<std::size_t>& who) {
   constexpr std::size_t most_named = 4;
   std::vector<std::size_t> others;

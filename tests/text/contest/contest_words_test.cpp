@@ -48,7 +48,7 @@ TEST(ContestWords, WhoSharesAFigureIsNamed) {
 TEST(ContestWords, AllWhoShareAFigureAreNamed) {
   EXPECT_THAT(
       words({{0, 1.0, 3.1}, {1, 2.0, 3.0}, {2, 3.0, 3.01}, {3, 4.0, 3.2}}),
-      Contains(name(0) + ", " + name(1) + " and " + name(2) + " share the least loss in all, within 5 %."));
+      Contains(name(0) + "; " + name(1) + " and " + name(2) + " share the least loss in all, within 5 %."));
   // Of the least, as everything on the page: 3.155 is 5.2 % more than 3.
   EXPECT_THAT(words({{0, 1.0, 3.155}, {1, 2.0, 3.0}, {2, 3.0, 3.01}}),
               Contains(name(1) + " and " + name(2) + " share the least loss in all, within 5 %."));
