@@ -2,7 +2,7 @@
 // The plain yardstick, as a competent user writes it down: the equations in phase quantities, one function
 // for the derivatives with ifs for switches and diodes, the back-EMF from a table over the electrical turn,
 // classic fourth-order Runge-Kutta with a fixed step, currents of diodes that ended clipped to zero. It
-// includes the floating phase that starts to conduct. No cleverness, and nothing to slow it down; what it may
+// includes the free phase that starts to conduct. No cleverness, and nothing to slow it down; what it may
 // cost: docs/explanation/performance.md.
 #pragma once
 #include <array>

@@ -2,7 +2,7 @@
 // The faster yardstick: the same star machine, bridge and cascade as in a textbook program. Fixed-step
 // fourth-order Runge-Kutta, ifs for the diodes, gates and diodes held over a step. Written to be fast: no
 // branch inside a stage, back-EMF from a table of straight lines, angle local to its sector. It includes the
-// physics most often left out, the floating phase that starts to conduct. Its error is of first order in the
+// physics most often left out, the free phase that starts to conduct. Its error is of first order in the
 // step all the same, because switching instants fall between the steps.
 #pragma once
 #include <array>

@@ -78,7 +78,7 @@ std::string step_charts(const DesignStudy& s) {
     chart.curves = {motion.linear ? simulated(s, "position_mm", 0, 1)
                                   : simulated(s, "angle_rad", 0, 1 / sixstep::base::rad_per_deg),
                     designed(s, 0, 0, height)};
-    chart.curves[1].label = "were there no limits";
+    chart.curves[1].label = "as designed, without limits";
     chart.levels = {height};
   }
   if (s.design.spec.mode == Mode::current) return svg_chart(chart);

@@ -174,7 +174,7 @@ std::string index_section(const PagePlan& plan) {
   const text::PlanStory& story = plan.story;
   if (story.plan.sampling != analysis::Sampling::saltelli || story.series.runs == 0) return "";
   std::string html =
-      "<h2>What each figure hangs on</h2>\n<p class=\"quiet\">Sobol indices: which part of a figure’s variance a key "
+      "<h2>What each figure depends on</h2>\n<p class=\"quiet\">Sobol indices: which part of a figure’s variance a key "
       "explains alone, and which with all others; the line is the middle 95\u00a0% of the estimate.</p>\n<div class=\"columns indices-all\">";
   for (std::size_t f = 0; f < story.columns.figures.size(); ++f)
     html += "<div>" + index_table(story, f) + "</div>\n";

@@ -152,7 +152,7 @@ std::string sensorless(const study::Sensorless& x) {
 
 std::string finite_set(const study::Field& x) {
   std::string text =
-      "currents along the magnet and across it held by the state of three legs that is foretold to come nearest";
+      "currents along the magnet and across it held by the state of three legs whose predicted current is nearest";
   if (x.switching_weight_A > 0) text += "; a leg that switches weighs " + given(x.switching_weight_A, "A");
   if (x.peak_A) text += "; at most " + given(*x.peak_A, "A");
   if (!x.delay_compensation) text += "; a late answer is not made up for";

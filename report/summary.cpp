@@ -49,8 +49,9 @@ std::string closest(const Outcome& outcome) {
 /// The part of the bus in use, if no two consecutive samples used all of it.
 std::string least_of_bus(double largest_duty, bool legs) {
   constexpr double whole = 1.0 - 1e-6;
-  if (largest_duty >= whole) return "all of it in use at single samples only";
-  return fmt::format("never all in use: {} {} at most", legs ? "vector over its circle" : "duty",
+  if (largest_duty >= whole) return "all of it used at single samples only";
+  return fmt::format("full voltage never needed; {} {}",
+                     legs ? "largest voltage vector, over its circle:" : "largest duty",
                      plain(largest_duty, 3));
 }
 

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# own_cost.sh SOURCE [SCENARIO]   what a controller of your own costs on Cortex-M and RISC-V cores, emulated: instructions of a step and
+# own_cost.sh SOURCE [SCENARIO]   what a controller of your own costs on emulated Cortex-M, RISC-V and ATmega2560 cores: instructions of a step and
 #                                 of a Hall interrupt, flash and RAM (docs/howto/write-a-controller.md)
 # own_cost.sh --help              what else may be said; needs the compilers of tools/install.sh target
 set -eu

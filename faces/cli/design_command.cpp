@@ -146,18 +146,18 @@ analysis::CarriedOver designed_scenario(analysis::DesignStudy& s, const study::S
   // The verdict on a sensorless drive's loops does not cover its file, which lacks the commutation.
   if (!carried.lost.empty()) warn(carried.lost, board->control.drive != study::FirmwareKind::sensorless);
   if (!carried.differs.empty())
-    warn(
-        "with " + carried.kept + " of the board's scenario, kept in its file, a run shows " + carried.differs,
-        false);
+    warn("with " + carried.kept + " of the board's scenario, which the designed file keeps, a run shows " +
+             carried.differs,
+         false);
   if (const std::string keys = analysis::left_out(*board, carried.scenario); !keys.empty())
-    warn("of the board's scenario this design does not have " + keys, false);
+    warn("this design leaves out these keys of the board's scenario: " + keys, false);
   return carried;
 }
 
 std::string designed_text(const analysis::DesignStudy& s, const analysis::CarriedOver& carried,
                           const DesignArguments& a) {
   std::vector<std::string> lines = text::design_lines(s, !a.scenario.empty());
-  if (!carried.kept.empty()) lines.push_back("Of the board's scenario it has " + carried.kept + ".");
+  if (!carried.kept.empty()) lines.push_back("It keeps " + carried.kept + " of the board's scenario.");
   study::Scenario scenario = carried.scenario;
   scenario.motor = motor_beside(scenario.motor, a.toml);
   return files::with_own_mark(a.command, text::scenario_text(scenario, lines));

@@ -120,7 +120,7 @@ Verb declare_motor(CLI::App& app) {
   const auto a = std::make_shared<MotorArguments>();
   CLI::App& list = *motor.add_subcommand("list", "the built-in motors, one a line");
   CLI::App& show = *motor.add_subcommand("show", "the sheet as printed and the model that it makes");
-  CLI::App& check = *motor.add_subcommand("check", "hold the sheet against itself");
+  CLI::App& check = *motor.add_subcommand("check", "report values of the sheet that contradict each other");
   for (CLI::App* const verb : {&show, &check}) {
     verb->add_option("NAME", a->name, "name or path")->required();
     take_data(*verb, a->data_dir);

@@ -43,12 +43,13 @@ constexpr Range strictly_between(double low, double high) { return {low, high, f
 /// Another key for the same value, as another sheet prints it: in another unit, or with a line number.
 struct Spelling {
   std::string_view key;
-  int ten = 0;                   ///< value in the key's own unit = written value times 10^ten
-  std::string_view unit = "";    ///< of the written value; empty: the key's own
-  std::string_view frame = "";   ///< the only possible frame; empty: the key's
-  std::string_view source = "";  ///< source that follows from the spelling: "data sheet, line 10"
-  double factor = 1.0;           ///< and times this
-  bool linear = false;           ///< the spelling for linear motors, and only for them (base/linear.hpp)
+  int ten = 0;                    ///< value in the key's own unit = written value times 10^ten
+  std::string_view unit = "";     ///< of the written value; empty: the key's own
+  std::string_view frame = "";    ///< the only possible frame; empty: the key's
+  std::string_view source = "";   ///< source that follows from the spelling: "data sheet, line 10"
+  std::string_view meaning = "";  ///< meaning in its only frame; empty: the key's
+  double factor = 1.0;            ///< and times this
+  bool linear = false;            ///< the spelling for linear motors, and only for them (base/linear.hpp)
 };
 
 /// The data of one key that a face needs.

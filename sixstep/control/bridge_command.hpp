@@ -61,7 +61,7 @@ struct BridgeCommand {
   Chopping chopping = Chopping::soft;
   ChoppedSwitch chopped = ChoppedSwitch::upper;
   Watch watch = Watch::none;
-  /// Duty of the leg in no pair while its old current has not ended, -1..1: its upper switch is chopped, below
+  /// Duty of the third leg while its old current has not ended, -1..1: its upper switch is chopped, below
   /// 0 its lower one.
   Scalar overlap{};
   Scalar on_below_A{};   ///< a comparator switches on strictly below this

@@ -143,7 +143,7 @@ constexpr Scalar holding_duty(const CommutationStepState<Scalar>& state, Pair pa
   return staying_chops ? half + state.part : state.part + state.part;
 }
 
-/// Overlap of the leg in no pair (BridgeCommand::overlap). If the staying leg is the sink, the leaving leg was
+/// Overlap of the third leg (BridgeCommand::overlap). If the staying leg is the sink, the leaving leg was
 /// the source and its upper switch is chopped, else its lower one.
 template <class Scalar>
 constexpr Scalar holding_overlap(const CommutationStepState<Scalar>& state, Pair pair) {

@@ -81,7 +81,7 @@ class SixStepModulator {
   std::int64_t turn_ons_before(const sim::Instant& t) const { return timer_.turn_ons_before(t); }
 
  private:
-  /// The second pulse is for hard chopping's second comparator, the third for the leg in no pair.
+  /// The second pulse is for hard chopping's second comparator, the third for the third leg.
   static constexpr unsigned source_pulse = 0, sink_pulse = 1, overlap_pulse = 2;
 
   int take(const sim::Instant& t, const BoardCommand& command);

@@ -55,7 +55,7 @@ TEST(Rk4Tuned, HasTheFloatingPhaseAndFirstOrderErrorsUnderSoftChopping) {
 
 TEST(Rk4Tuned, LeavingTheFloatingPhaseOutCostsTenPercentOfPeakCurrentAtAnyStep) {
   const Errors fine = errors(1e-7, false), finer = errors(2.5e-8, false);
-  std::printf("without the floating phase: %.2f %% of peak current, %.2f %% of speed\n", 100 * finer.current,
+  std::printf("without the free phase: %.2f %% of peak current, %.2f %% of speed\n", 100 * finer.current,
               100 * finer.speed);
   EXPECT_NEAR(finer.current, 0.106, 0.0005);
   EXPECT_NEAR(finer.speed, 0.0040, 0.0005);

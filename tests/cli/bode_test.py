@@ -59,7 +59,7 @@ class Bode(ProgramTest):
         self.assertEqual([re.split(r" {2,}", line.strip())[1] for line in margins], ["-"] * 5, made.stdout)
         # The linear loop counts the half period of samples in the middle, and crossings have no sensor to take another for.
         self.assertNotIn("no linear loop", made.stdout)
-        self.assertIn("the loop goes round what the crossings of the back-EMF tell: the speed", made.stdout)
+        self.assertIn("the loop includes the delay of the back-EMF's zero crossings: the speed is ", made.stdout)
         told = json.loads((self.path / "b.json").read_text())
         self.assertFalse(told["answered"])
         self.assertEqual(set(told["measured"].values()), {None})

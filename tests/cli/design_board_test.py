@@ -60,7 +60,7 @@ slew = 1000
 current = {settle_s = 1e-3, damping = 0.6, back_emf_feed_forward = true}
 speed = {settle_s = 0.1, damping = 0.95, torque_limit_Nm = 0.15}
 """)
-        self.assertIn("of the board's scenario this design does not have control.slew, heat.motor, load.coulomb_Nm\n", told)
+        self.assertIn("this design leaves out these keys of the board's scenario: control.slew, heat.motor, load.coulomb_Nm\n", told)
         self.assertEqual((written["control"]["current"]["damping"], written["control"]["speed"]["damping"]), (0.6, 0.95))
         self.assertTrue(written["control"]["current"]["back_emf_feed_forward"])
 
@@ -81,13 +81,14 @@ over_speed_rad_s = OVER
     def test_what_the_boards_drive_changes_is_told_as_the_file_runs(self):
         """The product drive measures its offsets first, so that a step of the current settles later."""
         told, _ = self.designed_for(self.HELD.replace("MODE", "current").replace("LIMITS", "").replace("OVER", "300").replace("value = 100", "value = 2"))
-        line = re.search(r"with control.drive and \[protection\] of the board's scenario, kept in its file, a run shows (.*)", told).group(1)
+        line = re.search(r"with control.drive and \[protection\] of the board's scenario, which the designed file keeps, a run shows (.*)", told).group(1)
         run = json.loads(self.run_program("run", "d.toml", "--json", "-", code=None).stdout)
         ran = {c["figure"]: c["measured"] for c in run["compare"]}
-        named = re.findall(r"(?:^|, )([a-z ]+) (\S+) (?:s|rad/s|A) in the place of", line)
+        named = [(figure, float(value) * (1e-3 if unit == "ms" else 1)) for figure, value, unit in
+                 re.findall(r"(?:^|, )([a-z ]+) (\S+) (ms|s|rad/s|A) instead of \S+ \3(?=,|$)", line)]
         self.assertIn("settling time", [name for name, _ in named])
         for name, value in named:
-            self.assertAlmostEqual(float(value), ran[name], delta=0.005 * abs(ran[name]), msg=name)
+            self.assertAlmostEqual(value, ran[name], delta=0.005 * abs(ran[name]), msg=name)
 
     def test_the_test_asks_for_what_the_board_allows(self):
         """Nominal are 2.33 A. A test beyond its own board's limits called it NOT USABLE, and its file lost all protection."""

@@ -92,7 +92,7 @@ class Motor(ProgramTest):
         no_load = json.loads(self.run_program("curve", "mine.toml", "--json", "-").stdout)["no_load"]["speed_rad_s"]
         self.assertAlmostEqual(no_load * 30 / 3.141592653589793 / 5160, 1, 2)
         told = self.run_program("design", "mine.toml", "--mode", "speed", "--toml", "drive.toml").stdout
-        self.assertRegex(told, r"^usable.*: the speed loop settles to 10 % in ")
+        self.assertRegex(told, r"^usable.*: the speed loop settles within 10 % in ")
         self.assertEqual(self.run_program("run", "drive.toml", "--json", "verdict.json").returncode, 0)
         gains = json.loads((self.path / "verdict.json").read_text())["gains"]
         self.assertEqual([g["loop"] for g in gains], ["current", "speed"])

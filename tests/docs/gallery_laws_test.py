@@ -63,7 +63,7 @@ def made_up(settle, damping, full_torque, steps, end):
     return middle - sampling, middle + sampling
 
 
-FLOATING = 2 / 3 * K_E * 100 * 0.75 * T / L_S  # largest pulse of the floating phase
+FLOATING = 2 / 3 * K_E * 100 * 0.75 * T / L_S  # largest pulse of the free phase
 FLOATING_LATE = 2 / 3 * (2 * K_E * 100 / SECTOR) * T**2 / 2 / L_S  # of a gap that passes the middle of the sector
 BURST = (K_T * 1.25 - 0.02) * 0.02 / J
 BRAKE = (K_T * 100 - 2 * R) / U  # duty that holds 2 A of braking current at 100 rad/s
@@ -216,9 +216,9 @@ LAWS = {
     "chopping-soft": [near(0.5 * STALL), near(ripple(0.5)), (0, 0)],
     "chopping-hard": [near((2 * 0.75 - 1) * STALL), near(2 * ripple(0.75)),
                       near(-STALL * (1 - 2 * A + A * B_OFF) / (1 - A * B_OFF))[::-1]],
-    "floating-phase-soft": [(0, 0), (FLOATING * (1 - 4 * T / SECTOR) * (1 - 0.75 * T * R / L), FLOATING)],
-    "floating-phase-hard": [(0, 0)],
-    "floating-phase-pwm-on-pwm": [(0, 0), (0, FLOATING_LATE), (-1e-12, 0)],
+    "free-phase-soft": [(0, 0), (FLOATING * (1 - 4 * T / SECTOR) * (1 - 0.75 * T * R / L), FLOATING)],
+    "free-phase-hard": [(0, 0)],
+    "free-phase-pwm-on-pwm": [(0, 0), (0, FLOATING_LATE), (-1e-12, 0)],
     "commutation-plain": [(K_T * (after_commutation(COMMUTATING, 3) - PAIR_RIPPLE), None)],
     "commutation-duty-step": [(K_T * (commutation_held(COMMUTATING, 3, 150) - PAIR_RIPPLE), None)],
     "dead-time": [(0, 0), near((0.1 - 1e-6 / T) * STALL)],

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The physics most often missed (model.md 12): under soft chopping the floating phase starts to conduct.
+// The physics most often missed (model.md 12): under soft chopping the free phase starts to conduct.
 #include <gtest/gtest.h>
 
 #include <cmath>

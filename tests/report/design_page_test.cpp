@@ -76,14 +76,14 @@ TEST(DesignPage, ShowsWhatDecidesFirstAndFoldsTheRest) {
 /// What the text says of the speed's sensor, and of a drive that has none, the page says too: folded, with the other steps.
 TEST(DesignPage, TellsHowTheSpeedIsKnown) {
   analysis::DesignStudy s = studied(Mode::speed);
-  s.design.sensing = {{"w_min", "slowest speed that is told", 12.5, "rad/s"}};
+  s.design.sensing = {{"w_min", "slowest speed that does not read as 0", 12.5, "rad/s"}};
   EXPECT_THAT(page_of(s), Not(HasSubstr("Without a rotor sensor")));
   s.sensorless = {{"T_swing", "2 pi sqrt(J/(p K_t I_start))", 23.5e-3, "s"}};
   const std::string page = page_of(s);
   for (const char* part :
-       {"slowest speed that is told", "12.5\u00a0rad/s", "Without a rotor sensor", "23.5\u00a0ms"})
+       {"slowest speed that does not read as 0", "12.5\u00a0rad/s", "Without a rotor sensor", "23.5\u00a0ms"})
     EXPECT_GT(page.find(part), page.find("<details><summary>How they come about")) << part;
-  EXPECT_THAT(page, HasSubstr("slowest speed that is told"));
+  EXPECT_THAT(page, HasSubstr("slowest speed that does not read as 0"));
   EXPECT_THAT(page, HasSubstr("23.5\u00a0ms"));
 }
 

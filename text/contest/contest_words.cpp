@@ -61,13 +61,25 @@ std::vector<std::size_t> sharing(const Contest& c, std::size_t figure, double le
   return who;
 }
 
-/// "a, b and c share"; for more than four "7 controllers share".
+/// "a", "a and b", "a; b and c": names have commas.
+std::string names_of(const Contest& c, const std::vector<std::size_t>& who) {
+  std::vector<std::string_view> names;
+  for (const std::size_t n : who) names.push_back(c.entries[n].who->name);
+  if (names.size() == 1) return std::string(names[0]);
+  const std::string_view last = names.back();
+  names.pop_back();
+  return fmt::format("{} and {}", fmt::join(names, "; "), last);
+}
+
+/// "a; b and c share"; of more than four, the others are named where they are fewer: "all but d and e share".
 std::string who_share(const Contest& c, const std::vector<std::size_t>& who) {
   constexpr std::size_t most_named = 4;
-  if (who.size() > most_named) return fmt::format("{} controllers share", who.size());
-  std::vector<std::string_view> names;
-  for (std::size_t n = 0; n + 1 < who.size(); ++n) names.push_back(c.entries[who[n]].who->name);
-  return fmt::format("{} and {} share", fmt::join(names, ", "), c.entries[who.back()].who->name);
+  std::vector<std::size_t> others;
+  for (std::size_t n = 0; n < c.rows.size(); ++n)
+    if (c.rows[n].nominal_held && std::find(who.begin(), who.end(), n) == who.end()) others.push_back(n);
+  if (who.size() <= most_named || others.size() >= who.size()) return names_of(c, who) + " share";
+  const std::string all = "All controllers that hold the course";
+  return others.empty() ? all + " share" : fmt::format("{}, but for {}, share", all, names_of(c, others));
 }
 
 /// Whether only one of several rows that may win has the figure, because the others never settle.
@@ -154,9 +166,10 @@ std::vector<std::string> six_step_or_field(const Contest& c) {
   }
   std::vector<std::string> out{fmt::format("Six-step or field-oriented? Here {}.", answer(ripple, loss))};
   if (!less.empty())
-    out.push_back(fmt::format("Of the best six-step, figure by figure, more: {}.", fmt::join(less, ", ")));
-  if (!more.empty()) out.push_back(fmt::format("Of field-oriented more: {}.", fmt::join(more, ", ")));
-  if (!same.empty()) out.push_back(fmt::format("Alike within 5 %: {}.", fmt::join(same, ", ")));
+    out.push_back(
+        fmt::format("The best six-step controller of each figure has more: {}.", fmt::join(less, ", ")));
+  if (!more.empty()) out.push_back(fmt::format("Field-oriented has more: {}.", fmt::join(more, ", ")));
+  if (!same.empty()) out.push_back(fmt::format("Equal within 5 %: {}.", fmt::join(same, ", ")));
   return out;
 }
 

@@ -68,7 +68,7 @@ std::string timing(const study::Pwm& p) {
   if (p.delay_periods == 0)
     text += p.sample == study::SampleAt::middle ? ", answered at the next one's start" : ", answered at once";
   text += p.timer_Hz > 0 ? fmt::format("; edges on counts of {:.6g} Hz", p.timer_Hz)
-                         : "; edges on no counter's steps";
+                         : "; PWM edges not rounded to timer counts";
   return text +
          (p.minimum_pulse_s > 0 ? fmt::format("; no pulse or gap below {:.6g} s", p.minimum_pulse_s) : "");
 }
@@ -97,7 +97,7 @@ std::string rotor(const study::Sensors& s) {
   if (s.rotor != RotorSensing::hall) return shaft_sensor_words(s, SensorWordsOf::header, plain);
   const std::string over = s.speed_edges > 0
                                ? fmt::format("speed over {} edges", s.speed_edges)
-                               : "speed over six edges where the loop stands their delay, else one";
+                               : "speed over six edges where the loop tolerates their delay, else one";
   const bool in_place = s.hall_offset_deg == 0 && s.hall_edges_deg.empty() && s.hall_hysteresis_deg == 0 &&
                         s.hall_delay_s == 0 && s.hall_glitches_Hz == 0;
   const bool runs_on = s.hall_angle != sixstep::rig::HallAngleFrom::sectors;

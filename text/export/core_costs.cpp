@@ -135,7 +135,7 @@ std::string core_cost_lines(const study::Compiled& c) {
                         size[3], size[4]);
   }
   if (const std::string more = blocks_beside(c); !more.empty())
-    text += fmt::format("// This drive has more, which comes to it: {}.\n", more);
+    text += fmt::format("// These counts do not include: {}.\n", more);
   return text;
 }
 

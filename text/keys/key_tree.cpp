@@ -40,6 +40,7 @@ KeyEntry spelled(const KeyEntry& entry, const base::Spelling& spelling) {
   other.path = (dot == std::string::npos ? "" : entry.path.substr(0, dot + 1)) + std::string(spelling.key);
   if (!spelling.unit.empty()) other.about.unit = spelling.unit;
   if (!spelling.frame.empty()) other.about.frame = spelling.frame;
+  if (!spelling.meaning.empty()) other.about.meaning = spelling.meaning;
   for (double* end : {&other.about.range.low, &other.about.range.high})
     if (spelling.linear && *end - *end == 0.0) *end = base::as_spelled(*end, spelling);
   other.about.also = {};

@@ -64,9 +64,8 @@ base::Result<std::string> motor_template(std::string_view style_name, const std:
   const std::vector<KeyEntry> keys = style->linear ? in_linear_words(sheet_keys()) : sheet_keys();
   std::string text = fmt::format(
       "# A motor, to be filled in from its sheet: {}.\n"
-      "# Each nan wants a number; take the # away from other lines that the sheet has. sixstep help KEY says "
-      "more\n"
-      "# of each, and sixstep motor check FILE holds the sheet against itself.\n"
+      "# Replace each nan by a number; take the # away from other lines that the sheet has. sixstep help KEY\n"
+      "# explains a key, and sixstep motor check FILE reports values that contradict each other.\n"
       "name = {}\nmaker = \"\"\n{}\n"
       "# shape of the back-EMF over the electrical angle, trapezoid or sine: sheets rarely say it\n"
       "back_emf = \"{}\"\n\n",

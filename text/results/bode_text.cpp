@@ -150,13 +150,14 @@ std::vector<std::string> bode_notes(const BodeStudy& s) {
         "a larger amplitude helps",
         few, s.points.size(), analysis::little_coherence));
   if (s.lag)
-    notes.push_back(fmt::format("the loop goes round what {} tell{}: the speed {} late at this one{}",
-                                sensorless ? "the crossings of the back-EMF" : "the sensor",
-                                sensorless ? "" : "s", quantity_text(s.lag->delay_s(), "s", 3),
+    notes.push_back(fmt::format("the loop includes the delay of {}: the speed is {} late at this one{}",
+                                sensorless ? "the back-EMF's zero crossings" : "the sensor",
+                                quantity_text(s.lag->delay_s(), "s", 3),
                                 sensorless ? "" : "; sensors.rotor = \"ideal\" shows the loop without it"));
   if (std::string told = beside_the_designed(s); !told.empty()) notes.push_back(std::move(told));
   if (std::isfinite(s.beside))
-    notes.push_back(fmt::format("{:.2g} % of the answer's rms stands at no line", 100 * s.beside));
+    notes.push_back(
+        fmt::format("{:.2g} % of the answer's rms is at frequencies that were not excited", 100 * s.beside));
   return notes;
 }
 

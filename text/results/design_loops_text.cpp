@@ -151,13 +151,13 @@ std::string sensorless_text(const std::vector<sixstep::design::DerivationStep>& 
 std::string limits_text(const DriveDesign& d) {
   std::string text = fmt::format(
       "\nLimits at the nominal current of {}{}\n"
-      "  current ripple      {} peak to peak at worst (duty {}); {} below {}\n",
+      "  current ripple      {} peak to peak at worst (duty {}); below a mean current of {} {}\n",
       quantity_text(d.nominal_current_A, "A"),
       d.nominal_printed ? "" : ", a tenth of the stall current: the sheet names none",
       quantity_text(d.ripple.worst_A, "A", 3), d.ripple.worst_duty,
-      d.spec.chopping == sixstep::control::Chopping::complementary ? "the current reverses within a period"
-                                                                   : "gaps in the current",
-      quantity_text(d.ripple.continuous_above_A, "A", 3));
+      quantity_text(d.ripple.continuous_above_A, "A", 3),
+      d.spec.chopping == sixstep::control::Chopping::complementary ? "it reverses within each period"
+                                                                   : "it has gaps");
   const Motion motion = sixstep::design::motion_of(d.motor);
   // A turning motor's speeds are in the hundreds, a linear one's a few.
   const auto speed = [&](double w, int decimals) {

@@ -175,12 +175,13 @@ std::string design_verdict(const analysis::DesignStudy& s) {
       if (w.grave) return text + ": " + w.what;
   const auto *settling = find(s, "settling time"), *overshoot = find(s, "overshoot");
   if (settling && (!std::isfinite(settling->measured) || sixstep::analysis::drowned(s))) {
-    text += fmt::format(": the {} loop's settling cannot be told", mode);
+    text += fmt::format(": the {} loop's settling cannot be measured", mode);
   } else if (settling) {
-    text += fmt::format(": the {} loop settles to {:g} % in {}", mode, settled_percent(s),
+    text += fmt::format(": the {} loop settles within {:g} % in {}", mode, settled_percent(s),
                         quantity_text(settling->measured, "s", 4));
     const auto& placed = s.design.loops.back().placed;
-    if (placed) text += fmt::format(" ({} to 1 % asked for)", quantity_text(placed->settle_s, "s", 4));
+    if (placed)
+      text += fmt::format(" (asked for: within 1 % in {})", quantity_text(placed->settle_s, "s", 4));
     text += at_worst(s, "settling time", settling->measured, 4);
   }
   if (overshoot) {

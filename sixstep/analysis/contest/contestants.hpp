@@ -77,10 +77,10 @@ inline constexpr Contestant all_contestants[] = {
      "drives sine currents across the magnet with three legs: nothing commutates, and three legs switch",
      "field"},
     {"field-oriented, harmonic i_q", "control.drive = field-oriented; control.field.harmonic_current = true",
-     "drives currents that follow the back-EMF's shape: the torque that they make hangs on no angle"},
+     "drives currents that follow the back-EMF's shape: their torque is the same at every angle"},
     {"field-oriented, finite set",
      "control.drive = field-oriented; control.field.law = finite-set; control.current = {}",
-     "holds one state of the legs for a whole period, the one that is foretold to bring the current nearest"},
+     "holds one state of the legs for a whole period: the one whose predicted current is nearest to its reference"},
 };
 
 constexpr std::span<const Contestant> contestants() { return all_contestants; }

@@ -37,7 +37,7 @@ inline constexpr base::Choice<Sampling> sampling_choices[] = {
     {"sobol", Sampling::sobol, "a sequence that fills the ranges evenly, whatever its length"},
     {"monte-carlo", Sampling::monte_carlo, "at random"},
     {"saltelli", Sampling::saltelli,
-     "for Sobol indices, which key a figure hangs on: points times (keys + 2) runs"},
+     "for Sobol indices, which key a figure depends on: points times (keys + 2) runs"},
 };
 
 inline constexpr base::Choice<Spacing> spacing_choices[] = {

@@ -30,7 +30,13 @@ std::string slower(const study::Scenario& s, const study::Outcome& run, const st
          base::three_digits(1e3 * before) + " ms without them";
 }
 
-/// "settling time 0.0418 s in the place of 0.0501": the figures of a design that differ by more than a twentieth.
+/// "0.0418" and "s" as "41.8 ms".
+std::string in_words(double value, const std::string& unit) {
+  const bool milliseconds = unit == "s" && std::fabs(value) < 1.0;
+  return base::three_digits(milliseconds ? 1e3 * value : value) + (milliseconds ? " ms" : " " + unit);
+}
+
+/// "settling time 41.8 ms instead of 50.1 ms": the figures of a design that differ by more than a twentieth.
 std::string others(const study::Outcome& run, const study::Outcome& designed) {
   std::string out;
   for (const char* figure : {"settling time", "overshoot", settling_of_start, "peak current of the start",
@@ -38,8 +44,8 @@ std::string others(const study::Outcome& run, const study::Outcome& designed) {
     const study::ComparisonResult *now = figure_of(run, figure), *before = figure_of(designed, figure);
     if (!now || !before || std::fabs(now->measured - before->measured) <= 0.05 * std::fabs(before->measured))
       continue;
-    out += (out.empty() ? "" : ", ") + before->figure + " " + base::three_digits(now->measured) + " " +
-           before->unit + " in the place of " + base::three_digits(before->measured);
+    out += (out.empty() ? "" : ", ") + before->figure + " " + in_words(now->measured, before->unit) +
+           " instead of " + in_words(before->measured, before->unit);
   }
   return out;
 }

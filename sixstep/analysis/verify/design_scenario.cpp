@@ -177,7 +177,7 @@ void add_speed_figures(const DriveDesign& d, const SpeedTest& t, study::Scenario
     return m;
   };
   const double duty = design::duty_for_voltage(d.spec.chopping, (K * last + R * t.load_A) / d.bus_V);
-  const std::string unlimited = step_is_limited(d, t) ? ", were there no limits" : "";
+  const std::string unlimited = step_is_limited(d, t) ? ", without limits" : "";
   s.compare = {
       {of(study::MetricKind::settling_time, true, "settling time"), linear.settling_s,
        (within == 0.02 ? "designed, 2 %" : "designed, 10 %") + unlimited},
@@ -190,9 +190,9 @@ void add_speed_figures(const DriveDesign& d, const SpeedTest& t, study::Scenario
        design::current_ripple_A(d.motor, d.bus_V, d.spec.period_s, d.spec.chopping, duty),
        "PWM alone, without commutation"},
       {of(study::MetricKind::settling_time, false, settling_of_start), linear.settling_s,
-       "designed, were there no limits"},
+       "as designed, without limits"},
       {of(study::MetricKind::overshoot, false, "overshoot of the start"), linear.overshoot * t.first,
-       "designed, were there no limits"},
+       "as designed, without limits"},
       {window_measure(study::MetricKind::maximum, study::Signal::current_magnitude, 0, t.begin,
                       "peak current of the start"),
        d.most_current_A(), at_most_current(d) + "; simulated: the largest of the phases"},

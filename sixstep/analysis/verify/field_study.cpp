@@ -176,7 +176,8 @@ void look_at_loop(const LoopDesign& loop, FieldStudy& f) {
     warn("amplifies disturbances up to " + base::three_digits(built.sensitivity_peak) + " times", false);
   if (loop.name != "position" && std::isfinite(loop.step.overshoot) && loop.step.overshoot > 0.1)
     f.warnings.push_back({"the " + loop.name + " loop overshoots a step by " +
-                              base::three_digits(100.0 * loop.step.overshoot) + " %, for the PI's zero",
+                              base::three_digits(100.0 * loop.step.overshoot) +
+                              " %, because of the zero of its PI",
                           "limit how fast the setpoint rises (control.slew)", false});
 }
 

@@ -37,7 +37,7 @@ base::Problem none_found(const design::DesignSpec& spec, const DesignSubject& su
   return {"mode", "position",
           "finds no gain that does not overshoot: " + who + " tried down to gains that take too long",
           std::string("give more torque_limit_Nm, or a smaller step") +
-              (encoder_helps ? ", or rotor = encoder in the place of Hall probes" : "")};
+              (encoder_helps ? ", or rotor = encoder instead of Hall probes" : "")};
 }
 
 constexpr const char* the_drive = "the drive was";

@@ -71,7 +71,7 @@ typedef struct {
   uint8_t sink;    /* leg whose lower switch carries it back */
   uint8_t chopping, chopped;
   sixstep_real duty;    /* 0..1 */
-  sixstep_real overlap; /* -1..1: duty of the upper switch (below 0: of the lower one) of the leg in no pair */
+  sixstep_real overlap; /* -1..1: duty of the upper switch (below 0: of the lower one) of the third leg */
   sixstep_leg leg[3];
   sixstep_real current_reference_A;   /* for the report only */
   sixstep_real speed_reference_rad_s; /* likewise */

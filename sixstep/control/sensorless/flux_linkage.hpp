@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the magnet's flux linkage with the floating phase, and commutates at its level:
+// Computes the magnet's flux linkage with the free phase, and commutates at its level:
 //
 //   psi = integral(w - R i) dt - L i          w: floating_voltage.hpp, without a star point
 //   discretised exactly:   psi[n+1] - psi[n] = T g,   g = w - (i[n+1] - a i[n])/b,   a = exp(-R T/L),   b = (1 - a)/R

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Estimates by a Luenberger observer the back-EMF of the floating phase, from its voltage without a star point
+// Estimates by a Luenberger observer the back-EMF of the free phase, from its voltage without a star point
 // (floating_voltage.hpp), and its current:
 //
 //   L di/dt = w - R i - e,   de/dt = 0                                              the model, (1) of model.md

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Estimates by a sliding-mode observer the back-EMF of the floating phase, from its voltage without a star
+// Estimates by a sliding-mode observer the back-EMF of the free phase, from its voltage without a star
 // point (floating_voltage.hpp), and its current:
 //
 //   L di^/dt = w - R i^ - z,   z = k sat((i^ - i)/phi)          sat: the sign, but linear in a layer of width phi

@@ -96,7 +96,7 @@ void look_at_overshoot(const LoopDesign& loop, Collector& out) {
   if (loop.name != "position" && loop.figures.stable && loop.built.stable && loop.step.overshoot > 0.1)
     out.add(Concern::overshoot,
             "the " + loop.name + " loop overshoots a step by " +
-                base::three_digits(100.0 * loop.step.overshoot) + " %, for the PI's zero" +
+                base::three_digits(100.0 * loop.step.overshoot) + " %, because of the zero of its PI" +
                 (loop.built.phase_rad != loop.figures.phase_rad ? " and the delay of its sensor" : ""));
 }
 

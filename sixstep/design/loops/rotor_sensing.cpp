@@ -105,7 +105,8 @@ std::vector<DerivationStep> lag_steps(const RotorSensing& sensing, double pole_p
       {"T", "(pi/3)/(p w_low), a sector at that speed", sector_s(pole_pairs, speed_rad_s), "s"}};
   add_crossover(crossover_rad_s, steps);
   if (sensing.edges == 0)
-    steps.push_back({"T_6", "pi/8 12/7 / w_c: six edges where they come within it, else one",
+    steps.push_back({"T_6",
+                     "pi/8 12/7 / w_c: the speed is taken over six edges that come within it, else over one",
                      hall_window_s(crossover_rad_s), "s"});
   else
     steps.push_back({"k", "edges that a speed is taken over", static_cast<double>(sensing.edges), ""});
@@ -113,7 +114,7 @@ std::vector<DerivationStep> lag_steps(const RotorSensing& sensing, double pole_p
     steps.push_back({"dw", "w_low s/(k pi/3), k sectors that are s off by probes beside their places",
                      speed_rad_s * sensing.stray_rad / (std::max(sensing.edges, 1) * base::pi / 3), "rad/s"});
   if (sensing.timeout_s > 0.0)
-    steps.push_back({"w_min", "(pi/3)/(p timeout_s), slowest speed that is told",
+    steps.push_back({"w_min", "(pi/3)/(p timeout_s), slowest speed that does not read as 0",
                      sector_s(pole_pairs, 1.0) / sensing.timeout_s, "rad/s"});
   add_cost(lag,
            sensing.late_s > 0.0 ? "(k + 1)/2 sectors, the most from w_low up, and what the lines are late"

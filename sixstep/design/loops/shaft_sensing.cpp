@@ -24,7 +24,7 @@ void add_encoder(const ShaftSensing& s, double speed, std::vector<DerivationStep
   steps.push_back({"T", "max(T_s, c), that a speed is taken over", age.mean_s, "s"});
   steps.push_back({"dw", "w_low/(f T), a tick of the timer", speed_jitter_rad_s(s, speed), "rad/s"});
   steps.push_back(
-      {"w_min", "(2 pi/4N)/timeout_s, slowest speed that is told", lowest_told_rad_s(s), "rad/s"});
+      {"w_min", "(2 pi/4N)/timeout_s, slowest speed that does not read as 0", lowest_told_rad_s(s), "rad/s"});
 }
 
 void add_absolute(const ShaftSensing& s, double speed, std::vector<DerivationStep>& steps) {

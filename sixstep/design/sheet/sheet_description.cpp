@@ -208,7 +208,7 @@ void describe_ratings(base::Visitor& v, Sheet& s) {
               .range = base::above(0),
               .also = spellings::speed_torque_gradient});
   v.quantity("mechanical_time_constant_ms", s.mechanical_time_constant_ms,
-             {.meaning = "of the run-up at constant voltage",
+             {.meaning = "time constant of the run-up at constant voltage",
               .unit = "ms",
               .range = base::above(0),
               .also = spellings::mechanical_time_constant});
@@ -231,12 +231,12 @@ void describe_thermal(base::Visitor& v, Sheet& s) {
               .range = base::above(0),
               .also = spellings::housing_ambient});
   v.quantity("thermal_time_constant_winding_s", s.thermal_time_constant_winding_s,
-             {.meaning = "of the winding against the housing",
+             {.meaning = "thermal time constant of the winding against the housing",
               .unit = "s",
               .range = base::above(0),
               .also = spellings::winding_time});
   v.quantity("thermal_time_constant_motor_s", s.thermal_time_constant_motor_s,
-             {.meaning = "of the housing against the air",
+             {.meaning = "thermal time constant of the housing against the air",
               .unit = "s",
               .range = base::above(0),
               .also = spellings::motor_time});

@@ -14,8 +14,10 @@ constexpr Spelling linear(std::string_view key, std::string_view unit, int ten =
 }
 
 /// A line of maxon's sheets, whose numbers and frames have not changed over the years.
-constexpr Spelling line(std::string_view key, std::string_view source, std::string_view frame = "") {
-  return {.key = key, .frame = frame, .source = source};
+/// `meaning` replaces a key's meaning that offers a choice of frames.
+constexpr Spelling line(std::string_view key, std::string_view source, std::string_view frame = "",
+                        std::string_view meaning = "") {
+  return {.key = key, .frame = frame, .source = source, .meaning = meaning};
 }
 
 inline constexpr Spelling nominal_voltage[] = {line("line_1_nominal_voltage_V", "data sheet, line 1")};
@@ -31,19 +33,22 @@ inline constexpr Spelling nominal_speed[] = {line("line_4_nominal_speed_rpm", "d
 inline constexpr Spelling nominal_torque[] = {line("line_5_nominal_torque_mNm", "data sheet, line 5"),
                                               {.key = "nominal_torque_Nm", .ten = 3, .unit = "Nm"},
                                               linear("nominal_force_N", "N", 3)};
-inline constexpr Spelling nominal_current[] = {
-    line("line_6_nominal_current_A", "data sheet, line 6", "terminal")};
+inline constexpr Spelling nominal_current[] = {line(
+    "line_6_nominal_current_A", "data sheet, line 6", "terminal",
+    "greatest continuous current: direct current through the driven pair, in at one terminal and out at another")};
 inline constexpr Spelling stall_torque[] = {line("line_7_stall_torque_mNm", "data sheet, line 7"),
                                             {.key = "stall_torque_Nm", .ten = 3, .unit = "Nm"},
                                             linear("stall_force_N", "N", 3)};
 inline constexpr Spelling stall_current[] = {line("line_8_stall_current_A", "data sheet, line 8")};
 inline constexpr Spelling max_efficiency[] = {line("line_9_max_efficiency_percent", "data sheet, line 9")};
 inline constexpr Spelling resistance[] = {
-    line("line_10_terminal_resistance_ohm", "data sheet, line 10", "terminal"),
+    line("line_10_terminal_resistance_ohm", "data sheet, line 10", "terminal",
+         "winding resistance between two terminals"),
     {.key = "resistance_mohm", .ten = -3, .unit = "mohm"},
 };
 inline constexpr Spelling inductance[] = {
-    line("line_11_terminal_inductance_mH", "data sheet, line 11", "terminal"),
+    line("line_11_terminal_inductance_mH", "data sheet, line 11", "terminal",
+         "winding inductance between two terminals"),
     {.key = "inductance_uH", .ten = -3, .unit = "uH"},
 };
 inline constexpr Spelling d_axis_inductance[] = {{.key = "d_axis_inductance_uH", .ten = -3, .unit = "uH"}};
@@ -51,7 +56,8 @@ inline constexpr Spelling q_axis_inductance[] = {{.key = "q_axis_inductance_uH",
 inline constexpr Spelling torque_constant[] = {
     line("line_12_torque_constant_mNm_A", "data sheet, line 12", "terminal")};
 inline constexpr Spelling speed_constant[] = {
-    line("line_13_speed_constant_rpm_V", "data sheet, line 13", "six-step")};
+    line("line_13_speed_constant_rpm_V", "data sheet, line 13", "six-step",
+         "speed per volt of the mean voltage in six-step operation")};
 inline constexpr Spelling speed_torque_gradient[] = {
     line("line_14_speed_torque_gradient_rpm_mNm", "data sheet, line 14")};
 inline constexpr Spelling mechanical_time_constant[] = {

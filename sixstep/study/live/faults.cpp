@@ -86,10 +86,10 @@ base::Problem lost_sensor(const rig::ShaftFinding& found, double t_s) {
     case ShaftLoss::sine:
       return winding("sine");
     case ShaftLoss::weak:
-      return {at(t_s), "", "the resolver shows " + part + ", less than a whole one does",
+      return {at(t_s), "", "the resolver shows " + part + ", less than an intact one does",
               "look at the excitation, then at the windings"};
     case ShaftLoss::strong:
-      return {at(t_s), "", "the resolver shows " + part + ", more than a whole one does",
+      return {at(t_s), "", "the resolver shows " + part + ", more than an intact one does",
               "look at the excitation, and at sensors.resolver.amplitude_V"};
     case ShaftLoss::index:
       return {at(t_s), "",

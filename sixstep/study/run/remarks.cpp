@@ -72,10 +72,10 @@ std::string on_shunt_amplifier(const Scenario& s) {
   const double rate = 2 * base::pi * *s.sensors.current_bandwidth_Hz;
   const double shown = 1 - base::exp(-rate * s.sensors.shunt_settle_s);
   if (shown >= enough) return {};
-  return "of a pulse that has lasted sensors.shunt_settle_s = " + us(s.sensors.shunt_settle_s) +
-         " the shunt's amplifier shows " + few_digits(100 * shown) +
-         " % (sensors.current_bandwidth_Hz = " + few_digits(*s.sensors.current_bandwidth_Hz) +
-         "): more flows than is measured; at " + few_digits(1e6 * std::log(10.0) / rate) +
+  return "after sensors.shunt_settle_s = " + us(s.sensors.shunt_settle_s) +
+         " of a pulse the current sensor shows " + few_digits(100 * shown) +
+         " % of the current (sensors.current_bandwidth_Hz = " + few_digits(*s.sensors.current_bandwidth_Hz) +
+         "): more flows than is measured; after " + few_digits(1e6 * std::log(10.0) / rate) +
          " us it shows 90 %";
 }
 

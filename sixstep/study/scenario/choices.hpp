@@ -43,11 +43,13 @@ inline constexpr Choice<control::Chopping> chopping_choices[] = {
 inline constexpr Choice<control::PwmPattern> pattern_choices[] = {
     {"upper", control::PwmPattern::upper, "the upper one, the lower one is on (H_PWM-L_ON)"},
     {"lower", control::PwmPattern::lower, "the lower one, the upper one is on (H_ON-L_PWM)"},
-    {"pwm-on", control::PwmPattern::pwm_on, "that of the leg which the last commutation has brought in"},
-    {"on-pwm", control::PwmPattern::on_pwm, "that of the leg which the last commutation has left"},
+    {"pwm-on", control::PwmPattern::pwm_on,
+     "that of the entering leg, which conducts since the last commutation"},
+    {"on-pwm", control::PwmPattern::on_pwm,
+     "that of the staying leg, which already conducted before the last commutation"},
     {"pwm-on-pwm", control::PwmPattern::pwm_on_pwm,
-     "that of the leg which has come in for the first half of a sector, of the one that stays for the second: no gap "
-     "sends a current through the free phase"},
+     "that of the entering leg in the first half of a sector, that of the staying leg in the second: the free phase "
+     "conducts in one gap of a sector at most"},
 };
 static_assert(std::size(pattern_choices) == control::pwm_patterns);
 inline constexpr Choice<CommutationAt> commutation_choices[] = {

@@ -206,8 +206,8 @@ inline void describe(base::Visitor& v, Regeneration& s) {
 
 inline void describe(base::Visitor& v, Limits& s) {
   v.value("current_A", s.current_A,
-          {.meaning = "bound on the current reference in every mode; all gates are off until the next sample "
-                      "where a measured phase current is a quarter above it",
+          {.meaning = "bound on the current reference in every mode; where a measured phase current exceeds "
+                      "it by a quarter, all gates are off until the next sample",
            .unit = "A",
            .range = above(0)});
   v.value("torque_Nm", s.torque_Nm,

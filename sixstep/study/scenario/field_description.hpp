@@ -24,8 +24,8 @@ inline constexpr base::Choice<FieldAngle> field_angle_choices[] = {
 inline constexpr base::Choice<FieldLaw> field_law_choices[] = {
     {"pi", FieldLaw::pi, "a PI for each axis, whose voltage is made of pulses"},
     {"finite-set", FieldLaw::finite_set,
-     "no pulses: of the eight states of three legs the one that is foretold to bring the current nearest to "
-     "its reference, for a whole period"},
+     "no pulses: three legs keep one of their eight states for a whole period, the one whose predicted current is "
+     "nearest to its reference"},
 };
 
 inline void describe(base::Visitor& v, Field& s) {
@@ -105,7 +105,7 @@ inline void describe(base::Visitor& v, Field& s) {
   v.value(
       "delay_compensation", s.delay_compensation,
       {.meaning =
-           "finite-set: whether the current is foretold to the period that an answer acts in, where that is a "
+           "finite-set: whether the current is predicted for the period in which an answer acts, where that is a "
            "period late"});
 }
 

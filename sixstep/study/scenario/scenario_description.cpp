@@ -39,7 +39,7 @@ void describe(base::Visitor& v, Pwm& s) {
   v.value("minimum_pulse_s", s.minimum_pulse_s,
           {.meaning =
                "on-time below which a period's pulse is left out, and off-time below which its gap closes, "
-               "as gate drivers do; a duty's, no comparator's",
+               "as gate drivers do; applies to duties, not to comparators",
            .unit = "s",
            .range = from(0)});
 }

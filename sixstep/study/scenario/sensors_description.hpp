@@ -214,7 +214,7 @@ inline void describe(base::Visitor& v, Sensors& s) {
       "watched", s.watched,
       {.meaning =
            "whether the drive stops where a resolver's amplitude or the count at an encoder's index is not "
-           "what a whole one shows; false: it goes on with what it has"});
+           "that of an intact sensor; false: it goes on with what it has"});
   v.table("encoder", s.encoder, {.meaning = "lines A, B and Z, where rotor is \"encoder\""});
   v.table("absolute", s.absolute,
           {.meaning = "a code for every angle of the shaft, where rotor is \"absolute\""});

@@ -45,7 +45,7 @@ def deviations(test, spot):
 def verdict(test, spot):
     """The first line: what is reached is no worse than the worst, and USABLE goes with phase margins and a run that settles."""
     first = spot.text.splitlines()[0]
-    for nominal, worst in re.findall(r"settles to \d+ % in ([\d.]+ \w+)(?: \([^)]*\))?, ([\d.]+ \w+) at worst", first):
+    for nominal, worst in re.findall(r"settles within \d+ % in ([\d.]+ \w+)(?: \([^)]*\))?, ([\d.]+ \w+) at worst", first):
         test.assertLessEqual(quantity(nominal)[0], quantity(worst)[0], first)
     for nominal, worst in re.findall(r"overshoot ([\d.]+ [\w/]+), ([\d.]+ [\w/]+) at worst", first):
         test.assertLessEqual(quantity(nominal)[0], quantity(worst)[0], first)

@@ -169,7 +169,7 @@ BY_TEXT = [
     ("docs/explanation/currents.md", "edge before", commutation.judge_edge), ("docs/explanation/currents.md", "spike.toml --set", commutation.judge),
     ("docs/explanation/currents.md", "braking, soft", drives.braking), ("docs/howto/check-heat.md", '"device"', drives.devices),
     ("docs/start/tour-bench-and-chip.md", "held as", drives.exported), ("docs/explanation/accuracy.md", "cases match", counted),
-    ("docs/start/tour.md", "settles to", design.judge), ("docs/howto/tune-a-speed-loop.md", "", design.judge), ("docs/howto/choose-pwm.md", "verdict", series.judge_plan), ("docs/howto/choose-pwm.md", "$ ./run design", design.judge),
+    ("docs/start/tour.md", "settles within", design.judge), ("docs/howto/tune-a-speed-loop.md", "", design.judge), ("docs/howto/choose-pwm.md", "verdict", series.judge_plan), ("docs/howto/choose-pwm.md", "$ ./run design", design.judge),
     ("docs/howto/design-", "", design.judge),
     ("docs/reference/keys/", "| key |", default_in_range),
 ]
@@ -195,7 +195,7 @@ DEFINING = [("README.md", "| task |"), ("docs/reference/glossary.md", "| term |"
             ("docs/howto/choose-a-rotor-sensor.md", "| you need |"), ("docs/howto/write-a-controller.md", "$ "), ("docs/howto/write-a-controller.md", "| field |"), ("docs/howto/write-a-controller.md", "| the controller |"), ("docs/howto/compare-a-log.md", "| log of |")]
 # Tables whose every row a named test measures and holds to a law of its own.
 HELD_BY_TESTS = [("docs/reference/", "| result |"), ("docs/reference/fixed-point.md", "| experiment |"), ("docs/reference/sensorless-drive.md", "| board |"),
-                 ("docs/reference/loops.md", "| loop | told |"), ("docs/reference/commutation.md", "| pattern | free phase"),
+                 ("docs/reference/loops.md", "| loop | told |"), ("docs/reference/commutation.md", "| pattern | begins to"),
                  ("docs/reference/loops.md", "| law | a step")]
 
 

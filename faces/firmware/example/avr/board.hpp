@@ -19,7 +19,7 @@ static_assert((drive.mode == Mode::current || drive.mode == Mode::duty) && drive
                   drive.extras.pwm.pattern == PwmPattern::upper,
               "what these pins and loops are for");
 static_assert(!(Scalar{} < drive.extras.commutation.overlap_bus_V),
-              "the leg in no pair has no pulse of its own here");
+              "the third leg has no pulse of its own here");
 static_assert(exported::pwm_centre_aligned,
               "timer 1 counts up and down; its compare registers are taken at the top");
 static_assert(exported::sampled_in_middle, "BOTTOM starts the conversion, the middle of the on-time");

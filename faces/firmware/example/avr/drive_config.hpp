@@ -17,10 +17,10 @@
 // That run took for granted:
 //   supply    24 V, stiff, takes current back
 //   bridge    switches of 0.01 ohm, diodes of 0.7 V and 0 ohm, dead time 1e-06 s
-//   timing    sampled in the middle of a period, answered one period later; edges on no counter's steps
+//   timing    sampled in the middle of a period, answered one period later; PWM edges not rounded to timer counts
 //   currents  phases, 10 bits over +-10 A
 //   bus       as it is
-//   rotor     Hall probes 120 degrees apart, edges exactly at the sectors' ends, captured at 1e+06 Hz, speed over six edges where the loop stands their delay, else one
+//   rotor     Hall probes 120 degrees apart, edges exactly at the sectors' ends, captured at 1e+06 Hz, speed over six edges where the loop tolerates their delay, else one
 //   wires     phases abc at legs a b c, Hall lines 123 at H1 H2 H3
 //   load      0 N m, 0.0001 kg m2 beside the rotor's; viscous friction 0.0004 N m s
 //   heat      winding and magnets at 25 degC all along

@@ -70,7 +70,7 @@ static_assert(counts_of_ns(least_gap_ns) <= pwm_counts / 4 && charge_counts <= p
 constexpr const ProtectedConfig<Scalar>& config = exported::product;
 static_assert(sizeof(Scalar) == 4 && Scalar(0.5f) > Scalar{}, "a duty becomes counts by multiplying floats");
 static_assert(!(Scalar{} < config.drive.extras.commutation.overlap_bus_V),
-              "the leg in no pair has no pulse of its own here");
+              "the third leg has no pulse of its own here");
 static_assert(config.drive.current_control != CurrentControl::hysteresis ||
                   config.drive.hysteresis.watch == Watch::none,
               "comparators that switch the legs by themselves are not wired here");

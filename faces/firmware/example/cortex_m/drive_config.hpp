@@ -22,10 +22,10 @@
 // That run took for granted:
 //   supply    24 V behind 0.05 ohm, 0.001 F at the bridge, takes current back
 //   bridge    switches of 0.01 ohm, diodes of 0.7 V and 0 ohm, dead time 5e-07 s
-//   timing    sampled at a period's start, answered one period later; edges on no counter's steps
+//   timing    sampled at a period's start, answered one period later; PWM edges not rounded to timer counts
 //   currents  phases, 12 bits over +-33 A
 //   bus       12 bits over 52.8 V
-//   rotor     Hall probes 120 degrees apart, edges exactly at the sectors' ends, captured at 7.2e+07 Hz, speed over six edges where the loop stands their delay, else one
+//   rotor     Hall probes 120 degrees apart, edges exactly at the sectors' ends, captured at 7.2e+07 Hz, speed over six edges where the loop tolerates their delay, else one
 //   wires     phases abc at legs a b c, Hall lines 123 at H1 H2 H3
 //   load      0.02 N m, 0 kg m2 beside the rotor's
 //   heat      winding and magnets at 25 degC all along
