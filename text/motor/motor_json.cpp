@@ -102,6 +102,7 @@ Json relations(const design::SheetCheck& check) {
                     {"tolerated", {r.lowest, r.highest}},
                     {"verdict", holds                                         ? "ok"
                                 : r.verdict == design::RelationVerdict::known ? "known"
+                                : r.verdict == design::RelationVerdict::doubted ? "doubted"
                                                                               : "broken"},
                     {"remark", r.remark}});
   }

@@ -173,7 +173,7 @@ void look_at_heat(const DriveDesign& d, Collector& out) {
     return;
   }
   const double most_A = d.most_current_A();
-  if (!current && most_A > 3.0 * d.nominal_current_A)
+  if (!current && most_A > greatest_overload * d.nominal_current_A)
     out.add(Concern::heat, "the speed loop may ask for " + base::three_digits(most_A) + " A, " +
                                base::three_digits(most_A / d.nominal_current_A) +
                                " times the nominal current");

@@ -180,4 +180,16 @@ base::Result<SheetCheck> check_sheet(const Sheet& sheet) {
   return check;
 }
 
+std::string contradiction_words(const SheetCheck& check) {
+  std::vector<std::string> broken;
+  for (const Relation& r : check.relations)
+    if (r.verdict == RelationVerdict::broken) broken.push_back(r.name);
+  if (broken.empty()) return "";
+  std::string names;
+  for (std::size_t n = 0; n < broken.size(); ++n)
+    names += (n == 0 ? "" : n + 1 == broken.size() ? " and " : ", ") + broken[n];
+  return "the motor's sheet contradicts itself: " + names + (broken.size() == 1 ? " does" : " do") +
+         " not hold; correct its file, or name them in known_deviation if the maker prints them so";
+}
+
 }  // namespace sixstep::design
