@@ -66,7 +66,8 @@ base::Result<std::string> motor_template(std::string_view style_name, const std:
       "# A motor, to be filled in from its sheet: {}.\n"
       "# Each nan wants a number; take the # away from other lines that the sheet has. sixstep help KEY says "
       "more\n"
-      "# of each, and sixstep motor check FILE holds the sheet against itself.\n"
+      "# of each, and sixstep motor check FILE holds the sheet against itself. Type the zeros as the sheet prints\n"
+      "# them (4.00): half of a value's last digit is its tolerance there.\n"
       "name = {}\nmaker = \"\"\n{}\n"
       "# shape of the back-EMF over the electrical angle, trapezoid or sine: sheets rarely say it\n"
       "back_emf = \"{}\"\n\n",

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "sixstep/base/decimal.hpp"
 #include "sixstep/design/sheet/parameters.hpp"
@@ -151,10 +152,14 @@ std::string friction_rows(const design::Friction& f, bool linear) {
 
 std::string_view word(RelationVerdict verdict) {
   switch (verdict) {
-    case RelationVerdict::holds: return "ok";
-    case RelationVerdict::known: return "known";
-    case RelationVerdict::doubted: return "doubt";
-    case RelationVerdict::broken: break;
+    case RelationVerdict::holds:
+      return "ok";
+    case RelationVerdict::known:
+      return "known";
+    case RelationVerdict::doubted:
+      return "doubt";
+    case RelationVerdict::broken:
+      break;
   }
   return "BROKEN";
 }
@@ -169,10 +174,10 @@ std::string relation_rows(const Relation& r) {
   const std::string deviation = std::fabs(r.deviation) < most_percentage
                                     ? fmt::format("{:>+7.2f} %", 100.0 * r.deviation)
                                     : fmt::format("{:>9}", "x " + short_number(r.deviation + 1.0));
-  text += trimmed(fmt::format("  {:<7}{:<25} {:<27} {:>9} {:>9} {:<13} {} {:>+7.2f} {:>+6.2f} %",
-                              wide ? "" : word(r.verdict), wide ? "" : r.name, r.left_words,
-                              short_number(r.left), short_number(r.right), r.unit, deviation,
-                              100.0 * r.lowest, 100.0 * r.highest));
+  text +=
+      trimmed(fmt::format("  {:<7}{:<25} {:<27} {:>9} {:>9} {:<13} {} {:>+7.2f} {:>+6.2f} %",
+                          wide ? "" : word(r.verdict), wide ? "" : r.name, r.left_words, short_number(r.left),
+                          short_number(r.right), r.unit, deviation, 100.0 * r.lowest, 100.0 * r.highest));
   if (!r.remark.empty()) text += trimmed("         " + r.remark);
   return text;
 }
@@ -188,6 +193,18 @@ std::string not_simulatable(const design::Sheet& sheet, const SheetCheck& check)
   if (!sheet.simulatable) return "; it cannot be simulated: " + sheet.not_simulatable_because;
   const base::Result<design::MotorModel> model = design::motor_model(sheet);
   return model ? "" : "; it cannot be simulated: " + base::to_string(model.problems().front());
+}
+
+/// Values typed as one digit, whose rounding widens every relation that has them. The voltage of a sheet is exact.
+std::string coarse_lines(const SheetCheck& check) {
+  constexpr double wide = 0.05;
+  std::string text;
+  for (const design::LineUse& line : check.lines)
+    if (line.doubt > wide && line.value == std::floor(line.value) &&
+        line.key.find("voltage") == std::string::npos)
+      text += trimmed(fmt::format("  {} = {} is taken as {} +- {:.2g} %", line.key, shortest(line.value),
+                                  shortest(line.value), 100.0 * line.doubt));
+  return text;
 }
 
 std::string verdict_line(const SheetCheck& check) {
@@ -259,6 +276,8 @@ std::string check_report(const design::Sheet& sheet, const SheetCheck& check) {
   for (const design::LineUse& line : check.lines)
     if (!line.used) unused += trimmed(fmt::format("  {}: {}", line.key, line.why));
   if (!unused.empty()) text += "\nLines that the model is not made of\n" + unused;
+  if (const std::string coarse = coarse_lines(check); !coarse.empty())
+    text += "\nIntegers of one digit: the sheet's zeros, as in 4.00, make the tolerance narrow\n" + coarse;
   std::string doubts;
   for (const base::Problem& doubt : check.doubts) doubts += "; in doubt: " + base::to_string(doubt);
   return text + "\n" + trimmed(verdict_line(check) + not_simulatable(sheet, check) + doubts);

@@ -68,7 +68,8 @@ class Lines final : public base::Visitor {
                                     : body   ? std::string_view("rotor_radius_mm")
                                              : key;
     const auto& used = constants_.used;
-    LineUse line{SheetReader::key_of(key, *q), q->value, std::string(about.unit), false, ""};
+    LineUse line{SheetReader::key_of(key, *q), q->value, std::string(about.unit),
+                 relative_doubt(*q),           false,    ""};
     line.used = std::find(used.begin(), used.end(), judged) != used.end();
     if (!line.used) line.why = why_not(key);
     lines.push_back(std::move(line));

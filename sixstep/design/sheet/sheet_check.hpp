@@ -37,7 +37,8 @@ struct LineUse {
   std::string key;     ///< as the file writes it
   double value = 0.0;  ///< in the unit of the standard key
   std::string unit;
-  bool used = false;  ///< the model uses it
+  double doubt = 0.0;  ///< relative rounding error of the printed value
+  bool used = false;   ///< the model uses it
   std::string why;
 };
 

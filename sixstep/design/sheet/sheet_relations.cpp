@@ -166,8 +166,8 @@ class Relations {
     const Term line = drop.value < top.value ? top - drop : Term{};
     const double warm = top.value - most_nominal_drop * drop.value;
     const double above = warm > 0.0 ? line.value / warm - 1.0 : HUGE_VAL;
-    Relation& r = add("nominal speed", idle ? "n_0 - R/k_M^2 M_N" : "U/k_M - R/k_M^2 M_N", "nominal speed", line,
-                      *printed, "rpm", no_load_margin, std::fmin(above, most_above), false);
+    Relation& r = add("nominal speed", idle ? "n_0 - R/k_M^2 M_N" : "U/k_M - R/k_M^2 M_N", "nominal speed",
+                      line, *printed, "rpm", no_load_margin, std::fmin(above, most_above), false);
     if (r.verdict != RelationVerdict::broken) return;
     if (r.deviation > 0.0) {
       r.verdict = RelationVerdict::doubted;
@@ -179,7 +179,8 @@ class Relations {
   }
 
   void as_fast_as_idle(const Term& idle, const Term& printed) {
-    Relation& r = add("nominal speed", "no-load speed", "nominal speed", idle, printed, "rpm", 0.0, 0.0, false);
+    Relation& r =
+        add("nominal speed", "no-load speed", "nominal speed", idle, printed, "rpm", 0.0, 0.0, false);
     r.verdict = RelationVerdict::broken;
     r.highest = most_above;
     r.lowest = 0.0;

@@ -102,7 +102,11 @@ WithoutSink without_sink(const Scenario& s, const design::MotorModel& motor, con
 
 std::string setpoint_bound(const Scenario& s) {
   if (s.control.drive != FirmwareKind::product || s.control.mode == Mode::off) return {};
-  return "setpoint_limit = " + base::six_digits(largest_reference(s)) +
+  const char* unit = s.control.mode == Mode::speed      ? " rad/s"
+                     : s.control.mode == Mode::position ? " deg"
+                     : s.control.mode == Mode::current  ? " A"
+                                                        : "";
+  return "setpoint_limit = " + base::six_digits(largest_reference(s)) + unit +
          " is the largest reference of this scenario, and the drive follows no larger setpoint; give [reference] the "
          "largest one that your firmware asks for";
 }
