@@ -120,9 +120,19 @@ std::string margins(const DesignStudy& s) {
   row("peak of sensitivity, " + later, [&](const LoopDesign& l) {
     return s.design.later(l).stable ? plain(s.design.later(l).sensitivity_peak, 3) : std::string("unstable");
   });
-  if (s.design.lag.delay_s() > 0)
-    row("phase margin with the speed’s sensor",
-        [&](const LoopDesign& l) { return in(l.built.phase_rad, degrees, "deg"); });
+  if (s.design.lag.delay_s() > 0) {
+    const std::string with = " with the speed’s sensor";
+    row("phase margin" + with, [&](const LoopDesign& l) { return in(l.built.phase_rad, degrees, "deg"); });
+    row("crossover" + with, [&](const LoopDesign& l) { return in(l.built.crossover_rad_s, hertz, "Hz"); });
+    row("bandwidth" + with, [&](const LoopDesign& l) { return in(l.built.bandwidth_rad_s, hertz, "Hz"); });
+    row("gain margin" + with, [&](const LoopDesign& l) {
+      return l.built.gain ? plain(20 * std::log10(*l.built.gain), 3) + "\u00a0dB" : std::string("–");
+    });
+    row("delay margin" + with, [&](const LoopDesign& l) { return in(l.built.delay_s, 1, "s"); });
+    row("peak of sensitivity" + with, [&](const LoopDesign& l) {
+      return l.built.stable ? plain(l.built.sensitivity_peak, 3) : std::string("unstable");
+    });
+  }
   const bool two = sixstep::design::settling_band(s.design) != 0.02;
   row(two ? "step: settling" : "step: settling to 2 %", [&](const LoopDesign& l) {
     return shown(l.step.settling_s, "s") +

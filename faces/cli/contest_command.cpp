@@ -21,6 +21,7 @@
 #include "faces/cli/stop_watch.hpp"
 #include "faces/cli/store_option.hpp"
 #include "faces/cli/terminal.hpp"
+#include "faces/cli/with_unit.hpp"
 #include "files/atomic_file.hpp"
 #include "files/own_file.hpp"
 #include "files/scenario_on_disk.hpp"
@@ -142,6 +143,20 @@ Exit exit_of_contest(const analysis::Contest& contest) {
   return any ? Exit::ok : Exit::failed;
 }
 
+/// A user's controller that cannot take part, as one without a speed loop: its row has dashes only.
+Exit own_without_run(const analysis::Contest& contest) {
+  Exit exit = Exit::ok;
+  for (std::size_t n = 0; n < contest.entries.size(); ++n) {
+    const analysis::ContestEntry& entry = contest.entries[n];
+    if (n < analysis::contestants().size() || entry.scenario) continue;
+    complain({{"--own " + std::string(entry.who->name), "", "took no part, and its row has no figure",
+               "give it what follows"}});
+    complain(entry.scenario.problems());
+    exit = Exit::failed;
+  }
+  return exit;
+}
+
 analysis::Contest nominally(const ContestArguments& a, analysis::ContestBench bench,
                             std::vector<analysis::ContestEntry> entries) {
   const StopWatch watch;
@@ -211,7 +226,8 @@ Exit contest_command(const ContestArguments& a) {
   if (a.json == "-") print(text::contest_json(contest));
   if (a.csv == "-") print(files::csv_head(a.command) + text::contest_csv(contest));
   if (!a.quiet && a.json != "-" && a.csv != "-") print(text::contest_text(contest));
-  return exit_of_contest(contest);
+  const Exit own = own_without_run(contest);
+  return own == Exit::ok ? exit_of_contest(contest) : own;
 }
 
 void declare_options(CLI::App& verb, ContestArguments& a) {
@@ -224,6 +240,9 @@ void declare_options(CLI::App& verb, ContestArguments& a) {
   verb.add_option("--period", a.period_s, "control and PWM period in s; 30e-6");
   verb.add_option("--board", a.board,
                   "a scenario whose supply, bridge, PWM and sensors all controllers have");
+  for (const auto& [option, unit] : {std::pair{"--voltage", "V"}, std::pair{"--settle", "s"},
+                                     std::pair{"--current-settle", "s"}, std::pair{"--period", "s"}})
+    take_unit(verb.get_option(option), unit);
   declare_own(verb, a.own);
   verb.add_option("--runs", a.drives,
                   "drives of the sheet's tolerances for each controller; 0: the nominal one alone")

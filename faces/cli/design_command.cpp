@@ -18,6 +18,7 @@
 #include "faces/cli/stop_signals.hpp"
 #include "faces/cli/store_option.hpp"
 #include "faces/cli/terminal.hpp"
+#include "faces/cli/with_unit.hpp"
 #include "files/atomic_file.hpp"
 #include "files/own_file.hpp"
 #include "files/scenario_on_disk.hpp"
@@ -28,6 +29,7 @@
 #include "sixstep/analysis/verify/design_study.hpp"
 #include "sixstep/analysis/verify/scenario_spec.hpp"
 #include "sixstep/base/range_text.hpp"
+#include "sixstep/design/sheet/sheet_check.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
 #include "text/keys/key_advice.hpp"
@@ -265,6 +267,11 @@ Exit design_command(const DesignArguments& a) {
   if (interrupted()) return told_interrupted("design " + a.motor);
   if (!s) return refused(in_options(s.problems()));
   put_in_options(*s);
+  if (const auto sheet = design::check_sheet(subject->sheet); sheet && !sheet->consistent)
+    s->warnings.push_back({.what = design::contradiction_words(*sheet),
+                           .cure = fmt::format("sixstep motor check {} shows where", subject->motor),
+                           .grave = false,
+                           .of = design::Concern::other});
   if (const base::Problems unwritten = write(*s, board ? &*board : nullptr, a, outputs); !unwritten.empty())
     return refused(unwritten);
   if (a.json == "-") print(text::design_json(*s));
@@ -329,6 +336,12 @@ void declare_options(CLI::App& design, DesignArguments& a) {
   take_force(design, a.force);
   design.add_flag("--quick", a.quick, "leave out the tolerances");
   design.add_flag("--quiet", a.quiet, "no text, only errors and the exit code");
+  for (const auto& [option, unit] :
+       {std::pair{"--settle", "s"}, std::pair{"--current-settle", "s"}, std::pair{"--period", "s"},
+        std::pair{"--voltage", "V"}, std::pair{"--torque-limit", "Nm"}, std::pair{"--force-limit", "N"},
+        std::pair{"--capture", "Hz"}, std::pair{"--lowest-speed", "rad/s"},
+        std::pair{"--load-inertia", "kg m2"}, std::pair{"--load-mass", "kg"}})
+    take_unit(design.get_option(option), unit);
   take_jobs(design, a.jobs);
   take_data(design, a.data_dir);
 }

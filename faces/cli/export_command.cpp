@@ -178,6 +178,8 @@ Exit export_header(const ExportArguments& a) {
   if (!clearance->clear() && !a.despite) return not_cleared(a, scenario->control, *clearance);
   if (a.despite && clearance->clear())
     print("--despite was not needed: the run holds, and the header says so\n", stderr);
+  for (const std::string& note : clearance->notes)
+    print(fmt::format("note: {}\n", text::visible(note)), stderr);
   wanted.clearance = &*clearance;
   const base::Result<std::string> text = text::config_header(wanted);
   if (!text) return refused(within(a.file, text.problems()));

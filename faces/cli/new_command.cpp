@@ -15,6 +15,7 @@
 #include "files/scenario_on_disk.hpp"
 #include "files/text_file.hpp"
 #include "sixstep/analysis/verify/first_scenario.hpp"
+#include "sixstep/design/sheet/sheet_check.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "text/escape/escape.hpp"
 #include "text/export/core_costs.hpp"
@@ -88,6 +89,9 @@ Exit new_command(const NewArguments& a) {
                   "next: sixstep run {} --html {}\n",
                   text::visible(path), *beside, text::shell_word(path),
                   text::shell_word(fs::path(path).replace_extension(".html").string())));
+  if (const auto sheet = design::check_sheet(scenario->sheet); sheet && !sheet->consistent)
+    print(fmt::format("note: {}; sixstep motor check {} shows where\n",
+                      text::visible(design::contradiction_words(*sheet)), text::shell_word(a.motor)));
   if (const std::string note = text::starter_note(*scenario); !note.empty())
     print(fmt::format("note: {}\n", note));
   if (scenario->pwm.period_s < text::stm32_least_period_s)

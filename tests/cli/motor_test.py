@@ -39,11 +39,11 @@ class Motor(ProgramTest):
     def test_motor_check_tells_a_contradiction_by_its_exit_code(self):
         shipped = (SOURCE / "data/motors/maxon-251601.toml").read_text()
         (self.path / "a.toml").write_text(shipped)
-        self.assertIn("consistent: 5 of 6", self.run_program("motor", "check", "a.toml").stdout)
+        self.assertIn("consistent: 6 of 7", self.run_program("motor", "check", "a.toml").stdout)
         (self.path / "a.toml").write_text(shipped.replace("value = 23.3,", "value = 32.3,"))
         result = self.run_program("motor", "check", "a.toml", code=1)
         self.assertRegex(result.stdout, r"BROKEN stall current .*\n")
-        self.assertTrue(result.stdout.endswith("INCONSISTENT: 3 of 6 relations hold, 1 broken as the file says, 2 broken\n"), result.stdout)
+        self.assertTrue(result.stdout.endswith("INCONSISTENT: 4 of 7 relations hold, 1 broken as the file says, 2 broken\n"), result.stdout)
         checked = json.loads(self.run_program("motor", "check", "--json", "a.toml", code=1).stdout)
         self.assertEqual([r["name"] for r in checked["relations"] if r["verdict"] == "broken"], ["stall current", "stall torque"])
         self.assertIs(checked["consistent"], False)

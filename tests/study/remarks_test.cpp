@@ -53,7 +53,7 @@ TEST(Remarks, AnOrdinaryDriveHasNone) {
 TEST(Remarks, ABusThatNobodyChose) {
   Scenario s = held(1.0);
   s.sheet.nominal_voltage_V = base::Quantity{.value = 36.0};
-  EXPECT_THAT(remarks_on(s), Contains(AllOf(HasSubstr("24 V, which is its default"), HasSubstr("36 V"))));
+  EXPECT_THAT(remarks_on(s), Contains(AllOf(HasSubstr("24 V, equal to its default"), HasSubstr("36 V"))));
   s.supply.voltage_V = 36.0;
   EXPECT_THAT(remarks_on(s), IsEmpty());
   s.supply.voltage_V = 30.0;

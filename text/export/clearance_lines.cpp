@@ -170,6 +170,7 @@ std::string clearance_lines(const ClearanceText& t) {
     if (v.ok) text += fmt::format("//   {}\n", comment_text(verdict(v)));
   if (!c.outcome.remarks.empty()) text += line("What that run showed and nobody asked:");
   for (const std::string& remark : c.outcome.remarks) text += fmt::format("//   {}\n", comment_text(remark));
+  for (const std::string& note : c.notes) text += line("Note: " + note);
   return text + assumptions(t);
 }
 

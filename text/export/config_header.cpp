@@ -33,13 +33,16 @@ std::string constant(std::string_view type, std::string_view name, const std::st
   return fmt::format("{:<72}  // {}\n", code, about);
 }
 
-std::string timing(const study::Compiled& c, bool cleared) {
+std::string timing(const study::Compiled& c, const study::Clearance* clearance) {
+  const bool cleared = clearance && clearance->clear();
   const sixstep::rig::ModulatorConfig& m = c.board.modulator;
   const auto flag = [](bool on) { return std::string(on ? "true" : "false"); };
   const auto us = [](double ps) { return fmt::format("{:.9g} us", ps / 1e6); };
   const double dead = m.in_counts(m.dead_ticks);
   return constant("bool", "cleared", flag(cleared),
-                  cleared ? "for a bridge, by its run" : "NOT for a bridge: static_assert on it") +
+                  !cleared                ? "NOT for a bridge: static_assert on it"
+                  : clearance->needs_sink ? "for a bridge whose supply takes current back, by its run"
+                                          : "for a bridge, by its run") +
          constant("std::uint8_t", "pole_pairs", std::to_string(static_cast<int>(c.motor.machine.pole_pairs)),
                   "electrical turns per mechanical one") +
          constant("std::uint64_t", "pwm_period_ps", std::to_string(m.period_ticks),
@@ -140,7 +143,7 @@ std::string header(const ConfigHeader& w, const study::Compiled& c, std::string_
   const control::DriveConfig<double>& drive = c.field        ? c.field->drive
                                               : c.sensorless ? c.sensorless->drive.drive
                                                              : c.drive;
-  text += timing(c, w.clearance && w.clearance->clear()) + board_constants(w, c) + "\n" +
+  text += timing(c, w.clearance) + board_constants(w, c) + "\n" +
           made("DriveConfig", "drive", config_lines<Scalar>(c.drive.mode, drive, kept.drive, b));
   const auto around = [&](const char* type_name, const char* name, const char* within, const auto& designed,
                           const auto& own) {

@@ -100,9 +100,10 @@ Json relations(const design::SheetCheck& check) {
                     {"unit", r.unit},
                     {"deviation", r.deviation},
                     {"tolerated", {r.lowest, r.highest}},
-                    {"verdict", holds                                         ? "ok"
-                                : r.verdict == design::RelationVerdict::known ? "known"
-                                                                              : "broken"},
+                    {"verdict", holds                                           ? "ok"
+                                : r.verdict == design::RelationVerdict::known   ? "known"
+                                : r.verdict == design::RelationVerdict::doubted ? "doubted"
+                                                                                : "broken"},
                     {"remark", r.remark}});
   }
   return list;

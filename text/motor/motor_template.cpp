@@ -66,6 +66,7 @@ base::Result<std::string> motor_template(std::string_view style_name, const std:
       "# A motor, to be filled in from its sheet: {}.\n"
       "# Replace each nan by a number; take the # away from other lines that the sheet has. sixstep help KEY\n"
       "# explains a key, and sixstep motor check FILE reports values that contradict each other.\n"
+      "# Type the zeros as the sheet prints them (4.00): the check allows each value half of its last digit.\n"
       "name = {}\nmaker = \"\"\n{}\n"
       "# shape of the back-EMF over the electrical angle, trapezoid or sine: sheets rarely say it\n"
       "back_emf = \"{}\"\n\n",

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "sixstep/base/decimal.hpp"
 #include "sixstep/design/sheet/parameters.hpp"
@@ -150,14 +151,33 @@ std::string friction_rows(const design::Friction& f, bool linear) {
 }
 
 std::string_view word(RelationVerdict verdict) {
-  return verdict == RelationVerdict::holds ? "ok" : verdict == RelationVerdict::known ? "known" : "BROKEN";
+  switch (verdict) {
+    case RelationVerdict::holds:
+      return "ok";
+    case RelationVerdict::known:
+      return "known";
+    case RelationVerdict::doubted:
+      return "doubt";
+    case RelationVerdict::broken:
+      break;
+  }
+  return "BROKEN";
 }
 
+constexpr double most_percentage = 10.0;
+
 std::string relation_rows(const Relation& r) {
-  std::string text =
-      trimmed(fmt::format("  {:<7}{:<25} {:<27} {:>9} {:>9} {:<13} {:>+7.2f} % {:>+7.2f} {:>+6.2f} %",
-                          word(r.verdict), r.name, r.left_words, short_number(r.left), short_number(r.right),
-                          r.unit, 100.0 * r.deviation, 100.0 * r.lowest, 100.0 * r.highest));
+  // A name that bursts its column has a line of its own.
+  const bool wide = r.name.size() > 25;
+  std::string text = wide ? fmt::format("  {:<7}{}\n", word(r.verdict), r.name) : "";
+  // From ten times on a percentage says less than the factor.
+  const std::string deviation = std::fabs(r.deviation) < most_percentage
+                                    ? fmt::format("{:>+7.2f} %", 100.0 * r.deviation)
+                                    : fmt::format("{:>9}", "x " + short_number(r.deviation + 1.0));
+  text +=
+      trimmed(fmt::format("  {:<7}{:<25} {:<27} {:>9} {:>9} {:<13} {} {:>+7.2f} {:>+6.2f} %",
+                          wide ? "" : word(r.verdict), wide ? "" : r.name, r.left_words, short_number(r.left),
+                          short_number(r.right), r.unit, deviation, 100.0 * r.lowest, 100.0 * r.highest));
   if (!r.remark.empty()) text += trimmed("         " + r.remark);
   return text;
 }
@@ -175,15 +195,31 @@ std::string not_simulatable(const design::Sheet& sheet, const SheetCheck& check)
   return model ? "" : "; it cannot be simulated: " + base::to_string(model.problems().front());
 }
 
+/// Values typed as one digit, whose rounding widens every relation that has them. The voltage of a sheet is exact.
+std::string coarse_lines(const SheetCheck& check) {
+  constexpr double wide = 0.05;
+  std::string text;
+  for (const design::LineUse& line : check.lines)
+    if (line.doubt > wide && line.value == std::floor(line.value) &&
+        line.key.find("voltage") == std::string::npos)
+      text += trimmed(fmt::format("  {} = {} is taken as {} +- {:.2g} %", line.key, shortest(line.value),
+                                  shortest(line.value), 100.0 * line.doubt));
+  return text;
+}
+
 std::string verdict_line(const SheetCheck& check) {
-  std::size_t holds = 0, known = 0, broken = 0;
+  std::size_t holds = 0, known = 0, broken = 0, doubted = 0;
   for (const Relation& r : check.relations)
-    ++(r.verdict == RelationVerdict::holds ? holds : r.verdict == RelationVerdict::known ? known : broken);
+    ++(r.verdict == RelationVerdict::holds     ? holds
+       : r.verdict == RelationVerdict::known   ? known
+       : r.verdict == RelationVerdict::doubted ? doubted
+                                               : broken);
   if (check.relations.empty()) return "consistent: the sheet prints nothing twice";
   std::string text =
       fmt::format("{}: {} of {} relations hold", check.consistent ? "consistent" : "INCONSISTENT", holds,
                   check.relations.size());
   if (known > 0) text += fmt::format(", {} broken as the file says", known);
+  if (doubted > 0) text += fmt::format(", {} in doubt", doubted);
   if (broken > 0) text += fmt::format(", {} broken", broken);
   return text;
 }
@@ -240,6 +276,8 @@ std::string check_report(const design::Sheet& sheet, const SheetCheck& check) {
   for (const design::LineUse& line : check.lines)
     if (!line.used) unused += trimmed(fmt::format("  {}: {}", line.key, line.why));
   if (!unused.empty()) text += "\nLines that the model is not made of\n" + unused;
+  if (const std::string coarse = coarse_lines(check); !coarse.empty())
+    text += "\nIntegers of one digit: the sheet's zeros, as in 4.00, make the tolerance narrow\n" + coarse;
   std::string doubts;
   for (const base::Problem& doubt : check.doubts) doubts += "; in doubt: " + base::to_string(doubt);
   return text + "\n" + trimmed(verdict_line(check) + not_simulatable(sheet, check) + doubts);

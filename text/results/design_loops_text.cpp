@@ -100,9 +100,18 @@ std::string figures_text(const DriveDesign& d) {
   line("peak of sensitivity, " + later, [&](const LoopDesign& l) {
     return d.later(l).stable ? factor(d.later(l).sensitivity_peak) : "unstable";
   });
-  if (d.lag.delay_s() > 0)
-    line("phase margin with the speed's sensor",
+  const bool sensed = d.lag.delay_s() > 0;
+  if (sensed) {
+    const std::string with = " with the speed's sensor";
+    line("phase margin" + with,
          [&](const LoopDesign& l) { return or_none(l.built.phase_rad, degrees_text); });
+    line("crossover" + with, [&](const LoopDesign& l) { return or_none(l.built.crossover_rad_s, hertz); });
+    line("bandwidth" + with, [&](const LoopDesign& l) { return or_none(l.built.bandwidth_rad_s, hertz); });
+    line("gain margin" + with, [&](const LoopDesign& l) { return or_none(l.built.gain, decibels); });
+    line("delay margin" + with, [&](const LoopDesign& l) { return or_none(l.built.delay_s, seconds); });
+    line("peak of sensitivity" + with,
+         [&](const LoopDesign& l) { return l.built.stable ? factor(l.built.sensitivity_peak) : "unstable"; });
+  }
   const bool two = bands_differ(d);
   line(two ? "step: settling" : "step: settling to 2 %", [&](const LoopDesign& l) {
     return quantity_text(l.step.settling_s, "s", 4) + (two ? band_words(d, l) : "");
@@ -111,7 +120,8 @@ std::string figures_text(const DriveDesign& d) {
     return std::isfinite(l.step.overshoot) ? fmt::format("{:.1f} %", 100 * l.step.overshoot)
                                            : "without bound";
   });
-  return "\nLoops, with the hold of the PWM and the loops within\n" + rows.text();
+  return std::string("\nLoops, with the hold of the PWM and the loops within") +
+         (sensed ? "; with an ideal speed, except where its sensor is named\n" : "\n") + rows.text();
 }
 
 std::string sensing_text(const DriveDesign& d) {
@@ -172,8 +182,9 @@ std::string limits_text(const DriveDesign& d) {
   text += motion.words(fmt::format(
       " rad/s; none above {} rad/s, without the time that commutation takes (sixstep curve has it)\n",
       speed(d.headroom_end_rad_s, 0)));
-  text += motion.words(
-      fmt::format("  braking, soft       held up to {} rad/s, (i/K_t) R\n", speed(d.braking_limit_rad_s, 1)));
+  if (d.spec.chopping == sixstep::control::Chopping::soft)
+    text += motion.words(fmt::format("  braking, soft       held up to {} rad/s, (i/K_t) R\n",
+                                     speed(d.braking_limit_rad_s, 1)));
   text += fmt::format("  control period      up to {} for 45 degrees with {} of delay\n",
                       quantity_text(d.longest_period_s, "s", 3),
                       sixstep::design::periods_words(d.spec.later_periods()));

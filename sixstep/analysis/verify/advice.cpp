@@ -108,6 +108,15 @@ std::vector<DesignSpec> rescues(const DesignOrder& order, const DriveDesign& d) 
 
 std::vector<DesignSpec> on_this_bus_or_others(const DesignOrder& order, const DriveDesign& d) {
   std::vector<DesignSpec> all = rescues(order, d);
+  if (order.subject.board) {
+    // The board's program needs its period: a slower loop of it comes first, another period last.
+    const auto keeps_period = [&](const DesignSpec& s) { return s.period_s == order.spec.period_s; };
+    const auto slower_alone = [&](const DesignSpec& s) {
+      return keeps_period(s) && s.mode == Mode::current && s.settle_s != order.spec.settle_s;
+    };
+    const auto others = std::stable_partition(all.begin(), all.end(), slower_alone);
+    std::stable_partition(others, all.end(), keeps_period);
+  }
   std::stable_partition(all.begin(), all.end(), [&d](const DesignSpec& s) { return !above_nominal(s, d); });
   return all;
 }

@@ -23,6 +23,12 @@ struct Collector {
   }
 };
 
+/// ", less than 20": the bound that decides, of a usable loop or of a sound one.
+std::string below_bound(double phase_deg) {
+  return ", less than " +
+         base::three_digits(phase_deg < unusable_phase_deg ? unusable_phase_deg : least_phase_deg);
+}
+
 void look_at_stability(const DriveDesign& d, const LoopDesign& loop, Collector& out) {
   if (!loop.figures.stable)
     return out.add(Concern::stability, "the " + loop.name + " loop is unstable", true);
@@ -32,8 +38,8 @@ void look_at_stability(const DriveDesign& d, const LoopDesign& loop, Collector& 
   const double phase_deg = loop.figures.phase_rad.value_or(base::pi) * 180.0 / base::pi;
   if (phase_deg < least_phase_deg)
     out.add(Concern::delay,
-            with + loop.name + " loop keeps " + base::three_digits(phase_deg) +
-                " degrees of phase, less than " + base::three_digits(least_phase_deg),
+            with + loop.name + " loop keeps " + base::three_digits(phase_deg) + " degrees of phase" +
+                below_bound(phase_deg),
             phase_deg < unusable_phase_deg);
   else if (loop.figures.sensitivity_peak > greatest_sensitivity)
     out.add(Concern::delay, with + loop.name + " loop amplifies disturbances up to " +
@@ -54,7 +60,8 @@ void look_at_sensing(const DriveDesign& d, Collector& out) {
   // A tenth of a degree may be lost by rounding a settling time.
   if (phase_deg < least_phase_deg - 0.1)
     out.add(Concern::sensing,
-            "the speed loop keeps " + base::three_digits(phase_deg) + " degrees of phase" + at,
+            "the speed loop keeps " + base::three_digits(phase_deg) + " degrees of phase" +
+                below_bound(phase_deg) + "," + at,
             phase_deg < unusable_phase_deg);
 }
 
@@ -173,7 +180,7 @@ void look_at_heat(const DriveDesign& d, Collector& out) {
     return;
   }
   const double most_A = d.most_current_A();
-  if (!current && most_A > 3.0 * d.nominal_current_A)
+  if (!current && most_A > greatest_overload * d.nominal_current_A)
     out.add(Concern::heat, "the speed loop may ask for " + base::three_digits(most_A) + " A, " +
                                base::three_digits(most_A / d.nominal_current_A) +
                                " times the nominal current");

@@ -68,7 +68,8 @@ class Lines final : public base::Visitor {
                                     : body   ? std::string_view("rotor_radius_mm")
                                              : key;
     const auto& used = constants_.used;
-    LineUse line{SheetReader::key_of(key, *q), q->value, std::string(about.unit), false, ""};
+    LineUse line{SheetReader::key_of(key, *q), q->value, std::string(about.unit),
+                 relative_doubt(*q),           false,    ""};
     line.used = std::find(used.begin(), used.end(), judged) != used.end();
     if (!line.used) line.why = why_not(key);
     lines.push_back(std::move(line));
@@ -178,6 +179,18 @@ base::Result<SheetCheck> check_sheet(const Sheet& sheet) {
   doubt_pace(sheet, check);
   if (c.R_ohm && c.nominal_voltage_V) check.stall_current_A = *c.nominal_voltage_V / (2.0 * c.R_ohm->value);
   return check;
+}
+
+std::string contradiction_words(const SheetCheck& check) {
+  std::vector<std::string> broken;
+  for (const Relation& r : check.relations)
+    if (r.verdict == RelationVerdict::broken) broken.push_back(r.name);
+  if (broken.empty()) return "";
+  std::string names;
+  for (std::size_t n = 0; n < broken.size(); ++n)
+    names += (n == 0 ? "" : n + 1 == broken.size() ? " and " : ", ") + broken[n];
+  return "the motor's sheet contradicts itself: " + names + (broken.size() == 1 ? " does" : " do") +
+         " not hold; correct its file, or name them in known_deviation if the maker prints them so";
 }
 
 }  // namespace sixstep::design

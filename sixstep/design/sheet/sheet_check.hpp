@@ -15,6 +15,7 @@ enum class RelationVerdict {
   holds,
   known,  ///< broken, and listed in known_deviation by the sheet's file
   broken,
+  doubted,  ///< outside of its tolerance on the side where makers define the value otherwise; no contradiction
 };
 
 /// Two sides that physics makes equal, up to the rounding of what is printed and a stated margin.
@@ -36,7 +37,8 @@ struct LineUse {
   std::string key;     ///< as the file writes it
   double value = 0.0;  ///< in the unit of the standard key
   std::string unit;
-  bool used = false;  ///< the model uses it
+  double doubt = 0.0;  ///< relative rounding error of the printed value
+  bool used = false;   ///< the model uses it
   std::string why;
 };
 
@@ -55,6 +57,10 @@ struct SheetCheck {
 /// names no relation or one that holds.
 base::Result<SheetCheck> check_sheet(const Sheet& sheet);
 
+/// "the motor's sheet contradicts itself: stall current and no-load speed do not hold; correct ..", in the
+/// check's own names; empty if it is consistent.
+std::string contradiction_words(const SheetCheck& check);
+
 /// In data/motors the slowest winding has L/R = 11 ms and the slowest rotor R J/K_t^2 = 1.2 s. A
 /// thousand times a usual value is a wrong unit. Values between, of a generator of megawatts or a rotor with its
 /// flywheel, are reported and kept.
@@ -68,6 +74,11 @@ inline constexpr double no_load_margin = 0.02;
 /// another motor, or of another temperature. For the 251601 the sources have 7.3e-6 to 10.6e-6 N m s, 45 % apart. If
 /// one sheet prints both, they agree within rounding: the four windings of Faulhaber's 3564 B to 0.25 %.
 inline constexpr double friction_margin = 0.5;
+
+/// Makers print the nominal speed of a warm motor: its printed drop below the no-load speed is up to this multiple of
+/// the drop R/K_t^2 M_N at 25 degC. In data/motors maxon's are 1.4 to 2.3 times as large. A larger one is a rating
+/// of a controller, or a misprint.
+inline constexpr double most_nominal_drop = 2.5;
 
 /// Largest part of the voltage that a motor may lose over its winding at no load, if neither I_0 nor all friction is
 /// printed. With x of it the best efficiency is at most (1 - sqrt x)/(1 + sqrt x), a third for x = 1/4: no motor with

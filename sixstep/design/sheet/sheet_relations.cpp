@@ -30,6 +30,9 @@ constexpr Factor factors[] = {
     {1000.0, "a factor 1000: the unit?", false},
 };
 
+/// The widest tolerance that is printed: beyond it the line says nothing.
+constexpr double most_above = 9.99;
+
 class Relations {
  public:
   Relations(const Sheet& sheet, const SheetConstants& constants) : s_(sheet), c_(constants) {
@@ -48,6 +51,7 @@ class Relations {
     constants();
     no_load();
     nominal();
+    nominal_speed();
     dynamics();
     winding();
     body();
@@ -138,6 +142,51 @@ class Relations {
     }
   }
 
+  /// Torque of a winding's terminal ampere; of the rms value where the sheet prints that.
+  Term per_ampere() const {
+    const bool rms = s_.nominal_current_A && s_.nominal_current_A->frame == "rms";
+    return rms ? Term{torque_per_rms_A(c_.K_e_V_s->value, c_.shape), K_t_->doubt} : *K_t_;
+  }
+
+  /// The nominal point lies on the no-load speed minus gradient times torque, or below it by what a warm motor loses
+  /// besides.
+  void nominal_speed() {
+    const std::optional<Term> printed = term(s_.nominal_speed_rpm), current = term(s_.nominal_current_A);
+    if (!printed) return;
+    std::optional<Term> idle = term(s_.no_load_speed_rpm), torque = term(s_.nominal_torque_mNm, 1e-3);
+    if (s_.no_load_voltage_V && (!U_ || s_.no_load_voltage_V->value != U_->value)) idle.reset();
+    if (!torque && current && K_t_) torque = per_ampere() * *current;
+    if (!K_t_ || !R_ || !torque || !(idle || U_)) {
+      if (idle && printed->value >= idle->value) as_fast_as_idle(*idle, *printed);
+      return;
+    }
+    const Term top = idle ? *idle : *U_ / *K_t_ * base::rpm_per_rad_s;
+    const Term drop = *R_ / (*K_t_ * *K_t_) * *torque * base::rpm_per_rad_s;
+    if (idle && printed->value >= idle->value) return as_fast_as_idle(*idle, *printed);
+    const Term line = drop.value < top.value ? top - drop : Term{};
+    const double warm = top.value - most_nominal_drop * drop.value;
+    const double above = warm > 0.0 ? line.value / warm - 1.0 : HUGE_VAL;
+    Relation& r = add("nominal speed", idle ? "n_0 - R/k_M^2 M_N" : "U/k_M - R/k_M^2 M_N", "nominal speed",
+                      line, *printed, "rpm", no_load_margin, std::fmin(above, most_above), false);
+    if (r.verdict != RelationVerdict::broken) return;
+    if (r.deviation > 0.0) {
+      r.verdict = RelationVerdict::doubted;
+      r.remark =
+          "no cold motor is so slow at its nominal torque: a rating of its controller, or a wrong line of the point";
+    } else if (r.remark.empty()) {
+      r.remark = "the nominal point lies above the line that R and k_M give";
+    }
+  }
+
+  void as_fast_as_idle(const Term& idle, const Term& printed) {
+    Relation& r =
+        add("nominal speed", "no-load speed", "nominal speed", idle, printed, "rpm", 0.0, 0.0, false);
+    r.verdict = RelationVerdict::broken;
+    r.highest = most_above;
+    r.lowest = 0.0;
+    r.remark = "a loaded motor turns slower than without load";
+  }
+
   void nominal() {
     const std::optional<Term> torque = term(s_.nominal_torque_mNm), current = term(s_.nominal_current_A);
     if (torque && current && K_t_) {
@@ -148,9 +197,8 @@ class Relations {
         const Term share = *current / (*current - *idle_);
         friction = share.value * (1.0 + share.doubt) - 1.0;
       }
-      const Term K = rms ? Term{torque_per_rms_A(c_.K_e_V_s->value, c_.shape), K_t_->doubt} : *K_t_;
-      Relation& r = add("nominal torque", rms ? "K_rms I_N" : "k_M I_N", "nominal torque", K * *current * 1e3,
-                        *torque, "mNm", 0.0, friction);
+      Relation& r = add("nominal torque", rms ? "K_rms I_N" : "k_M I_N", "nominal torque",
+                        per_ampere() * *current * 1e3, *torque, "mNm", 0.0, friction);
       if (r.verdict == RelationVerdict::broken && r.deviation < 0.0 && r.remark.empty())
         r.remark = "the rating is above what its own current makes: the model does not use it";
     }

@@ -10,6 +10,7 @@
 #include "sixstep/design/sheet/parameters.hpp"
 #include "sixstep/study/check/check.hpp"
 #include "sixstep/study/check/pace.hpp"
+#include "sixstep/study/run/export_notes.hpp"
 #include "sixstep/study/run/export_protection.hpp"
 #include "sixstep/study/run/export_watch.hpp"
 #include "sixstep/study/run/loop_stability.hpp"
@@ -216,6 +217,27 @@ base::Problems not_held(const Outcome& outcome) {
   return out;
 }
 
+namespace {
+
+/// Those that the run's own remarks do not say already.
+void add_notes(const Scenario& s, const Listeners& listeners, Clearance& c) {
+  const auto add = [&c](std::string note) {
+    const auto& said = c.outcome.remarks;
+    if (!note.empty() && std::find(said.begin(), said.end(), note) == said.end())
+      c.notes.push_back(std::move(note));
+  };
+  add(sheet_contradiction(s));
+  add(limit_above_nominal(s, c.outcome.motor));
+  add(setpoint_bound(s));
+  // Without a clearance its conditions say nothing.
+  if (!c.clear()) return;
+  WithoutSink other = without_sink(s, c.outcome.motor, listeners);
+  c.needs_sink = other.matters && !other.holds;
+  add(std::move(other.note));
+}
+
+}  // namespace
+
 base::Result<Clearance> clear_for_export(const Scenario& scenario, const Listeners& listeners) {
   if (scenario.sheet.kind == design::MotorKind::linear)
     return base::Problem{"motor", "\"" + scenario.motor + "\"",
@@ -223,7 +245,8 @@ base::Result<Clearance> clear_for_export(const Scenario& scenario, const Listene
                          "take the gains from the run's report"};
   base::Result<Outcome> outcome = run(watching_peaks(scenario), listeners);
   if (!outcome) return outcome.problems();
-  Clearance c{.outcome = std::move(*outcome), .unmeasured = never_measured(scenario), .unheld = {}};
+  Clearance c{
+      .outcome = std::move(*outcome), .unmeasured = never_measured(scenario), .unheld = {}, .notes = {}};
   const SeenPeaks peaks = take_peaks(scenario, c.outcome);
   c.unheld = not_held(c.outcome);
   // The rotor's inertia hides this instability from requirements on the speed.
@@ -233,6 +256,7 @@ base::Result<Clearance> clear_for_export(const Scenario& scenario, const Listene
   if (reads_currents(scenario)) look_at_current_range(scenario, peaks, c.unheld);
   look_at_bus(scenario, peaks, reads_bus(scenario), c.unheld);
   if (c.unheld.empty()) look_at_stop(scenario, c.outcome.motor, listeners, c.unheld);
+  add_notes(scenario, listeners, c);
   return c;
 }
 

@@ -2,6 +2,9 @@
 // The export gate refuses to export a drive for a chip at a real bridge if the run has not shown that it works,
 // or if the run omitted an effect that a board has.
 #pragma once
+#include <string>
+#include <vector>
+
 #include "sixstep/base/result.hpp"
 #include "sixstep/study/measure/outcome.hpp"
 #include "sixstep/study/run/run.hpp"
@@ -21,6 +24,8 @@ base::Problems not_held(const Outcome& outcome);
 struct Clearance {
   Outcome outcome;
   base::Problems unmeasured, unheld;
+  std::vector<std::string> notes;  ///< conditions of the clearance, a sentence each (export_notes.hpp)
+  bool needs_sink = false;         ///< it was not shown for a supply that takes no current back
 
   bool clear() const { return unmeasured.empty() && unheld.empty(); }
 };

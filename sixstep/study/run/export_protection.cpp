@@ -24,11 +24,7 @@ constexpr double beyond_no_load = 2.0;
 
 std::string rounded_down(double x) { return written(base::shortened(x, 2, base::Towards::down)); }
 
-/// The largest requested current, and the key that sets it.
-struct MostCurrent {
-  double ampere = 0.0;
-  std::string by;
-};
+}  // namespace
 
 std::optional<MostCurrent> most_current(const Scenario& s, const design::MotorModel& motor) {
   if (s.control.mode == Mode::current) {
@@ -49,6 +45,8 @@ std::optional<MostCurrent> most_current(const Scenario& s, const design::MotorMo
                              : s.control.speed.torque_limit_Nm  ? "control.speed.torque_limit_Nm over K_t"
                                                                 : "the usual torque limit over K_t"};
 }
+
+namespace {
 
 void look_at_stalling(const Scenario& s, const MostCurrent& most, base::Problems& out) {
   const Protection& p = s.protection;

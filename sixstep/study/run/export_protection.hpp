@@ -2,11 +2,23 @@
 // Finds thresholds of the product drive that check() accepts and that would protect nothing on a bridge. A run
 // mentions them, and export refuses them.
 #pragma once
+#include <optional>
+#include <string>
+
 #include "sixstep/base/problem.hpp"
 #include "sixstep/design/sheet/parameters.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
 
 namespace sixstep::study {
+
+/// The largest requested current, and the key that sets it.
+struct MostCurrent {
+  double ampere = 0.0;
+  std::string by;
+};
+
+/// Empty if nothing requests or limits a current.
+std::optional<MostCurrent> most_current(const Scenario& scenario, const design::MotorModel& motor);
 
 /// Finds a stall threshold above the drive's largest requested current, a stall time longer than the winding
 /// withstands that current, and an over-speed that neither bus nor motor approaches.

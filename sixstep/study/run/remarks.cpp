@@ -10,10 +10,12 @@
 #include "sixstep/base/elementary.hpp"
 #include "sixstep/base/linear.hpp"
 #include "sixstep/base/written.hpp"
+#include "sixstep/design/loops/design_warnings.hpp"
 #include "sixstep/design/sheet/thermal_ranges.hpp"
 #include "sixstep/study/check/unused_keys.hpp"
 #include "sixstep/study/compile/pulse.hpp"
 #include "sixstep/study/run/commutation_remarks.hpp"
+#include "sixstep/study/run/export_notes.hpp"
 #include "sixstep/study/run/export_protection.hpp"
 #include "sixstep/study/run/limit_remarks.hpp"
 #include "sixstep/study/run/loop_stability.hpp"
@@ -44,7 +46,7 @@ std::string on_supply(const Scenario& s) {
       std::fabs(nominal->value - usual_V) < 0.1 * usual_V)
     return {};
   return "the bus is at supply.voltage_V = " + few_digits(usual_V) +
-         " V, which is its default; the motor's nominal voltage is " + few_digits(nominal->value) + " V";
+         " V, equal to its default; the motor's nominal voltage is " + few_digits(nominal->value) + " V";
 }
 
 /// Finds values after the run's end. The first of them may end a line on which the run still is.
@@ -222,7 +224,11 @@ void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, Outcom
   };
   if (const std::string unused = unused_keys(s); !unused.empty()) add("given without effect: " + unused);
   if (!s.not_usable.empty()) add("its design calls it NOT USABLE: " + s.not_usable);
+  add(sheet_contradiction(s));
   add(on_supply(s));
+  // A product drive is made for a bridge; for the others the design's own bound holds.
+  const bool product = s.control.drive == FirmwareKind::product;
+  add(limit_above_nominal(s, c.motor, product ? 1.0 : design::greatest_overload));
   on_protection(s, c, out);
   add(on_late_values(s));
   for (std::string& text : passed_limits(s, w, out)) add(std::move(text));

@@ -19,6 +19,10 @@
 //   mean speed at 70 rad/s: 69.3 .. 70.7 rad/s required, 70.0003 rad/s measured
 //   swing at 70 rad/s: <= 3 rad/s required, 0.101257 rad/s measured
 //   greatest current: <= 10 A required, 9.14157 A measured
+// What that run showed and nobody asked:
+//   control.speed.torque_limit_Nm over K_t lets 5.82 A flow, 2.5 times the nominal current of 2.33 A: by the sheet's thermal values the winding withstands it for 12.8 s from 25 degC; nothing in the drive ends that while the rotor turns, so lower the limit unless the load is short
+// Note: setpoint_limit = 300 rad/s is the largest reference of this scenario, and the drive follows no larger setpoint; give [reference] the largest one that your firmware asks for
+// Note: cleared for a supply that takes current back (supply.sinks = true): with one that takes none back the drive fails, and raises the bus to 28.7 V: protection.brake_current_A = 2 ends in a fault where the drive is let go at 0.8 s: over-voltage after 15 ms
 // That run took for granted:
 //   supply    24 V behind 0.05 ohm, 0.001 F at the bridge, takes current back
 //   bridge    switches of 0.01 ohm, diodes of 0.7 V and 0 ohm, dead time 5e-07 s
@@ -65,7 +69,7 @@ inline constexpr sixstep::control::Units<Scalar> units{
   .position_deg = 0x1p+0,                                                 // 1 deg
 };
 
-inline constexpr bool cleared = true;                                     // for a bridge, by its run
+inline constexpr bool cleared = true;                                     // for a bridge whose supply takes current back, by its run
 inline constexpr std::uint8_t pole_pairs = 8;                             // electrical turns per mechanical one
 inline constexpr std::uint64_t pwm_period_ps = 30000000;                  // 30 us, and the period of the control tick
 inline constexpr bool pwm_centre_aligned = false;                         // else the on-time begins with the period

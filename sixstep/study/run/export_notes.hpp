@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds conditions under which a drive works in its run and not on every bench: a limit above the nominal current,
+// a sheet that contradicts itself, a supply that takes current back. Export notes them; they are no reasons against it.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sixstep/design/sheet/parameters.hpp"
+#include "sixstep/study/measure/outcome.hpp"
+#include "sixstep/study/run/run.hpp"
+#include "sixstep/study/scenario/scenario.hpp"
+
+namespace sixstep::study {
+
+/// A cascade whose limit lets more than `multiple` nominal currents flow, and for how long the winding withstands
+/// that limit by the sheet's thermal values. Empty if it withstands the limit without end, without a printed
+/// nominal current, and for a field-oriented drive, whose nominal current is a sine's.
+std::string limit_above_nominal(const Scenario& scenario, const design::MotorModel& motor,
+                                double multiple = 1.0);
+
+/// The relations of the motor's file that do not hold. Empty if all hold or are known deviations. [motor_override]
+/// is not judged: it changes values on purpose.
+std::string sheet_contradiction(const Scenario& scenario);
+
+/// The run again with a supply that takes no current back.
+struct WithoutSink {
+  bool matters = false;  ///< the scenario's supply takes current back
+  bool holds = false;    ///< with a supply that takes none back, run and stop hold too
+  std::string note;      ///< if it does not hold: what happens there
+};
+WithoutSink without_sink(const Scenario& scenario, const design::MotorModel& motor,
+                         const Listeners& listeners);
+
+/// The bound of a product drive's setpoint, which is the scenario's largest reference. Empty for other drives.
+std::string setpoint_bound(const Scenario& scenario);
+
+}  // namespace sixstep::study

@@ -1,0 +1,83 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Conditions that a reader must be told: heat of a limit, the supply behind a clearance, a sheet that contradicts itself."""
+import json
+import math
+import re
+import unittest
+
+from program import SOURCE, ProgramTest
+
+CORTEX = str(SOURCE / "data/scenarios/firmware/cortex-m.toml")
+SHEET = (SOURCE / "data/motors/maxon-251601.toml").read_text()
+
+
+class Conditions(ProgramTest):
+    def test_the_time_that_a_winding_withstands_its_limit_is_that_of_two_bodies(self):
+        """Winding and housing integrated step by step, with the sheet's values, from 25 to 125 degC."""
+        remarks = json.loads(self.run_program("run", CORTEX, "--json", "-").stdout)
+        told = re.search(r"lets ([\d.]+) A flow.*withstands it for ([\d.]+) s from 25 degC", json.dumps(remarks))
+        current, seconds = map(float, told.groups())
+        self.assertAlmostEqual(current, 0.195 / 33.5e-3, delta=0.01)
+        winding = housing = 25.0
+        t, dt, loss = 0.0, 1e-3, 1.03 * current**2
+        while winding < 125:
+            across = (winding - housing) / 4.5
+            winding += dt * (loss * (1 + 0.00393 * (winding - 25)) - across) / (17.7 / 4.5)
+            housing += dt * (across - (housing - 25) / 4.25) / (212 / 4.25)
+            t += dt
+        self.assertAlmostEqual(seconds / t, 1, delta=0.01)
+        within = self.run_program("run", CORTEX, "--set", "control.speed.torque_limit_Nm=0.078", "--json", "-", code=None).stdout
+        self.assertNotIn("nominal current", within)
+
+    def test_a_clearance_names_the_supply_that_it_needs(self):
+        """The same drive with the stated supply decides: where it fails by itself, the note must be there."""
+        cleared = self.run_program("export", "header", CORTEX)
+        self.assertIn("with one that takes none back the drive fails", cleared.stderr)
+        self.assertRegex(cleared.stdout, r"bool cleared = true; .*whose supply takes current back")
+        self.assertIn("setpoint_limit = 300 rad/s is the largest reference", cleared.stderr)
+        self.run_program("export", "header", CORTEX, "--set", "supply.sinks=false", "--out", "no.hpp", code=1)
+        large = ("--set", "supply.capacitance_F=20e-3")
+        self.assertNotIn("takes none back", self.run_program("export", "header", CORTEX, *large).stderr)
+        self.run_program("export", "header", CORTEX, *large, "--set", "supply.sinks=false", "--out", "yes.hpp")
+
+    def test_a_nominal_speed_lies_between_no_load_and_a_warm_motor(self):
+        line = 6710 - 1.03 / 33.5e-3**2 * 83.4e-3 * 30 / math.pi
+        drop = 6710 - line
+        for speed, verdict, code in ((6800, "BROKEN", 1), (6710, "BROKEN", 1), (1.06 * line, "BROKEN", 1), (line, "ok", 0),
+                                     (5240, "ok", 0), (6710 - 2.3 * drop, "ok", 0), (6710 - 3 * drop, "doubt", 0)):
+            (self.path / "a.toml").write_text(SHEET.replace("value = 5240", f"value = {speed:.0f}"))
+            told = self.run_program("motor", "check", "a.toml", code=code).stdout
+            self.assertRegex(told, rf"\n  {verdict} +nominal speed ", f"{speed}")
+
+    def test_a_contradiction_is_told_wherever_the_sheet_is_used(self):
+        (self.path / "a.toml").write_text(SHEET.replace("value = 23.3,", "value = 32.3,"))
+        words = "the motor's sheet contradicts itself: stall current and stall torque do not hold"
+        self.assertIn(words, self.run_program("design", "a.toml", "--quick").stdout)
+        self.assertIn(words, self.run_program("new", "mine", "--motor", "a.toml", "--mode", "current").stdout)
+        self.assertIn(words, self.run_program("run", "mine.toml").stdout)
+        self.assertNotIn("contradicts", self.run_program("design", "maxon-251601", "--quick").stdout)
+
+    def test_a_value_of_one_digit_is_named(self):
+        (self.path / "a.toml").write_text(re.sub(r"resistance_ohm        = \{ value = 1.03", "resistance_ohm = { value = 1", SHEET, count=1)
+                                          .replace("range = [0.978, 1.03]", "range = [0.978, 1.03]"))
+        told = self.run_program("motor", "check", "a.toml", code=None).stdout
+        self.assertIn("resistance_ohm = 1 is taken as 1 +- 50 %", told)
+
+    def test_figures_with_the_sensor_are_of_one_loop(self):
+        """Delay margin = phase margin over crossover, in the rows that include the speed's sensor."""
+        text = self.run_program("design", "--scenario", CORTEX, "--quick").stdout
+        def last(row, unit):
+            return float(re.search(rf"{row} with the speed's sensor .* ([\d.]+) {unit}\n", text).group(1))
+        phase, crossover, delay = last("phase margin", "deg"), last("crossover", "Hz"), last("delay margin", "ms")
+        self.assertAlmostEqual(delay / (1e3 * phase / 360 / crossover), 1, delta=0.005)
+
+    def test_an_option_takes_its_unit(self):
+        plain = self.run_program("design", "maxon-251601", "--quick", "--period", "25e-6", "--json", "-").stdout
+        self.assertEqual(self.run_program("design", "maxon-251601", "--quick", "--period", "25us", "--json", "-").stdout
+                         .replace("25us", "25e-6"), plain)
+        self.run_program("design", "maxon-251601", "--period", "25V", code=2)
+
+
+if __name__ == "__main__":
+    unittest.main()
