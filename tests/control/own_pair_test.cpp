@@ -33,7 +33,7 @@ TEST(OwnPair, TorqueHasTheSignOfTheDuty) {
 }
 
 TEST(OwnPair, ABrokenProbesCodeTurnsTheBridgeOff) {
-  for (const std::uint8_t code : {0b000, 0b111}) {
+  for (const std::uint8_t code : {std::uint8_t{0b000}, std::uint8_t{0b111}}) {
     sixstep_answer a{};
     a.enabled = 1;
     control::command_pair(0.5, code, a);

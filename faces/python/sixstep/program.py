@@ -63,10 +63,17 @@ class Study(Mapping[str, Any]):
         return dict(self._figures)
 
     def __str__(self) -> str:
-        return self.text or json.dumps(self._figures, indent=2)
+        return self.text or "\n".join(f"{name}: {_short(value)}" for name, value in self._figures.items())
 
     def __repr__(self) -> str:
         return f"<sixstep.Study: {', '.join(self._figures)}>"
+
+
+def _short(value: Any) -> str:
+    """Tables and long lists by their size."""
+    if isinstance(value, dict):
+        return f"figures {', '.join(value)}"
+    return f"{len(value)} values" if isinstance(value, list) and len(value) > 6 else f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
 def _wrapped(value: Any) -> Any:

@@ -42,7 +42,7 @@ def describe(key: str) -> Key:
 
     >>> import sixstep
     >>> print(sixstep.describe("supply.voltage_V").meaning)
-    bus voltage
+    voltage of the source
     """
     try:
         return _keys()[key]

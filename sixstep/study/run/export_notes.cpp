@@ -34,13 +34,13 @@ std::string first_of(const base::Problems& found) {
 
 }  // namespace
 
-std::string limit_above_nominal(const Scenario& s, const design::MotorModel& motor, double multiple) {
+std::string limit_above_nominal(const Scenario& s, const design::MotorModel& motor) {
   const bool cascade = s.control.mode == Mode::speed || s.control.mode == Mode::position;
   const double nominal_A = motor.nominal_current_A;
   if (!cascade || s.control.drive == FirmwareKind::field || !(nominal_A > 0.0)) return {};
   const std::optional<MostCurrent> most = most_current(s, motor);
   // A limit that is set to the nominal current itself may be rounded.
-  if (!most || !(most->ampere > 1.005 * multiple * nominal_A)) return {};
+  if (!most || !(most->ampere > 1.005 * nominal_A)) return {};
   const auto thermal = design::thermal_model(s.sheet);
   std::string stands = "; the sheet has no thermal values that say how long the winding withstands it";
   if (thermal) {

@@ -12,11 +12,10 @@
 
 namespace sixstep::study {
 
-/// A cascade whose limit lets more than `multiple` nominal currents flow, and for how long the winding withstands
+/// A cascade whose limit lets more than the nominal current flow, and for how long the winding withstands
 /// that limit by the sheet's thermal values. Empty if it withstands the limit without end, without a printed
 /// nominal current, and for a field-oriented drive, whose nominal current is a sine's.
-std::string limit_above_nominal(const Scenario& scenario, const design::MotorModel& motor,
-                                double multiple = 1.0);
+std::string limit_above_nominal(const Scenario& scenario, const design::MotorModel& motor);
 
 /// The relations of the motor's file that do not hold. Empty if all hold or are known deviations. [motor_override]
 /// is not judged: it changes values on purpose.

@@ -10,7 +10,6 @@
 #include "sixstep/base/elementary.hpp"
 #include "sixstep/base/linear.hpp"
 #include "sixstep/base/written.hpp"
-#include "sixstep/design/loops/design_warnings.hpp"
 #include "sixstep/design/sheet/thermal_ranges.hpp"
 #include "sixstep/study/check/unused_keys.hpp"
 #include "sixstep/study/compile/pulse.hpp"
@@ -226,9 +225,8 @@ void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, Outcom
   if (!s.not_usable.empty()) add("its design calls it NOT USABLE: " + s.not_usable);
   add(sheet_contradiction(s));
   add(on_supply(s));
-  // A product drive is made for a bridge; for the others the design's own bound holds.
-  const bool product = s.control.drive == FirmwareKind::product;
-  add(limit_above_nominal(s, c.motor, product ? 1.0 : design::greatest_overload));
+  // A product drive is made for a bridge; the others are studies, and the design has its own bound for them.
+  if (s.control.drive == FirmwareKind::product) add(limit_above_nominal(s, c.motor));
   on_protection(s, c, out);
   add(on_late_values(s));
   for (std::string& text : passed_limits(s, w, out)) add(std::move(text));
