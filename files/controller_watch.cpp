@@ -267,13 +267,13 @@ void tell_controllers_that_do_not_come_back() {
 // these names gets the program's versions.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 extern "C" {
-__attribute__((noreturn)) void _exit(int code) {
+__attribute__((noreturn, visibility("default"))) void _exit(int code) {
   if (const files::ControllerThread* at = files::found_thread();
       at && at->place != files::ControllerPlace::outside)
     files::end_by_controller(*at, "ended the program by _exit()");
   ::syscall(SYS_exit_group, code);
   __builtin_trap();
 }
-__attribute__((noreturn)) void _Exit(int code) noexcept { _exit(code); }
+__attribute__((noreturn, visibility("default"))) void _Exit(int code) noexcept { _exit(code); }
 }
 #endif

@@ -9,6 +9,7 @@ A comment above each fenced block says how it is tested; a block without one fai
   <!-- test: write NAME -->         is written into the folder in which the page's commands run
   <!-- test: file PATH -->          is that file without its licence line; a scenario passes
   <!-- test: chip --> or host       C++: those of a page compile together, for a chip without a C library or for the host
+  <!-- test: python -->             Python: those of the page run from top to bottom (tests/python/page_test.py)
   <!-- test: programs -->           each line begins with a program of the repository: it exists, may be executed
   <!-- test: measured -->           differs from machine to machine: not compared
 pages_test.py runs them.

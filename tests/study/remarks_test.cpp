@@ -121,7 +121,7 @@ TEST(Remarks, AShuntBehindARealBridge) {
   s.sensors.current_bandwidth_Hz = 2e4;
   // 1 - exp(-1 us 2 pi 20 kHz) = 0.118, and ln 10/(2 pi 20 kHz) = 18.3 us
   EXPECT_THAT(remarks_on(s),
-              Contains(AllOf(HasSubstr("shows 11.8 %"), HasSubstr("at 18.3 us it shows 90 %"))));
+              Contains(AllOf(HasSubstr("shows 11.8 %"), HasSubstr("after 18.3 us it shows 90 %"))));
   s.sensors.current_bandwidth_Hz.reset();
 }
 

@@ -144,7 +144,9 @@ def curve(motor: str | os.PathLike[str], **options: Any) -> Study:
 
 def check(motor: str | os.PathLike[str]) -> Study:
     """Compares the values of a motor's data sheet with each other. `ok` is False if they contradict each other."""
-    return _asked(["motor", "check", os.fspath(motor)], ["--json"], {})
+    study = _asked(["motor", "check", os.fspath(motor)], ["--json"], {})
+    study.text = subprocess.run([program(), "motor", "check", os.fspath(motor)], capture_output=True, text=True, check=False).stdout
+    return study
 
 
 def wiring(motor: str | os.PathLike[str], **options: Any) -> Study:

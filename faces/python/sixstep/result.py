@@ -156,7 +156,7 @@ class Result:
         lines = [repr(self)[1:-1]]
         for v in self.verdicts:
             limit = " ".join(f"{sign} {_short(x)}" for sign, x in ((">=", v.min), ("<=", v.max)) if x is not None)
-            lines.append(f"  {'ok  ' if v.ok else 'FAIL'} {v.figure}: {_short(v.measured)} {v.unit} ({limit} {v.unit})".rstrip())
+            lines.append(f"  {'ok  ' if v.ok else 'FAIL'} {v.figure}: {_with_unit(v.measured, v.unit)} ({limit} {v.unit})".rstrip())
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
@@ -170,6 +170,10 @@ _SUFFIXES = frozenset({"s", "A", "V", "W", "rad_s", "rad", "deg", "Nm", "N", "m_
 
 def _number(value: Any) -> float:
     return math.inf if value == "never" else math.nan if value is None else float(value)
+
+
+def _with_unit(x: float, unit: str) -> str:
+    return _short(x) if x == math.inf else f"{_short(x)} {unit}".rstrip()
 
 
 def _short(x: float) -> str:

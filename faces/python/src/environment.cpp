@@ -40,12 +40,16 @@ struct Exchange {
 /// The interface's design function has no argument for it: the drive whose session this thread opens.
 thread_local Exchange* opening = nullptr;
 
-Exchange& of(const void* config) { return **static_cast<Exchange* const*>(config); }
+struct Opened {
+  Exchange* exchange;
+};
+
+Exchange& of(const void* config) { return *static_cast<const Opened*>(config)->exchange; }
 
 const char* design(const sixstep_given* given, const sixstep_real*, void* config) {
   if (opening == nullptr) return "is the command of an environment";
   opening->chopping = given->chopping;
-  *static_cast<Exchange**>(config) = opening;
+  static_cast<Opened*>(config)->exchange = opening;
   return nullptr;
 }
 
@@ -81,7 +85,7 @@ constexpr sixstep_controller commanded(uint32_t answers, decltype(sixstep_contro
           .answers = answers,
           .name = "environment",
           .sentence = "is commanded from outside",
-          .config_bytes = sizeof(Exchange*),
+          .config_bytes = sizeof(Opened),
           .state_bytes = 8,
           .parameters = 0,
           .parameter = nullptr,

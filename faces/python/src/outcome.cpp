@@ -51,7 +51,7 @@ Outcome outcome_of(const study::Scenario& scenario, const study::Outcome& outcom
 }
 
 void declare_outcome(py::module_& module) {
-  py::class_<Rows, std::shared_ptr<Rows>>(module, "Rows");
+  const py::class_<Rows, std::shared_ptr<Rows>> rows(module, "Rows");
   py::class_<Outcome>(module, "Outcome")
       .def_readonly("summary", &Outcome::summary)
       .def_readonly("digest", &Outcome::digest)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "faces/python/src/rooms.hpp"
+#include "sixstep/study/measure/trace.hpp"
 #include "sixstep/study/run/run.hpp"
 
 namespace python {

@@ -6,7 +6,7 @@ from laws import bench, commutation, contest, curve, design, drives, run_output,
 from page import REPOSITORY
 
 # What a reader writes or runs is no result.
-INPUT = {"run", "write", "file", "chip", "host", "programs"}
+INPUT = {"run", "write", "file", "chip", "host", "programs", "python"}
 
 TEST_NAMED = re.compile(r"`(\w+)\.\*`|`(tests/[\w/*.]+|\w+_test\.cpp|\w+_tests|\w+_test\.py)`")
 
