@@ -64,6 +64,7 @@ std::vector<std::size_t> sharing(const Contest& c, std::size_t figure, double le
 /// "a", "a and b", "a; b and c": names have commas.
 std::string names_of(const Contest& c, const std::vector<std::size_t>& who) {
   std::vector<std::string_view> names;
+  names.reserve(who.size());
   for (const std::size_t n : who) names.push_back(c.entries[n].who->name);
   if (names.size() == 1) return std::string(names[0]);
   const std::string_view last = names.back();
