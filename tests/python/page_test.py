@@ -30,7 +30,7 @@ class Page(unittest.TestCase):
                 os.chdir(home)
         self.assertIn("must be", printed.getvalue())
         self.assertTrue(names["design"].ok)
-        self.assertEqual(len(names["table"]), 12)
+        self.assertEqual(len(names["table"]), 6)
         self.assertTrue(0.5e-3 <= names["found"].x <= 3e-3)
         self.assertTrue(names["result"].complete)
         self.assertAlmostEqual(float(names["r"].speed[-1]), 200, delta=20)

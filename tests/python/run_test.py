@@ -438,7 +438,7 @@ class Studies(unittest.TestCase):
 
     def test_a_sweep_has_the_figures_of_its_runs(self):
         s = current(require=[{"metric": "max", "signal": "i_a", "max": 100, "label": "peak"}])
-        made = sixstep.sweep(s, {"supply.voltage_V": [18.0, 24.0], "control.current.settle_s": (1e-3, 2e-3, 2)})
+        made = sixstep.sweep(s, {"supply.voltage_V": [18.0, 24.0], "control.current.settle_s": (1e-3, 2e-3)})
         self.assertEqual(len(made), 4)
         for n in range(4):
             alone = sixstep.run(s.copy(supply__voltage_V=float(made["supply.voltage_V"][n]),

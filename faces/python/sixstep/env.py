@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from .scenario import Scenario
+from .scenario import Source, as_scenario
 
 Array = NDArray[np.float64]
 
@@ -54,24 +54,27 @@ class Env:
     >>> seen, info = env.reset(seed=1)
     >>> seen, reward, terminated, truncated, info = env.step(np.full((4, 1), 0.3))
     >>> seen.shape, bool((seen[:, 5] > 0).all())
-    ((4, 10), True)
+    ((4, 11), True)
     """
 
     observed: tuple[str, ...] = _core.observed
 
-    def __init__(self, scenario: Scenario, drives: int = 1, *, action: str = "duty", hold: int = 1, spread: bool = False,
+    def __init__(self, scenario: Source, drives: int = 1, *, action: str = "duty", hold: int = 1, spread: bool = False,
                  target: str | None = None, reward: Callable[[Array, Array], Array] | None = None, workers: int | None = None) -> None:
+        scenario = as_scenario(scenario)
         if action not in ("duty", "legs"):
             raise ValueError(f'action = "{action}" must be "duty" or "legs"')
-        if drives < 1 or hold < 1:
-            raise ValueError("drives and hold must be at least 1")
+        if int(drives) != drives or int(hold) != hold or drives < 1 or hold < 1:
+            raise ValueError("drives and hold must be whole numbers from 1")
         self.num_envs, self.hold = drives, hold
         self._spread, self._seed, self._numbers = spread, 1, np.arange(drives)
         self._columns = {"duty": 1, "legs": 3}[action]
-        usual = {"speed": "speed_rad_s", "position": "position_deg"}.get(str(scenario["control.mode"]), "motor_current_A")
-        self._target = usual if target is None else target
-        if self._target not in (*self.observed, "motor_current_A"):
-            raise ValueError(f'target = "{self._target}" is not observed; take one of {", ".join(self.observed)}, motor_current_A')
+        usual = {"speed": "speed_rad_s", "position": "position_deg", "current": "motor_current_A"}
+        self._target = usual.get(str(scenario["control.mode"]), "") if target is None else target
+        if not self._target and reward is None:
+            raise ValueError("this mode has no measured value that follows its setpoint; give reward, or target")
+        if self._target and self._target not in self.observed:
+            raise ValueError(f'target = "{self._target}" is not observed; take one of {", ".join(self.observed)}')
         self._reward = reward
         self._core = _core.Environment(scenario._core, drives, action == "legs", workers or os.cpu_count() or 1)
         low = -1.0 if action == "duty" else 0.0
@@ -82,17 +85,21 @@ class Env:
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Array, dict[str, Any]]:
         """Starts all drives anew. `seed` chooses the series of drives that `spread` draws from."""
         if seed is not None:
+            if seed < 0:
+                raise ValueError(f"seed = {seed} must be at least 0")
             self._seed = seed
         self._start(np.arange(self.num_envs))
         return self._core.observations(), {}
 
     def step(self, actions: Any) -> tuple[Array, Array, NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
-        """One step of all drives. A drive that has ended stays where it is until `reset_where`."""
+        """One step of all drives: observations, rewards, terminated, truncated, info. A fault terminates a drive's run, its duration
+        truncates it; then it stays where it is until `reset_where`."""
         given = np.ascontiguousarray(actions, dtype=np.float64).reshape(self.num_envs, self._columns)
         self._core.step(given, self.hold)
         seen = self._core.observations()
         over = self._core.over()
-        return seen, self.rewarded(seen, given), np.zeros_like(over), over, {}
+        failed = self._core.failed()
+        return seen, self.rewarded(seen, given), failed, over & ~failed, {}
 
     def reset_where(self, which: Any) -> Array:
         """Starts the drives of this mask anew, each as the next one of the series; returns all observations."""
@@ -114,10 +121,9 @@ class Env:
 
     @classmethod
     def value(cls, seen: Array, name: str) -> Array:
-        """A column of the observation by its name; "motor_current_A" is the largest phase current."""
-        if name == "motor_current_A":
-            largest: Array = np.abs(seen[:, :3]).max(axis=1)
-            return largest
+        """A column of the observation by its name."""
+        if name not in cls.observed:
+            raise ValueError(f"{name} is not observed; take one of {', '.join(cls.observed)}")
         column: Array = seen[:, cls.observed.index(name)]
         return column
 

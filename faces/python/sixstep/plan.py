@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from . import _toml
 from .program import _raise, program, scenario_file
-from .scenario import Scenario
+from .scenario import Source, as_scenario
 
 
 class Sweep:
@@ -62,12 +62,14 @@ class Sweep:
         return f"<sixstep.Sweep: {len(self)} runs, {self.passed} hold every requirement>"
 
 
-def sweep(scenario: Scenario, vary: Mapping[str, Any] | None = None, *, drives: int = 0, seed: int = 1, sampling: str = "grid",
+def sweep(scenario: Source, vary: Mapping[str, Any] | None = None, *, drives: int = 0, seed: int = 1, sampling: str = "grid",
           points: int | None = None, store: str | os.PathLike[str] | None = None, resume: bool = False, jobs: int | None = None,
           tolerances: bool = False) -> Sweep:
     """Runs the scenario at each point of `vary`, and each point with `drives` drives of its [[spread]].
 
-    vary    {"control.current.settle_s": [1e-3, 2e-3]} lists values; (1e-3, 5e-3, 9) is nine values from 1e-3 to 5e-3
+    vary    {"control.current.settle_s": [1e-3, 2e-3]}: any list of values, as np.linspace(1e-3, 5e-3, 9); or the text "1e-3:5e-3:9", nine
+            values from 1e-3 to 5e-3
+    drives  of the scenario's [[spread]] at each point; their gains stay those of the nominal motor
     store   keeps each finished run in this SQLite file; with resume=True only what is missing is run
     jobs    runs side by side; without it one per core
 
@@ -77,6 +79,9 @@ def sweep(scenario: Scenario, vary: Mapping[str, Any] | None = None, *, drives: 
     >>> len(sixstep.sweep(s, {"supply.voltage_V": [12, 24]}))
     2
     """
+    if not vary and not drives:
+        raise ValueError("nothing varies: give vary, drives or both")
+    scenario = as_scenario(scenario)
     words = ["--sampling", sampling] if sampling != "grid" else []
     for key, values in (vary or {}).items():
         words += ["--vary", f"{key}={_values_text(values)}"]
@@ -95,10 +100,10 @@ def sweep(scenario: Scenario, vary: Mapping[str, Any] | None = None, *, drives: 
 
 
 def _values_text(values: Any) -> str:
-    if isinstance(values, tuple) and len(values) == 3 and isinstance(values[2], int):
-        return ":".join(_toml.value_text(v) for v in values)
     if isinstance(values, str):
         return values
+    if not hasattr(values, "__iter__"):
+        raise TypeError(f"vary needs a list of values for each key, not {values!r}")
     items: Sequence[Any] = values.tolist() if hasattr(values, "tolist") else list(values)
     return ",".join(_toml.setting_text(v) for v in items)
 

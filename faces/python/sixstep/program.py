@@ -108,7 +108,7 @@ def _raise(message: str) -> None:
 @contextlib.contextmanager
 def scenario_file(scenario: Scenario) -> Iterator[list[str]]:
     """Words by which the program reads the scenario: its own file with settings, or a temporary one."""
-    if scenario.path:
+    if scenario.path and _unchanged(scenario):
         words = [scenario.path]
         for key, value in scenario._settings.items():
             words += ["--set", f"{key}={value}"]
@@ -116,9 +116,16 @@ def scenario_file(scenario: Scenario) -> Iterator[list[str]]:
         return
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / "scenario.toml"
-        file.write_text(scenario.to_toml())
-        motor = pathlib.Path(scenario.motor)
-        yield [str(file), *(["--set", f"motor={motor.resolve()}"] if motor.exists() else [])]
+        file.write_text(scenario.portable_text())
+        yield [str(file)]
+
+
+def _unchanged(scenario: Scenario) -> bool:
+    """Whether the scenario's file still has the text that was read."""
+    try:
+        return pathlib.Path(str(scenario.path)).read_text(encoding="utf-8", errors="surrogateescape") == scenario._source
+    except OSError:
+        return False
 
 
 def design(motor: str | os.PathLike[str] | Scenario, **options: Any) -> Study:
@@ -132,7 +139,7 @@ def design(motor: str | os.PathLike[str] | Scenario, **options: Any) -> Study:
     if isinstance(motor, Scenario):
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder) / "board.toml"
-            file.write_text(motor.to_toml())
+            file.write_text(motor.portable_text())
             return _asked(["design", "--scenario", str(file)], ["--json", "FILE"], options)
     return _asked(["design", os.fspath(motor)], ["--json", "FILE"], options)
 

@@ -14,7 +14,7 @@ from . import _core
 from ._errors import Interrupted
 from ._progress import shown
 from .controllers import as_controller
-from .scenario import Scenario
+from .scenario import Scenario, Source, as_scenario
 
 
 class Column(NamedTuple):
@@ -59,13 +59,19 @@ class Result:
 
     @property
     def passed(self) -> bool:
-        """Whether every requirement holds and no fault stopped the run."""
-        return bool(self._outcome.passed)
+        """Whether the run came to its end and every requirement holds."""
+        return bool(self._outcome.passed) and self.complete
 
     @property
     def complete(self) -> bool:
-        """False if the run was stopped before its end."""
-        return bool(self._outcome.complete)
+        """False if a fault, Ctrl-C or an exception ended the run before its time."""
+        return bool(self._outcome.complete) and self._outcome.stopped_by is None and (self.fault is None or bool(self.summary["trip"]))
+
+    @property
+    def fault(self) -> str | None:
+        """What stopped the run or the drive, in words; None without a fault."""
+        told = self.summary["fault"]
+        return None if told is None else told if isinstance(told, str) else " ".join(str(part) for part in told.values() if part)
 
     @property
     def digest(self) -> str:
@@ -113,6 +119,9 @@ class Result:
         except KeyError as error:
             raise AttributeError(error.args[0]) from None
 
+    def __reduce__(self) -> Any:
+        raise TypeError("a result holds arrays of the run's memory and cannot be pickled; send result.summary or result.frame()")
+
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self._index]
 
@@ -149,11 +158,13 @@ class Result:
         return dict(self.summary)
 
     def __repr__(self) -> str:
-        word = "passed" if self.passed else "FAILED" if self.complete else "incomplete"
+        word = "passed" if self.passed else "FAILED" if self.complete or self.fault else "incomplete"
         return f"<sixstep.Result {self.summary['title']}: {word}, {self.simulated_s:g} s, {len(self.time)} rows, digest {self.digest}>"
 
     def __str__(self) -> str:
         lines = [repr(self)[1:-1]]
+        if self.fault is not None:
+            lines.append(f"  fault: {self.fault}")
         for v in self.verdicts:
             limit = " ".join(f"{sign} {_short(x)}" for sign, x in ((">=", v.min), ("<=", v.max)) if x is not None)
             lines.append(f"  {'ok  ' if v.ok else 'FAIL'} {v.figure}: {_with_unit(v.measured, v.unit)} ({limit} {v.unit})".rstrip())
@@ -180,7 +191,7 @@ def _short(x: float) -> str:
     return "never" if x == math.inf else f"{x:.5g}"
 
 
-def run(scenario: Scenario, controller: Any = None, *, books: bool = True, events: bool = False,
+def run(scenario: Source, controller: Any = None, *, books: bool = True, events: bool = False,
         progress: bool | Callable[[float], None] = False) -> Result:
     """Simulates the scenario. Other Python threads go on meanwhile.
 
@@ -197,6 +208,7 @@ def run(scenario: Scenario, controller: Any = None, *, books: bool = True, event
     >>> sixstep.run(s, lambda m, setpoint: setpoint).complete
     True
     """
+    scenario = as_scenario(scenario)
     core = scenario._core
     if controller is not None:
         core = scenario._checked({**scenario._settings, "control.drive": "own", "control.own.controller": "python"},

@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import os
 import pathlib
+import re
 import tomllib
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
@@ -101,8 +102,19 @@ class Scenario:
 
     @property
     def path(self) -> str | None:
-        """Path of the scenario's file; None if it was made of a text, a dict or keywords."""
-        return None if self._name == _TEXT else self._name
+        """Absolute path of the scenario's file; None if it was made of a text, a dict or keywords."""
+        return None if os.path.basename(self._name) == _TEXT else self._name
+
+    def portable_text(self) -> str:
+        """The scenario as a file that can lie in any folder: a motor's file is named by its whole path."""
+        file = os.path.join(os.path.dirname(self._name), self.motor)
+        found = next((path for path in (file, f"{file}.toml") if os.path.isfile(path)), None)
+        return self.to_toml() if found is None else re.sub(r"(?m)^motor = .*$", lambda _: f"motor = {_toml.value_text(found)}", self.to_toml(), count=1)
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not name.startswith("_"):
+            raise AttributeError(f'a scenario has no attribute {name} to set; its values are set by key: s["{name}..."] = value')
+        super().__setattr__(name, value)
 
     @property
     def motor(self) -> str:
@@ -186,13 +198,19 @@ class Scenario:
     __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
-        return f"<sixstep.Scenario {self._name}: {self.motor}, {self.duration_s:g} s>"
+        return f"<sixstep.Scenario {os.path.basename(self._name)}: {self.motor}, {self.duration_s:g} s>"
 
     def __str__(self) -> str:
         return self.to_toml()
 
 
 _TEXT = "<text>"
+Source = Scenario | str | os.PathLike[str] | Mapping[str, Any]
+
+
+def as_scenario(source: Source) -> Scenario:
+    """The scenario, or one made of a path, a text or a dict."""
+    return source if isinstance(source, Scenario) else Scenario(source)
 
 
 def _restored(name: str, source: str, settings: dict[str, str], data_dir: str) -> Scenario:
@@ -204,15 +222,16 @@ def _restored(name: str, source: str, settings: dict[str, str], data_dir: str) -
 
 def _read(source: Any, tables: Mapping[str, Any]) -> tuple[str, str]:
     """Name in messages, and text."""
+    here = os.path.join(os.getcwd(), _TEXT)  # names in a text are relative to the folder in which it was read
     if source is None:
-        return _TEXT, _toml.file_text(tables)
+        return here, _toml.file_text(tables)
     if isinstance(source, Mapping):
-        return _TEXT, ""
-    if isinstance(source, str) and ("\n" in source or "=" in source):
-        return _TEXT, source
+        return here, ""
+    if isinstance(source, str) and ("\n" in source or "=" in source or not source):
+        return here, source
     if not isinstance(source, (str, os.PathLike)):
         raise TypeError("a scenario is made of a path, a text, a dict or keywords")
-    return os.fspath(source), pathlib.Path(source).read_text(encoding="utf-8", errors="surrogateescape")
+    return os.path.abspath(source), pathlib.Path(source).read_text(encoding="utf-8", errors="surrogateescape")
 
 
 def _flat(tables: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:

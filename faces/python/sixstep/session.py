@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
 from . import _core, _toml
 from .controllers import as_controller
 from .result import Column, Result
-from .scenario import Scenario
+from .scenario import Scenario, Source, as_scenario
 
 _SIGNALS = [Column(*c) for c in _core.signals]
 _PLACE = {c.name: n for n, c in enumerate(_SIGNALS)}
@@ -30,7 +31,8 @@ class Session:
     True
     """
 
-    def __init__(self, scenario: Scenario, controller: Any = None) -> None:
+    def __init__(self, scenario: Source, controller: Any = None) -> None:
+        scenario = as_scenario(scenario)
         self._scenario = scenario
         self._controller = None if controller is None else as_controller(controller)
         settings = dict(scenario._settings)
@@ -41,11 +43,15 @@ class Session:
         self._changes: list[tuple[float, str]] = []
 
     def advance(self, to_s: float) -> bool:
-        """Simulates up to `to_s`, in s from the start. False if the run is over."""
+        """Simulates up to the instant `to_s`, in s from the start of the run. False if the run is over."""
+        if not math.isfinite(to_s):
+            raise ValueError(f"to_s = {to_s} must be an instant in s")
         return bool(self._core.advance(float(to_s)))
 
     def steps(self, step_s: float) -> Iterator[Session]:
         """Advances by `step_s` at a time until the run is over: `for now in session.steps(1e-3): print(now["speed_rad_s"])`."""
+        if not (math.isfinite(step_s) and step_s > 0):
+            raise ValueError(f"step_s = {step_s} must be above 0")
         k, begin = 0, self.time
         goes_on = True
         while goes_on:
@@ -113,14 +119,18 @@ class Session:
         """The session that `save` wrote, to the bit, also in another process."""
         from .scenario import _restored
 
-        told = json.loads(saved)
-        if told.get("sixstep") != _core.version:
-            raise ValueError(f"was saved by sixstep {told.get('sixstep')}; this is {_core.version}")
-        session = Session(_restored(*told["scenario"]))
-        for at_s, text in told["changes"]:
+        try:
+            told = json.loads(saved)
+            version, scenario, changes, time_s = told["sixstep"], told["scenario"], told["changes"], float(told["time_s"])
+        except (ValueError, KeyError, TypeError):
+            raise ValueError("these bytes are not a session that save() wrote") from None
+        if version != _core.version:
+            raise ValueError(f"the session was saved by sixstep {version}; this is {_core.version}")
+        session = Session(_restored(*scenario))
+        for at_s, text in changes:
             session.advance(at_s)
             session.change(text)
-        session.advance(told["time_s"])
+        session.advance(time_s)
         return session
 
     @property

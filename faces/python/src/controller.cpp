@@ -46,6 +46,12 @@ py::dict as_dict(const sixstep_given& g) {
   return out;
 }
 
+/// What the controller returned is not what it should be.
+[[noreturn]] void throw_wrong(const py::object& out, const char* wanted) {
+  PyErr_Format(PyExc_TypeError, "the controller's step() returned %.60R; it returns %s", out.ptr(), wanted);
+  throw py::error_already_set();
+}
+
 }  // namespace
 
 /// Signed duty of the last step.
@@ -122,7 +128,7 @@ double Controller::answer_to(const sixstep_measured& measured, double setpoint, 
   if (out.is_none()) return 0.0;
   if (functions_.answers == SIXSTEP_ANSWERS_PAIR) {
     const double duty = PyFloat_AsDouble(out.ptr());
-    if (PyErr_Occurred()) throw py::error_already_set();
+    if (PyErr_Occurred()) throw_wrong(out, "a number from -1 to 1, or None");
     answer.chopping = chopping_;
     control::command_pair(duty, measured.hall, answer);
     return duty;
@@ -136,7 +142,7 @@ double Controller::answer_to(const sixstep_measured& measured, double setpoint, 
   }
   for (Py_ssize_t k = 0; k < 3; ++k) {
     const double duty = PyFloat_AsDouble(PySequence_Fast_GET_ITEM(items.ptr(), k));
-    if (PyErr_Occurred()) throw py::error_already_set();
+    if (PyErr_Occurred()) throw_wrong(out, "three numbers from 0 to 1, or None");
     answer.leg[k] = {.state = SIXSTEP_LEG_PWM, .switches = SIXSTEP_PWM_COMPLEMENTARY, .duty = duty};
   }
   return 0.0;

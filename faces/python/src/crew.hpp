@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Threads that share the work of many small, equal calls.
 #pragma once
+#include <unistd.h>
+
 #include <atomic>
 #include <barrier>
 #include <cstddef>
@@ -18,12 +20,19 @@ class Crew {
   }
   ~Crew() {
     if (threads_.empty()) return;
+    if (!has_threads()) {  // after a fork: nobody is there to join
+      for (std::thread& thread : threads_) thread.detach();
+      return;
+    }
     work_ = nullptr;
     gate_.arrive_and_wait();
     for (std::thread& thread : threads_) thread.join();
   }
   Crew(const Crew&) = delete;
   Crew& operator=(const Crew&) = delete;
+
+  /// False in a process that was forked from the one that made the threads: it has none of them.
+  bool has_threads() const { return ::getpid() == process_; }
 
   /// Calls work(n) for each n < count, in any order, and returns when all have ended.
   void each(std::size_t count, const std::function<void(std::size_t)>& work) {
@@ -51,6 +60,7 @@ class Crew {
     }
   }
 
+  pid_t process_ = ::getpid();
   std::barrier<> gate_;
   const std::function<void(std::size_t)>* work_ = nullptr;
   std::size_t count_ = 0;

@@ -26,8 +26,9 @@ namespace py = pybind11;
 namespace {
 
 /// What a board observes at a control tick, and the setpoint of the scenario's reference.
-constexpr std::array observed = {"i_a_A", "i_b_A",      "i_c_A",      "speed_rad_s", "position_deg",
-                                 "bus_V", "magnet_cos", "magnet_sin", "hall",        "setpoint"};
+constexpr std::array observed = {"i_a_A",        "i_b_A",           "i_c_A",      "speed_rad_s",
+                                 "position_deg", "bus_V",           "magnet_cos", "magnet_sin",
+                                 "hall",         "motor_current_A", "setpoint"};
 
 /// The command of one drive for its next tick, and what it saw at its last one.
 struct Exchange {
@@ -97,6 +98,14 @@ constexpr sixstep_controller commanded(uint32_t answers, decltype(sixstep_contro
 constexpr sixstep_controller pairs = commanded(SIXSTEP_ANSWERS_PAIR, step_pair, at_hall_edge);
 constexpr sixstep_controller legs = commanded(SIXSTEP_ANSWERS_LEGS, step_legs, nullptr);
 
+double motor_current_A(const sixstep_measured& m) {
+  control::Measurement<double> seen{};
+  seen.i_a_A = m.current_A[0];
+  seen.i_b_A = m.current_A[1];
+  seen.i_c_A = m.current_A[2];
+  return control::motor_current(seen, control::positive_pair(control::sector_of_hall(m.hall)));
+}
+
 struct Drive {
   std::unique_ptr<Exchange> exchange = std::make_unique<Exchange>();
   std::optional<study::Session> session;
@@ -140,13 +149,20 @@ class Environment {
         static_cast<std::size_t>(actions.shape(1)) != actions_)
       throw py::value_error("actions need the shape (" + std::to_string(drives_.size()) + ", " +
                             std::to_string(actions_) + ")");
-    const double* const given = actions.data();
-    const py::gil_scoped_release free;
-    crew_.each(drives_.size(), [&](std::size_t n) {
-      Drive& drive = drives_[n];
-      for (std::size_t k = 0; k < actions_; ++k) drive.exchange->action[k] = given[n * actions_ + k];
-      advance(drive, periods);
-    });
+    if (!crew_.has_threads())
+      throw py::value_error("the environment was made in another process; make one in each process");
+    for (const Drive& drive : drives_)
+      if (!drive.session) throw py::value_error("reset() comes before the first step()");
+    for (std::size_t n = 0; n < drives_.size(); ++n)
+      for (std::size_t k = 0; k < actions_; ++k) drives_[n].exchange->action[k] = actions.at(n, k);
+    for (; periods > 0; periods -= std::min(periods, between_looks)) {
+      {
+        const py::gil_scoped_release free;
+        crew_.each(drives_.size(),
+                   [&](std::size_t n) { advance(drives_[n], std::min(periods, between_looks)); });
+      }
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    }
   }
 
   Numbers observations() const {
@@ -163,19 +179,32 @@ class Environment {
                                                        m.magnet_cos,
                                                        m.magnet_sin,
                                                        static_cast<double>(m.hall),
+                                                       motor_current_A(m),
                                                        drive.exchange->setpoint};
       to = std::copy(row.begin(), row.end(), to);
     }
     return out;
   }
   py::array_t<bool> over() const {
-    py::array_t<bool> out(static_cast<py::ssize_t>(drives_.size()));
-    for (std::size_t n = 0; n < drives_.size(); ++n)
-      out.mutable_at(static_cast<py::ssize_t>(n)) = drives_[n].over;
-    return out;
+    return each([](const Drive& drive) { return drive.over; });
+  }
+  /// A fault ended the run before its time.
+  py::array_t<bool> failed() const {
+    return each([this](const Drive& drive) {
+      return drive.over && drive.session && drive.session->now_s() < scenario_.duration_s * (1.0 - 1e-9);
+    });
   }
 
  private:
+  static constexpr std::uint64_t between_looks = 1000;  ///< periods without a look at Ctrl-C: a millisecond
+
+  template <class Property>
+  py::array_t<bool> each(Property&& property) const {
+    py::array_t<bool> out(static_cast<py::ssize_t>(drives_.size()));
+    for (std::size_t n = 0; n < drives_.size(); ++n)
+      out.mutable_at(static_cast<py::ssize_t>(n)) = property(drives_[n]);
+    return out;
+  }
   /// A tick lies at the start or in the middle of a period: up to three quarters of one, each advance contains one.
   void advance(Drive& drive, std::uint64_t periods) const {
     if (drive.over) return;
@@ -198,7 +227,8 @@ void declare_environment(py::module_& module) {
       .def("reset", &Environment::reset)
       .def("step", &Environment::step)
       .def("observations", &Environment::observations)
-      .def("over", &Environment::over);
+      .def("over", &Environment::over)
+      .def("failed", &Environment::failed);
   py::tuple names(observed.size());
   for (std::size_t n = 0; n < observed.size(); ++n) names[n] = observed[n];
   module.attr("observed") = names;

@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 
 #include <atomic>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +15,7 @@
 #include "faces/python/src/problems.hpp"
 #include "faces/python/src/scenario.hpp"
 #include "faces/python/src/session.hpp"
+#include "faces/python/src/watch.hpp"
 #include "sixstep/study/measure/columns.hpp"
 #include "text/scenario/scenario_text.hpp"
 
@@ -28,7 +30,8 @@ class Busy {
  public:
   explicit Busy(std::atomic<bool>& busy) : busy_(busy) {
     if (busy_.exchange(true))
-      throw py::value_error("the session is in use by another thread; give each thread a copy()");
+      throw py::value_error(
+          "the session is in use, by another thread or by the controller that calls it; give each a copy()");
   }
   ~Busy() { busy_ = false; }
   Busy(const Busy&) = delete;
@@ -54,7 +57,8 @@ class Session {
   explicit Session(const HeldScenario& held)
       : controller_(held.controller),
         columns_(taken(study::record_columns(held.scenario))),
-        rows_(rows_of(columns_.size())) {
+        rows_(rows_of(columns_.size())),
+        part_s_(1000 * held.scenario.pwm.period_s) {
     const Designing designing(controller_.get());
     const Recording into(*rows_);
     study::Listeners listeners;
@@ -70,20 +74,29 @@ class Session {
       throw py::value_error(
           "a session with a controller in Python cannot be copied: the copy would share its state");
     const Busy busy(busy_);
-    return std::unique_ptr<Session>(new Session(open(), columns_, *rows_));
+    return std::unique_ptr<Session>(new Session(open(), columns_, *rows_, part_s_));
   }
 
   bool advance(double to_s) {
     const Busy busy(busy_);
     study::Session& session = open();
-    bool goes_on;
+    Watch watch{py::none()};
+    bool goes_on = true;
     {
       const py::gil_scoped_release free;
       const Recording into(*rows_);
-      goes_on = session.advance(to_s);
+      // In parts, between which Ctrl-C is looked for; they change no bit.
+      while (goes_on && session.now_s() + part_s_ < to_s && watch.keep_going(session.now_s()))
+        goes_on = session.skip(session.now_s() + part_s_);
+      if (watch.stopped_by_nothing() && goes_on) goes_on = session.advance(to_s);
     }
-    if (controller_)
-      if (std::optional<py::error_already_set> raised = controller_->take_error()) throw std::move(*raised);
+    std::optional<py::error_already_set> raised;
+    if (controller_) raised = controller_->take_error();
+    if (raised) {
+      session_.reset();  // the controller is in no state to go on
+      throw std::move(*raised);
+    }
+    if (!watch.stopped_by_nothing()) watch.raise();
     return goes_on;
   }
 
@@ -108,8 +121,12 @@ class Session {
   }
 
   py::array_t<double> signals() {
-    const study::Present& present = open().present();
-    return py::array_t<double>(static_cast<py::ssize_t>(present.signals.size()), present.signals.data());
+    study::Session& session = open();
+    study::FullRow row = session.present().signals;
+    for (std::size_t c = 0; c < row.size(); ++c)
+      if (!study::applies(static_cast<study::ColumnId>(c), session.scenario()))
+        row[c] = std::numeric_limits<double>::quiet_NaN();
+    return py::array_t<double>(static_cast<py::ssize_t>(row.size()), row.data());
   }
   double present_s() { return open().present().t_s; }
   double now_s() { return open().now_s(); }
@@ -117,8 +134,9 @@ class Session {
   std::string text() { return text::scenario_text(open().scenario()); }
 
  private:
-  Session(const study::Session& other, const std::vector<study::Column>& columns, const Rows& rows)
-      : columns_(columns), rows_(std::make_shared<Rows>(rows)), session_(other) {}
+  Session(const study::Session& other, const std::vector<study::Column>& columns, const Rows& rows,
+          double part_s)
+      : columns_(columns), rows_(std::make_shared<Rows>(rows)), part_s_(part_s), session_(other) {}
 
   study::Session& open() {
     if (!session_) throw py::value_error("the session is closed");
@@ -128,6 +146,7 @@ class Session {
   std::shared_ptr<Controller> controller_;
   std::vector<study::Column> columns_;
   std::shared_ptr<Rows> rows_;
+  double part_s_;  ///< simulated between two looks at Ctrl-C
   std::optional<study::Session> session_;
   std::atomic<bool> busy_ = false;
 };

@@ -29,6 +29,12 @@ class Watch {
     }
   }
 
+  bool stopped_by_nothing() const { return stopped_by_.is_none(); }
+  /// Raises what stopped the run. Needs the GIL.
+  [[noreturn]] void raise() const {
+    PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(stopped_by_.ptr())), stopped_by_.ptr());
+    throw pybind11::error_already_set();
+  }
   /// None if nothing stopped the run.
   pybind11::object stopped_by() const { return stopped_by_; }
 

@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Uses that went wrong silently, hung, or were answered by words that did not help."""
+import math
+import os
+import pathlib
+import pickle
+import signal
+import tempfile
+import threading
+import time
+import unittest
+
+import numpy as np
+import sixstep
+from package import SOURCE, current
+
+
+def interrupted_after(seconds):
+    timer = threading.Timer(seconds, lambda: os.kill(os.getpid(), signal.SIGINT))
+    timer.start()
+    return timer
+
+
+class EndsThatAreTold(unittest.TestCase):
+    def test_an_incomplete_run_has_not_passed(self):
+        long = current()
+        long["duration_s"] = 1e3
+        timer = interrupted_after(0.3)
+        with self.assertRaises(sixstep.Interrupted) as told:
+            sixstep.run(long)
+        timer.join()
+        self.assertFalse(told.exception.result.passed)
+        self.assertFalse(told.exception.result.complete)
+        timer = interrupted_after(0.3)
+        with self.assertRaises(sixstep.Interrupted) as told:
+            sixstep.run(long, lambda m, setpoint: 0.1)
+        timer.join()
+        self.assertFalse(told.exception.result.complete)
+
+    def test_ctrl_c_ends_a_sessions_advance_and_an_environments_step(self):
+        long = current()
+        long["duration_s"] = 1e4
+        session = sixstep.Session(long)
+        env = sixstep.Env(long, hold=10**8)
+        env.reset()
+        for use in (lambda: session.advance(1e4), lambda: env.step([[0.01]])):
+            timer, begin = interrupted_after(0.3), time.monotonic()
+            with self.assertRaises(KeyboardInterrupt):
+                use()
+            timer.join()
+            self.assertLess(time.monotonic() - begin, 5.0)
+
+    def test_a_fault_is_named(self):
+        for duty in (math.nan, 2.0):
+            r = sixstep.run(current(), lambda m, setpoint: duty)
+            self.assertFalse(r.passed or r.complete)
+            self.assertIn("duty", r.fault)
+            self.assertIn("duty", str(r))
+
+    def test_a_session_whose_controller_failed_is_closed(self):
+        session = sixstep.Session(current(), lambda m, setpoint: 1 / 0)
+        with self.assertRaises(ZeroDivisionError):
+            session.advance(1e-3)
+        with self.assertRaisesRegex(ValueError, "closed"):
+            session.advance(2e-3)
+
+    def test_a_wrong_return_names_the_controller(self):
+        with self.assertRaisesRegex(TypeError, r"controller's step\(\) returned 'a'"):
+            sixstep.run(current(), lambda m, setpoint: "a")
+
+
+class Instants(unittest.TestCase):
+    def test_what_is_no_instant_or_step_is_refused(self):
+        session = sixstep.Session(current())
+        for wrong in (math.inf, math.nan):
+            with self.assertRaises(ValueError):
+                session.advance(wrong)
+        for wrong in (0, -1e-3, math.nan):
+            with self.assertRaises(ValueError):
+                next(session.steps(wrong))
+
+    def test_saved_bytes_are_checked(self):
+        for wrong in (b"garbage", b"[1]", b"{}"):
+            with self.assertRaisesRegex(ValueError, "save"):
+                sixstep.Session.restore(wrong)
+
+    def test_signals_without_a_meaning_are_no_numbers(self):
+        session = sixstep.Session(current())
+        session.advance(1e-3)
+        self.assertTrue(math.isnan(session["position_ref_deg"]))
+        self.assertEqual(session["i_ref_A"], 2)
+
+
+class Environments(unittest.TestCase):
+    def test_the_reward_of_a_current_has_its_sign(self):
+        locked = current(load={"locked": True}, control={"mode": "current"}, reference={"value": -2, "unit": "A"})
+        rewards = {}
+        for action in (-0.09, 0.09):
+            env = sixstep.Env(locked, hold=10)
+            env.reset()
+            for _ in range(12):
+                seen, reward, _, _, _ = env.step([[action]])
+            rewards[action] = reward[0]
+            pair = env.value(seen, "motor_current_A")[0]
+            self.assertEqual(pair < 0, action < 0)
+            self.assertAlmostEqual(abs(pair), np.abs(seen[0, :3]).max(), delta=0.02)
+        self.assertGreater(rewards[-0.09], -0.3)
+        self.assertLess(rewards[0.09], -3)
+        with self.assertRaisesRegex(ValueError, "give reward"):
+            sixstep.Env(sixstep.Scenario(motor="maxon-251601", duration_s=1e-3, control={"mode": "duty"}, reference={"value": 0.1}))
+
+    def test_a_fault_terminates_and_the_end_truncates(self):
+        env = sixstep.Env(current(), 2, hold=20)
+        with self.assertRaisesRegex(ValueError, "reset"):
+            env.step(np.zeros((2, 1)))
+        env.reset()
+        _, _, terminated, truncated, _ = env.step([[math.nan], [0.0]])
+        self.assertEqual((terminated.tolist(), truncated.tolist()), ([True, False], [False, False]))
+        while not truncated.any():
+            _, _, terminated, truncated, _ = env.step([[0.0], [0.0]])
+        self.assertEqual((terminated.tolist(), truncated.tolist()), ([True, False], [False, True]))
+
+    def test_after_a_fork_it_says_so(self):
+        env = sixstep.Env(current(), 8, workers=2)
+        env.reset()
+        env.step(np.zeros((8, 1)))
+        child = os.fork()
+        if child == 0:
+            try:
+                env.step(np.zeros((8, 1)))
+            except ValueError:
+                del env
+                os._exit(0)
+            os._exit(1)
+        self.assertEqual(os.waitpid(child, 0)[1], 0)
+
+
+class Files(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.addCleanup(os.chdir, os.getcwd())
+        self.folder = pathlib.Path(folder.name) / "a b"
+        self.folder.mkdir()
+        (self.folder / "mm.toml").write_text((SOURCE / "data/motors/maxon-251601.toml").read_text())
+        self.file = self.folder / "x.toml"
+        self.file.write_text(current().to_toml().replace('"maxon-251601"', '"mm.toml"')
+                             + '[[require]]\nmetric = "max"\nsignal = "i_a"\nmax = 100\nlabel = "peak"\n')
+
+    def test_a_scenario_is_what_was_read(self):
+        scenario = sixstep.Scenario(self.file)
+        before = sixstep.run(scenario).figures["peak"]
+        self.file.write_text(self.file.read_text().replace("value = 2", "value = 1"))
+        self.assertAlmostEqual(sixstep.sweep(scenario, {"pwm.period_s": [30e-6]})["peak"][0], before, delta=1e-9)
+
+    def test_relative_names_hold_from_any_folder(self):
+        os.chdir(self.folder)
+        told = [sixstep.Scenario("x.toml"), sixstep.Scenario(motor="mm.toml", duration_s=1e-3, control={"mode": "current"}, reference={"value": 1, "unit": "A"})]
+        os.chdir("/")
+        for scenario in told:
+            sixstep.run(scenario.copy(pwm__period_s="40us"))
+            sixstep.Session.restore(sixstep.Session(scenario).save())
+            self.assertIn("usable", str(sixstep.design(scenario, quick=True)))
+            pickle.loads(pickle.dumps(scenario))
+
+    def test_a_path_or_dict_stands_for_its_scenario(self):
+        self.assertEqual(sixstep.run(str(self.file)).digest, sixstep.run(sixstep.Scenario(self.file)).digest)
+        self.assertTrue(sixstep.run({"motor": "maxon-251601", "duration_s": 1e-3}).complete)
+        self.assertEqual(len(sixstep.sweep(self.file, {"supply.voltage_V": (12, 24, 48)})), 3)
+        with self.assertRaises(TypeError):
+            sixstep.sweep(self.file, {"supply.voltage_V": 12})
+        with self.assertRaises(ValueError):
+            sixstep.sweep(self.file, {})
+
+    def test_attributes_are_no_keys(self):
+        with self.assertRaisesRegex(AttributeError, "set by key"):
+            current().supply = 5
+
+
+if __name__ == "__main__":
+    unittest.main()
