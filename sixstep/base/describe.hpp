@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One description of each parameter serves all faces: TOML reading and its checks, help and the schema, and
-// later the web form, Python and FMU. For each parameter struct S there is one free function
+// One description of each parameter serves all faces: TOML reading and its checks, help, the schema and Python,
+// and later the web form and the FMU. For each parameter struct S there is one free function
 //
 //   void describe(Visitor& v, S& s);          (base/visitor.hpp)
 //
