@@ -98,14 +98,6 @@ constexpr sixstep_controller commanded(uint32_t answers, decltype(sixstep_contro
 constexpr sixstep_controller pairs = commanded(SIXSTEP_ANSWERS_PAIR, step_pair, at_hall_edge);
 constexpr sixstep_controller legs = commanded(SIXSTEP_ANSWERS_LEGS, step_legs, nullptr);
 
-double motor_current_A(const sixstep_measured& m) {
-  control::Measurement<double> seen{};
-  seen.i_a_A = m.current_A[0];
-  seen.i_b_A = m.current_A[1];
-  seen.i_c_A = m.current_A[2];
-  return control::motor_current(seen, control::positive_pair(control::sector_of_hall(m.hall)));
-}
-
 struct Drive {
   std::unique_ptr<Exchange> exchange = std::make_unique<Exchange>();
   std::optional<study::Session> session;
