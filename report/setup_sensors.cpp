@@ -15,7 +15,7 @@ using namespace sixstep;
 namespace {
 
 std::string shaft_sensor(const study::Sensors& s) {
-  const std::string words = text::shaft_sensor_words(s, text::SensorWordsOf::page, given);
+  std::string words = text::shaft_sensor_words(s, text::SensorWordsOf::page, given);
   if (words.empty()) return words;
   return "; " + words + (s.shaft == study::SensorShaft::motor ? "" : ", on the load's shaft");
 }

@@ -250,6 +250,7 @@ std::string mat73_head(const std::vector<std::pair<std::string, MatFields>>& str
   for (const auto& each : structs) most = std::max(most, each.second.size());
   Objects objects(most);
   std::vector<Named> all;
+  all.reserve(structs.size() + columns.size());
   for (const auto& [name, fields] : structs) all.push_back({name, objects.struct_of(fields)});
   for (const std::string& name : columns) all.push_back({name, objects.column(rows)});
   return objects.ended(objects.group(std::move(all), ""), rows);

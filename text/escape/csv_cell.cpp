@@ -20,7 +20,7 @@ std::string cell_name(std::string_view text) {
 }
 
 std::string csv_cell(std::string_view text) {
-  const std::string name = cell_name(text);
+  std::string name = cell_name(text);
   if (name.find_first_of(",;\"") == std::string::npos) return name;
   std::string quoted = "\"";
   for (const char c : name) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
