@@ -6,7 +6,7 @@ import re
 import tomllib
 import unittest
 
-from program import SOURCE, ProgramTest
+from program import SOURCE, ProgramTest, some
 
 
 class DesignForABoard(ProgramTest):
@@ -170,7 +170,7 @@ position = {gain_rad_s_per_deg = 0.1, speed_limit_rad_s = 50}
         self.run_program("export", "header", "lost.toml", "--arithmetic", "float", "--out", "lost.hpp", code=2)
 
     def test_what_only_the_boards_drive_looks_at_is_no_obstacle(self):
-        for name in ("sensorless-comparators", "hall-glitch", "hall-glitches"):
+        for name in some(("hall-glitch", "sensorless-comparators", "hall-glitches"), 1):
             scenario = str(SOURCE / "data" / "scenarios" / "gallery" / f"{name}.toml")
             self.assertNotIn("set control.drive", self.run_any("design", "--scenario", scenario, "--quick").stderr)
 

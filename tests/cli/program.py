@@ -35,6 +35,11 @@ BRISK = re.sub("(?m)^inertia.*$", "inertia_gcm2 = 0.3", (SOURCE / "data/motors/m
 WIRING = "motor wiring brisk.toml --current 15"  # of that motor a fifth of the work, for tests of what is printed
 
 
+def some(cases, count):
+    """The first of many cases that are alike, and all of them with SIXSTEP_ALL_CASES (ctest --preset long): the likeliest stand first."""
+    return list(cases) if os.environ.get("SIXSTEP_ALL_CASES") else list(cases)[:count]
+
+
 def hall_log(turns, rows=60):
     """A log of Hall lines that turn steadily: so many rows in each electrical turn."""
     codes = ["1,0,0", "1,1,0", "0,1,0", "0,1,1", "0,0,1", "1,0,1"]  # docs/reference/notation.md, forward

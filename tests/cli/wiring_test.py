@@ -45,17 +45,18 @@ class Wiring(Started):
                     self.assertEqual((run["electrical_turns_from_start"] > 1) - (run["electrical_turns_from_start"] < -1), way)
 
     def test_a_trapezoid_as_text_and_as_json(self):
-        text = self.run_program("motor", "wiring", "maxon-251601").stdout
-        printed = self.run_program("motor", "wiring", "maxon-251601", "--json").stdout
-        told = json.loads(printed)
+        told = self.wirings("maxon-251601")
         self.check_all(told)
+        self.assertAlmostEqual(told["bench"]["stalled_A"], 2.33)
+        (self.path / "brisk.toml").write_text(BRISK)
+        text = self.run_program(*WIRING.split()).stdout
+        told = json.loads(self.run_program(*WIRING.split(), "--json").stdout)
         words = {"forward": "FORWARD", "backward": "BACKWARD"}
         shown = table(text, 0)
         for w in told["wirings"]:
             does = words.get(w["measured"]["does"], w["measured"]["does"].replace("_", ", "))
             self.assertEqual(shown[w["phases"]][DIGITS.index(w["hall_lines"])], does)
         self.assertEqual([row["hall"] for row in told["commutation"]], ["100", "110", "010", "011", "001", "101"])
-        self.assertAlmostEqual(told["bench"]["stalled_A"], 2.33)
 
     def test_an_outer_rotor_of_sines_and_a_delta_in_files_of_their_own(self):
         self.check_all(self.wirings("dji-2212-920kv"))

@@ -23,7 +23,7 @@ using analysis::Interval;
 #if defined(__SANITIZE_ADDRESS__)
 constexpr std::uint64_t usual_count = 300;
 #else
-constexpr std::uint64_t usual_count = 3000;
+constexpr std::uint64_t usual_count = 1000;
 #endif
 
 struct Tally {
