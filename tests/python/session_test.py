@@ -104,6 +104,30 @@ class Environments(unittest.TestCase):
                                             "reference": {"value": 0.4}, "record": {"grid_s": 30e-6}}))
         self.assertAlmostEqual(seen[0, 3], float(np.interp(399 * 30e-6, run.time, run.speed)), delta=0.01 * seen[0, 3])
 
+    def test_a_current_action_is_the_setpoint_of_the_drives_own_loop(self):
+        """From rest with no current asked for, then 2 A: what the drive itself does one control tick after its own step to 2 A."""
+        period, begin, count = 30e-6, 4, 200
+        env = sixstep.Env(self.scenario(), action="current")
+        env.reset()
+        seen = [env.step([[0.0 if n < begin else 2.0]])[0][0] for n in range(count)]
+        run = sixstep.run(sixstep.Scenario({"motor": "maxon-251601", "duration_s": 0.05, "control": {"mode": "current"},
+                                            "reference": {"shape": "steps", "times_s": [0, (begin + 0.5) * period], "values": [0, 2]},
+                                            "record": {"grid_s": period}}))
+        current = np.array(seen)[:, env.observed.index("motor_current_A")]
+        self.assertAlmostEqual(current[-1], 2.0, delta=0.05)
+        np.testing.assert_allclose(current, run.i_m[1:count + 1], atol=1e-9)
+
+    def test_a_current_action_has_the_scenarios_limit(self):
+        limited = self.scenario(control={"mode": "speed", "current": {"limit_A": 1.5}}, load={"locked": True})
+        env = sixstep.Env(limited, action="current")
+        self.assertEqual(float(env.action_space.high[0, 0]), 1.5)
+        env.reset()
+        for _ in range(300):
+            seen, _, _, _, _ = env.step([[9.0]])
+        self.assertAlmostEqual(seen[0, env.observed.index("motor_current_A")], 1.5, delta=0.05)
+        with self.assertRaisesRegex(sixstep.ScenarioError, "has no current loop"):
+            sixstep.Env(self.scenario(control={"mode": "duty"}, reference={"value": 0.3}), action="current", target="speed_rad_s")
+
     def test_the_end_of_a_run_is_told_and_a_drive_begins_anew(self):
         env = sixstep.Env(self.scenario(duration_s=3e-3), 2, hold=20)
         env.reset()

@@ -38,7 +38,8 @@ class Env:
 
     scenario   its reference, load, sensors and [[at]] changes are the task; its controller is replaced by the actions
     drives     how many; arrays have one row per drive
-    action     "duty": the duty of the driven pair, -1..1, commutated by the Hall code; "legs": duties of the three legs, 0..1
+    action     "duty": the duty of the driven pair, -1..1, commutated by the Hall code; "legs": duties of the three legs, 0..1;
+               "current": setpoint of the library's current loop in A, with the gains that the scenario designs
     hold       control periods per step
     spread     True: each drive is another one of the scenario's [[spread]]; False: all are as written
     reward     function of (observation, action) with one row per drive; without it minus the distance of `target` from the setpoint
@@ -62,13 +63,11 @@ class Env:
     def __init__(self, scenario: Source, drives: int = 1, *, action: str = "duty", hold: int = 1, spread: bool = False,
                  target: str | None = None, reward: Callable[[Array, Array], Array] | None = None, workers: int | None = None) -> None:
         scenario = as_scenario(scenario)
-        if action not in ("duty", "legs"):
-            raise ValueError(f'action = "{action}" must be "duty" or "legs"')
         if int(drives) != drives or int(hold) != hold or drives < 1 or hold < 1:
             raise ValueError("drives and hold must be whole numbers from 1")
         self.num_envs, self.hold = drives, hold
         self._spread, self._seed, self._numbers = spread, 1, np.arange(drives)
-        self._columns = {"duty": 1, "legs": 3}[action]
+        self._columns = 3 if action == "legs" else 1
         usual = {"speed": "speed_rad_s", "position": "position_deg", "current": "motor_current_A"}
         self._target = usual.get(str(scenario["control.mode"]), "") if target is None else target
         if not self._target and reward is None:
@@ -76,9 +75,10 @@ class Env:
         if self._target and self._target not in self.observed:
             raise ValueError(f'target = "{self._target}" is not observed; take one of {", ".join(self.observed)}')
         self._reward = reward
-        self._core = _core.Environment(scenario._core, drives, action == "legs", workers or os.cpu_count() or 1)
-        low = -1.0 if action == "duty" else 0.0
-        self.action_space = _box(np.full((drives, self._columns), low), np.ones((drives, self._columns)))
+        self._core = _core.Environment(scenario._core, drives, action, workers or os.cpu_count() or 1)
+        most = self._core.most_current_A if action == "current" else 1.0
+        least = 0.0 if action == "legs" else -most
+        self.action_space = _box(np.full((drives, self._columns), least), np.full((drives, self._columns), most))
         bound = np.full((drives, len(self.observed)), np.inf)
         self.observation_space = _box(-bound, bound)
 

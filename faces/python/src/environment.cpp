@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
+#include "faces/python/src/commands.hpp"
 #include "faces/python/src/crew.hpp"
 #include "faces/python/src/problems.hpp"
 #include "faces/python/src/scenario.hpp"
-#include "sixstep/control/own/own_pair.hpp"
 #include "sixstep/study/scenario/spread.hpp"
 #include "sixstep/study/session/session.hpp"
 
@@ -30,74 +30,6 @@ constexpr std::array observed = {"i_a_A",        "i_b_A",           "i_c_A",    
                                  "position_deg", "bus_V",           "magnet_cos", "magnet_sin",
                                  "hall",         "motor_current_A", "setpoint"};
 
-/// The command of one drive for its next tick, and what it saw at its last one.
-struct Exchange {
-  std::array<double, 3> action{};
-  sixstep_measured seen{};
-  double setpoint = 0.0;
-  uint8_t chopping = SIXSTEP_SOFT;
-};
-
-/// The interface's design function has no argument for it: the drive whose session this thread opens.
-thread_local Exchange* opening = nullptr;
-
-struct Opened {
-  Exchange* exchange;
-};
-
-Exchange& of(const void* config) { return *static_cast<const Opened*>(config)->exchange; }
-
-const char* design(const sixstep_given* given, const sixstep_real*, void* config) {
-  if (opening == nullptr) return "is the command of an environment";
-  opening->chopping = given->chopping;
-  static_cast<Opened*>(config)->exchange = opening;
-  return nullptr;
-}
-
-void note(Exchange& e, const sixstep_measured& measured, double setpoint) {
-  e.seen = measured;
-  e.setpoint = setpoint;
-}
-
-void step_pair(const void* config, void*, const sixstep_measured* measured, sixstep_real setpoint,
-               sixstep_answer* answer) {
-  Exchange& e = of(config);
-  note(e, *measured, setpoint);
-  answer->chopping = e.chopping;
-  control::command_pair(e.action[0], measured->hall, *answer);
-}
-
-void at_hall_edge(const void* config, void*, uint8_t code, sixstep_answer* answer) {
-  control::command_pair(of(config).action[0], code, *answer);
-}
-
-void step_legs(const void* config, void*, const sixstep_measured* measured, sixstep_real setpoint,
-               sixstep_answer* answer) {
-  Exchange& e = of(config);
-  note(e, *measured, setpoint);
-  answer->enabled = 1;
-  for (std::size_t k = 0; k < 3; ++k)
-    answer->leg[k] = {.state = SIXSTEP_LEG_PWM, .switches = SIXSTEP_PWM_COMPLEMENTARY, .duty = e.action[k]};
-}
-
-constexpr sixstep_controller commanded(uint32_t answers, decltype(sixstep_controller::step) step,
-                                       decltype(sixstep_controller::hall) hall) {
-  return {.interface = SIXSTEP_OWN_INTERFACE,
-          .answers = answers,
-          .name = "environment",
-          .sentence = "is commanded from outside",
-          .config_bytes = sizeof(Opened),
-          .state_bytes = 8,
-          .parameters = 0,
-          .parameter = nullptr,
-          .design = design,
-          .start = nullptr,
-          .step = step,
-          .hall = hall};
-}
-constexpr sixstep_controller pairs = commanded(SIXSTEP_ANSWERS_PAIR, step_pair, at_hall_edge);
-constexpr sixstep_controller legs = commanded(SIXSTEP_ANSWERS_LEGS, step_legs, nullptr);
-
 struct Drive {
   std::unique_ptr<Exchange> exchange = std::make_unique<Exchange>();
   std::optional<study::Session> session;
@@ -109,13 +41,20 @@ using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 class Environment {
  public:
-  Environment(const HeldScenario& held, std::size_t drives, bool of_legs, std::size_t workers)
+  Environment(const HeldScenario& held, std::size_t drives, Action action, std::size_t workers)
       : scenario_(held.scenario),
-        actions_(of_legs ? 3 : 1),
+        actions_(columns_of(action)),
         drives_(drives),
         crew_(std::max<std::size_t>(1, workers)) {
     scenario_.control.drive = study::FirmwareKind::own;
-    scenario_.control.own = {.controller = "environment", .number = {}, .loaded = of_legs ? &legs : &pairs};
+    scenario_.control.own = {.controller = "environment", .number = {}, .loaded = &controller_of(action)};
+  }
+
+  /// Bound of a current setpoint, A.
+  double most_current_A() const {
+    Exchange tried;
+    (void)opened(scenario_, tried);
+    return tried.current_A;
   }
 
   /// Starts drive n anew as drive `numbers[n]` of the scenario's [spread] with this seed; none: as it is written.
@@ -124,11 +63,8 @@ class Environment {
     for (std::size_t k = 0; k < which.size(); ++k) {
       Drive& drive = drives_.at(which[k]);
       *drive.exchange = {};
-      opening = drive.exchange.get();
-      base::Result<study::Session> opened = study::Session::open(
-          numbers.at(k) ? study::varied(scenario_, seed, *numbers[k]) : scenario_, {.keep_books = false});
-      opening = nullptr;
-      drive.session.emplace(taken(std::move(opened)));
+      drive.session.emplace(
+          opened(numbers.at(k) ? study::varied(scenario_, seed, *numbers[k]) : scenario_, *drive.exchange));
       drive.periods = 0;
       drive.over = false;
       advance(drive, 1);
@@ -190,6 +126,11 @@ class Environment {
  private:
   static constexpr std::uint64_t between_looks = 1000;  ///< periods without a look at Ctrl-C: a millisecond
 
+  static study::Session opened(const study::Scenario& scenario, Exchange& exchange) {
+    const Opening commanded(exchange);
+    return taken(study::Session::open(scenario, {.keep_books = false}));
+  }
+
   template <class Property>
   py::array_t<bool> each(Property&& property) const {
     py::array_t<bool> out(static_cast<py::ssize_t>(drives_.size()));
@@ -215,7 +156,14 @@ class Environment {
 
 void declare_environment(py::module_& module) {
   py::class_<Environment>(module, "Environment")
-      .def(py::init<const HeldScenario&, std::size_t, bool, std::size_t>())
+      .def(py::init(
+          [](const HeldScenario& held, std::size_t drives, const std::string& action, std::size_t workers) {
+            const std::optional<Action> known = action_of(action);
+            if (!known)
+              throw py::value_error("action = \"" + action + "\" must be \"duty\", \"legs\" or \"current\"");
+            return std::make_unique<Environment>(held, drives, *known, workers);
+          }))
+      .def_property_readonly("most_current_A", &Environment::most_current_A)
       .def("reset", &Environment::reset)
       .def("step", &Environment::step)
       .def("observations", &Environment::observations)

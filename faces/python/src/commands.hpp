@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Drives that are commanded from outside: what an environment's action is, as a controller behind the interface for own controllers.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "sixstep/control/own/own_controller.h"
+
+namespace python {
+
+/// duty: of the pair of the Hall code, -1..1. legs: three duties, 0..1. current: setpoint of the library's current loop, A.
+enum class Action : std::uint8_t { duty, legs, current };
+
+std::optional<Action> action_of(std::string_view word);
+constexpr std::size_t columns_of(Action action) { return action == Action::legs ? 3 : 1; }
+
+/// The command of one drive for its next tick, and what the board measured at its last one.
+struct Exchange {
+  std::array<double, 3> action{};
+  sixstep_measured seen{};
+  double setpoint = 0.0;  ///< of the scenario's reference
+  double current_A =
+      0.0;  ///< bound of a current setpoint: of the scenario's limit, else that of the full torque
+};
+
+const sixstep_controller& controller_of(Action action);
+
+/// While it lives, each session that this thread opens with such a controller takes its commands from this exchange.
+class Opening {
+ public:
+  explicit Opening(Exchange& exchange);
+  ~Opening();
+  Opening(const Opening&) = delete;
+  Opening& operator=(const Opening&) = delete;
+};
+
+}  // namespace python
