@@ -12,7 +12,7 @@ import unittest
 
 import numpy as np
 import sixstep
-from package import SOURCE, current
+from package import DATA, SOURCE, current
 
 
 def interrupted_after(seconds):
@@ -89,6 +89,28 @@ class Instants(unittest.TestCase):
         session.advance(1e-3)
         self.assertTrue(math.isnan(session["position_ref_deg"]))
         self.assertEqual(session["i_ref_A"], 2)
+
+
+class Sweeps(unittest.TestCase):
+    def test_a_key_that_was_set_can_be_varied(self):
+        s = sixstep.Scenario(DATA / "current-square.toml")
+        s["duration_s"] = 2e-3
+        s["supply.voltage_V"] = 30
+        table = sixstep.sweep(s, {"supply.voltage_V": [18, 24]})
+        self.assertEqual(table["supply.voltage_V"].tolist(), [18, 24])
+        self.assertEqual(s["supply.voltage_V"], 30)
+
+    def test_ctrl_c_tells_what_is_finished_and_how_to_go_on(self):
+        with tempfile.TemporaryDirectory() as folder:
+            store = os.path.join(folder, "x.sqlite")
+            s = current(duration_s=2.0, require=[{"metric": "max", "signal": "i_a", "max": 9}])
+            interrupted_after(1.5)
+            begin = time.monotonic()
+            with self.assertRaises(KeyboardInterrupt) as told:
+                sixstep.sweep(s, {"supply.voltage_V": [20 + 0.01 * n for n in range(400)]}, store=store)
+            self.assertLess(time.monotonic() - begin, 60)
+            self.assertIn("x.sqlite", str(told.exception))
+            self.assertIn("resume", str(told.exception))
 
 
 class Environments(unittest.TestCase):

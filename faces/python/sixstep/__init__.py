@@ -14,9 +14,10 @@ from .env import Env
 from .plan import Sweep, sweep
 from .program import Study, bode, check, compare, curve, design, program, wiring
 from .result import Column, Result, Verdict, run
-from .scenario import Key, Scenario, describe, keys, motors
+from .scenario import Key, Scenario, describe, keys, motors, scenarios, shipped
 from .session import Session
 
 __all__ = ["Column", "Env", "Interrupted", "Key", "Measured", "Problem", "ProgramError", "Result", "Scenario", "ScenarioError",
            "Session", "Study", "Sweep", "Verdict", "__version__", "bode", "check", "compare", "compiled", "curve", "describe",
-           "design", "include_dir", "keys", "motors", "program", "run", "sweep", "wiring"]
+           "design", "include_dir", "keys", "motors", "program", "run", "scenarios",
+           "shipped", "sweep", "wiring"]

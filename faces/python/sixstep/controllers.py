@@ -34,6 +34,11 @@ def compiled(source: str | os.PathLike[str], *, cache: str | os.PathLike[str] | 
     for `scenario["control.own.controller"]`. An unchanged source is compiled once.
 
     `source` is a file's path, or the text of a C++ source.
+
+    >>> import pathlib, sixstep
+    >>> path = sixstep.compiled('#include "sixstep/control/own/own_controller.h"\\n')
+    >>> pathlib.Path(path).suffix, path == sixstep.compiled('#include "sixstep/control/own/own_controller.h"\\n')
+    ('.so', True)
     """
     text, name = _source(source)
     folder = pathlib.Path(cache if cache is not None else os.environ.get("XDG_CACHE_HOME", "~/.cache")).expanduser() / "sixstep"

@@ -7,6 +7,7 @@ import math
 import os
 import pathlib
 import re
+import signal
 import subprocess
 import tempfile
 from collections.abc import Mapping, Sequence
@@ -21,7 +22,15 @@ from .scenario import Source, as_scenario
 
 
 class Sweep:
-    """Results of many runs, a row each. `s["run"]` and `s["settling time of motor current"]` are numpy arrays."""
+    """Results of many runs, a row each. `s["run"]` and `s["settling time of motor current"]` are numpy arrays.
+
+    >>> import sixstep
+    >>> s = sixstep.Scenario(motor="maxon-251601", duration_s=2e-3, control={"mode": "duty"}, reference={"value": 0.2},
+    ...                      require=[{"metric": "max", "signal": "speed", "max": 500, "label": "peak"}])
+    >>> table = sixstep.sweep(s, {"supply.voltage_V": [12, 24]})
+    >>> table.units["peak"], bool(table["peak"][1] > table["peak"][0])
+    ('rad/s', True)
+    """
 
     def __init__(self, told: Mapping[str, Any]) -> None:
         self.summary = dict(told)
@@ -91,12 +100,26 @@ def sweep(scenario: Source, vary: Mapping[str, Any] | None = None, *, drives: in
     words += ["--seed", str(seed)] if drives or sampling != "grid" else []
     words += ["--tolerances"] if tolerances else []
     words += ["--resume"] if resume else []
-    with scenario_file(scenario) as file, tempfile.TemporaryDirectory() as folder:
+    with scenario_file(scenario, but=set(vary or {})) as file, tempfile.TemporaryDirectory() as folder:
         out = pathlib.Path(folder) / "plan.json"
-        made = subprocess.run([program(), "run", *file, *words, "--quiet", "--json", str(out)], capture_output=True, text=True, check=False)
-        if made.returncode not in (0, 1, 3) or not out.exists():
-            _raise(made.stderr)
+        code, told = _ended([program(), "run", *file, *words, "--quiet", "--json", str(out)])
+        if code not in (0, 1, 3) or not out.exists():
+            _raise(told)
         return Sweep(json.loads(out.read_text()))
+
+
+def _ended(words: list[str]) -> tuple[int, str]:
+    """Exit code and messages. Ctrl-C ends the program, too, and what it tells of the finished runs is told on."""
+    with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as made:
+        try:
+            told = made.communicate()[1]
+            return made.returncode, told
+        except KeyboardInterrupt:
+            try:
+                made.wait(0.5)  # on a terminal it has heard the same
+            except subprocess.TimeoutExpired:
+                made.send_signal(signal.SIGINT)  # a notebook's stop reaches this process alone
+            raise KeyboardInterrupt(made.communicate()[1].strip()) from None
 
 
 def _values_text(values: Any) -> str:

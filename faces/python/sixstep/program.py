@@ -10,7 +10,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from typing import Any
 
 from ._errors import Problem, ProgramError, ScenarioError
@@ -106,12 +106,12 @@ def _raise(message: str) -> None:
 
 
 @contextlib.contextmanager
-def scenario_file(scenario: Scenario) -> Iterator[list[str]]:
-    """Words by which the program reads the scenario: its own file with settings, or a temporary one."""
+def scenario_file(scenario: Scenario, but: Collection[str] = ()) -> Iterator[list[str]]:
+    """Words by which the program reads the scenario: its own file with settings but those, or a temporary one."""
     if scenario.path and _unchanged(scenario):
         words = [scenario.path]
         for key, value in scenario._settings.items():
-            words += ["--set", f"{key}={value}"]
+            words += ["--set", f"{key}={value}"] if key not in but else []
         yield words
         return
     with tempfile.TemporaryDirectory() as folder:
@@ -145,12 +145,22 @@ def design(motor: str | os.PathLike[str] | Scenario, **options: Any) -> Study:
 
 
 def curve(motor: str | os.PathLike[str], **options: Any) -> Study:
-    """Torque-speed curve. Options are those of `sixstep curve`: curve("maxon-251601", voltage=18)."""
+    """Torque-speed curve. Options are those of `sixstep curve`: curve("maxon-251601", voltage=18).
+
+    >>> import sixstep
+    >>> len(sixstep.curve("maxon-251601", points=5).points)
+    5
+    """
     return _asked(["curve", os.fspath(motor)], ["--json", "FILE"], options)
 
 
 def check(motor: str | os.PathLike[str]) -> Study:
-    """Compares the values of a motor's data sheet with each other. `ok` is False if they contradict each other."""
+    """Compares the values of a motor's data sheet with each other. `ok` is False if they contradict each other.
+
+    >>> import sixstep
+    >>> sixstep.check("maxon-251601").ok
+    True
+    """
     study = _asked(["motor", "check", os.fspath(motor)], ["--json"], {})
     study.text = subprocess.run([program(), "motor", "check", os.fspath(motor)], capture_output=True, text=True, check=False).stdout
     return study
@@ -167,7 +177,13 @@ def compare(motor: str | os.PathLike[str], **options: Any) -> Study:
 
 
 def bode(scenario: Scenario, **options: Any) -> Study:
-    """The measured frequency response of the outermost loop where the scenario ends, beside the designed one."""
+    """The measured frequency response of the outermost loop where the scenario ends, beside the designed one.
+
+    >>> import sixstep
+    >>> figures = sixstep.bode(sixstep.shipped("thesis/7.3.1-locked-exact-design"))
+    >>> bool(abs(figures.measured.crossover_Hz / figures.designed.crossover_Hz - 1) < 0.03)
+    True
+    """
     with scenario_file(scenario) as words:
         return _asked(["run", *words, "--bode"], ["--json", "FILE"], options)
 

@@ -18,7 +18,12 @@ from .scenario import Scenario, Source, as_scenario
 
 
 class Column(NamedTuple):
-    """A recorded signal: its name with the unit's suffix, its unit, its frame and its meaning."""
+    """A recorded signal: its name with the unit's suffix, its unit, its frame and its meaning.
+
+    >>> import sixstep
+    >>> sixstep.Session.signals()[1]
+    Column(name='i_a_A', unit='A', frame='phase, into the motor', meaning='current of phase a')
+    """
 
     name: str
     unit: str
@@ -27,7 +32,15 @@ class Column(NamedTuple):
 
 
 class Verdict(NamedTuple):
-    """One requirement of the scenario and what the run measured; `measured` is infinite for "never"."""
+    """One requirement of the scenario and what the run measured; `measured` is infinite for "never".
+
+    >>> import sixstep
+    >>> s = sixstep.Scenario(motor="maxon-251601", duration_s=2e-3, control={"mode": "current"}, reference={"value": 2, "unit": "A"},
+    ...                      require=[{"metric": "max", "signal": "i_m_A", "max": 3, "label": "peak"}])
+    >>> verdict = sixstep.run(s).verdicts[0]
+    >>> verdict.figure, verdict.max, verdict.ok
+    ('peak', 3, True)
+    """
 
     figure: str
     measured: float

@@ -2,6 +2,7 @@
 """Scenarios: what is simulated. Keys, units and checks are those of the scenario file."""
 from __future__ import annotations
 
+import difflib
 import functools
 import os
 import pathlib
@@ -202,6 +203,33 @@ class Scenario:
 
     def __str__(self) -> str:
         return self.to_toml()
+
+
+_SHIPPED = pathlib.Path(__file__).parent / "data" / "scenarios"
+
+
+def scenarios() -> list[str]:
+    """Names of the scenarios that ship with sixstep, for `shipped`.
+
+    >>> import sixstep
+    >>> "thesis/7.4-speed-thesis-gains" in sixstep.scenarios()
+    True
+    """
+    return sorted(os.path.relpath(file, _SHIPPED)[:-len(".toml")] for file in _SHIPPED.rglob("*.toml"))
+
+
+def shipped(name: str) -> Scenario:
+    """A scenario that ships with sixstep. Raises `ValueError` with similar names for one that does not.
+
+    >>> import sixstep
+    >>> sixstep.shipped("current-square").motor
+    'maxon-251601'
+    """
+    names = scenarios()
+    if name not in names:
+        near = difflib.get_close_matches(name, names, 3) or [other for other in names if name in other][:3]
+        raise ValueError(f"{name} does not ship with sixstep; {'take ' + ', '.join(near) if near else 'sixstep.scenarios() lists those that do'}")
+    return Scenario(_SHIPPED / f"{name}.toml")
 
 
 _TEXT = "<text>"
