@@ -1,17 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How results look in a notebook: the verdict as a table, and a chart as SVG that needs no script from a network."""
+"""How results look in a notebook: the verdict as a table, and charts that can be read and zoomed, with no script from a network."""
 from __future__ import annotations
 
 import html
+import json
 import math
-from typing import TYPE_CHECKING
+import pathlib
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 if TYPE_CHECKING:
     from .result import Result
 
-WIDTH, HEIGHT, MOST_POINTS = 720, 150, 1200
+WIDTH, HEIGHT, BINS = 720, 150, 300
+USUAL = ("speed_rad_s", "i_a_A", "torque_Nm")
 
 
 def result_html(result: Result) -> str:
@@ -22,21 +25,49 @@ def result_html(result: Result) -> str:
         f"<td>{'never' if v.measured == math.inf else f'{v.measured:.5g}'} {html.escape(v.unit)}</td><td>{_limits(v.min, v.max)}</td></tr>"
         for v in result.verdicts)
     table = f"<table><tr><th></th><th>requirement</th><th>measured</th><th>allowed</th></tr>{rows}</table>" if rows else ""
-    charts = "".join(_chart(result, name) for name in ("speed_rad_s", "i_a_A", "torque_Nm") if name in result.units)
-    return f"<div><b>{html.escape(str(result.summary['title']))}: {word}</b>, {result.simulated_s:g} s simulated{table}{charts}</div>"
+    return f"<div><b>{html.escape(str(result.summary['title']))}: {word}</b>, {result.simulated_s:g} s simulated{table}{_charts(result)}</div>"
 
 
 def _limits(low: float | None, high: float | None) -> str:
     return " ".join(f"{sign} {x:.5g}" for sign, x in (("≥", low), ("≤", high)) if x is not None)
 
 
-def _chart(result: Result, name: str) -> str:
-    t, x = result.time, result[name]
-    keep = np.linspace(0, len(t) - 1, min(len(t), MOST_POINTS)).astype(int)
-    t, x = t[keep], x[keep]
+def _charts(result: Result) -> str:
+    """All charts over the same rows, and what reads them at the pointer."""
+    names = [name for name in USUAL if name in result.units]
+    t = result.time
+    keep = _kept([result[name] for name in names], len(t))
+    columns = [{"label": f"{name} [{result.units[name]}]", "unit": result.units[name], "values": _numbers(result[name][keep])} for name in names]
+    data = {"time_ms": _numbers(1e3 * t[keep]), "width": WIDTH, "height": HEIGHT, "columns": columns}
+    drawn = "".join(_chart(1e3 * t[keep], result[name][keep], f"{name} [{result.units[name]}]") for name in names)
+    script = pathlib.Path(__file__).with_name("chart.js").read_text(encoding="utf-8")
+    kept = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
+    return f"<div>{drawn}<script type='application/json'>{kept}</script><script>{script}</script></div>"
+
+
+def _kept(columns: list[Any], rows: int) -> Any:
+    """Few rows that have the least and the greatest value of each column in each part of the run."""
+    if rows <= 6 * BINS:
+        return np.arange(rows)
+    kept = {0, rows - 1}
+    for part in np.array_split(np.arange(rows), BINS):
+        for column in columns:
+            known = part[~np.isnan(column[part])]
+            if len(known):
+                kept |= {int(known[column[known].argmin()]), int(known[column[known].argmax()])}
+    return np.array(sorted(kept))
+
+
+def _numbers(column: Any) -> list[float | None]:
+    return [float(f"{x:.7g}") if math.isfinite(x) else None for x in column.tolist()]
+
+
+def _chart(t_ms: Any, x: Any, label: str) -> str:
     low, high = float(np.nanmin(x)), float(np.nanmax(x))
-    span, duration = (high - low) or 1.0, float(t[-1] - t[0]) or 1.0
-    points = " ".join(f"{(a - t[0]) / duration * WIDTH:.1f},{HEIGHT - (b - low) / span * HEIGHT:.1f}" for a, b in zip(t, x) if b == b)
-    return (f"<div style='margin-top:6px'>{name} [{result.units[name]}]: {low:.4g} .. {high:.4g}, over {1e3 * duration:.4g} ms<br>"
-            f"<svg viewBox='-4 -4 {WIDTH + 8} {HEIGHT + 8}' width='{WIDTH}' role='img' aria-label='{name} over time'>"
-            f"<polyline points='{points}' fill='none' stroke='#1f6feb' stroke-width='1'/></svg></div>")
+    span, duration = (high - low) or 1.0, float(t_ms[-1] - t_ms[0]) or 1.0
+    points = " ".join(f"{(a - t_ms[0]) / duration * WIDTH:.1f},{HEIGHT - (b - low) / span * HEIGHT:.1f}" for a, b in zip(t_ms, x) if b == b)
+    return (f"<div style='margin-top:6px'>{label}: {low:.4g} .. {high:.4g}, from {t_ms[0]:.4g} to {t_ms[-1]:.4g} ms</div>"
+            f"<svg viewBox='0 -4 {WIDTH} {HEIGHT + 8}' width='{WIDTH}' height='{HEIGHT + 8}' role='img' aria-label='{label} over time'>"
+            f"<polyline points='{points}' fill='none' stroke='#1f6feb' stroke-width='1'/>"
+            f"<line y1='-4' y2='{HEIGHT + 4}' stroke='#57606a' stroke-dasharray='3 3' style='display:none'/></svg>"
+            "<div style='min-height:1.3em;font-variant-numeric:tabular-nums'></div>")

@@ -29,7 +29,14 @@ def _styled(axes: Any, label: str) -> None:
 
 
 def run_chart(result: Result, *names: str, from_s: float | None = None, to_s: float | None = None) -> Any:
-    """A chart over time for each of `names`; without names the usual ones that were recorded. Returns the figure."""
+    """A chart over time for each of `names`; without names the usual ones that were recorded. Returns the figure.
+
+    >>> import matplotlib; matplotlib.use("Agg")
+    >>> import sixstep, sixstep.plots
+    >>> r = sixstep.run(sixstep.Scenario(motor="maxon-251601", duration_s=5e-3, control={"mode": "current"}, reference={"value": 2, "unit": "A"}))
+    >>> len(sixstep.plots.run_chart(r, "speed", "i_a").axes)
+    2
+    """
     wanted: list[tuple[str, ...]] = [(name,) for name in names]
     groups = wanted or [found for group in USUAL if (found := tuple(n for n in group if n in result.units))]
     figure, all_axes = _pyplot().subplots(len(groups), 1, sharex=True, squeeze=False, figsize=(9, 1.2 + 1.9 * len(groups)), layout="constrained")
@@ -47,8 +54,32 @@ def run_chart(result: Result, *names: str, from_s: float | None = None, to_s: fl
     return figure
 
 
+def empty_charts(names: list[tuple[str, str]]) -> tuple[Any, list[Any]]:
+    """A figure with an empty chart over time for each (name, unit), and the charts' lines."""
+    pyplot = _pyplot()
+    figure, all_axes = pyplot.subplots(len(names), 1, sharex=True, squeeze=False, figsize=(9, 1.2 + 1.9 * len(names)), layout="constrained")
+    lines = []
+    for colour, axes, (name, unit) in zip(COLOURS * len(names), all_axes[:, 0], names):
+        lines += axes.plot([], [], color=colour, linewidth=1)
+        _styled(axes, f"{name}, {unit}" if unit else name)
+    all_axes[-1, 0].set_xlabel("time, ms")
+    return figure, lines
+
+
+def closed(figure: Any) -> None:
+    """Releases a figure that a notebook has shown already, so that it is not shown again."""
+    _pyplot().close(figure)
+
+
 def spectrum(result: Result, name: str = "i_a_A", *, up_to_Hz: float | None = None) -> Any:
-    """Amplitudes of a recorded column over frequency, with a Hann window. The rows must lie on a grid (record.grid_s)."""
+    """Amplitudes of a recorded column over frequency, with a Hann window. The rows must lie on a grid (record.grid_s).
+
+    >>> import matplotlib; matplotlib.use("Agg")
+    >>> import sixstep, sixstep.plots
+    >>> r = sixstep.run(sixstep.Scenario(motor="maxon-251601", duration_s=5e-3, control={"mode": "current"}, reference={"value": 2, "unit": "A"}))
+    >>> sixstep.plots.spectrum(r, "i_a_A").axes[0].get_xlabel()
+    'frequency, Hz'
+    """
     t, x = result.time, result[name]
     steps = np.diff(t)
     if len(t) < 16 or np.ptp(steps) > 1e-6 * steps.mean():
@@ -64,8 +95,63 @@ def spectrum(result: Result, name: str = "i_a_A", *, up_to_Hz: float | None = No
     return figure
 
 
+GATES = (("gate_T1", "gate_T2"), ("gate_T3", "gate_T4"), ("gate_T5", "gate_T6"))
+
+
+def conducting(upper: float, lower: float, current_A: float) -> str:
+    """What carries the current of a leg into the motor: "upper switch", "lower switch", "upper diode", "lower diode" or "none".
+
+    >>> import sixstep.plots
+    >>> sixstep.plots.conducting(upper=0, lower=0, current_A=1.5)
+    'lower diode'
+    """
+    if upper > 0.5:
+        return "upper switch"
+    if lower > 0.5:
+        return "lower switch"
+    return "none" if current_A == 0 else "lower diode" if current_A > 0 else "upper diode"
+
+
+def bridge(result: Result, at_s: float) -> Any:
+    """The bridge at an instant of the run: gates that are on, what conducts, and the current of each phase. Returns the figure.
+
+    >>> import matplotlib; matplotlib.use("Agg")
+    >>> import sixstep, sixstep.plots
+    >>> r = sixstep.run(sixstep.Scenario(motor="maxon-251601", duration_s=5e-3, control={"mode": "current"}, reference={"value": 2, "unit": "A"}))
+    >>> sixstep.plots.bridge(r, at_s=2e-3).axes[0].get_title()[-20:]
+    'at 1.98 ms, bus 24 V'
+    """
+    n = int(np.searchsorted(result.time, at_s, side="right")) - 1
+    if not 0 <= n < len(result.time) or at_s > result.time[-1]:
+        raise ValueError(f"at_s = {at_s:g} must lie within the run, {result.time[0]:g} .. {result.time[-1]:g} s")
+    figure, axes = _pyplot().subplots(figsize=(7, 4.2), layout="constrained")
+    axes.plot([0, 6.6], [4, 4], color="black", linewidth=2)
+    axes.plot([0, 6.6], [0, 0], color="black", linewidth=2)
+    for k, (phase, gates) in enumerate(zip("abc", GATES)):
+        x, current = 1.2 + 2 * k, float(result[f"i_{phase}_A"][n])
+        on = [float(result[gate][n]) for gate in gates]
+        way = conducting(on[0], on[1], current)
+        for y, gate, is_on, side in ((3, gates[0], on[0], "upper"), (1, gates[1], on[1], "lower")):
+            lit = way.startswith(side) and abs(current) > 0
+            axes.plot([x, x], [y - 1, y + 1], color=COLOURS[1] if lit else "0.7", linewidth=3 if lit else 1)
+            axes.text(x, y, f"{gate[-2:]} {'on' if is_on > 0.5 else 'diode' if lit else 'off'}", ha="center", va="center", fontsize=9,
+                      bbox={"boxstyle": "round", "facecolor": "#ffd8d3" if lit else "white", "edgecolor": "black" if is_on > 0.5 else "0.7"})
+        axes.annotate("", xy=(x + 0.75 if current >= 0 else x, 2), xytext=(x if current >= 0 else x + 0.75, 2),
+                      arrowprops={"arrowstyle": "->" if current else "-", "color": COLOURS[1] if current else "0.7"})
+        axes.text(x + 0.42, 2.12, f"{phase}: {current:.3g} A", ha="center", fontsize=9)
+    axes.set_title(f"{result.summary['title']}: bridge at {1e3 * result.time[n]:.4g} ms, bus {float(result['bus_V'][n]):.4g} V")
+    axes.set_axis_off()
+    return figure
+
+
 def torque_speed(curve: Study) -> Any:
-    """The torque-speed curve of `sixstep.curve`, with the motor's current."""
+    """The torque-speed curve of `sixstep.curve`.
+
+    >>> import matplotlib; matplotlib.use("Agg")
+    >>> import sixstep, sixstep.plots
+    >>> sixstep.plots.torque_speed(sixstep.curve("maxon-251601", points=5)).axes[0].get_xlabel()
+    'speed_rad_s'
+    """
     points = curve.to_dict()["points"]
     keys = list(points[0])
     speed = next(k for k in keys if k.startswith("speed"))
