@@ -45,6 +45,14 @@ base::Result<text::NamedText> loaded_from(const std::string& path, const std::st
   return text::NamedText{path, {}, *guarded};
 }
 
+/// The same options as those of the Python package's compiled().
+std::string compile_command(const std::string& source) {
+  const std::filesystem::path path(source);
+  const bool cpp = path.extension() == ".cpp" || path.extension() == ".cc" || path.extension() == ".cxx";
+  return std::string(cpp ? "c++ -std=c++20" : "cc") + " -O2 -ffp-contract=off -shared -fPIC -IFOLDER " +
+         path.filename().string() + " -o " + path.stem().string() + ".so";
+}
+
 }  // namespace
 
 base::Result<text::NamedText> load_controller(const std::string& path) {
@@ -57,7 +65,8 @@ base::Result<text::NamedText> load_controller(const std::string& path) {
   if (!bytes->starts_with(elf_magic))
     return base::Problem{.where = path,
                          .limit = "is not a compiled library: it may be the source",
-                         .cure = "compile it and name the result: cc -O2 -shared -fPIC -o NAME.so SOURCE.c"};
+                         .cure = "compile it and name the result: " + compile_command(path) +
+                                 ", where FOLDER has sixstep/control/own/own_controller.h"};
   // A name without a slash would be searched among the system's libraries.
   std::error_code ignored;
   const std::string whole = std::filesystem::absolute(path, ignored).string();

@@ -53,7 +53,7 @@ template <class Work>
 void inside(const char* path, ControllerPlace place, const Work& work) {
   const femode_t& usual = usual_mode();
   ControllerThread& thread = controller_thread();
-  thread.controller = path;
+  thread.controller.store(path, std::memory_order_relaxed);
   thread.calls.store(thread.calls.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   thread.place.store(place, std::memory_order_relaxed);
   try {
@@ -83,7 +83,7 @@ struct Calls {
     thread_local std::string told;
     const char* wrong = nullptr;
     inside(is().path.c_str(), ControllerPlace::design, [&](ControllerThread& thread) {
-      thread.period_s = given->period_s;
+      thread.period_s.store(given->period_s, std::memory_order_relaxed);
       const std::size_t bytes = is().real.config_bytes;
       arena().let_config_change(true);
       std::byte* const own = arena().config.take(bytes);
@@ -105,7 +105,8 @@ struct Calls {
 
   static void step(const void* config, void* state, const sixstep_measured* measured, sixstep_real setpoint,
                    sixstep_answer* answer) {
-    ++controller_thread().steps;
+    std::atomic<std::uint64_t>& steps = controller_thread().steps;  // written by this thread alone
+    steps.store(steps.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
     const sixstep_measured seen = *measured;
     with_bytes(ControllerPlace::step, config, state, answer,
                [&](const std::byte* c, std::byte* s, sixstep_answer* a) {

@@ -6,6 +6,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
@@ -13,7 +14,9 @@
 #include <memory>
 #include <mutex>
 #include <string_view>
+#include <thread>
 
+#include "files/signal_line.hpp"
 #include "files/temporary_names.hpp"
 
 namespace files {
@@ -36,57 +39,24 @@ ControllerThread* found_thread() {
   return nullptr;
 }
 
-/// Formats text without the C library's memory and locks, which a signal handler must not use.
-class Words {
- public:
-  Words& operator<<(std::string_view text) {
-    for (const char c : text)
-      if (used_ + 1 < sizeof text_)
-        text_[used_++] = static_cast<unsigned char>(c) < ' ' && c != '\t' ? '?' : c;
-    return *this;
-  }
-  Words& operator<<(std::uint64_t n) {
-    char digits[20];
-    std::size_t count = 0;
-    do digits[count++] = static_cast<char>('0' + n % 10);
-    while ((n /= 10) != 0);
-    while (count > 0) *this << std::string_view(&digits[--count], 1);
-    return *this;
-  }
-  std::string_view line() {
-    text_[used_] = '\n';
-    return {text_, used_ + 1};
-  }
-
- private:
-  char text_[1024];
-  std::size_t used_ = 0;
-};
-
-void write_out(int descriptor, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t taken = ::write(descriptor, text.data(), text.size());
-    if (taken <= 0) return;
-    text.remove_prefix(static_cast<std::size_t>(taken));
-  }
-}
-
 /// "in step 20, at t = 0.600 ms"
-void tell_place(Words& to, const ControllerThread& at) {
+void tell_place(SignalLine& to, const ControllerThread& at) {
   const ControllerPlace place = at.place;
   if (place == ControllerPlace::loading) to << " while it was loaded";
   if (place == ControllerPlace::design) to << " in its design";
   if (place == ControllerPlace::start) to << " in its start";
   if (place != ControllerPlace::step && place != ControllerPlace::hall) return;
-  const auto us = static_cast<std::uint64_t>(std::llround(static_cast<double>(at.steps) * at.period_s * 1e6));
+  const std::uint64_t steps = at.steps;
+  const auto us = static_cast<std::uint64_t>(std::llround(static_cast<double>(steps) * at.period_s * 1e6));
   const std::uint64_t rest = us % 1000;
-  to << (place == ControllerPlace::hall ? " in its hall() after step " : " in step ") << at.steps
+  to << (place == ControllerPlace::hall ? " in its hall() after step " : " in step ") << steps
      << ", at t = " << us / 1000 << "." << rest / 100 << rest / 10 % 10 << rest % 10 << " ms";
 }
 
 void tell(const ControllerThread& at, const char* what, std::string_view more) {
-  Words words;
-  words << (at.controller ? at.controller : "a controller") << ": the controller " << what;
+  SignalLine words;
+  const char* const controller = at.controller;
+  words << (controller ? controller : "a controller") << ": the controller " << what;
   tell_place(words, at);
   if (at.runs > 0) words << ", of run " << at.runs - 1;
   write_out(STDERR_FILENO, (words << more).line());
@@ -96,8 +66,8 @@ void note_run(const ControllerThread& at, const char* what) {
   if (at.runs == 0 || noted_in[0] == '\0') return;
   const int descriptor = ::open(noted_in, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (descriptor < 0) return;
-  Words words;
-  words << at.runs - 1 << "\t" << at.controller << ": the controller " << what;
+  SignalLine words;
+  words << at.runs - 1 << "\t" << at.controller.load() << ": the controller " << what;
   tell_place(words, at);
   write_out(descriptor, words.line());
   ::close(descriptor);
@@ -128,7 +98,7 @@ extern "C" void on_crash(int signal, siginfo_t*, void*) {
   if (at && at->place != ControllerPlace::outside) end_by_controller(*at, crash_of(signal));
   // The crash is not in the controller's code, but it may have overwritten memory: the previous handler
   // continues.
-  Words words;
+  SignalLine words;
   words << "sixstep crashed; " << (last_loaded.load() ? last_loaded.load() : "a controller")
         << " runs in this program and may have written over its memory";
   write_out(STDERR_FILENO, words.line());
@@ -146,6 +116,42 @@ extern "C" void on_exit_of_the_program() {
   end_by_controller(somewhere, "ended the program by exit() in a thread of its own");
 }
 
+/// What the watch for calls that do not return has seen of a thread: so many looks at the same call.
+struct SeenCall {
+  std::uint64_t calls = 0;
+  int looks = 0;
+};
+
+/// Looks ten times a second. It counts looks instead of reading a clock, because a program that is stopped by a debugger
+/// or by Ctrl-Z makes no progress either.
+void* watch_calls(void*) {
+  constexpr int looks_a_second = 10;
+  static SeenCall seen[most_threads];
+  while (true) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1000 / looks_a_second));
+    for (std::size_t n = 0; n < most_threads; ++n) {
+      const ControllerThread& t = threads[n];
+      const std::uint64_t calls = t.calls;
+      const bool same = t.thread != 0 && t.place != ControllerPlace::outside && calls == seen[n].calls;
+      seen[n] = {calls, same ? seen[n].looks + 1 : 0};
+      if (seen[n].looks == reported_call_s * looks_a_second)
+        tell(t, "has not answered for 2 s", "; after 10 s the program ends");
+      if (seen[n].looks == longest_call_s * looks_a_second) end_by_controller(t, "has not answered for 10 s");
+    }
+  }
+}
+
+/// The watch's thread gets no signal: a signal must interrupt the thread that waits for something.
+void start_watch_of_calls() {
+  sigset_t all, before;
+  ::sigfillset(&all);
+  ::pthread_sigmask(SIG_SETMASK, &all, &before);
+  pthread_t watch{};  // not std::thread, which throws where the system has no thread left
+  if (::pthread_create(&watch, nullptr, watch_calls, nullptr) == 0) ::pthread_detach(watch);
+  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+static_assert(reported_call_s == 2 && longest_call_s == 10, "their messages have these numbers");
+
 void watch_the_end() {
   struct sigaction act {};
   act.sa_sigaction = on_crash;
@@ -153,6 +159,7 @@ void watch_the_end() {
   for (const int signal : crashes) ::sigaction(signal, &act, &before_us[signal]);
   std::atexit(on_exit_of_the_program);
   std::at_quick_exit(on_exit_of_the_program);
+  start_watch_of_calls();
 }
 
 /// A separate stack for the handler, because an overflowed stack has no room for it.

@@ -14,23 +14,28 @@ namespace files {
 
 enum class ControllerPlace : std::uint8_t { outside, loading, design, start, step, hall };
 
-/// The record of a thread that calls controllers.
+/// The record of a thread that calls controllers. Atomic, because the watch for calls that do not return reads it from
+/// another thread.
 struct ControllerThread {
-  std::atomic<long> thread{0};       ///< thread number; 0: free
-  const char* controller = nullptr;  ///< the file's path, which must stay valid
+  std::atomic<long> thread{0};                   ///< thread number; 0: free
+  std::atomic<const char*> controller{nullptr};  ///< the file's path, which must stay valid
   std::atomic<ControllerPlace> place{ControllerPlace::outside};
   std::atomic<std::uint64_t> calls{0}, calls_at_stop{0};
-  std::uint64_t steps = 0;  ///< of the current run
-  double period_s = 0.0;
-  std::uint64_t runs =
-      0;  ///< number in a plan plus 1; 0: no plan. All zero, the table takes no room in the program's file
+  std::atomic<std::uint64_t> steps{0};  ///< of the current run
+  std::atomic<double> period_s{0.0};
+  std::atomic<std::uint64_t> runs{
+      0};  ///< number in a plan plus 1; 0: no plan. All zero, the table takes no room in the program's file
 };
+
+/// A call of a controller that lasts longer is reported; one that lasts still longer ends the program. Both count only
+/// time in which the program itself may run, not that in which it is stopped.
+constexpr int reported_call_s = 2, longest_call_s = 10;
 
 /// The record of the calling thread. From now on its crashes and its end are watched.
 ControllerThread& controller_thread();
 
 /// Names the file that will be loaded; the name must stay valid. The first call installs the handlers of crashes
-/// and of the program's end.
+/// and of the program's end, and starts the watch for calls that do not return.
 void watch_controllers(const char* path);
 
 /// Sets the number of the plan's run that this thread makes next.

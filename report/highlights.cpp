@@ -172,6 +172,11 @@ Line line_over(const Values& time, const Values& y, const Interval& window) {
   return out;
 }
 
+/// Whether a column of references is one: a controller without a current loop leaves zeros.
+bool names_a_current(const Values& reference) {
+  return std::ranges::any_of(reference, [](double ampere) { return ampere != 0.0; });
+}
+
 /// The row of largest magnitude in a window.
 std::size_t peak_row(const Values& time, const Values& y, const Interval& window) {
   std::size_t row = 0;
@@ -199,7 +204,7 @@ std::optional<StepCurrent> step_current(const Trace& trace, const Step& step) {
     out.then_span_A = then.high - then.low;
   }
   const std::optional<Values> asked = asked_values(trace, step.held);
-  if (asked && std::isfinite((*asked)[peak])) out.asked_A = (*asked)[peak];
+  if (asked && names_a_current(*asked) && std::isfinite((*asked)[peak])) out.asked_A = (*asked)[peak];
   return out;
 }
 
@@ -247,6 +252,9 @@ std::optional<Held> held_back(const Trace& trace, const Scenario& scenario,
            .limit_A = sixstep::study::current_limit_A(scenario, outcome.motor)};
   for (const double d : *duty) out.largest_duty = std::max(out.largest_duty, std::abs(d));
   const auto* reference = find_column(trace, "i_ref_A");
+  if (scenario.control.drive == sixstep::study::FirmwareKind::own &&
+      !(reference && names_a_current(*reference)))
+    out.limit_A.reset();  // a user's controller may have no current reference
   // The controller's number may be float or fixed-point: compare within the coarsest step, 2^-14 of full scale.
   if (reference && out.limit_A)
     out.limit_s = seconds_at(*time, *reference, *out.limit_A * (1.0 - 1.0 / 8192), from_s);

@@ -41,11 +41,15 @@ std::string chopping_words(const study::Pwm& p) {
 
 std::string pwm(const study::Scenario& scenario) {
   const study::Pwm& p = scenario.pwm;
-  const bool three_legs =
-      scenario.control.drive == study::FirmwareKind::field || study::answers_legs(scenario.control.own);
+  const study::FirmwareKind drive = scenario.control.drive;
+  const std::string answers = drive == study::FirmwareKind::field ? "three legs, each complementary"
+                              : study::answers_legs(scenario.control.own)
+                                  ? "three legs, as the controller answers"
+                              : drive == study::FirmwareKind::own ? "chopping as the controller answers"
+                                                                  : "";
   return fmt::format("{} ({}), {}-aligned, {}", given(p.period_s, "s"), computed(1.0 / p.period_s, "Hz"),
                      p.alignment == study::Alignment::edge ? "edge" : "centre",
-                     three_legs ? std::string("three legs, each complementary") : chopping_words(p));
+                     !answers.empty() ? answers : chopping_words(p));
 }
 
 std::string current_loop_words(const study::CurrentLoop& c) {

@@ -59,7 +59,7 @@ base::Problems put(std::optional<files::AtomicFile>& file, const std::string& te
 
 /// The bench with straight wires; the user crosses them in the file or with --set.
 std::string scenario_of(const analysis::WiringStudy& s, const std::string& path) {
-  study::Scenario scenario = analysis::free_run(s.bench, s.subject, {}, analysis::start_deg(0));
+  study::Scenario scenario = analysis::straight_run(s);
   scenario.motor = motor_beside(scenario.motor, path);
   return text::scenario_text(scenario, text::wiring_scenario_lines());
 }
@@ -114,7 +114,7 @@ Exit wiring_command(const WiringArguments& a) {
 
 Verb declare_wiring(CLI::App& motor) {
   CLI::App& wiring =
-      *motor.add_subcommand("wiring", "what it does plugged in in each of the 36 ways, and what cures it");
+      *motor.add_subcommand("wiring", "what it does connected in each of the 36 ways, and what cures it");
   const auto a = std::make_shared<WiringArguments>();
   wiring.add_option("MOTOR", a->motor, "name or path of a motor file")->required();
   wiring.add_option("--voltage", a->voltage_V, "bus voltage, V; without it the sheet's nominal voltage");

@@ -25,7 +25,7 @@ inline Fault fault_of(const Diagnosis& found) {
   if (found.shaft.lost()) return Fault::shaft_sensor;
   if (found.unseen > 0) return Fault::north_unseen;
   if (found.gave_up) return Fault::not_started;
-  return found.own != OwnWrong::none ? Fault::own_controller : Fault::impossible_hall;
+  return found.own.what != OwnWrong::none ? Fault::own_controller : Fault::impossible_hall;
 }
 
 /// True if the run ends with a fault that a firmware answered. Otherwise the drive is off and the motor coasts.

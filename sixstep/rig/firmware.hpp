@@ -51,7 +51,7 @@ struct Diagnosis {
   double north = 0.0;                                ///< last result of the pulses, relative to its noise
   double certain = 0.0;                              ///< result that would have been enough
   ShaftFinding shaft{};                              ///< finding of a lost encoder or resolver
-  OwnWrong own = OwnWrong::none;                     ///< error in the answer of a user's controller
+  OwnFinding own{};                                  ///< error in the answer of a user's controller
   CoreTrouble core = CoreTrouble::none;              ///< trouble of a core beside the host
 };
 

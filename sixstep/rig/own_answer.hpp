@@ -5,6 +5,7 @@
 
 #include "sixstep/control/leg_command.hpp"
 #include "sixstep/control/own/own_controller.h"
+#include "sixstep/control/own/own_pair.hpp"
 
 namespace sixstep::rig {
 
@@ -15,6 +16,16 @@ enum class OwnWrong : std::uint8_t {
   duty,     ///< not a number from 0 to 1
   leg,      ///< an invalid leg, or source and sink are the same leg
   choice,   ///< an invalid chopping, switch or state
+};
+
+/// The first invalid field of an answer, and the call that answered it.
+struct OwnFinding {
+  OwnWrong what = OwnWrong::none;
+  const char* field = "";  ///< "duty", "leg[1].state"
+  double value = 0.0;
+  std::int64_t steps = 0;       ///< calls of step() so far
+  bool in_hall = false;         ///< answered by hall(), not by step()
+  const char* controller = "";  ///< its file; valid as long as the firmware
 };
 
 // The C interface has the same names in the same order.
@@ -39,40 +50,45 @@ constexpr bool is_part(double x) { return x >= 0.0 && x <= 1.0; }
 }  // namespace detail
 
 template <class Command>
-constexpr OwnWrong wrong_in(const sixstep_answer& a) {
-  if (a.fault != 0) return OwnWrong::gave_up;
-  if (a.enabled == 0) return OwnWrong::none;
+constexpr OwnFinding wrong_in(const sixstep_answer& a) {
+  using enum OwnWrong;
+  if (a.fault != 0) return {gave_up, "fault", static_cast<double>(a.fault)};
+  if (a.enabled == 0) return {};
   if constexpr (requires(Command command) { command.pair; }) {
-    if (a.source > SIXSTEP_LEG_C || a.sink > SIXSTEP_LEG_C || a.source == a.sink) return OwnWrong::leg;
-    if (a.chopping > SIXSTEP_COMPLEMENTARY || a.chopped > SIXSTEP_LOWER) return OwnWrong::choice;
-    const bool parts = detail::is_part(a.duty) && detail::is_part(a.overlap < 0.0 ? -a.overlap : a.overlap);
-    return parts ? OwnWrong::none : OwnWrong::duty;
+    if (a.source > SIXSTEP_LEG_C) return {leg, "source", static_cast<double>(a.source)};
+    if (a.sink > SIXSTEP_LEG_C || a.source == a.sink) return {leg, "sink", static_cast<double>(a.sink)};
+    if (a.chopping > SIXSTEP_COMPLEMENTARY) return {choice, "chopping", static_cast<double>(a.chopping)};
+    if (a.chopped > SIXSTEP_LOWER) return {choice, "chopped", static_cast<double>(a.chopped)};
+    if (!detail::is_part(a.duty)) return {duty, "duty", a.duty};
+    if (!detail::is_part(a.overlap < 0.0 ? -a.overlap : a.overlap)) return {duty, "overlap", a.overlap};
   } else {
-    for (const sixstep_leg& leg : a.leg) {
-      if (leg.state > SIXSTEP_LEG_PWM || leg.switches > SIXSTEP_PWM_LOWER_FIRST) return OwnWrong::choice;
-      if (leg.state == SIXSTEP_LEG_PWM && !detail::is_part(leg.duty)) return OwnWrong::duty;
+    constexpr const char* names[3][3] = {{"leg[0].state", "leg[0].switches", "leg[0].duty"},
+                                         {"leg[1].state", "leg[1].switches", "leg[1].duty"},
+                                         {"leg[2].state", "leg[2].switches", "leg[2].duty"}};
+    for (unsigned k = 0; k < 3; ++k) {
+      const sixstep_leg& is = a.leg[k];
+      if (is.state > SIXSTEP_LEG_PWM) return {choice, names[k][0], static_cast<double>(is.state)};
+      if (is.switches > SIXSTEP_PWM_LOWER_FIRST)
+        return {choice, names[k][1], static_cast<double>(is.switches)};
+      if (is.state == SIXSTEP_LEG_PWM && !detail::is_part(is.duty)) return {duty, names[k][2], is.duty};
     }
-    return OwnWrong::none;
   }
+  return {};
 }
 
 /// Command of a valid answer.
 template <class Command>
 constexpr Command command_of(const sixstep_answer& a) {
-  Command command{};
-  command.enabled = a.enabled != 0;
-  if constexpr (requires { command.pair; }) {
-    command.pair = {static_cast<control::Leg>(a.source), static_cast<control::Leg>(a.sink)};
-    command.duty = a.duty;
-    command.overlap = a.overlap;
-    command.chopping = static_cast<control::Chopping>(a.chopping);
-    command.chopped = static_cast<control::ChoppedSwitch>(a.chopped);
+  if constexpr (requires(Command command) { command.pair; }) {
+    return control::pair_command(a);
   } else {
+    Command command{};
+    command.enabled = a.enabled != 0;
     for (unsigned k = 0; k < 3; ++k)
       command.leg[k] = {static_cast<control::LegState>(a.leg[k].state),
                         static_cast<control::PwmSwitches>(a.leg[k].switches), a.leg[k].duty};
+    return command;
   }
-  return command;
 }
 
 }  // namespace sixstep::rig

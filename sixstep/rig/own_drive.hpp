@@ -10,6 +10,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "sixstep/control/commutation.hpp"
@@ -28,6 +29,7 @@ struct OwnConfig {
   const sixstep_controller* is = nullptr;
   std::vector<std::uint64_t> config;
   control::Mode mode = control::Mode::off;
+  std::string file;  ///< for messages
   bool operator==(const OwnConfig&) const = default;
 };
 
@@ -65,8 +67,9 @@ class OwnDrive {
                                 .magnet_cos = magnet.cos,
                                 .magnet_sin = magnet.sin,
                                 .hall = measured.hall};
+    ++steps_;
     config_.is->step(config_.config.data(), state_.data(), &seen, setpoint, &answer_);
-    take(measured.hall, instant.at);
+    take(measured.hall, instant.at, false);
     const std::uint8_t sector = control::sector_of_hall(measured.hall);
     telemetry_.motor_current_A = control::motor_current(measured, control::positive_pair(sector));
     telemetry_.duty = reversed_ ? -answer_.duty : answer_.duty;
@@ -81,7 +84,7 @@ class OwnDrive {
   const Command& hall_interrupt(std::uint8_t pins, const sim::Instant& at) {
     if (config_.is->hall == nullptr) return command_;
     config_.is->hall(config_.config.data(), state_.data(), pins, &answer_);
-    take(pins, at);
+    take(pins, at, true);
     if (command_.enabled) sensors_.commutated();
     return command_;
   }
@@ -97,8 +100,10 @@ class OwnDrive {
   bool follows_setpoint_at_once() const { return false; }
   const control::Telemetry<double>& telemetry() const { return telemetry_; }
   Diagnosis diagnosis() const {
-    return {
+    Diagnosis found{
         .hall_line = sensors_.broken_line(), .at = wrong_at_, .shaft = sensors_.shaft_found(), .own = wrong_};
+    found.own.controller = config_.file.c_str();
+    return found;
   }
   Registers& registers() { return sensors_.registers(); }
   ShaftPorts& shaft_ports() { return sensors_.shaft_ports(); }
@@ -126,12 +131,14 @@ class OwnDrive {
       sector_ = sector;
     return direction_at<double>((sector_ + 0.5) * base::sector_rad - magnet_behind_rad);
   }
-  void take(std::uint8_t hall, const sim::Instant& at) {
-    const OwnWrong wrong = wrong_in<Command>(answer_);
-    if (wrong == OwnWrong::none) {
+  void take(std::uint8_t hall, const sim::Instant& at, bool in_hall) {
+    OwnFinding wrong = wrong_in<Command>(answer_);
+    if (wrong.what == OwnWrong::none) {
       command_ = command_of<Command>(answer_);
     } else {
       command_ = given_up();
+      wrong.steps = steps_;
+      wrong.in_hall = in_hall;
       wrong_ = wrong;
       wrong_at_ = at;
     }
@@ -151,7 +158,8 @@ class OwnDrive {
   sixstep_answer answer_{};
   Command command_{};
   control::Telemetry<double> telemetry_{};
-  OwnWrong wrong_ = OwnWrong::none;
+  std::int64_t steps_ = 0;
+  OwnFinding wrong_{};
   sim::Instant wrong_at_{};
 };
 

@@ -59,6 +59,14 @@ class Commission(Started):
         self.assertRegex(shown, r"(?m)^NOT FOUND: Hall edges .*give more current$")
         self.assertIsNone(self.found("dji-2212-920kv", "--current", "4", code=1)["hall"])
 
+    def test_crossed_phases_are_named(self):
+        """Two swapped phases turn the chip's forward over; three that all moved on do not."""
+        for phases, turns_over in (("abc", False), ("bca", False), ("bac", True)):
+            text = self.commission("maxon-251601", "--phases", phases).stdout
+            self.assertEqual(f"Phases {phases} are at the legs a b c." in text, phases != "abc")
+            self.assertEqual("its forward is the motor's backward" in text, turns_over)
+            self.assertIn("sixstep motor wiring", text)
+
     def test_what_cannot_be_is_refused(self):
         for words, told in ((["example-linear"], "example-linear: kind = linear cannot be commissioned"),
                             (["hoverboard-hub"], "--voltage is missing"),

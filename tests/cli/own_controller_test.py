@@ -121,7 +121,7 @@ class OwnController(Started):
             with self.subTest(deed):
                 code, out, _ = self.behaving(deed, "run", "a.toml")
                 self.assertEqual(code, 3)
-                self.assertIn("STOPPED by a fault", out)
+                self.assertRegex(out, rf"STOPPED by a fault: t = .* s {re.escape(str(CONTROLLER))}: the controller answered [\w\[\].]+ = .* in step 20\b")
                 code, out, told = self.behaving(deed, "run", "a.toml", "--quiet")
                 self.assertEqual((code, out), (3, ""))
                 self.assertRegex(told, "^a: stopped by a fault: .+\n$", "a quiet run says why")

@@ -19,7 +19,7 @@ import unittest.mock
 import xml.etree.ElementTree
 
 import cells
-from program import PROGRAM, SHORT, ProgramTest
+from program import PROGRAM, SHORT, SOURCE, ProgramTest
 
 KILLS = int(os.environ.get("SIXSTEP_KILLS", "10"))
 SPREAD = '[[spread]]\nkey = "motor_override.resistance_ohm"\nrelative = 0.1\n'
@@ -313,6 +313,28 @@ class Plan(ProgramTest):
         text = (self.path / name).read_text()
         data = json.loads(text.split('id="data">', 1)[1].split("</script>", 1)[0])
         return text, data["plans"]
+
+    def test_a_window_behind_the_end_is_told_once_by_the_key_that_was_written(self):
+        told = self.run_program("run", self.held(), "--set", "require[0].from_s=1.1", "--vary", "supply.voltage_V=12,24", code=2).stderr
+        self.assertEqual(told.count("\n"), 1, told)
+        self.assertIn("from_s = 1.1 lies behind the end of the run (duration_s = 0.02)", told)
+
+    def test_crossed_wires_in_a_speed_loop(self):
+        """Backward holds each speed with the other sign, late one speed whatever is asked; early trips, and says which figures are
+        measured after that."""
+        file = str(SOURCE / "data/scenarios/firmware/cortex-m.toml")
+        wires = ["--set", "bridge.phases=bac", "--vary", "sensors.hall_lines=213,321,132"]
+        told = self.run_program("run", file, *wires, "--json", "a.json", code=3).stdout
+        early, late, backward = (line.split()[-1] for line in told.splitlines() if re.match(r" +\d  ", line))
+        self.assertEqual((early, late, backward), ("FAULT", "FAIL", "FAIL"))
+        self.assertIn("1 stopped by a fault, the first of them run 0: t = 0.14", told)
+        _, late, backward = ([row[column] for column in (4, 6, 8)] for row in json.loads((self.path / "a.json").read_text())["rows"])
+        for asked, back, held in zip((100, 300, 70), backward, late):
+            self.assertLess(abs(back + asked), 0.01 * asked)
+            self.assertLess(abs(held - late[0]), 1)
+        alone = self.run_program("run", file, *wires[:2], "--set", "sensors.hall_lines=213", code=3).stdout
+        after = re.search("note: measured after the trip, with the drive off: (.*)", alone).group(1)
+        self.assertEqual(after, ", ".join(f"{what} at {speed} rad/s" for speed in (100, 300, 70) for what in ("mean speed", "swing")))
 
     def test_a_page_has_every_run_and_says_how_to_look_at_one(self):
         self.held()

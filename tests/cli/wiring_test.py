@@ -89,6 +89,11 @@ class Wiring(Started):
         for extra, sign in (([], 1), (crossed, -1)):
             told = json.loads(self.run_program("run", "w.toml", *extra, "--json", "-", "--quiet").stdout)
             self.assertGreater(told["compare"][0]["measured"] * sign, 50)
+        # It expects what it measures, and names the bench by the keys that cross wires.
+        told = json.loads(self.run_program("run", "w.toml", "--json", "-", "--quiet").stdout)
+        for figure in told["compare"]:
+            self.assertAlmostEqual(figure["measured"] / figure["value"], 1, places=9)
+        self.assertEqual(told["title"], "Let free from rest, connected as bridge.phases and sensors.hall_lines say")
         self.assertEqual(self.names(), ["brisk.toml", "w.html", "w.svg", "w.toml"])
 
     def test_what_it_cannot_do_is_one_line_and_bad_input(self):

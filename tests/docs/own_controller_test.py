@@ -103,7 +103,15 @@ class OwnControllerPage(unittest.TestCase):
         self.assertLess(abs(self.mean() - 3), 0.25)
         self.assertNotEqual(self.mean(), self.mean("--set", "control.own.number[0].value=0.05"))
         self.run_program("run", "own.toml", "--quiet", "--html", "own.html")
-        self.assertIn("PI in integers", (self.path / "own.html").read_text(encoding="utf-8"))
+        page = (self.path / "own.html").read_text(encoding="utf-8")
+        self.assertIn("PI in integers", page)
+        self.assertIn("chopping as the controller answers", page)
+
+    def test_a_report_names_no_current_reference_that_nobody_gave(self):
+        """mine.c limits no current and answers no reference."""
+        self.run_program("run", "mine.toml", "--quiet", "--html", "mine.html")
+        page = (self.path / "mine.html").read_text(encoding="utf-8")
+        self.assertNotIn("asked for", page.split('class="glance"')[1].split('<section id')[0])
 
     def test_a_number_is_varied_and_a_new_controller_is_told(self):
         vary = re.search(r'--vary "([^"]*)"`', PAGE).group(1)
@@ -118,6 +126,15 @@ class OwnControllerPage(unittest.TestCase):
             self.assertIn("own.db", told.stderr)
         finally:
             shutil.move(self.path / "kept.so", self.path / "mine.so")
+
+    def test_the_command_that_a_message_prints_compiles(self):
+        for source, kind in (("again.c", "mine.c"), ("again.cpp", "data/controllers/six_step_again.cpp")):
+            shutil.copy(self.path / kind, self.path / source)
+            told = self.run_program("run", "mine.toml", "--set", f"control.own.controller={source}", "--set", "control.own.number=[]", code=2).stderr
+            command = re.search(r"name the result: (.*), where FOLDER", told).group(1).replace("FOLDER", ".")
+            (self.path / "again.so").unlink(missing_ok=True)
+            subprocess.run(command, shell=True, check=True, cwd=self.path)
+            self.run_program("run", "mine.toml", "--set", "control.own.controller=again.so", "--set", "control.own.number=[]", "--quiet")
 
     def test_stands_in_the_comparison(self):
         words = next(c for c in commands() if c.startswith("./run compare")).split()[1:]
@@ -135,6 +152,7 @@ class OwnControllerPage(unittest.TestCase):
             (("--set", "control.own.controller=mine.so"), 2, "is not a number of the controller"),
             (("--set", "control.own.number[0].name=width"), 2, "bandwidth, limit_A"),
             (("--set", "control.mode=position"), 2, "PI in integers holds a current or a speed"),
+            (("--set", "control.limits.current_A=3"), 2, "--set control.limits.current_A: control.limits applies to the built-in loops"),
             (("--set", "control.arithmetic=q15"), 2, "computes in the types that it is written in")]}
         (self.path / "short.c").write_text("int a;\n", encoding="utf-8")
         for words, code, said in wrong["said"]:
@@ -143,7 +161,7 @@ class OwnControllerPage(unittest.TestCase):
         (self.path / "wrong.c").write_text(GIVES_UP, encoding="utf-8")
         subprocess.run("cc -w -shared -fPIC -I. wrong.c -o wrong.so", shell=True, check=True, cwd=self.path)
         made = self.run_program("run", "own.toml", "--set", "control.own={controller='wrong.so'}", code=3)
-        self.assertIn("answered a duty that is not between 0 and 1", made.stderr + made.stdout)
+        self.assertIn("wrong.so: the controller answered duty = infinite in step 1, which must lie in 0 to 1", made.stderr + made.stdout)
         self.assertIn("own", self.run_program("export", "header", "own.toml", code=2).stderr)
         self.assertIn("is another controller's name", self.run_program(
             "compare", "maxon-251601", "--own", "six_step_again.so", "--own", "six_step_again.so", code=2).stderr)

@@ -116,7 +116,7 @@ TEST(ControllerFile, ScenariosTellWhatTheyCannotHave) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(
       to_string(refused.problems()[0]),
-      "control.own sine voltage has no loop: set control.mode = \"duty\"; change what the controller is given");
+      "control.own sine voltage has no loop: set control.mode = \"duty\"; change the scenario or the controller's numbers");
 }
 
 /// Its bytes are among what was read: a store tells when a controller was compiled anew.

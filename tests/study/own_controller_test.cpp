@@ -122,7 +122,7 @@ TEST(OwnController, IsDesignedByMotorBoardLoopsAndNumbers) {
   const auto refused = study::run(s);
   ASSERT_FALSE(refused);
   EXPECT_EQ(to_string(refused.problems()[0]),
-            "control.own puppet cannot have five; change what the controller is given");
+            "control.own puppet cannot have five; change the scenario or the controller's numbers");
 }
 
 /// The magnet's direction is what the sensors know of it, no more: of Hall codes a sector of 60 degrees.
@@ -146,46 +146,83 @@ TEST(OwnController, SeesTheMagnetAsItsSensorsDo) {
   EXPECT_NEAR(electrical_deg(study::RotorSensing::hall, rig::HallAngleFrom::angle), is, 0.5);
 }
 
+/// The first answer of each run is judged in step 1. The message has field and value as answered.
 TEST(OwnController, WhatNoTimerDoesEndsTheRun) {
   const auto fault = [](const sixstep_controller& is, const sixstep_answer& answer) {
     told = answer;
-    const auto out = study::run(with(&is, maxon_scenario(control::Mode::duty, 0.2)));
+    Scenario s = with(&is, maxon_scenario(control::Mode::duty, 0.2));
+    s.control.own.controller = "puppet.so";
+    const auto out = study::run(s);
     if (!out) return to_string(out.problems()[0]);
     return out->fault ? out->fault->limit : std::string("runs");
   };
+  const auto answered = [](const std::string& what) { return "puppet.so: the controller answered " + what; };
   const sixstep_answer off{};
   EXPECT_EQ(fault(pair_puppet, off), "runs");
   EXPECT_EQ(fault(legs_puppet, off), "runs");
   sixstep_answer pair{};
   pair.enabled = 1, pair.source = 0, pair.sink = 1, pair.duty = 0.5;
   EXPECT_EQ(fault(pair_puppet, pair), "runs");
-  for (const double duty : {-0.1, 1.1, std::numeric_limits<double>::quiet_NaN(), HUGE_VAL}) {
+  const std::pair<double, const char*> duties[] = {{-0.1, "-0.1"},
+                                                   {1.1, "1.1"},
+                                                   {std::numeric_limits<double>::quiet_NaN(), "not a number"},
+                                                   {HUGE_VAL, "infinite"}};
+  for (const auto& [duty, written] : duties) {
     sixstep_answer wrong = pair;
     wrong.duty = duty;
-    EXPECT_EQ(fault(pair_puppet, wrong), "the controller answered a duty that is not between 0 and 1");
+    const std::string rest = std::string(written) + " in step 1, which must lie in 0 to 1";
+    EXPECT_EQ(fault(pair_puppet, wrong), answered("duty = " + rest));
     sixstep_answer legs{};
     legs.enabled = 1, legs.leg[2] = {SIXSTEP_LEG_PWM, SIXSTEP_PWM_UPPER, duty};
-    EXPECT_EQ(fault(legs_puppet, legs), "the controller answered a duty that is not between 0 and 1");
+    EXPECT_EQ(fault(legs_puppet, legs), answered("leg[2].duty = " + rest));
   }
   sixstep_answer wrong = pair;
+  wrong.overlap = -1.5;
+  EXPECT_EQ(fault(pair_puppet, wrong), answered("overlap = -1.5 in step 1, which must lie in -1 to 1"));
+  wrong = pair;
   wrong.sink = 0;
-  EXPECT_EQ(fault(pair_puppet, wrong),
-            "the controller answered a pair of one leg, or a leg that there is not");
+  EXPECT_EQ(fault(pair_puppet, wrong), answered("sink = 0 in step 1, the same leg as source"));
   wrong.sink = 3;
-  EXPECT_EQ(fault(pair_puppet, wrong),
-            "the controller answered a pair of one leg, or a leg that there is not");
+  EXPECT_EQ(fault(pair_puppet, wrong), answered("sink = 3 in step 1, which is no leg"));
   wrong = pair;
   wrong.chopping = 3;
   EXPECT_EQ(fault(pair_puppet, wrong),
-            "the controller answered a chopping, a switch or a leg's state that there is not");
+            answered("chopping = 3 in step 1, which own_controller.h does not name"));
   wrong = {};
   wrong.enabled = 1, wrong.leg[0].state = 4;
   EXPECT_EQ(fault(legs_puppet, wrong),
-            "the controller answered a chopping, a switch or a leg's state that there is not");
+            answered("leg[0].state = 4 in step 1, which own_controller.h does not name"));
   wrong = {};
   wrong.fault = 1;
-  EXPECT_EQ(fault(pair_puppet, wrong), "the controller gave up");
-  EXPECT_EQ(fault(legs_puppet, wrong), "the controller gave up");
+  EXPECT_EQ(fault(pair_puppet, wrong), answered("fault = 1 in step 1: it gave up"));
+  EXPECT_EQ(fault(legs_puppet, wrong), answered("fault = 1 in step 1: it gave up"));
+}
+
+/// A remark is made from a quarter above the given limit on: with the rotor held the current is the duty times U/R.
+TEST(OwnController, ACurrentBeyondWhatItWasGivenIsRemarked) {
+  const auto remarks = [](double duty, std::optional<double> range_A) {
+    Scenario s = with(&pair_puppet, cascade());
+    told = {};
+    told.enabled = 1, told.source = 0, told.sink = 1, told.duty = duty;
+    s.load.locked = true;
+    s.control.speed.torque_limit_Nm = 0.195;
+    if (range_A) s.sensors.currents = rig::CurrentMeasurement::phases;
+    s.sensors.current_range_A = range_A;
+    const auto out = study::run(s);
+    EXPECT_TRUE(out) << (out ? "" : to_string(out.problems()[0]));
+    int given = 0, converters = 0;
+    for (const std::string& text : out ? out->remarks : std::vector<std::string>{}) {
+      given += text.find("must keep by itself") != std::string::npos;
+      converters += text.find("the converters show at most") != std::string::npos;
+    }
+    return std::pair(given, converters);
+  };
+  const double limit_A = 0.195 / 0.0335, stall_A = 24 / (2 * 0.515);
+  EXPECT_EQ(remarks(1.1 * limit_A / stall_A, {}), std::pair(0, 0));
+  EXPECT_NEAR(last_given.current_limit_A, limit_A, 1e-9);
+  EXPECT_EQ(remarks(1.4 * limit_A / stall_A, {}), std::pair(1, 0));
+  EXPECT_EQ(remarks(0.29, 0.3 * stall_A), std::pair(0, 0));
+  EXPECT_EQ(remarks(0.303, 0.3 * stall_A), std::pair(0, 1));
 }
 
 std::vector<std::string> places(const base::Problems& problems) {

@@ -146,7 +146,7 @@ TEST(WiringWords, OfTheRecipeAreItsSteps) {
   EXPECT_EQ(analysis::next_step(WiringDoes::backward),
             (analysis::Cure{.legs = {1, 0, 2}, .pins = {0, 2, 1}}));
   EXPECT_THAT(std::string(steps[2].second),
-              HasSubstr("swap the phases at legs a and b and the Hall lines H2 and H3"));
+              HasSubstr("swap the phase wires at legs a and b and the Hall lines at H2 and H3"));
 }
 
 }  // namespace SIXSTEP_TEST_FILE

@@ -56,6 +56,15 @@ std::string numbers(const CommissionStudy& s) {
          "Resistance is that of a phase and its leg: a switch, and a diode in dead time. Inductance is a phase's along the magnet. Angles are electrical.\n";
 }
 
+/// The chip names a phase by its leg, so crossed phases change the probes' numbers and perhaps the direction.
+std::string crossed_phases(const sixstep::rig::Wiring& wires) {
+  using sixstep::rig::WireOrder;
+  if (wires.phases == WireOrder::abc) return "";
+  const bool turns_over = wires.phases != WireOrder::bca && wires.phases != WireOrder::cab;
+  return fmt::format("Phases {} are at the legs a b c. The chip names phases and probes by its legs{}.\n",
+                     phases_word(wires), turns_over ? "; its forward is the motor's backward" : "");
+}
+
 std::string lines(const CommissionStudy& s) {
   if (!s.lines_found()) return "";
   const sixstep::control::HallLines& found = s.state.probes.lines;
@@ -74,7 +83,10 @@ std::string lines(const CommissionStudy& s) {
              "Hall lines as the board sees them: probes {} at H1 H2 H3{}; the rotor {} {:.1f} deg each way\n",
              probes, inverted == "none" ? "" : ", inverted: " + inverted,
              s.found.hall_lag_deg < 0 ? "leads" : "lags", std::fabs(s.found.hall_lag_deg)) +
-         rows.text();
+         rows.text() +
+         "A drive takes this table as it is, by as_wired() of hall_survey.hpp. `sixstep motor wiring` says which wires to move "
+         "instead.\n" +
+         crossed_phases(s.subject.wires);
 }
 
 std::string times(const CommissionStudy& s) {

@@ -23,7 +23,7 @@ struct Point {
   std::vector<std::string> values;
   std::vector<analysis::Statistics> figures;
   std::size_t first = 0, runs = 0, passed = 0;
-  std::string problem;
+  analysis::RunEnd end = analysis::RunEnd::whole;  ///< of the first drive that did not end so
 };
 
 std::vector<Point> points_of(const PlanStory& story) {
@@ -31,17 +31,13 @@ std::vector<Point> points_of(const PlanStory& story) {
   const std::size_t drives = std::max<std::size_t>(story.plan.drives, 1);
   story.each([&](const analysis::RunRecord& record) {
     if (points.empty() || record->number / drives != points.back().first / drives)
-      points.push_back({record->point,
-                        std::vector<analysis::Statistics>(story.columns.figures.size()),
-                        record->number,
-                        0,
-                        0,
-                        {}});
+      points.push_back({record->point, std::vector<analysis::Statistics>(story.columns.figures.size()),
+                        record->number, 0, 0});
     Point& at = points.back();
     for (std::size_t n = 0; n < at.figures.size(); ++n) at.figures[n].add(record->figures[n]);
     ++at.runs;
     at.passed += analysis::passed(record);
-    if (at.problem.empty()) at.problem = record->problem;
+    if (at.end == analysis::RunEnd::whole) at.end = record->end;
   });
   return points;
 }
@@ -52,7 +48,9 @@ std::string value_text(const std::string& written, const std::string& unit) {
 }
 
 std::string verdict(const Point& point, std::size_t drives, bool asks) {
-  if (!point.problem.empty() && drives <= 1) return visible(point.problem.substr(0, 100));
+  // The lines below the table have the reason.
+  if (point.end != analysis::RunEnd::whole && drives <= 1)
+    return point.end == analysis::RunEnd::fault ? "FAULT" : "REFUSED";
   if (!asks) return "";
   if (drives > 1) return fmt::format("{} of {}", point.passed, point.runs);
   return point.passed == 1 ? "ok" : "FAIL";

@@ -126,7 +126,7 @@ std::string wiring_text(const WiringStudy& s) {
   const base::Motion motion = design::motion_of(s.subject.sheet);
   const std::string columns = " at legs a b c (rows), probes at pins H1 H2 H3 (columns)\n";
   std::string text = visible(s.subject.sheet.name) + "\n\n" + commutation_text() +
-                     "\nThe 36 ways to plug it in: phases" + columns;
+                     "\nThe 36 ways to connect it: phases" + columns;
   text += grid(s, [](const WiringCase& c) { return std::string(does_text(c.measured.does)); });
   text += agreement(s) + "\n";
   text += "At the bench: " + bench_text(s) + "\n" + symptoms(s, motion);

@@ -138,7 +138,7 @@ std::span<const std::pair<std::string_view, std::string_view>> recipe_steps() {
       {"it runs rough",
        "move all three phase wires on by one leg; still rough: once more; then it runs well, the other way"},
       {"it runs well, but backward",
-       "swap the phases at legs a and b and the Hall lines H2 and H3, or ask for the other direction"},
+       "swap the phase wires at legs a and b and the Hall lines at H2 and H3, or ask for the other direction"},
   };
   return steps;
 }
@@ -161,8 +161,10 @@ std::string wiring_speed_text(const analysis::WiringStudy& s, double rad_s) {
 }
 
 std::vector<std::string> wiring_scenario_lines() {
-  return {"A motor let free from rest, its wires straight. To cross them:",
-          "  [bridge] phases = \"bac\", [sensors] hall_lines = \"132\""};
+  return {
+      "A motor let free from rest, its wires straight. To cross them:",
+      "  [bridge] phases = \"bac\", [sensors] hall_lines = \"132\"",
+      "A motor that runs well still accelerates at the end of this run; the table has its speed once it has settled."};
 }
 
 std::string bench_text(const analysis::WiringStudy& s) {

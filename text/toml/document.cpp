@@ -202,6 +202,17 @@ const Setting* Document::setting_of(std::string_view path) const {
   return nullptr;
 }
 
+const Setting* Document::only_setting_in(const toml::node& node, const std::string& path) const {
+  const toml::table* table = node.as_table();
+  if (!table) return setting_of(path);
+  const Setting* last = nullptr;
+  for (const auto& [key, value] : *table) {
+    last = only_setting_in(value, path + "." + std::string(key.str()));
+    if (!last) return nullptr;
+  }
+  return last;
+}
+
 std::string_view Document::slice(const toml::source_region& region) const {
   const File& file = files_[order_of(region)];
   const std::string_view text = file.text;
@@ -226,6 +237,8 @@ std::string Document::place(const toml::source_region& region) const {
 
 std::string Document::place(const toml::node& node, std::string_view path) const {
   if (const Setting* setting = setting_of(path)) return fmt::format("--set {}", setting->path);
+  if (const Setting* setting = only_setting_in(node, std::string(path)))
+    return fmt::format("--set {}", setting->path);
   if (node.source().begin) return place(node.source());
   return nearest_place(path);
 }

@@ -62,6 +62,8 @@ class Document {
   };
   Document(std::string name, std::string text, toml::table root);
   const Setting* setting_of(std::string_view path) const;
+  /// The last setting of a table whose keys all come from --set, or of a value that does.
+  const Setting* only_setting_in(const toml::node& node, const std::string& path) const;
   std::string_view slice(const toml::source_region& region) const;
 
   std::vector<File> files_;  ///< this one first

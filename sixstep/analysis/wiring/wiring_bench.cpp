@@ -127,7 +127,7 @@ study::Scenario free_run(const WiringBench& b, const WiringSubject& subject, con
   using enum study::MetricKind;
   using study::Signal;
   study::Scenario s = on_bench(b, subject, wiring);
-  s.title = "Let free from rest, plugged in in one of 36 ways";
+  s.title = "Let free from rest, connected as bridge.phases and sensors.hall_lines say";
   s.duration_s = b.free_s;
   s.initial.angle_rad = electrical_deg * base::pi / 180 / b.motor.machine.pole_pairs;
   s.record.grid_s = b.row_s;
@@ -143,7 +143,7 @@ study::Scenario free_run(const WiringBench& b, const WiringSubject& subject, con
 
 study::Scenario turned_run(const WiringBench& b, const WiringSubject& subject, const rig::Wiring& wiring) {
   study::Scenario s = on_bench(b, subject, wiring);
-  s.title = "Turned slowly by a dynamometer, plugged in in one of 36 ways";
+  s.title = "Turned slowly by a dynamometer, connected as bridge.phases and sensors.hall_lines say";
   s.duration_s = b.turned_from_s + b.turned_s;
   // A row stands in the middle of its two degrees: none on a sector's edge, where the torque has two values.
   constexpr double first_deg = -60 + 180.0 / turned_rows;

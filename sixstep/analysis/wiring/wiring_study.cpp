@@ -257,4 +257,16 @@ base::Result<WiringStudy> study_wiring(const WiringOrder& order) {
   return s;
 }
 
+study::Scenario straight_run(const WiringStudy& study) {
+  study::Scenario s = free_run(study.bench, study.subject, {}, start_deg(0));
+  for (study::Comparison& c : s.compare) c.value = 1;
+  const base::Result<study::Outcome> out = study::run(s, {.keep_books = false});
+  for (std::size_t n = 0; n < s.compare.size() && out; ++n) {
+    // Of a linear motor the outcome has another unit; its value of 1 shows the factor.
+    s.compare[n].value = out->comparisons[n].measured / out->comparisons[n].value;
+    s.compare[n].source = "this run with straight wires";
+  }
+  return s;
+}
+
 }  // namespace sixstep::analysis

@@ -85,6 +85,10 @@ struct WiringOrder {
 /// Problems are those of sheet and bench.
 base::Result<WiringStudy> study_wiring(const WiringOrder& order);
 
+/// The run from the first start with straight wires, for a file of the user. Each comparison has the value that this run
+/// measures.
+study::Scenario straight_run(const WiringStudy& study);
+
 /// Classifies the runs of one wiring; `straight_Nm_A` is the measured torque per ampere of straight wires.
 WiringDoes seen_in(const WiringMeasured& measured, double straight_Nm_A);
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Six-step commutation for a controller that only computes a signed duty: the pair of the Hall code, reversed for a
-// negative duty.
+// Six-step commutation for a controller that only computes a signed duty: the current of the Hall code's pair, the pair
+// itself, reversed for a negative duty, and its command for a timer.
 #pragma once
+#include "sixstep/control/bridge_command.hpp"
 #include "sixstep/control/commutation.hpp"
 #include "sixstep/control/own/own_controller.h"
 
@@ -9,14 +10,34 @@ namespace sixstep::control {
 
 /// Sets enabled, source, sink and duty of the answer. `duty`: -1..1, positive for positive torque. A code without a sector (000,
 /// 111) turns the bridge off.
-constexpr void command_pair(double duty, std::uint8_t code, sixstep_answer& answer) {
+constexpr void command_pair(sixstep_real duty, std::uint8_t code, sixstep_answer& answer) {
   const std::uint8_t sector = sector_of_hall(code);
   const Pair positive = positive_pair(sector);
-  const Pair pair = duty < 0.0 ? swapped(positive) : positive;
+  const Pair pair = duty < 0 ? swapped(positive) : positive;
   answer.enabled = sector != no_sector;
   answer.source = static_cast<std::uint8_t>(pair.source);
   answer.sink = static_cast<std::uint8_t>(pair.sink);
-  answer.duty = static_cast<sixstep_real>(duty < 0.0 ? -duty : duty);
+  answer.duty = duty < 0 ? -duty : duty;
+}
+
+/// Motor current of the pair that makes positive torque, A: half of source less sink.
+constexpr sixstep_real pair_current(const sixstep_measured& measured) {
+  const Pair positive = positive_pair(sector_of_hall(measured.hall));
+  return (measured.current_A[static_cast<unsigned>(positive.source)] -
+          measured.current_A[static_cast<unsigned>(positive.sink)]) /
+         2;
+}
+
+/// A valid answer of a pair as the command of gates.hpp.
+constexpr BridgeCommand<sixstep_real> pair_command(const sixstep_answer& answer) {
+  BridgeCommand<sixstep_real> command{};
+  command.enabled = answer.enabled != 0;
+  command.pair = {static_cast<Leg>(answer.source), static_cast<Leg>(answer.sink)};
+  command.duty = answer.duty;
+  command.overlap = answer.overlap;
+  command.chopping = static_cast<Chopping>(answer.chopping);
+  command.chopped = static_cast<ChoppedSwitch>(answer.chopped);
+  return command;
 }
 
 }  // namespace sixstep::control

@@ -39,6 +39,10 @@ struct Asked {
 };
 
 void check_window(const Asked& a) {
+  if (!a.m.to_s && !(a.from_s() < a.s.duration_s))
+    return a.refuse("from_s", base::written(a.from_s()),
+                    "lies behind the end of the run (duration_s = " + base::written(a.s.duration_s) + ")",
+                    "let the window begin earlier or lengthen duration_s");
   if (!(a.from_s() < a.to_s()))
     a.refuse("to_s", base::written(a.to_s()), "must lie behind from_s = " + base::written(a.from_s()),
              "give the window as from_s < to_s");

@@ -67,11 +67,11 @@ std::vector<double> values_of(const Own& own) {
 base::Result<rig::OwnConfig> own_designed(const Scenario& s, const Basis& basis,
                                           const control::DriveConfig<double>& drive) {
   const sixstep_controller& is = *s.control.own.loaded;
-  rig::OwnConfig out{&is, rig::zero_bytes(is.config_bytes), s.control.mode};
+  rig::OwnConfig out{&is, rig::zero_bytes(is.config_bytes), s.control.mode, s.control.own.controller};
   const sixstep_given given = given_of(s, basis, drive);
   if (const char* wrong = is.design(&given, values_of(s.control.own).data(), out.config.data()))
     return base::Problem{"control.own", "", std::string(is.name) + " " + wrong,
-                         "change what the controller is given"};
+                         "change the scenario or the controller's numbers"};
   return out;
 }
 

@@ -102,24 +102,37 @@ base::Problem lost_sensor(const rig::ShaftFinding& found, double t_s) {
   return {};
 }
 
+/// "mine.so: the controller answered duty = 1.5 in step 20"
+std::string answered(const rig::OwnFinding& found) {
+  const std::string file = found.controller;
+  const double x = found.value;
+  const std::string value = x != x ? "not a number" : x - x != 0.0 ? "infinite" : base::written(x);
+  return (file.empty() ? "" : file + ": ") + "the controller answered " + found.field + " = " + value +
+         (found.in_hall ? " in its hall() after step " : " in step ") + std::to_string(found.steps);
+}
+
 /// The problem of a user's controller whose answer is not carried out.
-base::Problem refused_answer(rig::OwnWrong wrong, double t_s) {
+base::Problem refused_answer(const rig::OwnFinding& found, double t_s) {
   using rig::OwnWrong;
-  switch (wrong) {
+  switch (found.what) {
     case OwnWrong::duty:
-      return {at(t_s), "", "the controller answered a duty that is not between 0 and 1",
+      return {at(t_s), "",
+              answered(found) + ", which must lie in " +
+                  (found.field == std::string("overlap") ? "-1" : "0") + " to 1",
               "bound it in the controller, and look for a division by 0"};
     case OwnWrong::leg:
-      return {at(t_s), "", "the controller answered a pair of one leg, or a leg that there is not",
-              "answer source and sink as two of the legs a, b, c"};
+      return {
+          at(t_s), "",
+          answered(found) + (found.value > static_cast<double>(SIXSTEP_LEG_C) ? ", which is no leg"
+                                                                              : ", the same leg as source"),
+          "answer source and sink as two of the legs a, b, c"};
     case OwnWrong::choice:
-      return {at(t_s), "", "the controller answered a chopping, a switch or a leg's state that there is not",
-              "use the names of own_controller.h"};
+      return {at(t_s), "", answered(found) + ", which own_controller.h does not name", "use its names"};
     case OwnWrong::gave_up:
     case OwnWrong::none:
       break;
   }
-  return {at(t_s), "", "the controller gave up", "look at what it takes for a fault"};
+  return {at(t_s), "", answered(found) + ": it gave up", "look at what it takes for a fault"};
 }
 
 base::Problem lost_core(rig::CoreTrouble trouble, double t_s) {

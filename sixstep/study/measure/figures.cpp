@@ -191,6 +191,24 @@ void Figures::watch(const SegmentView& g, double s) {
     std::visit([&](auto& gauge) { watch_with(gauge, figure.measure, figure.behind, g, s); }, figure.taken_by);
 }
 
+namespace {
+
+/// Names the figures whose window begins behind the trip: they belong to a motor that coasts.
+void note_coasting(const Scenario& s, Outcome& outcome) {
+  if (!outcome.trip) return;
+  std::string which;
+  std::size_t count = 0;
+  const auto look = [&](const Measure& m) {
+    if (m.from_s.value_or(0.0) < outcome.trip->at_s) return;
+    which += (count++ == 0 ? "" : ", ") + figure_name(s, m);
+  };
+  for (const Requirement& r : s.require) look(r.measure);
+  for (const Comparison& c : s.compare) look(c.measure);
+  if (count > 0) outcome.notes.push_back("measured after the trip, with the drive off: " + which);
+}
+
+}  // namespace
+
 void Figures::judge(const Scenario& scenario, Outcome& outcome) const {
   std::size_t n = 0;
   const auto next = [&] {
@@ -224,6 +242,7 @@ void Figures::judge(const Scenario& scenario, Outcome& outcome) const {
     if (tells_apart(r, judged[k], whole))
       outcome.notes.push_back(sample_note(scenario, r.measure, judged[k], whole, unit));
   }
+  note_coasting(scenario, outcome);
 }
 
 }  // namespace sixstep::study

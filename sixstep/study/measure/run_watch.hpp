@@ -14,6 +14,7 @@ struct RunWatch {
   double fastest_rad_s = 0.0;
   double emf_rad_s = 0.0, emf_bus_V = 1.0;  ///< speed and bus at the largest ratio of back-EMF to bus
   double highest_bus_V = 0.0;
+  double highest_phase_A = 0.0;                      ///< magnitude, of any phase
   double lowest_charge = 1.0, highest_charge = 0.0;  ///< of a battery
   std::optional<double> empty_s{}, full_s{};         ///< when it was first empty; when first overfull
   double winding_degC = 0.0, junction_degC = 0.0;    ///< the hottest; only with kernels that warm up
@@ -31,6 +32,9 @@ struct RunWatch {
       emf_bus_V = state.bus;
     }
     if (state.bus > highest_bus_V) highest_bus_V = state.bus;
+    for (const auto i : state.i)
+      if (const double ampere = std::fabs(static_cast<double>(i)); ampere > highest_phase_A)
+        highest_phase_A = ampere;
     if constexpr (requires { rig.firmware().holds_commutation(); })
       held_a_commutation = held_a_commutation || rig.firmware().holds_commutation();
     if constexpr (requires { rig.plant().more(); }) look_at_charge(rig.plant().more().charge.value, rig);

@@ -89,4 +89,18 @@ std::vector<std::string> passed_limits(const Scenario& s, const RunWatch& w, con
   return all;
 }
 
+std::vector<std::string> passed_currents(const Scenario& s, double given_limit_A, const RunWatch& w) {
+  constexpr double ripple = 1.25;  // a limited current passes its limit by its ripple and at commutations
+  std::vector<std::string> all;
+  const std::string reached = "a phase current reached " + few_digits(w.highest_phase_A) + " A, and ";
+  if (given_limit_A > 0.0 && w.highest_phase_A > ripple * given_limit_A)
+    all.push_back(reached + "the controller was given current_limit_A = " + few_digits(given_limit_A) +
+                  " A, which it must keep by itself");
+  if (s.sensors.currents != rig::CurrentMeasurement::ideal && s.sensors.current_range_A &&
+      w.highest_phase_A > past * *s.sensors.current_range_A)
+    all.push_back(reached + "the converters show at most sensors.current_range_A = " +
+                  few_digits(*s.sensors.current_range_A) + " A: the drive cannot see more");
+  return all;
+}
+
 }  // namespace sixstep::study

@@ -230,6 +230,8 @@ void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, Outcom
   on_protection(s, c, out);
   add(on_late_values(s));
   for (std::string& text : passed_limits(s, w, out)) add(std::move(text));
+  for (std::string& text : passed_currents(s, c.own.is ? c.drive.current_limit_A : 0.0, w))
+    add(std::move(text));
   if (c.own.is) return;  // its gains and samples are its own
   add(on_shunt(s, c, w));
   add(on_shunt_amplifier(s));

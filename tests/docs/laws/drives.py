@@ -62,6 +62,22 @@ def bring_up(test, spot):
     curve.same(test, spot, "2.5 times the nominal current", limit, 2.5 * I_N, 2e-3)
 
 
+def crossed_loop(test, spot):
+    """Backward each mean speed is the setpoint with the other sign; late it is one speed, whatever is
+    asked; humming the load turns it backward; early it trips."""
+    asked = (100, 300, 70)
+    cells = {c[1]: c for c in (re.split(r" {2,}", line.strip()) for line in spot.text.splitlines()) if c[0].isdigit()}
+    speeds = {wires: [float(re.match(r"-?[\d.]+", c[n]).group(0)) for n in (2, 4, 6)] for wires, c in cells.items()}
+    test.assertEqual({"123", "213", "321", "132"}, set(speeds), str(spot))
+    test.assertEqual({"213": "FAULT"}, {w: c[-1] for w, c in cells.items() if c[-1] != "FAIL"}, str(spot))
+    for setpoint, backward, late, humming in zip(asked, speeds["132"], speeds["321"], speeds["123"]):
+        test.assertLess(abs(backward + setpoint), 0.01 * setpoint, str(spot))
+        test.assertLess(abs(late - speeds["321"][0]), 1, str(spot))
+        test.assertLess(humming, 0, str(spot))
+    for cell, setpoint in zip((cells["132"][n] for n in (2, 4, 6)), asked):
+        test.assertTrue(cell.endswith("!"), f"{spot}: {cell} misses {setpoint}")
+
+
 def bring_up_avr(test, spot):
     """Its scenario's PWM frequency and dead time are what the steps have at the scope."""
     hall_order(test, spot)

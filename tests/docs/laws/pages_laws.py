@@ -2,7 +2,7 @@
 """Which law judges which block. A block is found by its page and a piece of its text or heading."""
 import re
 
-from laws import bench, commutation, contest, curve, design, drives, run_output, series, tables
+from laws import bench, capacitor, commutation, contest, curve, design, drives, run_output, series, tables
 from page import REPOSITORY
 
 # What a reader writes or runs is no result.
@@ -141,7 +141,9 @@ def rows_at_the_leader(test, spot):
 
 
 BY_TEXT = [
-    ("docs/howto/flash-an-image.md", "kHz pulses", drives.bring_up_avr), ("docs/reference/field-oriented-drive.md", "least that flows", drives.beyond_the_bus),
+    ("docs/howto/size-a-capacitor.md", "| worst duty |", capacitor.worst_duty), ("docs/howto/size-a-capacitor.md", "--vary", capacitor.capacitor_current),
+    ("docs/howto/size-a-capacitor.md", "braking.toml", capacitor.braking),
+    ("docs/howto/find-a-wiring-fault.md", "hall_lines=123,213", drives.crossed_loop), ("docs/howto/flash-an-image.md", "kHz pulses", drives.bring_up_avr), ("docs/reference/field-oriented-drive.md", "least that flows", drives.beyond_the_bus),
     ("docs/start/your-motor.md", "| oz-in-s2", drives.trade_units), ("docs/howto/flash-an-image.md", "| | do | measure |", drives.bring_up), ("docs/howto/use-a-cluster.md", "| for each row |", rows_at_the_leader),
     ("docs/howto/read-the-curve.md", "rpm ", curve.judge), ("docs/explanation/currents.md", "rpm ", curve.judge),
     ("docs/", "drives, seed", series.judge_drives),
