@@ -160,7 +160,7 @@ std::string render_contest(const ContestPage& page) {
       escaped(text::visible(fmt::format("Controllers of the {}", c.bench.scenario.motor)));
   const std::string subtitle = fmt::format(
       "{} controllers, each designed by its rule, on one course: start against half of the "
-      "rated torque, load step, way down to the lowest speed",
+      "full load, load step, way down to the lowest speed",
       c.entries.size());
   const std::string body =
       filled(assets::contest_html(), {{"title", title},

@@ -85,7 +85,7 @@ std::string experiment(const IndexEntry& entry, std::size_t place) {
                 "<th>Within limits</th>",
                 requirement_rows(*entry.outcome));
   html += table("comparisons",
-                "<th>Compared with</th><th class=\"num\">There</th><th class=\"num\">Here</th>"
+                "<th>Compared with</th><th class=\"num\">Expected</th><th class=\"num\">Measured</th>"
                 "<th class=\"num\">Deviation</th><th>Source</th>",
                 comparison_rows(*entry.outcome));
   return html + "</section>\n";

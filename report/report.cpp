@@ -63,8 +63,8 @@ std::string requirements(const sixstep::study::Outcome& outcome) {
 std::string comparisons(const sixstep::study::Outcome& outcome) {
   if (outcome.comparisons.empty()) return "";
   return "<h2>Compared with</h2><table class=\"comparisons\"><thead><tr><th>Figure</th><th "
-         "class=\"num\">There</th>"
-         "<th class=\"num\">Here</th><th class=\"num\">Deviation</th><th>Source</th></tr></thead><tbody>\n" +
+         "class=\"num\">Expected</th>"
+         "<th class=\"num\">Measured</th><th class=\"num\">Deviation</th><th>Source</th></tr></thead><tbody>\n" +
          comparison_rows(outcome) + "</tbody></table>\n";
 }
 

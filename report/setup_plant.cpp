@@ -4,6 +4,7 @@
 #include "report/figures.hpp"
 #include "report/setup_words.hpp"
 #include "sixstep/study/scenario/choices.hpp"
+#include "text/results/quantity_text.hpp"
 #include "text/results/source_words.hpp"
 
 namespace report {
@@ -46,14 +47,14 @@ std::string shaft(const study::Load& load, bool linear) {
     return given(x, linear ? moving : turning);
   };
   if (!load.dynamometer_rad_s.empty())
-    return fmt::format("turned by a dynamometer, {} points", load.dynamometer_rad_s.size());
+    return "turned by a dynamometer, " + text::counted(load.dynamometer_rad_s.size(), "point");
   std::string text = "free";
   if (load.torque_Nm != 0.0) text += ", load " + of(load.torque_Nm, "Nm", "N");
   if (!load.torques_Nm.empty())
-    text += fmt::format(", {} load {}", load.torques_Nm.size(),
-                        load.between == study::Between::lines ? "points" : "steps");
+    text += ", " + text::counted(load.torques_Nm.size(),
+                                 load.between == study::Between::lines ? "load point" : "load step");
   if (!load.at_speeds_Nm.empty())
-    text += fmt::format(", load over speed, {} points", load.at_speeds_Nm.size());
+    text += ", load over speed, " + text::counted(load.at_speeds_Nm.size(), "point");
   if (load.inertia_kg_m2 != 0.0)
     text += (linear ? ", load mass " : ", load inertia ") + of(load.inertia_kg_m2, "kg m2", "kg");
   if (load.gear != 1.0) text += fmt::format(", gear {} : 1", plain(load.gear, 6, true));

@@ -69,10 +69,10 @@ std::string sensors(const study::Sensors& s) {
   if (s.bus_bandwidth_Hz) text += "; dividers filtered at " + given(*s.bus_bandwidth_Hz, "Hz");
   text += terminals(s);
   if (s.rotor == study::RotorSensing::hall)
-    text += fmt::format("; speed from Hall edges against {}, over {}", given(s.capture_Hz, "Hz"),
-                        s.speed_edges == 0   ? "six sectors, at low speed one"
+    text += fmt::format("; speed: Hall edges timed at {}, {}", given(s.capture_Hz, "Hz"),
+                        s.speed_edges == 0   ? "mean of six sectors, at low speed one sector"
                         : s.speed_edges == 1 ? "one sector"
-                                             : fmt::format("{} sectors", s.speed_edges));
+                                             : fmt::format("mean of {} sectors", s.speed_edges));
   if (s.rotor == study::RotorSensing::hall && s.hall_angle != rig::HallAngleFrom::sectors)
     text += fmt::format(", {}", base::word(study::hall_angle_choices, s.hall_angle));
   if (s.hall_lines != rig::WireOrder::abc)

@@ -155,8 +155,8 @@ std::string step(const Scenario& scenario, const Trace& trace) {
   const auto current = found ? step_current(trace, *found) : std::nullopt;
   if (!current) return "";
   const bool asked = found->of != "start";
-  std::string text = fmt::format("peak <b>{}</b> after {}", computed(current->peak_A, "A"),
-                                 computed(current->peak_after_s, "s"));
+  std::string text = fmt::format("peak{} <b>{}</b> after {}", asked ? " of the step" : "",
+                                 computed(current->peak_A, "A"), computed(current->peak_after_s, "s"));
   if (current->asked_A && found->of != "current")
     text += fmt::format(" ({} asked for then)", computed(*current->asked_A, "A"));
   text += fmt::format(", {} rms", computed(current->rms_A, "A"));

@@ -8,12 +8,12 @@
 // leg, ON-PWM the staying one, and PWM-ON-PWM the entering leg until the middle of the sector and the staying
 // one from there.
 //
-// Purpose: the free phase's terminal has the star point's voltage plus its own back-EMF. In the gaps of the
+// Purpose: the free phase's terminal has the star point's voltage plus its own back-EMF. In the off-time of the
 // upper switch the star point is at the lower rail, and a back-EMF below zero drives a current through the free
-// leg's lower diode; in the gaps of the lower switch it is at the upper rail, and a back-EMF above zero does.
+// leg's lower diode; in that of the lower switch it is at the upper rail, and a back-EMF above zero does.
 // The back-EMF of the phase that has just been left crosses zero in the middle of the sector, from the sign
 // that the entering leg's switch allows to the one that the staying leg's switch allows. So with PWM-ON-PWM the
-// free phase of a driving motor conducts in no gap. Each pattern but the first two heats all six switches
+// free phase of a driving motor conducts in no off-time. Each pattern but the first two heats all six switches
 // alike.
 #pragma once
 #include "sixstep/control/commutation.hpp"

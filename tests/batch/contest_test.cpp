@@ -66,7 +66,7 @@ TEST(Contest, CopperLossIsThatOfTheTorque) {
 TEST(Contest, TheMeanTorqueIsTheLoads) {
   const Contest c = compared("maxon-251601", 0, 2);
   const double load =
-      c.bench.course.rated_Nm / 2 + c.bench.design.motor.shaft.B_Nm_s * c.bench.course.rated_rad_s;
+      c.bench.course.load_Nm / 2 + c.bench.design.motor.shaft.B_Nm_s * c.bench.course.high_rad_s;
   for (const ContestRow& row : c.rows) {
     ASSERT_TRUE(row.nominal_held);
     EXPECT_NEAR(gauge(row, Gauge::mean_torque), load, 0.005 * load);

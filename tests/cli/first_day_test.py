@@ -40,7 +40,7 @@ class FirstDay(ProgramTest):
     def test_from_the_data_sheet_to_a_compiled_header(self):
         self.fill_in_the_sheet()
         told = self.run_program("design", "mine.toml", "--mode", "speed").stdout
-        self.assertRegex(told.splitlines()[0], r"^(good|usable).* with Hall probes, down to .* rad/s, over 2[56] motors$")
+        self.assertRegex(told.splitlines()[0], r"^(good|usable).* with Hall probes, down to .* rad/s, over 2[56] motors within the tolerances$")
 
         self.run_program("new", "drive", "--motor", "mine.toml")
         text = (self.path / "drive.toml").read_text()

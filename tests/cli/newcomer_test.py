@@ -71,6 +71,17 @@ class Starter(ProgramTest):
             (self.path / "b.toml").write_text("\n".join(opened) + "\n")
             self.assertEqual(self.digest("a.toml"), self.digest("b.toml"), mode)
 
+    def test_a_six_step_drive_shows_what_reduces_the_peak_at_a_commutation(self):
+        for mode in ("current", "speed"):
+            self.run_program("new", mode, "--mode", mode)
+            path = self.path / f"{mode}.toml"
+            text = path.read_text()
+            for line, instead in (('# pattern = "upper"', 'pattern = "pwm-on"'), ('# commutation = "plain"', 'commutation = "duty-step"')):
+                self.assertEqual(1, text.count(line), mode)
+                text = text.replace(line, instead)
+            path.write_text(text)
+            self.assertNotIn("FAILED", self.run_program("run", path.name).stdout)
+
     def test_full_shows_every_key(self):
         text = self.run_program("new", "--full").stdout
         keys = [line.split()[0] for line in self.run_program("help").stdout.splitlines() if line.startswith("  ")]

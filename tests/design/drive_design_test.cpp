@@ -362,7 +362,7 @@ TEST(DriveDesign, RefusesALowestSpeedWithoutRoomAboveIt) {
   EXPECT_EQ(
       to_string(refused.problems()[0]),
       "lowest_speed_rad_s = 511 leaves no room for a step down to it: on this bus at most 510 rad/s may be the "
-      "lowest, with a fifth of it above against half the nominal torque; lower it, or give a higher voltage_V");
+      "lowest, with a fifth of it above against half the torque of the nominal current; lower it, or give a higher voltage_V");
   spec.voltage_V = 30;
   EXPECT_TRUE(design_drive(motor, spec)) << "the cure";
 }

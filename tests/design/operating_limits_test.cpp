@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "sixstep/control/leg_command.hpp"
+#include "sixstep/plant/back_emf.hpp"
 
 namespace SIXSTEP_TEST_FILE {
 
@@ -85,6 +86,33 @@ TEST(Headroom, EndsWhereTheBusIsUsedUp) {
   EXPECT_NEAR(headroom_V(m, 24.0, 2.33, end), 0.0, 24 * 4 * eps);
   EXPECT_NEAR(end, (24 - 1.03 * 2.33) / 0.0335, 1e-9);
   EXPECT_NEAR(soft_braking_limit_rad_s(m, 2.33), 2.33 / 0.0335 * 1.03, 1e-12);
+}
+
+/// At the limit the whole bus keeps the staying phase's current at the edge, by the star's equations over the plant's
+/// own shapes: L di/dt = v_k - e_k - R i_k - v_star, the leaving leg at the rail of the staying one.
+TEST(CommutationLimit, IsTheSpeedAtWhichAWholeDutyHoldsTheStayingCurrent) {
+  const auto rate = [](const MotorModel& m, double bus_V, double i, double w) {
+    const plant::Machine& x = m.machine;
+    const auto table = x.back_emf == plant::BackEmf::sine ? plant::sine_table<double>()
+                                                          : plant::trapezoid_table<double>(x.flat_deg);
+    const auto& shape = table[1].piece[0].alpha;  // sector 1 begins in the middle of phase a's top
+    double e[3], mean = 0.0;
+    for (int k = 0; k < 3; ++k) mean += (e[k] = x.K_e_V_s * w * shape[k]) / 3;
+    const double star = (2 * bus_V + 0.0) / 3 - mean;  // staying and leaving leg at the bus, entering at 0
+    return bus_V - e[0] - x.R_ohm * i - star;
+  };
+  for (const double flat_deg : {0.0, 60.0, 100.0, 120.0, 150.0}) {
+    MotorModel m = thesis_motor();
+    if (flat_deg == 0.0) m.machine.back_emf = plant::BackEmf::sine;
+    m.machine.flat_deg = flat_deg;
+    for (const double i : {0.5, 3.0, 10.0}) {
+      const double w = commutation_limit_rad_s(m, 24.0, i);
+      EXPECT_NEAR(rate(m, 24.0, i, w), 0.0, 24 * 16 * eps) << flat_deg << " deg, " << i << " A";
+      EXPECT_GT(rate(m, 24.0, i, 0.99 * w), 0.0);
+      EXPECT_LT(rate(m, 24.0, i, 1.01 * w), 0.0);
+    }
+    EXPECT_EQ(commutation_limit_rad_s(m, 24.0, 16.0), 0.0);  // 3 R i alone is above the bus
+  }
 }
 
 }  // namespace SIXSTEP_TEST_FILE

@@ -31,6 +31,34 @@ Relation relation(const SheetCheck& check, const std::string& name) {
   return {};
 }
 
+/// The margin of a torque from which friction is taken off is what the roundings of I and I_0 allow, and no more.
+TEST(SheetCheck, NominalTorqueAllowsTheFrictionToItsRounding) {
+  const double K = 54.1, I = 2.05, I_0 = 0.092, I_half = 0.005, I_0_half = 0.5e-3, K_half = 0.05;
+  Sheet s = printed_251601();
+  s.torque_constant_mNm_A = {K, "terminal", ""};
+  s.nominal_current_A = {I, "terminal", ""};
+  s.no_load_current_mA = {1e3 * I_0, "", ""};
+  s.nominal_torque_mNm = {108, "", ""};
+  const Relation r = relation(checked(s), "nominal torque");
+  // The largest ratio of K I as printed to the true K (I - I_0), and the printed torque half a digit below the true one.
+  const double largest = K * I / ((K - K_half) * (I - I_half - I_0 - I_0_half)) * 108 / 107.5 - 1;
+  EXPECT_NEAR(r.highest, largest, 0.03 * largest);
+  EXPECT_NEAR(r.lowest, -(I_half / I + K_half / K + 0.5 / 108), 1e-9);
+}
+
+/// Numbered lines are maxon's alone.
+TEST(SheetCheck, ANumberedLineOfAnotherMakerIsDoubted) {
+  Sheet s = printed_251601();
+  EXPECT_TRUE(checked(s).doubts.empty());
+  s.resistance_ohm->key = "line_10_terminal_resistance_ohm";
+  for (const char* maker : {"", "Acme", "maxon", "Maxon motor"}) {
+    s.maker = maker;
+    const SheetCheck check = checked(s);
+    EXPECT_EQ(check.doubts.empty(), std::string(maker).find("axon") != std::string::npos) << maker;
+    for (const base::Problem& doubt : check.doubts) EXPECT_EQ(doubt.where, "line_10_terminal_resistance_ohm");
+  }
+}
+
 TEST(SheetCheck, TheReferenceMotorsRelationsByTheNumbers) {
   const SheetCheck check = checked(printed_251601());
   const struct {

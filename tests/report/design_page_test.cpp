@@ -96,7 +96,7 @@ TEST(Design, ANominalCurrentThatNobodyNamedIsNotCalledSo) {
   ASSERT_TRUE(s);
   const std::string page = page_of(*s), text = text::design_text(*s, false);
   for (const std::string& told : {page, text}) {
-    EXPECT_THAT(told, Not(HasSubstr("half the nominal torque")));
+    EXPECT_THAT(told, Not(HasSubstr("half the torque of the nominal current")));
     EXPECT_THAT(told, HasSubstr("the sheet names no nominal current: a tenth of the stall current, 2.33"));
   }
   EXPECT_THAT(text, HasSubstr("2.3301 A, a tenth of the stall current: the sheet names none"));

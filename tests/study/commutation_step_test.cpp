@@ -182,6 +182,42 @@ TEST(CommutationStep, TellsARunInWhichItNeverActs) {
       }
 }
 
+/// A pattern that chops the staying leg leaves a larger peak and a deeper dip than PWM-ON, and a remark says so.
+TEST(CommutationStep, TellsAPatternThatChopsTheStayingLeg) {
+  struct Seen {
+    double least_Nm, most_A;
+    bool told;
+  };
+  const auto seen = [](CurrentCommutation commutation, PwmPattern pattern, double speed_rad_s) {
+    Scenario s = turned(commutation, pattern, speed_rad_s, 3.0);
+    s.pwm.delay_periods = 1;
+    s.duration_s = 40e-3;
+    ask_torque(s, MetricKind::minimum, 5e-3);
+    study::Measure peak = measure(MetricKind::maximum, Signal::current_magnitude);
+    peak.from_s = 5e-3;
+    ask(s, peak);
+    const auto out = study::run(s);
+    if (!out) ADD_FAILURE() << to_string(out.problems()[0]);
+    if (!out) return Seen{};
+    return Seen{out->comparisons[0].measured, out->comparisons[1].measured,
+                std::any_of(out->remarks.begin(), out->remarks.end(), [](const auto& text) {
+                  return text.find("a larger peak of the current") != text.npos;
+                })};
+  };
+  for (const double speed_rad_s : {40.0, 150.0}) {
+    const Seen best = seen(CurrentCommutation::duty_step, PwmPattern::pwm_on, speed_rad_s);
+    EXPECT_FALSE(best.told);
+    EXPECT_FALSE(seen(CurrentCommutation::duty_step, PwmPattern::pwm_on_pwm, speed_rad_s).told);
+    EXPECT_FALSE(seen(CurrentCommutation::plain, PwmPattern::upper, speed_rad_s).told);
+    for (const PwmPattern pattern : {PwmPattern::upper, PwmPattern::lower, PwmPattern::on_pwm}) {
+      const Seen other = seen(CurrentCommutation::duty_step, pattern, speed_rad_s);
+      EXPECT_TRUE(other.told);
+      EXPECT_GT(other.most_A, best.most_A + 0.1);
+      EXPECT_LT(other.least_Nm, best.least_Nm - 0.1 * K_t * 3.0);
+    }
+  }
+}
+
 /// What has no duty of its own, or no pair to hold it on, is told so.
 TEST(CommutationStep, IsRefusedWhereNothingHolds) {
   const auto told = [](const Scenario& s) {

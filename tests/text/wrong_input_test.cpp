@@ -297,6 +297,10 @@ TEST_F(WrongInput, ValuesOfTheCommandLineAreNamedAsSuch) {
           {.overrides = {{"supply.voltage_V", "-3"}, {"pwm.choping", "hard"}, {"pwm.chopping", "hard"}}}),
       ElementsAre("--set supply.voltage_V = -3 must be above 0; it means: voltage of the source, in V",
                   "--set pwm.choping is not a key here; did you mean chopping?"));
+  EXPECT_THAT(complaints(head, {.overrides = {{"reference.unit", "1"}}}),
+              ElementsAre(::testing::HasSubstr("; write --set 'reference.unit=\"1\"'; ")));
+  EXPECT_THAT(complaints(head + "[reference]\nunit = 1\n"),
+              ElementsAre(::testing::HasSubstr("; write unit = \"1\"; ")));
   EXPECT_THAT(
       complaints(head, {.overrides = {{"duration_s.x", "1"}}}),
       ElementsAre("--set duration_s.x = 1 does not name a key; write --set table.key=value, as in --set "

@@ -207,9 +207,9 @@ std::vector<std::string> contest_legend(const Contest& c) {
           "* least of those that hold the course and start with a peak of at most {}: 1.5 times the torque "
           "limit's current, and the PWM's ripple",
           quantity_text(analysis::most_peak_A(c.bench), "A", 3)),
-      "lowest: slowest speed held against the rated torque, found by halving the speed",
+      "lowest: slowest speed held against the full load, found by halving the speed",
       fmt::format(
-          "ripple to turn-ons: at the rated speed against half of the rated torque; slow swing, slow ripple: at "
+          "ripple to turn-ons: at the high speed against half of the full load; slow swing, slow ripple: at "
           "{} rad/s against all of it",
           base::rounded(c.bench.course.slow_rad_s, 4)),
       fmt::format(

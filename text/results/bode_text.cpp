@@ -52,7 +52,7 @@ std::optional<Designed> designed_at(const BodeStudy& s, const LoopPoint& p) {
 constexpr double far_dB = 1.5, far_deg = 8.0, near_crossover_dB = 20.0;
 
 /// Below this part, samples without current come from commutation.
-constexpr double has_gaps = 0.01;
+constexpr double least_without_current = 0.01;
 
 /// The first reason that applies.
 std::string why_beside(const BodeStudy& s) {
@@ -66,12 +66,12 @@ std::string why_beside(const BodeStudy& s) {
         quantity_text(60 / s.pole_pairs, "deg", 3));
   const bool one_way = end.pwm.chopping != sixstep::control::Chopping::complementary &&
                        !end.control.smooth_chopping.on && end.control.drive != study::FirmwareKind::field;
-  if (one_way && s.without_current > has_gaps)
+  if (one_way && s.without_current > least_without_current)
     return fmt::format(
         "this chopping lets no current flow backwards, and at {:.2g} % of the samples there is none: the answer is another one up "
         "than down; pwm.chopping = \"complementary\" lets it",
         100 * s.without_current);
-  return "each period of the multisine is answered alike, and not as a linear loop does: commutation, dead time, gaps in the current or a limit";
+  return "each period of the multisine is answered alike, and not as a linear loop does: commutation, dead time, discontinuous current or a limit";
 }
 
 /// A coherence near 1 says that the answers repeat, not that the loop is linear.

@@ -39,6 +39,7 @@ Json limits(const DriveDesign& d) {
           {"headroom_rad_s_V", headroom},
           {"headroom_end_rad_s", d.headroom_end_rad_s},
           {"soft_braking_limit_rad_s", d.braking_limit_rad_s},
+          {"commutation_limit_rad_s", d.commutation_limit_rad_s},
           {"longest_period_s", d.longest_period_s}};
 }
 

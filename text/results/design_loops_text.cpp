@@ -36,7 +36,7 @@ std::string band_words(const DriveDesign& d, const LoopDesign& loop) {
 }  // namespace
 
 std::string gain_unit(const LoopDesign& loop, const Motion& motion) {
-  return loop.name.starts_with("current") ? "V/A" : motion.words("per rad/s");
+  return loop.name.starts_with("current") ? "V/A" : motion.words("of the torque limit per rad/s");
 }
 
 std::string loop_text(const LoopDesign& loop, const Motion& motion) {
@@ -167,7 +167,7 @@ std::string limits_text(const DriveDesign& d) {
       quantity_text(d.ripple.worst_A, "A", 3), d.ripple.worst_duty,
       quantity_text(d.ripple.continuous_above_A, "A", 3),
       d.spec.chopping == sixstep::control::Chopping::complementary ? "it reverses within each period"
-                                                                   : "it has gaps");
+                                                                   : "it is discontinuous");
   const Motion motion = sixstep::design::motion_of(d.motor);
   // A turning motor's speeds are in the hundreds, a linear one's a few.
   const auto speed = [&](double w, int decimals) {
@@ -182,6 +182,13 @@ std::string limits_text(const DriveDesign& d) {
   text += motion.words(fmt::format(
       " rad/s; none above {} rad/s, without the time that commutation takes (sixstep curve has it)\n",
       speed(d.headroom_end_rad_s, 0)));
+  const std::string held = fmt::format("{:.3g} E + 3 R i = U with E and R of a phase",
+                                       sixstep::design::commutation_emfs(d.motor.machine));
+  text += d.commutation_limit_rad_s > 0
+              ? motion.words(
+                    fmt::format("  commutation         a duty step holds the torque up to {} rad/s, {}\n",
+                                speed(d.commutation_limit_rad_s, 1), held))
+              : motion.words(fmt::format("  commutation         no duty step holds the torque, {}\n", held));
   if (d.spec.chopping == sixstep::control::Chopping::soft)
     text += motion.words(fmt::format("  braking, soft       held up to {} rad/s, (i/K_t) R\n",
                                      speed(d.braking_limit_rad_s, 1)));

@@ -95,11 +95,12 @@ void add_robust(Rows& rows, const RobustFigure& f, int digits) {
 
 std::string robust_text(const analysis::Robustness& r, const DriveDesign& d) {
   Rows rows;
-  rows.add({"figure", "nominal", "worst", "where", "chiefly"});
+  rows.add({"figure", "nominal", "worst", "of the motor with", "largest effect of one deviation"});
   for (const RobustFigure& f : r.figures) add_robust(rows, f, 4);
   for (const RobustFigure& f : r.phases) add_robust(rows, f, 3);
-  return fmt::format("\nTolerances, the controller as designed, {} motors (phase margins {})\n", r.runs,
-                     sixstep::design::late_words(d.spec.later_periods())) +
+  return fmt::format(
+             "\nTolerances: the controller as designed, on {} motors with one deviation or several (phase margins {})\n",
+             r.runs, sixstep::design::late_words(d.spec.later_periods())) +
          rows.text();
 }
 
@@ -148,8 +149,8 @@ std::string conditions(const analysis::DesignStudy& s) {
   if (d.spec.rotor.hall && d.loops.size() > 1 && d.spec.mode == Mode::speed)
     text += fmt::format(", down to {}",
                         quantity_text(d.lowest_speed_rad_s, std::string(motion.unit("rad/s").linear), 3));
-  return text +
-         (s.robustness ? fmt::format(", over {} motors", s.robustness->runs) : ", tolerances not looked at");
+  return text + (s.robustness ? fmt::format(", over {} motors within the tolerances", s.robustness->runs)
+                              : ", tolerances not looked at");
 }
 
 }  // namespace

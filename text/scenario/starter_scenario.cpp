@@ -40,6 +40,7 @@ std::vector<Wanted> wanted_keys(Mode mode) {
                               {"pwm.period_s", true},
                               {"pwm.chopping", true},
                               {"pwm.delay_periods"},
+                              {"pwm.pattern"},
                               {"reference.shape", true},
                               {"reference.unit", true},
                               {"load.torque_Nm", true},
@@ -49,7 +50,10 @@ std::vector<Wanted> wanted_keys(Mode mode) {
                               {"record.grid_s"},
                               {"record.events"}};
   if (mode == Mode::current) keys.push_back({"load.locked", true});
-  if (mode != Mode::duty) keys.push_back({"control.limits.current_A"});
+  if (mode != Mode::duty) {
+    keys.push_back({"control.current.commutation"});
+    keys.push_back({"control.limits.current_A"});
+  }
   if (mode == Mode::position) keys.push_back({"control.position.speed_limit_rad_s"});
   return keys;
 }
@@ -237,12 +241,11 @@ std::string starter_note(const study::Scenario& scenario) { return torque_limit_
 
 std::string starter_text(const study::Scenario& scenario, const StarterOptions& options) {
   return fmt::format("#:schema {}\n", scenario_schema_file) +
-         wrapped_comment(
-             fmt::format("sixstep run {} runs this and judges it; with --html the report is "
-                         "written too. Lines behind a # say what holds without them: take the # "
-                         "away to change it; where one says nan, nothing holds, and a number goes "
-                         "there. sixstep help TABLE and sixstep help KEY tell more.",
-                         shell_word(options.file))) +
+         wrapped_comment(fmt::format("sixstep run {} runs this and judges it; with --html the report is "
+                                     "written too. Lines behind a # say what holds without them: take the # "
+                                     "away to change it; nan stands where no value holds: replace it by a "
+                                     "number. sixstep help TABLE and sixstep help KEY tell more.",
+                                     shell_word(options.file))) +
          Starter(scenario, options.full).text();
 }
 

@@ -231,6 +231,13 @@ std::string Document::quote(const toml::node& node, std::string_view path) const
   return std::string(text);
 }
 
+std::string Document::written_as_text(const toml::node& node, std::string_view path) const {
+  const std::string value = quote(node, path);
+  if (const Setting* setting = setting_of(path))
+    return fmt::format("--set '{}=\"{}\"'", setting->path, value);
+  return fmt::format("{} = \"{}\"", path_words(path).back(), value);
+}
+
 std::string Document::place(const toml::source_region& region) const {
   return fmt::format("{}:{}:{}", files_[order_of(region)].name, region.begin.line, region.begin.column);
 }

@@ -42,6 +42,10 @@ class Document {
   /// The value's text as written; a table or a text of more than one line is not quoted.
   std::string quote(const toml::node& node, std::string_view path) const;
 
+  /// The value as a text, for a value of the command line with the quotes that its shell needs: unit = "1", or
+  /// --set 'reference.unit="1"'.
+  std::string written_as_text(const toml::node& node, std::string_view path) const;
+
   /// "file:line:column" of a region, or "--set path" if the value came from there.
   std::string place(const toml::source_region& region) const;
   std::string place(const toml::node& node, std::string_view path) const;

@@ -96,7 +96,10 @@ bool TableReader::word(const toml::node& node, const std::string& path, const ba
     out = text->get();
     return true;
   }
-  complaints_.value(node, path, {.limit = "must be text in quotes", .cure = cure_of(about)});
+  std::string cure = cure_of(about);
+  if (node.is_number() || node.is_boolean())
+    cure = "write " + complaints_.document().written_as_text(node, path) + "; " + cure;
+  complaints_.value(node, path, {.limit = "must be text in quotes", .cure = std::move(cure)});
   return false;
 }
 

@@ -39,7 +39,7 @@ class Verdict(NamedTuple):
     ...                      require=[{"metric": "max", "signal": "i_m_A", "max": 3, "label": "peak"}])
     >>> verdict = sixstep.run(s).verdicts[0]
     >>> verdict.figure, verdict.max, verdict.ok
-    ('peak', 3, True)
+    ('peak', 3.0, True)
     """
 
     figure: str

@@ -15,11 +15,11 @@ namespace sixstep::analysis {
 namespace {
 
 /// Part of the speed up to which the bus drives the nominal current.
-constexpr double rated_part = 0.6;
-/// Part of the rated speed within which start and load step count as settled.
+constexpr double high_part = 0.6;
+/// Part of the high speed within which start and load step count as settled.
 constexpr double settled_part = 0.02;
 /// Means must lie within this part of the reference.
-constexpr double holds_rated = 0.02, holds_slow = 0.05;
+constexpr double holds_high = 0.02, holds_slow = 0.05;
 constexpr double electrical_turns = 10.0;
 
 /// Rounded up to three digits.
@@ -67,18 +67,18 @@ Course course_of(const design::DriveDesign& d) {
   const double K = d.motor.K_t_Nm_A, J = d.motor.shaft.J_kg_m2, R = 2 * d.motor.machine.R_ohm;
   const double settle = d.spec.settle_s.value_or(10e-3), turn = 2 * base::pi / d.motor.machine.pole_pairs;
   Course c;
-  c.rated_Nm = base::shortened(K * d.nominal_current_A, 3, base::Towards::down);
-  c.rated_rad_s = base::shortened(rated_part * d.headroom_end_rad_s, 2, base::Towards::down);
+  c.load_Nm = base::shortened(K * d.nominal_current_A, 3, base::Towards::down);
+  c.high_rad_s = base::shortened(high_part * d.headroom_end_rad_s, 2, base::Towards::down);
   c.slow_rad_s = plain(d.lowest_speed_rad_s);
-  c.calm_s = plain(std::max(settle, electrical_turns * turn / c.rated_rad_s));
+  c.calm_s = plain(std::max(settle, electrical_turns * turn / c.high_rad_s));
   c.slow_calm_s = plain(std::max(settle, electrical_turns * turn / c.slow_rad_s));
   // With the torque that limit and bus leave at the end of the start; commutation takes about half of it.
   const double drives =
-      0.5 * std::min(d.torque_limit_Nm, K * (d.bus_V - K * c.rated_rad_s) / R) - c.rated_Nm / 2;
-  const double start = J * c.rated_rad_s / std::max(drives, 0.2 * c.rated_Nm);
+      0.5 * std::min(d.torque_limit_Nm, K * (d.bus_V - K * c.high_rad_s) / R) - c.load_Nm / 2;
+  const double start = J * c.high_rad_s / std::max(drives, 0.2 * c.load_Nm);
   c.load_at_s = plain(start + 5 * settle + c.calm_s);
   c.slow_at_s = plain(c.load_at_s + 5 * settle);
-  const double fall = J * (c.rated_rad_s - c.slow_rad_s) / c.rated_Nm;  // by the load alone
+  const double fall = J * (c.high_rad_s - c.slow_rad_s) / c.load_Nm;  // by the load alone
   c.end_s = plain(c.slow_at_s + fall + 5 * settle + c.slow_calm_s);
   return c;
 }
@@ -96,7 +96,7 @@ study::Measure measure_of(const ContestGauge& gauge, const Course& c) {
     case CoursePart::start:
       window(0.0, c.load_at_s);
       break;
-    case CoursePart::rated:
+    case CoursePart::high:
       window(c.load_at_s - c.calm_s, c.load_at_s);
       break;
     case CoursePart::load_step:
@@ -111,7 +111,7 @@ study::Measure measure_of(const ContestGauge& gauge, const Course& c) {
   }
   const study::MetricKind k = gauge.metric;
   if (k == MetricKind::settling_time || k == MetricKind::overshoot || k == MetricKind::largest_error)
-    m.level = c.rated_rad_s;
+    m.level = c.high_rad_s;
   if (k == MetricKind::settling_time || k == MetricKind::overshoot) m.start = 0.0;
   if (k == MetricKind::settling_time) m.band = settled_part;
   return m;
@@ -133,14 +133,14 @@ void add_course(const Course& c, study::Scenario& s) {
   s.reference = {};
   s.reference.shape = study::Shape::steps;
   s.reference.times_s = {0.0, c.slow_at_s};
-  s.reference.values = {c.rated_rad_s, c.slow_rad_s};
+  s.reference.values = {c.high_rad_s, c.slow_rad_s};
   s.load.times_s = {0.0, c.load_at_s};
-  s.load.torques_Nm = {c.rated_Nm / 2, c.rated_Nm};
+  s.load.torques_Nm = {c.load_Nm / 2, c.load_Nm};
   s.load.torque_Nm = 0.0;
   const double loaded = c.slow_at_s - c.load_at_s;
   s.require = {
-      holds("rated speed held", c.load_at_s - c.calm_s, c.load_at_s, c.rated_rad_s, holds_rated),
-      holds("held under the whole load", c.slow_at_s - loaded / 5, c.slow_at_s, c.rated_rad_s, holds_rated),
+      holds("high speed held", c.load_at_s - c.calm_s, c.load_at_s, c.high_rad_s, holds_high),
+      holds("held under the full load", c.slow_at_s - loaded / 5, c.slow_at_s, c.high_rad_s, holds_high),
       holds("low speed held", c.end_s - c.slow_calm_s, c.end_s, c.slow_rad_s, holds_slow)};
   s.compare.clear();
   for (const ContestGauge& gauge : contest_gauges)
@@ -179,12 +179,13 @@ std::vector<std::string> rules_of(const ContestBench& b) {
           "one speed loop asked for, settled in " + n(b.design.spec.settle_s.value_or(0) * 1e3) +
               " ms, and one current loop, in " + n(s.control.current.settle_s.value_or(0) * 1e3) +
               " ms, by pole placement with damping " + n(b.design.spec.damping),
-          "one rated torque, " + n(b.course.rated_Nm * 1e3) + " mN m, that of " +
+          "one full load, " + n(b.course.load_Nm * 1e3) + " mN m: K_t times " +
               design::nominal_current_words(b.design) + ", " + n(b.design.nominal_current_A) + " A",
-          "one course: to " + n(b.course.rated_rad_s) + " rad/s against " + n(b.course.rated_Nm * 500) +
-              " mN m, at " + n(b.course.load_at_s * 1e3) + " ms " + n(b.course.rated_Nm * 1e3) +
-              " mN m, at " + n(b.course.slow_at_s * 1e3) + " ms down to " + n(b.course.slow_rad_s) +
-              " rad/s"};
+          "one high speed, " + n(b.course.high_rad_s) + " rad/s: " + n(high_part) +
+              " of that up to which the bus drives this current",
+          "one course: to the high speed against " + n(b.course.load_Nm * 500) + " mN m, at " +
+              n(b.course.load_at_s * 1e3) + " ms " + n(b.course.load_Nm * 1e3) + " mN m, at " +
+              n(b.course.slow_at_s * 1e3) + " ms down to " + n(b.course.slow_rad_s) + " rad/s"};
 }
 
 }  // namespace
@@ -224,8 +225,8 @@ std::vector<std::pair<std::string, double>> contest_values(const ContestBench& b
   const design::DriveDesign& d = bench.design;
   const design::MotorModel& m = d.motor;
   const Course& c = bench.course;
-  // The outgoing phase's current falls under (U + 2 e)/3, e the back-EMF of a phase (K_t/2 w) at the rated speed.
-  const double falls_V = (d.bus_V + m.K_t_Nm_A * c.rated_rad_s) / 3;
+  // The outgoing phase's current falls under (U + 2 e)/3, e the back-EMF of a phase (K_t/2 w) at the high speed.
+  const double falls_V = (d.bus_V + m.K_t_Nm_A * c.high_rad_s) / 3;
   const double commutes_s = m.machine.L_H * d.nominal_current_A / falls_V;
   const study::SpeedLoop& speed = bench.scenario.control.speed;
   return {{"settle_s", speed.settle_s.value_or(0.0)},
@@ -237,7 +238,7 @@ std::vector<std::pair<std::string, double>> contest_values(const ContestBench& b
           {"trip_rad_s", plain(1.5 * d.bus_V / m.K_t_Nm_A)},
           {"high_V", plain(1.25 * d.bus_V)},
           {"low_V", plain(0.5 * d.bus_V)},
-          {"slew", plain((d.torque_limit_Nm - c.rated_Nm / 2) / m.shaft.J_kg_m2)}};
+          {"slew", plain((d.torque_limit_Nm - c.load_Nm / 2) / m.shaft.J_kg_m2)}};
 }
 
 base::Result<std::vector<ContestKey>> keys_of(const Contestant& contestant, const ContestBench& bench) {

@@ -3,11 +3,11 @@
 // the keys of its row (contestants.hpp). Motor, bus, bridge, PWM period, delay, sensors, torque limit, settling
 // times and course are the same for all.
 //
-//   start      from rest to the rated speed w_r, against half of the rated torque
-//   load step  to the whole rated torque
+//   start      from rest to the high speed w_h, against half of the full load
+//   load step  to the full load
 //   slow       down to the lowest speed that the speed loop is designed for, against the same torque
 //
-// The rated torque is that of the nominal current. w_r is 0.6 of the speed up to which the bus drives that
+// The full load is K_t times the nominal current. w_h is 0.6 of the speed up to which the bus drives that
 // current, because commutation and acceleration need the rest.
 #pragma once
 #include <optional>
@@ -36,8 +36,8 @@ struct ContestSpec {
 };
 
 struct Course {
-  double rated_rad_s = 0.0, slow_rad_s = 0.0;
-  double rated_Nm = 0.0;
+  double high_rad_s = 0.0, slow_rad_s = 0.0;
+  double load_Nm = 0.0;
   double load_at_s = 0.0, slow_at_s = 0.0, end_s = 0.0;
   /// Length of the window before load_at_s: ten electrical turns, at least the settling time.
   double calm_s = 0.0;

@@ -12,7 +12,7 @@
 namespace sixstep::analysis {
 
 /// Part of the course in which a gauge is measured.
-enum class CoursePart : std::uint8_t { start, rated, load_step, brake, slow };
+enum class CoursePart : std::uint8_t { start, high, load_step, brake, slow };
 
 struct ContestGauge {
   std::string_view label;  ///< in the scenario
@@ -50,15 +50,15 @@ inline constexpr ContestGauge contest_gauges[] = {
     {"settling of the start", MetricKind::settling_time, Signal::speed, CoursePart::start},
     {"overshoot of the start", MetricKind::overshoot, Signal::speed, CoursePart::start},
     {"peak current of the start", MetricKind::maximum, Signal::current_magnitude, CoursePart::start},
-    {"mean torque", MetricKind::mean, Signal::torque, CoursePart::rated},
-    {"least torque", MetricKind::minimum, Signal::torque, CoursePart::rated},
-    {"torque ripple, rms", MetricKind::ripple_rms, Signal::torque, CoursePart::rated},
-    {"torque ripple, peak to peak", MetricKind::peak_to_peak, Signal::torque, CoursePart::rated},
-    {"distortion of a phase's current", MetricKind::thd, Signal::phase_a, CoursePart::rated},
-    {"copper loss", MetricKind::mean, Signal::copper_loss, CoursePart::rated},
-    {"conduction loss", MetricKind::mean, Signal::device_loss, CoursePart::rated},
-    {"switching loss", MetricKind::switching_loss, Signal::current, CoursePart::rated},
-    {"turn-ons of a switch", MetricKind::switching_frequency, Signal::gate_T1, CoursePart::rated},
+    {"mean torque", MetricKind::mean, Signal::torque, CoursePart::high},
+    {"least torque", MetricKind::minimum, Signal::torque, CoursePart::high},
+    {"torque ripple, rms", MetricKind::ripple_rms, Signal::torque, CoursePart::high},
+    {"torque ripple, peak to peak", MetricKind::peak_to_peak, Signal::torque, CoursePart::high},
+    {"distortion of a phase's current", MetricKind::thd, Signal::phase_a, CoursePart::high},
+    {"copper loss", MetricKind::mean, Signal::copper_loss, CoursePart::high},
+    {"conduction loss", MetricKind::mean, Signal::device_loss, CoursePart::high},
+    {"switching loss", MetricKind::switching_loss, Signal::current, CoursePart::high},
+    {"turn-ons of a switch", MetricKind::switching_frequency, Signal::gate_T1, CoursePart::high},
     {"largest error after the load step", MetricKind::largest_error, Signal::speed, CoursePart::load_step},
     {"settling of the load step", MetricKind::settling_time, Signal::speed, CoursePart::load_step},
     {"peak current of the way down", MetricKind::maximum, Signal::current_magnitude, CoursePart::brake},

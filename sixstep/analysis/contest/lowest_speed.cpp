@@ -39,7 +39,7 @@ study::Scenario slow_scenario(const study::Scenario& contestant, const ContestBe
   s.title = "As slowly as it goes";
   s.load.times_s.clear();
   s.load.torques_Nm.clear();
-  s.load.torque_Nm = bench.course.rated_Nm;
+  s.load.torque_Nm = bench.course.load_Nm;
   s.reference = {};
   s.reference.shape = study::Shape::steps;
   s.require.clear();

@@ -208,7 +208,7 @@ void add_speed_figures(const DriveDesign& d, const SpeedTest& t, study::Scenario
 
 void add_speed(const DriveDesign& d, const DesignSubject& subject, study::Scenario& s) {
   const SpeedTest t = speed_test(d, subject);
-  s.title = d.nominal_printed ? "Speed cascade as designed, against half the nominal torque"
+  s.title = d.nominal_printed ? "Speed cascade as designed, against half the torque of the nominal current"
                               : "Speed cascade as designed, against a twentieth of the stall torque";
   s.duration_s = t.end;
   s.load.torque_Nm = d.motor.K_t_Nm_A * t.load_A * s.load.gear;

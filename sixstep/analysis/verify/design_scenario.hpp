@@ -39,7 +39,7 @@ double usual_move(const design::DriveDesign& design);
 
 /// - current: rotor held in the middle of a sector, a step of the setpoint; settling and overshoot at the
 ///   controller's samples, ripple of the last ten periods.
-/// - speed: against half the nominal torque, so that the current flows without gaps: a start from rest, where
+/// - speed: against half the torque of the nominal current, so that the current is continuous: a start from rest, where
 ///   torque and bus limit, then a step so small that no limit acts, which the linear design must predict. With
 ///   Hall probes the step goes down to the lowest speed, where the measured speed is oldest, and is judged by a
 ///   band of a twentieth of that speed.

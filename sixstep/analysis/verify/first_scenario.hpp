@@ -22,8 +22,8 @@ struct FirstScenarioSpec {
 /// - current, speed, position: the design's own test (design_scenario.hpp) on a board's sensors, with the
 ///   settling time that the design chooses; where that is not usable over the sheet's tolerances, the shortest
 ///   of 2, 5, 10 .. times as long that is.
-/// - duty: a run-up from rest at half the voltage, complementary chopping, so that the current flows without
-///   gaps and the sheet's straight line predicts the speed: 0 = K_t (d U - K_t w)/R_tt - B w - T_c.
+/// - duty: a run-up from rest at half the voltage, complementary chopping, so that the current is
+///   continuous and the sheet's straight line predicts the speed: 0 = K_t (d U - K_t w)/R_tt - B w - T_c.
 /// Problems: those of the sheet, no design that suits.
 base::Result<study::Scenario> first_scenario(const FirstScenarioSpec& spec);
 

@@ -8,6 +8,7 @@
 #include "sixstep/analysis/verify/design_scenario.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/sheet/motion.hpp"
+#include "sixstep/study/scenario/choices.hpp"
 
 namespace sixstep::analysis {
 namespace {
@@ -57,6 +58,12 @@ bool from_half_the_bus(const DesignStudy& s) {
   return s.design.spec.mode == control::Mode::current && s.design.spec.chopping == control::Chopping::hard;
 }
 
+/// The chopping decides whether a small negative duty brakes by that or by the whole bus.
+std::string in_simulation(const DesignStudy& s) {
+  return "in the simulation, with " +
+         std::string(base::word(study::chopping_choices, s.design.spec.chopping)) + " chopping,";
+}
+
 /// A loop whose run was to keep away from all limits must settle as designed; a quarter more is a warning.
 void look_at_settling(DesignStudy& s) {
   const study::ComparisonResult* c = figure_of(s.outcome, "settling time");
@@ -69,7 +76,7 @@ void look_at_settling(DesignStudy& s) {
             " rad/s, is wider than 2 % of the largest step at which no limit acts: its settling time says nothing",
         false);
   else if (!std::isfinite(c->measured))
-    warn(s, design::Concern::settling, "in the simulation it never settles", true);
+    warn(s, design::Concern::settling, in_simulation(s) + " it never settles", true);
   else if (c->measured > 1.25 * c->value)
     warn(s, design::Concern::settling,
          "in the simulation it settles in " + base::three_digits(1e3 * c->measured) + " ms, designed were " +
@@ -126,7 +133,7 @@ void look_at_run(DesignStudy& s, bool asked_step) {
   look_at_settling(s);
   if (const study::ComparisonResult* start = figure_of(s.outcome, settling_of_start);
       start && !std::isfinite(start->measured) && s.usable())
-    warn(s, design::Concern::settling, "in the simulation the start from rest never settles", true);
+    warn(s, design::Concern::settling, in_simulation(s) + " the start from rest never settles", true);
   if (const study::ComparisonResult* o = figure_of(s.outcome, "overshoot"))
     look_at_overshoot(s, o->measured, "in the simulation");
   if (const study::ComparisonResult* swing = figure_of(s.outcome, swing_at_target))

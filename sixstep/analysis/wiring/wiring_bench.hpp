@@ -31,7 +31,7 @@ struct WiringBench {
   design::MotorModel motor;
   double voltage_V = 0.0, current_A = 0.0, duty = 0.0;  ///< current_A = duty voltage_V/R_tt
   BenchCurrent from = BenchCurrent::nominal;
-  double ideal_rad_s = 0.0;  ///< duty voltage_V/K_t: no load, current without gaps
+  double ideal_rad_s = 0.0;  ///< duty voltage_V/K_t: no load, continuous current
   double free_s = 0.0;  ///< 18 mechanical time constants and an ideal motor's turn, then the watched part
   double watched_from_s = 0.0;
   double row_s = 0.0;  ///< between two recorded rows of a free run

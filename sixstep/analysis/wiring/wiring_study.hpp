@@ -51,7 +51,7 @@ struct WiringCase {
 };
 
 /// Means over the runs of all wirings that do the same, over wirings and starts; of the peaks the largest. A motor
-/// that runs well accelerates for much longer than a run lasts, because its current has gaps. Its speed and
+/// that runs well accelerates for much longer than a run lasts, because its current is discontinuous. Its speed and
 /// currents are then those of the settled state (curve/no_load.hpp), unless the sheet's friction holds it.
 struct Symptom {
   std::size_t ways = 0;

@@ -47,7 +47,7 @@ struct WiringTheory {
   double mean_Nm_A = 0.0;               ///< over the turn
   double part = 0.0;                    ///< over the mean of straight wires
   double least_part = 0.0;  ///< least torque in its direction at any angle, likewise; 0 where it hums
-  /// At one duty, without inductance, friction and gaps in the current: the speed at which the mean torque is 0,
+  /// At one duty, without inductance and friction and with continuous current: the speed at which the mean torque is 0,
   /// over that of straight wires, and the rms of the pair's current there, over the stalled one. From dU - w g = R
   /// i and mean(g i) = 0:
   ///   w = dU mean(g)/mean(g^2), i_rms^2 = (dU/R)^2 (1 - mean(g)^2/mean(g^2)).

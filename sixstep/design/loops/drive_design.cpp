@@ -276,6 +276,7 @@ void add_limits(DriveDesign& d) {
   d.ripple = worst_ripple(d.motor, d.bus_V, d.spec.period_s, d.spec.chopping);
   d.headroom_end_rad_s = speed_for_current_rad_s(d.motor, d.bus_V, d.nominal_current_A);
   d.braking_limit_rad_s = soft_braking_limit_rad_s(d.motor, d.nominal_current_A);
+  d.commutation_limit_rad_s = commutation_limit_rad_s(d.motor, d.bus_V, d.nominal_current_A);
   d.longest_period_s = longest_period(d);
 }
 

@@ -139,6 +139,8 @@ struct DriveDesign {
   double speed_step_V = 0.0;         ///< immediate answer of the current loop to that part
   double high_speed_left_V = 0.0;    ///< rest of the bus there, at half the nominal current
   double braking_limit_rad_s = 0.0;  ///< highest at which soft chopping brakes by the nominal current
+  double commutation_limit_rad_s =
+      0.0;  ///< highest at which a duty holds the nominal current's torque at a commutation
   std::vector<Warning> warnings;
 
   const LoopDesign& loop(std::string_view name) const;

@@ -74,4 +74,16 @@ double soft_braking_limit_rad_s(const MotorModel& motor, double current_A) {
   return current_A / motor.K_t_Nm_A * 2.0 * motor.machine.R_ohm;
 }
 
+// The staying phase is at the middle of its top, the other two 120 degrees from theirs.
+double commutation_emfs(const plant::Machine& machine) {
+  if (machine.back_emf == plant::BackEmf::sine) return 3.0;
+  const double ramp_deg = 90.0 - machine.flat_deg / 2;
+  return 2.0 + 2.0 * std::fmin(1.0, 30.0 / ramp_deg);
+}
+
+double commutation_limit_rad_s(const MotorModel& motor, double bus_V, double current_A) {
+  const plant::Machine& m = motor.machine;
+  return std::fmax((bus_V - 3.0 * m.R_ohm * current_A) / (commutation_emfs(m) * m.K_e_V_s), 0.0);
+}
+
 }  // namespace sixstep::design

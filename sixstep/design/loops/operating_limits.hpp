@@ -25,7 +25,7 @@ struct Ripple {
   double worst_A = 0.0;  ///< peak to peak, at worst_duty = 0.5
   double worst_duty = 0.5;
   double continuous_above_A =
-      0.0;  ///< half the worst: below this mean current a soft-chopped current has gaps
+      0.0;  ///< half the worst: below this mean current a soft-chopped current is discontinuous
 };
 Ripple worst_ripple(const MotorModel& motor, double bus_V, double period_s, control::Chopping chopping);
 
@@ -54,7 +54,7 @@ double speed_for_current_rad_s(const MotorModel& motor, double bus_V, double cur
 /// Part of the highest speed at nominal current that counts as a high speed; the voltage left there is for control.
 inline constexpr double high_speed_part = 0.9;
 
-/// Speeds at which a speed loop is tested: against half the nominal torque, up to a tenth below the highest speed
+/// Speeds at which a speed loop is tested: against half the torque of the nominal current, up to a tenth below the highest speed
 /// with that load.
 struct TestSpeeds {
   double load_A = 0.0, top_rad_s = 0.0;
@@ -67,5 +67,12 @@ TestSpeeds test_speeds(const MotorModel& motor, double bus_V, double torque_limi
 /// Soft chopping brakes through the lower switches: at speed w the current cannot be less than the short circuit's
 /// K_t w/R_tt. Result: highest speed at which a braking current i can be held, (i/K_t) R_tt.
 double soft_braking_limit_rad_s(const MotorModel& motor, double current_A);
+
+/// Back-EMF that a commutation must overcome, in parts of the peak E of a phase: 2 e_staying - e_entering - e_leaving
+/// at the edge. 4 for a flat top of at least 120 degrees, 3 for a sine.
+double commutation_emfs(const plant::Machine& machine);
+/// Highest speed at which a duty exists that holds the staying phase's current through a commutation, with R_s of a
+/// phase: commutation_emfs() K_e w + 3 R_s i = U_s (sixstep/control/commutation_step.hpp). 0 if there is none.
+double commutation_limit_rad_s(const MotorModel& motor, double bus_V, double current_A);
 
 }  // namespace sixstep::design

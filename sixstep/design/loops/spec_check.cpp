@@ -61,10 +61,11 @@ base::Problems check_spec(const MotorModel& motor, const DesignSpec& w) {
   else if (const double most = most_lowest_speed_rad_s(motor, w); w.mode == Mode::speed && w.rotor.lags() &&
                                                                   w.lowest_speed_rad_s && most > 0.0 &&
                                                                   *w.lowest_speed_rad_s > most)
-    found.push_back({"lowest_speed_rad_s", base::written(*w.lowest_speed_rad_s),
-                     "leaves no room for a step down to it: on this bus at most " + base::three_digits(most) +
-                         " rad/s may be the lowest, with a fifth of it above against half the nominal torque",
-                     "lower it, or give a higher voltage_V"});
+    found.push_back(
+        {"lowest_speed_rad_s", base::written(*w.lowest_speed_rad_s),
+         "leaves no room for a step down to it: on this bus at most " + base::three_digits(most) +
+             " rad/s may be the lowest, with a fifth of it above against half the torque of the nominal current",
+         "lower it, or give a higher voltage_V"});
   if (w.rotor.edges < 0 || w.rotor.edges > 6)
     add("edges", std::to_string(w.rotor.edges), "must lie in 1 to 6", "leave it out to have them adaptive");
   const bool encoder = w.rotor.shaft.kind == ShaftSensorKind::encoder;

@@ -153,6 +153,23 @@ void doubt_pace(const Sheet& sheet, SheetCheck& check) {
   }
 }
 
+/// Numbered lines that fix the frame of their value, as maxon's sheets mean it.
+constexpr std::string_view framed_lines[] = {"line_6_", "line_10_", "line_11_", "line_12_", "line_13_"};
+
+void doubt_maker(const Sheet& sheet, SheetCheck& check) {
+  std::string maker = sheet.maker;
+  std::transform(maker.begin(), maker.end(), maker.begin(),
+                 [](char c) { return 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  if (maker.find("maxon") != std::string::npos) return;
+  const auto numbered = std::find_if(check.lines.begin(), check.lines.end(), [](const LineUse& line) {
+    return std::any_of(std::begin(framed_lines), std::end(framed_lines),
+                       [&](std::string_view start) { return line.key.starts_with(start); });
+  });
+  if (numbered != check.lines.end())
+    check.doubts.push_back({numbered->key, "", "is a numbered line of maxon's sheets, which fixes its frame",
+                            "give maker = \"maxon\", or write keys without numbers, with their frames"});
+}
+
 }  // namespace
 
 base::Result<SheetCheck> check_sheet(const Sheet& sheet) {
@@ -177,6 +194,7 @@ base::Result<SheetCheck> check_sheet(const Sheet& sheet) {
     check.mechanical_time_constant_s =
         2.0 * c.R_ohm->value * c.J_kg_m2->value / (c.K_t_Nm_A->value * c.K_t_Nm_A->value);
   doubt_pace(sheet, check);
+  doubt_maker(sheet, check);
   if (c.R_ohm && c.nominal_voltage_V) check.stall_current_A = *c.nominal_voltage_V / (2.0 * c.R_ohm->value);
   return check;
 }

@@ -192,13 +192,18 @@ class Relations {
     if (torque && current && K_t_) {
       // Some sheets subtract the friction, K_t (I_N - I_0), others do not; no torque is above K_t I_N.
       const bool rms = s_.nominal_current_A->frame == "rms", known = idle_ && idle_->value < current->value;
+      const Term computed = per_ampere() * *current * 1e3;
       double friction = 0.0;
       if (known && !rms) {
-        const Term share = *current / (*current - *idle_);
-        friction = share.value * (1.0 + share.doubt) - 1.0;
+        // I/(I - I_0) - 1 at the ends of both roundings. Without friction the rounding of I is in I K_t already.
+        const double idle = idle_->value * (1.0 + idle_->doubt),
+                     least = current->value * (1.0 - current->doubt);
+        // It is a factor beside that of the rounding, which add() adds.
+        const double share = (1.0 + computed.doubt + torque->doubt) * idle / (least - idle);
+        friction = idle < least ? std::fmin(share, most_above) : most_above;
       }
-      Relation& r = add("nominal torque", rms ? "K_rms I_N" : "k_M I_N", "nominal torque",
-                        per_ampere() * *current * 1e3, *torque, "mNm", 0.0, friction);
+      Relation& r = add("nominal torque", rms ? "K_rms I_N" : "k_M I_N", "nominal torque", computed, *torque,
+                        "mNm", 0.0, friction);
       if (r.verdict == RelationVerdict::broken && r.deviation < 0.0 && r.remark.empty())
         r.remark = "the rating is above what its own current makes: the model does not use it";
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds a duty step or an overlap (control/commutation_step.hpp) that a scenario asks for and that never acts.
+// Finds a duty step or an overlap (control/commutation_step.hpp) that never acts, or acts with an unsuitable pattern.
 #pragma once
 #include <string>
 
@@ -11,5 +11,7 @@ namespace sixstep::study {
 /// A sentence with the shortest current that the drive steps for, and a cure; empty where it acted. The drive
 /// leaves out a step that would come too late.
 std::string on_idle_duty_step(const Scenario& scenario, const RunWatch& watch);
+/// A sentence if it acted with a pattern that chops the staying leg at some edges.
+std::string on_chopped_staying_leg(const Scenario& scenario, const RunWatch& watch);
 
 }  // namespace sixstep::study

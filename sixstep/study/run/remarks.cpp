@@ -246,6 +246,7 @@ void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, Outcom
   add(on_heat(s, w, out));
   add(on_steps(s, c, w));
   add(on_idle_duty_step(s, w));
+  add(on_chopped_staying_leg(s, w));
 }
 
 }  // namespace sixstep::study

@@ -49,7 +49,7 @@ inline constexpr Choice<control::PwmPattern> pattern_choices[] = {
      "that of the staying leg, which already conducted before the last commutation"},
     {"pwm-on-pwm", control::PwmPattern::pwm_on_pwm,
      "that of the entering leg in the first half of a sector, that of the staying leg in the second: the free phase "
-     "conducts in one gap of a sector at most"},
+     "conducts in one off-time of a sector at most"},
 };
 static_assert(std::size(pattern_choices) == control::pwm_patterns);
 inline constexpr Choice<CommutationAt> commutation_choices[] = {
@@ -98,12 +98,14 @@ inline constexpr Choice<CurrentLoopType> current_loop_choices[] = {
 inline constexpr Choice<CurrentFeedback> current_feedback_choices[] = {
     {"mean", CurrentFeedback::mean, "half the difference of the driven pair's currents"},
     {"staying-phase", CurrentFeedback::staying_phase,
-     "the current of the phase that conducts before and after a commutation: it makes the torque while the others hand over"},
+     "the current of the phase that conducts before and after a commutation, which makes the torque meanwhile: the loop "
+     "acts later than by the mean, and the torque dips deeper"},
 };
 inline constexpr Choice<CurrentCommutation> current_commutation_choices[] = {
     {"plain", CurrentCommutation::plain, "the loop goes on"},
     {"duty-step", CurrentCommutation::duty_step,
-     "the loop rests, and the duty is the one at which the phase that stays keeps its current while the others hand over"},
+     "the loop rests, and the duty is the one at which the phase that stays keeps its current while the others hand over; "
+     "best with pwm.pattern = \"pwm-on\" or \"pwm-on-pwm\"; with the others the current's peak stays"},
     {"overlap", CurrentCommutation::overlap,
      "the same, and where a whole duty is too little the leaving phase is still fed by what is missing"},
 };

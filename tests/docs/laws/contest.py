@@ -38,7 +38,7 @@ def judge(test, spot):
     supply = float(re.search(r"one bus, ([\d.]+) V", spot.text).group(1))
     R = terminal_ohm(sheet)
     period = quantity(re.search(r"one PWM period, ([\d.]+ \w+)", spot.text).group(1))[0]
-    speed = float(re.search(r"one course: to ([\d.]+) rad/s", spot.text).group(1))
+    speed = float(re.search(r"one high speed, ([\d.]+) rad/s", spot.text).group(1))
     drives = int((re.search(r"Worst of the nominal motor and (\d+) drives", spot.text) or [0, 0])[1])
     torque_limit = quantity(re.search(r"one torque limit, ([\d.]+ m?N m)", spot.text).group(1))[0]
     bound = {"peak": 2 * supply / R, "brake peak": 2 * supply / R, "overshoot": speed, "load error": speed, "slow swing": 2 * speed,

@@ -82,6 +82,8 @@ def limits(test, spot):
     left = dict((float(w), float(v)) for v, w in re.findall(r"(-?[\d.]+) V at (\d+)", spot.text))
     for w, volts in left.items():
         close(test, spot, f"voltage left at {w} rad/s", volts, U - 2.33 * R - K_T * w, 0, 0.06)
+    held = float(re.search(r"holds the torque up to ([\d.]+) rad/s, 4 E", spot.text).group(1))
+    close(test, spot, "speed up to which a duty holds the torque at a commutation", held, (U - 1.5 * R * 2.33) / (2 * K_T), 0, 0.06)
 
 
 def hall(test, spot):
@@ -180,7 +182,7 @@ def linear(test, spot):
         close(test, spot, name, float(re.search(name, spot.text).group(1)), value, 1e-4)
     v_low = float(re.search(r"v_low +([\d.]+) m/s", spot.text).group(1))
     close(test, spot, "T", float(re.search(r"T +([\d.]+) ms +\(tau/3\)/v_low", spot.text).group(1)), pi * r / 24 / v_low * 1e3, 1e-3)
-    d1, d0, K, K_i = map(float, re.search(r"d1 = (\S+), d0 = (\S+) per m/s; K = (\S+), K_i = (\S+) per", spot.text).groups())
+    d1, d0, K, K_i = map(float, re.search(r"d1 = (\S+), d0 = (\S+) of the force limit per m/s; K = (\S+), K_i = (\S+) per", spot.text).groups())
     close(test, spot, "K", K, d1, 1e-6)
     close(test, spot, "K_i", K_i, d1 + d0, 1e-3)
 
