@@ -75,6 +75,7 @@ std::string header_comment(const ConfigHeader& w, const study::Compiled& c) {
   text +=
       "// C++20, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) have not. For the AVR: clang 19 or later.\n//\n";
   text += comment("scenario", w.scenario.title.empty() ? "(no title)" : w.scenario.title);
+  if (!w.scenario.notes.empty()) text += comment("notes", w.scenario.notes);
   text += comment(
       "motor",
       fmt::format("{}: {} pole pairs, terminal R = {} ohm, L = {} H, K_t = {} N m/A; J = {} kg m2",
