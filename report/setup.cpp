@@ -136,7 +136,7 @@ std::string protection(const study::Protection& p) {
     text +=
         fmt::format(", after {} of stall above {}", given(*p.stall_s, "s"), given(*p.stall_current_A, "A"));
   if (p.align.current_A) text += ", aligned by " + given(*p.align.current_A, "A");
-  if (p.off_at_s) text += ", let go at " + given(*p.off_at_s, "s");
+  if (p.off_at_s) text += ", run command removed at " + given(*p.off_at_s, "s");
   return text;
 }
 

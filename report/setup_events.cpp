@@ -89,7 +89,7 @@ std::string events(const std::vector<study::At>& events, bool linear) {
     if (at.bridge.dead_time_s) add("dead time " + given(*at.bridge.dead_time_s, "s"));
     if (const std::string words = tuned(at); !words.empty()) add(words);
     if (at.request == study::DriveRequest::on) add("asked to run");
-    if (at.request == study::DriveRequest::off) add("let go");
+    if (at.request == study::DriveRequest::off) add("run command removed");
     if (at.request == study::DriveRequest::clear) add("fault cleared");
     if (!what.empty()) text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", given(at.time_s, "s"), what);
   }

@@ -131,7 +131,8 @@ base::Problems put(std::optional<files::AtomicFile>& file, const std::string& te
 
 /// The simulated scenario with the board's settings beside the loops. A warning names the settings that are
 /// lost.
-analysis::CarriedOver designed_scenario(analysis::DesignStudy& s, const study::Scenario* board) {
+analysis::CarriedOver designed_scenario(analysis::DesignStudy& s, const study::Scenario* board,
+                                        bool writes_scenario) {
   study::Scenario scenario = s.scenario;
   analysis::require_swing(s, scenario);
   scenario.not_usable = analysis::found_against(s);
@@ -153,6 +154,14 @@ analysis::CarriedOver designed_scenario(analysis::DesignStudy& s, const study::S
          false);
   if (const std::string keys = analysis::left_out(*board, carried.scenario); !keys.empty())
     warn("this design leaves out these keys of the board's scenario: " + keys, false);
+  if (const std::string course = analysis::replaced(*board, carried.scenario);
+      writes_scenario && !course.empty()) {
+    const std::string what = " the design's own test in place of the board's " + course;
+    carried.scenario.notes = "Run with" + what;
+    warn("the designed file has" + what +
+             "; for a header put the gains into the board's scenario and export that",
+         false);
+  }
   return carried;
 }
 
@@ -167,7 +176,7 @@ std::string designed_text(const analysis::DesignStudy& s, const analysis::Carrie
 
 base::Problems write(analysis::DesignStudy& s, const study::Scenario* board, const DesignArguments& a,
                      DesignFiles& out) {
-  const analysis::CarriedOver carried = designed_scenario(s, board);
+  const analysis::CarriedOver carried = designed_scenario(s, board, out.toml || out.html);
   base::Problems found = put(out.json, text::design_json(s));
   const std::string text = out.toml || out.html ? designed_text(s, carried, a) : std::string();
   append(found, put(out.toml, text));

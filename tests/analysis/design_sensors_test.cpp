@@ -114,6 +114,17 @@ TEST(DesignSensors, ProbesBesideTheirPlacesMakeTheSpeedStray) {
     }
   }
   EXPECT_EQ(told, 2);
+  // Edges that are taken as exact print the step of probes 3 degrees off to opposite sides; six edges have none.
+  const auto dw = [&board](std::vector<double> edges_deg, const char* symbol, int speed_edges) {
+    board.sensors.hall_edges_deg = std::move(edges_deg);
+    board.sensors.speed_edges = speed_edges;
+    for (const design::DerivationStep& step : design::lag_steps(rotor_sensing_of(board), 8, 100, 0))
+      if (step.symbol == symbol) return step.value;
+    return 0.0;
+  };
+  EXPECT_NEAR(dw({}, "dw_3", 1), dw({3, -3, 3, -3, 3, -3}, "dw", 1), 1e-12);
+  EXPECT_EQ(dw({}, "dw_3", 6), 0.0);
+  board.sensors.hall_edges_deg = {3, -2, 0, 0, 0, 0};
   // Over a whole turn the faults cancel, and learned edges have none.
   board.sensors.speed_edges = 6;
   EXPECT_EQ(rotor_sensing_of(board).stray_rad, 0.0);

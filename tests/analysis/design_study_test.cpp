@@ -124,6 +124,20 @@ TEST(DesignedCurrentLoop, HasTheRippleOfTwoExponentials) {
   }
 }
 
+/// With a diode the pair's voltage falls to -0.7 V, and the mean of 24 V and that is R I: by hand, as straight lines.
+TEST(DesignedCurrentLoop, ExpectsTheRippleThatTheDiodeMakes) {
+  const DriveDesign d = designed({.mode = Mode::current});
+  DesignSubject on = subject;
+  on.board = sixstep::testing::maxon_scenario(Mode::current, 2.0);
+  on.board->bridge.diode_drop_V = 0.7;
+  const Scenario s = design_scenario(d, on);
+  const double mean_V = 2 * d.motor.machine.R_ohm * s.reference.value, duty = (mean_V + 0.7) / 24.7;
+  const double lines = (24 - mean_V) * duty * period_s / (2 * d.motor.machine.L_H);
+  const Outcome o = ran(s);
+  EXPECT_NEAR(foretold(o, "current ripple") / lines, 1.0, 0.01);
+  EXPECT_NEAR(measured(o, "current ripple") / lines, 1.0, 0.05);
+}
+
 TEST(DesignedSpeedLoop, DoesInTheSimulationWhatWasDesigned) {
   const DriveDesign d = designed({.mode = Mode::speed});
   const Outcome o = ran(design_scenario(d, subject));

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """sixstep design --scenario: what a design keeps of its board's scenario, what it loses, and that it says so."""
 import json
+import pathlib
 import re
 import tomllib
 import unittest
@@ -168,6 +169,25 @@ position = {gain_rad_s_per_deg = 0.1, speed_limit_rad_s = 50}
         self.run_program("design", "--scenario", str(scenarios / "gallery" / "sensorless-start.toml"), "--quick", "--quiet", "--toml", "lost.toml")
         self.assertIn("sensorless", tomllib.loads((self.path / "lost.toml").read_text())["not_usable"])
         self.run_program("export", "header", "lost.toml", "--arithmetic", "float", "--out", "lost.hpp", code=2)
+
+    def test_what_the_designs_own_test_replaces_is_told_by_design_and_header(self):
+        """The header's bound of the setpoint is the file's largest reference, and its run judged none of the board's requirements."""
+        name = str(SOURCE / "data" / "scenarios" / "firmware" / "cortex-m.toml")
+        board = tomllib.loads(pathlib.Path(name).read_text())
+        told = self.run_program("design", "--scenario", name, "--quick", "--toml", "d.toml").stdout
+        self.assertNotIn("in place of the board's", self.run_program("design", "--scenario", name, "--quick").stdout)
+        self.run_program("export", "header", "d.toml", "--out", "d.hpp")
+        header, written = (self.path / "d.hpp").read_text(), tomllib.loads((self.path / "d.toml").read_text())
+        limit = float(re.search(r"setpoint_limit = \S+ +// (\S+) rad/s", header)[1])
+        for text in (told, header, written["notes"]):
+            line = re.search("in place of the board's (.*)", text)[1]
+            before, now = map(float, re.search(r"reference \(at most (\S+), now (\S+) rad/s\)", line).groups())
+            self.assertEqual((before, now), (max(board["reference"]["values"]), limit))
+            before, now = map(float, re.search(r"load.torque_Nm \((\S+), now (\S+)\)", line).groups())
+            self.assertEqual(before, board["load"]["torque_Nm"])
+            self.assertAlmostEqual(now, written["load"]["torque_Nm"], delta=1e-6)
+            for requirement in board["require"]:
+                self.assertIn(requirement["label"], line)
 
     def test_what_only_the_boards_drive_looks_at_is_no_obstacle(self):
         for name in some(("hall-glitch", "sensorless-comparators", "hall-glitches"), 1):

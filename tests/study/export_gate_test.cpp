@@ -299,7 +299,7 @@ TEST(ExportGate, AStopThatEndsInAFaultStandsAgainstIt) {
     EXPECT_EQ(run->clear(), sinks);
     if (sinks) continue;
     ASSERT_THAT(wheres(run->unheld), ElementsAre("protection.brake_current_A"));
-    EXPECT_THAT(run->unheld[0].limit, ::testing::HasSubstr("is let go at 0.5 s: over-voltage"));
+    EXPECT_THAT(run->unheld[0].limit, ::testing::HasSubstr("run command is removed at 0.5 s: over-voltage"));
   }
   s.protection.off_at_s = 0.4;  // shown, and judged as the run that it is
   const auto shown = study::clear_for_export(s);

@@ -206,6 +206,36 @@ TEST(Spread, AnAbsoluteWidthMovesAZero) {
   EXPECT_LE(std::fabs(angle), 0.1);
 }
 
+TEST(Spread, EachHallEdgeIsMountedByItself) {
+  Scenario s = current_square();
+  s.sensors.rotor = RotorSensing::hall;
+  for (int n = 0; n < 6; ++n) {
+    Spread edge;
+    edge.key = "sensors.hall_edges_deg[" + std::to_string(n) + "]";
+    edge.absolute = 3.0;
+    s.spread.push_back(edge);
+  }
+  ASSERT_EQ(check(s), base::Problems{});
+  double sum = 0, product = 0, squares = 0;
+  constexpr int drives = 2000;
+  for (int n = 0; n < drives; ++n) {
+    const Scenario drive = varied(s, seed, static_cast<std::uint64_t>(n));
+    const std::vector<double>& edges = drive.sensors.hall_edges_deg;
+    ASSERT_EQ(edges.size(), 6u);
+    EXPECT_EQ(strayed_values(s, drive), edges);
+    for (const double x : edges) EXPECT_LE(std::fabs(x), 3.0);
+    sum += edges[0] + edges[1];
+    product += edges[0] * edges[1];
+    squares += edges[0] * edges[0];
+  }
+  // Uniform over +-3: a mean of 0 and a variance of 3, neighbours without correlation; bounds of five deviations.
+  EXPECT_NEAR(sum / drives, 0.0, 5 * std::sqrt(6.0 / drives));
+  EXPECT_NEAR(squares / drives, 3.0, 5 * std::sqrt(7.2 / drives));
+  EXPECT_NEAR(product / drives, 0.0, 5 * std::sqrt(9.0 / drives));
+  EXPECT_EQ(strayed_to(s, "sensors.hall_edges_deg[5]", 2.0)->sensors.hall_edges_deg[5], 2.0);
+  EXPECT_FALSE(strayed_to(s, "sensors.hall_edges_deg[6]", 2.0));
+}
+
 std::string refusal(const Spread& spread, Scenario s = current_square()) {
   s.spread = {spread};
   const base::Problems problems = check(s);

@@ -122,13 +122,20 @@ EXAMPLES = {"stm32f303": "faces/firmware/example/cortex_m", "atmega2560": "faces
 HEADINGS = "t [us],speed [rad/s],speed_ref [rad/s],i_m [mA],duty,bus [V],hall,activity,faults,missed"
 
 
+def lost_break_wire(chip):
+    """An open pin has the level of its pull (11.4.4). At PB12 this must be the break's active level, BKP (20.4.18): without its wire the
+    comparator would protect nothing."""
+    pull, active_high = chip.words[GPIOB + 0x0C] >> 24 & 3, chip.words[BDTR] >> 13 & 1
+    return [] if pull == (1 if active_high else 2) else ["with a lost wire at the break input the gates may work"]
+
+
 def check_set_up(chip):
     chip.reset()
     trouble = [f"{name} at {at:#010x}: {chip.words.get(at, 0) & mask:#010x}, where {value & mask:#010x} belongs ({section})"
                for name, at, mask, value, section in TABLE if (chip.words.get(at, 0) ^ value) & mask]
     if chip.sent.splitlines() != ["# sixstep on an STM32F303", HEADINGS]:
         trouble.append(f"it said {chip.sent!r}")
-    return trouble
+    return trouble + lost_break_wire(chip)
 
 
 AT_REST = (2048, 2048, 2048, round(24 / 52.8 * 4096))

@@ -207,6 +207,17 @@ TEST(PlannedScenarios, RefuseWhatNoRunCouldHave) {
       << "one of its ends can be run";
 }
 
+TEST(PlannedScenarios, StrayInThePlacesOfHallEdges) {
+  const std::string hall = std::string(scenario) + "\n[sensors]\nrotor = \"hall\"\n";
+  const auto edges = [](const base::Result<study::Scenario>& s) {
+    return std::count_if(s->spread.begin(), s->spread.end(), [](const study::Spread& spread) {
+      return spread.key.starts_with("sensors.hall_edges_deg[") && spread.absolute == 3.0;
+    });
+  };
+  EXPECT_EQ(edges(PlannedScenarios({"a.toml", hall, {}, true}, {.axes = {}, .drives = 2}).nominal()), 6);
+  EXPECT_EQ(edges(PlannedScenarios({"a.toml", scenario, {}, true}, {.axes = {}, .drives = 2}).nominal()), 0);
+}
+
 TEST(PlannedScenarios, StrayInWhatASheetDoesNotPromise) {
   const PlannedScenarios plan({"a.toml", scenario, {}, true}, {.axes = {}, .drives = 2});
   const base::Result<study::Scenario> nominal = plan.nominal();

@@ -101,10 +101,13 @@ std::string rotor(const study::Sensors& s) {
   const bool in_place = s.hall_offset_deg == 0 && s.hall_edges_deg.empty() && s.hall_hysteresis_deg == 0 &&
                         s.hall_delay_s == 0 && s.hall_glitches_Hz == 0;
   const bool runs_on = s.hall_angle != sixstep::rig::HallAngleFrom::sectors;
-  return fmt::format("Hall probes {} degrees apart, edges {}, captured at {:.6g} Hz, {}{}",
-                     sixstep::base::word(study::hall_spacing_choices, s.hall_spacing),
-                     in_place ? "exactly at the sectors' ends" : "off their places as [sensors] says",
-                     s.capture_Hz, over, runs_on ? ", angle that runs on between edges" : "");
+  return fmt::format(
+      "Hall probes {} degrees apart, edges {}, captured at {:.6g} Hz, {}{}",
+      sixstep::base::word(study::hall_spacing_choices, s.hall_spacing),
+      in_place
+          ? "exactly at the sectors' ends (no probe is; sheet_tolerances of a plan moves each by up to 3 deg)"
+          : "off their places as [sensors] says",
+      s.capture_Hz, over, runs_on ? ", angle that runs on between edges" : "");
 }
 
 /// Phases at legs a b c, probes at pins H1 H2 H3.
@@ -139,7 +142,7 @@ std::string heat(const study::Heat& h) {
 /// The run's assumptions: with a board that differs in them, the run proves nothing.
 std::string assumptions(const ClearanceText& t) {
   const study::Scenario& s = t.scenario;
-  std::string text = "// That run took for granted:\n";
+  std::string text = "// Assumptions of that run:\n";
   text += entry("supply", supply(s.supply)) + entry("bridge", bridge(s)) + entry("timing", timing(s.pwm));
   text += entry("currents", currents(s.sensors)) + entry("bus", bus(s.sensors)) +
           entry("rotor", rotor(s.sensors)) + entry("wires", wires(s)) + entry("load", load(s.load)) +
@@ -168,7 +171,7 @@ std::string clearance_lines(const ClearanceText& t) {
                            sixstep::base::written_hex(c.outcome.digest)));
   for (const study::Verdict& v : c.outcome.verdicts)
     if (v.ok) text += fmt::format("//   {}\n", comment_text(verdict(v)));
-  if (!c.outcome.remarks.empty()) text += line("What that run showed and nobody asked:");
+  if (!c.outcome.remarks.empty()) text += line("Warnings of that run:");
   for (const std::string& remark : c.outcome.remarks) text += fmt::format("//   {}\n", comment_text(remark));
   for (const std::string& note : c.notes) text += line("Note: " + note);
   return text + assumptions(t);

@@ -10,6 +10,8 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "sixstep/base/describe.hpp"
 #include "sixstep/control/fixed.hpp"
@@ -166,7 +168,9 @@ class ConfigText {
   using Base = sixstep::design::Base;
 
   /// The bases of floating point are 1.
-  ConfigText(sixstep::control::Mode mode, const sixstep::design::Bases& bases) : mode_(mode), b_(bases) {}
+  ConfigText(sixstep::control::Mode mode, const sixstep::design::Bases& bases,
+             std::vector<std::string_view> unused = {})
+      : mode_(mode), b_(bases), unused_(std::move(unused)) {}
   const std::string& text() const { return text_; }
 
   /// Fields of a loop that does not run are visited too: floating point keeps their values.
@@ -250,8 +254,11 @@ class ConfigText {
     if (literal(kept) != literal(sixstep::control::Gain<Scalar>{}))
       number(f, literal(kept), designed, static_cast<double>(kept) * per_unit, f.unit);
   }
-  void line(const Field& f, const std::string& value, const std::string& comment) {
-    const std::string code = fmt::format("  c.{}{} = {};", within_, f.name, value);
+  void line(const Field& f, const std::string& value, std::string comment) {
+    const std::string path = within_ + f.name, code = fmt::format("  c.{} = {};", path, value);
+    if (std::any_of(unused_.begin(), unused_.end(),
+                    [&path](std::string_view part) { return path.starts_with(part); }))
+      comment += (comment.empty() ? "" : "; ") + std::string("not used by this drive");
     text_ += comment.empty() ? code + "\n" : fmt::format("{:<72}  // {}\n", code, comment);
   }
   /// `held`: the value that the format holds, in SI; the comment shows it if it differs in six digits.
@@ -266,8 +273,27 @@ class ConfigText {
 
   sixstep::control::Mode mode_;
   sixstep::design::Bases b_;
+  std::vector<std::string_view> unused_;  ///< beginnings of the fields' paths
   std::string text_, within_;
 };
+
+/// Fields that the drive never reads: floating point keeps their values.
+inline std::vector<std::string_view> unused_fields(const sixstep::control::DriveConfig<double>& d) {
+  std::vector<std::string_view> out;
+  if (!sixstep::design::runs_current(d)) return out;
+  const bool hysteresis = d.current_control == sixstep::control::CurrentControl::hysteresis;
+  out.push_back(hysteresis ? "current." : "hysteresis.");
+  return out;
+}
+inline std::vector<std::string_view> unused_fields(const sixstep::control::ProtectedConfig<double>& p) {
+  std::vector<std::string_view> out;
+  if (p.sensing != sixstep::control::CurrentSensing::one_shunt) out.push_back("shunt.");
+  return out;
+}
+template <class Config>
+std::vector<std::string_view> unused_fields(const Config&) {
+  return {};
+}
 
 /// A sensorless drive without its loops.
 template <class Scalar>
@@ -286,7 +312,7 @@ std::string sensorless_lines(sixstep::control::Mode mode,
 template <class Scalar, class Designed, class Kept>
 std::string config_lines(sixstep::control::Mode mode, const Designed& designed, const Kept& kept,
                          const sixstep::design::Bases& bases) {
-  ConfigText<Scalar> text(mode, bases);
+  ConfigText<Scalar> text(mode, bases, unused_fields(designed));
   sixstep::design::fields(text, designed, kept);
   return text.text();
 }

@@ -115,6 +115,19 @@ std::string too_short_for_images(double period_s) {
                      1e6 * stm32_least_period_s, atmega);
 }
 
+std::string other_than_stm32_image(const study::Scenario& s) {
+  if (s.control.drive != study::FirmwareKind::product) return {};
+  std::string keys;
+  const auto differs = [&keys](bool does, const char* key) {
+    if (does) keys += (keys.empty() ? "" : ", ") + std::string(key);
+  };
+  differs(s.pwm.alignment != study::Alignment::edge, "pwm.alignment = \"edge\"");
+  differs(s.pwm.sample != study::SampleAt::start, "pwm.sample = \"start\"");
+  differs(s.pwm.delay_periods != 1, "pwm.delay_periods = 1");
+  differs(s.sensors.capture_Hz != 72e6, "sensors.capture_Hz = 72e6");
+  return keys.empty() ? "" : "the STM32F303's image needs " + keys;
+}
+
 std::string core_cost_lines(const study::Compiled& c) {
   if (c.sensorless)
     return "//\n// What its entries take on a core is counted in docs/reference/block-costs.md: sensorless_drive_step, sensorless_drive_commutate and\n"
@@ -134,6 +147,7 @@ std::string core_cost_lines(const study::Compiled& c) {
                         hall ? hall->back() : "-", size[0].starts_with("AT") ? " cycles" : " instructions",
                         size[3], size[4]);
   }
+  text += "// They are of the control code alone; a whole image has the board's code beside it.\n";
   if (const std::string more = blocks_beside(c); !more.empty())
     text += fmt::format("// These counts do not include: {}.\n", more);
   return text;

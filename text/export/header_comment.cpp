@@ -27,13 +27,21 @@ std::string closed_loop_poles(const study::LoopGains& g, const design::ZohPlant&
                            sixstep::base::six_digits(-half - root));
 }
 
+/// The same gains as other tools give them (control.current.kp, ki_per_s).
+std::string as_kp_and_ki(const study::LoopGains& g, const char* unit, double period_s) {
+  const bool current = g.loop.starts_with("current");
+  return fmt::format("; K_p = d1 = {} {}, K_i = (d1 + d0)/T_s = {} {}", sixstep::base::six_digits(g.d1), unit,
+                     sixstep::base::six_digits((g.d1 + g.d0) / period_s), current ? "V/(A s)" : "per rad");
+}
+
 /// One line: the gains and their source.
-std::string derivation(const study::LoopGains& g) {
+std::string derivation(const study::LoopGains& g, double period_s) {
   if (g.loop == "position") return fmt::format("{} rad/s per deg; {}", base::written(g.d1), g.origin);
   const char* unit = g.loop.starts_with("current") ? "V/A" : "per rad/s";
   if (!g.steps.empty()) return fmt::format("K = {} {}; {}", sixstep::base::six_digits(g.d1), unit, g.origin);
-  std::string text = fmt::format("d1 = {} {}, d0 = {} {}; {}", sixstep::base::six_digits(g.d1), unit,
-                                 sixstep::base::six_digits(g.d0), unit, g.origin);
+  std::string text =
+      fmt::format("d1 = {} {}, d0 = {} {}{}; {}", sixstep::base::six_digits(g.d1), unit,
+                  sixstep::base::six_digits(g.d0), unit, as_kp_and_ki(g, unit, period_s), g.origin);
   if (!g.derivation) return text;
   const design::PolePlacement& p = *g.derivation;
   const bool designed = p.gains.d1 == g.d1 && p.gains.d0 == g.d0;
@@ -75,13 +83,14 @@ std::string header_comment(const ConfigHeader& w, const study::Compiled& c) {
   text +=
       "// C++20, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) have not. For the AVR: clang 19 or later.\n//\n";
   text += comment("scenario", w.scenario.title.empty() ? "(no title)" : w.scenario.title);
+  if (!w.scenario.notes.empty()) text += comment("notes", w.scenario.notes);
   text += comment(
       "motor",
       fmt::format("{}: {} pole pairs, terminal R = {} ohm, L = {} H, K_t = {} N m/A; J = {} kg m2",
                   w.scenario.sheet.name, static_cast<int>(m.pole_pairs),
                   sixstep::base::six_digits(2 * m.R_ohm), sixstep::base::six_digits(2 * m.L_H),
                   sixstep::base::six_digits(c.motor.K_t_Nm_A), sixstep::base::six_digits(c.shaft.J_kg_m2)));
-  for (const study::LoopGains& g : c.gains) text += comment(g.loop, derivation(g));
+  for (const study::LoopGains& g : c.gains) text += comment(g.loop, derivation(g, w.scenario.pwm.period_s));
   text +=
       "// Gains are per control period, pwm_period_ps. Speed is mechanical, current positive into the "
       "motor.\n";

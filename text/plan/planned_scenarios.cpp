@@ -69,8 +69,12 @@ base::Result<study::Scenario> PlannedScenarios::nominal() const { return read(of
 base::Result<study::Scenario> PlannedScenarios::read(const ReadOptions& options) const {
   base::Result<study::Scenario> scenario = read_scenario_text(of_.name, of_.text, options);
   if (!scenario || !of_.sheet_tolerances) return scenario;
-  for (study::Spread& spread : analysis::tolerance_spread(scenario->sheet, scenario->control.mode))
-    if (!spread_already(*scenario, spread)) scenario->spread.push_back(std::move(spread));
+  const auto add = [&scenario](std::vector<study::Spread> spreads) {
+    for (study::Spread& spread : spreads)
+      if (!spread_already(*scenario, spread)) scenario->spread.push_back(std::move(spread));
+  };
+  add(analysis::tolerance_spread(scenario->sheet, scenario->control.mode));
+  add(analysis::hall_edge_spread(*scenario));
   if (base::Problems problems = study::check_spread(*scenario); !problems.empty()) return problems;
   return scenario;
 }

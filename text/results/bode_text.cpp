@@ -123,7 +123,7 @@ std::vector<BodeMargin> bode_margins(const BodeStudy& s) {
   return {row("crossover", m.crossover_rad_s, f.crossover_rad_s, 1 / sixstep::base::turn_rad, "Hz"),
           row("phase margin", m.phase_rad, f.phase_rad, degrees_per_rad, "deg"),
           {"gain margin", gain_margin(m.gain), gain_margin(f.gain)},
-          row("delay that is left", m.delay_s, f.delay_s, 1.0, "s"),
+          row("delay margin", m.delay_s, f.delay_s, 1.0, "s"),
           row("bandwidth, closed", m.bandwidth_rad_s, f.bandwidth_rad_s, 1 / sixstep::base::turn_rad, "Hz")};
 }
 

@@ -76,14 +76,16 @@ std::string figures_text(const DriveDesign& d) {
     for (const LoopDesign& loop : d.loops) cells.push_back(cell(loop));
     rows.add(std::move(cells));
   };
-  const std::string sooner = "command " + sixstep::design::late_words(d.spec.sooner_periods()),
+  const std::string sooner = d.spec.sooner_periods() > 0.0
+                                 ? "command " + sixstep::design::late_words(d.spec.sooner_periods())
+                                 : "no computation delay",
                     later = sixstep::design::late_words(d.spec.later_periods());
   const auto factor = +[](double x) { return fmt::format("{:.2f}", x); };
   const auto decibels = +[](double x) { return fmt::format("{:.1f} dB", 20 * std::log10(x)); };
   const auto seconds = +[](double s) { return quantity_text(s, "s", 3); };
   line("crossover", [&](const LoopDesign& l) { return or_none(l.figures.crossover_rad_s, hertz); });
   if (d.loops.size() > 1) {
-    std::vector<std::string> cells{"times the loop around it"};
+    std::vector<std::string> cells{"ratio of the crossovers"};
     for (std::size_t n = 0; n + 1 < d.loops.size(); ++n) {
       const auto &inner = d.loops[n].figures.crossover_rad_s, &outer = d.loops[n + 1].figures.crossover_rad_s;
       cells.push_back(inner && outer ? fmt::format("{:.1f}", *inner / *outer) : "-");

@@ -24,4 +24,8 @@ CarriedOver carry_over(const DesignStudy& study, study::Scenario designed, const
 /// "control.slew, heat.motor". Empty: there are none.
 std::string left_out(study::Scenario board, study::Scenario written);
 
+/// The board's course and judgement that the design's own test replaces in the written scenario: "reference (at
+/// most 300, now 105 rad/s), require (greatest current)". Empty: nothing.
+std::string replaced(const study::Scenario& board, const study::Scenario& written);
+
 }  // namespace sixstep::analysis

@@ -85,6 +85,18 @@ study::Scenario common(const DriveDesign& d, const DesignSubject& subject) {
   return s;
 }
 
+/// Of a mean current that flows at a mean voltage across the pair. While the chopped switch is off, its leg's
+/// diode carries the current, under complementary chopping the other switch; the dead time is neglected.
+double expected_ripple_A(const DriveDesign& d, const study::Bridge& b, double current_A, double mean_V) {
+  const double on = b.saturation_V + b.on_resistance_ohm * current_A,
+               diode = b.diode_drop_V + b.diode_resistance_ohm * current_A;
+  using control::Chopping;
+  const double off_V = d.spec.chopping == Chopping::hard            ? -(d.bus_V + 2 * diode)
+                       : d.spec.chopping == Chopping::complementary ? -2 * on
+                                                                    : -(on + diode);
+  return design::ripple_between_A(d.motor, d.bus_V - 2 * on, off_V, mean_V, d.spec.period_s);
+}
+
 double settling_of(const LoopDesign& loop, double otherwise) {
   return std::isfinite(loop.step.settling_s) && loop.step.settling_s > 0.0 ? loop.step.settling_s : otherwise;
 }
@@ -112,9 +124,7 @@ void add_current(const DriveDesign& d, const DesignSubject& subject, study::Scen
       {settling, 0.0, "designed, at the samples, 2 %"},
       {overshoot, 0.0, "designed, at the samples"},
       {window_measure(study::MetricKind::peak_to_peak, study::Signal::current, last, end, "current ripple"),
-       design::current_ripple_A(d.motor, d.bus_V, d.spec.period_s, d.spec.chopping,
-                                design::duty_for_voltage(d.spec.chopping, std::fabs(step) * R / d.bus_V)),
-       "PWM at this duty"},
+       expected_ripple_A(d, s.bridge, std::fabs(step), std::fabs(step) * R), "PWM at this duty"},
   };
   expect_step(d, s);
   const double band = 0.02 * std::fabs(step);  // the band of settling
@@ -176,7 +186,6 @@ void add_speed_figures(const DriveDesign& d, const SpeedTest& t, study::Scenario
     if (kind == study::MetricKind::settling_time) m.band = within;
     return m;
   };
-  const double duty = design::duty_for_voltage(d.spec.chopping, (K * last + R * t.load_A) / d.bus_V);
   const std::string unlimited = step_is_limited(d, t) ? ", without limits" : "";
   s.compare = {
       {of(study::MetricKind::settling_time, true, "settling time"), linear.settling_s,
@@ -187,8 +196,7 @@ void add_speed_figures(const DriveDesign& d, const SpeedTest& t, study::Scenario
        0.0, "none wanted"},
       {window_measure(study::MetricKind::peak_to_peak, study::Signal::current, t.calm, t.end,
                       "current ripple"),
-       design::current_ripple_A(d.motor, d.bus_V, d.spec.period_s, d.spec.chopping, duty),
-       "PWM alone, without commutation"},
+       expected_ripple_A(d, s.bridge, t.load_A, K * last + R * t.load_A), "PWM alone, without commutation"},
       {of(study::MetricKind::settling_time, false, settling_of_start), linear.settling_s,
        "as designed, without limits"},
       {of(study::MetricKind::overshoot, false, "overshoot of the start"), linear.overshoot * t.first,

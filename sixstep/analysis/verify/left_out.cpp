@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists the keys of a board's scenario that the scenario designed for it does not have, key by key of the
-// descriptions.
+// Compares a board's scenario with the one designed for it, key by key of the descriptions.
 #include <algorithm>
 #include <iterator>
 #include <map>
@@ -8,6 +7,8 @@
 
 #include "sixstep/analysis/verify/carried_over.hpp"
 #include "sixstep/base/written.hpp"
+#include "sixstep/study/measure/figures.hpp"
+#include "sixstep/study/scenario/reference_waveform.hpp"
 #include "sixstep/study/scenario/scenario_description.hpp"
 
 namespace sixstep::analysis {
@@ -86,19 +87,50 @@ std::map<std::string, std::string> texts_of(study::Scenario& s) {
   return std::move(texts.of);
 }
 
+std::string in(const std::map<std::string, std::string>& all, const std::string& key) {
+  const auto found = all.find(key);
+  return found == all.end() ? std::string() : found->second;
+}
+
+/// "require (mean speed, greatest current)".
+std::string named(const study::Scenario& s) {
+  std::string out;
+  for (const study::Requirement& r : s.require)
+    out += (out.empty() ? "" : ", ") + study::figure_name(s, r.measure);
+  return "require (" + out + ")";
+}
+
 }  // namespace
 
 std::string left_out(study::Scenario board, study::Scenario written) {
   study::Scenario usual;
   const auto given = texts_of(board), plain = texts_of(usual), designed = texts_of(written);
-  const auto in = [](const std::map<std::string, std::string>& all, const std::string& key) {
-    const auto found = all.find(key);
-    return found == all.end() ? std::string() : found->second;
-  };
   std::string out;
   for (const auto& [key, text] : given)
     if (!is_the_designs(key) && text != in(plain, key) && in(designed, key) == in(plain, key))
       out += (out.empty() ? "" : ", ") + key;
+  return out;
+}
+
+std::string replaced(const study::Scenario& board, const study::Scenario& written) {
+  std::string out;
+  const auto add = [&out](const std::string& what) { out += (out.empty() ? "" : ", ") + what; };
+  const auto unit = [](const study::Scenario& s) {
+    return s.reference.unit.value_or(std::string(study::reference_unit(s.control.mode)));
+  };
+  const double before = study::largest_reference(board), now = study::largest_reference(written);
+  if (unit(board) != unit(written))
+    add("reference");
+  else if (before != now)
+    add("reference (at most " + base::six_digits(before) + ", now " + base::six_digits(now) + " " +
+        unit(board) + ")");
+  if (board.load.torque_Nm != written.load.torque_Nm)
+    add("load.torque_Nm (" + base::six_digits(board.load.torque_Nm) + ", now " +
+        base::six_digits(written.load.torque_Nm) + ")");
+  if (board.load.locked != written.load.locked) add("load.locked");
+  if (!board.require.empty()) add(named(board));
+  if (!board.at.empty()) add("at");
+  if (!board.spread.empty()) add("spread");
   return out;
 }
 

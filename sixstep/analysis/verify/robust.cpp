@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "sixstep/analysis/verify/design_scenario.hpp"
+#include "sixstep/analysis/verify/scenario_spec.hpp"
 #include "sixstep/base/angle.hpp"
 #include "sixstep/design/sheet/thermal.hpp"
 #include "sixstep/study/measure/figures.hpp"
@@ -200,6 +201,20 @@ std::vector<study::Spread> tolerance_spread(const design::Sheet& sheet, control:
     spreads.push_back(
         {.key = key, .relative = 1.0 - least, .absolute = {}, .source = tolerance.levels.front().words});
   }
+  return spreads;
+}
+
+std::vector<study::Spread> hall_edge_spread(const study::Scenario& scenario) {
+  constexpr double mounted_deg = 3.0;
+  std::vector<study::Spread> spreads;
+  if (!rotor_sensing_of(scenario).hall || scenario.control.drive == study::FirmwareKind::sensorless)
+    return spreads;
+  const std::size_t edges = std::max<std::size_t>(6, scenario.sensors.hall_edges_deg.size());
+  for (std::size_t n = 0; n < edges; ++n)
+    spreads.push_back({.key = "sensors.hall_edges_deg[" + std::to_string(n) + "]",
+                       .relative = {},
+                       .absolute = mounted_deg,
+                       .source = "Hall edge +-3 deg"});
   return spreads;
 }
 

@@ -19,7 +19,8 @@ void fields(Walk&& w, const control::AdcConfig<double>& d, Kept& kept, const Adc
   auto& [per_eighth, offset_counts, offset_tolerance, log2_samples] = kept;
   constexpr control::AdcConfig<double> unset{};
   w.raw_gain({"per_eighth", use.unit, "per eighth of a count"}, d.per_eighth, per_eighth, use.base);
-  w.count({"offset_counts"}, d.offset_counts, offset_counts, unset.offset_counts);
+  w.count({"offset_counts", "", "reading without a current"}, d.offset_counts, offset_counts,
+          unset.offset_counts);
   w.count({"offset_tolerance", "", "counts"}, d.offset_tolerance, offset_tolerance, unset.offset_tolerance);
   w.count({"log2_samples"}, d.log2_samples, log2_samples, unset.log2_samples);
 }
@@ -29,7 +30,8 @@ void fields(Walk&& w, const control::OneShuntConfig<double>& d, Kept& kept) {
   auto& [least_duty, commutation_samples, fade] = kept;
   w.signal({"least_duty", "", "above it a sample shows the current", true}, d.least_duty, least_duty,
            Base::one);
-  w.count({"commutation_samples"}, d.commutation_samples, commutation_samples, std::uint8_t{0});
+  w.count({"commutation_samples", "", "after a Hall edge, taken for the incoming phase"},
+          d.commutation_samples, commutation_samples, std::uint8_t{0});
   w.signal({"fade", "", "of a hidden current, per tick"}, d.fade, fade, Base::one);
 }
 
@@ -45,11 +47,11 @@ template <class Walk, class Kept>
 void fields(Walk&& w, const control::HallSpeedConfig<double>& d, Kept& kept) {
   auto& [sector_rad_s_ticks, timeout_ticks, edges, window_ticks, grain_ticks] = kept;
   constexpr control::HallSpeedConfig<double> unset{};
-  w.ticks({"sector_rad_s_ticks", "rad/s", "times the ticks of a sector", true}, d.sector_rad_s_ticks,
-          sector_rad_s_ticks, Base::speed);
+  w.ticks({"sector_rad_s_ticks", "rad/s", "over the ticks of a sector it is the speed", true},
+          d.sector_rad_s_ticks, sector_rad_s_ticks, Base::speed);
   w.count({"timeout_ticks", "", "of the timer: it stands"}, d.timeout_ticks, timeout_ticks,
           unset.timeout_ticks);
-  w.count({"edges"}, d.edges, edges, unset.edges);
+  w.count({"edges", "", "that a speed is taken over"}, d.edges, edges, unset.edges);
   w.count({"window_ticks", "", "of the timer: longer, and one edge is taken"}, d.window_ticks, window_ticks,
           unset.window_ticks);
   w.count({"grain_ticks", "", "of the timer: to so many an edge's time is known"}, d.grain_ticks, grain_ticks,
@@ -59,8 +61,9 @@ void fields(Walk&& w, const control::HallSpeedConfig<double>& d, Kept& kept) {
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::HallPositionConfig<double>& d, Kept& kept) {
   auto& [per_sector, per_fraction] = kept;
-  w.raw_gain({"per_sector", "deg"}, d.per_sector, per_sector, Base::position);
-  w.gain({"per_fraction", "deg"}, d.per_fraction, per_fraction, {Base::position, Base::one});
+  w.raw_gain({"per_sector", "deg", "per sector"}, d.per_sector, per_sector, Base::position);
+  w.gain({"per_fraction", "deg", "per part of a sector"}, d.per_fraction, per_fraction,
+         {Base::position, Base::one});
 }
 
 template <class Walk, class Kept>

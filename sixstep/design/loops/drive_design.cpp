@@ -246,7 +246,7 @@ void add_speed_step(DriveDesign& d, double crossover) {
   d.sensing.push_back(
       {"w_high", "a tenth below where the bus drives the nominal current", d.high_speed_rad_s, "rad/s"});
   d.sensing.push_back({"dw_high", "a step of the measured speed there", d.speed_step_rad_s, "rad/s"});
-  d.sensing.push_back({"d1 dw", "of the torque limit, what the speed loop makes of that step at once",
+  d.sensing.push_back({"d1 dw", "of the torque limit: the change of the speed loop's command by that step",
                        d.speed_step_part, ""});
   d.sensing.push_back({"du", "that part of T_max/K_t times the current loop's d1", d.speed_step_V, "V"});
   d.sensing.push_back(

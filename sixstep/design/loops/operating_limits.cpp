@@ -10,6 +10,18 @@
 
 namespace sixstep::design {
 
+namespace {
+
+/// Between two voltages that are `swing_V` apart.
+double swing_ripple_A(const MotorModel& motor, double swing_V, double duty, double period_s) {
+  const double R = 2.0 * motor.machine.R_ohm, x = period_s * motor.machine.R_ohm / motor.machine.L_H;
+  // R b0 = 1 - exp(-R T/L), without cancellation: pole_placement's plant of resistance 1.
+  const auto rise = [](double t) { return t > 0.0 ? current_plant(1.0, 1.0, t).b0 : 0.0; };
+  return swing_V / R * rise(duty * x) * rise((1.0 - duty) * x) / rise(x);
+}
+
+}  // namespace
+
 double volts_per_duty(control::Chopping chopping) { return chopping == control::Chopping::hard ? 2.0 : 1.0; }
 
 // u/U = s d - (s - 1) with s = volts_per_duty()
@@ -20,10 +32,12 @@ double duty_for_voltage(control::Chopping chopping, double part_of_bus) {
 
 double current_ripple_A(const MotorModel& motor, double bus_V, double period_s, control::Chopping chopping,
                         double duty) {
-  const double R = 2.0 * motor.machine.R_ohm, x = period_s * motor.machine.R_ohm / motor.machine.L_H;
-  // R b0 = 1 - exp(-R T/L), without cancellation: pole_placement's plant of resistance 1.
-  const auto rise = [](double t) { return t > 0.0 ? current_plant(1.0, 1.0, t).b0 : 0.0; };
-  return (volts_per_duty(chopping) * bus_V) / R * rise(duty * x) * rise((1.0 - duty) * x) / rise(x);
+  return swing_ripple_A(motor, volts_per_duty(chopping) * bus_V, duty, period_s);
+}
+
+double ripple_between_A(const MotorModel& motor, double on_V, double off_V, double mean_V, double period_s) {
+  if (!(off_V < mean_V && mean_V < on_V)) return 0.0;
+  return swing_ripple_A(motor, on_V - off_V, (mean_V - off_V) / (on_V - off_V), period_s);
 }
 
 Ripple worst_ripple(const MotorModel& motor, double bus_V, double period_s, control::Chopping chopping) {

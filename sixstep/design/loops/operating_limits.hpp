@@ -21,6 +21,10 @@ double duty_for_voltage(control::Chopping chopping, double part_of_bus);
 double current_ripple_A(const MotorModel& motor, double bus_V, double period_s, control::Chopping chopping,
                         double duty);
 
+/// The same, between two voltages across the pair, whose mean over a period is mean_V. 0 where mean_V is not
+/// between them.
+double ripple_between_A(const MotorModel& motor, double on_V, double off_V, double mean_V, double period_s);
+
 struct Ripple {
   double worst_A = 0.0;  ///< peak to peak, at worst_duty = 0.5
   double worst_duty = 0.5;

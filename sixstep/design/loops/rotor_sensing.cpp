@@ -78,6 +78,12 @@ void add_crossover(double crossover_rad_s, std::vector<DerivationStep>& steps) {
       {"w_c", "d1 T_max/J, where the speed loop crosses over by d1 alone", crossover_rad_s, "rad/s"});
 }
 
+/// Whether the speed at this speed is taken over one edge, so that no errors of the probes' places cancel.
+bool one_edge_at(const RotorSensing& sensing, double pole_pairs, double speed_rad_s, double crossover_rad_s) {
+  const double turn_s = one_turn * sector_s(pole_pairs, speed_rad_s);
+  return sensing.edges == 1 || (sensing.edges == 0 && turn_s > hall_window_s(crossover_rad_s));
+}
+
 /// Delay and lost phase of a sensor, for a reader.
 void add_cost(const SpeedLag& lag, const char* formula, double crossover_rad_s,
               std::vector<DerivationStep>& steps) {
@@ -113,6 +119,9 @@ std::vector<DerivationStep> lag_steps(const RotorSensing& sensing, double pole_p
   if (sensing.stray_rad > 0.0)
     steps.push_back({"dw", "w_low s/(k pi/3), k sectors that are s off by probes beside their places",
                      speed_rad_s * sensing.stray_rad / (std::max(sensing.edges, 1) * base::pi / 3), "rad/s"});
+  else if (one_edge_at(sensing, pole_pairs, speed_rad_s, crossover_rad_s))
+    steps.push_back({"dw_3", "w_low 6/60, if neighbouring edges lie 3 deg off to opposite sides; 0 here",
+                     speed_rad_s * 6 / 60, "rad/s"});
   if (sensing.timeout_s > 0.0)
     steps.push_back({"w_min", "(pi/3)/(p timeout_s), slowest speed that does not read as 0",
                      sector_s(pole_pairs, 1.0) / sensing.timeout_s, "rad/s"});

@@ -90,7 +90,7 @@ WithoutSink without_sink(const Scenario& s, const design::MotorModel& motor, con
     const SeenPeaks peaks = take_peaks(other, outcome);
     found = not_held(outcome);
     look_at_bus(other, peaks, s.sensors.bus == BusSensing::adc, found);
-    bus = ", and raises the bus to " + few_digits(peaks.bus_V) + " V";
+    bus = ", after it raised the bus to " + few_digits(peaks.bus_V) + " V in its own course";
     if (found.empty()) look_at_stop(other, motor, listeners, found);
   }
   w.holds = found.empty();

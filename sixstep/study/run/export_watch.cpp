@@ -128,16 +128,19 @@ void look_at_stop(const Scenario& s, const design::MotorModel& motor, const List
   if (stop.duration_s == off_s) return;
   stop.require.clear();
   stop.compare.clear();
-  const base::Result<Outcome> outcome =
-      run(stop, {.on_record = {}, .on_event = {}, .keep_going = listeners.keep_going, .keep_books = false});
+  base::Result<Outcome> outcome =
+      run(watching_peaks(stop),
+          {.on_record = {}, .on_event = {}, .keep_going = listeners.keep_going, .keep_books = false});
   if (!outcome) return append(out, outcome.problems());
+  const SeenPeaks peaks = take_peaks(stop, *outcome);
   // Braking does not raise the speed; after the bridge turns off, a driving load can.
   if (!outcome->trip || outcome->trip->reasons == std::vector<std::string>{"over-speed"}) return;
   std::string reasons;
   for (const std::string& reason : outcome->trip->reasons) reasons += (reasons.empty() ? "" : ", ") + reason;
   out.push_back({"protection.brake_current_A", written(s.protection.brake_current_A),
-                 "ends in a fault where the drive is let go at " + base::rounded(off_s, 4) + " s: " +
-                     reasons + " after " + base::three_digits(1e3 * (outcome->trip->at_s - off_s)) + " ms",
+                 "ends in a fault where the run command is removed at " + base::rounded(off_s, 4) +
+                     " s: " + reasons + " after " + base::three_digits(1e3 * (outcome->trip->at_s - off_s)) +
+                     " ms, the bus at " + base::three_digits(peaks.bus_V) + " V at most",
                  cure_of_stop(outcome->trip->reasons)});
 }
 

@@ -215,6 +215,13 @@ void on_protection(const Scenario& s, const Compiled& c, Outcome& out) {
     if (!(stalled && p.where == "protection.stall_current_A")) out.remarks.push_back(to_string(p));
 }
 
+/// A constant load torque does not end where the drive does.
+std::string on_load_after_trip(const Scenario& s, const Outcome& out) {
+  if (!out.trip || s.load.locked || s.load.torque_Nm == 0.0) return {};
+  return "after the trip load.torque_Nm = " + base::six_digits(s.load.torque_Nm) +
+         " turns the shaft, as a hanging weight does; load.coulomb_Nm is a brake";
+}
+
 }  // namespace
 
 void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, Outcome& out) {
@@ -228,6 +235,7 @@ void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, Outcom
   // A product drive is made for a bridge; the others are studies, and the design has its own bound for them.
   if (s.control.drive == FirmwareKind::product) add(limit_above_nominal(s, c.motor));
   on_protection(s, c, out);
+  add(on_load_after_trip(s, out));
   add(on_late_values(s));
   for (std::string& text : passed_limits(s, w, out)) add(std::move(text));
   for (std::string& text : passed_currents(s, c.own.is ? c.drive.current_limit_A : 0.0, w))

@@ -12,10 +12,13 @@ using base::between;
 using base::from;
 
 inline void describe(base::Visitor& v, Load& s) {
-  v.value("torque_Nm", s.torque_Nm,
-          {.meaning = "constant load torque, positive against forward motion",
-           .unit = "N m",
-           .also = words::force});
+  v.value(
+      "torque_Nm", s.torque_Nm,
+      {.meaning =
+           "constant load torque, positive against forward motion; it also turns a shaft that coasts, as a hanging "
+           "weight does",
+       .unit = "N m",
+       .also = words::force});
   v.value("times_s", s.times_s,
           {.meaning = "when each of torques_Nm begins, rising", .unit = "s", .range = from(0)});
   v.value("torques_Nm", s.torques_Nm,

@@ -58,7 +58,7 @@ inline void describe(base::Visitor& v, Protection& s) {
   describe_thresholds(v, s);
   v.table("align", s.align, {.meaning = "pulling the rotor into place before it runs"});
   v.value("brake_current_A", s.brake_current_A,
-          {.meaning = "current held against the turning once the request to run is let go; 0: it coasts",
+          {.meaning = "current held against the turning once the request to run is removed; 0: it coasts",
            .unit = "A",
            .range = from(0)});
   v.value("short_below_rad_s", s.short_below_rad_s,
@@ -68,13 +68,13 @@ inline void describe(base::Visitor& v, Protection& s) {
            .range = from(0),
            .also = words::short_below});
   v.value("standing_rad_s", s.standing_rad_s,
-          {.meaning = "speed at which braking ends and the bridge is let go; 0: no Hall edge for "
+          {.meaning = "speed at which braking ends and the bridge turns off; 0: no Hall edge for "
                       "sensors.timeout_s",
            .unit = "rad/s",
            .range = from(0),
            .also = words::standing});
   v.value("off_at_s", s.off_at_s,
-          {.meaning = "when the request to run is let go; without it never. It is raised at 0",
+          {.meaning = "when the request to run is removed; without it never. It is raised at 0",
            .unit = "s",
            .range = from(0)});
 }

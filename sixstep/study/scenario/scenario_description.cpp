@@ -71,7 +71,8 @@ void describe(base::Visitor& v, Spread& s) {
       {.meaning =
            "number that differs from run to run, as supply.voltage_V: of motor_override (resistance_ohm, "
            "inductance_mH, torque_constant_mNm_A or back_emf_mV_s, inertia_gcm2, viscous_friction_Nm_s, "
-           "coulomb_friction_mNm, iron_viscous_Nm_s, iron_coulomb_mNm, flat_deg), supply, bridge, load or initial",
+           "coulomb_friction_mNm, iron_viscous_Nm_s, iron_coulomb_mNm, flat_deg), supply, bridge, load or initial, "
+           "a Hall edge (sensors.hall_edges_deg[0], the first one) or sensors.hall_offset_deg",
        .required = true});
   v.choice("distribution", s.distribution, distribution_choices, {.meaning = "how likely each value is"});
   v.value("relative", s.relative,

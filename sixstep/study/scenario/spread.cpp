@@ -31,7 +31,10 @@ constexpr std::string_view motor_keys[] = {"motor_override.resistance_ohm",
                                            "motor_override.iron_viscous_Nm_s",
                                            "motor_override.iron_coulomb_mNm",
                                            "motor_override.flat_deg"};
-constexpr std::string_view tables[] = {"supply.", "bridge.", "load.", "initial."};
+/// A Hall edge's key has its index behind: "sensors.hall_edges_deg[0]".
+constexpr std::string_view hall_edge_keys = "sensors.hall_edges_deg[";
+constexpr std::string_view tables[] = {"supply.",  "bridge.",      "load.",
+                                       "initial.", hall_edge_keys, "sensors.hall_offset_deg"};
 
 bool may_stray(std::string_view key) {
   return std::find(std::begin(motor_keys), std::end(motor_keys), key) != std::end(motor_keys) ||
@@ -53,6 +56,9 @@ class NumberAt final : public base::Visitor {
     if (double* const* x = std::get_if<double*>(&member)) take(key, *x, about);
     if (std::optional<double>* const* x = std::get_if<std::optional<double>*>(&member))
       take(key, **x ? &***x : nullptr, about);
+    if (std::vector<double>* const* x = std::get_if<std::vector<double>*>(&member))
+      for (std::size_t n = 0; n < (*x)->size(); ++n)
+        take(std::string(key) + "[" + std::to_string(n) + "]", &(**x)[n], about);
   }
   void visit_quantity(std::string_view key, const base::QuantityMember& member,
                       const base::About& about) override {
@@ -82,10 +88,15 @@ NumberAt find_number(Scenario& scenario, std::string_view key) {
 }
 
 /// The scenario with all values that would be derived from a varying value written out, and all constants under
-/// their standard keys, whatever the sheet prints.
-Scenario written_out(const Scenario& scenario) {
+/// their standard keys, whatever the sheet prints. Hall edges that may vary are at their places if not given.
+Scenario written_out(const Scenario& scenario, std::string_view key = {}) {
   Scenario s = scenario;
   s.sheet = design::in_standard_keys(std::move(s.sheet));
+  const bool edges = std::any_of(s.spread.begin(), s.spread.end(), [](const Spread& spread) {
+    return std::string_view(spread.key).starts_with(hall_edge_keys);
+  });
+  if ((edges || key.starts_with(hall_edge_keys)) && s.sensors.hall_edges_deg.empty())
+    s.sensors.hall_edges_deg.assign(6, 0.0);
   return s;
 }
 
@@ -136,8 +147,8 @@ struct Checker {
     if (!may_stray(spread.key) || (!at.number && !at.left_out))
       return add(
           where + ".key", "\"" + spread.key + "\"",
-          "is not a number of motor_override, supply, bridge, load or initial that differs from drive to "
-          "drive",
+          "is not a number of motor_override, supply, bridge, load or initial, and no place of a Hall edge, "
+          "that differs from drive to drive",
           "write it as table.key, as in \"supply.voltage_V\"; the help on spread.key lists the motor's");
     if (!at.number)
       return add(where + ".key", "\"" + spread.key + "\"", "has no value that could differ",
@@ -171,8 +182,8 @@ struct Checker {
 };
 
 /// The scenario with its present values as the controller's design basis.
-Scenario with_its_designer(const Scenario& scenario) {
-  Scenario s = written_out(scenario);
+Scenario with_its_designer(const Scenario& scenario, std::string_view key = {}) {
+  Scenario s = written_out(scenario, key);
   if (!s.designed_for) s.designed_for = Nominal{scenario.sheet, scenario.supply, scenario.load};
   return s;
 }
@@ -204,7 +215,7 @@ std::vector<double> strayed_values(const Scenario& scenario, Scenario drive) {
 }
 
 base::Result<Scenario> strayed_to(const Scenario& scenario, std::string_view key, double x) {
-  Scenario s = with_its_designer(scenario);
+  Scenario s = with_its_designer(scenario, key);
   const NumberAt at = find_number(s, key);
   const auto refuse = [&](std::string limit, std::string cure) {
     return base::Problem{std::string(key), base::written(x), std::move(limit), std::move(cure)};
@@ -212,7 +223,8 @@ base::Result<Scenario> strayed_to(const Scenario& scenario, std::string_view key
   if (!may_stray(key) || !at.number)
     return refuse(
         "is of no number that differs from drive to drive",
-        "vary it as a key of the design, or one of motor_override, supply, bridge, load or initial");
+        "vary it as a key of the design, or one of motor_override, supply, bridge, load or initial, or a Hall "
+        "edge as sensors.hall_edges_deg[0]");
   if (!at.range.holds(x)) return refuse("is outside of the key's range", "narrow the range");
   set_number(s, key, x);
   return s;

@@ -61,7 +61,7 @@ def loops(test, spot):
     if "crossover" not in rows or "delay margin, one period late" not in rows:
         return
     for n, f in enumerate(rows["crossover"]):
-        at_once, late = (rows[f"phase margin, {when}"][n][0] for when in ("command at once", "one period late"))
+        at_once, late = (rows[f"phase margin, {when}"][n][0] for when in ("no computation delay", "one period late"))
         if n == 0:  # of outer loops the delay acts within the inner one
             close(test, spot, "phase margin, one period late", late, at_once - 360 * f[0] * T, 0, 0.2)
             close(test, spot, "delay margin", rows["delay margin, one period late"][n][0], late / 360 / f[0], 1e-2)
@@ -115,6 +115,8 @@ def sensors(test, spot):
         close(test, spot, "w_min", s["w_min"], s["dw"], 1e-6)
         close(test, spot, "delay", s["delay"], s["T"] / 2 + s["t_l"], 1e-4)
         test.assertLess(abs(s["T"] / (T * 1e6) - round(s["T"] / (T * 1e6))), 1e-6, "whole periods")
+    if "dw_3" in s:  # sectors of 54 and 66 degrees
+        close(test, spot, "dw_3", s["dw_3"], s["w_low"] / 10, 1e-4)
     if "2 D/w_n" in text:
         close(test, spot, "2 D/w_n", s["2 D/w_n"], 2e6 / s["w_n"], 1e-4)
         close(test, spot, "delay", s["delay"], s["2 D/w_n"] + s["t_l"], 1e-4)

@@ -3,7 +3,7 @@
 //
 //   PA8 PA9 PA10       upper gates a b c     TIM1_CH1..3
 //   PB13 PB14 PB15     lower gates a b c     TIM1_CH1N..3N
-//   PB12               the power stage's comparator or fault output, open drain, low: all gates off   TIM1_BKIN
+//   PB12               the power stage's comparator or fault output, low or a lost wire: all gates off   TIM1_BKIN
 //   PA0 PC1 PC0, PA1   currents a b c, bus   ADC1_IN1, 7, 6, 2; transducers in line with the phases
 //   PA15 PB3 PB10      Hall H1 H2 H3         TIM2_CH1..3, whose XOR is captured
 //   PA2 PA3            serial line           USART2, on the Nucleo at its debugger's USB
@@ -33,7 +33,8 @@ constexpr bool has_external_clock = true;
 /// least gap, and no pattern keeps an upper gate on.
 constexpr bool upper_gates_by_bootstrap = true;
 constexpr std::uint32_t charge_ns = 2'000, charge_periods = 100, least_gap_ns = 1'500;
-/// The level of the break input that turns all gates off. An open pin is high, because it is pulled up.
+/// The level of the break input that turns all gates off. The chip pulls the pin to this level, so that a lost
+/// wire does the same. An output with an open drain therefore needs a pull-up of its own, at its end of the wire.
 constexpr bool break_active_high = false;
 
 // The rest follows from the drive.

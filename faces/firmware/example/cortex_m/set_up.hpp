@@ -71,7 +71,7 @@ inline void set_up_pins() {
   set_pin(gpio_b(), 13, PinMode::alternate, Pull::down, 6);                                 // TIM1_CH1N
   set_pin(gpio_b(), 14, PinMode::alternate, Pull::down, 6);                                 // TIM1_CH2N
   set_pin(gpio_b(), 15, PinMode::alternate, Pull::down, 4);                                 // TIM1_CH3N
-  set_pin(gpio_b(), 12, PinMode::alternate, break_active_high ? Pull::down : Pull::up, 6);  // TIM1_BKIN
+  set_pin(gpio_b(), 12, PinMode::alternate, break_active_high ? Pull::up : Pull::down, 6);  // TIM1_BKIN
   set_pin(gpio_a(), 15, PinMode::alternate, Pull::up, 1);                                   // TIM2_CH1
   set_pin(gpio_b(), 3, PinMode::alternate, Pull::up, 1);                                    // TIM2_CH2
   set_pin(gpio_b(), 10, PinMode::alternate, Pull::up, 1);                                   // TIM2_CH3
