@@ -217,7 +217,7 @@ TEST(HostileNumbers, EveryKeyRefusesThemOrRunsToNumbers) {
   for (std::size_t k = 0; k < keys.size(); ++k)
     for (std::size_t d = 0; d < drives.size(); ++d) {
       // Each key in one drive of each kind; in every drive with all cases.
-      if (!all_cases() && d != k % 2 && d != 2 + k % 2) continue;
+      if (!sixstep::testing::all_cases() && d != k % 2 && d != 2 + k % 2) continue;
       if (d < 2)
         for (const char* number : hostile) expect(*drives[d], keys[k], number);
       for (const std::string& number : ends_of(keys[k])) expect(*drives[d], keys[k], number);
@@ -292,7 +292,7 @@ TEST(HostileNumbers, PairsOfExtremesAreRefusedOrRunToNumbers) {
   ASSERT_GT(ends.size(), 50u);
   for (std::size_t a = 0; a < ends.size(); ++a)
     for (std::size_t b = a + 1; b < ends.size(); ++b) {
-      if (ends[a].path == ends[b].path || (!all_cases() && (5 * a + b) % 4 != 0)) continue;
+      if (ends[a].path == ends[b].path || (!sixstep::testing::all_cases() && (5 * a + b) % 4 != 0)) continue;
       SCOPED_TRACE(ends[a].path + " = " + ends[a].text);
       const std::string* text = (a + b) % 3 == 0 ? &off : (a + b) % 3 == 1 ? &hysteresis : &current_loop;
       SCOPED_TRACE(ends[b].path + " = " + ends[b].text);

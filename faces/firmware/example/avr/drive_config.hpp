@@ -6,8 +6,9 @@
 // C++20, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) have not. For the AVR: clang 19 or later.
 //
 // scenario  Current loop in Q15 on an AVR: a transducer in each phase, a tick every 100 us
+// notes     What faces/firmware/example/avr flashes; sixstep run --on avr has that very program do it. The period is what 16 MHz can keep, a fifth of the motor's L/R, and the command counts one period late: gains by pole-zero cancellation (sixstep design maxon-251601 --mode current --period 100e-6 --method cancellation --settle 1e-3).
 // motor     maxon EC 45 flat 251601: 8 pole pairs, terminal R = 1.03 ohm, L = 0.000572 H, K_t = 0.0335 N m/A; J = 0.0001135 kg m2
-// current   d1 = 2.30464 V/A, d0 = -1.92486 V/A; given as d1, d0; poles z = 0.83521 and 0.631286 on 0.159989/(z -0.835212); settle_s = 0.001, damping = 0.9 would give d1 = 3.77432, d0 = -2.72953
+// current   d1 = 2.30464 V/A, d0 = -1.92486 V/A; K_p = d1 = 2.30464 V/A, K_i = (d1 + d0)/T_s = 3797.8 V/(A s); given as d1, d0; poles z = 0.83521 and 0.631286 on 0.159989/(z -0.835212); settle_s = 0.001, damping = 0.9 would give d1 = 3.77432, d0 = -2.72953
 // Gains are per control period, pwm_period_ps. Speed is mechanical, current positive into the motor.
 //
 // Cleared by its run: 0.1 s simulated in q15, digest 03054ed6c0aa2944
@@ -15,13 +16,13 @@
 //   mean of the samples at 5 A: 4.75 .. 5.25 A required, 4.96589 A measured
 //   greatest current: <= 9 A required, 6.83261 A measured
 // Note: cleared for a supply that takes current back (supply.sinks = true): this stiff bus cannot rise; state supply.resistance_ohm, supply.capacitance_F and sinks = false if yours takes none
-// That run took for granted:
+// Assumptions of that run:
 //   supply    24 V, stiff, takes current back
 //   bridge    switches of 0.01 ohm, diodes of 0.7 V and 0 ohm, dead time 1e-06 s
 //   timing    sampled in the middle of a period, answered one period later; PWM edges not rounded to timer counts
 //   currents  phases, 10 bits over +-10 A
 //   bus       as it is
-//   rotor     Hall probes 120 degrees apart, edges exactly at the sectors' ends, captured at 1e+06 Hz, speed over six edges where the loop tolerates their delay, else one
+//   rotor     Hall probes 120 degrees apart, edges exactly at the sectors' ends (no probe is; sheet_tolerances of a plan moves each by up to 3 deg), captured at 1e+06 Hz, speed over six edges where the loop tolerates their delay, else one
 //   wires     phases abc at legs a b c, Hall lines 123 at H1 H2 H3
 //   load      0 N m, 0.0001 kg m2 beside the rotor's; viscous friction 0.0004 N m s
 //   heat      winding and magnets at 25 degC all along
@@ -50,6 +51,7 @@
 //   ATmega2560  q15              996      42 cycles             2434     129 bytes
 //   ATmega2560  q31             2606      42 cycles             4020     197 bytes
 //   ATmega2560  float           2176      42 cycles             2046     193 bytes
+// They are of the control code alone; a whole image has the board's code beside it.
 #pragma once
 #if __cplusplus < 201709L && !defined(_MSC_VER)
 #error "C++20 is needed: avr-gcc 5 and 7, of Debian 12 and the Arduino IDE, have none; take clang 19 for the AVR"
@@ -90,11 +92,11 @@ constexpr sixstep::control::DriveConfig<Scalar> make_drive() {
   c.chopping = Chopping::soft;
   c.current_control = CurrentControl::pi;
   c.speed_control = SpeedControl::cascade;
-  c.hysteresis.watch = Watch::motor;
+  c.hysteresis.watch = Watch::motor;                                      // not used by this drive
   c.current.d1 = Gain<Scalar>::from_raw(31465, 14);                       // 2.30464 V/A
   c.current.K_i = Gain<Scalar>::from_raw(20740, 16);                      // 0.37978 V/A, held as 0.379772: d1 + d0, per sample
   c.current.limit = Scalar::from_raw(32767);                              // 24 V
-  c.hysteresis.band_A = Scalar::from_raw(328);                            // 0.2 A, held as 0.200195
+  c.hysteresis.band_A = Scalar::from_raw(328);                            // 0.2 A, held as 0.200195; not used by this drive
   c.nominal_bus_V = Divisor<Scalar>::from_reciprocal(Gain<Scalar>::from_raw(16385, 14));  // 24 V, held as 23.9993: duty 1
   return c;
 }

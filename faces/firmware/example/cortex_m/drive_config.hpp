@@ -6,9 +6,10 @@
 // C++20, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) have not. For the AVR: clang 19 or later.
 //
 // scenario  Speed cascade on a Cortex-M: 70 to 300 rad/s on Hall probes
+// notes     What faces/firmware/example/cortex_m flashes, from registers: three phase currents, the bus and Hall edges, a command that counts one period late. The settling time is what sixstep design --scenario on this file allows down to 70 rad/s.
 // motor     maxon EC 45 flat 251601: 8 pole pairs, terminal R = 1.03 ohm, L = 0.000572 H, K_t = 0.0335 N m/A; J = 1.35e-05 kg m2
-// current   d1 = 4.09559 V/A, d0 = -3.69396 V/A; pole placement from settle_s and damping; poles z = 0.869154 +- 0.0581778j (settle_s = 0.001, damping = 0.9) on 0.0510561/(z -0.947412)
-// speed     d1 = 0.0158648 per rad/s, d0 = -0.015831 per rad/s; pole placement from settle_s and damping; poles z = 0.996555 +- 0.00166516j (settle_s = 0.04, damping = 0.9) on 0.43333/(z -0.999984)
+// current   d1 = 4.09559 V/A, d0 = -3.69396 V/A; K_p = d1 = 4.09559 V/A, K_i = (d1 + d0)/T_s = 13387.5 V/(A s); pole placement from settle_s and damping; poles z = 0.869154 +- 0.0581778j (settle_s = 0.001, damping = 0.9) on 0.0510561/(z -0.947412)
+// speed     d1 = 0.0158648 per rad/s, d0 = -0.015831 per rad/s; K_p = d1 = 0.0158648 per rad/s, K_i = (d1 + d0)/T_s = 1.12646 per rad; pole placement from settle_s and damping; poles z = 0.996555 +- 0.00166516j (settle_s = 0.04, damping = 0.9) on 0.43333/(z -0.999984)
 // Gains are per control period, pwm_period_ps. Speed is mechanical, current positive into the motor.
 //
 // Cleared by its run: 1.2 s simulated in float, digest da642251552b2e8f
@@ -19,17 +20,17 @@
 //   mean speed at 70 rad/s: 69.3 .. 70.7 rad/s required, 70.0003 rad/s measured
 //   swing at 70 rad/s: <= 3 rad/s required, 0.101257 rad/s measured
 //   greatest current: <= 10 A required, 9.14157 A measured
-// What that run showed and nobody asked:
+// Warnings of that run:
 //   control.speed.torque_limit_Nm over K_t lets 5.82 A flow, 2.5 times the nominal current of 2.33 A: by the sheet's thermal values the winding withstands it for 12.8 s from 25 degC; nothing in the drive ends that while the rotor turns, so lower the limit unless the load is short
 // Note: setpoint_limit = 300 rad/s is the largest reference of this scenario, and the drive follows no larger setpoint; give [reference] the largest one that your firmware asks for
-// Note: cleared for a supply that takes current back (supply.sinks = true): with one that takes none back the drive fails, and raises the bus to 28.7 V: protection.brake_current_A = 2 ends in a fault where the drive is let go at 0.8 s: over-voltage after 15 ms
-// That run took for granted:
+// Note: cleared for a supply that takes current back (supply.sinks = true): with one that takes none back the drive fails, after it raised the bus to 28.7 V in its own course: protection.brake_current_A = 2 ends in a fault where the run command is removed at 0.8 s: over-voltage after 15 ms, the bus at 30.1 V at most
+// Assumptions of that run:
 //   supply    24 V behind 0.05 ohm, 0.001 F at the bridge, takes current back
 //   bridge    switches of 0.01 ohm, diodes of 0.7 V and 0 ohm, dead time 5e-07 s
 //   timing    sampled at a period's start, answered one period later; PWM edges not rounded to timer counts
 //   currents  phases, 12 bits over +-33 A
 //   bus       12 bits over 52.8 V
-//   rotor     Hall probes 120 degrees apart, edges exactly at the sectors' ends, captured at 7.2e+07 Hz, speed over six edges where the loop tolerates their delay, else one
+//   rotor     Hall probes 120 degrees apart, edges exactly at the sectors' ends (no probe is; sheet_tolerances of a plan moves each by up to 3 deg), captured at 7.2e+07 Hz, speed over six edges where the loop tolerates their delay, else one
 //   wires     phases abc at legs a b c, Hall lines 123 at H1 H2 H3
 //   load      0.02 N m, 0 kg m2 beside the rotor's
 //   heat      winding and magnets at 25 degC all along
@@ -47,6 +48,7 @@
 //   ATmega2560  q15             5365     976 cycles            14594     229 bytes
 //   ATmega2560  q31            11568     975 cycles            20552     289 bytes
 //   ATmega2560  float           9508     976 cycles            11872     285 bytes
+// They are of the control code alone; a whole image has the board's code beside it.
 // Note: a control period of 30 us is shorter than the ATmega2560's image needs, 100 us.
 #pragma once
 #if __cplusplus < 201709L && !defined(_MSC_VER)
@@ -86,11 +88,11 @@ constexpr sixstep::control::DriveConfig<Scalar> make_drive() {
   c.chopping = Chopping::soft;
   c.current_control = CurrentControl::pi;
   c.speed_control = SpeedControl::cascade;
-  c.hysteresis.watch = Watch::motor;
+  c.hysteresis.watch = Watch::motor;                                      // not used by this drive
   c.current.d1 = 0x1.061e1cp+2f;                                          // 4.09558793 V/A
   c.current.d0 = -0x1.d8d3c8p+1f;                                         // -3.69396308 V/A
   c.current.limit = 0x1.8p+4f;                                            // 24 V
-  c.hysteresis.band_A = 0x1.99999ap-3f;                                   // 0.2 A
+  c.hysteresis.band_A = 0x1.99999ap-3f;                                   // 0.2 A; not used by this drive
   c.nominal_bus_V = 0x1.8p+4f;                                            // 24 V: duty 1
   c.speed.d1 = 0x1.03ed9ap-6f;                                            // 0.015864755 per rad/s
   c.speed.d0 = -0x1.035fdep-6f;                                           // -0.0158309613 per rad/s
@@ -108,24 +110,24 @@ constexpr sixstep::control::ProtectedConfig<Scalar> make_product() {
   c.setpoint_limit = 0x1.2cp+8f;                                          // 300 rad/s
   c.sensing = CurrentSensing::phases;
   c.current_adc[0].per_eighth = 0x1.08p-9f;                               // 0.00201416016 A: per eighth of a count
-  c.current_adc[0].offset_counts = 2048;
+  c.current_adc[0].offset_counts = 2048;                                  // reading without a current
   c.current_adc[0].offset_tolerance = 41;                                 // counts
   c.current_adc[1].per_eighth = 0x1.08p-9f;                               // 0.00201416016 A: per eighth of a count
-  c.current_adc[1].offset_counts = 2048;
+  c.current_adc[1].offset_counts = 2048;                                  // reading without a current
   c.current_adc[1].offset_tolerance = 41;                                 // counts
   c.current_adc[2].per_eighth = 0x1.08p-9f;                               // 0.00201416016 A: per eighth of a count
-  c.current_adc[2].offset_counts = 2048;
+  c.current_adc[2].offset_counts = 2048;                                  // reading without a current
   c.current_adc[2].offset_tolerance = 41;                                 // counts
   c.bus_adc.per_eighth = 0x1.a66666p-10f;                                 // 0.00161132812 V: per eighth of a count
-  c.shunt.least_duty = 0x1.111112p-1f;                                    // 0.533333333: above it a sample shows the current
-  c.shunt.commutation_samples = 4;
-  c.shunt.fade = 0x1.e51338p-1f;                                          // 0.947412231: of a hidden current, per tick
-  c.speed.sector_rad_s_ticks = 0x1.1f9f14p+23f;                           // 9424777.96 rad/s: times the ticks of a sector
+  c.shunt.least_duty = 0x1.111112p-1f;                                    // 0.533333333: above it a sample shows the current; not used by this drive
+  c.shunt.commutation_samples = 4;                                        // after a Hall edge, taken for the incoming phase; not used by this drive
+  c.shunt.fade = 0x1.e51338p-1f;                                          // 0.947412231: of a hidden current, per tick; not used by this drive
+  c.speed.sector_rad_s_ticks = 0x1.1f9f14p+23f;                           // 9424777.96 rad/s: over the ticks of a sector it is the speed
   c.speed.timeout_ticks = 7200000;                                        // of the timer: it stands
-  c.speed.edges = 6;
+  c.speed.edges = 6;                                                      // that a speed is taken over
   c.speed.window_ticks = 211515;                                          // of the timer: longer, and one edge is taken
-  c.position.per_sector = 0x1.ep+2f;                                      // 7.5 deg
-  c.position.per_fraction = 0x1.ep+2f;                                    // 7.5 deg
+  c.position.per_sector = 0x1.ep+2f;                                      // 7.5 deg: per sector
+  c.position.per_fraction = 0x1.ep+2f;                                    // 7.5 deg: per part of a sector
   c.faults.over_current_A = 0x1.ep+3f;                                    // 15 A
   c.faults.over_voltage_V = 0x1.ep+4f;                                    // 30 V
   c.faults.under_voltage_V = 0x1.4p+3f;                                   // 10 V
