@@ -1,9 +1,10 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# check_target.sh          the controller on real cores, emulated: the same bits (tests/target/digests.txt), what drives and
-#                          blocks cost, their flash, RAM and library calls (data/cores/)
-# check_target.sh PART..   of proof, sights (what the walk's inputs reach, looked at when its digests are renewed), bits, costs, blocks,
-#                          sizes, own (controllers of one's own, tools/own_cost.sh), loop (sixstep run --on), avr (--on avr) and images (to flash) only these
+# check_target.sh          the controller on real cores, emulated: the same bits (tests/target/digests.txt), flash, RAM and library calls
+#                          of drives and blocks (data/cores/), programs on an emulated chip and images
+# check_target.sh PART..   of proof, sights (what the walk's inputs reach, looked at when its digests are renewed), bits, costs and blocks
+#                          (instructions of a control tick and of a block, data/cores/), sizes, own (controllers of one's own,
+#                          tools/own_cost.sh), loop (sixstep run --on), avr (--on avr) and images (to flash) only these
 # check_target.sh --all [PART..]    armhf and aarch64 too, a million steps on emulated hosts, every drive's costs (ctest --preset long)
 # check_target.sh --renew [PART..]  writes those tables anew: after a change that is meant to change them
 #
@@ -17,7 +18,7 @@ export PYTHONDONTWRITEBYTECODE=1
 how=
 case "${1:-}" in --renew | --all) how=$1; shift ;; esac
 status=0
-for part in ${*:-proof bits costs blocks sizes own loop avr images}; do
+for part in ${*:-proof bits sizes own loop avr images}; do
   part "on chips: $part" python3 tests/target/check.py $how "$part" || status=1
 done
 exit $status
