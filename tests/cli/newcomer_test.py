@@ -29,6 +29,16 @@ class Starter(ProgramTest):
                 self.run_program("export", "header", name + ".toml", "--out", name + ".hpp")
                 self.assertIn("// Cleared by its run:", (self.path / f"{name}.hpp").read_text())
 
+    def test_it_holds_over_the_tolerances_with_hall_edges_beside_their_places(self):
+        for motor in some(("maxon-251601", "teknic-m2310p"), 1):
+            self.run_program("new", f"of-{motor}", "--motor", motor)
+            told = json.loads(self.run_program("run", f"of-{motor}.toml", "--runs", "40", "--seed", "3", "--tolerances", "--quiet", "--json", "-").stdout)
+            edges = [n for n, name in enumerate(told["columns"]) if "hall_edges_deg" in name]
+            self.assertEqual(len(edges), 6)
+            drawn = [row[n] for row in told["rows"] for n in edges]
+            self.assertTrue(all(abs(x) <= 3 for x in drawn) and max(drawn) > 2.5 and min(drawn) < -2.5)
+            self.assertEqual(told["passed"], 40)
+
     def test_the_message_leads_on(self):
         told = self.run_program("new", "mine").stdout
         self.assertEqual(self.names(), ["mine.toml", "sixstep-scenario.schema.json"])

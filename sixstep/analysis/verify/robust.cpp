@@ -205,7 +205,6 @@ std::vector<study::Spread> tolerance_spread(const design::Sheet& sheet, control:
 }
 
 std::vector<study::Spread> hall_edge_spread(const study::Scenario& scenario) {
-  constexpr double mounted_deg = 3.0;
   std::vector<study::Spread> spreads;
   if (!rotor_sensing_of(scenario).hall || scenario.control.drive == study::FirmwareKind::sensorless)
     return spreads;
@@ -213,7 +212,7 @@ std::vector<study::Spread> hall_edge_spread(const study::Scenario& scenario) {
   for (std::size_t n = 0; n < edges; ++n)
     spreads.push_back({.key = "sensors.hall_edges_deg[" + std::to_string(n) + "]",
                        .relative = {},
-                       .absolute = mounted_deg,
+                       .absolute = mounted_hall_edge_deg,
                        .source = "Hall edge +-3 deg"});
   return spreads;
 }

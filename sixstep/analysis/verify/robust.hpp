@@ -37,7 +37,10 @@ std::vector<Tolerance> sheet_tolerances(const design::Sheet& sheet, control::Mod
 /// no key that could stray.
 std::vector<study::Spread> tolerance_spread(const design::Sheet& sheet, control::Mode mode);
 
-/// The places of six Hall edges, each by 3 electrical degrees to both sides, where the drive reads probes. Probes
+/// Electrical degrees by which a probe's edge may lie beside its place.
+inline constexpr double mounted_hall_edge_deg = 3.0;
+
+/// The places of six Hall edges, each by so much to both sides, where the drive reads probes. Probes
 /// are mounted so; edges that all lie late alike are none of this.
 std::vector<study::Spread> hall_edge_spread(const study::Scenario& scenario);
 
