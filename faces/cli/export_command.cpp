@@ -89,7 +89,7 @@ design::OperatingRange range_of(const ExportArguments& a, base::Problems& proble
       problems.push_back(
           {fmt::format("--range {}", key), value,
            fmt::format("must be a number above 0 and at most {}", base::plausible(to->unit).most),
-           "give the most that may be measured, as in --range current_A=20"});
+           "give the largest value that the drive may measure, as in --range current_A=20"});
   }
   return range;
 }

@@ -29,8 +29,8 @@ OperatingPoint at(const Bench& b, double speed) {
 
 const double speeds[] = {0.5, 20.0, 150.0, 400.0, 548.7, 702.6, 716.0, 900.0, 1500.0, -10.0, -300.0};
 
-/// What no point may miss by more: the balance of a point is made of some hundred segments' integrals, each
-/// to a few eps of what moves, and of sums of them.
+/// Largest relative residual of a point's energies: the rounding of some hundred segments' integrals, a few eps each,
+/// and of their sums.
 constexpr double balance = 1e-12;
 
 TEST(OperatingPoint, EnergyBalances) {

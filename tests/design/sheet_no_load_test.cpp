@@ -41,7 +41,7 @@ Relation relation(const Sheet& sheet, const std::string& name) {
   return r.value_or(Relation{});
 }
 
-/// A motor whose no-load point is that of its friction to the last bit: U = R I + K w, K I = T_c + B w.
+/// A motor whose no-load speed and current fulfil both equations up to rounding: U = R I + K w, K I = T_c + B w.
 struct Motor {
   double U = 24.0, R = 1.03, K = 0.0335, B = 4e-6, T_c = 3e-3;
   double w(double at_V) const { return (at_V - R * T_c / K) / (K + R * B / K); }

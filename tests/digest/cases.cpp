@@ -158,7 +158,7 @@ Scenario narrow_flat() {
   return s;
 }
 
-/// One of a series: its numbers come from the random generator's bits, log, cos and sqrt.
+/// A drive of a [[spread]]. Its normally distributed R and L depend on the random generator's bits, log, cos and sqrt.
 Scenario series_drive() {
   Scenario s = current_square();
   for (const char* key : {"motor_override.resistance_ohm", "motor_override.inductance_mH"}) {

@@ -74,8 +74,8 @@ void draw_six_step(Draw& draw, Scenario& s) {
   draw_law(draw, s);
 }
 
-/// What is not drawn follows from the drive. Where an event changes the torque's limit, or the speed's, what is given might be
-/// beyond it.
+/// Values that are not drawn follow from the drive. An event that lowers the torque or speed limit could put a given value
+/// above it.
 void draw_profile(Draw& draw, Scenario& s) {
   Control& c = s.control;
   const bool floats = c.arithmetic == Arithmetic::float64 || c.arithmetic == Arithmetic::float32;

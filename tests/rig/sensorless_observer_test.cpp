@@ -13,8 +13,8 @@ using control::LockLoss;
 using control::Mode;
 using control::SensorlessPhase;
 
-/// A sector's angle that passes in one control period: what no chip that looks once a period is to be better than is a
-/// small part of it, and a commutation late by a whole one is a fault.
+/// Electrical degrees that the rotor turns in one control period. The tests allow a part of it as error, because a chip
+/// measures once a period.
 double period_deg(const SensorlessBench& bench, double speed_rad_s) {
   return speed_rad_s * bench.motor.machine.pole_pairs * bench.spec.period_s * 180.0 / base::pi;
 }

@@ -13,7 +13,7 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep::series;
 using Poly = Coefficients<double>;
 
-/// A lag shown one segment after the other, as a board's front end does it.
+/// A first-order lag, advanced segment by segment as in a board's front end.
 struct Lag {
   double tau = 1;
   CompensatedSum<double> x{};

@@ -26,7 +26,7 @@ constexpr double I = 4.0, K_e = 0.01675, R = 0.515, L = 0.286e-3, T = 50e-6;
 const double fundamental = 4 / base::pi * 0.5 / (base::pi / 6);
 const double torque_Nm = 1.5 * K_e * fundamental * I;
 
-/// The 251601 as it is, so heavy that its speed stays.
+/// The 251601 with a load so heavy that its speed stays nearly constant.
 Scenario trapezoid(double speed_rad_s, bool harmonic) {
   Scenario s = maxon_scenario(Mode::current, I);
   s.control.drive = FirmwareKind::field;

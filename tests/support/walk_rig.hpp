@@ -21,7 +21,7 @@ struct Snapshot {
   study::Digest digest;
 };
 
-/// Watches the whole run; on a run that goes on from a snapshot it only takes the digest.
+/// Checks every segment of the whole run. In a run that is resumed from a snapshot it only updates the digest.
 template <class Rig>
 struct Walker {
   study::Digest digest;

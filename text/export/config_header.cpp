@@ -185,7 +185,7 @@ base::Problems too_small(const ConfigHeader& w, const study::Compiled& c) {
            fmt::format(
                "is less than {} {}, the largest of this scenario's reference, limits, source and start",
                sixstep::base::six_digits(asked), unit),
-           "give the most that may be measured or asked for, or leave it out"});
+           "give the largest value that the drive may measure or be given, or leave it out"});
   };
   look("current_A", w.range.current_A, least.current_A, "A");
   look("speed_rad_s", w.range.speed_rad_s, least.speed_rad_s, "rad/s");

@@ -18,8 +18,8 @@ struct RowClock {
 /// `separator` is that of the rows' cells.
 std::optional<RowClock> clock_in(std::string_view line, char separator);
 
-/// Reads the lines above Rigol's rows, "X,CH1,Start,Increment" and "Sequence,VOLT,-2.5e-2,1e-4": start and
-/// increment stand below their names.
+/// Reads Rigol's two lines above the rows: names, "X,CH1,Start,Increment", and their values,
+/// "Sequence,VOLT,-2.5e-2,1e-4". Empty without a start and an increment.
 std::optional<RowClock> clock_below(const std::vector<std::string_view>& names,
                                     const std::vector<std::string_view>& values);
 

@@ -53,8 +53,8 @@ const toml::array* TableReader::find_tables(std::string_view key, const base::Ab
     if (node->as_array()->size() <= most_tables) return node->as_array();
     complaints_.value(
         *node, at(key),
-        {.limit = fmt::format("has {} tables, more than {}", node->as_array()->size(), most_tables),
-         .cure = "write fewer; rows of a reference belong into a file, with shape = \"csv\""});
+        {.limit = fmt::format("has {} tables; at most {} are allowed", node->as_array()->size(), most_tables),
+         .cure = "remove some; rows of a reference belong into a file, with shape = \"csv\""});
     return nullptr;
   }
   if (!node) return nullptr;

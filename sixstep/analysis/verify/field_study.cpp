@@ -136,14 +136,15 @@ void add_axes(const control::FieldDriveConfig<double>& c, FieldStudy& f) {
 void add_limits(const control::FieldDriveConfig<double>& c, FieldStudy& f) {
   const double I = f.design.nominal_current_A;
   f.limits = {{"U_s/sqrt 3", "the circle, the largest phase voltage in every direction", circle_V(f), "V"},
-              {"w_0", "from there on the magnet's back-EMF alone is more", base_speed_rad_s(f), "rad/s"}};
+              {"w_0", "above it the magnet's back-EMF alone is larger than the circle", base_speed_rad_s(f),
+               "rad/s"}};
   if (I > 0) {
     f.limits.push_back({"i_q",
                         f.design.spec.mode == Mode::current ? "the sheet's nominal current"
-                                                            : "the most that the speed loop asks for",
+                                                            : "largest current reference of the speed loop",
                         I, "A"});
     f.limits.push_back(
-        {"w(i_q)", "up to there the circle drives it", speed_for_current_rad_s(f, I), "rad/s"});
+        {"w(i_q)", "highest speed at which the circle drives i_q", speed_for_current_rad_s(f, I), "rad/s"});
     f.limits.push_back({"K_q i_q", "the torque that it makes", I * torque_per_q_A(f.machine), "N m"});
   }
   if (!(c.weakening.most_A > 0)) return;

@@ -96,7 +96,8 @@ constexpr Scalar pulse_speed(const PulseSpeedConfig<Scalar>& config, PulseSpeedS
   if (state.ticks == 0 || state.moved == 0) return Scalar{};
   const std::uint32_t counts = detail::absolute(state.moved);
   Scalar w = T::per_ticks(AngleTraits<Scalar>::counted(config.count_rad_s_ticks, counts), state.ticks);
-  // Only past the mean count's end: before it the bound is above the speed. The edge may be younger by a tick.
+  // The bound is below the measured speed only after the mean time of a count. One tick is subtracted, because the
+  // edge may have come up to a tick later.
   if (since - 1 > state.ticks / counts && since > 1) {
     const Scalar bound = T::per_ticks(config.count_rad_s_ticks, since - 1);
     if (bound < w) w = bound;

@@ -97,7 +97,8 @@ constexpr SpinReading spin_step(const SpinConfig& config, SpinState& state, Comm
   return reading;
 }
 
-/// True if enough crossings were found to take the rotor over.
+/// True after config.crossings crossings, at least two, at similar intervals: the drive may then run from the present
+/// speed.
 constexpr bool spin_found(const SpinConfig& config, const SpinState& state) {
   return state.found >= config.crossings && state.found >= 2;
 }

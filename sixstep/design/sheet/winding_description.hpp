@@ -91,12 +91,16 @@ inline void describe_winding(base::Visitor& v, Sheet& s) {
           {.meaning = "delta: mutual inductance of two branches, negative as a rule",
            .unit = "mH",
            .range = base::between(-1e3, 1e3)});
-  v.value("phase_resistance_deviation", s.phase_resistance_deviation,
-          {.meaning = "star: by how much the resistances of phases a, b, c stray, as parts of the mean",
-           .range = base::strictly_between(-1, 1)});
-  v.value("phase_back_emf_deviation", s.phase_back_emf_deviation,
-          {.meaning = "star: by how much the back-EMF constants of a, b, c stray, as parts of the mean",
-           .range = base::strictly_between(-1, 1)});
+  v.value(
+      "phase_resistance_deviation", s.phase_resistance_deviation,
+      {.meaning =
+           "star: relative deviations of the resistances of phases a, b, c from the motor's value; 0.05 is 5 % more",
+       .range = base::strictly_between(-1, 1)});
+  v.value(
+      "phase_back_emf_deviation", s.phase_back_emf_deviation,
+      {.meaning =
+           "star: relative deviations of the back-EMF constants of phases a, b, c from the motor's value; 0.05 is 5 % more",
+       .range = base::strictly_between(-1, 1)});
   v.value("cogging_orders", s.cogging_orders,
           {.meaning =
                "periods of the cogging torque per turn of the shaft: the least common multiple of slots and "

@@ -21,9 +21,11 @@ inline void describe_losses(base::Visitor& v, Bridge& s) {
            .unit = "J",
            .range = between(0, most_energy_J)});
   v.value("turn_off_J", s.turn_off_J,
-          {.meaning = "energy of a turn-off, likewise", .unit = "J", .range = between(0, most_energy_J)});
+          {.meaning = "energy of a turn-off at energies_at_V and energies_at_A",
+           .unit = "J",
+           .range = between(0, most_energy_J)});
   v.value("recovery_J", s.recovery_J,
-          {.meaning = "energy of a diode's reverse recovery, likewise",
+          {.meaning = "energy of a diode's reverse recovery at energies_at_V and energies_at_A",
            .unit = "J",
            .range = between(0, most_energy_J)});
   v.value(

@@ -60,7 +60,7 @@ static_assert(
     "without a dead time both switches of a leg are on for a moment: give the scenario bridge.dead_time_s");
 static_assert(dead_counts <= 1008, "14 us, as TIM1 counts it");
 static_assert(dead_counts <= pwm_counts / 4, "interrupts wait for it");
-/// Samples are taken one microsecond before the update, so that all four are held before the switching at the
+/// The converter samples three currents and the bus one microsecond before the update, before the switching at the
 /// period's start. The period's change of outputs comes some counts before the update (event_count).
 constexpr std::uint32_t sample_count = pwm_counts - clock_Hz / 1'000'000, event_count = pwm_counts - 12;
 constexpr std::uint32_t most_on_counts = pwm_counts - counts_of_ns(least_gap_ns);
