@@ -51,8 +51,7 @@ class CMakeBuild(build_ext):
         (package / "bin").mkdir(exist_ok=True)
         shutil.copy(BUILD / "sixstep", package / "bin" / "sixstep")
         bundled([*package.glob("_core*.so"), package / "bin" / "sixstep"], package / "lib")
-        own = package / "include" / "sixstep" / "control" / "own"
-        shutil.copytree(HERE / "sixstep" / "control" / "own", own, dirs_exist_ok=True)
+        shutil.copytree(HERE / "sixstep" / "control", package / "include" / "sixstep" / "control", dirs_exist_ok=True)
         shutil.copytree(HERE / "data" / "motors", package / "data" / "motors", dirs_exist_ok=True)
         shutil.copytree(HERE / "data" / "scenarios", package / "data" / "scenarios", dirs_exist_ok=True)
         shutil.copy(HERE / "LICENSE", package / "LICENSE")

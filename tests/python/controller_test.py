@@ -2,6 +2,7 @@
 """Controllers in Python: called once a period with what is measured, and their exception is the caller's."""
 import math
 import os
+import re
 import tempfile
 import unittest
 
@@ -66,9 +67,15 @@ class Controllers(unittest.TestCase):
             sixstep.run(self.duty(), 3)
 
     def test_a_duty_that_no_timer_makes_stops_the_run(self):
-        r = sixstep.run(self.duty(), lambda m, setpoint: 1.5)
-        self.assertFalse(r.passed)
-        self.assertIn("duty", str(r.summary["fault"]))
+        for wrong in (1.5, -1.0001, math.nan):
+            with self.assertRaisesRegex(ValueError, re.escape(repr(wrong))):
+                sixstep.run(self.duty(), lambda m, setpoint: wrong)
+
+    def test_the_recorded_reference_is_the_setpoint(self):
+        speed = sixstep.Scenario(motor="maxon-251601", duration_s=5e-3, control={"mode": "speed"}, reference={"value": 200, "unit": "rad/s"})
+        self.assertEqual(sixstep.run(speed, lambda m, setpoint: 0.3).speed_ref[-1], 200)
+        current = sixstep.Scenario(motor="maxon-251601", duration_s=5e-3, control={"mode": "current"}, reference={"value": 2, "unit": "A"})
+        self.assertEqual(sixstep.run(current, lambda m, setpoint: 0.1).i_ref[-1], 2)
 
     def test_a_class_may_start_and_not_step(self):
         class NoStep:

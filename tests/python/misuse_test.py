@@ -51,11 +51,9 @@ class EndsThatAreTold(unittest.TestCase):
             self.assertLess(time.monotonic() - begin, 5.0)
 
     def test_a_fault_is_named(self):
-        for duty in (math.nan, 2.0):
-            r = sixstep.run(current(), lambda m, setpoint: duty)
-            self.assertFalse(r.passed or r.complete)
-            self.assertIn("duty", r.fault)
-            self.assertIn("duty", str(r))
+        r = sixstep.run(sixstep.shipped("product-broken-hall-line"))
+        self.assertIn("hall", r.fault.lower())
+        self.assertIn(r.fault, str(r))
 
     def test_a_session_whose_controller_failed_is_closed(self):
         session = sixstep.Session(current(), lambda m, setpoint: 1 / 0)
@@ -67,6 +65,41 @@ class EndsThatAreTold(unittest.TestCase):
     def test_a_wrong_return_names_the_controller(self):
         with self.assertRaisesRegex(TypeError, r"controller's step\(\) returned 'a'"):
             sixstep.run(current(), lambda m, setpoint: "a")
+
+
+    def test_an_early_close_is_incomplete(self):
+        session = sixstep.Session(current())
+        session.advance(1e-3)
+        self.assertFalse(session.close().complete)
+
+    def test_an_interrupted_session_stands_where_it_stopped(self):
+        session = sixstep.Session(current(duration_s=1e3))
+        session.advance(1e-3)
+        timer = interrupted_after(0.3)
+        with self.assertRaises(KeyboardInterrupt):
+            session.advance(1e3)
+        timer.join()
+        at = session.time
+        self.assertGreater(at, 1e-3)
+        self.assertEqual(session["t_s"], at)
+        self.assertAlmostEqual(sixstep.Session.restore(session.save()).time, at, delta=1e-4)
+
+    def test_equal_names_stay_apart(self):
+        twice = current(require=[{"metric": "max", "signal": "i_a_A", "to_s": 1e-3, "max": 9}, {"metric": "max", "signal": "i_a_A", "from_s": 1e-3, "max": 9}])
+        self.assertEqual(len(sixstep.run(twice).figures), 2)
+
+    def test_a_fault_and_remarks_are_shown_with_the_verdicts(self):
+        r = sixstep.run(sixstep.shipped("product-broken-hall-line"))
+        self.assertIn(r.fault, r._repr_html_())
+        self.assertIn("i_a", r)
+        self.assertIn("i_a_A", list(r))
+
+    def test_a_refused_point_of_a_sweep_leaves_the_others(self):
+        table = sixstep.sweep(current(require=[{"metric": "max", "signal": "i_a_A", "max": 9, "label": "run"}]), {"pwm.period_s": [30e-6, -1]})
+        self.assertEqual(len(table), 2)
+        self.assertIn("run (2)", table)
+        with self.assertRaisesRegex(ValueError, "sampling"):
+            sixstep.sweep(current(), {"pwm.period_s": [30e-6, 40e-6]}, points=4)
 
 
 class Instants(unittest.TestCase):
@@ -106,7 +139,7 @@ class Sweeps(unittest.TestCase):
             s = current(duration_s=2.0, require=[{"metric": "max", "signal": "i_a", "max": 9}])
             interrupted_after(1.5)
             begin = time.monotonic()
-            with self.assertRaises(KeyboardInterrupt) as told:
+            with self.assertRaises(sixstep.Interrupted) as told:
                 sixstep.sweep(s, {"supply.voltage_V": [20 + 0.01 * n for n in range(400)]}, store=store)
             self.assertLess(time.monotonic() - begin, 60)
             self.assertIn("x.sqlite", str(told.exception))
@@ -131,16 +164,36 @@ class Environments(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "give reward"):
             sixstep.Env(sixstep.Scenario(motor="maxon-251601", duration_s=1e-3, control={"mode": "duty"}, reference={"value": 0.1}))
 
-    def test_a_fault_terminates_and_the_end_truncates(self):
+    def test_actions_out_of_bounds_are_refused_and_the_end_truncates(self):
         env = sixstep.Env(current(), 2, hold=20)
         with self.assertRaisesRegex(ValueError, "reset"):
             env.step(np.zeros((2, 1)))
         env.reset()
-        _, _, terminated, truncated, _ = env.step([[math.nan], [0.0]])
-        self.assertEqual((terminated.tolist(), truncated.tolist()), ([True, False], [False, False]))
+        for wrong in (math.nan, 1.01):
+            with self.assertRaisesRegex(ValueError, "-1 to 1"):
+                env.step([[wrong], [0.0]])
+        truncated = np.array([False])
         while not truncated.any():
             _, _, terminated, truncated, _ = env.step([[0.0], [0.0]])
-        self.assertEqual((terminated.tolist(), truncated.tolist()), ([True, False], [False, True]))
+        self.assertEqual((terminated.tolist(), truncated.tolist()), ([False, False], [True, True]))
+
+    def test_the_series_of_drives_begins_anew_with_its_seed(self):
+        spread = current(spread=[{"key": "motor_override.resistance_ohm", "relative": 0.2}])
+        env = sixstep.Env(spread, 2, spread=True, hold=50)
+        env.reset(seed=1)
+        first = env.step([[0.5], [0.5]])[0]
+        env.reset_where(np.array([True, False]))
+        env.reset(seed=1)
+        np.testing.assert_array_equal(env.step([[0.5], [0.5]])[0], first)
+        for wrong in (np.array([1]), [True], "x", [5, 5]):
+            with self.assertRaisesRegex(ValueError, "one True or False for each"):
+                env.reset_where(wrong)
+        with self.assertRaisesRegex(ValueError, "spread"):
+            sixstep.Env(current(), 2, spread=True)
+        with self.assertRaisesRegex(ValueError, "one number for each"):
+            wrong_reward = sixstep.Env(current(), 2, reward=lambda seen, action: 1.0)
+            wrong_reward.reset()
+            wrong_reward.step(np.zeros((2, 1)))
 
     def test_after_a_fork_it_says_so(self):
         env = sixstep.Env(current(), 8, workers=2)

@@ -123,7 +123,9 @@ class Environments(unittest.TestCase):
         self.assertEqual(float(env.action_space.high[0, 0]), 1.5)
         env.reset()
         for _ in range(300):
-            seen, _, _, _, _ = env.step([[9.0]])
+            seen, _, _, _, _ = env.step([[1.5]])
+        with self.assertRaisesRegex(ValueError, "-1.5 to 1.5"):
+            env.step([[9.0]])
         self.assertAlmostEqual(seen[0, env.observed.index("motor_current_A")], 1.5, delta=0.05)
         with self.assertRaisesRegex(sixstep.ScenarioError, "has no current loop"):
             sixstep.Env(self.scenario(control={"mode": "duty"}, reference={"value": 0.3}), action="current", target="speed_rad_s")

@@ -51,8 +51,8 @@ class ProgramError(RuntimeError):
 
 
 class Interrupted(KeyboardInterrupt):
-    """Ctrl-C ended a run early. `result` has the part that was finished."""
+    """Ctrl-C ended a run or a sweep early. `result` has the part that was finished; None if there is none."""
 
-    def __init__(self, result: Any) -> None:
-        super().__init__(f"interrupted at {result.simulated_s:.6g} s; .result has what was finished")
+    def __init__(self, result: Any, message: str = "") -> None:
+        super().__init__(message or f"interrupted at {result.simulated_s:.6g} s; .result has what was finished")
         self.result = result

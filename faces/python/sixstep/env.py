@@ -2,6 +2,7 @@
 """An environment for learning, with the interface of Gymnasium, over many drives at a time."""
 from __future__ import annotations
 
+import operator
 import os
 from collections.abc import Callable
 from typing import Any
@@ -65,6 +66,10 @@ class Env:
         scenario = as_scenario(scenario)
         if int(drives) != drives or int(hold) != hold or drives < 1 or hold < 1:
             raise ValueError("drives and hold must be whole numbers from 1")
+        if workers is not None and (int(workers) != workers or workers < 1):
+            raise ValueError(f"workers = {workers} must be a whole number from 1")
+        if spread and not any(key.startswith("spread[") for key in scenario):
+            raise ValueError("spread=True needs a [[spread]] in the scenario")
         self.num_envs, self.hold = drives, hold
         self._spread, self._seed, self._numbers = spread, 1, np.arange(drives)
         self._columns = 3 if action == "legs" else 1
@@ -77,17 +82,18 @@ class Env:
         self._reward = reward
         self._core = _core.Environment(scenario._core, drives, action, workers or os.cpu_count() or 1)
         most = self._core.most_current_A if action == "current" else 1.0
-        least = 0.0 if action == "legs" else -most
-        self.action_space = _box(np.full((drives, self._columns), least), np.full((drives, self._columns), most))
+        self._least, self._most = 0.0 if action == "legs" else -most, most
+        self.action_space = _box(np.full((drives, self._columns), self._least), np.full((drives, self._columns), most))
         bound = np.full((drives, len(self.observed)), np.inf)
         self.observation_space = _box(-bound, bound)
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Array, dict[str, Any]]:
         """Starts all drives anew. `seed` chooses the series of drives that `spread` draws from."""
         if seed is not None:
-            if seed < 0:
+            if operator.index(seed) < 0:
                 raise ValueError(f"seed = {seed} must be at least 0")
             self._seed = seed
+            self._numbers = np.arange(self.num_envs)
         self._start(np.arange(self.num_envs))
         return self._core.observations(), {}
 
@@ -95,6 +101,8 @@ class Env:
         """One step of all drives: observations, rewards, terminated, truncated, info. A fault terminates a drive's run, its duration
         truncates it; then it stays where it is until `reset_where`."""
         given = np.ascontiguousarray(actions, dtype=np.float64).reshape(self.num_envs, self._columns)
+        if not (np.isfinite(given).all() and (given >= self._least).all() and (given <= self._most).all()):
+            raise ValueError(f"each action must lie in {self._least:g} to {self._most:g}, the bounds of action_space")
         self._core.step(given, self.hold)
         seen = self._core.observations()
         over = self._core.over()
@@ -103,7 +111,10 @@ class Env:
 
     def reset_where(self, which: Any) -> Array:
         """Starts the drives of this mask anew, each as the next one of the series; returns all observations."""
-        chosen = np.flatnonzero(np.asarray(which))
+        mask = np.asarray(which)
+        if mask.dtype != np.bool_ or mask.shape != (self.num_envs,):
+            raise ValueError(f"reset_where needs one True or False for each of the {self.num_envs} drives")
+        chosen = np.flatnonzero(mask)
         self._numbers[chosen] += self.num_envs
         self._start(chosen)
         return self._core.observations()
@@ -115,7 +126,10 @@ class Env:
     def rewarded(self, seen: Array, actions: Array) -> Array:
         """The reward of each drive."""
         if self._reward is not None:
-            return self._reward(seen, actions)
+            given: Array = np.asarray(self._reward(seen, actions), dtype=np.float64)
+            if given.shape != (self.num_envs,):
+                raise ValueError(f"reward returned the shape {given.shape}; it needs one number for each of the {self.num_envs} drives")
+            return given
         distance: Array = np.abs(seen[:, -1] - self.value(seen, self._target))
         return -distance
 

@@ -6,7 +6,8 @@ from typing import Any
 
 from . import plots
 from ._progress import notebook_display
-from .session import Session
+from .result import without_unit
+from .session import Session, place_of
 
 
 def watch(session: Session, *names: str, to_s: float, step_s: float, window_s: float | None = None) -> Any:
@@ -26,8 +27,8 @@ def watch(session: Session, *names: str, to_s: float, step_s: float, window_s: f
         raise ValueError("name at least one signal, as \"speed_rad_s\"")
     if not step_s > 0:
         raise ValueError(f"step_s = {step_s} must be above 0")
-    units = {c.name: c.unit for c in Session.signals()}
-    figure, lines = plots.empty_charts([(name, units.get(name, "")) for name in names])
+    columns = [Session.signals()[place_of(name)] for name in names]
+    figure, lines = plots.empty_charts([(without_unit(c.name), c.unit) for c in columns])
     times: list[float] = [session.time]
     values: list[list[float]] = [[session[name]] for name in names]
     display = notebook_display()

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from .result import Result
 
 WIDTH, HEIGHT, BINS = 720, 150, 300
-USUAL = ("speed_rad_s", "i_a_A", "torque_Nm")
+USUAL = ("speed_rad_s", "speed_m_s", "i_a_A", "torque_Nm", "force_N")
 
 
 def result_html(result: Result) -> str:
@@ -25,7 +25,10 @@ def result_html(result: Result) -> str:
         f"<td>{'never' if v.measured == math.inf else f'{v.measured:.5g}'} {html.escape(v.unit)}</td><td>{_limits(v.min, v.max)}</td></tr>"
         for v in result.verdicts)
     table = f"<table><tr><th></th><th>requirement</th><th>measured</th><th>allowed</th></tr>{rows}</table>" if rows else ""
-    return f"<div><b>{html.escape(str(result.summary['title']))}: {word}</b>, {result.simulated_s:g} s simulated{table}{_charts(result)}</div>"
+    told = [f"fault: {result.fault}"] * (result.fault is not None) + [f"note: {remark}" for remark in result.remarks]
+    notes = "".join(f"<div>{html.escape(line)}</div>" for line in told)
+    return (f"<div><b>{html.escape(str(result.summary['title']))}: {word}</b>, {result.simulated_s:g} s simulated{table}{notes}"
+            f"{_charts(result) if len(result.time) else ''}</div>")
 
 
 def _limits(low: float | None, high: float | None) -> str:

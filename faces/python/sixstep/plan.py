@@ -10,14 +10,16 @@ import re
 import signal
 import subprocess
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _toml
+from ._errors import Interrupted
 from .program import _raise, program, scenario_file
+from .result import distinct
 from .scenario import Source, as_scenario
 
 
@@ -37,8 +39,8 @@ class Sweep:
         self.columns: list[str] = []
         self.units: dict[str, str] = {}
         self._values: dict[str, NDArray[Any]] = {}
-        for n, heading in enumerate(told["columns"]):
-            name, unit = _name_and_unit(heading)
+        pairs = [_name_and_unit(heading) for heading in told["columns"]]
+        for n, (name, (_, unit)) in enumerate(zip(distinct(name for name, _ in pairs), pairs)):
             self.columns.append(name)
             self.units[name] = unit
             self._values[name] = _array([row[n] for row in told["rows"]])
@@ -54,7 +56,19 @@ class Sweep:
         return bool(self.summary["complete"])
 
     def __getitem__(self, name: str) -> NDArray[Any]:
+        if name not in self._values:
+            raise KeyError(f"{name} is no column; there are {', '.join(self.columns)}")
         return self._values[name]
+
+    def keys(self) -> list[str]:
+        """Names of the columns."""
+        return list(self.columns)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.columns)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._values
 
     def __len__(self) -> int:
         return len(self._values["run"])
@@ -79,8 +93,14 @@ def sweep(scenario: Source, vary: Mapping[str, Any] | None = None, *, drives: in
     vary    {"control.current.settle_s": [1e-3, 2e-3]}: any list of values, as np.linspace(1e-3, 5e-3, 9); or the text "1e-3:5e-3:9", nine
             values from 1e-3 to 5e-3
     drives  of the scenario's [[spread]] at each point; their gains stay those of the nominal motor
+    seed    of the drives and of drawn points
+    sampling  "grid": each combination; "latin-hypercube", "sobol", "monte-carlo", "saltelli": `points` points in the ranges of vary
+    tolerances  True: drives also differ by the data sheet's tolerances and the places of Hall edges
     store   keeps each finished run in this SQLite file; with resume=True only what is missing is run
     jobs    runs side by side; without it one per core
+
+    A point that the scenario's checks refuse has its message in the column "problem", and no figures. Ctrl-C raises `Interrupted`, whose
+    `.result` has the finished runs.
 
     >>> import sixstep
     >>> s = sixstep.Scenario(motor="maxon-251601", duration_s=2e-3, control={"mode": "duty"}, reference={"value": 0.2},
@@ -90,6 +110,8 @@ def sweep(scenario: Source, vary: Mapping[str, Any] | None = None, *, drives: in
     """
     if not vary and not drives:
         raise ValueError("nothing varies: give vary, drives or both")
+    if points is not None and sampling == "grid":
+        raise ValueError('points needs sampling = "latin-hypercube", "sobol", "monte-carlo" or "saltelli"; a grid has those of vary')
     scenario = as_scenario(scenario)
     words = ["--sampling", sampling] if sampling != "grid" else []
     for key, values in (vary or {}).items():
@@ -102,24 +124,28 @@ def sweep(scenario: Source, vary: Mapping[str, Any] | None = None, *, drives: in
     words += ["--resume"] if resume else []
     with scenario_file(scenario, but=set(vary or {})) as file, tempfile.TemporaryDirectory() as folder:
         out = pathlib.Path(folder) / "plan.json"
-        code, told = _ended([program(), "run", *file, *words, "--quiet", "--json", str(out)])
-        if code not in (0, 1, 3) or not out.exists():
+        told = _ended([program(), "run", *file, *words, "--quiet", "--json", str(out)])
+        partial = out.with_name("plan.partial.json")
+        if told is None:
+            kept = f"; the finished runs are in {os.fspath(store)}: the same call with resume=True goes on" if store is not None else ""
+            raise Interrupted(Sweep(json.loads(partial.read_text())) if partial.exists() else None, f"interrupted{kept}")
+        if not out.exists():
             _raise(told)
         return Sweep(json.loads(out.read_text()))
 
 
-def _ended(words: list[str]) -> tuple[int, str]:
-    """Exit code and messages. Ctrl-C ends the program, too, and what it tells of the finished runs is told on."""
+def _ended(words: list[str]) -> str | None:
+    """Messages of the program; None after Ctrl-C, which ends it, too."""
     with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as made:
         try:
-            told = made.communicate()[1]
-            return made.returncode, told
+            return made.communicate()[1]
         except KeyboardInterrupt:
             try:
                 made.wait(0.5)  # on a terminal it has heard the same
             except subprocess.TimeoutExpired:
                 made.send_signal(signal.SIGINT)  # a notebook's stop reaches this process alone
-            raise KeyboardInterrupt(made.communicate()[1].strip()) from None
+            made.communicate()
+            return None
 
 
 def _values_text(values: Any) -> str:

@@ -2,16 +2,19 @@
 """Charts with matplotlib, in the colours of the report."""
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
+from .result import without_unit
 
 if TYPE_CHECKING:
     from .program import Study
     from .result import Result
 
 COLOURS = ("#1f6feb", "#d1242f", "#1a7f37", "#8250df", "#bc4c00", "#57606a")
-USUAL = (("speed_rad_s", "speed_ref_rad_s"), ("i_a_A", "i_b_A", "i_c_A"), ("torque_Nm",), ("duty",))
+USUAL = (("speed_rad_s", "speed_ref_rad_s"), ("speed_m_s", "speed_ref_m_s"), ("i_a_A", "i_b_A", "i_c_A"), ("torque_Nm",), ("force_N",), ("duty",))
 
 
 def _pyplot() -> Any:
@@ -41,12 +44,14 @@ def run_chart(result: Result, *names: str, from_s: float | None = None, to_s: fl
     groups = wanted or [found for group in USUAL if (found := tuple(n for n in group if n in result.units))]
     figure, all_axes = _pyplot().subplots(len(groups), 1, sharex=True, squeeze=False, figsize=(9, 1.2 + 1.9 * len(groups)), layout="constrained")
     t = result.time
+    if not len(t):
+        raise ValueError(f"the run recorded no row: {result.fault or 'it ended at once'}")
     part = (t >= (t[0] if from_s is None else from_s)) & (t <= (t[-1] if to_s is None else to_s))
     for axes, group in zip(all_axes[:, 0], groups):
         for colour, name in zip(COLOURS, group):
             axes.plot(1e3 * t[part], result[name][part], color=colour, linewidth=1, label=name)
-        unit = result.units.get(group[0], "")
-        _styled(axes, f"{group[0].rsplit('_', 1)[0] if unit else group[0]}" + (f", {unit}" if unit else ""))
+        column = result.columns[result._name(group[0])]
+        _styled(axes, f"{without_unit(column.name)}, {column.unit}")
         if len(group) > 1:
             axes.legend(frameon=False, fontsize=8, ncols=len(group))
     all_axes[-1, 0].set_xlabel("time, ms")
@@ -121,8 +126,10 @@ def bridge(result: Result, at_s: float) -> Any:
     >>> sixstep.plots.bridge(r, at_s=2e-3).axes[0].get_title()[-20:]
     'at 1.98 ms, bus 24 V'
     """
+    if not isinstance(at_s, (int, float)):
+        raise TypeError("at_s must be a number, in s")
     n = int(np.searchsorted(result.time, at_s, side="right")) - 1
-    if not 0 <= n < len(result.time) or at_s > result.time[-1]:
+    if not math.isfinite(at_s) or not 0 <= n < len(result.time) or at_s > result.time[-1]:
         raise ValueError(f"at_s = {at_s:g} must lie within the run, {result.time[0]:g} .. {result.time[-1]:g} s")
     figure, axes = _pyplot().subplots(figsize=(7, 4.2), layout="constrained")
     axes.plot([0, 6.6], [4, 4], color="black", linewidth=2)

@@ -14,7 +14,7 @@ from collections.abc import Collection, Iterator, Mapping
 from typing import Any
 
 from ._errors import Problem, ProgramError, ScenarioError
-from .scenario import Scenario
+from .scenario import Scenario, Source, as_scenario
 
 
 def program() -> str:
@@ -176,7 +176,7 @@ def compare(motor: str | os.PathLike[str], **options: Any) -> Study:
     return _asked(["compare", os.fspath(motor)], ["--json", "FILE"], options)
 
 
-def bode(scenario: Scenario, **options: Any) -> Study:
+def bode(scenario: Source, **options: Any) -> Study:
     """The measured frequency response of the outermost loop where the scenario ends, beside the designed one.
 
     >>> import sixstep
@@ -184,7 +184,7 @@ def bode(scenario: Scenario, **options: Any) -> Study:
     >>> bool(abs(figures.measured.crossover_Hz / figures.designed.crossover_Hz - 1) < 0.03)
     True
     """
-    with scenario_file(scenario) as words:
+    with scenario_file(as_scenario(scenario)) as words:
         return _asked(["run", *words, "--bode"], ["--json", "FILE"], options)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -62,11 +62,12 @@ class Result:
     True
     """
 
-    def __init__(self, core: Any, scenario: Scenario) -> None:
+    def __init__(self, core: Any, scenario: Scenario, ended_early: bool = False) -> None:
         self._outcome = core
         self.scenario = scenario
         self.columns = [Column(*c) for c in core.columns]
         self._index = {c.name: n for n, c in enumerate(self.columns)}
+        self._ended_early = ended_early
         self.units = {c.name: c.unit for c in self.columns}
         self.summary: dict[str, Any] = json.loads(core.summary)
 
@@ -77,8 +78,8 @@ class Result:
 
     @property
     def complete(self) -> bool:
-        """False if a fault, Ctrl-C or an exception ended the run before its time."""
-        return bool(self._outcome.complete) and self._outcome.stopped_by is None and (self.fault is None or bool(self.summary["trip"]))
+        """False if a fault, Ctrl-C, an exception or Session.close() ended the run before its time."""
+        return not self._ended_early and bool(self._outcome.complete) and self._outcome.stopped_by is None and (self.fault is None or bool(self.summary["trip"]))
 
     @property
     def fault(self) -> str | None:
@@ -103,9 +104,14 @@ class Result:
 
     @property
     def figures(self) -> dict[str, float]:
-        """Measured figures by name, required or compared."""
+        """Measured figures by name, required or compared. A name that stands twice has " (2)" behind it the second time."""
         rows = [*self.summary["require"], *self.summary["compare"]]
-        return {row["figure"]: _number(row["measured"]) for row in rows}
+        return dict(zip(distinct(row["figure"] for row in rows), (_number(row["measured"]) for row in rows)))
+
+    @property
+    def remarks(self) -> list[str]:
+        """What the program noticed, as a key without effect."""
+        return [*self.summary.get("remarks", []), *self.summary.get("notes", [])]
 
     @property
     def energy(self) -> Mapping[str, float]:
@@ -115,7 +121,7 @@ class Result:
     def _name(self, name: str) -> int:
         if name in self._index:
             return self._index[name]
-        found = [n for full, n in self._index.items() if full.startswith(name + "_") and full[len(name) + 1:] in _SUFFIXES]
+        found = [n for full, n in self._index.items() if without_unit(full) == name]
         if len(found) == 1:
             return found[0]
         raise KeyError(f"{name} is not recorded; recorded are {', '.join(self._index)}")
@@ -137,6 +143,19 @@ class Result:
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self._index]
+
+    def keys(self) -> list[str]:
+        """Names of the recorded columns."""
+        return list(self._index)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._index)
+
+    def __contains__(self, name: object) -> bool:
+        try:
+            return isinstance(name, str) and self._name(name) >= 0
+        except KeyError:
+            return False
 
     def _ipython_key_completions_(self) -> list[str]:
         return list(self._index)
@@ -181,6 +200,7 @@ class Result:
         for v in self.verdicts:
             limit = " ".join(f"{sign} {_short(x)}" for sign, x in ((">=", v.min), ("<=", v.max)) if x is not None)
             lines.append(f"  {'ok  ' if v.ok else 'FAIL'} {v.figure}: {_with_unit(v.measured, v.unit)} ({limit} {v.unit})".rstrip())
+        lines += [f"  note: {remark}" for remark in self.remarks]
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
@@ -189,7 +209,21 @@ class Result:
         return result_html(self)
 
 
-_SUFFIXES = frozenset({"s", "A", "V", "W", "rad_s", "rad", "deg", "Nm", "N", "m_s", "mm", "degC"})
+_SUFFIXES = ("rad_s", "m_s", "degC", "rad", "deg", "Nm", "mm", "A", "V", "W", "N", "s")  # the longest first
+
+
+def without_unit(name: str) -> str:
+    """A column's name without its unit: "speed" of "speed_rad_s"."""
+    return next((name[:-len(suffix) - 1] for suffix in _SUFFIXES if name.endswith("_" + suffix)), name)
+
+
+def distinct(names: Iterable[str], taken: Iterable[str] = ()) -> list[str]:
+    """The names, each once: " (2)" behind the second of two that are alike."""
+    seen, out = {name: 1 for name in taken}, []
+    for name in names:
+        seen[name] = seen.get(name, 0) + 1
+        out.append(name if seen[name] == 1 else f"{name} ({seen[name]})")
+    return out
 
 
 def _number(value: Any) -> float:
@@ -212,7 +246,8 @@ def run(scenario: Source, controller: Any = None, *, books: bool = True, events:
                 (`sixstep.Measured` lists what m has); its exception stops the run and is raised here
     books       energy balance and standing laws: about a third of the time more
     events      keep all columns at every event, in `result.events`
-    progress    True: a bar on the terminal or in the notebook; or a function of the simulated time in s
+    progress    True: a bar on the terminal or in the notebook; or a function of the simulated time in s, called now and then and
+                at the end
 
     Raises `Interrupted` on Ctrl-C, with the finished part in `.result`.
 
@@ -226,8 +261,14 @@ def run(scenario: Source, controller: Any = None, *, books: bool = True, events:
     if controller is not None:
         core = scenario._checked({**scenario._settings, "control.drive": "own", "control.own.controller": "python"},
                                  as_controller(controller))
+    if not isinstance(books, bool) or not isinstance(events, bool):
+        raise TypeError("books and events must be True or False")
+    if not isinstance(progress, bool) and not callable(progress):
+        raise TypeError("progress must be True, False or a function of the simulated time in s")
     with shown(progress, scenario.duration_s) as told:
         result = Result(_core.run(core, books, events, told), scenario)
+        if told is not None and result._outcome.stopped_by is None:
+            told(result.simulated_s)
     stopped_by = result._outcome.stopped_by
     if isinstance(stopped_by, KeyboardInterrupt):
         raise Interrupted(result)

@@ -9,11 +9,21 @@ from typing import Any
 
 from . import _core, _toml
 from .controllers import as_controller
-from .result import Column, Result
+from .result import Column, Result, without_unit
 from .scenario import Scenario, Source, as_scenario
 
 _SIGNALS = [Column(*c) for c in _core.signals]
 _PLACE = {c.name: n for n, c in enumerate(_SIGNALS)}
+
+
+def place_of(name: str) -> int:
+    """Place of a signal, with or without its unit's suffix."""
+    if name in _PLACE:
+        return _PLACE[name]
+    found = [n for n, c in enumerate(_SIGNALS) if without_unit(c.name) == name]
+    if len(found) != 1:
+        raise KeyError(f"{name} is not a signal; Session.signals() lists them")
+    return found[0]
 
 
 class Session:
@@ -70,10 +80,8 @@ class Session:
         return bool(self._core.over)
 
     def __getitem__(self, name: str) -> float:
-        """The present value of a signal, by its column's name, as "i_a_A"."""
-        if name not in _PLACE:
-            raise KeyError(f"{name} is not a signal; Session.signals() lists them")
-        return float(self._core.signals()[_PLACE[name]])
+        """The present value of a signal, by its column's name, as "i_a_A", or without its unit."""
+        return float(self._core.signals()[place_of(name)])
 
     @staticmethod
     def signals() -> list[Column]:
@@ -139,5 +147,15 @@ class Session:
         return str(self._core.text())
 
     def close(self) -> Result:
-        """Ends the session at the next control tick and returns its results."""
-        return Result(self._core.close(), self._scenario)
+        """Ends the session at the next control tick and returns its results. They are incomplete if the run was not over."""
+        early = not self.over
+        return Result(self._core.close(), self._scenario, ended_early=early)
+
+    def __enter__(self) -> Session:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """The session is freed with its last reference; results are those of close()."""
+
+    def __deepcopy__(self, _: Any) -> Session:
+        return self.copy()

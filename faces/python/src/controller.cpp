@@ -46,9 +46,10 @@ py::dict as_dict(const sixstep_given& g) {
   return out;
 }
 
-/// What the controller returned is not what it should be.
+/// Refuses an answer of another type, or a number out of its range.
 [[noreturn]] void throw_wrong(const py::object& out, const char* wanted) {
-  PyErr_Format(PyExc_TypeError, "the controller's step() returned %.60R; it returns %s", out.ptr(), wanted);
+  PyErr_Format(PyErr_Occurred() ? PyExc_TypeError : PyExc_ValueError,
+               "the controller's step() returned %.60R; it returns %s", out.ptr(), wanted);
   throw py::error_already_set();
 }
 
@@ -88,6 +89,7 @@ const char* Controller::design(const sixstep_given* given, const sixstep_real*, 
   if (own == nullptr) return "was made in Python and can only be run from there";
   static_cast<Config*>(config)->controller = own;
   own->chopping_ = given->chopping;
+  own->mode_ = given->mode;
   const py::gil_scoped_acquire gil;
   try {
     if (!own->start_.is_none()) own->start_(as_dict(*given));
@@ -105,6 +107,9 @@ void Controller::step(const void* config, void* state, const sixstep_measured* m
   if (own.error_) return;
   try {
     static_cast<State*>(state)->duty = own.answer_to(*measured, setpoint, *answer);
+    // For the report, which cannot know what the controller makes of its setpoint.
+    if (own.mode_ == SIXSTEP_CURRENT) answer->current_reference_A = setpoint;
+    if (own.mode_ == SIXSTEP_SPEED) answer->speed_reference_rad_s = setpoint;
   } catch (py::error_already_set& error) {
     own.error_.emplace(std::move(error));
     answer->fault = 1;
@@ -128,7 +133,7 @@ double Controller::answer_to(const sixstep_measured& measured, double setpoint, 
   if (out.is_none()) return 0.0;
   if (functions_.answers == SIXSTEP_ANSWERS_PAIR) {
     const double duty = PyFloat_AsDouble(out.ptr());
-    if (PyErr_Occurred()) throw_wrong(out, "a number from -1 to 1, or None");
+    if (PyErr_Occurred() || !(std::fabs(duty) <= 1.0)) throw_wrong(out, "a number from -1 to 1, or None");
     answer.chopping = chopping_;
     control::command_pair(duty, measured.hall, answer);
     return duty;
@@ -142,7 +147,8 @@ double Controller::answer_to(const sixstep_measured& measured, double setpoint, 
   }
   for (Py_ssize_t k = 0; k < 3; ++k) {
     const double duty = PyFloat_AsDouble(PySequence_Fast_GET_ITEM(items.ptr(), k));
-    if (PyErr_Occurred()) throw_wrong(out, "three numbers from 0 to 1, or None");
+    if (PyErr_Occurred() || !(duty >= 0.0 && duty <= 1.0))
+      throw_wrong(out, "three numbers from 0 to 1, or None");
     answer.leg[k] = {.state = SIXSTEP_LEG_PWM, .switches = SIXSTEP_PWM_COMPLEMENTARY, .duty = duty};
   }
   return 0.0;
@@ -172,7 +178,8 @@ void declare_controller(py::module_& module) {
       .def_property_readonly(
           "i_c_A", [](const sixstep_measured& m) { return m.current_A[2]; },
           "current of phase c into the motor, A")
-      .def_readonly("speed_rad_s", &sixstep_measured::speed_rad_s, "mechanical speed, rad/s")
+      .def_readonly("speed_rad_s", &sixstep_measured::speed_rad_s,
+                    "mechanical speed, rad/s; of a linear motor m/s")
       .def_readonly("position_deg", &sixstep_measured::position_deg,
                     "mechanical position, counted over turns, degrees")
       .def_readonly("bus_V", &sixstep_measured::bus_V, "bus voltage, V")

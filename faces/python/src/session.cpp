@@ -88,7 +88,8 @@ class Session {
       // In parts, between which Ctrl-C is looked for; they change no bit.
       while (goes_on && session.now_s() + part_s_ < to_s && watch.keep_going(session.now_s()))
         goes_on = session.skip(session.now_s() + part_s_);
-      if (watch.stopped_by_nothing() && goes_on) goes_on = session.advance(to_s);
+      // After Ctrl-C the values of the instant that was reached are read.
+      if (goes_on) goes_on = session.advance(watch.stopped_by_nothing() ? to_s : session.now_s());
     }
     std::optional<py::error_already_set> raised;
     if (controller_) raised = controller_->take_error();

@@ -49,8 +49,8 @@ enum { SIXSTEP_ANSWERS_PAIR = 0, SIXSTEP_ANSWERS_LEGS = 1 };
 /* One sample of the scenario's sensors. */
 typedef struct {
   sixstep_real current_A[3]; /* of phases a, b, c, into the motor */
-  sixstep_real speed_rad_s;  /* mechanical */
-  sixstep_real position_deg; /* mechanical, counted over turns */
+  sixstep_real speed_rad_s;  /* mechanical; of a linear motor m/s */
+  sixstep_real position_deg; /* mechanical, counted over turns; of a linear motor 180/pi per m */
   sixstep_real bus_V;
   sixstep_real magnet_cos, magnet_sin; /* of the magnet's electrical angle from phase a's axis; Hall codes alone: sector's middle */
   uint8_t hall;                        /* H1 H2 H3 as bits 2, 1, 0: the code of probes 120 degrees apart */
