@@ -100,8 +100,8 @@ DesignOrder order_of(const FirstScenarioSpec& spec) {
   return order;
 }
 
-/// Step in degrees above which the position is not tested: a rotor on Hall probes of few pole pairs rests
-/// tens of degrees from its target.
+/// Largest mechanical angle between Hall edges for a position drive. With larger steps the rotor rests tens
+/// of degrees from its target.
 constexpr double coarsest_step_deg = 20.0;
 
 /// Specifications to try, in turn: the usual design, then changes for a motor that it does not suit.
