@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes values as bytes, the same on every processor: whole numbers and doubles as eight bytes, least
-// significant first; texts and lists behind their length. A double keeps its bits, also NaN.
+// Writes values as bytes, equal on every processor: whole numbers and doubles as eight bytes, least
+// significant first; texts and lists after their length. A double keeps its bits, also NaN.
 #pragma once
 #include <bit>
 #include <cstddef>
@@ -33,12 +33,13 @@ class ByteWriter {
   std::string bytes_;
 };
 
-/// Reads the bytes of a ByteWriter. Past the end, or at an impossible length, it fails and reads nothing more.
+/// Reads the bytes of a ByteWriter. It fails beyond the end or at an impossible length, and then reads
+/// nothing more.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
 
-  /// Everything was read and nothing is left over.
+  /// Whether all bytes were read without an error.
   bool whole_read() const { return !failed_ && rest_.empty(); }
   bool failed() const { return failed_; }
 

@@ -34,9 +34,9 @@ struct Briefing {
   std::function<std::string(const std::string& question)> answer;
 };
 
-/// run_plan() with the help of the other processes. Rows come in any order; `take` is called as there. Without
-/// `jobs` each process has one thread for runs. False: a process ended without notice, and must not be waited
-/// for.
+/// run_plan() with the help of the other processes. Rows arrive in any order; `take` is called as in
+/// run_plan(). Without `jobs` each process has one thread for runs. False: a process ended without notice,
+/// and no function may wait for it.
 bool lead_plan(Cluster& cluster, const PlanRuns& runs, const Briefing& briefing);
 
 /// Ends the other processes with this exit code.
@@ -47,7 +47,7 @@ using Ask = std::function<std::string(std::string question)>;
 
 /// The work of a process that does not lead: plan after plan, until the leader dismisses it; returns the
 /// leader's exit code. `prepare` makes from a briefing the function that turns a number into a run. If
-/// `told_to_end` returns true, it makes no more runs and waits for the dismissal.
+/// `told_to_end` returns true, it starts no more runs and waits for the dismissal.
 using Prepare = std::function<decltype(PlanRuns::scenario)(const std::string& made_of,
                                                            const analysis::Plan& plan, Ask ask)>;
 int follow(Cluster& cluster, const Prepare& prepare, const std::function<bool()>& told_to_end);

@@ -24,12 +24,11 @@ using std::chrono::duration;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-/// Pause between two looks for letters, so that waiting does not occupy a core.
+/// Pause between two checks for letters, so that waiting does not occupy a core.
 constexpr milliseconds follower_pause{2};
 /// Time between two letters with rows: a killed process loses the rows made since the last one.
 constexpr milliseconds rows_every{50};
-/// Runs kept ready, in seconds at the pace since the last request; runs that take longer are requested one by
-/// one.
+/// Runs kept in reserve, in seconds at the pace since the last request. Longer runs are requested one by one.
 constexpr double ahead_s = 0.25;
 constexpr double most_ahead = 4096;
 
@@ -39,7 +38,7 @@ letters::Letter letter_of(const Mail& mail) {
   return std::move(*letter);
 }
 
-/// The plan ended before a question was answered: the leader may have gone, and the run is no longer needed.
+/// The plan ended before a question was answered: the leader may have ended, and the run is no longer needed.
 struct PlanEnded {};
 
 /// Executes one plan's runs on `jobs` threads; the calling thread exchanges messages with the leader.
@@ -57,7 +56,7 @@ class Hand {
     return answers_.extract(number).mapped();
   }
 
-  /// The leader's exit code, if the dismissal came during the plan.
+  /// The leader's exit code, if the dismissal arrived during the plan.
   std::optional<int> work(const Prepare& prepare, const std::function<bool()>& told_to_end) {
     PlanRuns runs{.plan = begin_.plan,
                   .columns = std::make_shared<const analysis::PlanColumns>(begin_.columns),

@@ -20,17 +20,18 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-/// Pause between two looks for letters, so that waiting does not occupy a core.
+/// Pause between two checks for letters, so that waiting does not occupy a core.
 constexpr milliseconds pause{1};
-/// mpirun kills the processes a second after it has asked them to end.
+/// Limit of the wait, because mpirun kills the processes a second after its request to end.
 constexpr milliseconds patience{500};
 
-/// The runs still to be made, and the number of those that other processes hold. Callable from any thread.
+/// The remaining runs, and the number of runs that other processes hold. Callable from any thread.
 class Handout {
  public:
   explicit Handout(const PlanRuns& runs) : runs_(runs), count_(analysis::runs_of(runs.plan)) {}
 
-  /// At most `most` of the remaining runs, but no more than a fair share, so that all processes end together.
+  /// Returns at most `most` of the remaining runs, but no more than a fair share, so that all processes end
+  /// together.
   std::vector<std::uint64_t> hand_out(std::uint64_t idle, std::uint64_t ahead, std::uint64_t processes) {
     const std::lock_guard lock(guard_);
     const std::uint64_t part = (count_ - cursor_ + returned_.size()) / (2 * processes);
@@ -50,7 +51,8 @@ class Handout {
     returned_.insert(returned_.end(), unmade.begin(), unmade.end());
     moved_.notify_all();
   }
-  /// For the leader's own threads. Waits while other processes hold runs, because one may be returned.
+  /// Returns a run to the leader's own threads. Waits while other processes hold runs, because one may be
+  /// returned.
   std::optional<std::size_t> next() {
     std::unique_lock lock(guard_);
     while (!over_ && !runs_.stop.stop_requested()) {
@@ -184,7 +186,7 @@ class Leader {
   template <class Other>
   void take(unsigned, Other&) {}  // no process sends letters to the leader that are the leader's own
 
-  /// A process for which no run is left stays noted, because a run may be returned.
+  /// A process without remaining runs stays registered, because a run may be returned.
   void feed() {
     for (auto one = hungry_.begin(); one != hungry_.end();) {
       const auto& [rank, hunger] = *one;

@@ -23,13 +23,13 @@ struct ContestOrder {
 /// Two runs per entry: on the course, and down through the low speeds (analysis::slow_scenario).
 std::size_t nominal_runs(std::size_t controllers);
 
-/// Runs each entry nominally, with a trace of the course. The drives with tolerances are still to be made.
+/// Runs each entry nominally, with a trace of the course. run_drives() runs the drives with tolerances.
 analysis::Contest compare_nominally(analysis::ContestBench bench, std::vector<analysis::ContestEntry> entries,
                                     const ContestOrder& order);
 
 /// Makes the drives of all entries that can run, numbered as in the contest's plan, and passes each row to
-/// `take`, from any thread. Drives for which `has` is true exist already. Drive n has the same deviations for
-/// all entries.
+/// `take`, from any thread. Drives with `has` true are skipped, because their rows exist. Drive n has the
+/// same deviations for all entries.
 void run_drives(const analysis::Contest& contest, const ContestOrder& order,
                 const std::function<bool(std::size_t number)>& has,
                 const std::function<void(analysis::RunRecord&&)>& take);

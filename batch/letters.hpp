@@ -43,8 +43,8 @@ struct Dismissed {
 struct Rows {
   std::vector<analysis::RunValues> rows;
 };
-/// The sender needs more work: `idle` threads have none; `ahead` more runs would keep all threads busy for the
-/// next moment.
+/// The sender requests more work: `idle` threads have no run; `ahead` more runs would keep all threads busy
+/// for the next moment.
 struct Hungry {
   std::uint64_t idle = 0, ahead = 0;
 };
@@ -52,7 +52,7 @@ struct Question {
   std::uint64_t number = 0;
   std::string bytes;
 };
-/// No more rows of this plan will come from the sender, and these runs were not made.
+/// The sender will send no more rows of this plan. It did not make these runs.
 struct Gone {
   std::vector<std::uint64_t> unmade;
 };

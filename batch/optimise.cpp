@@ -21,7 +21,7 @@ namespace {
 using analysis::FigureColumn;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-/// For a point that could not run, or a figure that has no value: worse than any measurable miss.
+/// Value of a point that could not run, or of a figure without a value: worse than any measurable miss.
 constexpr double hopeless = 1e3;
 constexpr double close = 1e-3;  ///< relative to a limit's size, and to a range
 

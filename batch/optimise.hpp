@@ -34,7 +34,7 @@ struct Optimisation {
 };
 
 /// Half of the points, but at most ten per key, are spread evenly over the ranges; then COBYLA continues from
-/// the best. The same input takes the same path, whatever the number of threads. Empty if it was stopped before
+/// the best. The same input gives the same path with any number of threads. Empty if it was stopped before
 /// its first point was complete, or if no point could run.
 std::optional<analysis::Optimum> optimise(const Optimisation& work);
 

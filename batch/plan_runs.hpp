@@ -19,9 +19,9 @@ struct PlanRuns {
   analysis::TableColumns columns;
   /// The scenario of run n; Problems become its row. Several threads call it at once.
   std::function<base::Result<analysis::PlannedRun>(std::size_t n)> scenario;
-  /// Whether run n is to be made; empty: all are. Called like `scenario`.
+  /// Whether run n is required; empty: all are. Called like `scenario`.
   std::function<bool(std::size_t n)> wanted;
-  /// Gets each row when its run ends, in any order; several threads call it at once.
+  /// Receives each row when its run ends, in any order; several threads call it at the same time.
   std::function<void(analysis::RunRecord&&)> take;
   std::stop_token stop;  ///< also ends the runs in progress, which leave no row
   unsigned jobs = 0;     ///< threads; 0: one per core
@@ -33,14 +33,14 @@ std::optional<analysis::RunRecord> row_of_run(const analysis::TableColumns& colu
                                               const base::Result<analysis::PlannedRun>& planned,
                                               const std::stop_token& stop);
 
-/// As row_of_run(), for one run of the plan.
+/// Like row_of_run(), for one run of the plan.
 std::optional<analysis::RunRecord> run_one(const PlanRuns& runs, std::size_t n);
 
 /// Makes all wanted runs. An exception of one of the functions is thrown again here.
 void run_plan(const PlanRuns& runs);
 
-/// Makes the runs that `next` names, on `threads` threads, until it names none or they are stopped. Each thread
-/// calls `next`, which may block. Exceptions as in run_plan().
+/// Makes the runs that `next` returns, on `threads` threads, until it returns none or the work is stopped.
+/// Each thread calls `next`, which may block. Exceptions as in run_plan().
 void make_runs(const PlanRuns& runs, unsigned threads,
                const std::function<std::optional<std::size_t>()>& next);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Joins the cluster that mpirun or srun starts. Uses MPI if the build has it (SIXSTEP_MPI); without it, a
-// process that is one of several reports that. MPI belongs to a process, not to an object: each function is
+// process that belongs to several reports that. MPI belongs to a process, not to an object: each function is
 // called once.
 #pragma once
 #include <string>
@@ -11,16 +11,16 @@
 
 namespace batch {
 
-/// From the launcher's environment: OMPI_COMM_WORLD_*, PMI_*, or PMIX_RANK with Slurm's count.
+/// Rank and size from the launcher's environment: OMPI_COMM_WORLD_*, PMI_*, or PMIX_RANK with Slurm's count.
 struct Started {
   unsigned rank = 0, size = 1;
 };
 Started started();
 
-/// A cluster of one if one process was started; MPI is then not used at all.
+/// Returns a cluster of one if one process was started, without MPI.
 base::Result<Cluster> join_ranks();
 
-/// The last call of a process: waits until all processes have come here. Without it mpirun takes the process for
+/// Last call of a process: waits until all processes have called it. Without it mpirun considers the process
 /// lost and ends the others.
 void part();
 

@@ -62,7 +62,7 @@ std::optional<Mail> receive() {
 
 base::Result<Cluster> join_ranks() {
   if (started().size <= 1) return Cluster{};
-  // Only one thread calls MPI, so the provided level of thread support does not matter.
+  // Only one thread calls MPI, so that the provided level of thread support is irrelevant.
   int provided = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
   int rank = 0, size = 1;

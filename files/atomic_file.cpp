@@ -33,8 +33,8 @@ int persistently(Call call) {
   }
 }
 
-/// Writes all of the text in as many calls as needed. Returns 0 or errno. A write to a pipe may wait for its
-/// reader; a signal that asks the program to end ends the wait.
+/// Writes the whole text, in several calls if necessary. Returns 0 or errno. A write to a pipe may wait for
+/// its reader; a termination signal ends the wait.
 int write_all(int descriptor, std::string_view text, bool waits) {
   while (!text.empty()) {
     const ssize_t taken = ::write(descriptor, text.data(), text.size());
@@ -59,14 +59,14 @@ fs::path end_of_links(fs::path path) {
   return path;
 }
 
-/// A name that no other program uses and no killed one has left behind.
+/// A name that no other program uses and that no killed program has left in the folder.
 std::string random_name() {
   std::random_device random;
   return fmt::format(".sixstep-{:08x}{:08x}.tmp", random(), random());
 }
 
-/// Reasons why no file may be put there although the folder is writable. `partial`: the name for an interrupted
-/// run.
+/// Reasons against a file at this path although the folder is writable. `partial`: the name for an
+/// interrupted run.
 base::Problems refused(const Destination& to, const std::string& partial) {
   if (ReadLog::has(to.path))
     return {{.where = to.path + ":",
@@ -124,7 +124,7 @@ void AtomicFile::Remove::operator()(std::string* name) const {
 }
 
 /// Opens a device or pipe directly, which may wait for a pipe's other end. Writes do not block in the kernel,
-/// where a signal between two pieces would go unnoticed.
+/// where a signal between two pieces would be lost.
 int AtomicFile::open_device() {
   waits_ = true;
   const int descriptor = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
@@ -232,7 +232,7 @@ base::Problems AtomicFile::save_what_is_whole() {
 int AtomicFile::put_in_place(const std::string& path) {
   if (!temporary_) return 0;
   const int descriptor = *descriptor_;
-  // Removes bytes of a failed write, and reserved room, behind the completely written text.
+  // Removes bytes of a failed write, and reserved space, after the completely written text.
   if (const int failed = persistently([&] { return ::ftruncate(descriptor, static_cast<off_t>(size_)); }))
     return failed;
   if (const int failed = persistently([&] { return ::fsync(descriptor); })) return failed;

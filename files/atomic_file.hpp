@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a file that appears whole or not at all.
+// Writes a file that appears complete or not at all.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -26,20 +26,20 @@ struct Destination {
 
 /// Writes under a temporary name in the same folder. commit() renames it to its own name, the destructor removes
 /// it. Creation already proves that the folder is writable, so create all files before the work begins. A path
-/// that is not a regular file (a pipe, /dev/null) is written directly. Refused are files that a ReadLog has
-/// noted, because nobody wants to overwrite a scenario with its own report, and files that are is_foreign(). A
-/// new file gets the permissions of the one that it replaces. A link stays, and the file that it names is made
-/// or replaced; other names of that file (hard links) keep the old content.
+/// that is not a regular file (a pipe, /dev/null) is written directly. It refuses files that a ReadLog has
+/// noted, because a report must not overwrite its own scenario, and files with is_foreign(). A new file gets
+/// the permissions of the one that it replaces. A link stays, and the file that it names is made or replaced;
+/// other names of that file (hard links) keep the old content.
 class AtomicFile {
  public:
   static base::Result<AtomicFile> create(const Destination& to);
 
-  /// Writes all of the text or nothing. After an error, such as a full disk, nothing more is written, and
-  /// commit() reports it.
+  /// Writes the whole text or nothing. After an error, such as a full disk, later calls write nothing, and
+  /// commit() reports the error.
   void write(std::string_view text);
 
-  /// Reserves disk space for that many bytes in all, so that writing them cannot fail for lack of it. Returns 0,
-  /// or errno.
+  /// Reserves disk space for this total number of bytes, so that writing them cannot fail for lack of space.
+  /// Returns 0, or errno.
   int reserve(std::uint64_t bytes);
 
   /// A write failed; further writes have no effect.
@@ -51,15 +51,15 @@ class AtomicFile {
   /// Discards the written text and its error; not for a pipe or a device, which continue.
   void begin_again();
 
-  /// Puts the file under its name, safely on the disk. Problems: a write failed; then the part that was written
-  /// whole is in NAME.partial.EXT, as the Problem says.
+  /// Renames the file to its final name, safely on the disk. Problems: a write failed; the completely written
+  /// part is then in NAME.partial.EXT, as the Problem says.
   base::Problems commit() { return commit_as(path_); }
 
   /// Saves the result of interrupted work as NAME.partial.EXT.
   base::Problems commit_partial();
 
   const std::string& path() const { return path_; }
-  /// The name while writing; empty if there is none.
+  /// The temporary name while writing; empty if there is none.
   std::string temporary() const { return temporary_ ? *temporary_ : std::string(); }
 
  private:

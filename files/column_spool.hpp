@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Takes rows and returns columns, with memory for only one block of rows. The rest is in an unnamed file beside
-// the final one.
+// Reads rows and returns columns, with memory for only one block of rows. The rest is in an unnamed file in
+// the folder of the final one.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -17,8 +17,8 @@ class ColumnSpool {
  public:
   static constexpr std::size_t block_rows = 2048;
 
-  /// The unnamed file is beside `path`, because the same disk must have room for the final file; if `path` is
-  /// empty, among the temporary files.
+  /// The unnamed file is in the folder of `path`, because the same disk must have space for the final file.
+  /// If `path` is empty, it is in the folder of temporary files.
   ColumnSpool(const std::string& path, std::size_t columns);
 
   /// True after a row did not fit on the disk: it and all following rows are lost, earlier ones are not.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Holds a user controller's config, state and answer while its code runs. Each ends where a protected page
-// begins, so that a write behind it is caught at that instruction. A pattern fills the gap before that page and
-// is checked after the call.
+// Holds a user controller's config, state and answer while its code runs. Each ends at the begin of a
+// protected page, so that a write beyond it is caught at that instruction. A pattern fills the padding before
+// that page and is checked after the call.
 #pragma once
 #include <sys/mman.h>
 
@@ -30,7 +30,7 @@ class GuardedRoom {
   bool holds(const void* bytes, std::size_t count) const {
     return at_ != nullptr && bytes_ == count && std::memcmp(at_, bytes, count) == 0;
   }
-  /// Whether no byte just before or behind the bytes has changed.
+  /// Whether the padding before and after the bytes is unchanged.
   bool is_whole() const {
     const auto untouched = [](std::byte b) { return b == std::byte{pattern}; };
     return std::all_of(at_ - grain, at_, untouched) && std::all_of(at_ + bytes_, end_, untouched);

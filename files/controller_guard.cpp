@@ -73,8 +73,8 @@ void must_be_whole(const ControllerThread& thread, const GuardedRoom& room, cons
 constexpr char beside_state[] = "wrote beside its state", beside_config[] = "wrote beside its config",
                beside_answer[] = "wrote beside its answer";
 
-/// The interface has no argument for the controller itself, so each controller has its own functions, by its
-/// number.
+/// The interface has no argument for the controller itself. Therefore each controller has its own functions,
+/// by its number.
 template <std::size_t N>
 struct Calls {
   static const Guarded& is() { return controllers[N]; }
@@ -171,7 +171,7 @@ void take(Guarded& into, const std::string& path, const sixstep_controller& real
 }  // namespace
 
 void in_controller(const std::string& path, const std::function<void()>& work) {
-  static std::deque<std::string> paths;  // kept, because later messages use the name
+  static std::deque<std::string> paths;  // kept, because later messages use the names
   const char* stays = nullptr;
   {
     const std::lock_guard lock(adding);

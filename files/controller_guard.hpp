@@ -16,8 +16,8 @@ namespace files {
 /// Runs `work` as code of the controller in `path`, for loading it.
 void in_controller(const std::string& path, const std::function<void()>& work);
 
-/// The wrapped controller; the same one for the same `real`. Call it in_controller(), because it reads the data
-/// of `real`. Problem: too many controllers.
+/// The wrapped controller; the same wrapper for the same `real`. Call it in_controller(), because it reads
+/// the data of `real`. Problem: too many controllers.
 base::Result<const sixstep_controller*> guarded_controller(const std::string& path,
                                                            const sixstep_controller& real);
 

@@ -116,14 +116,15 @@ extern "C" void on_exit_of_the_program() {
   end_by_controller(somewhere, "ended the program by exit() in a thread of its own");
 }
 
-/// What the watch for calls that do not return has seen of a thread: so many looks at the same call.
+/// The record of the watchdog for calls that do not return: a thread's call and the number of checks that
+/// found it.
 struct SeenCall {
   std::uint64_t calls = 0;
   int looks = 0;
 };
 
-/// Looks ten times a second. It counts looks instead of reading a clock, because a program that is stopped by a debugger
-/// or by Ctrl-Z makes no progress either.
+/// Checks ten times a second. It counts checks instead of reading a clock, because a program that a debugger
+/// or Ctrl-Z stops makes no progress either.
 void* watch_calls(void*) {
   constexpr int looks_a_second = 10;
   static SeenCall seen[most_threads];
@@ -141,7 +142,7 @@ void* watch_calls(void*) {
   }
 }
 
-/// The watch's thread gets no signal: a signal must interrupt the thread that waits for something.
+/// The watchdog's thread gets no signal, because a signal must interrupt the thread that waits.
 void start_watch_of_calls() {
   sigset_t all, before;
   ::sigfillset(&all);
@@ -193,7 +194,7 @@ pthread_key_t end_of_thread() {
   return key;
 }
 
-/// Watches the thread as long as it lives.
+/// Registers the thread with the watchdog during the thread's life.
 struct Membership {
   HandlerStack stack;
   ControllerThread* at = nullptr;
@@ -211,7 +212,8 @@ struct Membership {
     ::pthread_setspecific(end_of_thread(), at);
   }
   ~Membership() {
-    if (at->place != ControllerPlace::outside) return;  // exit() also comes here; its own handler reports it
+    if (at->place != ControllerPlace::outside)
+      return;  // exit() also calls this handler; its own handler reports it
     at->runs = 0;
     at->thread = 0;
   }

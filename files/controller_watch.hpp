@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Records which user controller each thread is in, and at which step of which run, so that a crash of foreign
-// code in this program is reported with its name. All of it is in plain memory, because a signal handler may
-// read it.
+// Records the user controller that each thread executes, with its step and run, so that the report of a crash
+// in foreign code has its name. All of it is in plain memory, because a signal handler may read it.
 //
-// The code runs in this program, not in a process of its own: a step is called some 30 000 times in a simulated
-// second, and a call to another process costs more than all the rest of a control period.
+// The code runs in this program, not in a separate process: a step is called some 30 000 times in a simulated
+// second, and a call to another process takes longer than the rest of a control period.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -14,8 +13,8 @@ namespace files {
 
 enum class ControllerPlace : std::uint8_t { outside, loading, design, start, step, hall };
 
-/// The record of a thread that calls controllers. Atomic, because the watch for calls that do not return reads it from
-/// another thread.
+/// The record of a thread that calls controllers. Atomic, because the watchdog for calls that do not return
+/// reads it from another thread.
 struct ControllerThread {
   std::atomic<long> thread{0};                   ///< thread number; 0: free
   std::atomic<const char*> controller{nullptr};  ///< the file's path, which must stay valid
@@ -31,11 +30,12 @@ struct ControllerThread {
 /// time in which the program itself may run, not that in which it is stopped.
 constexpr int reported_call_s = 2, longest_call_s = 10;
 
-/// The record of the calling thread. From now on its crashes and its end are watched.
+/// The record of the calling thread. The call also registers the thread, so that its crashes and its end are
+/// reported.
 ControllerThread& controller_thread();
 
-/// Names the file that will be loaded; the name must stay valid. The first call installs the handlers of crashes
-/// and of the program's end, and starts the watch for calls that do not return.
+/// Names the file that will be loaded; the name must stay valid. The first call installs the handlers of
+/// crashes and of the program's end, and starts the watchdog for calls that do not return.
 void watch_controllers(const char* path);
 
 /// Sets the number of the plan's run that this thread makes next.
@@ -43,7 +43,7 @@ void controllers_make_run(std::uint64_t number);
 /// The file that gets a line for each run that ended the program: number, tab, reason. Empty: none.
 void note_stopped_runs_in(const std::string& path);
 
-/// Between these calls an exit() comes from a controller, not from the program's own code.
+/// Between these calls an exit() is attributed to a controller, not to the program's own code.
 void controllers_may_run();
 void controllers_are_done();
 
@@ -51,8 +51,7 @@ void controllers_are_done();
 /// program with exit code 3, as for a fault.
 [[noreturn]] void end_by_controller(const ControllerThread& at, const char* what);
 
-// For a handler of signals that ask the program to end:
-/// Notes the present call of each thread.
+// For a handler of termination signals: Notes the present call of each thread.
 void mark_controller_calls();
 /// Reports the controllers that are still in the noted call, and notes their runs.
 void tell_controllers_that_do_not_come_back();

@@ -15,7 +15,7 @@
 namespace files {
 namespace {
 
-/// The beginning of a format, and the text in front of the version; the second may come a little later.
+/// The beginning of a format, and the text before the version, which may follow a few bytes later.
 struct Mark {
   std::string_view begin, name;
 };
@@ -43,7 +43,7 @@ std::string digest_words(std::string_view text) {
   return fmt::format(", digest {}: ", base::written_hex(text_digest(std::string(text))));
 }
 
-/// Whether the digest in the first line is that of the text below it.
+/// Whether the digest in the first line matches the text below it.
 bool is_unchanged(std::string_view text) {
   const std::size_t end = std::min(text.find('\n'), text.size() - 1);
   return text.substr(0, end).find(digest_words(text.substr(end + 1))) != text.npos;

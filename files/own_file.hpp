@@ -15,9 +15,8 @@ std::string with_own_mark(std::string_view command, const std::string& text);
 /// The first lines of a CSV table: program and command that made it.
 std::string csv_head(std::string_view command);
 
-/// Whether it is a regular, non-empty file that does not begin as sixstep's outputs do, with "sixstep" and its
-/// version in the format's comment. Also true for a text with_own_mark() that was changed since, and for a file
-/// that cannot be read.
+/// Whether it is a regular, non-empty file without the begin of sixstep's outputs: "sixstep" and its version
+/// in the format's comment. Also true for a changed text with_own_mark(), and for a file that cannot be read.
 bool is_foreign(const std::string& path);
 
 }  // namespace files

@@ -9,19 +9,20 @@
 
 namespace files {
 
-/// Finds named files beside the file that names them, and motors also in the data folder as motors/NAME.toml.
+/// Finds named files in the folder of the file that names them, and motors also in the data folder as
+/// motors/NAME.toml.
 text::Resolve on_disk(const std::string& data_dir = {});
 
 struct ReadOptions {
-  std::string data_dir;                  ///< holds motors/; empty: none
+  std::string data_dir;                  ///< contains motors/; empty: none
   std::vector<text::Setting> overrides;  ///< from the command line, stronger than the file
 };
 
 /// text::read_scenario_text() of the file.
 base::Result<study::Scenario> read_scenario(const std::string& path, const ReadOptions& options = {});
 
-/// As read_scenario(), for a given text. `path` is its name in messages, and the place from which named files
-/// are found.
+/// Like read_scenario(), for a given text. `path` is its name in messages, and the place from which named
+/// files are found.
 base::Result<study::Scenario> read_scenario_text(const std::string& path, std::string text,
                                                  const ReadOptions& options = {});
 

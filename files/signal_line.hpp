@@ -8,7 +8,7 @@
 
 namespace files {
 
-/// One line; what is longer is cut.
+/// One line; longer text is cut.
 class SignalLine {
  public:
   SignalLine& operator<<(std::string_view text) {

@@ -5,7 +5,7 @@
 namespace files {
 
 /// Notes a file that is removed if the program ends before forget_temporary(). The pointer must stay valid until
-/// then. Beyond 512 files at once, the further ones are not removed.
+/// then. At most 512 files at the same time are removed.
 void note_temporary(const char* name);
 void forget_temporary(const char* name);
 

@@ -15,7 +15,7 @@
 namespace files {
 namespace {
 
-/// The file beside it that was probably meant: misspelt, or without its .toml.
+/// The intended file in the same folder: its name was misspelt, or lacks the .toml.
 std::string meant(const std::string& path) {
   namespace fs = std::filesystem;
   const fs::path folder = fs::path(path).parent_path();

@@ -13,7 +13,7 @@ namespace files {
 base::Result<std::string> read_text(const std::string& path);
 
 /// Notes every file that read_text() reads in this thread during its life: a scenario's, its motor's, and all
-/// that they name. A log inside another passes its paths on to it when it ends.
+/// files named there. A log inside another passes its paths on to it when it ends.
 class ReadLog {
  public:
   ReadLog();
@@ -21,9 +21,9 @@ class ReadLog {
   ReadLog(const ReadLog&) = delete;
   ReadLog& operator=(const ReadLog&) = delete;
 
-  /// In the order of reading, including files that could not be read.
+  /// Paths in the order of reading, including files that could not be read.
   const std::vector<std::string>& paths() const { return paths_; }
-  /// Of the contents in the order of reading; paths do not matter.
+  /// Digest of the contents in the order of reading. Paths have no influence.
   std::uint64_t digest() const { return digest_; }
   /// The text of the first file, because a pipe can be read only once.
   const std::string& first_text() const { return first_text_; }
@@ -42,8 +42,8 @@ class ReadLog {
 
 /// 64 bits of a text; `before` is the digest of the preceding text. Not cryptographic.
 std::uint64_t text_digest(const std::string& text, std::uint64_t before = 0);
-/// As read_text(), for a file that another file names. It must be a regular file, because a device or a pipe may
-/// never end.
+/// Like read_text(), for a file that another file names. It must be a regular file, because a device or a
+/// pipe may never end.
 base::Result<std::string> read_regular_text(const std::string& path);
 
 }  // namespace files

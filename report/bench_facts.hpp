@@ -15,7 +15,7 @@ namespace report {
 /// One entry of a list of facts: a name and its value.
 std::string bench_fact(std::string_view name, const std::string& value);
 
-/// Appends a bar from 0 or `from` to `to`, as a piece of a curve with a gap behind it.
+/// Appends a bar from 0 or `from` to `to`, as a separate piece of a curve.
 inline void add_bar(SvgCurve& curve, double x, double from, double to) {
   curve.x.insert(curve.x.end(), {x, x, NAN});
   curve.y.insert(curve.y.end(), {from, to, NAN});

@@ -52,11 +52,11 @@ struct CurvePlace {
 json rows_json(const PackedRows& rows, const std::vector<CurvePlace>& places);
 
 json windows_json(const Windows& windows, const sixstep::study::Scenario& scenario);
-/// The windows all of whose rows fit into the page.
+/// The windows that fit into the page with all their rows.
 std::vector<Interval> kept(const Windows& windows, const std::vector<double>& time, std::size_t most_rows);
 
-/// As text, in the library's format; invalid UTF-8 is replaced. The library itself takes longer for a megabyte
-/// of base64.
+/// Returns text in the library's format; invalid UTF-8 is replaced. The library itself needs more time for a
+/// megabyte of base64.
 std::string dumped(const json& page);
 
 }  // namespace report

@@ -27,7 +27,7 @@ std::string number(std::size_t place) {
                      place + 1);
 }
 
-/// A table with one column per run behind the first.
+/// A table with one column per run after the first column.
 std::string table(const char* first, std::size_t runs, const std::string& rows) {
   std::string head = fmt::format("<th scope=\"col\">{}</th>", first);
   for (std::size_t k = 0; k < runs; ++k)
@@ -83,7 +83,7 @@ const char* mark(const std::string& css) {
   return css == "bad" ? " <b>✗ not met</b>" : "";
 }
 
-/// A figure of all runs; behind the first run's value the differences to it.
+/// A figure of all runs, with the differences to the first run's value.
 std::string figure_row(const std::string& name, const std::string& unit, const std::vector<ComparedRun>& runs,
                        const Ask& ask) {
   std::vector<std::optional<Measured>> found;
@@ -154,7 +154,7 @@ std::string energy_rows(const std::vector<ComparedRun>& runs) {
   return rows;
 }
 
-/// Figures that are shown for every run, whatever its scenario requires.
+/// Figures that are shown for every run, independent of its requirements.
 std::string usual_figures(const std::vector<ComparedRun>& runs) {
   const auto of_step = [](const ComparedRun& run) {
     const auto step = largest_step(run.events, run.scenario);
@@ -199,7 +199,7 @@ std::string chips(const std::vector<ComparedRun>& runs) {
   return html;
 }
 
-/// For a board's log: its difference from the simulation. Empty without a log.
+/// The difference of a board's log from the simulation. Empty without a log.
 std::string trace_comparison_table(const ComparisonInput& in) {
   if (in.laid_over.empty()) return "";
   std::string rows;

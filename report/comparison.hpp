@@ -19,7 +19,7 @@ struct ComparedRun {
   const sixstep::study::Trace& grid;         ///< the same instants for all runs, exact there; for subtraction
 };
 
-inline constexpr std::size_t most_compared = 5;  ///< limit: colours that can be told apart
+inline constexpr std::size_t most_compared = 5;  ///< limit: number of distinguishable colours
 
 struct ComparisonInput {
   std::vector<ComparedRun> runs;  ///< two to most_compared; differences are relative to the first one, which

@@ -44,7 +44,7 @@ constexpr Compared of_linear_motors[] = {
     {"bus", "Bus voltage", "V", "", "bus_V"},
 };
 
-/// In metres if all motors are linear.
+/// The compared quantities, in metres if all motors are linear.
 std::span<const Compared> compared_of(const std::vector<ComparedRun>& runs) {
   const bool linear =
       std::ranges::all_of(runs, [](const ComparedRun& r) { return motion_of(r.scenario.sheet).linear; });
@@ -96,7 +96,8 @@ json overlay(const Compared& what, const std::vector<ComparedRun>& runs, const s
   return chart;
 }
 
-/// On the common grid both values are exact, and their difference is exact to a rounding.
+/// The difference of two runs on the common grid. Both values are exact there, and their difference is exact
+/// to a rounding.
 json difference(const Compared& what, const std::vector<ComparedRun>& runs, Axes& axes) {
   Group group{.id = fmt::format("{}-difference", what.id),
               .title = fmt::format("{}, difference to 1", what.title),

@@ -57,7 +57,7 @@ std::string facts(const Contest& c) {
   return out;
 }
 
-/// Whether no controller has less of both: the front from the least ripple to the least losses.
+/// Whether no controller has less of both: the Pareto front from the least ripple to the least losses.
 bool on_front(const Contest& c, const ContestRow& row) {
   const auto ripple = analysis::ripple_figure, loss = analysis::loss_figure;
   return std::none_of(c.rows.begin(), c.rows.end(), [&](const ContestRow& other) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes a comparison of controllers as one HTML file: the least value of each figure, torque ripple against
-// losses, and each controller's response to the load beside that of the usual one.
+// losses, and each controller's response to the load, compared with that of the usual one.
 #pragma once
 #include <string>
 

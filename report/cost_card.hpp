@@ -22,7 +22,7 @@ std::optional<std::array<long long, 6>> turn_on_counts(const sixstep::study::Tra
 /// Half a sentence; empty if the trace has no gates.
 std::string switching_words(const sixstep::study::Outcome& outcome, const sixstep::study::Trace& trace);
 
-/// The content of the card; empty if nothing is known.
+/// The content of the card; empty without any known cost.
 std::string cost_content(const sixstep::study::Outcome& outcome, const sixstep::study::Trace& trace);
 
 }  // namespace report

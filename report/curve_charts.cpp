@@ -149,8 +149,8 @@ class Charts {
              [=](const OnCurve& p) { return below(limit(p).continuous_Nm, p); }, CurveLine::Drawn::region}};
   }
 
-  /// The highest torque of the axis: up to the motor's usual range, because the stall torque may be ten times
-  /// that and would compress the rest. 0 if the range is unknown.
+  /// The highest torque of the axis: the end of the motor's usual range, because the stall torque may be ten
+  /// times that and would compress the rest. 0 if the range is unknown.
   double corner_Nm() const {
     constexpr double room = 1.1, of_nominal = 3.0, worth_it = 0.7;
     double corner = 0.0;

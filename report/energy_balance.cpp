@@ -160,7 +160,7 @@ std::string event_section(const sixstep::study::Outcome& outcome) {
       "<tr><th scope=\"row\">digest of the trajectory<small>the same on every platform</small></th>"
       "<td class=\"num\"><code>{}</code></td></tr>\n",
       sixstep::base::written_hex(outcome.digest));
-  // Without this, half of an edge-aligned pulse's edges would seem to be missing.
+  // Without this note, half of an edge-aligned pulse's edges would seem to be missing.
   return html +
          "</tbody></table>\n<p class=\"origin\">A PWM edge at the instant of a control tick counts as the tick. An "
          "edge switches two gates of a leg where chopping is complementary, so that turn-ons of all six switches "

@@ -12,7 +12,7 @@ namespace report {
 struct StoredBeside {
   bool twist = false, cogging = false;
 };
-/// With the symbols of the motor's kind.
+/// The section of energies, with the symbols of the motor's kind.
 std::string energy_section(const sixstep::study::EnergyBook& book, const sixstep::base::Motion& motion,
                            StoredBeside beside);
 /// The losses of each switch and diode as a table; empty if the bridge's data do not suffice.

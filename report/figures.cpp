@@ -116,7 +116,7 @@ std::string computed(double value, std::string_view unit) {
 std::string deviation(double measured, double reference, std::string_view unit) {
   const double difference = measured - reference;
   if (!std::isfinite(difference)) return "not comparable";
-  // With opposite signs a ratio has no meaning: show the difference itself.
+  // A ratio of opposite signs has no meaning: show the difference itself.
   if (reference == 0.0 || (measured < 0.0) != (reference < 0.0))
     return fmt::format("{}{}", difference > 0.0 ? "+" : "", computed(difference, unit));
   const double percent = 100.0 * difference / reference;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints the gains as used beside the exact design, and every step of the design.
+// Prints the gains in use with the exact design, and every step of the design.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -51,7 +51,7 @@ std::string derivation_table(const std::vector<sixstep::design::DerivationStep>&
       "<table class=\"steps\"><thead><tr><th>Step</th><th>Formula</th><th "
       "class=\"num\">Value</th></tr></thead><tbody>\n";
   for (const auto& step : steps) {
-    // For a linear motor a frequency in rad/s could be mistaken for a speed.
+    // A frequency in rad/s could be mistaken for a speed with a linear motor.
     const Scale scale = scale_for(step.value, linear && step.unit == "rad/s" ? "1/s" : step.unit);
     html += fmt::format(
         "<tr><th scope=\"row\">{}</th><td class=\"formula\">{}</td><td class=\"num\">{}{}{}</td></tr>\n",

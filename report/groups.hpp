@@ -20,9 +20,9 @@ struct Curve {
 struct Group {
   std::string id, title, unit;
   int height_px = 180;
-  bool logic = false;  ///< strips of zeros and ones, one below the other
-  bool lanes = false;  ///< one curve above the other, each with its own zero, because they would hide each
-                       ///< other
+  bool logic = false;      ///< strips of zeros and ones, one below the other
+  bool lanes = false;      ///< curves above each other, each with its own zero, because they would hide each
+                           ///< other
   std::string quantity{};  ///< "speed", "angle", "torque", "current": the reader may choose its unit
   std::vector<Curve> curves{};
 };
@@ -33,7 +33,7 @@ struct Groups {
   std::deque<std::vector<double>> derived;  ///< computed columns (Hall bits); a deque keeps their addresses
 };
 
-/// The controlled quantity comes first. Charts without a curve that holds a number are left out.
+/// The controlled quantity comes first. Charts without any curve with a number are omitted.
 Groups chart_groups(const sixstep::study::Trace& trace, const sixstep::study::Scenario& scenario);
 
 }  // namespace report

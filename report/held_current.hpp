@@ -10,7 +10,7 @@
 
 namespace report {
 
-/// For a field-oriented drive the current across the magnet, else that of the driven pair. The drive decides,
+/// The current across the magnet of a field-oriented drive, else that of the driven pair. The drive decides,
 /// not the columns, because a trace of every event has the columns of all drives.
 struct HeldCurrent {
   const char *title, *column, *reference, *label, *reference_label;

@@ -62,8 +62,8 @@ bool starts_blindly(const Scenario& s) {
          s.control.sensorless.commutates != sixstep::study::Commutates::hall;
 }
 
-/// As starts_blindly(), for a field-oriented drive with an observer. There the loop has a real step from the
-/// speed at which it takes over.
+/// Like starts_blindly(), for a field-oriented drive with an observer. Its loop has a real step from the
+/// speed at which the loop starts.
 bool takes_over_turning(const Scenario& s) {
   return s.control.mode == Mode::speed && s.control.drive == sixstep::study::FirmwareKind::field &&
          s.control.field.angle == sixstep::study::FieldAngle::observer;
@@ -74,8 +74,8 @@ double step_size(const Change& change, bool blind_start) {
   return blind_start && (change.from == 0.0 || change.to == 0.0) ? 0.0 : change.size();
 }
 
-/// The row of the first Hall edge after the current has come near its goal: what follows are commutations of a
-/// steady current, no longer its step. The last row where there is no such edge.
+/// The row of the first Hall edge after the current has come near its goal. The later course consists of
+/// commutations of a steady current, no longer of its step. The last row if there is no such edge.
 std::size_t end_of_current_step(const Values* hall, const Values& signal, const Change& step,
                                 std::size_t last) {
   if (!hall) return last;
@@ -132,7 +132,7 @@ std::optional<Step> largest_step(const Trace& trace, const Scenario& scenario) {
   for (std::size_t n = largest->row; n <= until; ++n)
     if (std::abs((*signal)[n] * loop->factor - largest->to) > near * largest->size()) outside = n;
   const double at = (*time)[largest->row], end = (*time)[next];
-  // A reference that changes all the time has no step that could be seen.
+  // A reference that changes continuously has no visible step.
   constexpr double least_periods = 3.0;
   if (end - at < least_periods * scenario.pwm.period_s && largest + 1 != changes.end())
     return from_start(*time, scenario);
@@ -172,7 +172,7 @@ Line line_over(const Values& time, const Values& y, const Interval& window) {
   return out;
 }
 
-/// Whether a column of references is one: a controller without a current loop leaves zeros.
+/// Whether a column of references has references: a controller without a current loop writes zeros.
 bool names_a_current(const Values& reference) {
   return std::ranges::any_of(reference, [](double ampere) { return ampere != 0.0; });
 }

@@ -13,17 +13,17 @@
 
 namespace report {
 
-/// The greatest change of the setpoint. The first setpoint is compared with the start's value. In a sensorless
-/// start the speed reference is 0 until the speed loop takes over, while the shaft turns already. For a six-step
-/// drive that change is no step; for a field-oriented one it is a step from the speed at which the loop takes
-/// over.
+/// The greatest change of the setpoint. The first setpoint is compared with the start's value. In a
+/// sensorless start the speed reference is 0 until the speed loop starts, while the shaft turns already. For
+/// a six-step drive that change is no step; for a field-oriented one it is a step from the speed at which the
+/// loop starts.
 struct Step {
   std::string of;  ///< "speed", "current", "position"; "start" if nothing is controlled
   std::string unit;
   double at_s = 0.0;
   double from = 0.0, to = 0.0;
   double next_s = 0.0;  ///< time of the next change, or the run's end
-  HeldCurrent held{};   ///< the current shown beside it
+  HeldCurrent held{};   ///< the current shown with it
   Interval window;      ///< the close-up: 1.5 times the time to within 10 % of the step from its goal
   bool done = false;    ///< came within 10 % of the step from its goal before next_s
 };

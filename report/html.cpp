@@ -50,7 +50,7 @@ std::string escaped(std::string_view text) { return text::markup_text(text, text
 
 namespace {
 
-/// K_t, I_stall, tau_m: one underscore behind a short name. resistance_ohm is a key and stays as typed.
+/// K_t, I_stall, tau_m: one underscore after a short name. resistance_ohm is a key and stays as typed.
 std::string word_with_subscript(std::string_view word) {
   constexpr std::size_t longest_name = 3;
   const std::size_t cut = word.find('_');

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Escapes text for a page and fills in a page's gaps.
+// Escapes text for a page and fills in a page's placeholders.
 #pragma once
 #include <cstdint>
 #include <initializer_list>
@@ -10,16 +10,16 @@
 
 namespace report {
 
-/// For element content and quoted attributes.
+/// Escapes text for element content and quoted attributes.
 std::string escaped(std::string_view text);
 
 /// escaped(), with "T_reg" as T and a subscript: a letter, an underscore and the letters up to the next sign.
 std::string with_subscripts(std::string_view text);
 
-/// A typed formula, "w0 sqrt(1 - xi^2)", as printed: ω₀ √(1 − ξ²). Words stay as they are.
+/// A typed formula, "w0 sqrt(1 - xi^2)", as printed: ω₀ √(1 − ξ²). Words are unchanged.
 std::string typeset(std::string_view formula);
 
-/// JSON for <script>: the HTML parser must not see "</script>" and "<!--".
+/// JSON for <script>: it must not contain "</script>" or "<!--" for the HTML parser.
 std::string script_safe(std::string_view json);
 
 std::string base64(std::span<const std::uint8_t> bytes);
@@ -29,7 +29,7 @@ std::string base64(std::span<const double> values);
 
 /// A table's cell that holds a number.
 std::string number_cell(const std::string& html);
-/// A table's first row; a name that begins with # stands over numbers.
+/// A table's first row. A name that begins with # is the head of a column of numbers.
 std::string table_head(std::initializer_list<std::string_view> names);
 
 using Gap = std::pair<std::string_view, std::string_view>;

@@ -54,13 +54,13 @@ std::string facts(const HallIdentity& f) {
   return out;
 }
 
-/// Where edges of one kind were passed, over time; one colour per pin.
+/// Places of the edges of one kind over time; one colour per pin.
 SvgChart passages(const HallIdentity& f, bool rising) {
   SvgChart chart{.title = rising ? "Rising edges, as they were passed" : "Falling edges, as they were passed",
                  .x_label = "s",
                  .y_label = "electrical degrees off their place",
                  .levels = {0.0}};
-  // Without voltages the absolute level is unknown: the mean of all edges is taken as zero.
+  // Without voltages the absolute level is unknown: the mean of all edges defines zero.
   double level = 0.0, count = 0.0;
   for (const EdgePassage& p : f.passages)
     if (!f.place && !p.left_out) level += p.place_deg - f.edges[p.edge].own_deg.value, count += 1.0;

@@ -14,7 +14,8 @@
 
 namespace report {
 
-/// Most memory for the rows of a report. With everything made from them the program stays below 256 MiB.
+/// Upper limit of memory for the rows of a report. Including everything made from them, the program stays
+/// below 256 MiB.
 inline constexpr std::size_t most_row_bytes = 160'000'000;
 
 class KeptRows {

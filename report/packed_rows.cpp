@@ -16,8 +16,9 @@ namespace {
 constexpr double highest_count = 65533.0;  // one count is spare, for a zero that is a whole count
 constexpr std::uint16_t no_number = 65535;
 
-/// zlib's settings. The lower planes of a run's times hardly repeat; there only the frequency of bytes is used.
-/// A page that is too large at the quick level may fit at the thorough one, which takes three times as long.
+/// zlib's settings. The lower planes of a run's times hardly repeat; for them only the frequency of bytes is
+/// used. A page that is too large at the quick level may fit at the thorough one, which takes three times as
+/// long.
 struct Effort {
   int level;
   bool count_times;
@@ -67,8 +68,8 @@ class Deflated {
   bool sound_ = true, counting_ = false;
 };
 
-/// Puts bytes of equal weight side by side: the high bytes of small differences are zeros, which compress to
-/// almost nothing.
+/// Groups bytes of equal weight: the high bytes of small differences are zeros, which compress to almost
+/// nothing.
 template <class Count>
 void add_planes(Deflated& out, const std::vector<Count>& counts) {
   const std::size_t rows = counts.size();
@@ -112,7 +113,7 @@ void add_column(Deflated& bytes, const std::vector<double>& values, PackedRows& 
   for (const double v : values)
     if (finite(v)) low = std::min(low, v), high = std::max(high, v);
   PackedRows::Column column{low <= high ? low : 0.0, low < high ? (high - low) / highest_count : 0.0};
-  // Zero stays exactly zero: a current that has ended must not become a rounding error.
+  // Zero stays exactly zero: the current of a blocking phase must not become a rounding error.
   if (low < 0.0 && high > 0.0) column.low = -column.step * std::ceil(-low / column.step);
   std::vector<std::uint16_t> counts(values.size());
   for (std::size_t n = 0; n < values.size(); ++n) {
@@ -140,7 +141,7 @@ std::optional<PackedRows> packed_with(const Effort& effort, const std::vector<do
 std::optional<PackedRows> packed_rows(const std::vector<double>& time,
                                       const std::vector<const std::vector<double>*>& columns,
                                       std::size_t most_bytes) {
-  // Even at a tenth of a byte per value it would be too large.
+  // Even a tenth of a byte per value would be too large.
   if (time.size() < 2 || time.size() * columns.size() / 10 > most_bytes) return std::nullopt;
   auto packed = packed_with(quick, time, columns, most_bytes);
   return packed ? packed : packed_with(thorough, time, columns, most_bytes);

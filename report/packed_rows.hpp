@@ -8,8 +8,9 @@
 
 namespace report {
 
-/// Columns in 65535 steps of their range, times in whole picoseconds (a coarser unit if a gap exceeds 4.29 ms).
-/// Both are stored as differences from row to row, in planes of bytes of equal weight, compressed by zlib.
+/// Columns in 65535 steps of their range, times in whole picoseconds (a coarser unit if the time between rows
+/// exceeds 4.29 ms). Both are stored as differences from row to row, in planes of bytes of equal weight,
+/// compressed by zlib.
 struct PackedRows {
   struct Column {
     double low = 0.0, step = 0.0;  ///< value = low + step * count; the count 65535 is "no number"

@@ -39,7 +39,7 @@ std::string tag(const PlanPageInput& in, std::size_t p) {
                      escaped(in.plans[p].story.name));
 }
 
-/// The same on a line of its own, above this plan's part.
+/// The same text on a separate line, above this plan's part.
 std::string whose(const PlanPageInput& in, std::size_t p) {
   return in.plans.size() < 2 ? "" : "<p class=\"whose\">" + tag(in, p) + "</p>\n";
 }
@@ -73,7 +73,7 @@ std::string plan_fact(std::string_view name, const std::string& html) {
   return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, html);
 }
 
-/// Numbers with prefix and unit, as on the terminal; words as they are.
+/// Numbers with prefix and unit, as on the terminal; words are unchanged.
 std::string words_of(const analysis::Axis& axis, const std::string& unit) {
   std::string words;
   for (const std::string& value : axis.values) {
@@ -208,7 +208,7 @@ std::string for_each_plan(const PlanPageInput& in, Section section, bool tagged 
   return html;
 }
 
-/// The note that the drawings show only a part of very many runs.
+/// The note that the drawings show only a part of the runs, because they are too many.
 std::string left_out(const PlanPageInput& in) {
   for (const PagePlan& plan : in.plans)
     if (plan.story.series.runs > most_rows_on_a_page / in.plans.size())

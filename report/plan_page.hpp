@@ -15,7 +15,7 @@ struct PagePlan {
   const text::PlanStory& story;
   std::string title, motor, notes;
   std::string repeats;  ///< a command line to which a run's number is appended: "sixstep run a.toml --only"
-  std::map<std::size_t, std::string> reports{};  ///< run number and file of each report beside the page
+  std::map<std::size_t, std::string> reports{};  ///< run number and file of each report
 };
 
 struct PlanPageInput {

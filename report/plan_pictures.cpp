@@ -97,8 +97,9 @@ std::string limit_lines(const analysis::FigureColumn& f, const Reach& reach) {
     if (limit < reach.low || limit > reach.high) continue;
     const double x = reach.at(limit);
     const bool flip = x > 0.6 * plot_width;
-    row = std::fabs(x - last) < as_wide_as_a_label ? row + 1
-                                                   : 0;  // labels that would overlap stand below each other
+    row = std::fabs(x - last) < as_wide_as_a_label
+              ? row + 1
+              : 0;  // labels that would overlap are placed below each other
     last = x;
     svg += fmt::format(
         "<line class=\"limit\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"4\" y2=\"{1}\"/><text x=\"{2:.1f}\" y=\"{5}\" "

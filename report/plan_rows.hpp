@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a plan's rows for a page: columns of numbers for the drawings, the distribution of each figure, and the
-// runs to look at first.
+// Reads a plan's rows for a page: columns of numbers for the drawings, the distribution of each figure, and
+// the runs to inspect first.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -37,7 +37,7 @@ struct PlanRows {
   std::vector<PlanColumn> columns;   ///< keys, values of the spread, figures
 };
 
-/// At most `most` rows, evenly chosen.
+/// Returns at most `most` rows, evenly chosen.
 PlanRows plan_rows(const text::PlanStory& story, std::size_t most);
 
 /// The finite values of a figure, from least to greatest; low > high if there is none.
@@ -48,13 +48,13 @@ struct Span {
   void include(const Span& other);
 };
 
-/// Over all runs, one per figure.
+/// Spans over all runs, one per figure.
 std::vector<Span> figure_spans(const text::PlanStory& story);
 
 inline constexpr std::size_t histogram_bins = 32;
 
-/// Runs by the value of a figure, over a span; beside them the runs in which its event never came, and those
-/// without a value.
+/// Runs by the value of a figure, over a span; in addition the runs in which its event never occurred, and
+/// those without a value.
 struct Histogram {
   std::vector<std::size_t> counts = std::vector<std::size_t>(histogram_bins);
   std::size_t never = 0, missing = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the runs of a plan that deserve a look: for each requirement the runs nearest to its limit or beyond it,
-// and the runs that stopped.
+// Finds the runs of a plan to inspect: for each requirement the runs nearest to its limit or beyond it, and
+// the runs that stopped.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -22,7 +22,7 @@ inline constexpr std::size_t most_worst = 5;
 /// One list per figure, the worst run first, equal ones by number; empty without a requirement.
 std::vector<std::vector<NearRun>> worst_of(const text::PlanStory& story, std::size_t most = most_worst);
 
-/// Numbers of the runs to look at first, each once: the worst of each requirement, then the first fault, then
+/// Numbers of the runs to inspect first, each once: the worst of each requirement, then the first fault, then
 /// the following ones.
 std::vector<std::size_t> worst_runs(const text::PlanStory& story, std::size_t most);
 

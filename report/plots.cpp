@@ -11,7 +11,7 @@
 namespace report {
 namespace {
 
-/// Whether the phases change their legs during the run, so that no single drawing is right.
+/// Whether the phases change their legs during the run, so that one drawing cannot show all connections.
 bool rewires(const sixstep::study::Scenario& s) {
   return std::any_of(s.at.begin(), s.at.end(), [&](const sixstep::study::At& at) {
     return at.bridge.phases != sixstep::study::AtOrder::same;
@@ -30,7 +30,7 @@ json conduction_json(const Conduction& c, bool with_rows) {
           {"end", c.end_s}};
 }
 
-/// The conduction code at each row: a column that takes almost no space, because gates and currents determine
+/// The conduction code at each row. The column needs almost no space, because gates and currents determine
 /// its changes.
 std::vector<double> by_row(const Conduction& c, const std::vector<double>& time) {
   std::vector<double> codes;
@@ -43,7 +43,8 @@ std::vector<double> by_row(const Conduction& c, const std::vector<double>& time)
   return codes;
 }
 
-/// Every row of every curve, and behind the curves the conduction codes; null if that is too large for the page.
+/// Every row of every curve, and after the curves the conduction codes; null if that is too large for the
+/// page.
 json every_row(const std::vector<double>& time, const Groups& groups, const Conduction& conducts,
                std::size_t most_bytes) {
   std::vector<const std::vector<double>*> columns;

@@ -26,13 +26,13 @@ std::string render(const ReportInput& input);
 
 struct IndexEntry {
   std::string title;
-  std::string file;                        ///< of the report, relative to the index; empty: none
+  std::string file;                        ///< file name of the report, relative to the index; empty: none
   const sixstep::study::Outcome* outcome;  ///< null: none
   bool finished = true;                    ///< false: interrupted or never started; it is not judged
 };
 
-/// The table of all verdicts of one command, with links to the reports. If an experiment is not finished, it
-/// says so first and gives no total.
+/// The table of all verdicts of one command, with links to the reports. If an experiment is not finished, the
+/// table begins with that note and has no total.
 std::string render_index(const std::vector<IndexEntry>& entries, std::string_view command,
                          std::string_view version);
 

@@ -94,7 +94,7 @@ double place(std::vector<Flow>& flows, const Drawing& d, double top) {
 void arrange(Drawing& d) {
   d.second.y = sankey_margin;
   d.first.y = place(d.second.in, d, sankey_margin);
-  if (!d.second.in.empty()) d.first.y += text_height;  // its name stands below those bands
+  if (!d.second.in.empty()) d.first.y += text_height;  // its name is below those bands
   const double left = place(d.first.in, d, d.first.y);
   // The first node's outflow passes below the second node's bar.
   const double below = std::max(place(d.second.out, d, sankey_margin),
@@ -154,7 +154,7 @@ std::string across(const Drawing& d, const Scale& scale) {
   for (const Flow& flow : d.second.in) y += d.wide(flow.joule);
   const Flow flow{"", "passed", d.between};
   const double left = d.first.y + wide / 2, right = y + wide / 2;
-  // On the band; above it if it is too thin, and below it if it climbs to the right.
+  // The label is on the band; above it if it is too thin, and below it if it climbs to the right.
   const bool thin = wide < text_height, climbs = thin && left - right > text_height;
   const double x = (first_x + sankey_bar + second_x) / 2, middle = (left + right) / 2;
   const double base = !thin ? middle + 4 : climbs ? middle + wide / 2 + text_height : middle - wide / 2 - 5;

@@ -90,7 +90,7 @@ class Flat final : public sixstep::base::Visitor {
     member.walk(*this);
     path_ = outer;
   }
-  /// Only the list [[at]] changes a run. Values that an event does not change are left out.
+  /// Only the list [[at]] changes a run. Values that an event does not change are omitted.
   void visit_list(std::string_view key, sixstep::base::ListMember& items, const About&) override {
     if (key != sixstep::study::events_list) return;
     Flat plain(motion_);
@@ -116,7 +116,7 @@ bool changes_no_run(const std::string& key) {
   return key == "title" || key == "notes" || key == "extends" || key.starts_with("record.");
 }
 
-/// In the order of the descriptions; keys that only a later scenario has come last.
+/// Keys in the order of the descriptions. Keys that only a later scenario has follow at the end.
 std::vector<std::string> keys_of(const std::vector<Flat>& all) {
   std::vector<std::string> keys;
   for (const Flat& flat : all)

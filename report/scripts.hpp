@@ -7,7 +7,7 @@
 
 namespace report {
 
-/// For pages whose charts run over time: one run, or several compared.
+/// Scripts of pages with charts over time: one run, or several compared.
 inline std::vector<std::string_view> run_scripts() {
   return {assets::units_js(),       assets::curves_js(),  assets::chart_js(),  assets::rows_js(),
           assets::page_js(),        assets::instant_js(), assets::bridge_js(), assets::plane_js(),

@@ -78,7 +78,7 @@ std::string speed_loop_words(const study::Control& c) {
                                                      : current_loop_words(c.current));
 }
 
-/// ", fixed point Q1.14": digits before and behind the point.
+/// ", fixed point Q1.14": digits before and after the point.
 std::string arithmetic(study::Arithmetic a) {
   return study::in_arithmetic(a, []<class Scalar>() -> std::string {
     if constexpr (std::is_floating_point_v<Scalar>) {

@@ -20,7 +20,7 @@ struct Shell {
 std::string in_shell(const Shell& shell);
 
 /// A page with charts. `data` is the JSON that its scripts read. `scripts` share one scope, in this order,
-/// behind uPlot if they draw with it.
+/// after uPlot if they use it.
 std::string in_shell(const Shell& shell, std::string_view data, const std::vector<std::string_view>& scripts);
 
 }  // namespace report

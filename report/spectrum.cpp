@@ -79,7 +79,7 @@ double leakage(double lines) { return lines > 1.2 ? 1 / (pi * lines * (lines * l
 std::vector<Tone> tones_of(const Values& a) {
   const double floor = a.empty() ? 0.0 : std::max(1e-3 * std::ranges::max(a), least_tone);
   std::vector<Tone> peaks, tones;
-  // Without the first line, because a drift over the stretch appears there too.
+  // The sum excludes the first line, because a drift over the stretch appears there too.
   for (std::size_t k = 2; k + 1 < a.size(); ++k)
     if (a[k] > floor && a[k] > a[k - 1] && a[k] >= a[k + 1]) peaks.push_back(tone_at(a, k));
   std::ranges::stable_sort(peaks, [](const Tone& p, const Tone& q) { return p.amplitude > q.amplitude; });
@@ -130,7 +130,8 @@ void transform(std::vector<std::complex<double>>& values) {
     for (std::size_t start = 0; start < count; start += size)
       for (std::size_t k = 0; k < size / 2; ++k) {
         const std::complex<double> even = values[start + k], other = values[start + k + size / 2];
-        // Written out, because the operator also checks infinities, which takes three times as long.
+        // The product is written out, because the operator also checks infinities, which takes three times as
+        // long.
         const std::complex<double> odd(turn[k].real() * other.real() - turn[k].imag() * other.imag(),
                                        turn[k].real() * other.imag() + turn[k].imag() * other.real());
         values[start + k] = even + odd;
@@ -147,7 +148,8 @@ Lines lines_of(const Values& time, const Values& values, const Interval& stretch
   const auto window = [count](std::size_t n) {
     return 0.5 - 0.5 * std::cos(2 * pi * static_cast<double>(n) / static_cast<double>(count));
   };
-  // Mean weighted by the window: with a plain mean, a part of a period would look like a tone in the first line.
+  // Mean weighted by the window: with a plain mean, a fraction of a period would appear as a tone in the
+  // first line.
   double mean = 0.0;
   for (std::size_t n = 0; n < count; ++n) mean += means[n] * window(n) / (0.5 * static_cast<double>(count));
   std::vector<std::complex<double>> bins(count);

@@ -29,7 +29,7 @@ struct Tone {
   double line = 0.0, amplitude = 0.0;
 };
 
-/// In the column's unit; smaller amplitudes are only rounding.
+/// Least amplitude in the column's unit; smaller amplitudes are only rounding.
 inline constexpr double least_tone = 1e-9;
 
 /// Amplitude (peak value) of line k at k/duration. A Hann window widens a pure tone to three lines. Between two

@@ -94,7 +94,7 @@ std::string loop(const LoopGains& g, bool linear) {
   return text;
 }
 
-/// For a drive without a loop with gains.
+/// The text for a drive without a loop with gains.
 std::string without_gains(const Scenario& scenario) {
   using sixstep::control::Mode;
   if (scenario.control.mode == Mode::off) return "off";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the first screen beside the verdict: the limiting requirement, the gains with their source, the current
-// during a step, the costs in energy and switching.
+// Writes the first screen with the verdict: the limiting requirement, the gains with their source, the
+// current during a step, the costs in energy and switching.
 #pragma once
 #include <string>
 

@@ -6,7 +6,7 @@
 
 namespace report {
 
-/// Styles of the style sheet for curves that belong together.
+/// Styles of the style sheet for a group of curves.
 inline constexpr const char* curve_styles[] = {"a", "b", "c"};
 
 struct SvgCurve {

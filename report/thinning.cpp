@@ -71,7 +71,7 @@ Thinned thinned(std::span<const double> time, const Curves& curves, std::span<co
   std::vector<std::size_t> detail;
   for (const std::size_t n : out.rows)
     if (std::ranges::any_of(keep, [&](const Interval& i) { return i.holds(time[n]); })) detail.push_back(n);
-  // Extremes often coincide, so it starts with many buckets and reduces them until the rows fit.
+  // Extremes often coincide. Therefore the loop starts with many buckets and reduces them until the rows fit.
   std::size_t buckets = std::max<std::size_t>(cap / 3, 1);
   std::vector<std::size_t> coarse = envelope(time, out.rows, curves, buckets);
   while (coarse.size() > cap && buckets > 1) {

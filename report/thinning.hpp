@@ -25,8 +25,8 @@ struct Thinned {
 Thinned thinned(std::span<const double> time, const Curves& curves, std::span<const Interval> keep,
                 std::size_t cap, std::size_t full);
 
-/// From these rows the first, lowest, highest and last of each curve in each of `buckets` equal stretches of
-/// time: at most 2 + 2 curves rows per stretch.
+/// Selects from these rows the first, lowest, highest and last of each curve in each of `buckets` equal
+/// stretches of time: at most 2 + 2 curves rows per stretch.
 std::vector<std::size_t> envelope(std::span<const double> time, const std::vector<std::size_t>& rows,
                                   const Curves& curves, std::size_t buckets);
 

@@ -120,7 +120,7 @@ Windows choose_windows(const Trace& trace, const sixstep::study::Scenario& scena
   if (!time || time->size() < 2) return {};
   Windows out{switching_periods(trace, scenario, *time),
               one_commutation(trace, scenario.pwm.period_s, *time)};
-  // A step that takes the whole run needs no close-up.
+  // A step that lasts the whole run needs no close-up.
   const auto step = largest_step(trace, scenario);
   if (step && step->window.to - step->window.from < 0.8 * (time->back() - time->front()) &&
       is_whole(trace, step->window))

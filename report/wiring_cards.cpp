@@ -21,7 +21,7 @@ using analysis::WiringStudy;
 
 constexpr double card_width = 384, card_gap = 6, card_chart_left = 12, chart_width = 112, text_left = 138;
 constexpr std::size_t card_characters = 40;
-/// Part of a run that is shown; afterwards nothing changes.
+/// Shown fraction of a run; afterwards nothing changes.
 constexpr double shown_part = 0.4;
 
 /// The current of one start; the scale ends at 1.3 times the current of the stalled motor.

@@ -21,7 +21,8 @@ double distance(const Place& p, const Place& a, const Place& b) {
   return std::fabs(dx * (p.y - a.y) - dy * (p.x - a.x)) / length;
 }
 
-/// Ramer, Douglas and Peucker: the point farthest from the straight line stays, and so on at both sides of it.
+/// Ramer, Douglas and Peucker: the point farthest from the straight line is kept, and so on at both sides of
+/// it.
 std::vector<Place> thinned_wave(const std::vector<Place>& points) {
   std::vector<bool> stays(points.size(), false);
   std::vector<std::pair<std::size_t, std::size_t>> open = {{0, points.size() - 1}};

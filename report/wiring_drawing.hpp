@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws the elements of the wiring pictures: lines without more points than one sees, and the marks and colours
-// of each behaviour.
+// Draws the elements of the wiring pictures: lines with no more points than are visible, and the marks and
+// colours of each behaviour.
 #pragma once
 #include <string>
 #include <string_view>

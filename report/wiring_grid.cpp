@@ -89,7 +89,7 @@ std::string torque(const analysis::PairTorque& of, double straight_Nm_A, const W
                      line_through(theory), line_through(seen));
 }
 
-/// For a humming motor this part of a turn fills the height.
+/// Fraction of a turn that fills the height for a humming motor.
 constexpr double humming_turns = 0.4;
 
 std::string runs(const WiringCase& c, double running_turns) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws the 36 ways to connect a motor as one picture, in which a person with swapped wires finds the symptom.
+// Draws the 36 ways to connect a motor as one picture, in which a user with swapped wires finds the symptom.
 #pragma once
 #include <string>
 #include <string_view>

@@ -15,7 +15,7 @@ namespace text {
 struct NamedText {
   std::string name;  ///< for messages; names inside the text are relative to it
   std::string text;
-  const sixstep_controller* controller = nullptr;  ///< the loaded controller, if a controller is meant
+  const sixstep_controller* controller = nullptr;  ///< the loaded controller, if the name is one
 };
 
 struct Naming {
@@ -25,8 +25,8 @@ struct Naming {
   std::string from;  ///< name of the text that contains the name; empty: none
 };
 
-/// Returns the named text. A Problem's `where` is the place of the search; its `limit` says why the text cannot
-/// be read, and is empty if it does not exist. An empty Resolve finds nothing.
+/// Returns the named text. A Problem's `where` is the place of the search. Its `limit` is the reason why the
+/// text cannot be read, empty if it does not exist. An empty Resolve finds nothing.
 using Resolve = std::function<base::Result<NamedText>(const Naming&)>;
 
 /// The text, or a Problem to be reported at the name.

@@ -17,8 +17,8 @@
 namespace files {
 namespace {
 
-/// One file when no program writes, and only one program at a time. Transactions are not forced to the disk:
-/// only a power failure loses the last ones, and the store stays intact.
+/// The store is one file while no program writes, and only one program can open it. Transactions are not
+/// forced to the disk: only a power failure loses the last ones, and the store stays intact.
 constexpr char modes[] = "PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;";
 
 }  // namespace

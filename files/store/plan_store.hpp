@@ -56,8 +56,8 @@ class PlanStore {
   /// Waits until all rows are in the file. Problems: the reason why one is not.
   base::Problems finish();
 
-  /// Visits the rows in the order of the runs' numbers. Problems: why one could not be read. In a row's `point`
-  /// numbers are as given, words without their quotes.
+  /// Visits the rows in the order of the runs' numbers. Problems: why a row could not be read. A row's
+  /// `point` has numbers as given, and words without their quotes.
   base::Problems each(const std::function<void(const analysis::RunRecord&)>& visit);
 
  private:

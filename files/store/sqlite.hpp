@@ -20,7 +20,7 @@ namespace files {
 /// A value of SQLite: null, whole number, number, text. (BLOBs are not used.)
 using Cell = std::variant<std::monostate, std::int64_t, double, std::string>;
 
-/// A statement that is run many times. As in SQLite, places count from 1, columns from 0.
+/// A statement that is executed repeatedly. As in SQLite, parameters count from 1, columns from 0.
 class Statement {
  public:
   explicit Statement(sqlite3_stmt* statement) : statement_(statement) {}

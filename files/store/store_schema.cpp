@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view checksum_word = "checksum", version_word = "sixstep";
 
-/// Columns of the table `run` behind its fixed ones: k0, k1, .. s0, .. f0, ..
+/// Columns of the table `run` after its fixed ones: k0, k1, .. s0, .. f0, ..
 std::vector<std::string> own_columns(const analysis::PlanColumns& c) {
   std::vector<std::string> names;
   for (std::size_t n = 0; n < c.keys.size(); ++n) names.push_back(fmt::format("k{}", n));
@@ -53,7 +53,7 @@ std::vector<ColumnRow> column_rows(const analysis::PlanColumns& c) {
   return rows;
 }
 
-/// Without the version, which has its own message (PlanStore::resume).
+/// The checksum excludes the version, which has its own message (PlanStore::resume).
 std::uint64_t checksum_of_plan(StoredPlan plan) {
   std::vector<Cell> cells;
   for (const auto& [word, value] : words_of(plan))

@@ -18,7 +18,7 @@ namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t fixed_cells = 5;
 
-/// SQLite keeps neither the sign of zero nor NaN.
+/// Replaces NaN and the sign of zero, which SQLite cannot store.
 Cell number_cell(double x) { return x == x ? Cell(x + 0.0) : Cell(); }
 
 /// A number as a number, "soft" without its quotes.

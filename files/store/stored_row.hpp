@@ -10,17 +10,18 @@
 
 namespace files {
 
-/// 64 bits over values, their kinds and their order. Not cryptographic: it finds accidents, not forgeries.
+/// 64 bits over values, their kinds and their order. Not cryptographic: it detects accidental changes only.
 std::uint64_t checksum_of(const std::vector<Cell>& cells, std::uint64_t before);
 
-/// A row as it is stored: run, end, passed, problem, digest, keys, values of the spread, figures. NaN becomes
-/// null, -0 becomes 0, control characters in texts are made visible (text/escape/escape.hpp).
+/// A stored row: run, end, passed, problem, digest, keys, values of the spread, figures. NaN becomes null, -0
+/// becomes 0, control characters in texts are made visible (text/escape/escape.hpp).
 std::vector<Cell> cells_of(const analysis::RunRecord& record);
 
 /// The number of cells in a row with these columns.
 std::size_t cells_in_row(const analysis::PlanColumns& columns);
 
-/// The row of these cells. Problem: cells_of() could not have made them; `limit` says how, as a clause.
+/// The row of these cells. Problem: cells_of() cannot produce them; `limit` states the difference as a
+/// clause.
 base::Result<analysis::RunRecord> record_of_cells(const std::vector<Cell>& cells,
                                                   const analysis::TableColumns& columns);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a trace as text: comment lines behind #, one line of column names, then rows of numbers that read back
-// bit for bit.
+// Writes a trace as text: comment lines that begin with #, one line of column names, then rows of numbers
+// that read back bit for bit.
 #pragma once
 #include <span>
 #include <string>

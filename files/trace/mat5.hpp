@@ -15,7 +15,7 @@ std::string mat5_numbers(const std::string& name, std::span<const double> values
                          std::size_t columns);
 std::string mat5_text(const std::string& name, const std::string& words);
 std::string mat5_texts(const std::string& name, const MatFields& fields);
-/// The bytes in front of a column's numbers. Only the numbers follow before the next variable.
+/// The bytes before a column's numbers. Only the numbers follow before the next variable.
 std::string mat5_column_head(const std::string& name, std::size_t rows);
 
 }  // namespace files

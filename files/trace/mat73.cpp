@@ -193,7 +193,7 @@ Address Objects::group(std::vector<Named> members, const std::string& attributes
   return object(1 + said, message(is_names, both) + attributes);
 }
 
-/// The fields' names in their order: each as its length and its place in a heap of its own.
+/// The fields' names in their order: each as its length and its place in a separate heap.
 Address Objects::names_of(const MatFields& fields) {
   constexpr std::size_t least = 4096;
   std::string heap("GCOL\x01\x00\x00\x00", 8);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a MAT file of version 7.3: HDF5 with 512 bytes in front, and attributes with the MATLAB class of each
+// Writes a MAT file of version 7.3: HDF5 after 512 bytes, and attributes with the MATLAB class of each
 // variable.
 //
 // It is written here byte by byte, without HDF5's library. All small parts come first, the columns follow
-// unchanged, and every byte goes through AtomicFile, which detects a failed write. The library writes back and
-// forth and reports errors poorly; it also dates each object, so that the same run would not make the same file.
+// unchanged, and every byte goes through AtomicFile, which detects a failed write. The library does not write
+// sequentially and reports errors poorly. It also dates each object, so that the same run would not produce
+// the same file.
 #pragma once
 #include <span>
 #include <string>

@@ -19,11 +19,12 @@ struct RunStory {
 
 struct Sink {
   std::function<void(study::Row)> on_record, on_event;  ///< empty: not needed
-  study::LogicSink on_logic;                            ///< likewise
+  study::LogicSink on_logic;                            ///< empty: not needed
   std::function<bool()> failed;                         ///< it cannot be written any more; empty: never
   /// Puts the file under its name; under its partial name if the run was interrupted.
   std::function<base::Problems(const RunStory&, bool whole)> finish;
-  std::function<std::string()> left_out;  ///< parts of the run that it lacks, once finished; empty: none
+  std::function<std::string()>
+      left_out;  ///< parts of the run that the file lacks, once finished; empty: none
 };
 
 /// Problems: it cannot be written; the run must not start.

@@ -13,21 +13,21 @@ namespace text {
 /// The core whose costs the table shows, in float; docs/reference/core-costs.md has all cores.
 inline constexpr std::string_view contest_core = "Cortex-M4F";
 
-/// "8.22 mN m", "34.6 %"; "never" for an event that does not come, "-" where there is no value.
+/// "8.22 mN m", "34.6 %"; "never" for an event that does not occur, "-" without a value.
 std::string contest_value(double x, const analysis::ContestFigure& figure);
 
 /// Sentences that fixed rules make from the numbers: which controller wins in which figure, and the answer to
-/// "six-step or field-oriented?". Controllers that do not hold the course are left out.
+/// "six-step or field-oriented?". Controllers that do not follow the course are omitted.
 std::vector<std::string> contest_words(const analysis::Contest& contest);
 
 /// One line with the reason for each controller that is impossible with this motor or board, or that does not
 /// hold the course.
 std::vector<std::string> contest_notes(const analysis::Contest& contest);
 
-/// A table as it is printed: column heads, then a row for each controller that runs. "*" marks the least value
-/// of a column.
+/// A printed table: column heads, then a row for each controller that runs. "*" marks the least value of a
+/// column.
 struct ContestTable {
-  std::string title;  ///< stands above the first table of a pair: which drives the figures belong to
+  std::string title;  ///< title above the first table of a pair, which names its drives
   std::vector<std::vector<std::string>> rows;
 };
 /// Tables of the nominal drive, and of the worst drives if a series was run. Two tables each: during speed

@@ -19,10 +19,10 @@ namespace {
 using analysis::Contest;
 using analysis::contest_figures;
 
-/// Two figures whose difference is below this part count as equal.
+/// Relative difference below which two figures count as equal.
 constexpr double alike = 0.05;
 
-/// "3.2 times", "12 % more": how much larger b is than a; "3.2 ms against 0 s" if there is no factor.
+/// Returns how much larger b is than a, "3.2 times", "12 % more"; "3.2 ms against 0 s" if there is no factor.
 std::string larger(double a, double b, const analysis::ContestFigure& figure) {
   if (!(a > 0.0)) return fmt::format("{} against {}", contest_value(b, figure), contest_value(a, figure));
   return b / a >= 2.0 ? fmt::format("{:.1f} times", b / a) : fmt::format("{:.0f} % more", 100 * (b / a - 1));

@@ -16,9 +16,9 @@ bool is_ascii_word(unsigned char c) {
   return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
 }
 
-/// Whether a character may act: controls (C0, DEL, C1), line ends, controls of bidirectional text, and
-/// characters without width, with which two names look alike. The two joiners are allowed, because scripts need
-/// them.
+/// Whether a character may act on a program: controls (C0, DEL, C1), line ends, controls of bidirectional
+/// text, and characters without width, which can make two different names look equal. The two joiners are
+/// allowed, because scripts need them.
 bool acts(char32_t c) {
   return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0x061C || c == 0x180E || c == 0x200B || c == 0x200E ||
          c == 0x200F || (c >= 0x2028 && c <= 0x202E) || (c >= 0x2060 && c <= 0x206F) || c == 0xFEFF ||

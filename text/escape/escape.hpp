@@ -8,14 +8,15 @@
 
 namespace text {
 
-/// Returns the character at `at` and moves `at` behind it. Each byte that is not UTF-8 becomes U+FFFD.
+/// Returns the character at `at` and moves `at` to the next one. Each byte that is not UTF-8 becomes U+FFFD.
 char32_t next_character(std::string_view text, std::size_t& at);
 
 enum class Lines { shown, kept };
 
-/// For a terminal, a log and a comment line. A character that would move the cursor, colour, hide, reorder or
-/// end a line becomes \u001b or alike; a byte that is not UTF-8 becomes U+FFFD. With Lines::kept, line ends and
-/// tabs stay. Inside strings of JSON and TOML the escapes still mean the original character.
+/// Returns the text for a terminal, a log or a comment line. A character that would move the cursor, colour,
+/// hide, reorder or end a line becomes an escape such as \u001b. A byte that is not UTF-8 becomes U+FFFD.
+/// Lines::kept keeps line ends and tabs. Inside strings of JSON and TOML the escapes still mean the original
+/// character.
 std::string visible(std::string_view text, Lines lines = Lines::shown);
 
 /// One word of a command line that a shell reads back: quoted if needed, and visible().

@@ -11,7 +11,7 @@
 
 namespace text {
 
-/// On several lines; with an indent of -1 on one line.
+/// Writes JSON on several lines; with an indent of -1 on one line.
 inline std::string json_text(const nlohmann::ordered_json& json, int indent = 2) {
   using Json = nlohmann::ordered_json;
   return visible(json.dump(indent, ' ', false, Json::error_handler_t::replace), Lines::kept);

@@ -139,7 +139,7 @@ std::string heat(const study::Heat& h) {
                      h.ambient_degC);
 }
 
-/// The run's assumptions: with a board that differs in them, the run proves nothing.
+/// The run's assumptions. The run proves nothing for a board that differs in them.
 std::string assumptions(const ClearanceText& t) {
   const study::Scenario& s = t.scenario;
   std::string text = "// Assumptions of that run:\n";

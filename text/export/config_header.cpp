@@ -60,8 +60,9 @@ std::string timing(const study::Compiled& c, const study::Clearance* clearance) 
                   "of the period; else at its start");
 }
 
-/// Constants for the board's own code. A drive that times edges gets the clock of that timer: with another clock every speed is wrong
-/// by their ratio, and so is the over-speed check. A lean drive also gets its converters and the setpoint's range.
+/// Constants for the board's own code. A drive that times edges gets the clock of that timer: another clock
+/// would scale every speed, and so the over-speed limit, by the ratio of the clocks. A lean drive also gets
+/// its converters and the setpoint's range.
 std::string board_constants(const ConfigHeader& w, const study::Compiled& c) {
   using study::RotorSensing;
   const study::Sensors& sensors = w.scenario.sensors;
@@ -174,7 +175,8 @@ design::OperatingRange range_of(const ConfigHeader& w, const study::Compiled& c)
           stated(w.range.setpoint, own.setpoint),         own.speed_change_rad_s};
 }
 
-/// Problems of a stated range that the scenario itself exceeds: it would be proved for a drive that nobody runs.
+/// Problems of a stated range that the scenario itself exceeds: the proof would not apply to the drive of the
+/// run.
 base::Problems too_small(const ConfigHeader& w, const study::Compiled& c) {
   const design::OperatingRange least = study::least_range(w.scenario, c);
   base::Problems problems;
@@ -281,7 +283,7 @@ base::Result<std::string> config_header(const ConfigHeader& w) {
   if (w.scenario.control.mode == control::Mode::off)
     return base::Problem{"control.mode", "off", "leaves no drive to export",
                          "set it to duty, current, speed or position"};
-  // The header would configure the library's drive, which is not the one that ran.
+  // The header would configure the library's drive, but the run used the user's controller.
   if (w.scenario.control.drive == study::FirmwareKind::own)
     return base::Problem{"control.drive", "\"own\"",
                          "has its constants in its own source; a header configures the library's drives only",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a scenario's drive as a C++ header for firmware. Its constants have the bits that the simulation
-// computes with. If the chip runs the product drive, the header also has all that stands around the loops.
+// Writes a scenario's drive as a C++ header for firmware. Its constants have the same bits as in the
+// simulation. If the chip runs the product drive, the header also configures monitoring, start and stop.
 #pragma once
 #include <optional>
 #include <string>
@@ -16,7 +16,7 @@ namespace text {
 struct ConfigHeader {
   const study::Scenario& scenario;
   std::optional<study::Arithmetic> arithmetic;  ///< empty: the scenario's
-  /// Fixed point: the operating range that the drive is proved for. A member that is 0 comes from
+  /// Fixed point: the operating range for which the drive is proved. A member that is 0 comes from
   /// study::operating_range. If none is given, the bits are those of the scenario's run, control.full_scale
   /// included.
   design::OperatingRange range;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a configuration as C++ assignments, one per line, each with its number in SI beside it. A member with
-// its default value (nothing, off) is left out; an enumeration is always written.
+// Writes a configuration as C++ assignments, one per line, each with its number in SI on the same line. A
+// member with its default value (nothing, off) is omitted; an enumeration is always written.
 #pragma once
 #include <fmt/format.h>
 
@@ -30,7 +30,7 @@ inline std::string hex_float(double x) {
   return (std::signbit(x) ? "-0x" : "0x") + std::string(digits, end.ptr);
 }
 
-/// In floating point, gains, divisors and sums are plain numbers: one overload for all of them.
+/// Gains, divisors and sums are plain numbers in floating point: one overload for all of them.
 inline std::string literal(double x) { return hex_float(x); }
 inline std::string literal(float x) { return hex_float(static_cast<double>(x)) + "f"; }
 template <class Storage, int FractionBits>
@@ -212,7 +212,7 @@ class ConfigText {
   void raw_gain(const Field& f, double designed, sixstep::control::Gain<Scalar> kept, Base base) {
     gain_of(f, designed, kept, value(base) * digit());
   }
-  /// A gain whose input is in the last bits of the format.
+  /// A gain whose input counts in the last bits of the format.
   void gain_of_raw(const Field& f, double designed, sixstep::control::Gain<Scalar> kept, Base base) {
     gain_of(f, designed, kept, 1.0 / (value(base) * digit()));
   }
@@ -277,7 +277,7 @@ class ConfigText {
   std::string text_, within_;
 };
 
-/// Fields that the drive never reads: floating point keeps their values.
+/// Fields that the drive never reads. Floating point keeps their values.
 inline std::vector<std::string_view> unused_fields(const sixstep::control::DriveConfig<double>& d) {
   std::vector<std::string_view> out;
   if (!sixstep::design::runs_current(d)) return out;
@@ -308,7 +308,7 @@ std::string sensorless_lines(sixstep::control::Mode mode,
   return text.text();
 }
 
-/// The drive or the product around it: `designed` in SI, `kept` in the target's arithmetic.
+/// Writes the drive or the product around it: `designed` in SI, `kept` in the target's arithmetic.
 template <class Scalar, class Designed, class Kept>
 std::string config_lines(sixstep::control::Mode mode, const Designed& designed, const Kept& kept,
                          const sixstep::design::Bases& bases) {

@@ -18,15 +18,16 @@ struct CoreCost {
 /// Cost of a reference drive ("speed") on a core ("Cortex-M4F") in an arithmetic ("float"); empty: not counted.
 std::optional<CoreCost> core_cost(std::string_view core, std::string_view drive, std::string_view arithmetic);
 
-/// Least control period of the images (faces/firmware/example/), s. Below it the STM32F303's image does not
-/// compile. The ATmega2560's keeps the 100 us of data/scenarios/thesis/avr/ and misses periods below it, because
-/// its tick takes 80 to 104 us.
-/// "the STM32F303's image needs pwm.sample = \"start\"" for a product drive with another value; else empty.
+/// Least control period of the images (faces/firmware/example/), s. With a shorter period the STM32F303's
+/// image does not compile. The ATmega2560's keeps the 100 us of data/scenarios/thesis/avr/ and misses periods
+/// below it, because its tick takes 80 to 104 us. "the STM32F303's image needs pwm.sample = \"start\"" for a
+/// product drive with another value; else empty.
 std::string other_than_stm32_image(const study::Scenario& scenario);
 
 inline constexpr double stm32_least_period_s = 1600 / 72e6, atmega_least_period_s = 100e-6;
 
-/// A sentence without its full stop: the images that this control period is too short for; empty if none.
+/// Names the images for which this control period is too short, as a sentence without its full stop; empty if
+/// none.
 std::string too_short_for_images(double period_s);
 
 /// Lines of // comment.

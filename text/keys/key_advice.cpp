@@ -13,7 +13,7 @@
 namespace text {
 namespace {
 
-// Pieces of unit suffixes, valid or not: the unit of a key begins behind its last other piece.
+// Pieces of unit suffixes, valid or not. The unit of a key begins after its last other piece.
 constexpr std::array unit_pieces = {
     "V",     "mV",   "kV",   "A",    "mA",      "uA",  "s",   "ms", "us", "ns",   "min", "h",    "ohm",
     "mohm",  "kohm", "H",    "mH",   "uH",      "F",   "uF",  "nF", "mF", "Hz",   "kHz", "MHz",  "rad",
@@ -85,7 +85,8 @@ std::string nearest(std::string_view word, std::span<const std::string> known) {
   int best = static_cast<int>(std::max<std::size_t>(word.size() / 3, 1)) + 1;
   std::string found;
   for (const std::string& candidate : known) {
-    // If the lengths differ by that much, no letter needs comparison, e.g. of a word of ten million letters.
+    // This difference in length already exceeds the limit, so that no letter needs comparison, e.g. for a
+    // word of ten million letters.
     const std::size_t longer = std::max(word.size(), candidate.size());
     if (longer - std::min(word.size(), candidate.size()) >= static_cast<std::size_t>(best)) continue;
     const int distance = edit_distance(word, candidate);

@@ -21,7 +21,8 @@ int edit_distance(std::string_view a, std::string_view b);
 /// The nearest known word, if at most a third of it differs; else empty.
 std::string nearest(std::string_view word, std::span<const std::string> known);
 
-/// As nearest(), among words that may end in a unit: "u_ab" means "u_ab_V", and "energy_mJ" means "energy_J".
+/// Like nearest(), but among words that may end in a unit: "u_ab" means "u_ab_V", and "energy_mJ" means
+/// "energy_J".
 std::string nearest_word(std::string_view word, std::span<const std::string> known);
 
 /// A key without its unit suffix: "no_load_speed" for "no_load_speed_rad_s".
@@ -30,13 +31,13 @@ std::string_view without_unit(std::string_view key);
 /// The unit suffix alone: "_rad_s" of "no_load_speed_rad_s".
 std::string_view unit_suffix(std::string_view key);
 
-/// ": 1 mV = 0.001 V" for two suffixes that are different units of one kind; else empty. For an rms unit it says
-/// that the frame states rms.
+/// Returns ": 1 mV = 0.001 V" for two suffixes that are different units of one kind; else empty. The text for
+/// an rms unit says that the frame states rms.
 std::string conversion_text(std::string_view from_suffix, std::string_view to_suffix);
 
-/// Limit and cure for an unknown key; `where` and `value` stay empty. A key that differs from a known one only
-/// in its unit gets the right unit; a word of a motor's sheet gets the key of that meaning. For a key unlike all
-/// known ones the cure is `advice`; without `advice` it is the list of known keys.
+/// Limit and cure for an unknown key; `where` and `value` stay empty. If a key differs from a known one only
+/// in its unit, the cure is the right unit; for a word of a motor's sheet it is the key of that meaning. For
+/// a key unlike all known ones the cure is `advice`; without `advice` it is the list of known keys.
 base::Problem unknown_key(std::string_view key, std::span<const std::string> known,
                           std::string_view advice = {});
 

@@ -117,7 +117,7 @@ bool is_numeric(KeyType type) {
          type == KeyType::quantity;
 }
 
-/// Whether `path` is this spelling, in the table of the key itself.
+/// Whether `path` has this spelling, in the same table as the key.
 bool is_spelled(const KeyEntry& key, const base::Spelling& spelling, std::string_view path) {
   const std::size_t table = key.path.rfind('.') + 1;  // 0 at the root
   return path.size() == table + spelling.key.size() && path.ends_with(spelling.key) &&

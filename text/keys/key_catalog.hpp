@@ -18,8 +18,8 @@ struct KeyEntry {
   std::string path;  ///< "supply.voltage_V"; keys of lists as "require.metric"
   KeyType type = KeyType::number;
   base::About about;
-  bool optional = false;        ///< may be left out; it then has no value at all
-  std::string default_value{};  ///< as TOML; empty where there is none
+  bool optional = false;                                       ///< may be omitted; it then has no value
+  std::string default_value{};                                 ///< as TOML; empty where there is none
   std::vector<std::pair<std::string, std::string>> choices{};  ///< word and meaning
   struct LinearChoice {
     std::string turning, word, meaning;

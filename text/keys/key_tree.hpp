@@ -16,7 +16,7 @@ std::vector<const KeyEntry*> keys_in(const std::vector<KeyEntry>& keys, std::str
 /// The last word of the path: "period_s" of "pwm.period_s".
 std::string_view name_of(const KeyEntry& entry);
 
-/// In the words of this kind of motor.
+/// The meaning in the words of this kind of motor.
 inline std::string_view meaning_of(const KeyEntry& entry) {
   return entry.meaning.empty() ? entry.about.meaning : std::string_view(entry.meaning);
 }

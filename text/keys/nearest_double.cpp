@@ -97,8 +97,8 @@ double quotient(Natural over, Natural under) {
   return std::ldexp(static_cast<double>(mantissa), power);
 }
 
-/// No double, and no midpoint between two, has more than 767 digits. Of further digits it matters only whether
-/// any is not 0.
+/// No double, and no midpoint between two, has more than 767 digits. Further digits matter only if any of
+/// them is not 0.
 constexpr std::size_t most_digits = 800;
 
 /// Removes leading and trailing zeros.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts decimals to doubles with whole numbers only, for standard libraries whose from_chars has no double.
+// Converts decimals to doubles with integer arithmetic only, for standard libraries whose from_chars has no
+// double.
 #pragma once
 #include <string>
 

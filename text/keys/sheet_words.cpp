@@ -19,7 +19,7 @@ struct SheetWords {
 constexpr std::string_view terminal = "with frame = \"terminal\"", phase = "with frame = \"phase\"",
                            which = "with the frame that it means";
 
-// By meaning, because the letters do not help: rth1 resembles no key.
+// Words with the same meaning. Similar letters do not help: rth1 resembles no key.
 constexpr SheetWords sheet_words[] = {
     {"numberofpolepairs polepairnumber polepaircount noofpolepairs motorpolepairs pp p", "pole_pairs"},
     {"numberofpoles polenumber polecount noofpoles motorpoles magnetpoles magnets simotorpoles", "poles"},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes one key of a file to be filled in: its meaning as a comment, then the line itself, open or behind a #.
+// Writes one key of a file to be filled in: its meaning as a comment, then the line itself, open or commented
+// out.
 #pragma once
 #include <string>
 #include <string_view>
@@ -16,13 +17,13 @@ inline constexpr std::size_t template_width = 110;
 struct TemplateLine {
   std::string_view key;
   std::string_view value;   ///< as TOML
-  bool open = true;         ///< false: behind a #, so that it does not count yet
+  bool open = true;         ///< false: commented out, so that it has no effect yet
   bool explained = true;    ///< false: the line alone; its meaning is written elsewhere
-  std::string_view more{};  ///< text behind meaning, unit and range
+  std::string_view more{};  ///< text after meaning, unit and range
 };
 
-/// "key = value  # meaning [unit], range". A comment too long for the line, and the words of an enumeration,
-/// stand above the line.
+/// "key = value  # meaning [unit], range". A long comment, and the words of an enumeration, are above the
+/// line.
 std::string template_line(const KeyEntry& entry, const TemplateLine& line);
 
 }  // namespace text

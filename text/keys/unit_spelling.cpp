@@ -11,7 +11,7 @@ struct Spelled {
   std::string_view as, means;
 };
 
-/// Signs, wherever they stand. Longer ones first.
+/// Signs at any position. Longer ones first.
 constexpr Spelled unit_signs[] = {
     {"µ", "u"},      {"μ", "u"},     {"Ω", "ohm"},    {"Ω", "ohm"},    {"°C", "degC"},  {"ºC", "degC"},
     {"℃", "degC"},   {"°F", "degF"}, {"°", "deg"},    {"⁻", "-"},      {"¹", "1"},      {"²", "2"},
@@ -23,7 +23,7 @@ constexpr Spelled unit_signs[] = {
 };
 
 /// Names as whole words: no letter before a letter and no digit before a digit, and no letter, digit or power
-/// behind them.
+/// after them.
 constexpr Spelled unit_names[] = {
     {"1/min", "rpm"},    {"min-1", "rpm"},      {"Min-1", "rpm"},     {"rev/min", "rpm"},
     {"revs/min", "rpm"}, {"r/min", "rpm"},      {"U/min", "rpm"},     {"tr/min", "rpm"},

@@ -14,10 +14,10 @@
 
 namespace text {
 
-/// Base units; a unit is a product of their powers. The volt is a base of its own beside the kilogram, so that a
-/// torque per ampere differs from a voltage per speed: their frames differ. The Celsius scale is no multiple of
-/// K. Mechanical and electrical angles differ by the pole pairs: hertz and erpm count electrical turns. Rms and
-/// peak are part of the unit.
+/// Base units; a unit is a product of their powers. The volt is a separate base in addition to the kilogram,
+/// so that a torque per ampere differs from a voltage per speed: their frames differ. The Celsius scale is no
+/// multiple of K. Mechanical and electrical angles differ by the pole pairs: hertz and erpm count electrical
+/// turns. Rms and peak are part of the unit.
 enum class Base : std::uint8_t { kg, m, s, A, V, K, rad, degC, electrical_rad, rms, peak };
 using Dimension = std::array<int, 11>;
 
@@ -41,8 +41,9 @@ std::optional<Unit> unit_of(std::string_view text);
 /// The unit in the table's spelling: without signs that few keyboards have, products with spaces, always "rpm".
 std::string plain_spelling(std::string_view unit);
 
-/// Whether values convert by ten and factor alone. Angles count: 1/s is no speed, hertz are no speed, N m/rad is
-/// not N m. Exceptions, because sheets usually write a speed as 1/s: V s for V/(rad/s), N m s for N m/(rad/s).
+/// Whether values convert by ten and factor alone. Angles are part of the kind: 1/s is no speed, hertz are no
+/// speed, N m/rad is not N m. Exceptions, because sheets usually write a speed as 1/s: V s for V/(rad/s), N m
+/// s for N m/(rad/s).
 bool same_kind(const Unit& a, const Unit& b);
 
 /// The unit into which a number is converted.
@@ -64,8 +65,8 @@ struct Conversion {
   double back(double x) const;  ///< the inverse
 };
 
-/// From `unit` into the wanted unit. The Problem has limit and cure. Settles the cases that same_kind() leaves
-/// open: in oz-in and kg cm a weight stands for its force, in V/Hz the hertz are electrical.
+/// Converts from `unit` into the wanted unit. The Problem has limit and cure. It also decides the cases that
+/// same_kind() does not:  in oz-in and kg cm a weight stands for its force, in V/Hz the hertz are electrical.
 base::Result<Conversion> conversion(std::string_view unit, const Wanted& wanted);
 
 /// "rms" or "peak" if the unit says so; else empty.
@@ -74,15 +75,15 @@ std::string_view measure_in(std::string_view unit);
 /// The frames, separated by '|', that fit a measure: "line-rms" and "phase-rms" for "rms".
 std::vector<std::string> frames_with(std::string_view frames, std::string_view measure);
 
-/// A number and the unit behind it; empty if the text does not begin with a number.
+/// A number and the unit after it; empty if the text does not begin with a number.
 struct Written {
   std::string number, unit;
 };
 std::optional<Written> split_number(std::string_view text);
 
 /// The value of `written` in the unit `wanted`; the Problem has limit and cure. If the units differ by a power
-/// of ten, the result is the double nearest to the decimal: "0.572 mH" gives exactly 0.000572. Otherwise, as for
-/// rpm in rad/s, a few roundings are added.
+/// of ten, the result is the double nearest to the decimal: "0.572 mH" gives exactly 0.000572. Otherwise the
+/// result has a few roundings, as for rpm in rad/s.
 base::Result<double> in_unit(std::string_view written, const Wanted& wanted);
 
 /// Usual units of the same kind, the key's own first: "s, ms, us or min".

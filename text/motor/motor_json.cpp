@@ -54,7 +54,7 @@ Json constant(const std::optional<design::Constant>& c) {
   return c ? Json({{"value", c->value}, {"from", c->from}}) : Json(nullptr);
 }
 
-/// With the names of a linear motor's SI units if it is one.
+/// Uses the names of a linear motor's SI units if it is one.
 Json friction(const design::Friction& f, bool linear) {
   const auto name = [linear](const char* turning, const char* moving) { return linear ? moving : turning; };
   return {{name("viscous_Nm_s", "viscous_N_s_m"), f.B_Nm_s},

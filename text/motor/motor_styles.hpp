@@ -12,7 +12,7 @@ namespace text {
 struct MotorStyle {
   std::string_view name;
   std::string_view what;
-  std::string_view shape;                  ///< the back-EMF that such a sheet usually means; to be checked
+  std::string_view shape;                  ///< the usual back-EMF of such a sheet; to be checked
   std::vector<std::string_view> needed;    ///< keys that a model needs
   std::vector<std::string_view> optional;  ///< useful keys: they are checked against the others
   bool linear = false;

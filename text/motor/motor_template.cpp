@@ -15,14 +15,14 @@
 namespace text {
 namespace {
 
-/// Another spelling has its own unit; a linear motor's spelling is already the key's own.
+/// Another spelling has its own unit. A linear motor's spelling is already that of the key.
 KeyEntry as_spelled(const KeyEntry& entry, std::string_view key) {
   for (const base::Spelling& spelling : entry.about.also)
     if (spelling.key == key) return spelled(entry, spelling);
   return entry;
 }
 
-/// "frame = "terminal|phase"" stays invalid until the reader deletes one of the two, because no frame has that
+/// "frame = "terminal|phase"" stays invalid until the user deletes one of the two, because no frame has that
 /// name.
 std::string empty_value(const KeyEntry& entry) {
   if (entry.type == KeyType::text) return "\"\"";
@@ -32,7 +32,7 @@ std::string empty_value(const KeyEntry& entry) {
   return fmt::format("{{ value = nan, frame = \"{}\", source = \"data sheet\" }}", entry.about.frame);
 }
 
-/// The comment above the line says what such a sheet has of the key, or lacks.
+/// Writes a line. The comment above it states the differences of such a sheet for this key.
 std::string line(const MotorStyle& style, const KeyEntry& given, std::string_view key, bool needed) {
   const KeyEntry entry = as_spelled(given, key);
   const bool choice = frames_of(entry.about.frame).size() > 1;

@@ -13,9 +13,9 @@ namespace text {
 /// The trades whose sheets have a template: maxon, drone, servo, linear, firmware.
 std::vector<std::string> template_styles();
 
-/// The file's text. Meaning, unit and frames of every line come from the description of the keys. Lines that a
-/// model needs are open (`value = nan`, refused until filled in), the others are behind a #. Problem: an unknown
-/// style.
+/// The file's text. Meaning, unit and frames of every line come from the description of the keys. Lines that
+/// a model needs are open (`value = nan`, refused until filled in), the others are commented out. Problem: an
+/// unknown style.
 base::Result<std::string> motor_template(std::string_view style, const std::string& name);
 
 }  // namespace text

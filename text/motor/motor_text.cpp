@@ -23,7 +23,7 @@ using design::SheetConstants;
 
 std::string short_number(double x) { return fmt::format("{:.4g}", x); }
 
-/// Ends a row as one line, whatever text of the sheet it holds.
+/// Ends a row as one line, for any text from the sheet.
 std::string trimmed(std::string row) {
   row.erase(row.find_last_not_of(' ') + 1);
   return visible(row) + "\n";
@@ -70,7 +70,7 @@ class SheetRows final : public base::Visitor {
     if ((key != "connection" && key != "rotor" && key != "kind") || member.chosen() != 0)
       add(key, member.word(), "", "", "");
   }
-  /// As printed: in the unit of the key that the file uses.
+  /// Prints the quantity in the unit of the file's key.
   void visit_quantity(std::string_view key, const base::QuantityMember& member,
                       const base::About& about) override {
     const base::Quantity* const q = quantity_in(member);
@@ -167,10 +167,10 @@ std::string_view word(RelationVerdict verdict) {
 constexpr double most_percentage = 10.0;
 
 std::string relation_rows(const Relation& r) {
-  // A name that bursts its column has a line of its own.
+  // A name that is wider than its column has a separate line.
   const bool wide = r.name.size() > 25;
   std::string text = wide ? fmt::format("  {:<7}{}\n", word(r.verdict), r.name) : "";
-  // From ten times on a percentage says less than the factor.
+  // A factor is clearer than a percentage from ten times on.
   const std::string deviation = std::fabs(r.deviation) < most_percentage
                                     ? fmt::format("{:>+7.2f} %", 100.0 * r.deviation)
                                     : fmt::format("{:>9}", "x " + short_number(r.deviation + 1.0));

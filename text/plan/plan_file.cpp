@@ -23,7 +23,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A value as a file would have it. Entries of a mixed list are read as words.
+/// A value as written in a file. Entries of a mixed list are read as words.
 std::string axis_as_written(const toml::node& node) {
   if (const auto* text = node.as_string()) return toml_text(text->get());
   if (const auto* whole = node.as_integer()) return fmt::format("{}", whole->get());
@@ -94,8 +94,8 @@ void in_keys_unit(analysis::Axis& axis) {
   for (std::string& value : axis.values) value = in_keys_unit(value, *unit);
 }
 
-/// A number with the shortest digits, a word without quotes. A whole number stays as it is, because it may have
-/// more digits than a double.
+/// A number with the shortest digits, a word without quotes. A whole number stays unchanged, because it may
+/// have more digits than a double.
 std::string one_spelling(const std::string& value) {
   const std::string word(analysis::bare(value));
   const std::optional<double> x = number_alone(word);

@@ -17,7 +17,8 @@ struct PlannedText {
   bool sheet_tolerances = false;
 };
 
-/// Several threads may call it at once. A named text is found once; the drives of a point share one reading.
+/// Reads the scenarios of a plan's runs. Several threads may call it at the same time. A named text is
+/// searched once; the drives of a point share one reading.
 class PlannedScenarios {
  public:
   PlannedScenarios(PlannedText of, analysis::Plan plan);
@@ -32,9 +33,9 @@ class PlannedScenarios {
   /// A drive of any point, also of one outside the plan.
   base::Result<analysis::PlannedRun> run(const std::vector<std::string>& point, std::size_t drive) const;
 
-  /// Checks that the keys can be varied and that the axes' ends can be read. It reads the point where all axes
-  /// begin and, if that fails, for each axis the point with its other end. An axis gives Problems only if both
-  /// fail. A corner that cannot run becomes a row of its own.
+  /// Checks that the keys can be varied and that the axes' ends can be read. It reads the point with the
+  /// begins of all axes and, if that fails, for each axis the point with its other end. An axis gives
+  /// Problems only if both fail. A corner that cannot run becomes a separate row.
   base::Problems check() const;
 
   const analysis::Plan& plan() const { return plan_; }

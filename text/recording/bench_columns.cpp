@@ -12,7 +12,7 @@ bool is_any_of(const RecordedColumn& column, const ThreeNames& names) {
   return std::any_of(names.begin(), names.end(), [&](const auto& of) { return is_called(column, of); });
 }
 
-/// Why a known voltage was not used, beside others that were, or none.
+/// Why a known voltage was not used, although others or none were.
 std::string why_not_voltage(Meaning meaning, const BenchUse& use) {
   const bool line = meaning == Meaning::between_terminals;
   if (use.voltages_are_asked) return "other voltages are asked for";
@@ -75,7 +75,8 @@ Columns from_the_first(const Three& found) {
 }
 
 Columns in_turn(const Three& found) {
-  // Begins behind the missing one, or at the first: a b, b c or c a, each 120 degrees behind the one before it.
+  // The sequence begins after the missing column, or at the first: a b, b c or c a, each 120 degrees behind
+  // the one before it.
   const auto gap =
       static_cast<std::size_t>(std::find(found.begin(), found.end(), std::nullopt) - found.begin());
   const std::size_t before = std::min(gap, found.size() - 1);

@@ -33,8 +33,8 @@ base::Result<Three> three_of(const Recording& recording, const ThreeNames& names
 
 /// The columns before the first missing one, for readers that need the first two.
 Columns from_the_first(const Three& found);
-/// All columns in cyclic order, beginning behind a missing one: c a if b is missing. For readers that need any
-/// of the three.
+/// All columns in cyclic order, beginning behind a missing one: c a if b is missing. Used by readers that
+/// accept any of the three.
 Columns in_turn(const Three& found);
 
 /// The voltages to use, and between which points they are, if known.
@@ -46,7 +46,7 @@ struct Voltages {
 /// else any.
 Voltages chosen(Columns lines, Columns terminals, std::optional<analysis::EmfBetween> wanted);
 
-/// What a reading uses of the recording.
+/// The columns of the recording that a reading uses.
 struct BenchUse {
   bool hall_log = false;                ///< Hall lines are read too
   bool by_codes = false;                ///< Hall lines come from a column of codes

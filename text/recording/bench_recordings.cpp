@@ -88,8 +88,8 @@ void note_rest(const Recording& r, const Columns& used, const RecordedColumn* ti
   note_not_used(rest, notes);
 }
 
-/// For "CH1" or no headings: all columns of numbers except times, Hall lines and columns with the unit of
-/// another quantity.
+/// Voltages with a heading such as "CH1" or without headings: all columns of numbers except times, Hall lines
+/// and columns with the unit of another quantity.
 Columns whatever_is_a_voltage(const Recording& r, const RecordedColumn* time, Notes& notes) {
   Columns out;
   std::vector<NotUsed> rest;

@@ -20,8 +20,8 @@ struct BenchColumns {
   std::optional<double> interval_s;  ///< of the rows, if no column is a time
 };
 
-/// A line has the values 0 and 1, or two voltages; then the threshold is their middle, with hysteresis. `notes`
-/// gets the unused columns and the assumptions.
+/// A line has the values 0 and 1, or two voltages; the threshold is then their middle, with hysteresis.
+/// `notes` lists the unused columns and the assumptions.
 base::Result<analysis::HallLog> hall_log_of(const Recording& recording, const BenchColumns& columns,
                                             Notes& notes);
 

@@ -32,8 +32,8 @@ struct Found {
   Picked picked;
 };
 
-/// By a heading that a trace itself has, "i_m_A", else by name and unit. If two columns have one name, such as
-/// the bus's voltage and current, the unit decides.
+/// Finds the column by a heading that a trace itself has, "i_m_A", else by name and unit. If two columns have
+/// one name, such as the bus's voltage and current, the unit decides.
 Found column_of(const RecordedColumn& recorded) {
   Found found;
   for (const study::Column& column : study::all_columns()) {
@@ -96,7 +96,7 @@ Values formula_values(const Recording& r, const ColumnFormula& formula, const Wa
   const base::Result<std::vector<Picked>> found = columns_called(r, {formula.column});
   if (!found) return found.problems();
   column = found->front().column;
-  // The comparison ignores all but letters, and would accept "e*rpm" and "erpm+" for erpm.
+  // The comparison ignores all characters except letters, and would accept "e*rpm" and "erpm+" for erpm.
   const bool as_headed = formula.column == column->name || formula.column == column->heading;
   if (!as_headed && formula.column.find_first_of("*/+^=") != std::string::npos)
     return of_recording(r, fmt::format("has no column \"{}\"", bounded(formula.column, 200)),
@@ -107,7 +107,7 @@ Values formula_values(const Recording& r, const ColumnFormula& formula, const Wa
       for (double& x : *values) x *= formula.factor;
     return values;
   }
-  // With constants the numbers are used as in the file: without unit, and with its power of ten restored.
+  // A formula with constants uses the numbers of the file: without unit, and with its power of ten restored.
   RecordedColumn bare = *column;
   const int ten = bare.unit.empty() ? 0 : unit_of(bare.unit)->ten;
   bare.unit.clear();

@@ -18,7 +18,7 @@ namespace text {
 /// Statements of the user that add to the headings or replace them.
 struct LogColumns {
   std::vector<std::string>
-      formulas;  ///< see column_formula.hpp; if there are any, only the columns that they name and the time
+      formulas;  ///< see column_formula.hpp; if given, only their columns and the time are read
                  ///< are read
   std::optional<double> interval_s;  ///< of the rows, if no column is a time
   std::optional<int> pole_pairs{};   ///< of the motor; electrical speeds convert with them

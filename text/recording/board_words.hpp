@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints what a board reports beside the numbers of a run: remarks between the rows, missed periods, faults.
+// Prints a board's own messages with the numbers of a run: remarks between the rows, missed periods, faults.
 #pragma once
 #include "text/recording/recording.hpp"
 

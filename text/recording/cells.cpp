@@ -10,7 +10,7 @@
 namespace text {
 namespace {
 
-/// A decimal comma becomes a point; a point without a digit before or behind it gets a 0 there.
+/// Replaces a decimal comma by a point. A point without a digit before or after it gets a 0 there.
 std::string as_decimal(std::string_view cell, bool decimal_comma) {
   std::string out(cell);
   if (decimal_comma) std::replace(out.begin(), out.end(), ',', '.');
@@ -34,8 +34,8 @@ std::optional<double> moved(std::string_view number, int ten) {
   return x.kind == DecimalNumber::Kind::number ? std::optional(x.value) : std::nullopt;
 }
 
-/// The place behind the quotes of the cell that begins at `at`, if they enclose the whole cell; the search for
-/// its end begins there.
+/// The place after the quotes of the cell that begins at `at`, if they enclose the whole cell. The cell's
+/// separator is searched from there.
 std::size_t behind_quotes(std::string_view line, std::size_t at, char separator) {
   const std::size_t open = line.find_first_not_of(' ', at);
   if (open == std::string_view::npos || line[open] != '"') return at;

@@ -7,7 +7,7 @@
 
 namespace text {
 
-/// Without surrounding blanks and quotes.
+/// Returns the cell without surrounding blanks and quotes.
 std::string_view bare_cell(std::string_view text);
 
 /// A line's cells, bare. Empty cells at the end are dropped. A quoted text is one cell, commas included.

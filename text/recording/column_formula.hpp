@@ -16,7 +16,7 @@ struct ColumnFormula {
   bool scaled = false;  ///< the formula has constants; then the unit in the heading is ignored
 };
 
-/// Constants are numbers and pi, multiplied or divided, before or behind the column. A Problem's `where` is
+/// Constants are numbers and pi, multiplied or divided, before or after the column. A Problem's `where` is
 /// "columns".
 base::Result<ColumnFormula> column_formula(std::string_view text);
 

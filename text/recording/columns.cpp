@@ -52,12 +52,13 @@ base::Problem none_called(const Recording& r, const std::string& heading) {
                       near.empty() ? "it has " + headings_of(r) : fmt::format("did you mean \"{}\"?", near));
 }
 
-/// A letter behind the name of a voltage is a phase, "phase_A" and "hall_C"; volts and seconds are always units.
+/// A letter after the name of a voltage is a phase, "phase_A" and "hall_C". Volts and seconds are always
+/// units.
 bool is_part_of_name(const Picked& picked, const Wanted& wanted) {
   return wanted.unit == "V" && picked.column->letter && picked.unit != "V" && picked.unit != "s";
 }
 
-/// From the column's unit; its power of ten is already applied to the values.
+/// Converts from the column's unit. The values already include its power of ten.
 base::Result<Conversion> conversion_of(const Recording& r, const Picked& picked, const Wanted& wanted) {
   const std::string belongs = wanted.unit.empty() ? "a plain number" : wanted.unit;
   const RecordedColumn& column = *picked.column;

@@ -40,7 +40,7 @@ base::Result<std::vector<Picked>> columns_called(const Recording& recording,
 base::Result<std::vector<double>> values_of(const Recording& recording, const Picked& picked,
                                             const Wanted& wanted);
 
-/// As values_of(), but without a check of the numbers: NaN for a cell that is not a number.
+/// Like values_of(), but without a check of the numbers: NaN for a cell that is not a number.
 base::Result<std::vector<double>> converted(const Recording& recording, const Picked& picked,
                                             const Wanted& wanted);
 

@@ -16,8 +16,8 @@ namespace text {
 /// first not 0.
 bool may_part_thousands(std::string_view number, char mark);
 
-/// Collects the cells that are numbers. A table is in doubt if it has both marks, or if its only mark always
-/// stands as between thousands.
+/// Collects the cells that are numbers. A table is ambiguous if it has both marks, or if each of its marks
+/// could separate thousands.
 class DecimalMarks {
  public:
   void see(std::size_t line, std::size_t column, std::string_view cell);

@@ -20,7 +20,7 @@ void add_utf8(std::string& out, std::uint32_t c) {
   }
 }
 
-/// Bytes 0x80 to 0x9F; 0xFFFD where CP1252 has none. All others are code points.
+/// Characters of the bytes 0x80 to 0x9F; 0xFFFD if CP1252 has none. All other bytes equal their code points.
 constexpr std::uint16_t above_ascii[32] = {0x20AC, 0xFFFD, 0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021,
                                            0x02C6, 0x2030, 0x0160, 0x2039, 0x0152, 0xFFFD, 0x017D, 0xFFFD,
                                            0xFFFD, 0x2018, 0x2019, 0x201C, 0x201D, 0x2022, 0x2013, 0x2014,
@@ -66,7 +66,7 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
-/// In place.
+/// Replaces the line ends in place.
 void with_plain_line_ends(std::string& text) {
   std::size_t to = 0;
   for (std::size_t n = 0; n < text.size(); ++n) {
@@ -79,7 +79,7 @@ void with_plain_line_ends(std::string& text) {
   text.resize(to);
 }
 
-/// Whether there are bytes that no text has.
+/// Whether the text has bytes that occur only in binary files.
 bool is_binary(std::string_view text) {
   constexpr std::size_t looked_at = 1 << 16;
   return text.substr(0, looked_at).find('\0') != std::string_view::npos;

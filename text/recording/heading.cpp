@@ -101,7 +101,8 @@ bool is_rather_a_word(std::string_view word) {
   return is_number_of_a_place(word) || std::find(std::begin(words), std::end(words), word) != std::end(words);
 }
 
-/// The unit in the pieces of a key, separated by underscores: "rad_s" and "N_m". Empty if they are none.
+/// The unit in the pieces of a key, separated by underscores: "rad_s" and "N_m". Empty if the pieces are no
+/// unit.
 std::string unit_in_pieces(std::string_view pieces) {
   for (const char between : {'/', ' '}) {
     std::string unit(pieces);

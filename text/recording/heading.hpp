@@ -14,7 +14,7 @@ struct Heading {
   std::string name;
   std::string unit;      ///< as units.hpp spells it
   std::string odd_unit;  ///< a word in the place of the unit that is no unit
-  /// The unit is a letter behind the name, "u_ab_V" or "phase_A", which may also be part of the name.
+  /// The unit is a letter after the name, "u_ab_V" or "phase_A", which may also be part of the name.
   bool letter = false;
 };
 

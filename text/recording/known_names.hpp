@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recognises headings that say what a column is, as bare_name() writes them.
+// Recognises headings that name a column's quantity, as bare_name() writes them.
 #pragma once
 #include <string>
 #include <string_view>
@@ -14,7 +14,7 @@ bool names_a_time(std::string_view bare);
 /// "im" for i_m_A, as a log's heading has it.
 std::string bare_column(const study::Column& column);
 
-/// Whether it names a time, a Hall line or code, a voltage, or a column of a trace.
+/// Whether the heading names a time, a Hall line or code, a voltage, or a column of a trace.
 bool is_known_name(std::string_view bare);
 
 }  // namespace text

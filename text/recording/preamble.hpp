@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads what instruments write above the rows of a recording, beside headings.
+// Reads the lines of instruments above the rows of a recording, except headings.
 #pragma once
 #include <optional>
 #include <string>

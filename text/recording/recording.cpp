@@ -55,7 +55,7 @@ std::size_t lines_in(std::string_view text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
-/// The complete part of a board's log, and what was left out.
+/// The complete part of a board's log, and the omitted text.
 struct WholeRows {
   std::string_view text;
   std::size_t lines_before = 0;

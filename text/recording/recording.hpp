@@ -23,7 +23,7 @@ struct BadCell {
 };
 
 struct RecordedColumn {
-  std::string heading;         ///< as it stands in the file
+  std::string heading;         ///< as in the file
   std::string name;            ///< unique, without its unit; "column 2" without a heading
   std::string bare;            ///< bare_name() of `name`; two columns may have the same
   std::string unit;            ///< in the spelling of units.hpp; empty: none
@@ -31,7 +31,7 @@ struct RecordedColumn {
   bool letter = false;         ///< the unit may be a part of the name, see Heading
   std::vector<double> values;  ///< in the unit without its power of ten: in V for mV
   std::vector<BadCell> bad;    ///< the first few; an unused column may hold anything
-  std::size_t bad_cells = 0;   ///< how many there are
+  std::size_t bad_cells = 0;   ///< their number
   bool filled = false;         ///< some cell is not empty
 
   bool has_numbers() const { return bad_cells < values.size(); }
@@ -65,15 +65,15 @@ struct Recording {
 /// "scope.csv: limit; cure"
 base::Problem of_recording(const Recording& recording, std::string limit, std::string cure);
 
-/// Which rows are read.
+/// The rows that are read.
 enum class RowsFrom {
   first,      ///< all
   last_start  ///< from the board's last start, at its last headings, to the last complete line
 };
 
 /// Cells are separated by ',' or by ';', a tab or blanks; with the latter three a comma may be the decimal
-/// point. A line that begins with '#' or '%' is a remark. If an instrument writes keys and values beside the
-/// rows, only the rows are read.
+/// point. A line that begins with '#' or '%' is a remark. If an instrument writes keys and values in the
+/// cells next to the rows, only the rows are read.
 base::Result<Recording> read_recording(const std::string& name, std::string_view bytes,
                                        RowsFrom from = RowsFrom::first);
 

@@ -28,7 +28,7 @@ bool is_remark(std::string_view line) {
   return first == std::string_view::npos || line[first] == '#' || line[first] == '%';
 }
 
-/// "001": the part behind a decimal comma.
+/// Whether a cell such as "001" is the part after a decimal comma.
 bool begins_with_zeros(std::string_view cell) {
   return cell.size() > 1 && cell[0] == '0' &&
          std::all_of(cell.begin(), cell.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
@@ -114,7 +114,7 @@ bool RowReader::begins_rows(std::string_view text) {
   return true;
 }
 
-/// Cells beside the first rows are read as lines above the rows.
+/// Reads cells next to the first rows as lines above the rows.
 bool RowReader::row_beside(std::string_view text) {
   std::vector<std::string_view> cells = cells_of_line(text, beside_->separator);
   const bool is_row = beside_->cells < cells.size() && number_in(cells[beside_->cells]).has_value();
@@ -136,7 +136,7 @@ bool RowReader::row_beside(std::string_view text) {
     separator_ = beside_->separator;
     first_cells_ = cells.size();
     first_line_ = number_;
-    out_.columns.resize(cells.size());  // named when all cells beside the rows are known
+    out_.columns.resize(cells.size());  // named when all cells next to the rows are known
     tens_.assign(cells.size(), 0);
   }
   row(cells);

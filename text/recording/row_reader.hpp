@@ -11,7 +11,7 @@
 
 namespace text {
 
-/// The place of the rows in a table that has other cells beside them.
+/// The place of the rows in a table with other cells next to them.
 struct RowsBeside {
   char separator = 0;
   std::size_t cells = 0;  ///< in front of the row's own first cell
@@ -26,7 +26,7 @@ class RowReader {
   /// `line`: lines of the file before the first one that is passed.
   RowReader(std::string name, std::size_t line, std::optional<RowsBeside> beside);
 
-  /// False: the rest need not be read, because the text is no table or too long.
+  /// False: the rest is not read, because the text is no table or too long.
   bool line(std::string_view text);
   base::Result<Recording> result();
 

@@ -41,7 +41,7 @@ bool are_units(const Cells& cells) {
          });
 }
 
-/// "t,u_ab" above "s,foo": a unit stands below a known name, and no unit's name is a known one; the rest must be
+/// "t,u_ab" above "s,foo": a unit is below a known name, and no unit's name is a known one. The rest must be
 /// units then.
 bool are_units_below(const Cells& names, const Cells& cells) {
   const auto known = [](std::string_view cell) { return is_known_name(bare_name(heading_of(cell).name)); };
@@ -173,7 +173,7 @@ class HeadReader {
     return out;
   }
 
-  /// Tektronix has no headings, but "Source,CH1" and "Vertical Units,V" beside the rows.
+  /// Tektronix has no headings, but "Source,CH1" and "Vertical Units,V" next to the rows.
   void name_by_keys() {
     if (above_.cells_before < 2 || out_.has_headings || out_.columns.size() < 2) return;
     std::map<std::string, std::string> values;

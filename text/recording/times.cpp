@@ -58,8 +58,9 @@ struct TimeUnit {
 };
 constexpr TimeUnit time_units[] = {{"ns", 1e9}, {"us", 1e6}, {"ms", 1e3}, {"s", 1.0}};
 
-/// The unit in which a column without one agrees with the preamble; null if none does. Rows recorded only at
-/// changes are whole numbers of samples apart in every larger unit too, so the smallest unit counts.
+/// The unit for which a column without a unit agrees with the preamble; null if none does. Rows recorded only
+/// at changes are whole numbers of samples apart in every larger unit too, so that the smallest unit is
+/// chosen.
 const TimeUnit* unit_by_clock(const std::vector<double>& t, const Steps& steps, double interval_s) {
   for (const TimeUnit& unit : time_units)
     if (steps.even() && are_near(steps.middle / unit.per_s, interval_s)) return &unit;
@@ -84,7 +85,8 @@ std::vector<double> rows_from(double start_s, double interval_s, std::size_t row
   return out;
 }
 
-/// Without headings the first column may be the time or anything else.
+/// Whether the column of time is a guess: without headings the first column may be the time or any other
+/// quantity.
 bool is_a_guess(const Recording& r, const RecordedColumn& column) {
   return !r.has_headings && column.unit.empty();
 }
@@ -104,8 +106,8 @@ base::Result<Times> without_column(const Recording& r, std::optional<double> int
                .column = nullptr};
 }
 
-/// A column without a unit gets the one that agrees with the interval. If the column was only guessed and cannot
-/// be a time, it is not used.
+/// A column without a unit gets the unit that agrees with the interval. A guessed column that cannot be a
+/// time is not used.
 base::Result<Times> column_at_interval(const Recording& r, const RecordedColumn& column, double interval_s,
                                        Notes& notes) {
   const bool guessed = is_a_guess(r, column);

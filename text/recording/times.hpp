@@ -9,8 +9,8 @@
 
 namespace text {
 
-/// The column of time by its heading or its unit; without headings the first of several columns. Null if there
-/// is none.
+/// The column of time by its heading or its unit; without headings the first of several columns. Null if
+/// there is none.
 const RecordedColumn* time_column(const Recording& recording);
 
 struct Times {
@@ -21,15 +21,15 @@ struct Times {
 
 /// Uses the given interval; it must not contradict a column of time or the preamble's rate. Without it: the
 /// column of time, whose unit the preamble's rate may determine, or else the preamble's rate. If an instant
-/// occurs twice, as simulators write an event, the later row counts. `notes` gets the assumptions. Problems: no
-/// time, a time that does not rise, a contradiction to the preamble.
+/// occurs twice, as simulators write an event, the later row is used. `notes` lists the assumptions.
+/// Problems: no time, a time that does not rise, a contradiction to the preamble.
 base::Result<Times> times_of(const Recording& recording, std::optional<double> interval_s, Notes& notes);
 
-/// As times_of(), for values that are times in s already.
+/// Like times_of(), for values that are times in s already.
 base::Result<Times> rising_times(const Recording& recording, std::vector<double> t_s,
                                  const RecordedColumn& column, Notes& notes);
 
-/// As rising_times(), beside a given interval, which only replaces digits that the values lack.
+/// Like rising_times(), with a given interval. It only replaces digits that the values lack.
 base::Result<Times> times_at_interval(const Recording& recording, std::vector<double> t_s,
                                       const RecordedColumn& column, double interval_s, Notes& notes);
 

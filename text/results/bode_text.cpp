@@ -25,7 +25,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double degrees_per_rad = 180 / sixstep::base::pi;
 
-/// Neither level nor phase exists if no answer came.
+/// Level and phase of a line without an answer.
 constexpr double no_level = std::numeric_limits<double>::quiet_NaN();
 double dB(double gain) { return gain > 0.0 ? 20 * std::log10(gain) : no_level; }
 double degrees(const LoopPoint& p) { return p.gain > 0.0 ? p.phase_rad * degrees_per_rad : no_level; }
@@ -47,11 +47,11 @@ std::optional<Designed> designed_at(const BodeStudy& s, const LoopPoint& p) {
   return Designed{dB(L->size()), s.designed_phase_rad[k] * degrees_per_rad};
 }
 
-/// Two loops differ if they are apart by more than this; margins are read between a quarter and four times the
-/// crossover's gain.
+/// Limits above which two loops differ. Margins are read between a quarter and four times the crossover's
+/// gain.
 constexpr double far_dB = 1.5, far_deg = 8.0, near_crossover_dB = 20.0;
 
-/// Below this part, samples without current come from commutation.
+/// Fraction of samples without current that commutation alone can cause.
 constexpr double least_without_current = 0.01;
 
 /// The first reason that applies.
@@ -74,7 +74,7 @@ std::string why_beside(const BodeStudy& s) {
   return "each period of the multisine is answered alike, and not as a linear loop does: commutation, dead time, discontinuous current or a limit";
 }
 
-/// A coherence near 1 says that the answers repeat, not that the loop is linear.
+/// A coherence near 1 shows that the answers repeat, but not that the loop is linear.
 std::string beside_the_designed(const BodeStudy& s) {
   double most_dB = 0.0, deg = 0.0, Hz = 0.0;
   for (const LoopPoint& p : s.points) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints a measured frequency response beside the designed one: for a terminal, as CSV and as JSON.
+// Prints a measured frequency response with the designed one: for a terminal, as CSV and as JSON.
 #pragma once
 #include <string>
 #include <string_view>
@@ -14,7 +14,7 @@ namespace text {
 std::string bode_text(std::string_view name, const analysis::BodeStudy& study);
 /// Frequencies in Hz, gains in dB, phases in degrees. The designed columns exist only if there is a linear loop.
 std::string bode_csv(const analysis::BodeStudy& study);
-/// In full precision. The same study gives the same bytes.
+/// JSON in full precision. The same study gives the same bytes.
 std::string bode_json(std::string_view name, const analysis::BodeStudy& study);
 
 /// One line of the comparison of margins: its name, and both values with unit; "-" if there is none.

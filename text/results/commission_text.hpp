@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints what a commissioning drive found: for a terminal, as JSON, and as lines of a motor's file.
+// Prints the results of a commissioning drive: for a terminal, as JSON, and as lines of a motor's file.
 #pragma once
 #include <string>
 
@@ -8,23 +8,23 @@
 
 namespace text {
 
-/// The bench; each quantity as the chip found it, beside the motor's value, the error and its bound; the Hall
-/// lines; the times of the phases; what was not found, and why.
+/// The bench; each quantity that the chip found, with the motor's value, the error and its bound; the Hall
+/// lines; the times of the phases; the quantities that were not found, and why.
 std::string commission_text(const analysis::CommissionStudy& study);
 
-/// In full precision. The same study gives the same bytes.
+/// JSON in full precision. The same study gives the same bytes.
 std::string commission_json(const analysis::CommissionStudy& study);
 
 /// Lines for the motor's file and for a scenario's sensors, without values that were not found.
 std::string commission_toml(const analysis::CommissionStudy& study);
 
 /// ", twice a tenth of what full duty drives: ..": the substitute for a nominal current that the sheet omits.
-/// Empty if the sheet has one, or if the test current was given.
+/// Empty if the sheet has a nominal current, or if the test current was given.
 std::string stand_in_words(const analysis::CommissionBench& bench);
 
 /// "spinning"; also the name in JSON.
 std::string_view phase_word(sixstep::control::CommissioningPhase phase);
-/// Why the chip gave up or has no table of the Hall lines, and the cure; empty if it found everything.
+/// Why the chip stopped or has no table of the Hall lines, and the cure; empty if it found everything.
 std::string commission_failure(const analysis::CommissionStudy& study);
 
 }  // namespace text

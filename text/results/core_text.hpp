@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints the results of a run on a core: that each answer equals the host's, or how long a chip's interrupts
-// took.
+// Prints the results of a run on a core: each answer equals the host's, or the duration of a chip's
+// interrupts.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace text {
 
-/// "on the Cortex-M4F: 1200 calls, each answered as by the host, to the bit". For a chip: a sentence for each
+/// "on the Cortex-M4F: 1200 calls, each answered as by the host, to the bit". A chip has a sentence for each
 /// interrupt, and one if it overran its period or stopped by a fault. Empty if only the host ran the drive.
 std::vector<std::string> core_texts(const study::Outcome& outcome);
 

@@ -56,7 +56,7 @@ std::string significant(double x, int digits = 5) {
 }
 
 std::string speed(double rad_s, const Units& u) { return fixed(rad_s * u.speed.factor, u.speed.decimals); }
-/// With its unit: "5016 rpm".
+/// The speed with its unit: "5016 rpm".
 std::string speed_text(double rad_s, const Units& u) {
   return fmt::format("{} {}", speed(rad_s, u), u.speed.name);
 }
@@ -244,7 +244,7 @@ std::string nominal(const analysis::CurveRequest& r, const analysis::Curve& curv
   return text + ".\n" + drop(r, curve, u);
 }
 
-/// The part of the curve that the winding stands continuously.
+/// The part of the curve that the winding withstands continuously.
 std::string lasting(const analysis::Curve& curve, const Units& u) {
   if (!curve.marks.for_ever) return "Not even no load can be held for ever.\n";
   const analysis::OperatingPoint& from = *curve.marks.for_ever;
@@ -252,7 +252,7 @@ std::string lasting(const analysis::Curve& curve, const Units& u) {
                      speed_text(from.speed_rad_s, u), torque_text(from.shaft_torque_Nm, u));
 }
 
-/// The currents that the winding stands at standstill.
+/// The currents that the winding withstands at standstill.
 std::string stands(const std::string& when, const design::ThermalModel& model,
                    const analysis::CurveRequest& r, const Units& u) {
   const analysis::ThermalLimits l = analysis::thermal_limits(model, r, 0.0);

@@ -108,8 +108,8 @@ std::string robust_text(const analysis::Robustness& r, const DriveDesign& d) {
 
 std::string position_text(const analysis::PositionGain& p, const Motion& motion) {
   const sixstep::base::LinearUnit gain = motion.unit("rad/s/deg");
-  // A drive with a low top speed may brake faster than its linear loop: the smaller value comes first, each with
-  // its own words.
+  // A drive with a low top speed may brake faster than its linear loop. The smaller value comes first, each
+  // with its own words.
   const std::string braking = sixstep::base::six_digits(p.estimate * gain.factor) +
                               " (full torque stops it from top speed)",
                     linear = sixstep::base::six_digits(p.linear * gain.factor) + " (no limit acts)";

@@ -20,7 +20,7 @@ using analysis::EmfHarmonic;
 using analysis::EmfResult;
 using analysis::Interval;
 
-/// With smaller harmonics a shape is a sine for everything that a drive does.
+/// Limit of the harmonics below which a drive with this shape behaves as with a sine.
 constexpr double as_good_as_none = 0.01;
 constexpr std::size_t most_listed = 5;  // limit of harmonic_orders
 constexpr int highest_listed = 23;
@@ -34,8 +34,8 @@ std::string measured_source(const MeasuredEmf& m) {
   return fmt::format("source = {}, kind = \"measured\"", toml_text(m.name));
 }
 
-/// For a sine the volts at a drill's speed; for any other shape the flux linkage, which belongs to the
-/// fundamental and does not change with the harmonics that the lines above omit.
+/// The volts at a drill's speed for a sine. Any other shape has the flux linkage, which belongs to the
+/// fundamental and is independent of the harmonics that the lines above omit.
 std::string constant_line(const MeasuredEmf& m) {
   const EmfResult& r = m.result;
   const std::string pairs = r.pole_pairs > 0 ? fmt::format("pole_pairs = {}\n", r.pole_pairs) : "";

@@ -14,7 +14,7 @@ std::string field_design_text(const analysis::FieldStudy& study, bool colour);
 /// "good", "usable, 1 warning", or "NOT USABLE" and the reason.
 std::string field_design_verdict(const analysis::FieldStudy& study);
 
-/// In full precision, loops as in design_json(). Values that are infinite or do not exist are null.
+/// JSON in full precision, loops as in design_json(). Values that are infinite or do not exist are null.
 std::string field_design_json(const analysis::FieldStudy& study);
 
 }  // namespace text

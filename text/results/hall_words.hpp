@@ -19,7 +19,7 @@ std::string inverted_word(std::uint8_t inverted);
 char leg_word(sixstep::control::Leg leg);
 /// "probes 120 degrees apart, probes 2 3 1 at H1 H2 H3, H2 inverted"
 std::string wires_words(const analysis::HallWires& wires);
-/// "from H1 to H3, from H2 to H1": how to move each wire so that every probe is at its own pin; empty if all
+/// "from H1 to H3, from H2 to H1": moves of the wires after which every probe is at its own pin; empty if all
 /// are.
 std::string moves_words(sixstep::rig::WireOrder probes);
 /// The lines of a scenario's [sensors], each with a line end.

@@ -62,9 +62,9 @@ std::string spacing_words(const HallIdentity& f) {
   return fmt::format("probes 60 degrees apart, the middle one at H{0}, or 120 degrees, H{0} inverted", pin);
 }
 
-/// An inverted line is the same line shifted by half a turn. If all three are inverted, that is another order
-/// and an offset that differs by 60 degrees. A scenario and an assembly may have that, although then no edge is
-/// at its nearest place.
+/// An inverted line is the same line shifted by half a turn. If all three are inverted, this equals another
+/// order and an offset that differs by 60 degrees. A scenario and an assembly may have that, although no edge
+/// is then at its nearest place.
 std::string none_inverted_words(const IdentifiedPlace& p) {
   analysis::HallWires wires = p.wires.front();
   if (wires.inverted != 0b111) return "";
@@ -111,7 +111,7 @@ std::string wires_section(const HallIdentity& f) {
     rows.add({"", "or " + wires_words(p.wires[n]), ""});
   const std::string none = none_inverted_words(p), moves = moves_words(p.wires.front().probes);
   if (!none.empty()) rows.add({"", none, ""});
-  // If an offset explains the lines as well as wires do, no wire may need to move.
+  // If an offset explains the lines as well as the wires do, perhaps no wire must move.
   if (none.empty() && !moves.empty()) rows.add({"to mend", "move " + moves, ""});
   return rows.text();
 }
@@ -158,7 +158,7 @@ std::string table_section(const IdentifiedPlace& p) {
   return rows.text();
 }
 
-/// Puts each line behind a #.
+/// Comments out each line.
 std::string as_remarks(const std::string& text) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {

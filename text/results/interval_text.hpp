@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints measured numbers with as many digits as the measurement supports.
+// Prints measured numbers with the digits that the measurement supports.
 #pragma once
 #include <string>
 

@@ -10,12 +10,12 @@
 
 namespace text {
 
-/// Columns of every plan's table: in front of its own columns, and behind them.
+/// Columns of every plan's table: before its own columns, and after them.
 inline constexpr std::string_view columns_before[] = {"run", "end", "passed"};
 inline constexpr std::string_view columns_behind[] = {"problem", "digest"};
 
-/// The table's own columns with units: keys, values of the spread, figures. Control characters are made visible
-/// (escape.hpp). All names differ: a name that is taken gets a number.
+/// The table's own columns with units: keys, values of the spread, figures. Control characters are made
+/// visible (escape.hpp). All names differ: a repeated name gets a number.
 std::vector<std::string> column_names(const analysis::PlanColumns& columns);
 
 }  // namespace text

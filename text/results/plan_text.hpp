@@ -24,11 +24,11 @@ struct PlanStory {
 /// The Sobol indices of a figure, one per key; empty unless the plan is sampled for them (Sampling::saltelli).
 std::optional<std::vector<analysis::SensitivityIndex>> indices_of(const PlanStory& story, std::size_t figure);
 
-/// With more points, statistics say more than a table.
+/// Largest number of points for which the table is shown instead of statistics.
 inline constexpr std::size_t most_points_shown = 60;
 
-/// One line per point with its figures (for several drives the median, and how many hold); or the statistics of
-/// all runs; or the Sobol indices if the plan is sampled for them.
+/// One line per point with its figures (for several drives the median, and the number that hold); or the
+/// statistics of all runs; or the Sobol indices if the plan is sampled for them.
 std::string plan_table(const PlanStory& story);
 
 /// CSV: the head is a line of names with units (plan_columns.hpp), then one line per run.

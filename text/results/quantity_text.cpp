@@ -54,7 +54,7 @@ std::string joined(const std::string& text, const std::string& unit) {
   return unit.empty() ? text : text + " " + unit;
 }
 
-/// Words for values that are no numbers: a time that did not come, a figure of an empty window.
+/// Words for values that are no numbers: a time of an event that did not occur, a figure of an empty window.
 std::string without_number(double x, const std::string& unit) {
   if (std::isnan(x)) return "no value";
   return unit == "s" && x > 0.0 ? "never"
@@ -85,7 +85,7 @@ std::string csv_cell(double x) {
 ComparedTexts compared_texts(double x, std::span<const double> yardsticks, const std::string& unit) {
   double largest = 0.0;
   for (const double y : yardsticks) largest = std::max(largest, std::abs(y));
-  // Beside zero only x itself has a magnitude.
+  // If the yardsticks are zero, only x itself has a magnitude.
   Prefix shared = prefix_for(largest > 0.0 ? largest : x, unit);
   if (largest == 0.0 && x == 0.0) shared = no_prefix;
   const double ratio = std::abs(largest > 0.0 ? x / largest : 1.0);
@@ -94,7 +94,7 @@ ComparedTexts compared_texts(double x, std::span<const double> yardsticks, const
 
   ComparedTexts texts;
   for (int digits = few_digits; digits <= all_digits; ++digits) {
-    // If x is a thousand times smaller than all yardsticks, only its magnitude matters.
+    // If x is a thousand times smaller than all yardsticks, only its magnitude is relevant.
     const bool tiny = !alike && ratio < 1e-3;
     const std::string x_text = prefixed(x, own, tiny ? 2 : digits);
     texts = {{}, joined(x_text, unit_text(own, unit)), unit_text(shared, unit)};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints numbers for people: engineering prefixes and few digits, but enough to tell a failed limit from a met
-// one. Files for programs (CSV, JSON) have full precision and do not use this.
+// Prints numbers for users: engineering prefixes and few digits, but enough to distinguish a failed limit
+// from a met one. Files for programs (CSV, JSON) have full precision and do not use this.
 #pragma once
 #include <cstddef>
 #include <span>
@@ -14,16 +14,16 @@ namespace text {
 /// "131.17 us", "47.25 kHz", "702.61 rad/s": five significant digits by default.
 std::string quantity_text(double x, const std::string& unit, int digits = 5);
 
-/// With `digits` digits behind the point; "-" for a number that is not finite.
+/// Prints `digits` digits after the point; "-" for a number that is not finite.
 std::string fixed_text(double x, int digits);
-/// In full precision; empty for NaN, "never" for an event that does not come.
+/// Prints in full precision; empty for NaN, "never" for an event that does not occur.
 std::string csv_cell(double x);
 
 /// "1 run", "2 runs".
 std::string counted(std::size_t n, const char* what);
 
 /// Numbers that are compared with each other: all with the prefix of the largest of `yardsticks`, and with
-/// enough digits to tell different numbers apart.
+/// enough digits to distinguish different numbers.
 struct ComparedTexts {
   std::vector<std::string> yardsticks;
   std::string x;     ///< with its unit; with its own prefix if its magnitude differs

@@ -59,7 +59,7 @@ std::string aligned(std::vector<SeriesRow> rows) {
   return text;
 }
 
-/// In a series of drives a number is a drive; otherwise a run, at a point.
+/// A number in a series of drives is a drive; otherwise it is a run, at a point.
 const char* one_of(const analysis::Plan& plan) { return plan.axes.empty() ? "drive" : "run"; }
 
 std::string casualties(const std::vector<analysis::Casualty>& which, const char* what,

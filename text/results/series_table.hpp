@@ -8,14 +8,14 @@
 
 namespace text {
 
-/// Many runs for the terminal: the spread of each figure, how many runs hold each requirement, failures, and how
-/// to repeat one run. An interrupted plan also shows the planned number of runs.
+/// Many runs for the terminal: the spread of each figure, the number of runs that hold each requirement,
+/// failures, and the command that repeats one run. An interrupted plan also shows the planned number of runs.
 std::string series_table(const std::string& name, const analysis::Series& series, const analysis::Plan& plan);
 
 // Parts of the table, for callers that print the figures otherwise.
-/// How many runs were stopped or refused, and the first run that misses each requirement, one line each.
+/// The number of stopped or refused runs, and the first run that misses each requirement, one line each.
 std::string casualties_text(const analysis::Series& series, const analysis::Plan& plan);
-/// The first part of casualties_text(): how many runs were stopped or refused, and the reason of the first.
+/// The first part of casualties_text(): the number of stopped or refused runs, and the reason of the first.
 std::string stopped_text(const analysis::Series& series, const analysis::Plan& plan);
 /// The last line: "1000 drives, seed 1: all hold every requirement".
 std::string series_sum(const analysis::Series& series, const analysis::Plan& plan);

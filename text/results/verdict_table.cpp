@@ -44,7 +44,7 @@ const char* colour_of(Kind kind) {
   return "";
 }
 
-/// Whether a line is no row of columns, so that it widens none.
+/// Whether a line has no columns, so that it does not change their width.
 bool is_free(Kind kind) { return kind == Kind::name || kind == Kind::note; }
 
 std::string coloured(Kind kind, std::string text, bool colour) {
@@ -92,7 +92,7 @@ void add_entry(std::vector<Line>& lines, const TableEntry& entry) {
 std::string deviation_text(const study::ComparisonResult& c) {
   if (!std::isfinite(c.measured)) return "not comparable";
   if (c.value == 0.0) return "";
-  // The percentage is relative to the amount, forward and backward alike; with opposite signs it has no meaning.
+  // The percentage is relative to the amount, in both directions. It has no meaning for opposite signs.
   if ((c.measured < 0.0) != (c.value < 0.0))
     return (c.measured > c.value ? "+" : "") + quantity_text(c.measured - c.value, c.unit);
   const double percent = 100.0 * (c.measured - c.value) / c.value;

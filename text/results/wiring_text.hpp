@@ -8,8 +8,8 @@
 
 namespace text {
 
-/// The drive's commutation; what each wiring does; its symptom at the bench; its cure; and the differences
-/// between theory and simulation, if any.
+/// The drive's commutation; the behaviour of each wiring; its symptom at the bench; its cure; and the
+/// differences between theory and simulation, if any.
 std::string wiring_text(const analysis::WiringStudy& study);
 
 }  // namespace text

@@ -106,8 +106,8 @@ std::string symptom_text(const analysis::WiringStudy& s, WiringDoes does) {
   if (does == WiringDoes::forward) return "runs as it should";
   if (does == WiringDoes::backward) return "runs as well as forward";
   const auto times = [](double x) { return fmt::format("{:.{}f}", x, x < 9.95 ? 1 : 0); };
-  // With a sheet without friction, a right wiring takes no current; any other one takes some thousand times as
-  // much.
+  // A right wiring takes no current if the sheet has no friction. Any other wiring takes some thousand times
+  // more.
   const double ratio = here.phase_rms_A / well.phase_rms_A;
   const std::string current =
       ratio < 100 ? times(ratio) + " times the current" : "more than 100 times the current";

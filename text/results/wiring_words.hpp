@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Describes a wiring, what it does and its cure in words, for the terminal, JSON and the page.
+// Describes a wiring, the motor's behaviour and the cure in words, for the terminal, JSON and the page.
 #pragma once
 #include <span>
 #include <string>
@@ -24,7 +24,7 @@ std::span<const analysis::WiringDoes> told_order();
 
 /// "backward, late"; does_name() gives "backward_late" for JSON.
 std::string_view does_text(analysis::WiringDoes does);
-/// Without the direction, for use beside an arrow: "late".
+/// The behaviour without its direction, to be shown with an arrow: "late".
 std::string_view short_does_text(analysis::WiringDoes does);
 std::string_view does_name(analysis::WiringDoes does);
 

@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 
 struct Place {
   const std::vector<KeyEntry>& keys;
-  bool partial = false;  ///< inside a table that only changes values: nothing is required, frames are kept
+  bool partial = false;  ///< inside a table that only changes values: no key is required, frames are kept
 };
 
 bool is_bounded(double x) { return x - x == 0.0; }
@@ -34,8 +34,8 @@ Json schema_number(const base::Range& range) {
   return schema;
 }
 
-/// Every number of a file: in the key's unit, or as text with its own unit, "20 ms", whose kind and range are
-/// checked on reading.
+/// Schema of every number of a file: in the key's unit, or as text with its own unit, "20 ms", whose kind and
+/// range are checked on reading.
 Json range_schema(const base::Range& range) {
   const Json with_unit = {{"type", "string"}, {"pattern", "^\\s*[-+]?[.0-9]"}};
   return {{"anyOf", {schema_number(range), with_unit}}};
@@ -61,8 +61,8 @@ Json one_of(const std::vector<std::pair<std::string, std::string>>& words) {
 
 Json words_of(const std::vector<std::string>& words) { return {{"enum", words}}; }
 
-/// A number, or a table that also gives its frame and source. If there are several frames, a motor file names
-/// one.
+/// A number, or a table that also gives its frame and source. A motor file must name the frame if there are
+/// several.
 Json quantity(const KeyEntry& entry, const Place& place) {
   const std::vector<std::string> frames = frames_of(entry.about.frame);
   std::vector<std::string> trusts;

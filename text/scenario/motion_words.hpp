@@ -9,8 +9,8 @@
 
 namespace text {
 
-/// Complains about every key of the document that belongs to the other kind of motor, with the key to write
-/// instead. `keys`: the keys of this kind of file; the document itself says which kind of motor it has.
+/// Reports every key of the document that belongs to the other kind of motor, with the key to write instead.
+/// `keys`: the keys of this kind of file; the document itself defines its kind of motor.
 void refuse_other_motion(const std::vector<KeyEntry>& keys, Complaints& complaints);
 
 /// Converts the keys that [[spread]] names, and their widths, from a linear motor's names to the library's. Keys
@@ -18,8 +18,8 @@ void refuse_other_motion(const std::vector<KeyEntry>& keys, Complaints& complain
 void read_spread_keys(study::Scenario& scenario, Complaints& complaints);
 
 /// Converts the numbers whose unit follows from a mode or a figure to a linear motor's units: position in mm,
-/// not deg. A turning motor's scenario stays as it is. Reading gives back the same number, to the bit if a
-/// double allows it.
+/// not deg. A turning motor's scenario is unchanged. Reading returns the same number, to the bit if a double
+/// allows it.
 void in_units_of_its_motor(study::Scenario& scenario);
 
 }  // namespace text

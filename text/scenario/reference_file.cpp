@@ -16,7 +16,7 @@
 namespace text {
 namespace {
 
-/// Only so many lines are reported, because in a file that is no table every line would be.
+/// Upper limit of reported lines, because a file that is no table has an error in every line.
 constexpr std::size_t most_told = 5;
 
 /// The first column: its unit, and its names in messages.
@@ -42,7 +42,7 @@ class RowsOf {
                                             y = converted(r_, *picked, unit_);
     if (!t) return t.problems();
     if (!y) return y.problems();
-    // A time before a cell that is not a number says nothing about the time behind it.
+    // Stops at the first cell that is not a number: the time before it does not bound the time after it.
     for (std::size_t row = 0; bad_ == 0 && row < t->size(); ++row) take(row, (*t)[row], (*y)[row]);
     if (told_.empty()) return std::move(rows_);
     std::stable_sort(told_.begin(), told_.end(),
@@ -73,7 +73,7 @@ class RowsOf {
     return found->front();
   }
 
-  /// The second column may be anything in a table of many.
+  /// Problem of a table with many columns, in which the second column may be any quantity.
   base::Problem which_column() const {
     std::string names;
     for (std::size_t n = 1; n < r_.columns.size(); ++n)

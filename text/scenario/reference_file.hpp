@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads a reference from a table of numbers: time in seconds in the first column, the reference in another. A
-// back-EMF's shape likewise: the electrical angle in degrees, then the value.
+// back-EMF's shape is read in the same way: the electrical angle in degrees, then the value.
 #pragma once
 #include <optional>
 #include <string>

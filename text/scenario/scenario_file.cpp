@@ -185,7 +185,7 @@ base::Result<study::Scenario> read_scenario_text(const std::string& name, std::s
   drop_stale(scenario.sheet, [&](std::string_view key) { return overridden(document, key); });
   read_shape(document, "motor_override.back_emf_file", options.resolve, scenario.sheet, complaints,
              of_other_files);
-  // A wrong duration has been reported: no further problem may come from times behind its end.
+  // A wrong duration has been reported: times after its end must not cause further problems.
   if (!(scenario.duration_s > 0.0)) scenario.duration_s = study::longest_s;
   read_all_rows(document, options.resolve, scenario, complaints, of_other_files);
   load_controller(document, options.resolve, scenario.control.own, complaints);

@@ -14,7 +14,7 @@ namespace text {
 
 struct ReadOptions {
   std::vector<Setting> overrides;  ///< from the command line, stronger than the file
-  Resolve resolve;                 ///< finds the named texts; motors compiled in need none
+  Resolve resolve;                 ///< finds the named texts; motors compiled in do not need it
 };
 
 /// The scenario with its motor's sheet, after all checks of study::check. Each Problem's `where` begins with

@@ -30,7 +30,7 @@ std::string toml(const std::vector<T>& list) {
   return out + "]";
 }
 
-/// A number with as many digits behind the point as in its file, because the tolerance is read from them.
+/// A number with the digits after the point as in its file, because they define the tolerance.
 std::string with_last_digit(const sixstep::base::Quantity& q) {
   std::string text = toml(q.value);
   if (!q.last_digit || text.find_first_not_of("-.0123456789") != std::string::npos) return text;
@@ -67,8 +67,8 @@ std::vector<double> spelled_as(std::vector<double> list, const sixstep::base::Sp
   return list;
 }
 
-/// One table's keys as they would be written, with the tables within it and the lists behind them; for a linear
-/// motor in its words.
+/// Writes one table's keys, with the tables within it and the lists after them, in the words of the motor's
+/// kind.
 class TableText final : public sixstep::base::Visitor {
  public:
   explicit TableText(bool linear_motor = false) : linear_motor_(linear_motor) {}
@@ -129,7 +129,7 @@ class TableText final : public sixstep::base::Visitor {
     }
   }
 
-  enum class Shown { where_it_differs, always, never, partly };  ///< partly: none of its keys is needed
+  enum class Shown { where_it_differs, always, never, partly };  ///< partly: none of its keys is required
   struct Row {
     std::string key, value;
     bool required;
@@ -203,8 +203,8 @@ class KeysGiven final : public sixstep::base::Visitor {
   }
 };
 
-/// The sheet that holds without overrides: the motor's own. If the run lacks a key of it, an override that means
-/// the same has replaced that key; then all keys are written.
+/// The sheet without overrides: the motor's own. If the run lacks a key of it, an override with the same
+/// meaning has replaced that key; then all keys are written.
 design::Sheet usual_sheet(const study::Scenario& s) {
   if (!s.motor_sheet) return s.sheet;
   design::Sheet own = *s.motor_sheet, used = s.sheet;

@@ -37,7 +37,7 @@ std::optional<int> pole_pairs_in(const Document& document, const std::string& ta
 /// Whether [motor_override] has the key, in any of its spellings.
 bool overridden(const Document& document, std::string_view key);
 
-/// Whether a check's `where` is a key of the motor's sheet, which is named without a table.
+/// Whether a check's `where` is a key of the motor's sheet, which has no table in its name.
 bool is_sheet_key(const std::string& where);
 
 /// Quotes the file's value if the key is in another spelling, because a sheet's check names the standard key and

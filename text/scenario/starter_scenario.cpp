@@ -28,7 +28,7 @@ struct Wanted {
   bool open = false;  ///< always open, even if it only repeats the default
 };
 
-/// Keys that a first scenario shows besides those that it sets.
+/// Keys that a first scenario shows in addition to those that it sets.
 std::vector<Wanted> wanted_keys(Mode mode) {
   std::vector<Wanted> keys = {{"title", true},
                               {"supply.voltage_V", true},
@@ -58,7 +58,7 @@ std::vector<Wanted> wanted_keys(Mode mode) {
   return keys;
 }
 
-/// The value of a line if the scenario has none: refused until a number is given.
+/// The value of a line without a value in the scenario: refused until a number is given.
 std::string placeholder(const KeyEntry& entry) {
   if (!entry.default_value.empty()) return entry.default_value;
   switch (entry.type) {
@@ -76,7 +76,7 @@ std::string placeholder(const KeyEntry& entry) {
   }
 }
 
-/// "3e-05" as engineers write it, "30e-6": the same number. Other texts stay as they are.
+/// Writes "3e-05" in engineering form, "30e-6": the same number. Other texts are unchanged.
 std::string with_plain_exponent(const std::string& text) {
   const std::size_t cut = text.find('e');
   if (cut == std::string::npos || text.find_first_not_of("-.0123456789") != cut) return text;
@@ -143,7 +143,7 @@ class Starter {
   std::string text() { return table("", ""); }
 
  private:
-  /// The keys of one table and of those within it. `at` is where it stands: "control", or "require[0]".
+  /// The keys of one table and of those within it. `at` is its path: "control", or "require[0]".
   std::string table(const std::string& path, const std::string& at) {
     std::string own, inner;
     for (const KeyEntry* entry : keys_in(keys_, path)) {

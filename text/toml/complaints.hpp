@@ -21,7 +21,7 @@ class Complaints {
   bool linear_motor() const { return linear_motor_; }
   void set_linear_motor(bool linear) { linear_motor_ = linear; }
 
-  /// Of the document's motor, if it has any; electrical turns convert with them.
+  /// Pole pairs of the document's motor, if given; they convert electrical turns.
   std::optional<int> pole_pairs() const { return pole_pairs_; }
   void set_pole_pairs(std::optional<int> pole_pairs) { pole_pairs_ = pole_pairs; }
 
@@ -54,7 +54,7 @@ class Complaints {
 
   const Document& document() const { return document_; }
   bool empty() const { return found_.empty(); }
-  /// Further mistakes are only counted, because nobody reads so many.
+  /// Limit of reported mistakes. Further ones are only counted, because a longer list has no use.
   bool full() const { return found_.size() >= most_told; }
   base::Problems in_order() const;
 
@@ -65,7 +65,7 @@ class Complaints {
     base::Problem problem;
   };
   static constexpr std::size_t most_told = 100;
-  /// Marks the table of `path` and the list item that the table lies in.
+  /// Marks the table of `path` and the list item that contains it.
   void told(std::string_view path);
   void add(const toml::source_region& at, std::string place, std::string_view path, base::Problem problem);
   /// Counts the mistake and returns true if full().

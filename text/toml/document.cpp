@@ -74,8 +74,8 @@ struct Dropped {
   std::string key;
 };
 
-/// Moves the keys that `over` leaves open there from `base`; they keep their place in their file. A dropped
-/// table stays as a mark until all bases are done, because a weaker one may have it too.
+/// Moves the keys that `over` lacks there from `base`; they keep their place in their file. A dropped table
+/// stays as a mark until all bases are processed, because a weaker one may have it too.
 void fill(toml::table& over, toml::table& base, std::vector<Dropped>& dropped) {
   for (auto&& [key, node] : base) {
     toml::node* mine = over.get(key.str());
@@ -196,7 +196,7 @@ const toml::node* Document::find(std::string_view path) const {
 
 const Setting* Document::setting_of(std::string_view path) const {
   const std::vector<std::string> words = path_words(path);
-  // Of several settings of one key the last one holds.
+  // The last of several settings of one key applies.
   for (auto setting = settings_.rbegin(); setting != settings_.rend(); ++setting)
     if (path_words(setting->path) == words) return &*setting;
   return nullptr;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Holds a TOML file with its text, so that every complaint can quote it and give its place. If it is laid over
-// other files, each value still has the place in its own file.
+// Holds a TOML file with its text, so that every complaint can quote it and give its place. If it extends
+// other files, each value keeps the place in its own file.
 #pragma once
 #include <span>
 #include <string>
@@ -29,7 +29,7 @@ class Document {
   /// or braces is one value. Empty braces over a table remove it, as if it had not been written.
   void lay_over(std::vector<Document> bases);
 
-  /// Applies values of the command line. A text that is no TOML value is taken as a word: `chopping=hard`.
+  /// Applies values of the command line. A text that is no TOML value is read as a word: `chopping=hard`.
   base::Problems set(std::span<const Setting> settings);
 
   const toml::table& root() const { return root_; }

@@ -55,7 +55,8 @@ constexpr ForeignKind foreign_kinds[] = {
        {".J ", "inertia_kgm2"}}}},
 };
 
-/// The number behind a word: "<foc_motor_r>0.0187", "phase_resistance": 0.05", "motor.poles 14" or ".Rs = 0.36".
+/// The number after a word: "<foc_motor_r>0.0187", "phase_resistance": 0.05", "motor.poles 14" or ".Rs =
+/// 0.36".
 std::optional<double> number_behind(std::string_view text, std::string_view word) {
   const std::size_t at = text.find(word);
   if (word.empty() || at == std::string_view::npos) return {};

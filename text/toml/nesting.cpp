@@ -8,8 +8,8 @@
 namespace text {
 namespace {
 
-/// The place behind the string that begins at `at`, or the end of the text. For a string that is not closed on
-/// its line, which the parser will report, the end of the line.
+/// The place after the string that begins at `at`, or the end of the text. If the string is not closed on its
+/// line, which the parser will report, the end of the line.
 std::size_t behind_string(std::string_view text, std::size_t at) {
   const char quote = text[at];
   const bool whole = text.substr(at, 3) == std::string(3, quote);

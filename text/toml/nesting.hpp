@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks how deep a TOML text nests before it is parsed: parser and tree recurse once per level, so that a key
-// of 100 000 parts would overflow the stack.
+// Checks the nesting depth of a TOML text before it is parsed: parser and tree recurse once per level, so
+// that a key of 100 000 parts would overflow the stack.
 #pragma once
 #include <optional>
 #include <string_view>
@@ -10,7 +10,7 @@
 
 namespace text {
 
-/// No key of a scenario or a motor file lies deeper than four.
+/// Largest depth. Keys of scenarios and motor files have a depth of at most four.
 inline constexpr std::size_t deepest = 32;
 
 /// The first place where brackets or parts of a key nest deeper than `deepest`.

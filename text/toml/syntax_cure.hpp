@@ -7,7 +7,7 @@
 
 namespace text {
 
-/// `met`: the parser's message. Returns what the writer has to change.
+/// Returns the change that corrects the file. `met`: the parser's message.
 std::string_view syntax_cure(std::string_view met);
 
 }  // namespace text

@@ -12,7 +12,7 @@
 namespace text {
 namespace {
 
-/// Only so many entries of one list are reported, because each may be of a wrong kind.
+/// Upper limit of reported entries of one list, because each may be of a wrong kind.
 constexpr std::size_t most_told_of_a_list = 5;
 
 /// Limit for one [[key]].

@@ -13,11 +13,12 @@ void TableReader::read(std::string_view key, std::optional<T>& member, const bas
   T present{};
   refused_ = false;
   if constexpr (std::is_same_v<T, double>)
-    read(key, present, about);  // read() looks for the spellings itself
+    read(key, present, about);  // read() finds the spellings itself
   else
     read(spelling_in_file(key, about)->key, present, about);
   if constexpr (std::is_arithmetic_v<T>)
-    if (refused_) present = static_cast<T>(within(about));  // already reported; later checks see it as given
+    if (refused_)
+      present = static_cast<T>(within(about));  // already reported; later checks treat it as given
   member = std::move(present);
 }
 
@@ -26,7 +27,8 @@ void TableReader::read(std::string_view key, std::optional<base::Quantity>& memb
   if (!any_spelling_in_file(key, about)) return absent(key, about);
   std::optional<base::Quantity> found = member ? member : base::Quantity{};
   read(key, *found, about);
-  // An unreadable value is no number of the file: later checks see none, or the one that it was to replace.
+  // An unreadable value is no number of the file: later checks read an empty value, or the one to be
+  // replaced.
   if (!complaints_.about(shown(at(found->key.empty() ? key : std::string_view(found->key))))) member = found;
 }
 
@@ -52,7 +54,7 @@ void TableReader::visit_word(std::string_view key, base::WordMember& member, con
   const toml::node* node = find(key, about);
   lost_word_ = lost_word_ || (!node && about.required);
   if (!node) return;
-  // TOML reads a word of digits without quotes as a number, as behind --set.
+  // TOML reads a word of digits without quotes as a number, as after --set.
   const toml::value<std::int64_t>* digits = node->as_integer();
   const std::optional<std::string> said = digits ? std::to_string(digits->get()) : node->value<std::string>();
   std::vector<std::string> words;

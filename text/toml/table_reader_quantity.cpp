@@ -139,7 +139,7 @@ void TableReader::read(std::string_view key, base::Quantity& member, const base:
   member = std::move(read);
 }
 
-/// Nm/Arms determines the frame, and so does Vrms/krpm if it leaves only one; a frame beside it must agree.
+/// Nm/Arms determines the frame, and so does Vrms/krpm if only one frame fits. A given frame must agree.
 void TableReader::frame_of_unit(const toml::node& node, const std::string& path, const base::About& about,
                                 base::Quantity& quantity) {
   const toml::value<std::string>* text = node.as_string();
@@ -158,7 +158,7 @@ void TableReader::frame_of_unit(const toml::node& node, const std::string& path,
                            quantity.frame.empty() ? "" : ", or the unit without " + std::string(measure))});
 }
 
-/// The struct's own check reports a missing frame, because it can say what each candidate would mean.
+/// The struct's own check reports a missing frame, because it can explain each candidate.
 void TableReader::frame(const toml::node& node, const std::string& path, const base::About& about,
                         base::Quantity& quantity) {
   const std::vector<std::string> frames = frames_of(about.frame);

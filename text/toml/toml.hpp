@@ -7,12 +7,12 @@
 #undef TOML_HEADER_ONLY
 #define TOML_HEADER_ONLY 0
 #define TOML_ENABLE_FORMATTERS 0
-// The parser's assertions fail for some files ("[# no name"), which it then refuses anyway. Without NDEBUG they
-// would end the program, and clang would be told to assume them.
+// The parser's assertions fail for some files ("[# no name"), which it then refuses anyway. Without NDEBUG
+// they would end the program, and clang would compile them as assumptions.
 #undef TOML_ASSERT
 #define TOML_ASSERT(expr) static_assert(true)
-// Its tables of white space mark characters as unreachable that a file may hold ("valueÖ = 1"; version 3.3 and
-// before). Such a character is no white space.
+// The parser's tables of white space mark characters as unreachable that a file may hold ("valueÖ = 1";
+// version 3.3 and before). Such a character is no white space.
 #include <toml++/impl/preprocessor.h>
 #undef TOML_ASSERT_ASSUME
 #define TOML_ASSERT_ASSUME(expr) static_assert(true)

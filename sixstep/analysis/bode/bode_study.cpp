@@ -34,8 +34,8 @@ study::Scenario as_at_the_end(const study::Scenario& s) {
   return study::settled(s, events.empty() ? nullptr : events.back());
 }
 
-/// A reference that moves until the run's end has reached its final value there. The drive's remaining error dies
-/// away in the multisine's first period, as after a step.
+/// Refuses a reference that never rests. One that moves until the run's end has reached its final value
+/// there; the drive's remaining error decays in the multisine's first period, as after a step.
 base::Problems still_moving(const study::Scenario& run) {
   constexpr double rounding = 1e-12;
   const std::optional<double> rests_s = study::reference_rests_from_s(run);
@@ -108,8 +108,8 @@ Multisine multisine_for(const std::optional<design::LoopFigures>& figures, doubl
   return signal;
 }
 
-/// The reference from the end of the run on. It changes in the middle between two samples, so that each sample
-/// sees a definite value.
+/// The reference after the end of the run. It changes in the middle between two samples, so that each sample
+/// reads one value.
 study::At multisine_event(const BodeStudy& b, std::size_t periods) {
   study::Reference r;
   r.shape = study::Shape::csv;
@@ -166,9 +166,9 @@ base::Result<std::vector<double>> outputs_of(study::Session& session, BodeStudy&
   return output;
 }
 
-/// A Problem where the drive drifts. Such a drive answers each period alike, because a straight drift has the same
-/// lines in each; the lines then show the drift. A drift by the part w of the amplitude in a period adds about
-/// w/line of the multisine's line to the answer.
+/// A Problem where the drive drifts. A linear drift has the same lines in each period, so that the answers of
+/// all periods are equal, but the lines then show the drift. A drift per period of w times the amplitude adds
+/// about w/line of the multisine's line to the answer.
 base::Problems still_on_its_way(const BodeStudy& b, const std::vector<double>& output, double duration_s) {
   constexpr double most_way = 0.05;
   const std::size_t N = b.signal.samples, periods = output.size() / N;
@@ -195,7 +195,7 @@ double amplitude_of(const BodeOrder& order, double stands_at) {
   return order.amplitude.value_or(std::fabs(stands_at) / 20);
 }
 
-/// Sets operating point, signal and the linear loop there; nothing is run yet.
+/// Sets operating point and signal, and computes the linear loop there. It does not run anything yet.
 base::Problems prepare(BodeStudy& b, const study::Scenario& s, const BodeOrder& order) {
   const std::vector<study::Stretch> waveform = study::reference_waveform(s);
   const study::Scenario& last = b.at_end;
@@ -224,8 +224,8 @@ base::Problems prepare(BodeStudy& b, const study::Scenario& s, const BodeOrder& 
   return {};
 }
 
-/// Takes each measured phase in the turn nearest to the designed one, which is exact and goes on from line to
-/// line: a wrong phase at one line must not move the lines after it by a turn.
+/// Shifts each measured phase by whole turns to be nearest to the designed one, which is exact and continuous
+/// over the lines. A wrong phase at one line then cannot shift later lines by a turn.
 void lay_beside_the_designed(BodeStudy& b) {
   if (!b.designed) return;
   std::vector<double> angles;

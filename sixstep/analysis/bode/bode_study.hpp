@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the frequency response of a drive's outermost loop in the switching simulation. The scenario runs as it
-// is written; from its end on, a multisine is added to the reference's final value. The controlled quantity at the
-// controller's samples, over the multisine, is the closed loop's response. The linear loop that the gains were
-// designed on is computed for comparison.
+// Measures the frequency response of a drive's outermost loop in the switching simulation. The scenario runs
+// as written; from its end on, a multisine is added to the reference's final value. The controlled quantity
+// at the controller's samples, over the multisine, is the closed loop's response. The linear loop that the
+// gains were designed on is computed for comparison.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -17,7 +17,7 @@
 namespace sixstep::analysis {
 
 struct BodeOrder {
-  /// Of the multisine, in the mode's unit; empty: a twentieth of the reference's final value.
+  /// Amplitude of the multisine, in the mode's unit; empty: a twentieth of the reference's final value.
   std::optional<double> amplitude;
   std::size_t lines = 32;
   std::size_t periods = 6;                       ///< evaluated, after one for the transient
@@ -34,9 +34,10 @@ struct BodeStudy {
   double pole_pairs = 1.0;
   Multisine signal;
   std::vector<LoopPoint> points;
-  /// Part of the answer's rms that lies at no line: ripple, commutation, other nonlinear effects.
+  /// Fraction of the answer's rms at frequencies that are no line: ripple, commutation, other nonlinear
+  /// effects.
   double beside = 0.0;
-  /// Part of the evaluated samples at which no phase carries current.
+  /// Fraction of the evaluated samples at which no phase carries current.
   double without_current = 0.0;
   ReadMargins measured;
   std::optional<design::Transfer> designed;    ///< empty: the loop is not linear

@@ -23,10 +23,10 @@ double next_to(double angle, double near);
 /// degrees, as for a loop that integrates.
 std::vector<double> unwrapped(const std::vector<double>& angles);
 
-/// The points of L from the answer to a multisine with samples a period apart. `lag`: of the sensor, because the
-/// answer was recorded before it. L = T/(1 - T) holds for the signal that goes round the loop, which is T times
-/// the lag. With the true speed instead, L would be read as 1/(lag - 1) where T is near 1, and without any lag
-/// where T is small.
+/// The points of L from the answer to a multisine with samples a period apart. `lag`: the sensor's, because
+/// the answer was recorded before the sensor. L = T/(1 - T) holds for the signal that goes round the loop,
+/// which is T times the lag. With the true speed instead, L would be read as 1/(lag - 1) where T is near 1,
+/// and without any lag where T is small.
 std::vector<LoopPoint> loop_points(const Multisine& signal, const Answer& answer, double period_s,
                                    const std::optional<design::SpeedLag>& lag = {});
 
@@ -41,7 +41,8 @@ struct ReadMargins {
 };
 ReadMargins margins_of(const std::vector<LoopPoint>& points);
 
-/// A line with less coherence does not count as answered: too much of it does not come from the multisine.
+/// A line with less coherence is not answered: too much of its response has another source than the
+/// multisine.
 inline constexpr double little_coherence = 0.9;
 /// Whether the loop answered at any line; without an answer, no margin is read.
 bool answered(const std::vector<LoopPoint>& points);

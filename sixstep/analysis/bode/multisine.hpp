@@ -4,8 +4,8 @@
 //
 //   r[n] = A/peak sum_k cos(2 pi l_k n/N + phi_k),    phi_k = -pi k (k - 1)/K
 //
-// Schroeder's phases keep the peak low (M. R. Schroeder, IEEE Trans. Inf. Theory 16, 1970). Lines l_k are odd, so
-// that answers to the square of the input lie beside all of them (R. Pintelon, J. Schoukens, System
+// Schroeder's phases keep the peak low (M. R. Schroeder, IEEE Trans. Inf. Theory 16, 1970). Lines l_k are
+// odd, so that answers to the square of the input lie between them (R. Pintelon, J. Schoukens, System
 // Identification, 2012, 2.4 and 4.3).
 #pragma once
 #include <cstddef>
@@ -35,7 +35,7 @@ struct LineAnswer {
 
 struct Answer {
   std::vector<LineAnswer> lines;
-  double beside = 0.0;  ///< part of the output's rms, without its mean, that lies at no line
+  double beside = 0.0;  ///< fraction of the output's rms, without its mean, at frequencies that are no line
 };
 
 /// The response to `signal`. `output` begins after the transient; only its whole periods are evaluated.

@@ -50,7 +50,7 @@ control::CommissioningWish wish_of(const Paces& p, double I_A) {
   w.test_A = I_A;
   w.settle_s = std::max(w.settle_s, 6 * p.calming_s);
   w.step_s = std::max(w.step_s, 12 * p.tau_s);
-  // Six times the turn stays below a third of the swing (hall_survey.hpp).
+  // The factor 18 keeps six times the turn's speed below a third of the swing (hall_survey.hpp).
   w.slow_turns_s = std::min(w.slow_turns_s, p.swing_rad_s / (18 * base::turn_rad));
   w.fastest_turns_s = std::max(w.fastest_turns_s, 2 * p.half_emf_turns_s);
   w.spin_up_s = std::max(w.spin_up_s, 5 * w.fastest_turns_s / p.spin_turns_s2);
@@ -127,8 +127,8 @@ base::Result<double> voltage_of(const CommissionSubject& subject, const design::
   return V;
 }
 
-/// Largest current with which a salient rotor stays in the field: a third of that at which its reluctance pulls
-/// harder than its magnet, (L_q - L_d) I > psi.
+/// Largest current at which a salient rotor stays aligned with the field: a third of the current at which its
+/// reluctance torque exceeds the magnet's, (L_q - L_d) I > psi.
 double salient_most_A(const study::GeneralPlant& plant) {
   const CommissionTruth t = truth_of(plant, 0.0);
   return t.beyond_L_H > 0.0 ? t.flux_linkage_Vs / t.beyond_L_H / 3 : HUGE_VAL;
@@ -139,9 +139,10 @@ struct TestCurrentFrom {
   TestCurrent from = TestCurrent::asked_for;
 };
 
-/// Twice the nominal current, which a motor stands for seconds, or half of what the bus could drive. With less,
-/// the voltage of dead time and diodes is no small part of the vector. Along a phase the vector reaches half of
-/// the bus (field_vector.hpp); a tenth of that stays for dead time and diodes.
+/// Twice the nominal current, which a motor withstands for seconds, or half of the largest current that the
+/// bus can drive. At less current, the voltage of dead time and diodes would be a large part of the vector.
+/// Along a phase the vector reaches half of the bus (field_vector.hpp); a tenth of that is reserved for dead
+/// time and diodes.
 base::Result<TestCurrentFrom> current_of(const CommissionSubject& subject, const design::MotorModel& motor,
                                          double V) {
   const double R = motor.machine.R_ohm;

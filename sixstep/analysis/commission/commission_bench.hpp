@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Makes the test bench for commissioning (control/commissioning/): a usual board, the motor with a free shaft, and
-// the settings of the test that suit the motor: how much current, for how long, how slowly. The chip gets the
-// board's data and these settings, but no data of the motor.
+// the settings of the test for this motor: current, durations, speeds. The chip gets the board's data and
+// these settings, but no data of the motor.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -18,7 +18,7 @@ struct CommissionSubject {
   std::string motor{};                ///< name or path, for the scenario
   design::Sheet sheet{};              ///< of that motor
   std::optional<double> voltage_V{};  ///< of the bus; empty: the sheet's nominal voltage
-  std::optional<double> current_A{};  ///< of the test; empty: see TestCurrent
+  std::optional<double> current_A{};  ///< test current; empty: see TestCurrent
   rig::Wiring wires{};                ///< how phases and Hall lines are plugged in
   double hall_offset_deg = 0.0;       ///< electrical, of all edges
   int seed = 0;                       ///< of the converters' noise
@@ -29,7 +29,7 @@ enum class TestCurrent : std::uint8_t {
   asked_for,
   twice_nominal,
   twice_tenth_of_stall,  ///< as the sheet names no nominal current (design/loops/operating_limits.hpp)
-  half_of_most           ///< of what bus and rotor allow, because the other choices are more
+  half_of_most           ///< half of the current that bus and rotor allow, because the other choices are more
 };
 
 /// The motor's true values at the board's terminals, with the winding at `degC`.
@@ -55,8 +55,8 @@ struct CommissionBench {
   double longest_s = 0.0;                     ///< time by which the chip should have ended
 };
 
-/// Problems name `voltage_V`, `current_A` or `hall_offset_deg`, or are those of the sheet. A motor that cannot be
-/// commissioned is a Problem that says why.
+/// Problems name `voltage_V`, `current_A` or `hall_offset_deg`, or come from the sheet. A motor that cannot
+/// be commissioned is a Problem with the reason.
 base::Result<CommissionBench> commission_bench(const CommissionSubject& subject);
 
 }  // namespace sixstep::analysis

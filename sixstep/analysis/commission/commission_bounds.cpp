@@ -9,7 +9,7 @@
 namespace sixstep::analysis {
 namespace {
 
-/// In standard deviations: one normal value in 370 lies beyond.
+/// Bound in standard deviations: one normal value in 370 exceeds it.
 constexpr double deviations = 3.0;
 constexpr double per_rad = 180 / base::pi;
 
@@ -29,8 +29,8 @@ struct OfNoise {
   }
 };
 
-/// Angle by which cogging, and a shape that is no sine, hold the rotor beside the field. The shape's 1.12 degrees
-/// hold at rest. During the turn they are a ripple that comes near the rotor's swing, which amplifies it by up to
+/// Angle error of the rotor in the field by cogging and by a shape that is no sine. The shape's 1.12 degrees
+/// apply at rest. During the turn they are a ripple near the rotor's resonance, which amplifies it by up to
 /// 1/(1 - 1/9) (commission_bench.cpp); friction changes that by a twentieth.
 double of_motor_deg(const CommissionBench& b) {
   constexpr double trapezoid_deg = 1.12 / (1 - 1.0 / 9) * 1.05;
@@ -39,16 +39,16 @@ double of_motor_deg(const CommissionBench& b) {
   return (b.truth.sine ? 0.0 : trapezoid_deg) + base::atan2(aside, std::sqrt(1 - aside * aside)) * per_rad;
 }
 
-/// Angle by dead time and diodes: their voltage lies along the signs of the currents, up to 30 degrees beside the
-/// vector.
+/// Angle error by dead time and diodes: their voltage has the signs of the currents, up to 30 degrees from
+/// the vector.
 double of_drop_deg(const control::CommissioningState& found) {
   const double lost = std::fabs(static_cast<double>(found.winding.lost)), applied = found.magnet.applied;
   return applied > lost ? base::atan2(0.5 * lost, applied - lost) * per_rad : 0.0;
 }
 
-/// Error by unknown signs, as a part of the back-EMF. The voltage of dead time and diodes has the currents' signs.
-/// Where a current is within its ripple and noise of zero, its sign is unknown: in that part of a turn `lost` is
-/// wrong.
+/// Error by unknown signs, as a fraction of the back-EMF. The voltage of dead time and diodes has the
+/// currents' signs. Where a current is within its ripple and noise of zero, its sign is unknown, so that
+/// `lost` is wrong in that part of a turn.
 double of_signs(const CommissionBench& b, const control::CommissioningState& found,
                 const control::Commissioned<double>& si) {
   const double lost = std::fabs(static_cast<double>(found.winding.lost)), emf = found.magnet.emf,
@@ -66,7 +66,8 @@ double of_signs(const CommissionBench& b, const control::CommissioningState& fou
 CommissionBounds bounds_of(const CommissionBench& b, const control::CommissioningState& found) {
   const control::CommissioningConfig config = control::commissioning_config(b.board, b.wish);
   CommissionBounds out;
-  // The capture timer's count, each way and at each end. Where no winding was measured, the other bounds stay 0.
+  // Resolution of the capture timer, in both directions and at both ends. Without a measured winding, the
+  // other bounds stay 0.
   const double count_deg = 360.0 * b.wish.slow_turns_s / b.board.timer_Hz;
   out.edge_deg = 6 * count_deg + of_drop_deg(found) + of_motor_deg(b);
   if (!found.winding.usable) return out;

@@ -33,7 +33,7 @@ struct CommissionRow {
   double turns = 0.0;           ///< electrical, of the rotor since the start
 };
 
-/// A Hall edge with the codes at the pins before and after it, in the direction that the board takes for forward.
+/// A Hall edge with the codes at the pins before and after it, in the board's forward direction.
 struct CommissionEdge {
   std::uint8_t before = 0, after = 0;
   double found_deg = 0.0, true_deg = 0.0;  ///< electrical, 0 to 360, in the board's frame
@@ -64,7 +64,7 @@ struct CommissionOrder {
   std::function<bool()> keep_going{};  ///< false ends it early with a Problem "was interrupted"
 };
 
-/// Problems are those of the bench. A value that the chip did not find is no Problem: the state says so.
+/// Problems are those of the bench. A value that the chip did not find is no Problem; the state shows it.
 base::Result<CommissionStudy> study_commission(const CommissionOrder& order);
 
 }  // namespace sixstep::analysis

@@ -52,8 +52,8 @@ Contest contest_of(ContestBench bench, std::vector<ContestEntry> entries, std::s
 /// The largest peak current of a start within the torque limit: commutations add up to half of the limit's
 /// current to it, and PWM its ripple.
 double most_peak_A(const ContestBench& bench);
-/// Whether a row's figures may be the least: its nominal drive holds the course, with a start within
-/// most_peak_A(). A larger current would win by what the others may not use.
+/// Whether a row's figures may be the least: its nominal drive follows the course, with a start current
+/// within most_peak_A(). A larger current would be an unfair advantage.
 bool may_win(const Contest& contest, std::size_t row);
 
 /// The gauges of a run, found by their labels; NaN: the run has none.
@@ -61,8 +61,8 @@ GaugeValues gauges_of(const RunRecord& record);
 
 /// Stores the run of an entry's nominal drive.
 void take_nominal(Contest& contest, std::size_t entry, const base::Result<study::Outcome>& result);
-/// Stores the figures of a drive of the tolerances; its number in the plan selects the entry. Only worse figures
-/// count.
+/// Stores the figures of a drive of the tolerances; its number in the plan selects the entry. Only figures
+/// that are worse than the stored ones are kept.
 void take_drive(Contest& contest, const RunRecord& record);
 
 }  // namespace sixstep::analysis

@@ -43,8 +43,8 @@ bool is_grave(const design::DriveDesign& d) {
   return std::any_of(d.warnings.begin(), d.warnings.end(), [](const design::Warning& w) { return w.grave; });
 }
 
-/// With the settling time that the design chooses, or the shortest of 2, 5, 10 .. times it without a grave
-/// warning.
+/// Designs the drive with the settling time of the design, or with the shortest of 2, 5, 10 .. times it that
+/// has no grave warning.
 base::Result<design::DriveDesign> drive_design(const design::MotorModel& motor, const ContestSpec& c) {
   design::DesignSpec spec = wanted(c);
   base::Result<design::DriveDesign> first = design::design_drive(motor, spec);
@@ -72,7 +72,7 @@ Course course_of(const design::DriveDesign& d) {
   c.slow_rad_s = plain(d.lowest_speed_rad_s);
   c.calm_s = plain(std::max(settle, electrical_turns * turn / c.high_rad_s));
   c.slow_calm_s = plain(std::max(settle, electrical_turns * turn / c.slow_rad_s));
-  // With the torque that limit and bus leave at the end of the start; commutation takes about half of it.
+  // Torque that limit and bus allow at the end of the start; commutation costs about half of it.
   const double drives =
       0.5 * std::min(d.torque_limit_Nm, K * (d.bus_V - K * c.high_rad_s) / R) - c.load_Nm / 2;
   const double start = J * c.high_rad_s / std::max(drives, 0.2 * c.load_Nm);
@@ -148,8 +148,8 @@ void add_course(const Course& c, study::Scenario& s) {
   s.record = {};
 }
 
-/// Sets what is the same for all, and what every controller can use: the angle between Hall edges, the range of
-/// the converters, pulses in the middle of the period.
+/// Sets the keys that all scenarios share, and those that every controller can use: the angle between Hall
+/// edges, the range of the converters, pulses in the middle of the period.
 void make_common(const design::DriveDesign& d, bool board, study::Scenario& s) {
   s.pwm.alignment = study::Alignment::centre;
   s.control.speed.torque_limit_Nm = base::shortened(d.torque_limit_Nm, 4, base::Towards::down);

@@ -24,10 +24,10 @@
 namespace sixstep::analysis {
 
 struct ContestSpec {
-  std::string motor{};                       ///< name or path, for the scenarios
-  design::Sheet sheet{};                     ///< of that motor
-  std::optional<double> voltage_V{};         ///< of the bus; else the sheet's
-  std::optional<double> settle_s{};          ///< of the speed loop; else what the Hall probes allow
+  std::string motor{};                ///< name or path, for the scenarios
+  design::Sheet sheet{};              ///< of that motor
+  std::optional<double> voltage_V{};  ///< of the bus; else the sheet's
+  std::optional<double> settle_s{};   ///< of the speed loop; empty: the time that the Hall probes allow
   std::optional<double> current_settle_s{};  ///< of the current loop; else the design's
   std::optional<double> period_s{};          ///< of PWM and control; else 30 us
   /// Source of supply, bridge, PWM and sensors; empty: usual_bridge(). Where the board's switches name no
@@ -41,7 +41,7 @@ struct Course {
   double load_at_s = 0.0, slow_at_s = 0.0, end_s = 0.0;
   /// Length of the window before load_at_s: ten electrical turns, at least the settling time.
   double calm_s = 0.0;
-  double slow_calm_s = 0.0;  ///< of the window at the end, likewise
+  double slow_calm_s = 0.0;  ///< length of the window at the end, by the same rule
 };
 
 struct ContestBench {
@@ -55,7 +55,8 @@ struct ContestBench {
 base::Result<ContestBench> contest_bench(const ContestSpec& spec);
 
 /// Bridge where the user names none: switches of 1 % of the winding's resistance, diodes of 0.8 V, half a
-/// microsecond of dead time, and edges of 50 ns: E_on = E_off = U I 50 ns/2 at bus voltage and nominal current.
+/// microsecond of dead time, and edges of 50 ns: E_on = E_off = U I 50 ns/2 at bus voltage and nominal
+/// current.
 study::Bridge usual_bridge(const design::DriveDesign& design);
 
 /// Values that replace <name> in a contestant's keys, each computed by a rule.

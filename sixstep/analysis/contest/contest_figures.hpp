@@ -78,7 +78,7 @@ struct ContestFigure {
   Gauge less = Gauge::none;
 };
 
-/// For all figures, less is better.
+/// The compared figures. A smaller value is better for all of them.
 inline constexpr ContestFigure contest_figures[] = {
     {"settles",
      "settling after the start",

@@ -12,7 +12,7 @@ struct Contestant {
   /// "key = value", separated by "; ", as for --set. contest_values() gives the values of <band_A> and the like. A
   /// table in braces replaces the common one.
   std::string_view keys;
-  std::string_view sentence;  ///< what it does differently, and the effect: "it ..."
+  std::string_view sentence;  ///< the difference and its effect: "it ..."
   /// The drive of data/cores/ that has its blocks; empty: not counted yet.
   std::string_view core_drive = "";
   /// For a user's own controller: most instructions of a step and bytes of flash, where counted

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the lowest speed at which a controller still turns the motor against the full load. The reference goes
-// from the course's low speed down by halves, each long enough to settle and to measure. A speed is held where its
-// mean is within a twentieth of it, and the motor is never below half of it or above one and a half.
+// Finds the lowest speed at which a controller still turns the motor against the full load. The reference
+// halves repeatedly from the course's low speed, each step long enough to settle and to measure. A speed is
+// held where its mean is within a twentieth of it, and the motor is never below half of it or above one and a
+// half.
 #pragma once
 #include <optional>
 #include <span>

@@ -23,7 +23,7 @@ struct Bench {
   std::function<bool()> keep_going{};
 };
 
-/// Whether keep_going ends the work, and the Problem of work that it has ended.
+/// Whether keep_going ends the work, and the Problem of a computation that it ended.
 inline bool told_to_stop(const Bench& b) { return b.keep_going && !b.keep_going(); }
 inline base::Problem interrupted_work() { return {"curve", "", "was interrupted", "start it again"}; }
 

@@ -23,7 +23,7 @@ base::Problems check_temperatures(const CurveRequest& r) {
   const std::pair<const char*, double> temperatures[] = {{"ambient_degC", r.ambient_degC},
                                                          {"winding_degC", r.motor_degC.winding_degC},
                                                          {"housing_degC", r.motor_degC.housing_degC}};
-  for (const auto& [name, degC] : temperatures)  // above absolute zero, and below what no winding reaches
+  for (const auto& [name, degC] : temperatures)  // above absolute zero, and below any winding's temperature
     if (!base::between(-200, 500).holds(degC))
       problems.push_back({name, base::written(degC), "must be a temperature, -200 to 500 degC",
                           "25 is what data sheets mean"});

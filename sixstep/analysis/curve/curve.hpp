@@ -23,12 +23,12 @@ struct CurveRequest {
   double ambient_degC = design::sheet_degC;
 };
 
-/// The sheet's nominal point, and the curve's point of the same torque. A load asks for a torque, and a motor that
-/// differs turns at another speed with it. The torque at the printed speed would magnify the same difference by
-/// the curve's steepness.
+/// The sheet's nominal point, and the curve's point of the same torque. The points have equal torque because
+/// a load determines the torque, and the speed then differs from motor to motor. The torque at the printed
+/// speed would magnify the same difference by the curve's steepness.
 struct NominalPoint {
   std::optional<double> speed_rad_s, torque_Nm, current_A;  ///< as printed
-  std::string from;                                         ///< their source, where it is not the data sheet
+  std::string from;                                         ///< their source if it is not the data sheet
   std::optional<OperatingPoint> at_torque;  ///< empty without a torque, or where the curve never reaches it
   std::optional<OperatingPoint> at_speed;   ///< empty without a speed
 };
@@ -53,7 +53,8 @@ struct ThermalLimits {
   std::array<double, short_times_s.size()> short_A{}, short_Nm{};  ///< from ambient temperature
 };
 
-/// Temperatures of a point of the curve that is held. The current is taken as constant while the copper warms.
+/// Temperatures of a curve's point in steady operation. The current is assumed constant while the copper
+/// warms up.
 struct Warming {
   std::optional<double> winding_degC;   ///< final one; empty: it rises without end
   std::optional<double> permissible_s;  ///< from ambient temperature; empty: without limit
@@ -66,7 +67,7 @@ struct Curve {
   std::optional<NominalPoint> nominal{};
   std::optional<design::ThermalModel> thermal{};
   std::vector<ThermalLimits> limits{};            ///< one per point; empty without thermal lines
-  std::vector<Warming> warming{};                 ///< likewise
+  std::vector<Warming> warming{};                 ///< one per point, like the element above
   std::optional<design::WorseEnds> worse_ends{};  ///< where the sheet's thermal lines have ranges
   base::Problems thermal_missing{};               ///< why `thermal` is empty
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Simulates motor and bridge at duty 1: the gates follow the sector, nothing is chopped. A System for sim::run.
+// Simulates motor and bridge at duty 1: the gates follow the sector, without chopping. A System for sim::run.
 #pragma once
 #include "sixstep/analysis/curve/bench.hpp"
 #include "sixstep/analysis/curve/sums_recorder.hpp"

@@ -14,13 +14,13 @@ namespace sixstep::analysis {
 
 struct Marks {
   std::optional<OperatingPoint> best_efficiency;  ///< empty: no point has an efficiency
-  /// From this speed to no load the winding stays below its limit; empty: not even at no load, or without thermal
-  /// data.
+  /// The winding stays below its limit from this speed to no load; empty: not even at no load, or without
+  /// thermal data.
   std::optional<OperatingPoint> for_ever;
-  std::optional<OperatingPoint> nominal;  ///< the point of the asked torque; empty: none
+  std::optional<OperatingPoint> nominal;  ///< the point of the required torque; empty: none
 };
 
-/// Data for the marks beside the best efficiency.
+/// Data for the other marks than the best efficiency.
 struct MarksWanted {
   std::optional<design::ThermalModel> thermal;
   double ambient_degC = design::sheet_degC;
@@ -28,7 +28,7 @@ struct MarksWanted {
   std::optional<double> torque_Nm;
 };
 
-/// The sweep goes from standstill to no load in equal steps, close enough for one maximum and one root between
+/// The sweep has equal steps from standstill to no load, small enough for one maximum and one root between
 /// neighbours.
 inline constexpr int sweep_steps = 16;
 std::vector<double> sweep_speeds(double no_load_rad_s);

@@ -105,7 +105,7 @@ void note_means(const Bench& b, const Sums& sums, double turned_rad, double befo
   out.free_s = before_s + sums.seconds;
 }
 
-/// Lets the rotor run for `settle_s`, then takes mean values over `mean_s`.
+/// Runs the free rotor for `settle_s`, then averages over `mean_s`.
 void run_free(const Bench& b, OpenLoop& system, double settle_s, double mean_s, NoLoad& out) {
   system.run_for(settle_s);
   SumsRecorder recorder;

@@ -58,8 +58,8 @@ OperatingPoint point_of(const Bench& b, double speed, const Sums& sums) {
   return p;
 }
 
-/// At speed 0 the rotor just begins to turn the way it is driven: dry friction takes its part of the torque, or
-/// all of a lower one.
+/// At speed 0 the rotor just begins to turn in the driven direction: dry friction takes its part of the
+/// torque, or all of a lower one.
 double friction_at(const plant::Shaft& shaft, double speed, double torque_Nm) {
   if (speed != 0) return friction_Nm(shaft, speed);
   return std::copysign(std::min(shaft.coulomb_Nm, std::fabs(torque_Nm)), torque_Nm);
@@ -75,9 +75,9 @@ void take_to_shaft(const Bench& b, OperatingPoint& p) {
     p.efficiency = p.supplied_W / p.shaft_W;
 }
 
-/// The currents of a steady state one sector on. Sixty degrees are half a turn less a third. So x_a(theta + 60
-/// deg) = -x_b(theta), and likewise x_b -> -x_c, x_c -> -x_a, for every quantity of a symmetric machine and
-/// bridge.
+/// The currents of a steady state one sector later. Sixty degrees are half a turn less a third. So x_a(theta
+/// + 60 deg) = -x_b(theta), and in the same way x_b -> -x_c, x_c -> -x_a, for every quantity of a symmetric
+/// machine and bridge.
 PerLeg<double> one_sector_on(const PerLeg<double>& i, bool forward) {
   return forward ? PerLeg<double>{-i[1], -i[2], -i[0]} : PerLeg<double>{-i[2], -i[0], -i[1]};
 }
@@ -112,7 +112,7 @@ class SectorMap {
 /// Time constants after which a chopped run is averaged: exp(-20) = 2e-9 of the start is left.
 constexpr double forgotten = 20.0;
 
-/// Most sectors that are tried: 37 L/R would be as long, and no motor's L/R is fifty thousand sectors.
+/// Upper limit of tried sectors: 37 L/R would be as long, and no motor's L/R is fifty thousand sectors.
 constexpr std::int64_t most_sectors = 2'000'000;
 
 base::Result<OperatingPoint> full_on(const Bench& b, double speed) {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes one point of the torque-speed curve: the steady state of motor and bridge at a speed that the bench
-// holds.
+// Computes one point of the torque-speed curve: the steady state of motor and bridge at a constant speed.
 //
 // Any start decays. Two runs at the same speed and gates differ by d with L d|d|^2/dt <= -2 R |d|^2, because the
 // back-EMF cancels, and switches and diodes are resistors or valves, which only take energy from a difference. So
 // there is one steady state, and any run comes closer to it by at least q = exp(-R_s t/L_s) within t.
 //   duty 1     the steady state repeats every sector, with phases exchanged: it is the fixed point of the map from one
-//              sector start to the next. Applying the map shrinks the distance by q; after a step of size r, at most
-//              q/(1 - q) r is left (Banach), which is the point's error bound.
+//              sector start to the next. Applying the map shrinks the distance by q; after a step of size r,
+//              at most q/(1 - q) r remains (Banach), which is the point's error bound.
 //   chopped    PWM and rotor are out of step, so that the orbit never quite repeats: mean values over batches that
 //              start in different phases, with a confidence interval from their scatter.
 //   standstill the limit of slow rotation: without back-EMF the current does not depend on the angle, so that the
@@ -55,7 +54,7 @@ struct OperatingPoint {
   double error_bound_A = 0.0;  ///< periodic: of the currents' distance to the steady state
   double half_width_Nm = 0.0;  ///< quasi-periodic: of the mean torque's interval (confidence_level)
   double half_width_A = 0.0;   ///< quasi-periodic: of the mean bus current's
-  double simulated_s = 0.0;    ///< over which mean values are taken
+  double simulated_s = 0.0;    ///< averaging time of the mean values
   /// Quasi-periodic: the interval is below half_width_goal of the stall torque. Periodic: the currents repeat to
   /// rounding.
   bool precise = true;
@@ -63,11 +62,11 @@ struct OperatingPoint {
 
 /// Batch means: `batches` runs differ in the phase of the PWM period at which the rotor passes one angle; the
 /// phases are spread evenly. Each run, once its start has decayed, is averaged from that angle on over the same
-/// whole number of sectors. Their scatter gives Student's interval at this level for the mean over all phases. One
-/// long run would go through the phases by itself, but arbitrarily slowly where PWM and sectors are nearly in
-/// step, and its own batches would not show this. While the torque's half width is above half_width_goal K_t |d|
-/// U/R_tt, all runs go on for as long again, at most `doublings` times. PWM and sectors in step show as an
-/// interval that stays wide.
+/// whole number of sectors. Their scatter gives Student's interval at this level for the mean over all
+/// phases. One long run would reach all phases by itself, but arbitrarily slowly where PWM and sectors are
+/// nearly in step, and its own batches would not show this. While the torque's half width is above
+/// half_width_goal K_t |d| U/R_tt, all runs go on for as long again, at most `doublings` times. PWM and
+/// sectors in step show as an interval that stays wide.
 inline constexpr double confidence_level = 0.99;
 inline constexpr int batches = 20, doublings = 8;
 inline constexpr double half_width_goal = 5e-5;

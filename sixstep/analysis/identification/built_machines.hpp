@@ -17,8 +17,9 @@ inline constexpr base::Range built_line_mV_s = base::between(0.02, 1e6);
 /// 100 minutes induces no measurable voltage.
 inline constexpr base::Range built_shaft_rpm = base::between(0.01, 6e5);
 
-/// Frequency of the voltage where the pole pairs are unknown. 500 000 rpm are 8.3 kHz with one pole pair; a
-/// machine with more turns slower, because of its iron. No machine is built for twice as much.
+/// Upper limit of the voltage's frequency where the pole pairs are unknown. 500 000 rpm are 8.3 kHz with one
+/// pole pair; machines with more pole pairs turn slower, because of iron losses. No machine is built for
+/// twice this frequency.
 inline constexpr double most_built_Hz = 2e4;
 
 /// A Problem for a speed that no shaft has; `pole_pairs` 0: unknown.

@@ -14,7 +14,7 @@ double normal_cdf(double x);
 /// many. By the expansion of Abramowitz and Stegun 26.7.5; within 1 % at 3, 1e-4 from 6 on.
 double student_95(double degrees_of_freedom);
 
-/// One of several normal distributions that a number may come from.
+/// One of several normal distributions from which a number may be drawn.
 struct Component {
   double weight = 0.0, mean = 0.0, deviation = 0.0;
 };

@@ -7,7 +7,7 @@
 
 namespace sixstep::analysis {
 
-/// A bound that keeps the figure from being smaller.
+/// A bound that determines the figure's least value.
 struct Limit {
   std::string what;    ///< a requirement's figure, or a key
   bool upper = false;  ///< its greatest value, else its least

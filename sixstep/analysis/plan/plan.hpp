@@ -16,14 +16,14 @@ namespace sixstep::analysis {
 /// Spacing of an axis's numbers between its ends.
 enum class Spacing : std::uint8_t { linear, logarithmic };
 
-/// A key and the values it takes: listed, or numbers from one end to the other.
+/// A key and its values: listed, or numbers from one end to the other.
 struct Axis {
   std::string key;                  ///< as in the scenario, "pwm.period_s"
   std::vector<std::string> values;  ///< as a file writes them, "\"soft\"" or 0.5; empty: a range
   double from = 0.0, to = 0.0;      ///< in the key's unit; a grid contains both
   std::size_t points = 0;           ///< of a range on a grid, two or more
   Spacing spacing = Spacing::linear;
-  /// The drive differs while its controller is designed without the difference, as with [[spread]]
+  /// The drive differs, but its controller is designed without the difference, as with [[spread]]
   /// (study::strayed_to).
   bool strays = false;
   bool operator==(const Axis&) const = default;
@@ -31,8 +31,8 @@ struct Axis {
 
 enum class Sampling : std::uint8_t {
   grid,             ///< every value of each axis with every one of the others, the last axis fastest
-  latin_hypercube,  ///< each axis in as many equal parts as there are points, one point in each part
-  sobol,            ///< a sequence that fills the space evenly, whatever its length
+  latin_hypercube,  ///< each axis has one part per point, and each part one point
+  sobol,            ///< a sequence that fills the space evenly at any length
   monte_carlo,      ///< at random
   /// For Sobol indices: base points in blocks of k + 2 runs: A, B, and A with one column of B at a time.
   saltelli

@@ -25,13 +25,13 @@ struct FigureColumn {
   bool required = false;  ///< else only compared
   std::optional<double> min, max;
 
-  /// As in the verdict of a single run: there is a value, and it lies within its bounds. A compared figure always
-  /// holds.
+  /// Whether the figure holds as in the verdict of a single run: it has a value within its bounds. A compared
+  /// figure always holds.
   bool holds(double x) const { return !required || (x == x && (!min || x >= *min) && (!max || x <= *max)); }
   bool operator==(const FigureColumn&) const = default;
 };
 
-/// A column of an input: a key of the plan, or one that strays.
+/// A column of an input: a key of the plan, or one that deviates by [[spread]].
 struct InputColumn {
   std::string key, unit;
   bool operator==(const InputColumn&) const = default;
@@ -50,7 +50,7 @@ using TableColumns = std::shared_ptr<const PlanColumns>;
 /// The unit of a scenario's key; empty where it has none.
 using UnitOfKey = std::function<std::string(const std::string& key)>;
 
-/// `scenario`: with its spread, before any drive strays.
+/// `scenario`: with its spread, before any value deviates.
 TableColumns columns_of(const Plan& plan, const study::Scenario& scenario, const UnitOfKey& unit_of = {});
 
 /// A strayed value under its key.
@@ -79,7 +79,7 @@ inline constexpr base::Choice<RunEnd> run_ends[] = {
 /// The values of a row. RunRecord joins them with the columns, which have their meanings.
 struct RunValues {
   std::size_t number = 0;
-  std::vector<std::string> point;  ///< what each key was set to, as a file writes it
+  std::vector<std::string> point;  ///< value of each key, as a file writes it
   std::vector<double> strayed;     ///< in the keys' units; NaN where it could not be drawn
   RunEnd end = RunEnd::whole;
   std::string problem;          ///< of a fault or a refusal, in one line
@@ -109,12 +109,12 @@ class RunRecord {
   RunValues values_;
 };
 
-/// The row of a run; its values are found by the names of strayed keys and figures. Where the names are not those
-/// of the columns, the row is that of a run which could not start, with the reason.
+/// The row of a run. Its values are found by the names of deviating keys and figures. If these names are not
+/// those of the columns, the row is that of a run which could not start, with the reason.
 RunRecord record_of(const TableColumns& columns, std::size_t number, std::vector<std::string> point,
                     const base::Result<PlannedRun>& planned, const base::Result<study::Outcome>& result);
 
-/// Whether the run came to its end and meets every requirement.
+/// Whether the run reached its end and meets every requirement.
 bool passed(const RunRecord& record);
 
 }  // namespace sixstep::analysis

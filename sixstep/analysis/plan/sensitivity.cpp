@@ -10,7 +10,7 @@ namespace sixstep::analysis {
 namespace {
 
 constexpr std::size_t resamples = 400;
-constexpr std::size_t outside = 40;  ///< one in so many values lies beyond either end of the interval
+constexpr std::size_t outside = 40;  ///< one in 40 values lies beyond either end of the interval
 
 /// The figures of one row, about the mean of all.
 struct Row {

@@ -8,8 +8,8 @@
 namespace sixstep::analysis {
 
 /// Values are added in the order of the runs, so that the sums have the same bits with any number of threads. NaN
-/// (a figure without a value) is counted separately. Infinity (it never comes) is a value, but then mean and
-/// deviation are empty.
+/// (a figure without a value) is counted separately. Infinity (the event never occurs) is a value, but then
+/// mean and deviation are empty.
 class Statistics {
  public:
   void add(double x);
@@ -17,7 +17,7 @@ class Statistics {
   std::size_t count() const { return values_.size(); }  ///< of values
   std::size_t missing() const { return missing_; }
   std::optional<double> mean() const;
-  /// Of the population that these values sample: divided by count - 1; needs two values.
+  /// Estimate for the population of these values: divided by count - 1. Requires two values.
   std::optional<double> standard_deviation() const;
   /// The order statistic x_(k), k = ceil(p count) and at least 1: the least value that at least the part p of all
   /// values do not exceed. It is one of the values, not interpolated. 0 is the least, 1 the greatest.

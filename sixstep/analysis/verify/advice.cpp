@@ -30,7 +30,7 @@ bool warns_of(const std::vector<Warning>& warnings, Concern of) {
   return std::any_of(warnings.begin(), warnings.end(), [of](const Warning& w) { return w.of == of; });
 }
 
-/// Whether only a run can show it.
+/// Whether only a run can show the concern.
 bool of_a_run(Concern of) { return of >= Concern::settling; }
 
 /// Whether a change may remove a warning, judged by its design in closed form.
@@ -60,7 +60,7 @@ void add_cure(std::string& cure, const std::string& words) {
   cure += (cure.empty() ? "with " : ", or with ") + words + " it is gone";
 }
 
-/// For a usable design: finds what removes one of its warnings and adds none.
+/// Finds changes for a usable design that remove one of its warnings and add none.
 void advise_usable(const DesignOrder& order, DesignStudy& s) {
   TrialBudget budget{advice_periods};
   for (const DesignSpec& spec : single_changes(order, s.design)) {
@@ -82,7 +82,8 @@ bool holds(const DesignOrder& order, const DesignSpec& spec, TrialBudget& budget
   return study && study->usable();
 }
 
-/// Whether the bus is above the sheet's. It is then another drive, and is offered only where nothing else helps.
+/// Whether the bus is above the sheet's. This changes the drive, so that it is offered only if nothing else
+/// helps.
 bool above_nominal(const DesignSpec& spec, const DriveDesign& d) {
   return spec.voltage_V && d.motor.nominal_voltage_V > 0.0 && *spec.voltage_V > d.bus_V &&
          *spec.voltage_V > d.motor.nominal_voltage_V;
@@ -109,7 +110,7 @@ std::vector<DesignSpec> rescues(const DesignOrder& order, const DriveDesign& d) 
 std::vector<DesignSpec> on_this_bus_or_others(const DesignOrder& order, const DriveDesign& d) {
   std::vector<DesignSpec> all = rescues(order, d);
   if (order.subject.board) {
-    // The board's program needs its period: a slower loop of it comes first, another period last.
+    // The board's program requires its period: a slower loop at this period comes first, another period last.
     const auto keeps_period = [&](const DesignSpec& s) { return s.period_s == order.spec.period_s; };
     const auto slower_alone = [&](const DesignSpec& s) {
       return keeps_period(s) && s.mode == Mode::current && s.settle_s != order.spec.settle_s;
@@ -121,7 +122,7 @@ std::vector<DesignSpec> on_this_bus_or_others(const DesignOrder& order, const Dr
   return all;
 }
 
-/// Result of a search for a change. Slower loops may take longer to simulate than an advice may.
+/// Result of a search for a change. Slower loops may take longer to simulate than the budget of an advice.
 struct Rescue {
   std::string words;      ///< the first change that makes it usable; empty where none does
   bool too_long = false;  ///< some change, or its tolerances, was too long to try
@@ -167,7 +168,7 @@ Rescue rescue(const DesignOrder& order, const DriveDesign& d) {
   return out;
 }
 
-/// No loop reaches a target that is out of reach: tries a smaller step, a tenth below what was reached.
+/// No loop reaches an impossible target: tries a smaller step, a tenth below the reached value.
 std::string smaller_step(const DesignOrder& order, const DesignStudy& s) {
   const double first = s.scenario.reference.values.front(), held = s.outcome.verdicts.front().measured;
   DesignOrder next = order;
@@ -220,7 +221,7 @@ std::string board_is_the_cause(const DesignOrder& order) {
   return "the current's amplifier is the cause: without its lag it is usable";
 }
 
-/// For an unusable design: finds what makes it usable.
+/// Finds changes that make an unusable design usable.
 void advise_unusable(const DesignOrder& order, DesignStudy& s) {
   const auto grave =
       std::find_if(s.warnings.begin(), s.warnings.end(), [](const Warning& w) { return w.grave; });

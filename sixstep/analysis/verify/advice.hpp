@@ -17,10 +17,10 @@ double periods_of(const DesignOrder& order, design::DriveDesign design);
 std::optional<DesignStudy> tried(const DesignOrder& order, const design::DesignSpec& spec,
                                  TrialBudget& budget);
 
-/// Adds to the warnings of a study what makes it usable; to those of a usable one, what removes a warning without
-/// another.
+/// Adds changes to the warnings of a study: those that make an unusable design usable, and those that remove
+/// a warning of a usable one without another warning.
 void advise(const DesignOrder& order, DesignStudy& study);
-/// The same for a position for which no gain was found.
+/// Adds changes for a position for which no gain was found.
 void advise(const DesignOrder& order, base::Problems& problems);
 
 }  // namespace sixstep::analysis

@@ -6,12 +6,12 @@
 
 namespace sixstep::analysis {
 
-/// The current up to which one shunt measures nothing with the rotor at rest, A; 0 for other boards.
+/// Largest current in A at which one shunt measures nothing with the rotor at rest; 0 for other boards.
 double unseen_current_A(const design::DriveDesign& design, const study::Scenario& scenario);
 
 /// For a board with one shunt: warns of the currents that it does not measure with the rotor at rest; for a speed
 /// loop, it also runs the test without its load. The warning is grave where the step of a current loop is below
-/// that current, or where the speed swings further than it may.
+/// that current, or where the speed's swing exceeds its limit.
 void look_at_blind_shunt(const DesignOrder& order, DesignStudy& study);
 
 }  // namespace sixstep::analysis

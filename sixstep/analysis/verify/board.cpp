@@ -75,7 +75,7 @@ study::Sensors board_sensors(const design::DriveDesign& d, std::optional<double>
 
 namespace {
 
-/// Largest current that a drive asks for; for a current loop also that to which the given step overshoots.
+/// Largest current that a drive requests; for a current loop also the overshoot of the given step.
 double measured_current_A(const design::DriveDesign& d, std::optional<double> step) {
   if (d.spec.mode != control::Mode::current) return d.current_at_full_torque_A;
   const double usual = design::usual_overload * d.nominal_current_A;

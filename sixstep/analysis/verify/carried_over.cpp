@@ -63,7 +63,8 @@ std::string against(const study::Scenario& s, const study::Outcome& designed,
   return slower(s, *run, designed);
 }
 
-/// Why a motor of the tolerances trips; empty: none does. The protection acts on every motor.
+/// The reason why a motor of the tolerances trips; empty: none does. The protection is active for every
+/// motor.
 std::string trips_within_tolerances(const DesignStudy& study, const study::Scenario& s) {
   const std::optional<double>& trip_A = s.protection.over_current_A;
   if (s.control.drive != study::FirmwareKind::product || !trip_A || !study.robustness) return {};
@@ -75,8 +76,8 @@ std::string trips_within_tolerances(const DesignStudy& study, const study::Scena
   return {};
 }
 
-/// Takes over the current loop's settings beside its gains and its limit. False: there are none, or the board's is
-/// no PI.
+/// Copies the current loop's settings other than its gains and its limit. False: there are none, or the
+/// board's loop is no PI.
 bool take_current_loop(const study::Control& board, study::Control& to) {
   study::CurrentLoop current = board.current;
   if (current.type != study::CurrentLoopType::pi) return false;
@@ -104,7 +105,7 @@ CarriedOver carry_over(const DesignStudy& study, study::Scenario designed, const
     s.control.drive = study::FirmwareKind::product;
     s.protection = board.protection;
     s.sensors.hall_stable_samples = board.sensors.hall_stable_samples;
-    s.protection.off_at_s.reset();  // belongs to the board's own course
+    s.protection.off_at_s.reset();  // applies to the board's own course
     keep("control.drive and [protection]");
   }
   if (bounds_anything(board.control.limits)) {

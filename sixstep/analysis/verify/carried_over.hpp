@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Takes over from a board's scenario the settings of its drive beside the designed loops.
+// Copies from a board's scenario the settings of its drive that the design does not choose.
 #pragma once
 #include <string>
 
@@ -9,15 +9,15 @@ namespace sixstep::analysis {
 
 struct CarriedOver {
   study::Scenario scenario;
-  std::string kept;     ///< names of what was taken over; empty: nothing
-  std::string lost;     ///< why nothing was taken over, where the board has something
+  std::string kept;     ///< names of the copied settings; empty: none
+  std::string lost;     ///< why nothing was copied, although the board has settings
   std::string differs;  ///< figures that the run with them changes
 };
 
-/// Puts the board's product drive, protection, limits, regeneration, full scale and its loops' settings beside
-/// gains into a study's scenario, and runs that. The scenario stays as designed, with the reason in not_usable,
-/// where the run does not pass or settles later by a quarter, or where the drive is sensorless, which the design's
-/// is not. A drive that has lost its protection must not become a header.
+/// Copies into a study's scenario the board's product drive, protection, limits, regeneration, full scale and
+/// its loops' settings except gains, and runs that. The scenario stays as designed, with the reason in
+/// not_usable, if the run does not pass or settles later by a quarter, or if the board's drive is sensorless,
+/// unlike the design's. A drive that has lost its protection must not become a header.
 CarriedOver carry_over(const DesignStudy& study, study::Scenario designed, const study::Scenario& board);
 
 /// Keys of the board's scenario that the design does not choose and that the written scenario does not have:

@@ -55,7 +55,7 @@ design::RotorSensing encoder(const DesignOrder& order, double period_s) {
   return rotor;
 }
 
-/// Clock of the timer that the sensor's edges are captured by; null where it has none.
+/// Clock of the timer that captures the sensor's edges; null where it has none.
 double* capture_of(design::RotorSensing& rotor) {
   if (rotor.shaft.kind == design::ShaftSensorKind::encoder) return &rotor.shaft.capture_Hz;
   return rotor.hall ? &rotor.capture_Hz : nullptr;
@@ -111,7 +111,7 @@ void add_slower(const DesignSpec& w, const DriveDesign& d, std::vector<DesignSpe
     with([&](DesignSpec& n) { n.lowest_speed_rad_s = plain(2 * d.lowest_speed_rad_s, base::Towards::up); });
 }
 
-/// A current loop made slower alone comes too close to the speed loop around it.
+/// A current loop made slower alone comes too close to the speed loop, so that both are made slower.
 void add_slower_together(const DesignSpec& w, const DriveDesign& d, std::vector<DesignSpec>& out) {
   const auto& inner = d.loops.front().placed;
   if (!has_speed_loop(w) || !inner) return;
@@ -186,7 +186,7 @@ std::vector<DesignSpec> single_changes(const DesignOrder& order, const DriveDesi
   if (w.rotor.hall && w.rotor.edges > 1) with([](DesignSpec& n) { n.rotor.edges = 1; });
   if (w.rotor.hall && w.mode == Mode::position && decodes_encoders(order.subject.board))
     with([&](DesignSpec& n) { n.rotor = encoder(order, w.period_s); });
-  // A damping that the user chose belongs to placed poles; the other method does not use it.
+  // A damping that the user chose applies to placed poles; the other method does not use it.
   if (w.method == design::GainMethod::pole_placement && w.mode == Mode::current &&
       w.damping == design::usual_damping)
     with([](DesignSpec& n) { n.method = design::GainMethod::cancellation; });

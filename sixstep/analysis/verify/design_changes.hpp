@@ -10,8 +10,8 @@ namespace sixstep::analysis {
 
 /// Control period for a heavy rotor on a slow winding, s.
 inline constexpr double unhurried_period_s = 1e-4;
-/// The specification with that period, and with a current loop of forty such periods, of fewer where the winding
-/// is faster, but at least of ten. A current loop that the user chose stays.
+/// The specification with that period and with a current loop that settles in forty such periods; in fewer,
+/// but at least ten, if the winding is faster. A current loop that the user chose stays.
 design::DesignSpec unhurried(design::DesignSpec spec, const design::MotorModel& motor);
 
 /// Usable ripple over the nominal current: above it a drive's current is mainly ripple.
@@ -21,8 +21,8 @@ inline constexpr double usable_ripple = 0.5;
 /// each loop.
 std::vector<design::DesignSpec> single_changes(const DesignOrder& order, const design::DriveDesign& design);
 
-/// The same with several changes: complementary chopping, a period that keeps the ripple low, and loops slower by
-/// steps.
+/// Combinations of several changes: complementary chopping, a period that keeps the ripple low, and loops
+/// slower by steps.
 std::vector<design::DesignSpec> joint_changes(const DesignOrder& order, const design::DriveDesign& design);
 
 /// "period_s = 1.1e-05 and chopping = complementary"
@@ -30,8 +30,8 @@ std::string words_of_change(const design::DesignSpec& before, const design::Desi
 
 /// The order's specification with an encoder, complementary chopping and this control period.
 design::DesignSpec on_encoder(const DesignOrder& order, double period_s);
-/// For a drive on Hall probes: on_encoder() with its own period, and with each shorter one that the ripple needs,
-/// the longest first.
+/// Changes for a drive on Hall probes: on_encoder() with its own period, and with each shorter one that the
+/// ripple requires, the longest first.
 std::vector<design::DesignSpec> on_encoders(const DesignOrder& order, const design::DriveDesign& design);
 
 }  // namespace sixstep::analysis

@@ -22,7 +22,7 @@ using control::Mode;
 using design::DriveDesign;
 using design::LoopDesign;
 
-/// Part of the bus that a first command may use; the rest keeps it from the clamp.
+/// Part of the bus that a first command may use; the rest prevents clamping.
 constexpr double part_of_bus = 0.8;
 
 /// Placed poles are written as settling time and damping, from which the run places them again, to the same bits.
@@ -48,7 +48,7 @@ study::Scenario common(const DriveDesign& d, const DesignSubject& subject) {
     s.pwm = subject.board->pwm;
     s.sensors = with_rotor(subject.board->sensors, rotor_key(d.spec.rotor), d.spec.period_s);
     s.sensors.speed_edges = d.spec.rotor.edges;
-    // The design runs the lean drive: settings that only other drives use are not taken (carried_over.hpp).
+    // The design runs the lean drive. Settings that only other drives use are not copied (carried_over.hpp).
     s.sensors.hall_stable_samples = study::Sensors{}.hall_stable_samples;
     s.sensors.terminal_gain_error.clear();
     s.sensors.comparators = {};
@@ -85,8 +85,8 @@ study::Scenario common(const DriveDesign& d, const DesignSubject& subject) {
   return s;
 }
 
-/// Of a mean current that flows at a mean voltage across the pair. While the chopped switch is off, its leg's
-/// diode carries the current, under complementary chopping the other switch; the dead time is neglected.
+/// Ripple at a mean current and a mean voltage across the pair. While the chopped switch is off, its leg's
+/// diode carries the current, under complementary chopping the other switch. The dead time is neglected.
 double expected_ripple_A(const DriveDesign& d, const study::Bridge& b, double current_A, double mean_V) {
   const double on = b.saturation_V + b.on_resistance_ohm * current_A,
                diode = b.diode_drop_V + b.diode_resistance_ohm * current_A;
@@ -149,7 +149,7 @@ SpeedTest speed_test(const DriveDesign& d, const DesignSubject& subject) {
   const bool lags = d.lag.delay_s() > 0;
   if (lags) t.first = std::min(1.5 * d.lowest_speed_rad_s, speeds.top_rad_s);
   t.first = std::min(t.first, allowed_speed_rad_s(subject));
-  // A step asks at first for d1 (speed) times the current at full torque. Per ampere, this takes d1 (current)
+  // A step first requests d1 (speed) times the current at full torque. Per ampere, this takes d1 (current)
   // volts at once, and R when it flows.
   const double volts = part_of_bus * (d.bus_V - K * t.first - R * t.load_A);
   t.step = subject.step.value_or(
@@ -169,8 +169,8 @@ SpeedTest speed_test(const DriveDesign& d, const DesignSubject& subject) {
   return t;
 }
 
-/// Whether the speed loop asks for more than its torque limit at the step: d1 of it at once, and the load's
-/// torque.
+/// Whether the speed loop requests more than its torque limit at the step: at once d1 of the step, and the
+/// load's torque.
 bool step_is_limited(const DriveDesign& d, const SpeedTest& t) {
   const double load = d.motor.K_t_Nm_A * t.load_A / d.torque_limit_Nm;
   return std::fabs(load + d.loop("speed").gains.d1 * t.step) > d.most_torque_Nm() / d.torque_limit_Nm;
@@ -257,7 +257,7 @@ study::Scenario design_scenario(const DriveDesign& design, const DesignSubject& 
   // Some 2000 rows, on the samples.
   const double periods = std::ceil(s.duration_s / 2000 / s.pwm.period_s);
   if (periods > 1) s.record.grid_s = periods * s.pwm.period_s;
-  // The design predicts nothing for an unstable loop.
+  // The design predicts no value for an unstable loop.
   std::erase_if(s.compare, [](const study::Comparison& c) { return !std::isfinite(c.value); });
   say_in_metres(s);
   return s;

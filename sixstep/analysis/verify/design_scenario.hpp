@@ -24,8 +24,8 @@ struct DesignSubject {
   /// Height of the step in the unit of the mode; for a linear motor m/s and mm. Empty: one at which no limit acts
   /// (current, speed), or usual_move().
   std::optional<double> step{};
-  /// Of the bridge, where no board has one. A scenario that becomes a header is run with a dead time, because real
-  /// bridges short-circuit without.
+  /// Dead time of the bridge if no board gives one. A scenario that becomes a header is run with a dead time,
+  /// because real bridges short-circuit without.
   double dead_time_s = 0.0;
 };
 
@@ -33,8 +33,8 @@ struct DesignSubject {
 inline constexpr const char *settling_of_start = "settling of the start",
                             *swing_at_target = "swing around the target";
 
-/// The move of a position test where the user gives none: the thesis's 1000 degrees; for a linear motor twenty
-/// pole pitches in mm, which is as many commutations.
+/// The move of a position test if the user gives none: the thesis's 1000 degrees; for a linear motor twenty
+/// pole pitches in mm, which are twenty commutation periods.
 double usual_move(const design::DriveDesign& design);
 
 /// - current: rotor held in the middle of a sector, a step of the setpoint; settling and overshoot at the
@@ -43,13 +43,13 @@ double usual_move(const design::DriveDesign& design);
 ///   torque and bus limit, then a step so small that no limit acts, which the linear design must predict. With
 ///   Hall probes the step goes down to the lowest speed, where the measured speed is oldest, and is judged by a
 ///   band of a twentieth of that speed.
-/// - position: one move, without a load, because a P controller leaves an error behind one.
+/// - position: one move without a load, because a P controller has a steady error under load.
 ///
-/// Each comparison's value is that of the design; its source says how it was found.
+/// Each comparison's value is that of the design; its source names the method.
 study::Scenario design_scenario(const design::DriveDesign& design, const DesignSubject& subject);
 
-/// Whether the subject's board samples in the middle of a period: where it says so, or where its one shunt would
-/// measure nothing before the on-time has begun.
+/// Whether the subject's board samples in the middle of a period: if it is configured so, or if its one shunt
+/// would measure nothing before the on-time has begun.
 bool samples_in_middle(const DesignSubject& subject);
 
 /// Sets the settling time and the overshoot that a current loop's design predicts in its scenario.

@@ -51,7 +51,7 @@ base::Problems find_gain(const DesignOrder& order, DesignStudy& s) {
   return {};
 }
 
-/// Swing of the speed by the commutations alone: the run once more with ideal sensors, where it had others.
+/// Swing of the speed by the commutations alone: a second run with ideal sensors, if the first had others.
 std::optional<double> ideal_swing(const DesignStudy& s, const std::function<bool()>& keep_going) {
   const study::ComparisonResult* swing = figure_of(s.outcome, "speed ripple");
   if (!swing) return std::nullopt;
@@ -171,7 +171,7 @@ void require_swing(const DesignStudy& study, study::Scenario& s) {
   study::Measure swing = s.require.front().measure;
   swing.metric = study::MetricKind::peak_to_peak;
   swing.label = "swing of the speed at the end";
-  // A drive of the tolerances has its Hall edges beside their places and is to hold it, too.
+  // A drive of the tolerances has displaced Hall edges and must meet the limit, too.
   const double by_edges = swing_by_edges_rad_s(study.design, s.reference.values.back());
   s.require.push_back({swing, std::nullopt, std::max(*study.allowed_swing_rad_s, by_edges)});
 }

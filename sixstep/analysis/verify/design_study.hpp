@@ -20,11 +20,11 @@ struct DesignStudy {
   std::optional<PositionGain> position;  ///< position mode: how its gain was found
   study::Scenario scenario;              ///< with which the design was run
   study::Outcome outcome;
-  study::Trace trace;  ///< of that run, as its [record] asks
+  study::Trace trace;  ///< of that run, with the columns of its [record]
   std::optional<Robustness> robustness;
   std::optional<double> ideal_swing_rad_s;  ///< peak to peak of the speed in steady state, with ideal sensors
   std::optional<double> allowed_swing_rad_s;  ///< above it the speed loop oscillates (board.hpp)
-  /// For a board whose drive is sensorless: start, range and delay. Its loops are run with Hall edges in place of
+  /// Start, range and delay of a board with a sensorless drive. Its loops are run with Hall edges in place of
   /// crossings.
   std::vector<design::DerivationStep> sensorless;
   std::vector<design::Warning> warnings;  ///< of the design and of its runs
@@ -39,7 +39,7 @@ struct DesignOrder {
   ForEach for_each = one_after_the_other;
   std::function<bool()> keep_going{};  ///< false ends it early; the result is then meaningless
   GainSearch gain{};                   ///< position: search for its gain
-  TrialBudget* budget = nullptr;       ///< each run is subtracted from it; a search ends where it is empty
+  TrialBudget* budget = nullptr;       ///< each run is subtracted from it; a search ends when it is empty
   bool advises = true;                 ///< tries changes against each warning (advice.hpp)
 };
 

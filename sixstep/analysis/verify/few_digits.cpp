@@ -16,8 +16,8 @@ double shortened(double x, double factor, int digits, base::Towards towards) {
   return base::shortened(x * factor, digits, towards) / factor;
 }
 
-/// All times are rounded up, so that their order stays, and windows that meet still do. Bounds that a window has
-/// anyhow are left out.
+/// Rounds all times up, so that their order stays and adjacent windows remain adjacent. Default bounds of a
+/// window are omitted.
 void shorten_times(study::Measure& m, double duration_s) {
   for (std::optional<double>* time : {&m.from_s, &m.to_s})
     if (*time) *time = base::shortened(**time, 3, base::Towards::up);

@@ -25,7 +25,7 @@ using design::LoopDesign;
 
 double circle_V(const FieldStudy& f) { return f.design.bus_V / std::sqrt(3.0); }
 
-/// Speed at which the magnet's back-EMF alone takes the whole voltage circle.
+/// Speed at which the magnet's back-EMF alone equals the radius of the voltage circle.
 double base_speed_rad_s(const FieldStudy& f) { return circle_V(f) / f.machine.magnet_V_s; }
 
 /// |v|^2 = (R i + w p psi)^2 + (w p L_q i)^2 = U_s^2/3, solved for w; 0 where R i alone is more.
@@ -52,7 +52,7 @@ LoopDesign named(std::string name, std::string method, design::PiGains gains,
 
 bool is_current(const study::LoopGains& g) { return g.loop.starts_with("current"); }
 
-/// The steps of this axis in field_steps; both axes have as many.
+/// The steps of this axis in field_steps; both axes have the same number.
 std::vector<DerivationStep> steps_of(const study::Compiled& c, std::size_t axis) {
   const auto axes = static_cast<std::size_t>(std::count_if(c.gains.begin(), c.gains.end(), is_current));
   const auto each = static_cast<std::ptrdiff_t>(c.field_steps.size() / axes);
@@ -100,7 +100,7 @@ void add_loops(const study::Compiled& c, const design::DriveLoops& loops, FieldS
   }
 }
 
-/// Delay of the speed at the lowest speed that is asked for; else at a tenth of what the bus reaches.
+/// Delay of the speed at the lowest requested speed; else at a tenth of the largest speed on this bus.
 void add_sensing(const design::DriveLoops& loops, FieldStudy& f) {
   design::DriveDesign& d = f.design;
   d.lowest_speed_rad_s =

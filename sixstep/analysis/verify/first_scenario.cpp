@@ -23,14 +23,14 @@ namespace {
 
 using control::Mode;
 
-/// The straight line leaves out commutation time and PWM ripple: some percent. A user who tries another duty gets
-/// a failed requirement.
+/// Tolerance of the straight line, which neglects commutation time and PWM ripple: some percent. At another
+/// duty the requirement fails.
 constexpr double line_tolerance = 0.05;
 
 constexpr double longest_run_up_s = 600;
 
-/// Control periods of a trial, and of all together: half a second, and one and a half, of one core. Where none
-/// succeeded, there is a last round of five seconds.
+/// Control periods of a trial, and of all together: half a second, and one and a half, of one core. If none
+/// succeeded, a last round of five seconds follows.
 constexpr double trial_periods = 3.5e5, all_trials_periods = 1.2e6, last_trial_periods = 4e6;
 
 study::Measure measure(study::MetricKind metric, study::Signal signal, double from_s, const char* label) {
@@ -49,13 +49,13 @@ base::Result<study::Scenario> run_up(const FirstScenarioSpec& spec, const design
                          "give the bus voltage in V"};
   const double K = motor.K_t_Nm_A, R = 2 * motor.machine.R_ohm, d = 0.5;
   study::Scenario s;
-  // Six-step commutates as a three-phase bridge does: the voltage falls by 3/pi w_el L_s per ampere, here at the
-  // speed reached. For a motor of many pole pairs this is more than R.
+  // A three-phase bridge commutates like this: the voltage falls by 3/pi w_el L_s per ampere, here at the
+  // reached speed. For a motor with many pole pairs this exceeds R.
   const auto line = [&](double duty, double ohm) {
     return (K * duty * U / ohm - motor.shaft.coulomb_Nm) / (K * K / ohm + motor.shaft.B_Nm_s);
   };
-  // During the dead time the current flows on through a diode: that much of the duty is lost where the current
-  // keeps its sign, and nothing where it changes it in every period.
+  // During the dead time the current continues to flow through a diode. The duty loses the dead time's part
+  // if the current keeps its sign, and nothing if it changes sign in every period.
   const double speed = line(d, R),
                commutating = R + 3 / base::pi * motor.machine.pole_pairs * speed * motor.machine.L_H;
   const double least = line(d - usual_dead_time_s / s.pwm.period_s, commutating);
@@ -100,7 +100,8 @@ DesignOrder order_of(const FirstScenarioSpec& spec) {
   return order;
 }
 
-/// On Hall probes of few pole pairs a rotor rests tens of degrees beside its target.
+/// Largest mechanical angle between Hall edges for a position drive. With larger steps the rotor rests tens
+/// of degrees from its target.
 constexpr double coarsest_step_deg = 20.0;
 
 /// Specifications to try, in turn: the usual design, then changes for a motor that it does not suit.
@@ -124,8 +125,9 @@ std::vector<Tolerance> chief(std::vector<Tolerance> tolerances) {
   return tolerances;
 }
 
-/// Limits the periods of a trial, by a higher lowest speed, whose loop is faster, fewer motors of the tolerances,
-/// a shorter move, a longer period. A design in closed form takes a tenth of a second: one for each specification.
+/// Limits the periods of a trial by a higher lowest speed, whose loop is faster, by fewer motors of the
+/// tolerances, a shorter move, or a longer period. A design in closed form takes a tenth of a second, for
+/// each specification.
 bool shorten_trial(DesignOrder& order, const design::MotorModel& motor, double longest) {
   base::Result<design::DriveDesign> d = design::design_drive(motor, order.spec);
   const auto fits = [&] { return d && periods_of(order, *d) <= longest; };
@@ -192,11 +194,11 @@ bool foretell_in_middle(design::DesignSpec spec, study::Scenario& s) {
                       [](const design::Warning& w) { return w.grave; });
 }
 
-/// Sets the requirement on the mean current. The controller's samples are in the trough of the ripple, and so is
-/// the mean that it holds. In the middle of a centred pulse, samples meet the mean; but an answer then comes half
-/// a period later, so that this is kept only where it passes. A pulse that begins a dead time late has its middle
-/// half of that later: the sample is below the mean by the current's rise in that time, which for a winding of
-/// little inductance is more than the requirement's band.
+/// Sets the requirement on the mean current. The controller's samples are in the trough of the ripple, and so
+/// is the mean that it controls. Samples in the middle of a centred pulse have the mean; but an answer then
+/// comes half a period later, so that this is kept only if it passes. A pulse that begins a dead time late
+/// has its middle half of that later: the sample is below the mean by the current's rise in that time, which
+/// for a winding of little inductance exceeds the requirement's band.
 void judge_the_mean(study::Scenario& s, const DesignStudy& study) {
   study::Scenario middle = s;
   const bool stands = foretell_in_middle(study.design.spec, middle);

@@ -6,9 +6,8 @@
 
 namespace sixstep::analysis {
 
-/// Where the design warns of the grain of its speed (Concern::grain): runs it up to design.high_speed_rad_s, with
-/// its sensors and with ideal ones. The warning becomes grave where the two speeds differ by more than the
-/// settling band.
+/// Tests a design with the warning Concern::grain: runs it up to design.high_speed_rad_s, with its sensors
+/// and with ideal ones. The warning becomes grave if the two speeds differ by more than the settling band.
 void look_at_high_speed(const DesignOrder& order, DesignStudy& study);
 
 }  // namespace sixstep::analysis

@@ -52,8 +52,8 @@ class KeyTexts final : public base::Visitor {
   std::string path_;
 };
 
-/// Whether a key belongs to the design: a run's name, length, reference and record, the gains, and what the spec
-/// chooses.
+/// Whether a key is part of the design: a run's name, length, reference and record, the gains, and the spec's
+/// choices.
 bool is_the_designs(std::string_view key) {
   constexpr std::string_view tables[] = {"reference.", "record.", "initial.", "sensors.hall_break."};
   constexpr std::string_view keys[] = {"title",

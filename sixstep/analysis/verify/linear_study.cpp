@@ -40,7 +40,8 @@ void tell(std::vector<design::DerivationStep>& steps) {
   }
 }
 
-/// In the steps of a loop, rad/s is a frequency; a gain of the position is not.
+/// Converts a loop's steps. Their rad/s is a frequency and becomes 1/s; only a position's gains change their
+/// value.
 void tell_loop(design::LoopDesign& loop) {
   for (design::DerivationStep& s : loop.steps) {
     if (s.formula == "J w_c / T_max") s.formula = "m w_c / F_max";

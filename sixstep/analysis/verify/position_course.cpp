@@ -15,8 +15,8 @@ using design::LoopDesign;
 
 namespace {
 
-/// Largest speed that the loop may ask for: that of the bus, or, where it is less, the sheet's greatest speed or
-/// the board's, and then a fifth below it, because a speed from Hall edges passes its reference by as much.
+/// Largest speed that the loop may request: the bus's; or, if it is less, a fifth below the sheet's greatest
+/// speed or the board's, because a speed from Hall edges overshoots its reference by that part.
 double bounded_speed(const DriveDesign& d, const DesignSubject& subject, study::Scenario& s) {
   constexpr double below = 0.8;
   const double reached = d.bus_V / d.motor.K_t_Nm_A;
@@ -41,8 +41,9 @@ void add_position(const DriveDesign& d, const DesignSubject& subject, study::Sce
   const double step = subject.step.value_or(usual_move(d)) / unit.factor;
   const double height = std::fabs(step) * base::pi / 180;
   const double J = d.motor.shaft.J_kg_m2;
-  // Full torque half of the way forth, half of it back; the bus ends the acceleration at U/K_t, and a bus-limited
-  // start soon reaches a third of that. Then the P loop's exponential down to 1e-9 of the step.
+  // Time bound: full torque half of the way forth, half of it back. The bus ends the acceleration at U/K_t,
+  // and a bus-limited start soon reaches a third of that. The P loop's exponential follows, down to 1e-9 of
+  // the step.
   const double forth_and_back = 2 * std::sqrt(height * J / d.most_torque_Nm()),
                top = bounded_speed(d, subject, s);
   const std::string of_top =
@@ -58,7 +59,7 @@ void add_position(const DriveDesign& d, const DesignSubject& subject, study::Sce
   s.reference.unit.emplace(unit.linear);
   study::Measure settling = step_measure(study::MetricKind::settling_time, study::Signal::position, 0, end, 0,
                                          step, "settling time");
-  const bool counts = d.spec.rotor.lags();  // the position rests within steps of the sensor, if at all
+  const bool counts = d.spec.rotor.lags();  // the position rests only within steps of the sensor, if at all
   const bool hall = d.spec.rotor.hall;
   const double steps = allowed_overshoot_deg(d, step);
   settling.band = counts ? steps / std::fabs(step) : 0.0005;

@@ -19,7 +19,7 @@ class Left {
  public:
   Left(const GainSearch& search, TrialBudget* budget)
       : longest_(search.longest_periods), own_{search.periods}, of_all_(budget) {}
-  /// Subtracts so many runs of the scenario; false where they are too long or too many.
+  /// Subtracts this number of runs of the scenario. False if they are too long or too many.
   bool takes(const study::Scenario& s, std::size_t runs) {
     if (!(s.duration_s / s.pwm.period_s <= longest_)) return false;
     return own_.takes(s, runs) && (of_all_ == nullptr || of_all_->takes(s, runs));

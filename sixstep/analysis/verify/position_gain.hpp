@@ -23,32 +23,32 @@ struct PositionGain {
 /// Control periods that may still be simulated. A search's cost is known only afterwards.
 struct TrialBudget {
   double periods = 0.0;
-  /// Subtracts the periods of so many runs; false where they are more than are left.
+  /// Subtracts the periods of this number of runs. False if fewer periods are left.
   bool takes(const study::Scenario& s, std::size_t runs);
 };
 
 /// Limits of a search. They are needed because a lower gain makes a longer move.
 struct GainSearch {
-  bool quick = false;            ///< takes the first of the closed form and its halves that holds
+  bool quick = false;            ///< returns the first of the closed form and its halves that holds
   double longest_periods = 2e6;  ///< of a run
   double periods = 1.5e7;        ///< of all runs together: half a minute of one core
 };
 
-/// On the last of the way the P controller asks for w = k x, which decelerates by k^2 x = k w. This is no more
-/// than T_max/J at the highest speed for k = T_max/(J U/K_t); returned in rad/s per degree.
+/// Near the end of the way the P controller requests w = k x, which decelerates by k^2 x = k w. This is at
+/// most T_max/J at the highest speed for k = T_max/(J U/K_t). Returned in rad/s per degree.
 double braking_gain(const design::DriveDesign& design);
 
-/// Between that and the linear loop's gain the overshoot grows with the gain; bisection with full simulations
-/// finds where it begins, to a part in 1000. Problems: those of a run, no gain found within the search. The runs
-/// are subtracted from `budget`, where there is one.
+/// The overshoot grows with the gain between braking_gain() and the linear loop's gain. Bisection with full
+/// simulations finds the gain at which it begins, to a part in 1000. Problems: those of a run, no gain found
+/// within the search. The runs are subtracted from `budget`, where there is one.
 base::Result<PositionGain> largest_position_gain(const design::DriveDesign& design,
                                                  const DesignSubject& subject,
                                                  const std::function<bool()>& keep_going = {},
                                                  const GainSearch& search = {},
                                                  TrialBudget* budget = nullptr);
 
-/// Lowers the gain until no motor of the tolerances overshoots by more than allowed_overshoot_deg (board.hpp), to
-/// a part in 50. The nominal gain stays where a sixteenth of it overshoots too.
+/// Lowers the gain until no motor of the tolerances overshoots by more than allowed_overshoot_deg
+/// (board.hpp), to a part in 50. The nominal gain stays if a sixteenth of it overshoots too.
 base::Result<PositionGain> lowered_for_tolerances(const design::DriveDesign& design,
                                                   const DesignSubject& subject, const PositionGain& nominal,
                                                   const std::vector<Tolerance>& tolerances,

@@ -60,7 +60,7 @@ design::Sheet sheet_of(const design::Sheet& from, const design::MotorModel& m) {
   s.cogging_phase_deg = from.cogging_phase_deg;
   if (m.nominal_voltage_V > 0) s.nominal_voltage_V = {m.nominal_voltage_V, "", ""};
   s.resistance_ohm = {2 * m.machine.R_ohm, "terminal", ""};
-  if (design::is_salient(from)) {  // both stray alike
+  if (design::is_salient(from)) {  // both deviate equally
     const double d = from.d_axis_inductance_mH->value, q = from.q_axis_inductance_mH->value;
     const double by = 2e3 * m.machine.L_H / (d + q);
     s.d_axis_inductance_mH = base::Quantity{d * by, "phase", ""};
@@ -235,7 +235,7 @@ study::Scenario varied_scenario(const study::Scenario& nominal, const design::Mo
   study::Scenario s = nominal;
   s.designed_for = study::Nominal{nominal.sheet, nominal.supply, nominal.load};
   design::MotorModel varied = varied_motor(motor, tolerances, variation);
-  varied.shaft.J_kg_m2 -= nominal.load.inertia_kg_m2;  // the load stays beside the rotor
+  varied.shaft.J_kg_m2 -= nominal.load.inertia_kg_m2;  // the load does not vary with the rotor
   s.sheet = sheet_of(nominal.sheet, varied);
   return s;
 }

@@ -32,30 +32,30 @@ struct Tolerance {
 /// and L matter.
 std::vector<Tolerance> sheet_tolerances(const design::Sheet& sheet, control::Mode mode);
 
-/// The same for [[spread]], each quantity evenly to both sides: deviations in a series of drives that no maker
-/// excludes. Temperatures and loads are no tolerance of the motor, and the two inductances of a salient rotor have
-/// no key that could stray.
+/// The same for [[spread]], each quantity evenly to both sides: deviations in a series of drives that no
+/// maker excludes. Temperatures and loads are no tolerance of the motor, and the two inductances of a salient
+/// rotor have no key that could deviate.
 std::vector<study::Spread> tolerance_spread(const design::Sheet& sheet, control::Mode mode);
 
-/// Electrical degrees by which a probe's edge may lie beside its place.
+/// Largest displacement of a probe's edge from its place, in electrical degrees.
 inline constexpr double mounted_hall_edge_deg = 3.0;
 
-/// The places of six Hall edges, each by so much to both sides, where the drive reads probes. Probes
-/// are mounted so; edges that all lie late alike are none of this.
+/// Spread of six Hall edges for a drive that reads probes, each by this displacement to both sides. It models
+/// the mounting of probes, but not a common delay of all edges.
 std::vector<study::Spread> hall_edge_spread(const study::Scenario& scenario);
 
-/// A motor that strays within the tolerances.
+/// A motor that deviates within the tolerances.
 struct Variation {
   std::string words;            ///< "R at 125 degC, L -20 %"; empty: nominal
   std::vector<double> factors;  ///< one per tolerance
-  bool single = false;          ///< only one tolerance strays
+  bool single = false;          ///< only one tolerance deviates
 };
 /// The nominal motor, each level alone, then every corner of the outermost levels (of a tolerance to one side
 /// only, that level and the nominal).
 std::vector<Variation> variations(const std::vector<Tolerance>& tolerances);
 
-/// The motor strays; the controller stays as designed for the sheet. `motor` is DriveDesign's: with the load's
-/// inertia, which strays with the rotor's.
+/// The motor deviates; the controller stays as designed for the sheet. `motor` is DriveDesign's: with the
+/// load's inertia, which deviates with the rotor's.
 study::Scenario varied_scenario(const study::Scenario& nominal, const design::MotorModel& motor,
                                 const std::vector<Tolerance>& tolerances, const Variation& variation);
 

@@ -53,7 +53,7 @@ std::string with_which(const RobustFigure& f) {
   return ": with " + f.at + (one ? "" : ", chiefly for " + f.culprit);
 }
 
-/// At a duty below a half hard chopping has no mean voltage that drives.
+/// Hard chopping at a duty below one half has no mean voltage that drives.
 bool from_half_the_bus(const DesignStudy& s) {
   return s.design.spec.mode == control::Mode::current && s.design.spec.chopping == control::Chopping::hard;
 }
@@ -64,7 +64,7 @@ std::string in_simulation(const DesignStudy& s) {
          std::string(base::word(study::chopping_choices, s.design.spec.chopping)) + " chopping,";
 }
 
-/// A loop whose run was to keep away from all limits must settle as designed; a quarter more is a warning.
+/// A loop whose run avoids all limits must settle as designed; a quarter more is a warning.
 void look_at_settling(DesignStudy& s) {
   const study::ComparisonResult* c = figure_of(s.outcome, "settling time");
   if (!c || s.design.spec.mode == control::Mode::position || out_of_reach(s)) return;
@@ -112,7 +112,7 @@ void look_at_overshoot(DesignStudy& s, double overshoot, const std::string& when
        true);
 }
 
-/// On Hall probes a drive may stop anywhere within some 60 electrical degrees.
+/// A drive on Hall probes may stop anywhere within some 60 electrical degrees.
 void look_at_rest(DesignStudy& s, double swing, const std::string& when, const std::string& where = "") {
   const base::LinearUnit unit = design::motion_of(s.scenario.sheet).unit("deg");
   const double move = std::max(usual_move(s.design), unit.factor * std::fabs(s.scenario.reference.value));

@@ -12,8 +12,8 @@ namespace sixstep::analysis {
 /// The figure of that name; null: the run has none.
 const study::ComparisonResult* figure_of(const study::Outcome& outcome, const std::string& figure);
 
-/// Whether the commutations alone swing the speed by more than the band of its step: its settling time is then
-/// meaningless.
+/// Whether the commutations alone change the speed by more than the band of its step. Its settling time is
+/// then meaningless.
 bool drowned(const DesignStudy& study);
 
 /// Adds the warnings to those of the closed form, grave ones first. The study must have outcome, robustness and

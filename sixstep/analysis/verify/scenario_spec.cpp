@@ -17,7 +17,7 @@ namespace {
 
 using control::Mode;
 
-/// The lowest speed other than standstill that a reference asks for; empty: it is no speed.
+/// The lowest speed other than standstill that a reference requests; empty: it is no speed.
 std::optional<double> lowest_speed(const study::Scenario& s) {
   if (s.control.mode != Mode::speed) return std::nullopt;
   std::optional<double> least;
@@ -35,7 +35,8 @@ void take_resolver(const study::Scenario& s, design::ShaftSensing& to) {
   to.step_s = study::tracking_period_s(s);
   if (const auto loop = design::tracking_loop({2 * base::pi * r.bandwidth_Hz, r.damping, to.step_s}))
     to.natural_rad_s = loop->natural_rad_s;
-  // Two samples, a step apart, make one: their middle is half a step ago, and half of their noise's power is left.
+  // Two samples, a step apart, give one reading: their middle is half a step ago, and half of their noise's
+  // power is left.
   to.latency_s = sampled ? to.step_s / 2 : r.latency_s;
   to.noise_rad = r.noise_V / r.amplitude_V / (sampled ? std::sqrt(2.0) : 1.0);
 }
@@ -99,7 +100,7 @@ base::Problems passed_over(const study::Scenario& s) {
 
 design::RotorSensing rotor_sensing_of(const study::Scenario& s) {
   design::RotorSensing to;
-  // The product drive has no other sensor than its Hall probes, and the sensorless one takes crossings as their
+  // The product drive has no sensor except its Hall probes, and the sensorless one uses crossings as their
   // edges.
   const study::FirmwareKind drive = s.control.drive;
   to.hall = s.sensors.rotor == study::RotorSensing::hall || drive == study::FirmwareKind::product ||
@@ -148,7 +149,7 @@ design::DesignSpec spec_of(const study::Scenario& s, std::optional<Mode> mode) {
   if (const std::optional<double> most = most_current_A(s, motor->K_t_Nm_A); most && w.mode != Mode::current)
     w.current_limit_A = std::min(*most, w.current_limit_A.value_or(*most));
   if (!w.lowest_speed_rad_s) return w;
-  // A reference near the top of what the bus drives, or of what the board allows, leaves no room for a step down to it.
+  // A reference near the largest speed of the bus or of the board leaves no room for a step down to it.
   if (const double most = most_lowest_speed_rad_s(*motor, w); most > 0.0)
     w.lowest_speed_rad_s = std::min(*w.lowest_speed_rad_s, most);
   if (const std::optional<double> most = most_speed_rad_s(s))

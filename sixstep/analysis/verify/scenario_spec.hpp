@@ -8,10 +8,10 @@
 
 namespace sixstep::analysis {
 
-/// Takes from the scenario: mode, bus, PWM, delay, rotor sensor, load inertia, torque limit, settling times, and
-/// the lowest speed of its reference. All else keeps the spec's default. Given gains are ignored, because new ones
-/// are asked for. `mode`: designs this mode instead of the scenario's; each loop keeps the settling time that the
-/// scenario gives it.
+/// Copies from the scenario: mode, bus, PWM, delay, rotor sensor, load inertia, torque limit, settling times,
+/// and the lowest speed of its reference. All else keeps the spec's default. Given gains are ignored, because
+/// the design computes new ones. `mode`: designs this mode instead of the scenario's; each loop keeps the
+/// settling time that the scenario gives it.
 design::DesignSpec spec_of(const study::Scenario& scenario, std::optional<control::Mode> mode = {});
 
 /// Controllers of the scenario that a design ignores, because it computes PI loops only.

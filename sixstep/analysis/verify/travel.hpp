@@ -5,11 +5,13 @@
 
 namespace sixstep::analysis {
 
-/// Longest time of a start at the limits, s, with the torque that the bus leaves at its end; 0: it leaves none.
+/// Longest time of a start at the limits, s, with the torque that the bus allows at its end; 0: it allows
+/// none.
 double start_time(const design::DriveDesign& design, double to_rad_s, double load_Nm);
 
-/// Time from one speed to another at the limits of torque and bus, s, by a hundred parts. Where the bus allows no
-/// more torque, five of the time constants J R/K_t^2 with which the speed then approaches its limit are added.
+/// Time from one speed to another at the limits of torque and bus, s, computed in a hundred parts. Where the
+/// bus allows no more torque, five of the time constants J R/K_t^2 with which the speed then approaches its
+/// limit are added.
 double travel_time(const design::DriveDesign& design, double from_rad_s, double to_rad_s, double load_Nm);
 
 }  // namespace sixstep::analysis

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds how to correct a wrongly connected motor: the fewest wires to move, and the next step for a person who
-// sees what the motor does but not which wire is which.
+// Finds how to correct a wrongly connected motor: the fewest wires to move, and the next step for a person
+// who can observe the motor's motion but not the wires' order.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace sixstep::analysis {
 
-/// New place of the wire at each of three places; {0, 1, 2} moves none.
+/// New place of the wire at each of three places; {0, 1, 2} moves no wire.
 using Moves = std::array<std::size_t, 3>;
 inline constexpr Moves stay = {0, 1, 2};
 
@@ -27,9 +27,9 @@ struct Cure {
 
 rig::Wiring cured(const rig::Wiring& wiring, const Cure& cure);
 
-/// All cures with the fewest wires that make the motor run forward with its whole torque; first those that move
-/// phases alone, then Hall lines alone. The three wirings that need no cure have one that moves nothing. Phases
-/// alone cannot cure two swapped probes: the motor then runs well backward at best.
+/// All cures with the fewest wires that make the motor run forward with its whole torque; first those that
+/// move phases alone, then Hall lines alone. The three correct wirings have one cure that moves no wire.
+/// Phases alone cannot cure two swapped probes: the best result is then a motor that runs well backward.
 std::vector<Cure> shortest_cures(const rig::Wiring& wiring);
 
 /// Next step, by what the motor does; after at most four steps it runs well forward:

@@ -25,20 +25,20 @@ Commutation commutation(std::uint8_t sector);
 /// b, c, then those that swap two.
 std::array<rig::Wiring, ways_to_plug_in> all_wirings();
 
-/// Whether the three ends keep the sequence of the places: moved on, not swapped.
+/// Whether the order keeps the sequence of the three ends: shifted, not swapped.
 constexpr bool keeps_the_turn(rig::WireOrder order) {
   return order == rig::WireOrder::abc || order == rig::WireOrder::bca || order == rig::WireOrder::cab;
 }
 
 /// The pair that the drive drives in one sector of the rotor.
 struct Driven {
-  std::uint8_t seen = 0;             ///< the sector whose code stands at the pins
+  std::uint8_t seen = 0;             ///< the sector of the code at the pins
   std::size_t source = 0, sink = 0;  ///< phases of the motor
-  int ahead = 0;  ///< sectors, 0..5, from the rotor's on to the one that this pair belongs to
+  int ahead = 0;                     ///< sectors, 0..5, from the rotor's sector to that of this pair
   bool operator==(const Driven&) const = default;
 };
 
-/// With a positive command, 120 degree probes, no inverted pin.
+/// The driven pair for a positive command, 120 degree probes and no inverted pin.
 Driven driven(const rig::Wiring& wiring, std::uint8_t sector);
 
 /// Driven::ahead where it is the same in all six sectors; empty: phases and probes have opposite sequences.

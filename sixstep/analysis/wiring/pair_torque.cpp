@@ -10,11 +10,11 @@
 namespace sixstep::analysis {
 namespace {
 
-/// From theta_e to the magnet's axis (model.md 7).
+/// Angle from theta_e to the magnet's axis (model.md 7).
 constexpr double axis_rad = 2.5 * base::sector_rad;
 
-/// Eight points of Gauss on each eighth of a sector: exact for the lines of a trapezoid, and for the square of a
-/// harmonic of order 25, which turns by 6.5 rad there, to 1e-9 of its size.
+/// Eight Gauss points on each eighth of a sector: exact for the lines of a trapezoid, and to 1e-9 of its size
+/// for the square of a harmonic of order 25, which turns by 6.5 rad there.
 constexpr int stretches = 8;
 
 }  // namespace

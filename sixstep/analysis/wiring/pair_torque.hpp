@@ -12,13 +12,14 @@ namespace sixstep::analysis {
 /// +1 A into `source`, -1 A into `sink`, nothing into the third:
 ///   T/i = E_source - E_sink + 1.5 p (lambda_d i_q - lambda_q i_d)/i
 /// with E_k the back-EMF per speed of phase k (for a delta, of the star at its terminals, model.md (9)). The
-/// second term is that of a salient rotor or of saturation (model.md 7); only this term depends on the current.
-/// Cogging and the torque of a delta's loop current do not belong to the pair and are not included.
+/// second term describes a salient rotor or saturation (model.md 7); only this term depends on the current.
+/// Cogging and the torque of a delta's loop current are not included, because they are independent of the
+/// pair.
 class PairTorque {
  public:
   PairTorque(const plant::general::Machine& machine, double current_A);
 
-  /// At x rad after the begin of a sector, x in [0, pi/3]; N m/A.
+  /// Torque per current at x rad after the begin of a sector, x in [0, pi/3]; N m/A.
   double at(std::uint8_t sector, double x_rad, std::size_t source, std::size_t sink) const;
 
   /// Back-EMF of a phase per mechanical rad/s there, V s; of a delta that of its star.

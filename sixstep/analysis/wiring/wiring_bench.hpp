@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the test bench for all 36 wirings. Its values follow from the motor's sheet, so that a wrongly connected,
-// standing motor takes no harm.
+// Makes the test bench for all 36 wirings. Its values follow from the motor's sheet, so that a wrongly
+// connected motor at rest is not damaged.
 #pragma once
 #include <optional>
 #include <string>
@@ -19,26 +19,26 @@ struct WiringSubject {
   std::string motor{};                ///< name or path, for the scenario
   design::Sheet sheet{};              ///< of that motor
   std::optional<double> voltage_V{};  ///< of the bus; empty: the sheet's nominal voltage
-  /// Of the stalled motor; empty: nominal, or a tenth of what the bus could drive.
+  /// Current of the stalled motor; empty: nominal, or a tenth of the largest that the bus can drive.
   std::optional<double> current_A{};
 };
 
 enum class BenchCurrent : std::uint8_t { asked_for, nominal, tenth_of_stall };
 
-/// A stiff bus, ideal switches, soft chopping, no load. Two tests: the motor let free from rest, and turned slowly
-/// from outside.
+/// A stiff bus, ideal switches, soft chopping, no load. Two tests: the motor runs free from rest, or is
+/// turned slowly from outside.
 struct WiringBench {
   design::MotorModel motor;
   double voltage_V = 0.0, current_A = 0.0, duty = 0.0;  ///< current_A = duty voltage_V/R_tt
   BenchCurrent from = BenchCurrent::nominal;
   double ideal_rad_s = 0.0;  ///< duty voltage_V/K_t: no load, continuous current
-  double free_s = 0.0;  ///< 18 mechanical time constants and an ideal motor's turn, then the watched part
+  double free_s = 0.0;  ///< 18 mechanical time constants and an ideal motor's turn, then the measured part
   double watched_from_s = 0.0;
   double row_s = 0.0;  ///< between two recorded rows of a free run
-  /// PWM period of the slow turn. It is short, because rows stand where a period begins, and a current that has
-  /// decayed by then does not show the torque.
+  /// PWM period of the slow turn. It is short, because rows lie at the begin of a period, and a current that
+  /// has decayed by then does not show the torque.
   double turned_pwm_s = 0.0;
-  double turned_rad_s = 0.0;  ///< slow: the back-EMF takes a twentieth of the bench's current, or less
+  double turned_rad_s = 0.0;  ///< slow: the back-EMF uses a twentieth of the bench's current, or less
   /// A sector in which the start decays, then one electrical turn, 0 to 360 degrees.
   double turned_from_s = 0.0, turned_s = 0.0;
 };
@@ -46,7 +46,7 @@ struct WiringBench {
 /// Problems name `voltage_V` or `current_A`, or are the sheet's.
 base::Result<WiringBench> wiring_bench(const WiringSubject& subject);
 
-/// Scenario of a motor that is let free from rest at an electrical angle.
+/// Scenario of a motor that is released from rest at an electrical angle.
 study::Scenario free_run(const WiringBench& bench, const WiringSubject& subject, const rig::Wiring& wiring,
                          double electrical_deg);
 

@@ -17,18 +17,18 @@
 namespace sixstep::analysis {
 namespace {
 
-/// In electrical turns: a motor that hums swings within half a turn about its rest, and comes to it from no
-/// farther away.
+/// Least way in electrical turns of a motor that runs. A motor that hums swings within half a turn about its
+/// rest, and starts no farther from it.
 constexpr double whole_way = 1.0;
-/// In electrical turns of the watched time, in which an ideal motor makes six. Friction holds a slow motor back,
-/// but it still runs.
+/// Least electrical turns of a running motor in the measured time, in which an ideal motor makes six.
+/// Friction slows a motor, but it still runs.
 constexpr double still_going = 1.0 / 3;
 
 using Columns = std::vector<std::vector<double>>;
 
 struct Recorded {
   study::Outcome outcome;
-  Columns columns;  ///< as the scenario asks, in the turning motor's units
+  Columns columns;  ///< the scenario's columns, in the turning motor's units
 };
 
 base::Result<Recorded> recorded(const study::Scenario& s, const std::function<bool()>& keep_going) {
@@ -151,7 +151,7 @@ Symptom shown_by(const std::vector<const WiringCase*>& alike, const std::optiona
   return s;
 }
 
-/// The runs of one wiring, started one by one: six let free, then one turned.
+/// The runs of one wiring, started one by one: six free runs, then one turned.
 struct Runs {
   std::array<std::optional<base::Result<Recorded>>, starts + 1> of;
 };
@@ -184,7 +184,7 @@ WiringDoes seen_in(const WiringMeasured& m, double straight_Nm_A) {
     least = std::min(least, forward ? torque : -static_cast<double>(torque));
   if (std::fabs(m.torque_Nm_A) > well_above_part * straight_Nm_A && least > well_above_least * straight_Nm_A)
     return forward ? WiringDoes::forward : WiringDoes::backward;
-  // In the rotor's own direction, the torque of an early pair rises and that of a late one falls.
+  // The torque of an early pair rises in the rotor's own direction, and that of a late one falls.
   const double rise = half_mean(m.torque_over_turn, true) - half_mean(m.torque_over_turn, false);
   if (forward) return rise > 0 ? WiringDoes::forward_early : WiringDoes::forward_late;
   return rise > 0 ? WiringDoes::backward_early : WiringDoes::backward_late;
@@ -262,7 +262,7 @@ study::Scenario straight_run(const WiringStudy& study) {
   for (study::Comparison& c : s.compare) c.value = 1;
   const base::Result<study::Outcome> out = study::run(s, {.keep_books = false});
   for (std::size_t n = 0; n < s.compare.size() && out; ++n) {
-    // Of a linear motor the outcome has another unit; its value of 1 shows the factor.
+    // The outcome of a linear motor has another unit; its value of 1 shows the factor.
     s.compare[n].value = out->comparisons[n].measured / out->comparisons[n].value;
     s.compare[n].source = "this run with straight wires";
   }

@@ -17,10 +17,10 @@ namespace sixstep::analysis {
 inline constexpr std::size_t starts = 6;
 constexpr double start_deg(std::size_t n) { return 60.0 * static_cast<double>(n) + 30; }
 
-/// The watched end of a free run (WiringBench::watched_from_s), and the way since its start.
+/// The measured end of a free run (WiringBench::watched_from_s), and the way since its start.
 struct FreeRun {
   double speed_rad_s = 0.0;        ///< mean
-  double turns = 0.0;              ///< electrical, of the watched time, signed
+  double turns = 0.0;              ///< electrical, of the measured time, signed
   double way_turns = 0.0;          ///< electrical, from the start to the end, signed
   double phase_rms_A = 0.0;        ///< root of the mean square of all three phases
   double peak_A = 0.0;             ///< of half the sum of the phase currents' magnitudes
@@ -50,9 +50,10 @@ struct WiringCase {
   bool agrees() const { return theory.does == measured.does; }
 };
 
-/// Means over the runs of all wirings that do the same, over wirings and starts; of the peaks the largest. A motor
-/// that runs well accelerates for much longer than a run lasts, because its current is discontinuous. Its speed and
-/// currents are then those of the settled state (curve/no_load.hpp), unless the sheet's friction holds it.
+/// Means over the runs of all wirings with the same behaviour, over wirings and starts; of the peaks the
+/// largest. A motor that runs well accelerates for much longer than a run lasts, because its current is
+/// discontinuous. Its speed and currents are then those of the settled state (curve/no_load.hpp), unless the
+/// sheet's friction holds it.
 struct Symptom {
   std::size_t ways = 0;
   double part = 0.0, speed_rad_s = 0.0, phase_rms_A = 0.0, peak_A = 0.0, supply_A = 0.0, swing_deg = 0.0,
@@ -68,11 +69,11 @@ struct WiringStudy {
 
   std::size_t agreeing() const;
   const WiringCase& at(const rig::Wiring& wiring) const;
-  /// Of all wirings that do this in the runs; of one; of straight wires.
+  /// Symptoms over all wirings with this behaviour in the runs; of one wiring; of straight wires.
   Symptom symptom(WiringDoes does) const;
   Symptom symptom(const WiringCase& one) const;
   Symptom straight() const;
-  /// The first that does this in the runs; null: none does.
+  /// The first wiring with this behaviour in the runs; null: there is none.
   const WiringCase* example(WiringDoes does) const;
 };
 

@@ -50,8 +50,8 @@ double rest_between(const PairTorque& torque, const WiringTheory& t, std::uint8_
   return next * 60.0;
 }
 
-/// The torque of a pair that is driven before its turn rises from 0 on the rotor's way through a sector. That of a
-/// pair that is driven after its turn falls.
+/// The torque of a pair that is driven before its turn rises from 0 while the rotor passes a sector. The
+/// torque of a pair that is driven after its turn falls.
 WiringDoes running(int direction, double part, double least_part, const Sums& s) {
   const bool forward = direction > 0, falls = direction * (s.first_half - s.second_half) > 0;
   if (part >= well_above_part && least_part >= well_above_least)
@@ -75,7 +75,7 @@ WiringTheory wiring_theory(const PairTorque& torque, const rig::Wiring& wiring) 
     most = std::max(most, t.torque_Nm_A[sector]);
   }
   const Sums own = over_turn(torque, t), best = over_turn(torque, straight);
-  const bool nothing = std::fabs(own.mean) < 1e-12 * best.mean;  // the rounding of what cancels
+  const bool nothing = std::fabs(own.mean) < 1e-12 * best.mean;  // the rounding of cancelling terms
   t.mean_Nm_A = nothing ? 0.0 : own.mean;
   t.part = t.mean_Nm_A / best.mean;
   t.idle_speed_part = (t.mean_Nm_A / own.square) / (best.mean / best.square);

@@ -52,7 +52,7 @@ struct WiringTheory {
   /// i and mean(g i) = 0:
   ///   w = dU mean(g)/mean(g^2), i_rms^2 = (dU/R)^2 (1 - mean(g)^2/mean(g^2)).
   double idle_speed_part = 0.0, idle_current_part = 0.0;
-  /// Where it hums: electrical angles to which the torque drives from both sides.
+  /// Electrical angles, where it hums, to which the torque drives from both sides.
   std::vector<double> rests_deg;
 };
 

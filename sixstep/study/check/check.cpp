@@ -78,7 +78,7 @@ void check_speed_output(const Scenario& s, base::Problems& out) {
   if (c.regeneration.limit_V) refuse("control.regeneration.limit_V");
 }
 
-/// In duty mode the duty is set regardless of the current.
+/// Refuses limits and regeneration in a mode without a current loop, because they would have no effect.
 void check_limited_mode(const Scenario& s, base::Problems& out) {
   const Control& c = s.control;
   if (c.mode != control::Mode::off && c.mode != control::Mode::duty) return;

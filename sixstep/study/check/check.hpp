@@ -12,7 +12,7 @@ namespace sixstep::study {
 base::Problems check(const Scenario& scenario);
 
 /// Returns a problem for each named column that the mode does not have, because a file would hold no number
-/// there. A program that records all columns may leave them so.
+/// there. A program may record such columns.
 base::Problems check_columns(const Scenario& scenario);
 
 }  // namespace sixstep::study

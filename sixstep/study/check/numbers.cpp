@@ -12,7 +12,7 @@ namespace sixstep::study {
 
 namespace {
 
-/// At most so many entries of one list are reported.
+/// Upper limit of reported entries of one list.
 constexpr std::size_t most_told = 5;
 
 /// Checks each number against its allowed range.
@@ -42,7 +42,7 @@ class Numbers final : public base::Visitor {
   }
   template <class Other>
   void hold(std::string_view, const Other&, const base::About&) {}
-  /// Skips the sheet, which has limits of its own (design/sheet/sheet_reader.hpp).
+  /// Skips the sheet, whose limits design/sheet/sheet_reader.hpp checks.
   void visit_table(std::string_view key, base::TableMember& member, const base::About&) override {
     if (member.is_there() && key != sheet_table) within(std::string(key), [&] { member.walk(*this); });
   }

@@ -56,7 +56,7 @@ void check_friction(const Scenario& s, const design::MotorModel& motor, base::Pr
                    "check its unit, or set load.locked = true to hold the rotor"});
 }
 
-/// C_1 of a battery between R_1 and the bus behind R_b; the slower one counts.
+/// Time constants of a battery: C_1 between R_1 and the bus behind R_b. The slower one is used.
 void check_recovery(const Supply& from, base::Problems& out) {
   if (!(from.battery_recovery_ohm > 0 && from.battery_recovery_F > 0 && from.resistance_ohm > 0))
     return;  // check_supply() reports it
@@ -178,7 +178,7 @@ void check_timer(const Scenario& s, base::Problems& out) {
                    "give the timer's clock in Hz, 16e6 for 16 MHz; 0 rounds nothing"});
 }
 
-/// Longer pulses would leave no duty except 0 and 1.
+/// Longer pulses would allow no duty except 0 and 1.
 void check_minimum_pulse(const Scenario& s, base::Problems& out) {
   if (s.pwm.minimum_pulse_s > s.pwm.period_s / 2)
     out.push_back({"pwm.minimum_pulse_s", written(s.pwm.minimum_pulse_s),

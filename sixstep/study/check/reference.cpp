@@ -18,7 +18,7 @@ namespace {
 
 using base::written;
 
-/// More levels than a user can read, and as many as a run holds in 144 MB of memory.
+/// Upper limit of levels. A run with this number of levels needs 144 MB of memory.
 constexpr double most_half_periods = 2e6;
 
 /// One reference, its place in the file, and how long it applies.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists which shapes of a reference read which of its keys; no other place says so. A key that only another
+// Lists which shapes of a reference read which of its keys. No other file lists them. A key that only another
 // shape reads is refused, because its author expected an effect. tests/study/reference_keys_test.cpp tests
 // every key with every shape.
 #pragma once

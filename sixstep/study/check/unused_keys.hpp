@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds keys that a scenario gives without effect on its run, because the thing that they belong to is absent.
+// Finds keys that a scenario gives without effect on its run, because the part that they configure is absent.
 #pragma once
 #include <string>
 

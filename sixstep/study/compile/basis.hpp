@@ -78,7 +78,7 @@ base::Result<rig::OwnConfig> own_designed(const Scenario& scenario, const Basis&
 double field_lag_periods(const Scenario& scenario, const Basis& basis);
 
 /// Designs the speed loop of `tuned`, whose limits and current loop are already set, by the scenario's law
-/// (design/loops/speed_laws.hpp); a PI is left as it is. `full_rad_s2`: acceleration at full output.
+/// (design/loops/speed_laws.hpp); a PI stays unchanged. `full_rad_s2`: acceleration at full output.
 /// `fades_1_s`: decay rate of the speed by friction.
 base::Problems add_speed_law(const Scenario& scenario, const Basis& basis, double full_rad_s2,
                              double fades_1_s, Tuned& tuned);
@@ -86,8 +86,8 @@ base::Problems add_speed_law(const Scenario& scenario, const Basis& basis, doubl
 /// Torque constant in N m/A for the current that the scenario's drive controls: of the driven pair, or i_q.
 double torque_per_A(const Scenario& scenario, const Basis& basis);
 
-/// Time in s within which six Hall edges must come to be averaged; with slower edges the board measures the
-/// speed over one edge (design/loops/rotor_sensing.hpp). 0 without a speed loop.
+/// Time in s within which six Hall edges must occur to be averaged. If edges are slower, the board measures
+/// the speed over one edge (design/loops/rotor_sensing.hpp). 0 without a speed loop.
 double speed_window_s(const Scenario& scenario, const Basis& basis,
                       const control::DriveConfig<double>& drive);
 

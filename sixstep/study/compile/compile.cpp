@@ -64,7 +64,7 @@ double unseen_at_rest_A(const Scenario& s, double R_ohm) {
       diodes = off;
       break;
     case control::Chopping::complementary: {
-      // At each edge a lower diode conducts for a dead time, and the pulse is shorter by one.
+      // At each edge a lower diode conducts for a dead time. The pulse is shorter by one dead time.
       const double dead = std::min(b.dead_time_s / s.pwm.period_s, d);
       volts -= dead * s.supply.voltage_V;
       diodes = 2 * dead;

@@ -63,11 +63,10 @@ struct Compiled {
   sim::Instant end;
 };
 
-/// With a shunt in the DC link: the duty above which the middle of the period lies in the on-time and the
+/// Duty above which a shunt in the DC link measures: the middle of the period lies in the on-time, and the
 /// amplifier has settled. With complementary chopping the on-time begins later by one dead time.
 double least_visible_duty(const Scenario& scenario);
-/// The same, including the delay of the reading behind the pulse and the shortest pulse that the modulator
-/// makes.
+/// The same duty, including the delay of the reading behind the pulse and the modulator's shortest pulse.
 double least_shown_duty(const Scenario& scenario);
 /// Current in A that flows at the duty least_shown_duty() with the rotor at rest, through a pair of phases of
 /// 2 R and the bridge's conducting devices; the shunt does not show smaller currents. 0 where that duty drives no

@@ -11,7 +11,7 @@ namespace sixstep::study {
 
 namespace {
 
-/// Periods from a sample to the middle of the period that answers it: a sample in the middle waits half a
+/// Periods from a sample to the middle of the period with its answer. A sample in the middle waits half a
 /// period.
 double periods_to_answer(const Pwm& pwm) {
   return pwm.delay_periods + (pwm.sample == SampleAt::middle ? 1.0 : 0.5);

@@ -10,7 +10,8 @@ namespace sixstep::study {
 
 namespace {
 
-/// The loop's gains as given, else by pole placement; the exact design is derived beside given gains too.
+/// Returns the loop's gains as given, else by pole placement. The exact design is computed for given gains as
+/// well.
 template <class Loop>
 base::Result<LoopGains> loop_gains(const Loop& loop, const std::string& name, const design::ZohPlant& plant,
                                    double usual_settle_s, double period_s) {

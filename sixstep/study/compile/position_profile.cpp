@@ -55,8 +55,8 @@ control::JerkProfileLimits profile_limits(const Scenario& s, const Basis& basis,
   return out;
 }
 
-/// Relative to the full torque. If the output is a duty: relative to the bus, for the torque's current and the
-/// back-EMF.
+/// Feed-forward gains relative to the full torque. If the output is a duty, they are relative to the bus: for
+/// the torque's current and the back-EMF.
 control::MotionFeedForwardConfig<double> told_ahead(const Scenario& s, const Basis& basis,
                                                     const control::DriveConfig<double>& drive) {
   if (!s.control.position.profile.feed_forward) return {};

@@ -12,13 +12,13 @@ int samples_per_peak(const Scenario& scenario);
 /// Step period in s of the loop that tracks a resolver: between peaks, or the clock of a converter chip.
 double tracking_period_s(const Scenario& scenario);
 
-/// Copies how speed and position between Hall edges are found.
+/// Copies the settings for speed and position between Hall edges.
 void take_hall_angle(const Scenario& scenario, rig::SensorsConfig& to);
 
 /// Lines of a linear motor's scale in two pole pitches; check() requires a whole number.
 double lines_to_period(const Scenario& scenario);
 
-/// Kind `none` with Hall probes, and without a sensor.
+/// Returns the sensor's configuration. The kind is `none` with Hall probes and without a sensor.
 rig::ShaftSensorConfig shaft_sensor_config(const Scenario& scenario);
 
 }  // namespace sixstep::study

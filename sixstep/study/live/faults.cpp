@@ -68,7 +68,7 @@ void note_losses(const rig::Diagnosis& found, Outcome& out) {
       words.cure};
 }
 
-/// The problem of an encoder or a resolver whose signals cannot come from an intact one.
+/// The problem of an encoder or a resolver whose signals an intact sensor cannot produce.
 base::Problem lost_sensor(const rig::ShaftFinding& found, double t_s) {
   using rig::ShaftLoss;
   const std::string part =

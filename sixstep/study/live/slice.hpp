@@ -42,8 +42,8 @@ struct Slice {
   Observers& watchers;
   Present& present;
   std::optional<LastSegment>& last;
-  sim::Instant until;   ///< the row is taken here, on this instant's segment
-  sim::Instant& reach;  ///< end of segments that skipped ticks: a change must not come sooner
+  sim::Instant until;   ///< instant of the row, within this segment
+  sim::Instant& reach;  ///< end of segments that skipped ticks: no change may occur before it
   std::int64_t period_ticks;
   bool whole_run = false;  ///< runs to the end of the run, whatever `until` is
   bool unread = false;     ///< no row is taken

@@ -9,7 +9,7 @@ namespace sixstep::study {
 
 namespace {
 
-/// The sector, 0 to 5, whose positive pair it is; -1 if none.
+/// The sector, 0 to 5, with this positive pair; -1 if none.
 int sector_of_pair(const control::Pair& pair) {
   for (std::uint8_t k = 0; k < 6; ++k)
     if (control::positive_pair(k) == pair) return k;

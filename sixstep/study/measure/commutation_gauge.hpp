@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures how far from its place the driven pair changes: the rotor's electrical angle at each commutation
-// minus the sector edge that belongs there, in the direction of rotation. Late is positive.
+// Measures the angle error of commutation: the rotor's electrical angle at each commutation minus the sector
+// edge of this commutation, in the direction of rotation. Late is positive.
 //
 //   the pair of sector k changes to that of k +- 1:   edge at 60 (k + 1) or 60 k degrees; half a turn away if the
 //                                                     current flows the other way round

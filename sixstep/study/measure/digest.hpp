@@ -9,9 +9,9 @@
 
 namespace sixstep::study {
 
-/// Observer of a run. It reads time, currents, speed, angle and bus at the begin of each segment; this is the
-/// end of the segment before, after the event. A copy goes on from the original's state, like a copy of the
-/// rig.
+/// Observer of a run. It reads time, currents, speed, angle and bus at the begin of each segment. These are
+/// the values at the end of the previous segment, after the event. A copy continues from the original's
+/// state, like a copy of the rig.
 class Digest {
  public:
   template <class Rig, class Real>

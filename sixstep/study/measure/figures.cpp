@@ -11,8 +11,8 @@ namespace sixstep::study {
 namespace {
 
 /// A window per reference step inside the measure's own window; without `start` the step goes from the level
-/// before to the new one. For the reach time of a square's level the full level counts, not only the distance
-/// of the reversal: this is the stricter reading of "98 %".
+/// before to the new one. The reach time of a square's level counts the full level instead of the reversal's
+/// distance: this is the stricter reading of "98 %".
 Gauges step_gauges(const Measure& m, const std::vector<Level>& levels, Window window, bool square) {
   Gauges gauges;
   for (std::size_t n = 0; n < levels.size(); ++n) {
@@ -57,7 +57,7 @@ void watch_with(Gauge& gauge, Signal signal, const SegmentView& g, double s) {
   });
 }
 
-/// A reference can have a million steps; only gauges whose window is open cost time.
+/// A reference can have a million steps. Therefore only gauges with an open window are called.
 void watch_with(Gauges& gauges, const Measure& m, std::size_t& behind, const SegmentView& g, double s) {
   while (behind < gauges.size() && gauges[behind].window().to_s < g.t_s) ++behind;
   const double end_s = g.t_s + g.plant.expansion().h;
@@ -90,8 +90,8 @@ double value_of(const Gauges& gauges, const Measure& m) {
 }
 double value_of(const auto& taken, const Measure&) { return taken.value(); }
 
-/// Whether a figure of samples is also taken of the whole signal, because all samples lie at one place of the
-/// PWM's ripple. Not for times until a band, because the ripple can leave the band.
+/// Whether a figure of samples is also computed from the whole signal, because all samples lie at one place
+/// of the PWM's ripple. False for times until a band, because the ripple can leave the band.
 bool looks_beside_samples(const Measure& m) {
   return m.sampled && fact_of(m.metric).of == TakenOf::signal && !is_time(m.metric);
 }
@@ -112,15 +112,15 @@ bool levels_the_ripple(MetricKind metric) {
   return metric == MetricKind::mean || metric == MetricKind::rms || metric == MetricKind::steady_error;
 }
 
-/// Comparators need no sample, a deadbeat step answers one at the period's start, and three legs have a sample
-/// instant of their own.
+/// False for comparators, which need no sample; for a deadbeat step, which answers a sample at the period's
+/// start; and for three legs, which have their own sample instant.
 bool may_sample_in_the_middle(const Control& c) {
   return (c.drive == FirmwareKind::lean || c.drive == FirmwareKind::product) &&
          c.current.type == CurrentLoopType::pi;
 }
 
-/// In the middle of a centred pulse a current passes its mean, apart from a dead time that delays the pulse. A
-/// maximum, an overshoot or a ripple includes the ripple wherever the sample lies.
+/// A current passes its mean in the middle of a centred pulse, apart from a dead time that delays the pulse.
+/// A maximum, an overshoot or a ripple includes the ripple at any sample instant.
 std::string cure_of_samples(const Scenario& s, const Measure& m) {
   std::string whole = "sampled = false judges the whole signal";
   if (!levels_the_ripple(m.metric)) return whole + ", with the ripple that no sample sees";
@@ -193,7 +193,7 @@ void Figures::watch(const SegmentView& g, double s) {
 
 namespace {
 
-/// Names the figures whose window begins behind the trip: they belong to a motor that coasts.
+/// Names the figures whose window begins after the trip: they describe a motor that coasts.
 void note_coasting(const Scenario& s, Outcome& outcome) {
   if (!outcome.trip) return;
   std::string which;

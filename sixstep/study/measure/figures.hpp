@@ -21,7 +21,7 @@ namespace sixstep::study {
 /// One per step or level of the reference, in the order of their windows; the worst one counts.
 using Gauges = std::vector<Gauge>;
 
-/// The measuring parts of the figures: each takes segments, and returns its value at the end.
+/// The parts of the figures that measure: each reads segments and returns its value at the end.
 struct BandExcess {
   HysteresisGauge gauge;
   void segment(const SegmentView& g, double s) { gauge.segment(g, s); }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fits 1, cos and sin to a signal by least squares, part by part, and computes the residual.
 //
-// The fit sums the normal equations. It sums the square not of the signal but of its distance from a reference:
-// a fundamental that follows the fit. So the residual is not a difference of large squares, and a pure sine
-// leaves a residual of rounding's size instead of its root. A reference moved by d changes the sums by closed
-// forms,
+// The fit sums the normal equations. It sums the squared distance of the signal from a reference, which is a
+// fundamental close to the fit. So the residual is not a difference of large squares, and a pure sine leaves
+// a residual of rounding's size instead of its root. A reference moved by d changes the sums by closed forms,
 //   sum (r - d f)^2 = sum r^2 - 2 d . sum r f + d . (sum f f) d,
 // so no part is read twice. The reference is set to the fit whenever the length so far has doubled: a new part
 // then lies at most as far from the fit as all before it, some ripples away.
@@ -34,7 +33,7 @@ struct FittedPart {
 
 class FundamentalFit {
  public:
-  /// Adds a part; parts must follow each other without gaps. `begin` is the phase at this part's begin.
+  /// Adds a part; parts must be contiguous. `begin` is the phase at this part's begin.
   template <int points>
   void add(const Phase& begin, const FittedPart<points>& part);
   /// rms of the distortion over rms of the fundamental; NaN if the signal is zero.
@@ -77,8 +76,8 @@ class FundamentalFit {
 
 namespace detail {
 
-/// sin x and 1 - cos x with all their digits, by as many terms as points: a rule of n points is used for turns
-/// x with x^(2 n) below 2^-53 (2 n)!.
+/// sin x and 1 - cos x with all their digits, with one term per point: a rule of n points is used for turns x
+/// with x^(2 n) below 2^-53 (2 n)!.
 template <int points>
 [[gnu::always_inline]] inline void small_turn(const series::Nodes<points, double>& x,
                                               series::Nodes<points, double>& sin,

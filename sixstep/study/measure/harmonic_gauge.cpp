@@ -13,12 +13,12 @@ namespace {
 
 constexpr double whole_turn = 6 * base::sector_rad;
 
-/// With a given frequency a part turns by at most this angle, rad.
+/// Largest angle in rad by which a part turns, with a given frequency.
 constexpr double largest_turn = 0.5;
 
-/// An even degree after which the series of cos x and sin x have no term above rounding, with as few points as
-/// possible: x^n/n! <= 2^-53. Products with them are integrated like those of the engine's own series of that
-/// degree (series/quadrature.hpp).
+/// The least even degree n after which the series of cos x and sin x have no term above rounding: x^n/n! <=
+/// 2^-53. Products with them are integrated like those of the engine's own series of that degree
+/// (series/quadrature.hpp).
 constexpr int degree_of_turn(double rad) {
   constexpr double largest[] = {0.0065, 0.038, 0.115, 0.247, 0.437};  // for 6, 8, .. 14
   int degree = 6;
@@ -93,7 +93,7 @@ Phase HarmonicGauge::phase_at(const SegmentView& g, double s) const {
 }
 
 /// The electrical angle turns no faster than the series of a segment change, so that their degree determines
-/// the number of points. Products have three factors here, because the speed is the weight: the bound of
+/// the number of points. Products have three factors here, because the speed is the weight. The bound of
 /// series/quadrature.hpp is then (pi/2) (3/4)^n e^(3 x) u M^3 for degree n, below u M^3/5 for n of 8 or more.
 void HarmonicGauge::turn_part(const SegmentView& g, const Piece& y, double from, double to) {
   const plant::Expansion<double>& e = g.plant.expansion();

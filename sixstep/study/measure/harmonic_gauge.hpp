@@ -20,8 +20,8 @@ namespace sixstep::study {
 class HarmonicGauge {
  public:
   /// Without a frequency the fundamental follows the electrical angle, and its periods are whole turns from the
-  /// window's begin on; integrals are then over the angle. So ripple of the speed is no distortion, and no
-  /// frequency must be known. With a frequency, integrals are over time and whole periods of it.
+  /// window's begin on; integrals are then over the angle. Ripple of the speed then causes no distortion, and
+  /// no frequency is required. With a frequency, integrals are over time and whole periods of it.
   HarmonicGauge(const Window& window, Signal signal, std::optional<double> frequency_Hz);
 
   void segment(const SegmentView& g, double s);

@@ -21,7 +21,7 @@ class HysteresisGauge {
   explicit HysteresisGauge(const Window& window = {}) : window_(window) {}
 
   /// Adds one segment, up to its fraction s, for every armed comparator. Segments outside of the window are
-  /// followed too, because they decide what is excused at the window's begin.
+  /// followed as well, because they decide which deviations are excused at the window's begin.
   void segment(const SegmentView& g, double s);
   const HysteresisFigures& figures() const { return figures_; }
 

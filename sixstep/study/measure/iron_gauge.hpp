@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Separates the iron's drag from the bearings' friction: integrals in J of B_iron w^2 and of the dry drag over
-// the motor shaft's angle, by the segments' own series (model.md 7). Only runs whose sheet gives the two
-// separately have one.
+// the motor shaft's angle, by the segments' own series (model.md 7). The gauge exists only if the sheet gives
+// the two separately.
 #pragma once
 #include "sixstep/design/sheet/sheet_constants.hpp"
 #include "sixstep/plant/state.hpp"

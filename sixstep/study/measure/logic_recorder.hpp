@@ -31,8 +31,8 @@ LogicRow logic_row(const Rig& rig) {
   const auto set = [&row](LogicId id, auto v) {
     row[static_cast<std::size_t>(id)] = static_cast<std::uint32_t>(v);
   };
-  // The timer's gates. The plant has the same ones except where they would short the bus, and that must be
-  // visible.
+  // The timer's gates. They differ from the plant's gates only where they would short the bus; the recording
+  // must show that.
   const plant::Gates gates = rig.modulator().gates();
   for (std::size_t k = 0; k < 3; ++k) {
     row[2 * k] = gates.high[k] ? 1 : 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figures by integrals over a window, and the value at its end. Like all parts of gauge.hpp, each takes either
-// the signal over [t0, t0 + length] as a polynomial of s in [0, 1], or the controller's samples.
+// Figures by integrals over a window, and the value at its end. Each reads, like all parts of gauge.hpp,
+// either the signal over [t0, t0 + length] as a polynomial of s in [0, 1], or the controller's samples.
 #pragma once
 #include <cmath>
 

@@ -55,8 +55,8 @@ struct Trip {
   int hall_line = 0;                 // 1..3: the faulty line; 0: none or undecidable
 };
 
-/// A core that ran the drive beside the host (rig/lockstep_core.hpp). Each of its answers equalled the host's
-/// to the bit, unless there is a fault.
+/// A core that computed the drive in parallel with the host (rig/lockstep_core.hpp). Each of its answers
+/// equalled the host's to the bit, unless there is a fault.
 struct CoreRun {
   std::string core;         // "Cortex-M4F"
   std::uint64_t calls = 0;  // of its entry functions
@@ -94,7 +94,7 @@ struct Outcome {
   std::optional<ChipReport> chip;      // empty: no chip
   double simulated_s = 0.0;
   std::int64_t segments = 0;
-  std::int64_t turn_ons = 0;  // of the chopped role, wherever commutation puts it, or of three upper switches
+  std::int64_t turn_ons = 0;  // of the chopped leg, which commutation changes, or of three upper switches
   int chopped_switches = 1;   // the switches that turn_ons counts
   std::uint64_t digest = 0;   // of every bit of the trajectory (study/measure/digest.hpp)
 

@@ -36,7 +36,7 @@ class Selection {
     sound_ = all == 0.0;
     return differs;
   }
-  /// Whether all numbers of the row are finite; a run away can produce others before it is stopped.
+  /// Whether all numbers of the row are finite. A run-away can produce others before the run stops.
   bool sound() const { return sound_; }
   std::span<const double> row() const { return row_; }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// has_run_away() says whether the state has left all bounds of a motor. No single value in range can cause
-// that, but an excessive torque on a small rotor can; the simulation then has no meaning any more.
+// has_run_away() returns whether the state has left all bounds of a motor. No single value in range can cause
+// that, but an excessive torque on a small rotor can. The simulation then has no meaning any more.
 #pragma once
 #include <cmath>
 

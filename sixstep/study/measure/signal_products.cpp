@@ -90,8 +90,8 @@ void add_floating_star(const Span& part, const SpeedShapes& shapes, Series& u) {
   add(u, -(p.beta[high] + p.beta[low]) / 2, shapes.w1);
 }
 
-/// The same for the general kernel, whose pole voltages are then e_k; the legs are chosen in the middle of the
-/// part.
+/// The same for the general kernel, whose pole voltages are then e_k. The two legs are those in the middle of
+/// the part.
 void add_general_floating_star(const Span& part, Series& u) {
   const auto& emf = part.g.plant.general->series().emf;
   const int degree = part.g.plant.expansion().degree;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures how a signal goes from its start to its level: when it arrives, and when it stays. A time is
-// infinite if that never happens.
+// Measures a signal's way from its start to its level: the time at which it arrives, and from which it stays.
+// A time is infinite if that never happens.
 #pragma once
 #include <optional>
 
@@ -11,7 +11,7 @@ namespace sixstep::study {
 /// Rise times are taken between these fractions of the step, as in control textbooks.
 inline constexpr double rise_from = 0.1, rise_to = 0.9;
 
-/// Without `start` the signal's first value is the start.
+/// A step of the reference. Without `start`, it starts at the signal's first value.
 struct Step {
   double level = 0.0;
   std::optional<double> start;

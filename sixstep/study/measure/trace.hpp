@@ -25,8 +25,8 @@ struct Trace {
   std::vector<Column> columns;
   std::vector<std::vector<double>> values;
   bool every_event = false;  // otherwise on a grid
-  /// Where all rows are kept, rising; empty: everywhere. Elsewhere an envelope replaces the rows: of each short
-  /// interval only the rows where a column is lowest or highest.
+  /// Spans of which all rows are kept, rising; empty: all spans. Outside of them an envelope replaces the
+  /// rows: each short interval keeps only the rows where a column is lowest or highest.
   std::vector<TimeSpan> whole{};
   std::size_t left_out = 0;  // number of rows that the envelope replaces
 };

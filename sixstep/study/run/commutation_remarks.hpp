@@ -8,8 +8,8 @@
 
 namespace sixstep::study {
 
-/// A sentence with the shortest current that the drive steps for, and a cure; empty where it acted. The drive
-/// leaves out a step that would come too late.
+/// Returns a sentence with the least current for which the drive applies the duty step, and a cure. Empty if
+/// the step acted. The drive omits a step that would come too late.
 std::string on_idle_duty_step(const Scenario& scenario, const RunWatch& watch);
 /// A sentence if it acted with a pattern that chops the staying leg at some edges.
 std::string on_chopped_staying_leg(const Scenario& scenario, const RunWatch& watch);

@@ -138,8 +138,8 @@ void look_at_delay(const Scenario& s, base::Problems& out) {
                    "set delay_periods = 1, or sample = \"middle\""});
 }
 
-/// For every drive: when the torque reverses, a leg changes from one switch to the other, with every kind of
-/// chopping.
+/// Applies to every drive: when the torque reverses, a leg changes from one switch to the other, with every
+/// kind of chopping.
 void look_at_dead_time(const Scenario& s, base::Problems& out) {
   constexpr double shortest_s = 20e-9;  // two clocks of a fast timer; no switch turns off faster
   const double counted_s = dead_time_in_counts_s(s.bridge.dead_time_s, s.pwm);
@@ -174,7 +174,7 @@ std::string required(const Verdict& v) {
   return v.max ? "<= " + written(*v.max) + unit : "";
 }
 
-/// With enough digits to differ from the limit that it misses.
+/// The measured value with enough digits to differ from the missed limit.
 std::string measured(const Verdict& v) {
   std::string text;
   for (int digits = 5; digits <= 17; ++digits) {
@@ -229,7 +229,7 @@ void add_notes(const Scenario& s, const Listeners& listeners, Clearance& c) {
   add(sheet_contradiction(s));
   add(limit_above_nominal(s, c.outcome.motor));
   add(setpoint_bound(s));
-  // Without a clearance its conditions say nothing.
+  // Without a clearance its conditions have no meaning.
   if (!c.clear()) return;
   WithoutSink other = without_sink(s, c.outcome.motor, listeners);
   c.needs_sink = other.matters && !other.holds;

@@ -17,7 +17,7 @@ namespace sixstep::study {
 /// the run, a run without requirements. Sensors that the drive does not read may stay ideal.
 base::Problems never_measured(const Scenario& scenario);
 
-/// Finds what a run has shown against the drive: each missed requirement, and the fault that stopped it.
+/// Finds results of a run that forbid an export: each missed requirement, and the fault that stopped the run.
 base::Problems not_held(const Outcome& outcome);
 
 /// The result of a run before export, and the reasons against the export.
@@ -25,7 +25,7 @@ struct Clearance {
   Outcome outcome;
   base::Problems unmeasured, unheld;
   std::vector<std::string> notes;  ///< conditions of the clearance, a sentence each (export_notes.hpp)
-  bool needs_sink = false;         ///< it was not shown for a supply that takes no current back
+  bool needs_sink = false;         ///< it was not shown for a supply that cannot take current back
 
   bool clear() const { return unmeasured.empty() && unheld.empty(); }
 };

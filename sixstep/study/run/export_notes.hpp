@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds conditions under which a drive works in its run and not on every bench: a limit above the nominal current,
-// a sheet that contradicts itself, a supply that takes current back. Export notes them; they are no reasons against it.
+// Finds conditions under which a drive works in its run but perhaps not on a bench: a limit above the nominal
+// current, a sheet that contradicts itself, a supply that takes current back. Export notes them; they are no
+// reasons against it.
 #pragma once
 #include <string>
 #include <vector>
@@ -12,7 +13,7 @@
 
 namespace sixstep::study {
 
-/// A cascade whose limit lets more than the nominal current flow, and for how long the winding withstands
+/// A cascade whose limit allows more than the nominal current, with the time for which the winding withstands
 /// that limit by the sheet's thermal values. Empty if it withstands the limit without end, without a printed
 /// nominal current, and for a field-oriented drive, whose nominal current is a sine's.
 std::string limit_above_nominal(const Scenario& scenario, const design::MotorModel& motor);
@@ -21,10 +22,10 @@ std::string limit_above_nominal(const Scenario& scenario, const design::MotorMod
 /// is not judged: it changes values on purpose.
 std::string sheet_contradiction(const Scenario& scenario);
 
-/// The run again with a supply that takes no current back.
+/// The run again with a supply that cannot take current back.
 struct WithoutSink {
   bool matters = false;  ///< the scenario's supply takes current back
-  bool holds = false;    ///< with a supply that takes none back, run and stop hold too
+  bool holds = false;    ///< with a supply that cannot, run and stop hold too
   std::string note;      ///< if it does not hold: what happens there
 };
 WithoutSink without_sink(const Scenario& scenario, const design::MotorModel& motor,

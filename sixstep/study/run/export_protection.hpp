@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds thresholds of the product drive that check() accepts and that would protect nothing on a bridge. A run
+// Finds thresholds of the product drive that check() accepts but that would not protect a bridge. A run
 // mentions them, and export refuses them.
 #pragma once
 #include <optional>

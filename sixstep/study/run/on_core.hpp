@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds reasons why a core cannot run a scenario. One kind of core runs beside the host
+// Finds reasons why a core cannot run a scenario. One kind of core runs in parallel with the host
 // (rig/lockstep_core.hpp); it is flashed once. The other is an AVR that replaces the drive
 // (rig/chip_drive.hpp); its board has only a timer, a converter and three current transducers.
 #pragma once

@@ -66,7 +66,7 @@ double sector_s(const Compiled& c, double rad_s) {
   return base::pi / 3 / (c.motor.machine.pole_pairs * rad_s);
 }
 
-/// At the shortest measured pulse an amplifier of one pole has reached 1 - exp(-2 pi f t) of the current.
+/// An amplifier of one pole has reached 1 - exp(-2 pi f t) of the current at the shortest measured pulse.
 std::string on_shunt_amplifier(const Scenario& s) {
   constexpr double enough = 0.9;
   if (s.sensors.currents != rig::CurrentMeasurement::dc_link || !s.sensors.current_bandwidth_Hz) return {};
@@ -80,8 +80,8 @@ std::string on_shunt_amplifier(const Scenario& s) {
          " us it shows 90 %";
 }
 
-/// The drive computes with shunt_settle_s and the dead time only. For duties between its own limit and the real
-/// one it reads 0 A.
+/// The drive computes with shunt_settle_s and the dead time only. It reads 0 A for duties between its own
+/// limit and the real one.
 std::string on_samples_taken_too_soon(const Scenario& s, double shown_duty) {
   const double taken_duty = least_visible_duty(s);
   if (!(shown_duty > taken_duty * (1 + 1e-9))) return {};
@@ -168,7 +168,7 @@ std::string on_back_emf(const Scenario& s, const Compiled& c, const RunWatch& w)
 }
 
 /// Finds a winding that stays below its limit with the motor file's thermal values, but may exceed it within
-/// their ranges.
+/// their tolerances.
 std::string on_worse_ends(const Scenario& s, const RunWatch& w) {
   const auto model = design::thermal_model(s.sheet);
   const auto worse = design::at_worse_ends(s.sheet);
@@ -240,7 +240,7 @@ void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, Outcom
   for (std::string& text : passed_limits(s, w, out)) add(std::move(text));
   for (std::string& text : passed_currents(s, c.own.is ? c.drive.current_limit_A : 0.0, w))
     add(std::move(text));
-  if (c.own.is) return;  // its gains and samples are its own
+  if (c.own.is) return;  // its gains and samples are unknown
   add(on_shunt(s, c, w));
   add(on_shunt_amplifier(s));
   add(on_hall_timeout(s, c));

@@ -26,9 +26,9 @@ struct Listeners {
   bool keep_books = true;  ///< energy books and standing laws: about a third of run time more
 };
 
-/// A core in an emulator. Either it runs the drive beside the host, and each answer must equal the host's; or
-/// it is a chip that runs its own firmware instead of the drive. on_core.hpp checks which scenarios they can
-/// run.
+/// A core in an emulator. Either it computes the drive in parallel with the host, and each answer must equal
+/// the host's; or it is a chip that runs its own firmware instead of the drive. on_core.hpp checks which
+/// scenarios they can run.
 struct OnCore {
   rig::CorePort beside{};
   rig::ChipPort instead{};

@@ -36,7 +36,7 @@ void take(T& member, const std::optional<double>& given) {
   if (given) member = *given;
 }
 
-/// If only one of settle_s and damping is given, the other one stays; given gains replace both.
+/// If only one of settle_s and damping is given, the other one remains. Given gains replace both.
 template <class Loop>
 void take_gains(Loop& loop, const AtGains& given) {
   if (given == AtGains{}) return;
@@ -128,7 +128,7 @@ Scenario settled(const Scenario& s, const At* event) {
     kept.control = {};
     kept.pwm = {};
     kept.bridge.dead_time_s = std::nullopt;
-    // The reference ends where another mode's reference takes over.
+    // The reference ends when the reference of another mode begins.
     if (mode != out.control.mode && (kept.reference || other_mode)) kept.reference = Reference{};
     if (kept.reference || kept.supply.voltage_V || kept.load.torque_Nm || kept.sensors.hall_break ||
         kept.motor.broken_wire != Wire::none || kept.bridge.open_switch != Switch::none ||

@@ -10,13 +10,13 @@ namespace sixstep::study {
 /// Whether the event gives the chip another configuration.
 inline bool retunes(const At& at) { return at.control != AtControl{} || at.pwm != AtPwm{}; }
 
-/// The events in time order; of two at one instant the one written first comes first.
+/// The events in time order. Two events at one instant keep their order in the file.
 std::vector<const At*> in_order(const Scenario& scenario);
 
 /// The time of an event, s. An event that changes the mode waits for the control sample at or after its time_s,
 /// so that mode and reference change together.
 double happens_at_s(const Scenario& scenario, const At& at);
-/// The control sample at or after an instant, where the chip takes up another configuration.
+/// The control sample at or after an instant, from which the chip uses another configuration.
 std::int64_t sample_from_ticks(const Pwm& pwm, std::int64_t ticks);
 
 /// The mode after each event of scenario.at.

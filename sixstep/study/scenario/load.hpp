@@ -22,7 +22,7 @@ struct Load {
   double static_Nm = 0.0;  // breakaway torque if larger than coulomb
   double inertia_kg_m2 = 0.0;
   double gear_efficiency = 1.0;
-  double gear = 1.0;              // motor turns per load turn; the load's values are at its own side
+  double gear = 1.0;              // motor turns per load turn; the load's values refer to the load's shaft
   double stiffness_Nm_rad = 0.0;  // of the shaft to the load; 0: rigid
   double damping_Nm_s_rad = 0.0;
   double fan_Nm_s2 = 0.0;  // torque over the square of the load's speed

@@ -86,7 +86,7 @@ struct Measure {
   std::string label;                   // shown instead of metric and signal
 };
 
-/// The tail if none is given: the last tenth of a level.
+/// Default tail: the last tenth of a level.
 inline constexpr double default_tail = 0.1;
 
 }  // namespace sixstep::study

@@ -36,7 +36,7 @@ enum class MetricKind : std::uint8_t {
   commutation_error_rms
 };
 
-/// The quantity that a figure is taken of.
+/// The quantity from which a figure is computed.
 enum class TakenOf : std::uint8_t {
   signal,
   fundamental,

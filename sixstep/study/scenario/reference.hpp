@@ -11,8 +11,8 @@ namespace sixstep::study {
 enum class Shape : std::uint8_t { constant, steps, square, ramp, sine, trapezoid, csv };
 enum class Interpolation : std::uint8_t { linear, hold };
 
-/// Values in the mode's unit: duty 1, current A, speed rad/s, position deg. Times count from where the
-/// reference takes over: the run's start, or its event.
+/// Values in the mode's unit: duty 1, current A, speed rad/s, position deg. Times count from the begin of the
+/// reference: the run's start, or its event.
 struct Reference {
   Shape shape = Shape::constant;
   double value = 0.0;             // constant
@@ -20,7 +20,7 @@ struct Reference {
   std::vector<double> values{};
   double high = 0.0, low = 0.0;  // square: high first
   double period_s = 0.01;
-  double begin_s = 0.0;                        // ramp, trapezoid: it stays at start until then
+  double begin_s = 0.0;                        // ramp, trapezoid: the value is `start` until then
   std::optional<double> start{};               // default: the reference's value so far; 0 at first
   double end = 0.0;                            // ramp, trapezoid: final value
   std::optional<double> end_s{};               // ramp: when it arrives

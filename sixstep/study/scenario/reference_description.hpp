@@ -6,7 +6,8 @@
 
 namespace sixstep::study {
 
-/// A run counts time in picoseconds of 63 bits, 106 days; a period must fit into it many times.
+/// Longest time, s. A run counts time in picoseconds of 63 bits, 106 days; a period must fit into it many
+/// times.
 inline constexpr double longest_s = 9e6;
 inline constexpr double shortest_period_s = 1e-9;
 

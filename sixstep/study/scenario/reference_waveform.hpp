@@ -35,9 +35,9 @@ double largest_reference(const Scenario& scenario);
 /// Whether the reference moves anywhere in [from_s, to_s).
 bool reference_moves(const Scenario& scenario, double from_s, double to_s);
 
-/// Time in s after which the reference would not move any more, even if the run went on; it may lie after the
-/// run's end. 0 if it never moves. Steps and square waves are no movement. Empty: a sine, or a movement longer
-/// than any run.
+/// Time in s after which the reference would not move any more if the run continued. It may lie after the
+/// run's end. 0 if it never moves. Steps and square waves are no movement. Empty: a sine, or a movement
+/// longer than any run.
 std::optional<double> reference_rests_from_s(const Scenario& scenario);
 
 }  // namespace sixstep::study

@@ -84,7 +84,7 @@ struct Pwm {
   SampleAt sample = SampleAt::start;
   int delay_periods = 0;
   double timer_Hz = 0.0;         // 0: edges are not quantised
-  double minimum_pulse_s = 0.0;  // shorter pulses are dropped, shorter gaps are closed
+  double minimum_pulse_s = 0.0;  // shorter pulses are dropped, shorter off-times are closed
 };
 
 struct Initial {

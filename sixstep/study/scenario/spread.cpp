@@ -87,8 +87,9 @@ NumberAt find_number(Scenario& scenario, std::string_view key) {
   return finder;
 }
 
-/// The scenario with all values that would be derived from a varying value written out, and all constants under
-/// their standard keys, whatever the sheet prints. Hall edges that may vary are at their places if not given.
+/// The scenario with all values that follow from a varying value written out, and all constants under their
+/// standard keys, independent of the sheet. Hall edges that may vary are at their nominal places if not
+/// given.
 Scenario written_out(const Scenario& scenario, std::string_view key = {}) {
   Scenario s = scenario;
   s.sheet = design::in_standard_keys(std::move(s.sheet));
@@ -111,8 +112,8 @@ std::uint64_t stream_of(std::string_view key) {
   return hash.value();
 }
 
-/// In units of the width. Values beyond the cut are drawn again: with cut_sigma >= 1 at least 68 % are inside,
-/// so that 64 draws all miss once in 10^31 drives; the value is then nominal.
+/// Deviation in units of the width. Values outside of the cut are drawn again: with cut_sigma >= 1 at least
+/// 68 % are inside, so that 64 draws all miss once in 10^31 drives. The value is then nominal.
 double deviation(const Spread& spread, std::uint64_t seed, std::uint64_t number) {
   const std::uint64_t stream = stream_of(spread.key);
   if (spread.distribution == Distribution::uniform) return 2.0 * base::uniform({seed, stream, number}) - 1.0;

@@ -16,8 +16,8 @@ namespace sixstep::study {
 ///   - The controller stays the one designed for the values as written (Scenario::designed_for): its gains, torque and
 ///     current limits, the bus voltage by which it divides. Gains designed anew for each motor would hide the effect of
 ///     a spread.
-///   - Values that the sheet leaves open are derived once, from the values as written: friction does not change because
-///     the torque constant does.
+///   - Values that the sheet omits are computed once, from the values as written: friction does not change
+///     with the torque constant.
 ///   - Torque constant and back-EMF constant are one quantity: if the sheet gives both, both change.
 ///
 /// Requires that check() found nothing. Numbers below 2^48 give different drives.

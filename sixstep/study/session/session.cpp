@@ -102,7 +102,7 @@ Instant next_change(const Instant& now, const Instant& next_tick, const Instant&
   return {tick, 0.0};
 }
 
-/// Keeps the run on the general kernel if the event that needed it lay after the end: adds an event with
+/// Keeps the run on the general kernel if the event that needed it is after the end. Adds an event with
 /// straight wires, which changes nothing.
 Scenario on_same_kernel(Scenario s, const Compiled& before) {
   if (!before.general || needs_general_plant(s)) return s;
@@ -163,7 +163,7 @@ bool Session::go(double to_s, bool read) {
   if (!to_end && !(s.now() < asked)) {
     if (read && s.last) return s.look_back(asked);
     Slice here = s.slice(asked);
-    if (read) s.run->look(here);  // skipped to here: of the instants before, nothing was kept
+    if (read) s.run->look(here);  // skipped to here: no earlier instant was kept
     return true;
   }
   Slice slice = s.slice(to_end ? end : asked);

@@ -5,7 +5,7 @@
 //   bits     slices and reads do not change a bit of the run: a slice ends after an event
 //   change   everything that [[at]] can change, at the next control tick. The session adds it to its scenario. An
 //            invalid change is refused like an invalid file, and then nothing has changed
-//   copy     a session is a value: a copy is a saved state, and goes on independently
+//   copy     a session is a value: a copy is a saved state, and continues independently
 //   replay   run(session.scenario()) has the digest of the session that was run to its end, or closed
 #pragma once
 #include <memory>

@@ -5,8 +5,8 @@
 
 namespace sixstep::study {
 
-/// The same run up to end_s. Events from there on are dropped, and so are figures whose window begins after it
-/// or that cannot be taken any more.
+/// The same run up to end_s, without later events. Figures are dropped if their window begins after end_s or
+/// if they cannot be measured any more.
 Scenario shortened(const Scenario& scenario, double end_s);
 
 }  // namespace sixstep::study

@@ -127,7 +127,7 @@ MeanShape mean_shape(const HarmonicFit& fit, const EmfResult& so_far) {
   return out;
 }
 
-/// Lists the harmonics and leaves in the shape those that stand out of the noise.
+/// Lists the harmonics. The shape keeps only those above the noise.
 void take_harmonics(MeanShape& mean, EmfResult& out) {
   constexpr double one_in_twenty = 0.05;
   const double noise =

@@ -23,9 +23,9 @@ struct EmfRequest {
 struct EmfHarmonic {
   int order = 1;
   Interval part;       ///< amplitude over the fundamental's
-  double floor = 0.0;  ///< limit that noise alone stays below, in all orders of 95 of 100 recordings
+  double floor = 0.0;  ///< limit above all orders of noise in 95 of 100 recordings
   bool stands_out = false;
-  /// Of a phase's shape, over the fundamental: factors of cos and sin of order (theta_e - 60 deg).
+  /// Components of a phase's shape, over the fundamental: factors of cos and sin of order (theta_e - 60 deg).
   double in_phase = 0.0, across = 0.0;
 };
 
@@ -33,7 +33,7 @@ struct EmfChannelResult {
   std::string name;
   double offset_V = 0.0;
   Interval peak_V;     ///< of the fundamental
-  Interval phase_deg;  ///< behind the first channel
+  Interval phase_deg;  ///< lag to the first channel
   double residual_rms_V = 0.0;
   double step_V = 0.0;   ///< least difference of two successive rows: the converter's step
   double clipped = 0.0;  ///< longest run of rows at the greatest or least value, as a part of a period
@@ -42,7 +42,7 @@ struct EmfChannelResult {
 /// V s per electrical rad; times the pole pairs per mechanical one.
 struct EmfConstants {
   Interval line_peak, line_rms, line_fundamental;
-  /// From probes between lines: without harmonics of order 3, 9, ..
+  /// Constants of a phase. From voltages between lines they lack harmonics of order 3, 9, ..
   Interval phase_peak, phase_rms, phase_fundamental;
 };
 
@@ -60,8 +60,8 @@ struct EmfResult {
   EmfConstants constants;
   double crest = 0.0;     ///< peak over rms of the probed voltage
   double flat_deg = 0.0;  ///< width above 95 % of its peak
-  /// Phase a over an electrical turn, peak 1; positive half wave's middle at 60 degrees (notation.md). Harmonics
-  /// that do not stand out of the noise are not included.
+  /// Phase a over an electrical turn, peak 1; positive half wave's middle at 60 degrees (notation.md).
+  /// Harmonics below the noise are not included.
   std::vector<double> angle_deg, shape;
   HarmonicFit fit;                 ///< for a picture
   double shape_sector_mean = 0.0;  ///< K_t over K_e of the fitted shape; of the table within 1e-4

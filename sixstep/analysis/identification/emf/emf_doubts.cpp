@@ -22,8 +22,8 @@ double middle_of(std::vector<double> values) {
   return *middle;
 }
 
-/// Distance of a row from the straight line between its neighbours, median of all rows that do not stand at an
-/// extreme.
+/// Distance of a row from the straight line between its neighbours, as the median of all rows that are not at
+/// an extreme.
 double bend_of_flanks(const std::vector<double>& t, const std::vector<double>& u) {
   const auto [low, high] = std::minmax_element(u.begin(), u.end());
   std::vector<double> bends;
@@ -56,7 +56,8 @@ std::optional<Top> measured_top(const std::vector<double>& u, std::size_t from, 
   return top;
 }
 
-/// The last row of a top that begins at `from`. Near its ends, noise makes it leave the extreme and come back.
+/// The last row of a top that begins at `from`. Near the top's ends, noise interrupts the extreme for a few
+/// rows.
 std::size_t end_of_top(const std::vector<double>& u, std::size_t from) {
   std::size_t end = from;
   for (std::size_t n = from + 1; n < u.size() && n - end <= std::max<std::size_t>(2, (end - from) / 4); ++n)
@@ -64,7 +65,8 @@ std::size_t end_of_top(const std::vector<double>& u, std::size_t from) {
   return end;
 }
 
-/// Whether no row leaves the extreme in the inner part of a top. A top that is flat by itself is noisy there, too.
+/// Whether no row differs from the extreme in the inner part of a top. A top that is flat without clipping
+/// has noise there.
 bool stands_still(const std::vector<double>& u, std::size_t from, std::size_t to) {
   const std::size_t edge = (to - from + 1) / 5;
   return std::all_of(u.begin() + static_cast<std::ptrdiff_t>(from + edge),
@@ -72,7 +74,7 @@ bool stands_still(const std::vector<double>& u, std::size_t from, std::size_t to
                      [&](double x) { return x == u[from]; });
 }
 
-/// The tops at one extreme that stand still and are at least half as long as the longest.
+/// The constant tops at one extreme that are at least half as long as the longest.
 std::vector<Top> tops_at(const std::vector<double>& u, double extreme) {
   constexpr std::size_t fewest_rows = 8;
   std::vector<Top> all;
@@ -89,10 +91,10 @@ std::vector<Top> tops_at(const std::vector<double>& u, double extreme) {
   return all;
 }
 
-/// How far the voltage would have gone beyond its extreme, by the parabola u = V - b x^2 through the rows beside
-/// the run: b h^2 = V, and near is 4/3 V. 0 where the flanks are no parabola: far is 4 times near for a parabola,
-/// and 3.4 times for a sine that has lost a fifth. Straight flanks have 3 and less, a top that is flat by itself
-/// and round at its ends more than both.
+/// Height that clipping has cut off, by the parabola u = V - b x^2 through the rows next to the run: b h^2 =
+/// V, and near is 4/3 V. 0 where the flanks are no parabola: far is 4 times near for a parabola, and 3.4
+/// times for a sine that has lost a fifth. Straight flanks have 3 and less, a top that is flat without
+/// clipping and round at its ends more than both.
 double lost_beyond(const std::vector<double>& u, double extreme, double periods) {
   constexpr double straight = 3.2, round = 4.6, near_of_lost = 4.0 / 3.0, most_periods = 0.6;
   std::vector<double> lost, bent;
@@ -157,8 +159,8 @@ bool may_be_clipped(const EmfChannelResult& channel) {
   return channel.clipped > much && channel.residual_rms_V > dithered * channel.step_V;
 }
 
-/// A sine of peak A that has lost V at both ends, and stands there for a part q of the period at each, has 8/3 q
-/// V/A less in its fundamental and its rms, and V/A in its peak.
+/// A sine of peak A that has lost V at both ends, and is constant there for a part q of the period each, has
+/// 8/3 q V/A less in its fundamental and its rms, and V/A in its peak.
 void allow_for_clipping(EmfResult& result) {
   double peak = 0.0, fundamental = 0.0;
   for (const EmfChannelResult& channel : result.channels) {
@@ -219,7 +221,7 @@ base::Problems check_alike(const EmfResult& result) {
 /// It is unknown which channel is right, so that the constants' bounds reach as far as each.
 void allow_for_unlike_channels(EmfResult& result) {
   constexpr double usual = 0.01;
-  const double half = unlike(result), part = half * (1.0 + half);  // a mean of squares lies beyond the middle
+  const double half = unlike(result), part = half * (1.0 + half);  // a mean of squares is above the middle
   if (!(half > usual)) return;
   EmfConstants& k = result.constants;
   for (Interval* i :

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds recordings whose numbers do not describe the motor: noise, gaps, clipped tops.
+// Finds recordings whose numbers do not describe the motor: noise, missing rows, clipped tops.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace sixstep::analysis {
 
-/// Why a channel shows no period: a gap in time, half waves of irregular length, or too few of them. `passed`: how
-/// often it crosses its mean; `regular`: its half waves are of similar length.
+/// Why a channel shows no period: missing rows, half waves of irregular length, or too few of them. `passed`:
+/// number of crossings of its mean; `regular`: its half waves are of similar length.
 base::Problem no_period(const std::vector<double>& t_s, const std::string& channel, std::size_t passed,
                         bool regular);
 
@@ -23,8 +23,8 @@ base::Problems check_noise(const EmfRecord& record, const HarmonicFit& fit);
 /// that hide the noise, prove nothing.
 base::Problems check_clipped(const EmfRecord& record, const EmfResult& result);
 
-/// Whether tops stand still for long, but have lost too little to distinguish it from a step of the converter.
-/// allow_for_clipping() raises the constants' upper bounds by such a loss.
+/// Whether tops are constant for long, but have lost too little to distinguish clipping from a step of the
+/// converter. allow_for_clipping() raises the constants' upper bounds by such a loss.
 bool may_be_clipped(const EmfChannelResult& channel);
 void allow_for_clipping(EmfResult& result);
 

@@ -28,7 +28,7 @@ struct Curve {
   std::vector<double> t_s, u_V;
 };
 
-/// Averages so many rows into one.
+/// Averages `rows` rows into one.
 Curve averaged(const std::vector<double>& t, const std::vector<double>& u, std::size_t rows) {
   Curve out;
   for (std::size_t n = 0; n + rows <= u.size(); n += rows) {
@@ -40,8 +40,8 @@ Curve averaged(const std::vector<double>& t, const std::vector<double>& u, std::
   return out;
 }
 
-/// Times at which the voltage passes its mean, up and down in turn. It must go beyond a part of its rms before the
-/// next passage counts, so that noise adds none.
+/// Times at which the voltage passes its mean, up and down in turn. It must exceed a part of its rms before
+/// the next passage counts, so that noise adds none.
 std::vector<double> crossings(const Curve& curve, const Level& level) {
   constexpr double beyond = 0.5;
   std::vector<double> out;
@@ -59,7 +59,7 @@ std::vector<double> crossings(const Curve& curve, const Level& level) {
   return out;
 }
 
-/// Whether successive half waves have similar lengths, as spikes do not.
+/// Whether successive half waves have similar lengths, unlike spikes.
 bool are_regular(const std::vector<double>& passed) {
   constexpr double alike = 3.0;
   for (std::size_t n = 2; n < passed.size(); ++n) {
@@ -123,7 +123,7 @@ base::Result<EmfPhase> rough_phase(const EmfRecord& record) {
   const std::vector<double> passed = regular_crossings(record.t_s, strongest->u_V, level);
   if (passed.size() < 3) {
     const std::size_t in_all = crossings({record.t_s, strongest->u_V}, level).size();
-    // A mean over many rows leaves a crossing or two of noise as well.
+    // A mean over many rows still has a crossing or two by noise.
     constexpr std::size_t few = 16;
     return no_period(record.t_s, name, in_all, passed.empty() ? in_all < 3 : in_all < few);
   }

@@ -11,8 +11,8 @@
 
 namespace sixstep::analysis {
 
-/// phase(t) = sum of rate[k] tau^(k+1)/(k+1)!, tau from the recording's middle. The speed is constant, linear or a
-/// parabola, because a drill slows down under a load and a motor that is let go coasts.
+/// phase(t) = sum of rate[k] tau^(k+1)/(k+1)!, tau from the recording's middle. The speed is constant, linear
+/// or a parabola, because a drill slows down under a load and a free motor coasts.
 struct EmfPhase {
   static constexpr std::size_t most_terms = 3;
   double middle_s = 0.0;
@@ -23,7 +23,7 @@ struct EmfPhase {
   double speed(double t_s) const;  ///< rad/s
 };
 
-/// Number of terms that so many periods determine.
+/// Number of terms that this number of periods determines.
 std::size_t phase_terms(double periods);
 
 /// The phase of the channel with the greatest voltage, or the Problem why no period is visible.

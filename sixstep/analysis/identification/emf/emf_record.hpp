@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Open-circuit voltages of a motor that something else turns, as an oscilloscope records them.
+// Open-circuit voltages of a motor that is turned from outside, as an oscilloscope records them.
 #pragma once
 #include <cstddef>
 #include <cstdint>

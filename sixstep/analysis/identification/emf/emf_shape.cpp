@@ -111,7 +111,7 @@ ShapePeak peak_of(const ShapeHarmonics& shape) {
   const double y0 = sign * value(top - 1), y1 = sign * value(top), y2 = sign * value(top + 1);
   const double bend = y0 - 2.0 * y1 + y2, aside = bend < 0.0 ? 0.5 * (y0 - y2) / bend : 0.0;
   ShapePeak out{y1 - 0.25 * (y0 - y2) * aside, (top + aside) * step, 0.0};
-  // A ripple on a flat top may dip below the line: the width is all that lies above.
+  // A ripple on a flat top may dip below the line, so that the width counts all values above it.
   for (const double v : values)
     if (sign * v >= flat_part * out.value) out.flat_deg += 360.0 / steps;
   return out;

@@ -26,8 +26,8 @@ struct ShapeHarmonics {
 ShapeHarmonics seen_backward(ShapeHarmonics seen);
 
 /// Convert the shape of a voltage between two terminals to that of a phase, and back. Both have a fundamental of
-/// 1, which between lines is sqrt 3 of a phase's. Harmonics of order 3, 6, 9 are the same in all phases, so that
-/// none is left between lines.
+/// 1, which between lines is sqrt 3 of a phase's. Harmonics of order 3, 6, 9 are equal in all phases, so that
+/// they cancel between lines.
 ShapeHarmonics phase_of_line(const ShapeHarmonics& line);
 ShapeHarmonics line_of_phase(const ShapeHarmonics& phase);
 

@@ -231,11 +231,11 @@ class Iteration {
   Symmetric left_;
 };
 
-/// Takes the channels from the last step; the noise beside their fundamentals gives the speed's deviation.
+/// Copies the channels from the last step; the noise near their fundamentals gives the speed's deviation.
 base::Problems take_channels(const EmfRecord& record, const HarmonicPoints& points, Iteration& iteration,
                              HarmonicFit& out) {
   constexpr double least_explained = 0.5;
-  double coloured = 0.0;  // noise beside the fundamental over that of a white residual
+  double coloured = 0.0;  // noise near the fundamental over that of a white residual
   for (std::size_t c = 0; c < record.channels.size(); ++c) {
     out.channels.push_back(channel_of(iteration.fitter(), record, points, c, out, iteration.linear(c)));
     const ChannelFit& of_c = out.channels.back();

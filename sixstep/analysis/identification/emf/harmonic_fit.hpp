@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fits frequency and harmonics of a periodic voltage at nearly constant speed by least squares, and finds the
-// noise beside each harmonic.
+// noise near each harmonic.
 //
 //   u(t) = offset + w(t)/w_0 sum over h of (a_h cos h phase + b_h sin h phase)
 //
 // An induced voltage grows with the speed w. The residual is usually no white noise: a drill wobbles, the mains
-// hum, an oscilloscope has steps. So each harmonic's interval follows from the residual's own spectrum beside that
-// harmonic (D. R. Brillinger, "Time Series: Data Analysis and Theory", 1975, 5.4).
+// hum, an oscilloscope has steps. So each harmonic's interval follows from the residual's own spectrum near
+// that harmonic (D. R. Brillinger, "Time Series: Data Analysis and Theory", 1975, 5.4).
 #pragma once
 #include <cstddef>
 #include <vector>
@@ -43,7 +43,8 @@ double fitted_V(const HarmonicFit& fit, std::size_t channel, double t_s);
 
 inline constexpr std::size_t most_harmonics = 25;
 
-/// `rough` must be right within half a radian. Without channels where the recording holds one period or less.
+/// Requires a `rough` phase within half a radian. Returns no channels if the recording has one period or
+/// less.
 base::Result<HarmonicFit> fit_harmonics(const EmfRecord& record, const EmfPhase& rough);
 
 }  // namespace sixstep::analysis

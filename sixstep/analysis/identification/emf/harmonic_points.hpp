@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reduces a recording to as many points as its harmonics need.
+// Reduces a recording to the number of points that its harmonics require.
 #pragma once
 #include <cstddef>
 #include <vector>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds how noisy a fit's residual is beside each harmonic.
+// Computes the noise of a fit's residual near each harmonic.
 #pragma once
 #include <cstddef>
 #include <vector>
 
 namespace sixstep::analysis {
 
-/// Power of the residual at a few orders beside each harmonic, which are not part of the fit.
+/// Power of the residual at a few orders near each harmonic, which are not part of the fit.
 class ResidualSpectrum {
  public:
   static constexpr std::size_t ordinates = 6;  ///< on each side, one over the recording's periods apart
@@ -17,7 +17,7 @@ class ResidualSpectrum {
   /// Adds one residual, with the fundamental's phase at its time.
   void take(double phase, double residual);
 
-  /// Variance of white noise with as much power as the residual has beside the harmonic (0 is the fundamental).
+  /// Variance of white noise with the same power as the residual near the harmonic (0 is the fundamental).
   double variance(std::size_t harmonic) const;
   double degrees_of_freedom(std::size_t harmonic) const;
 
@@ -25,7 +25,7 @@ class ResidualSpectrum {
   struct Sum {
     double re = 0.0, im = 0.0;
   };
-  /// The fit has removed its own part from the ordinates, one in as many as there are periods.
+  /// Fraction of the ordinates' power that remains after the fit, which removes a part of 1/periods.
   double left_part() const { return 1.0 - 1.0 / periods_; }
   /// Below the fundamental the ordinates end at the offset.
   bool counts(std::size_t harmonic, std::size_t ordinate) const;

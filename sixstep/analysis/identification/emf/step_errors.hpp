@@ -17,10 +17,10 @@ struct StepErrors {
   double peak_V = 0.0;              ///< of the sum of the harmonics at its greatest value
 };
 
-/// Error of each harmonic by the steps, rms over all positions of the steps. No spectrum beside a harmonic shows
-/// it, because it repeats with the period. Flat tops suffer most, because a whole top may lie on one step.
-/// Averaged over the noise s, in steps, a value u reads as u plus, in steps (B. Widrow, I. Kollar, "Quantization
-/// Noise", 2008, 4),
+/// Error of each harmonic by the steps, rms over all positions of the steps. No spectrum near a harmonic
+/// shows it, because it repeats with the period. Flat tops have the largest error, because a whole top may
+/// lie on one step. Averaged over the noise s, in steps, a value u reads as u plus, in steps (B. Widrow, I.
+/// Kollar, "Quantization Noise", 2008, 4),
 ///   sum over n of (-1)^n/(pi n) exp(-2 pi^2 n^2 s^2) sin(2 pi n u)
 StepErrors step_errors(const Converted& converted);
 

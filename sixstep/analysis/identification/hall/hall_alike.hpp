@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds voltages of a log that do not belong to one motor, because one probe's divider or one column's unit is
-// different.
+// Finds voltages of a log that cannot come from one motor, because one probe's divider or one column's unit
+// is different.
 #pragma once
 #include "sixstep/analysis/identification/hall/hall_log.hpp"
 #include "sixstep/analysis/identification/hall/smooth_motion.hpp"

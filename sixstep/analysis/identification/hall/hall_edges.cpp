@@ -19,8 +19,8 @@ std::string times(std::size_t count) { return count == 1 ? "once" : std::to_stri
 
 using Codes = std::vector<std::uint8_t>;
 
-/// The codes one after the other, without further changes back and forth between two: a contact that is loose for
-/// a while, or an edge that bounces, counts once, however often it is seen.
+/// The sequence of codes without repeated changes back and forth between two: a loose contact or a bouncing
+/// edge counts once, however often it changes.
 Codes happenings(const std::vector<Stay>& stays) {
   Codes out;
   for (std::size_t n = 0; n < stays.size(); ++n) {
@@ -128,8 +128,8 @@ class EdgeList {
   }
 
  private:
-  /// Only glitches lie between the two stays. Where they last longer than this part of a sector, the path is
-  /// unknown.
+  /// Longest part of a sector for which the glitches between the two stays may last. With longer glitches the
+  /// path is unknown.
   static constexpr double too_long_part = 0.75;
   void go_on(std::size_t last, std::size_t next) {
     const double unseen_s = stays_[next].came_before_s - stays_[last].left_s;
@@ -170,8 +170,8 @@ class EdgeList {
   bool begins_ = true;
 };
 
-/// A rotor that turns back stays in one sector for a while. A glitch there looks like a passage to the next sector
-/// and back at once, and is removed. If it was no glitch, so short a time gives very little information.
+/// Removes a glitch that looks like a passage to the next sector and back at once. A rotor that really turns
+/// back stays in one sector for longer. If it was no glitch, the short time has very little information.
 void drop_short_turns(HallEdges& out) {
   constexpr double short_part = 0.25;
   std::vector<HallEdge> kept;

@@ -12,7 +12,7 @@
 namespace sixstep::analysis {
 
 /// An edge of the Hall code. Sectors are counted as if each line were at its own pin: forward is 100 110 010 and
-/// so on, with `inverted` lines their complement. Only voltages show where the rotor really is.
+/// so on, with `inverted` lines their complement. Only voltages show the true angle.
 struct HallEdge {
   double t_s = 0.0;           ///< middle of the interval in which it occurred
   double width_s = 0.0;       ///< of that interval
@@ -30,7 +30,7 @@ struct HallEdges {
   std::uint8_t mask = 0;
   double mask_probability = 0.0;
   std::vector<HallEdge> edges;
-  std::size_t glitches = 0;           ///< stays with another code than the rotor's
+  std::size_t glitches = 0;           ///< stays with a code that is not the rotor's
   std::size_t skipped = 0;            ///< sectors passed without a row of their code
   std::array<std::size_t, 6> seen{};  ///< edges by boundary modulo 6
   std::size_t forward = 0, backward = 0;

@@ -13,13 +13,13 @@ namespace {
 
 constexpr double sector_deg = 60.0;
 
-/// In deviations: one normal value in two million lies beyond.
+/// Bound in standard deviations: one normal value in two million exceeds it.
 constexpr double contradiction = 5.0;
 /// Largest part of sightings that are left out: more are no exceptions.
 constexpr double most_left_out = 0.05;
 
-/// Leaves out the sighting of each neighbourhood that contradicts most, because an edge that is far off pulls
-/// those beside it.
+/// Removes the sighting of each neighbourhood that contradicts most, because an edge with a large error
+/// shifts its neighbours.
 void leave_out(FoundMotion& m) {
   const auto size = m.points.size();
   std::vector<std::size_t> worst;
@@ -123,8 +123,8 @@ std::optional<FoundMotion> motion_of_edges(const HallEdges& edges, std::size_t o
   m.effects.relative = true;
   m.sector_s = edges.sector_s;
   const std::vector<double> rough = rough_speeds(edges.edges);
-  // A stretch begins where the rotor turns back: without voltages, the way beyond the last edge and the hysteresis
-  // of the next one would both be guesses.
+  // A stretch begins where the rotor turns back: without voltages, neither the way beyond the last edge nor
+  // the hysteresis of the next one can be determined.
   std::vector<HallEdge> one_way = edges.edges;
   for (std::size_t n = 1; n < one_way.size(); ++n)
     if (one_way[n].direction != one_way[n - 1].direction) one_way[n].begins = true;

@@ -28,7 +28,7 @@ struct EdgeEffects {
 /// The edge as a sighting. The time that sampling leaves open becomes an uncertainty of the place, by the speed.
 Sighting sighting_of(const HallEdge& edge, const EdgeEffects& effects, double speed_deg_s);
 
-/// Speed at each edge in deg/s, a slope through the edges beside it: exact enough for that uncertainty.
+/// Speed at each edge in deg/s, as a slope through the adjacent edges: exact enough for that uncertainty.
 std::vector<double> rough_speeds(const std::vector<HallEdge>& edges);
 
 struct FoundMotion {
@@ -47,10 +47,10 @@ struct FoundMotion {
 /// keep_going ended it.
 bool find_motion(FoundMotion& motion, int rounds, const std::function<void(FoundMotion&)>& refine);
 
-/// Possible error of each of the repeating edges because the rows came in step with it: at the rotor's speed, the
-/// edge always fell into the same part of the time between two rows. Then sampling does not average out, and its
-/// uncertainty stays. Half widths, 95 %; 0 where chance would bring edges and rows as close together (Rayleigh's
-/// test, 5 %).
+/// Possible error of each of the repeating edges because the rows were synchronous with it: at the rotor's
+/// speed, the edge always fell into the same part of the time between two rows. Then sampling does not
+/// average out, and its uncertainty stays. Half widths, 95 %; 0 where chance would bring edges and rows as
+/// close together (Rayleigh's test, 5 %).
 std::vector<double> in_step_deg(const FoundMotion& motion);
 
 /// The motion from the edges alone, `own` of them before they repeat; empty where they do not determine it.

@@ -36,12 +36,12 @@ std::vector<HallEdge> in_place(const std::vector<HallEdge>& edges, const HallOff
 
 constexpr std::size_t fewest_each_way = 6;
 
-/// Whether enough edges lie between the rotor's reversals to find the hysteresis. An edge beyond which the rotor
-/// turns back shows where that was, not how wide the hysteresis is. The voltages are very low there, and the path
-/// bends most, more on one side of the reversal than on the other: a spline of one stiffness does not fit it, and
-/// its error would count as hysteresis. Where jitter decides whether the edge is passed at all, the passed ones
-/// are no fair sample. So these edges are left out in all rounds. Where too few lie between the reversals they
-/// stay, and no hysteresis is given.
+/// Whether enough edges lie between the rotor's reversals to find the hysteresis. An edge beyond which the
+/// rotor turns back shows the place of the reversal, not the width of the hysteresis. The voltages are very
+/// low there, and the path bends most, more on one side of the reversal than on the other: a spline of one
+/// stiffness does not fit it, and its error would count as hysteresis. Where jitter decides whether the edge
+/// is passed, the passed ones are a biased sample. So these edges are excluded in all rounds. Where too few
+/// lie between the reversals they stay, and no hysteresis is given.
 bool tell_between_turns(const std::vector<HallEdge>& edges, std::size_t own) {
   std::vector<std::size_t> seen(own);
   std::size_t forward = 0, backward = 0;
@@ -53,7 +53,7 @@ bool tell_between_turns(const std::vector<HallEdge>& edges, std::size_t own) {
   return std::min(forward, backward) >= fewest_each_way && *std::min_element(seen.begin(), seen.end()) >= 2;
 }
 
-/// Edges and voltages in the order of their times. An edge that was left out stays so.
+/// Edges and voltages in the order of their times. An excluded edge stays excluded.
 class Sightings {
  public:
   Sightings(const std::vector<VoltageVector>& vectors, std::vector<HallEdge> edges)
@@ -65,7 +65,7 @@ class Sightings {
     return static_cast<std::size_t>(std::count(left_out_.begin(), left_out_.end(), true));
   }
 
-  /// Makes the sightings of `m`, with the path as it is known so far.
+  /// Makes the sightings of `m`, with the present estimate of the path.
   void bring(FoundMotion& m, VoltageModel& model, const MotionPath& path) {
     if (const std::optional<VoltageModel> better = fit_voltages(vectors_, path)) model = *better;
     turned_into_place(model);
@@ -107,12 +107,12 @@ bool speeds_differ(const std::vector<MotionPoint>& points, double usual) {
   });
 }
 
-/// Finds which way round the lines are, with the odds of the two; a Problem where neither fits.
+/// Finds the sequence of the lines, with the odds of the two; a Problem where neither fits.
 base::Result<HallOffsetEstimate> which_way(const HallLog& log, const std::vector<VoltageVector>& vectors,
                                            const FoundMotion& by_edges, MotionPath& path) {
-  // Differences of log likelihoods. Noise alone lets ten unknowns reach 20 once in 60000 logs (half of chi
-  // square), and 14 once in 500, but then it explains very little. Where most of the power is the rotor's, 14 is
-  // enough, for example for a log that goes to and fro by a few edges.
+  // Differences of log likelihoods. With noise alone, ten unknowns reach 20 once in 60000 logs (half of chi
+  // square), and 14 once in 500, but then they explain very little. Where most of the power is the rotor's,
+  // 14 is enough, for example for a log that goes to and fro by a few edges.
   constexpr double sure = 20.0, likely = 14.0;
   HallOffsetEstimate out;
   std::optional<VoltageModel> models[2];

@@ -14,7 +14,7 @@ struct HallOffsetEstimate {
   bool between_turns = false;  ///< enough edges between the rotor's reversals to find the hysteresis
   std::size_t at_turns = 0;    ///< edges left out, because the rotor reversed beyond them
 
-  /// The rotor's sector where the lines show sector `shown`, as with each line at its own pin.
+  /// The rotor's sector for the sector `shown` by the lines, as with each line at its own pin.
   int sector_of(int shown) const {
     return ((mirrored ? rotation - 1 - shown : rotation + shown) % 6 + 6) % 6;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Groups rows into stays: how long each code stood.
+// Groups rows into stays: the time of each code between two changes.
 #pragma once
 #include <cstdint>
 #include <vector>

@@ -71,10 +71,10 @@ class Memory {
 };
 
 /// Uncertainty of the amplitude. Half turns give it independently of each other, with all their errors of noise
-/// and speed. Few of them, or a few fast ones among slow ones, pull the amplitude towards themselves and look
-/// better than they are. So each counts by its residual without its own pull, and Student's degrees of freedom are
-/// those of the weights (R. M. Bell and D. F. McCaffrey, "Bias reduction in standard errors for linear regression
-/// with multi-stage samples", Survey Methodology 28, 2002, for one unknown).
+/// and speed. Few of them, or a few fast ones among slow ones, bias the amplitude towards themselves, so that
+/// their residuals are too small. So each counts by its residual without its own influence, and Student's
+/// degrees of freedom are those of the weights (R. M. Bell and D. F. McCaffrey, "Bias reduction in standard
+/// errors for linear regression with multi-stage samples", Survey Methodology 28, 2002, for one unknown).
 class HalfTurns {
  public:
   void take(double angle_deg, const Vector& fundamental, const Vector& residual) {

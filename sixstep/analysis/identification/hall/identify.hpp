@@ -3,8 +3,8 @@
 // which, inverted or not, 60 or 120 degrees apart, the places of the edges and their jitter. Every result has its
 // uncertainty.
 //
-// Without voltages a log does not show where the rotor is. It stays unknown which line is the first, whether two
-// are swapped or the rotor turned backwards, and which offset all edges share. The results are then places of the
+// Without voltages a log does not show where the rotor is. Then the first line, two swapped lines against
+// backward rotation, and the common offset of all edges stay unknown. The results are then places of the
 // edges against each other, as if each line were at its own pin.
 #pragma once
 #include <cstddef>
@@ -43,7 +43,7 @@ struct IdentifiedPlace {
   bool both_ways = false;          ///< the log does, so that the offset is separated from the hysteresis
   /// Edges that do not count for the hysteresis, because the rotor reversed beyond them.
   std::size_t at_turns = 0;
-  /// Where the log turns both ways, and far enough between its reversals.
+  /// Given where the log turns both ways, and far enough between its reversals.
   std::optional<Interval> hysteresis_deg;
   std::optional<Interval> delay_s;  ///< of the Hall lines behind the voltages, where speeds differ
   Interval flux_linkage_Vs;         ///< peak of a phase's fundamental
@@ -72,7 +72,7 @@ struct HallIdentity {
   double mask_probability = 0.0;
   std::vector<IdentifiedEdge> edges;  ///< six, or six of each pole pair from where the log began
   /// Jitter of an edge from one passage to the next, rms. Without voltages only an upper bound, because an
-  /// unsteady rotor looks the same.
+  /// unsteady rotor has the same effect.
   Interval jitter_deg;
   std::optional<IdentifiedPlace> place;
   std::vector<EdgePassage> passages;

@@ -21,8 +21,8 @@ class Columns {
     begin_stretch();
   }
 
-  /// Adds the stretch's sums of data and effects, with its begin eliminated; a stretch too short to have one adds
-  /// nothing.
+  /// Adds the stretch's sums of data and effects, with its begin eliminated. A stretch that is too short for
+  /// this adds nothing.
   void end_stretch() {
     if (seen_ >= order) {
       Symmetric begin(order);
@@ -96,7 +96,7 @@ class Columns {
   std::vector<MotionState<order>> states_;
   std::vector<double> innovations_;
   Symmetric sums_;                 // of this stretch, the lower half
-  Symmetric total_{effects_ + 1};  // of those before, likewise
+  Symmetric total_{effects_ + 1};  // sums of the earlier stretches, in the same order
   double stretch_log_ = 0.0, log_sum_ = 0.0;
   std::size_t seen_ = 0;
 };

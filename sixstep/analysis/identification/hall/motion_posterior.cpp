@@ -11,8 +11,8 @@
 namespace sixstep::analysis {
 namespace {
 
-/// Logarithms of the degrees by which the angle strays from its course within a sector, of the jitter in degrees,
-/// of the scale of the voltages' variance.
+/// Logarithms of three unknowns: the angle's deviation from its course within a sector in degrees, the jitter
+/// in degrees, and the scale of the voltages' variance.
 using Place = std::array<double, 3>;
 
 struct Bounds {
@@ -39,8 +39,7 @@ class Likelihood {
   Place place_of(const MotionNoise& n) const {
     return {0.5 * base::log(n.intensity * stray2_), base::log(n.jitter_deg), base::log(n.voltage_scale)};
   }
-  /// Empty also where keep_going has ended the work: then no place has a likelihood, and every search ends at
-  /// once.
+  /// Empty also where keep_going has ended the work: then no place has a likelihood, and every search ends.
   std::optional<MotionFit> fit_at(const Place& p) const {
     if (keep_going_ && !keep_going_()) return {};
     return fit_motion(sightings_, effects_, noise_at(p));
@@ -144,7 +143,7 @@ std::optional<MotionPosterior> MotionPosterior::of(std::span<const Sighting> sig
                                                    double sector_s, const MotionNoise& likeliest,
                                                    const KeepGoing& keep_going) {
   constexpr int points = 9;
-  constexpr double enough = 5.0;  // exp(-5) of the top: what lies beyond holds less than 0.2 %
+  constexpr double enough = 5.0;  // exp(-5) of the top: the rest has less than 0.2 %
   const Likelihood likelihood(sightings, effects, sector_s, likeliest.smoothness, keep_going);
   const Place place = likelihood.place_of(likeliest);
   const Top top{place, likelihood.at(place)};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds results as means over the noise that a log leaves open. How freely the rotor moved and how much its edges
-// jitter is unknown beforehand, and every result depends on both. They are found by restricted likelihood, and
-// each result is the mean over all values that the log leaves open, with their weights. An interval for the
-// likeliest values alone would be too narrow where the log is short.
+// Computes results as means over the unknown noise of a log. The freedom of the rotor's motion and the jitter
+// of its edges are unknown beforehand, and every result depends on both. Restricted likelihood estimates
+// them, and each result is the mean over all values that the log allows, with their weights. An interval for
+// the likeliest values alone would be too narrow where the log is short.
 #pragma once
 #include <optional>
 #include <span>
@@ -23,7 +23,7 @@ MotionNoise likelier_noise(std::span<const Sighting> sightings, std::size_t effe
 
 class MotionPosterior {
  public:
-  /// From the possible noises around the likeliest one.
+  /// Made from the possible noises around the likeliest one.
   static std::optional<MotionPosterior> of(std::span<const Sighting> sightings, std::size_t effects,
                                            double sector_s, const MotionNoise& likeliest,
                                            const KeepGoing& keep_going = {});

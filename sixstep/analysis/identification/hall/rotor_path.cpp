@@ -11,8 +11,8 @@
 namespace sixstep::analysis {
 namespace {
 
-// Costs: logarithms of how much rarer an event is than the usual. Their exact size has no influence on results: a
-// glitch that leads back costs 3, a rotor that turned back twice 16.
+// Costs: logarithms of an event's rarity against the usual. Their exact size has no influence on results: a
+// glitch that returns costs 3, a rotor that turned back twice 16.
 constexpr double step_cost = 0.1, turn_cost = 8.0, skip_cost = 6.0, lost_cost = 12.0, glitch_cost = 3.0,
                  glitch_cost_per_sector = 16.0;
 

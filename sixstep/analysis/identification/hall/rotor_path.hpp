@@ -21,9 +21,9 @@ struct RotorPath {
   double sector_s = 0.0;
 };
 
-/// The likeliest path (A. J. Viterbi's algorithm): a rotor goes on more often than it turns back, and passes
-/// sectors one by one. A code that is not its sector's is a spike, a bounce or a loose contact, the less likely
-/// the longer it stands against a sector's time. `mask`: HallEdges.
+/// The likeliest path (A. J. Viterbi's algorithm): a rotor continues more often than it turns back, and
+/// passes sectors one by one. A code that is not its sector's is a spike, a bounce or a loose contact, and
+/// less likely the longer it lasts against a sector's time. `mask`: HallEdges.
 RotorPath likeliest_way(const std::vector<Stay>& stays, std::uint8_t mask);
 
 }  // namespace sixstep::analysis

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Estimates a rotor's angle over time from sightings of it, together with effects that are the same in all of them
-// (places of the edges, hysteresis, delay). The rotor is turned by hand, by a drill or by itself.
+// (places of the edges, hysteresis, delay). The rotor is turned by hand, by a drill or by its own drive.
 //
 // Model: the angle's second or its third derivative is white noise, the weakest assumption for a shaft that
 // someone turns. The best estimate between sightings is then a spline whose stiffness follows from the data (G.
@@ -10,8 +10,8 @@
 //   says = angle(t) + sum of its effects + noise
 //
 // Kalman's filter follows the angle. The effects and each stretch's unknown begin are further columns of the
-// filter (P. de Jong, "The diffuse Kalman filter", Ann. Statist. 19, 1991): nothing has to be known of them
-// beforehand, and their likelihood is the restricted one.
+// filter (P. de Jong, "The diffuse Kalman filter", Ann. Statist. 19, 1991): no prior is needed for them, and
+// their likelihood is the restricted one.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -41,7 +41,7 @@ struct Sighting {
   bool is_edge = true;              ///< jitter adds to known_deg2; else, of a voltage, known_deg2 is scaled
   bool begins = false;              ///< the path since the last one is unknown: a stretch begins
   bool left_out = false;            ///< it contradicts all others
-  std::array<Effect, 4> effects{};  ///< a factor of 0 is none
+  std::array<Effect, 4> effects{};  ///< a factor of 0: no effect
 };
 
 /// Which derivative of the angle is white noise: second for torques that jump, third for torques that bend.
@@ -90,7 +90,7 @@ class MotionPath {
   struct At {
     double angle_deg = 0.0, speed_deg_s = 0.0;
   };
-  /// Empty before, after and between the stretches. Fast for times that lie close to the last one asked for.
+  /// Empty before, after and between the stretches. Fast for times close to the last requested one.
   std::optional<At> at(double t_s) const;
   const std::vector<MotionPoint>& points() const { return points_; }
 

@@ -121,9 +121,9 @@ std::vector<Weighed> weighed_columns(const study::Trace& simulated, const study:
   return out;
 }
 
-/// Geometric mean of the columns' rms, as parts of their scales: the likelihood where the accuracy of each column
-/// is unknown. A column that fits at no shift, such as a duty that acts a period later, then does not outweigh one
-/// that does. Empty where a shift leaves too few rows to compare, because it would win.
+/// Geometric mean of the columns' rms, relative to their scales: the likelihood where the accuracy of each
+/// column is unknown. A column that fits at no shift, such as a duty that acts a period later, then does not
+/// outweigh one that does. Empty where a shift leaves too few rows to compare, because it would win.
 struct Apart {
   double rms = 0.0;
   bool within_steps = true;  ///< no column differs by more than its log's step
@@ -147,8 +147,8 @@ std::optional<Apart> apart(const std::vector<Weighed>& columns, double shift_s, 
 }  // namespace
 
 double best_shift_s(const study::Trace& simulated, const study::Trace& log, double most_s, double step_s) {
-  // The difference has many minima where a current ripples, so that it is searched on a grid, then on finer ones
-  // around the best.
+  // The difference has many minima where a current ripples. Therefore the search uses a grid, then finer ones
+  // around the best value.
   constexpr int asked_values = 4000, times_finer = 10, grids = 4;
   constexpr double counts = 1e-3, much_less = 0.9;
   const Values* const times = values_of(log, "t_s");

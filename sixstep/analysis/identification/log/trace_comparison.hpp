@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares a board's log with a simulation of it, column by column. Both are traces: where one jumps, both sides
-// of the jump stand at one instant; between its rows it is straight.
+// Compares a board's log with a simulation of it, column by column. Both are traces: a jump has two rows at
+// one instant; between rows a trace is linear.
 #pragma once
 #include <string>
 #include <vector>
@@ -30,8 +30,8 @@ inline constexpr std::size_t fewest_compared = 5;
 
 /// The shift within +-`most_s` with the least difference of all columns together, because a board's clock starts
 /// some time after power-on. The difference is the geometric mean of the columns' rms, each as a part of its span
-/// or, where that is greater, of the least step of its log. The search goes over a grid of `step_s`, then finer
-/// ones; of thousands of rows it takes a part. 0 where a shift gains too little: less than a thousandth of the
+/// or, where that is greater, of the least step of its log. The search uses a grid of `step_s`, then finer
+/// ones; of thousands of rows it uses a part. 0 where a shift gains too little: less than a thousandth of the
 /// spans, a tenth of the difference, or the log's own steps.
 double best_shift_s(const study::Trace& simulated, const study::Trace& log, double most_s, double step_s);
 
