@@ -16,7 +16,7 @@ struct ElectricalAngle {
   bool operator==(const ElectricalAngle&) const = default;
 };
 
-/// For a linear motor pi/tau, which need not be an integer.
+/// Number of pole pairs; for a linear motor pi/tau, which need not be an integer.
 struct PolePairs {
   double count = 1;
   constexpr ElectricalAngle electrical(MechanicalAngle m) const { return {m.rad * count}; }

@@ -39,7 +39,7 @@ inline double last_digit_of(double printed) {
   return 0.0;
 }
 
-/// Rounds up or down to so many digits, for numbers that a user reads, types or changes.
+/// Rounds up or down to `digits` digits, for numbers that a user reads, types or changes.
 enum class Towards : bool { down, up };
 inline double shortened(double x, int digits, Towards towards) {
   if (x == 0.0 || !(x - x == 0.0)) return x;

@@ -44,11 +44,11 @@ constexpr Range strictly_between(double low, double high) { return {low, high, f
 struct Spelling {
   std::string_view key;
   int ten = 0;                    ///< value in the key's own unit = written value times 10^ten
-  std::string_view unit = "";     ///< of the written value; empty: the key's own
+  std::string_view unit = "";     ///< unit of the written value; empty: the key's own
   std::string_view frame = "";    ///< the only possible frame; empty: the key's
   std::string_view source = "";   ///< source that follows from the spelling: "data sheet, line 10"
   std::string_view meaning = "";  ///< meaning in its only frame; empty: the key's
-  double factor = 1.0;            ///< and times this
+  double factor = 1.0;            ///< further factor on the written value
   bool linear = false;            ///< the spelling for linear motors, and only for them (base/linear.hpp)
 };
 
@@ -57,7 +57,7 @@ struct About {
   std::string_view meaning;     ///< one plain sentence, no full stop
   std::string_view unit = "";   ///< "V", "rad/s"; empty for counts, words and ratios
   std::string_view frame = "";  ///< allowed frames, '|' between: "terminal|phase"; empty if only one exists
-  Range range = {};             ///< of the written number
+  Range range = {};             ///< range of the written number
   bool required = false;
   std::string_view cure = "";  ///< what to write instead; empty: derived from range and unit
   bool partial = false;        ///< table that changes single values of a filled one: no key is required
@@ -85,11 +85,11 @@ constexpr std::string_view word(const Choices& choices, Enum value) {
   return {};
 }
 
-/// How far a number can be trusted.
+/// Reliability of a number.
 enum class Trust : std::uint8_t {
   unstated,
   sheet,     ///< the maker's print
-  measured,  ///< by somebody else, on one motor
+  measured,  ///< measured by others on one motor
   derived,   ///< computed from other values
 };
 

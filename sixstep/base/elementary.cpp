@@ -98,7 +98,7 @@ DoubleDouble log_sum(double x) {
   return k == 0 ? log_m : ln_2 * static_cast<double>(k) + log_m;
 }
 
-/// Whether y is an integer, and an odd one. Every double from 2^53 on is an even integer.
+/// Kind of y: no integer, even or odd. Every double from 2^53 on is an even integer.
 enum class Parity { fraction, even, odd };
 Parity parity(double y) {
   const double size = y < 0.0 ? -y : y;
@@ -116,7 +116,7 @@ double pow_positive(double x, double y) {
   const double size = y * l.high;
   if (size > 710.0) return infinity;
   if (size < -746.0) return 0.0;
-  if (size < 0x1p-60 && size > -0x1p-60) return 1.0;  // and y may be too small to split
+  if (size < 0x1p-60 && size > -0x1p-60) return 1.0;  // y may be too small to split
   return exp_sum(l * y);
 }
 

@@ -13,8 +13,8 @@
 
 namespace sixstep::base {
 
-/// A rotary motor's unit, the linear motor's unit that replaces it, and how many of the latter equal one of the
-/// former.
+/// A rotary motor's unit, the linear motor's unit that replaces it, and the number of linear units in one rotary
+/// unit.
 struct LinearUnit {
   std::string_view turning, linear;
   double factor = 1.0;

@@ -16,7 +16,7 @@ struct Plausible {
   double most;   ///< magnitude
 };
 
-/// Each interval is more than three powers of ten wide, around values that have been built.
+/// Each interval is more than three powers of ten wide, around the values of built motors.
 inline constexpr Plausible plausible_numbers[] = {
     {"V", 1e-6, 1e5},         {"A", 1e-9, 1e6},          {"mA", 1e-6, 1e9},        {"ohm", 1e-6, 1e6},
     {"mH", 1e-6, 1e6},        {"F", 1e-12, 1e4},         {"s", 1e-12, 9e6},        {"ms", 1e-9, 9e9},

@@ -12,7 +12,7 @@ namespace {
 
 bool finite(double x) { return x - x == 0.0; }
 
-/// 9000000, not 9e+06, because a limit is read more often than written.
+/// Writes 9000000, not 9e+06, because limits are easier to read without an exponent.
 std::string plain(double x) {
   if (!(std::fabs(x) >= 1e-4 && std::fabs(x) < 1e10)) return written(x);
   char text[32];

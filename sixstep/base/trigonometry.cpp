@@ -160,7 +160,7 @@ double absolute(double x) {
 double first_quadrant(double y, double x, bool mirrored) {
   const double big = y > x ? y : x, small = y > x ? x : y;
   DoubleDouble angle;
-  if (small < big * 0x1p-60) {  // atan of the ratio is the ratio; beside pi/2 it is negligible
+  if (small < big * 0x1p-60) {  // atan of the ratio is the ratio; compared with pi/2 it is negligible
     if (y <= x && !mirrored) return y / x;
   } else {
     // A power of two that brings the larger one into [1, 2); as two factors, each of which is a double.

@@ -14,7 +14,7 @@ inline std::string written(double x) {
   return {text, end.ptr};
 }
 
-/// Rounded to so many significant digits.
+/// Rounds to `digits` significant digits.
 inline std::string rounded(double x, int digits) {
   char text[32];
   const std::to_chars_result end =
@@ -22,9 +22,9 @@ inline std::string rounded(double x, int digits) {
   return {text, end.ptr};
 }
 
-/// For numbers in sentences that need not be exact.
+/// Form of numbers in sentences that need not be exact.
 inline std::string three_digits(double x) { return rounded(x, 3); }
-/// For given numbers, and for results of a formula.
+/// Form of given numbers, and of results of a formula.
 inline std::string six_digits(double x) { return rounded(x, 6); }
 
 /// Sixteen hexadecimal digits.

@@ -3,7 +3,7 @@
 //
 //   x = per_count (counts - offset),   offset = mean of 2^n counts, kept in eighths of a count
 //
-// Calibration fails if the mean is too far from the offset that the circuit has: the amplifier is broken.
+// Calibration fails if the mean is too far from the circuit's offset, because the amplifier is then broken.
 #pragma once
 #include <cstdint>
 
@@ -12,12 +12,12 @@
 
 namespace sixstep::control {
 
-/// The default reads 0. Up to 12 bits nothing saturates in 16-bit formats; more bits need 32-bit ones.
+/// The default reads 0. Converters of up to 12 bits do not saturate 16-bit formats; more bits need 32-bit ones.
 template <class Scalar>
 struct AdcConfig {
   Gain<Scalar> per_eighth{};           ///< signal per eighth of a count; negative for an inverting amplifier;
                                        ///< fixed: raw units
-  std::uint16_t offset_counts = 0;     ///< counts at no current, by the circuit
+  std::uint16_t offset_counts = 0;     ///< counts at no current according to the circuit
   std::uint16_t offset_tolerance = 0;  ///< largest deviation of the measured offset, counts
   std::uint8_t log2_samples = 6;       ///< 2^n samples in one calibration, n at most 12
   bool operator==(const AdcConfig&) const = default;

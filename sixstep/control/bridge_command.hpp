@@ -46,7 +46,7 @@ struct Setpoint {
   Scalar value{};
 };
 
-/// Current that the board's event comparators watch, if a controller arms them (event hysteresis).
+/// Current that the board's event comparators use, if a controller arms them (event hysteresis).
 enum class Watch : std::uint8_t {
   none,   ///< comparators not armed: the duty applies
   motor,  ///< one comparator on (i_source - i_sink)/2
@@ -61,8 +61,8 @@ struct BridgeCommand {
   Chopping chopping = Chopping::soft;
   ChoppedSwitch chopped = ChoppedSwitch::upper;
   Watch watch = Watch::none;
-  /// Duty of the third leg while its old current has not ended, -1..1: its upper switch is chopped, below
-  /// 0 its lower one.
+  /// Duty of the third leg while its old current has not ended, -1..1. Above 0 its upper switch is chopped,
+  /// below 0 its lower one.
   Scalar overlap{};
   Scalar on_below_A{};   ///< a comparator switches on strictly below this
   Scalar off_above_A{};  ///< and off strictly above this

@@ -73,7 +73,7 @@ constexpr Scalar motor_current(const Measurement<Scalar>& m, Pair positive) {
 
 /// The phase that conducts both before and after a commutation.
 struct StayingPhase {
-  std::uint8_t sector = no_sector;  ///< of the last sample
+  std::uint8_t sector = no_sector;  ///< sector of the last sample
   Leg leg = Leg::a;
 };
 

@@ -34,7 +34,7 @@ struct HeldWinding {
 template <class Scalar>
 struct DeadbeatConfig {
   HeldWinding<Scalar> wait{};         ///< from a sample until its voltage begins
-  HeldWinding<Scalar> rest{};         ///< from there to the next sample
+  HeldWinding<Scalar> rest{};         ///< from its begin to the next sample
   Gain<Scalar> decay{};               ///< a(T)
   Gain<Scalar> V_per_A{};             ///< 1/b(T)
   Gain<Scalar> correction_V_per_A{};  ///< g/b(T)
@@ -47,7 +47,7 @@ template <class Scalar>
 struct DeadbeatState {
   Scalar u{};          ///< last output, V, clamped
   Scalar predicted{};  ///< the next sample, A
-  Scalar missed{};     ///< part of e beside K_t w, V
+  Scalar missed{};     ///< part of e in addition to K_t w, V
 };
 
 template <class Scalar>

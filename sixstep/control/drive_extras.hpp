@@ -54,13 +54,13 @@ template <class Scalar>
 struct DriveExtras {
   bool on = false;  ///< false: nothing below is used
   bool slews_setpoint = false;
-  SlewConfig<Scalar> slew{};  ///< in the unit of the mode, per tick
+  SlewConfig<Scalar> slew{};  ///< step in the unit of the mode, per tick
   bool limits_current = false;
   LimitsConfig<Scalar> limits{};
   Gain<Scalar> torque_fraction_per_A{};  ///< 1/current_at_full_torque_A: keeps the speed PI inside the window
   FeedForwardConfig<Scalar> feed_forward{};
   BusCompensationConfig<Scalar> bus{};
-  bool smooth_chopping = false;  ///< else DriveConfig::chopping
+  bool smooth_chopping = false;  ///< false: DriveConfig::chopping applies
   SmoothChoppingConfig<Scalar> chopping{};
   PwmPatternConfig<Scalar> pwm{};  ///< which switch of the pair is chopped
   bool predicts_current = false;   ///< current loop by `deadbeat`, else by DriveConfig::current
@@ -70,7 +70,7 @@ struct DriveExtras {
   CommutationStepConfig<Scalar> commutation{};
   SpeedLaw speed_law = SpeedLaw::pi;  ///< pi: DriveConfig::speed; positional: the next three members
   PiPositionalConfig<Scalar> speed{};
-  DerivativeConfig<Scalar> speed_derivative{};  ///< of the measured speed, subtracted from the output
+  DerivativeConfig<Scalar> speed_derivative{};  ///< its output, of the measured speed, is subtracted
   Gain<Scalar> speed_weight_off{};  ///< (1 - b) K; b: weight of the setpoint in the proportional part
   SpeedLaws<Scalar> laws{};         ///< limited by DriveConfig::speed
   [[no_unique_address]] ProfiledPositionConfig<Scalar> position{};  ///< replaces the slew in Mode::position

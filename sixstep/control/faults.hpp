@@ -23,16 +23,16 @@ enum Fault : std::uint16_t {
   fault_align = 128        ///< the rotor did not reach the sector to which it was pulled
 };
 
-/// With all defaults the monitor trips at any bus voltage or current: a limit that is not set is not trusted.
+/// The defaults trip at any bus voltage or current, so that no limit can be forgotten.
 template <class Scalar>
 struct FaultConfig {
-  Scalar over_current_A{};         ///< |i| of a phase strictly above
-  Scalar over_voltage_V{};         ///< bus strictly above
-  Scalar under_voltage_V{};        ///< bus strictly below
-  Scalar over_speed_rad_s{};       ///< |w| strictly above
-  Scalar stall_current_A{};        ///< |i| of a phase strictly above, with no Hall edge, for
-  std::uint32_t stall_ticks = 0;   ///< so many ticks in a row
-  std::uint8_t voltage_ticks = 1;  ///< a voltage must be wrong so many ticks in a row; 0 counts as 1
+  Scalar over_current_A{};         ///< trips if |i| of a phase is above it
+  Scalar over_voltage_V{};         ///< trips if the bus is above it
+  Scalar under_voltage_V{};        ///< trips if the bus is below it
+  Scalar over_speed_rad_s{};       ///< trips if |w| is above it
+  Scalar stall_current_A{};        ///< |i| of a phase above it without a Hall edge is a stall
+  std::uint32_t stall_ticks = 0;   ///< ticks in a row after which a stall trips
+  std::uint8_t voltage_ticks = 1;  ///< ticks in a row after which a wrong voltage trips; 0 counts as 1
   bool operator==(const FaultConfig&) const = default;
 };
 

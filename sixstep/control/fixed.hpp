@@ -205,7 +205,7 @@ struct ScalarTraits<Fixed<Storage, FractionBits>> {
     return accumulated(p.size, p.negative, gain.right);
   }
   static constexpr Accumulator accumulated(Scalar x, Gain gain) { return accumulated(wide(x), gain); }
-  /// From a product that was computed already.
+  /// The same from a product that was computed already.
   static constexpr Accumulator accumulated(detail::UnsignedOf<Wide> size, bool negative, int right) {
     const int down = right - Accumulator::guard_bits;
     return Accumulator::from_raw(down >= 0 ? detail::with_sign(detail::magnitude_down(size, down), negative)

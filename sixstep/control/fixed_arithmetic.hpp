@@ -80,7 +80,7 @@ constexpr Narrow saturated(Wide x) {
   return static_cast<Narrow>(x);
 }
 
-/// with_sign() into half the width.
+/// with_sign() with a result of half the width.
 template <class Narrow, class Unsigned>
 constexpr Narrow narrow_with_sign(Unsigned magnitude, bool negative) {
   if (magnitude > static_cast<Unsigned>(greatest<Narrow>)) return negative ? least<Narrow> : greatest<Narrow>;
@@ -88,7 +88,7 @@ constexpr Narrow narrow_with_sign(Unsigned magnitude, bool negative) {
   return negative ? static_cast<Narrow>(-x) : x;
 }
 
-/// A number with its sign taken off.
+/// Magnitude and sign of a number.
 template <class Unsigned>
 struct Magnitude {
   Unsigned size = 0;

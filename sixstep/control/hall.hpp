@@ -32,8 +32,8 @@ enum class HallFault : std::uint8_t {
 
 struct HallConfig {
   HallArrangement arrangement = HallArrangement::degrees_120;
-  /// A new code counts after so many equal samples in a row, which delays each edge by so many samples less
-  /// one; 0 counts as 1. In an interrupt, where the first reading counts, leave it at 1.
+  /// Equal samples in a row after which a new code counts. n of them delay each edge by n - 1 samples; 0 counts
+  /// as 1. In an interrupt, where the first reading counts, leave it at 1.
   std::uint8_t stable_samples = 1;
   bool operator==(const HallConfig&) const = default;
 };
@@ -41,10 +41,10 @@ struct HallConfig {
 struct HallState {
   std::uint8_t candidate = 0xff;      ///< the code under test
   std::uint8_t seen = 0;              ///< samples since it appeared
-  std::uint8_t sector = no_sector;    ///< the last good one
+  std::uint8_t sector = no_sector;    ///< the last valid sector
   std::int8_t direction = 0;          ///< of the last edge: +1 forward, -1 backward, 0 before the first
   std::uint8_t suspect = 0;           ///< 1..3: line with an edge that a steady rotor cannot make; 0: none
-  std::uint8_t edges_since = 0;       ///< edges since that one; after 6 the suspicion ends
+  std::uint8_t edges_since = 0;       ///< edges since the suspect's edge; after 6 `suspect` is cleared
   HallFault fault = HallFault::none;  ///< impossible_code while such a code is present
 };
 

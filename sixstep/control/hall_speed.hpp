@@ -11,7 +11,7 @@
 //
 // A speed over k edges is k/2 sectors old, and up to one more until the next edge: (k + 1)/2 sectors on
 // average, (k + 1)/2 (pi/3)/(p w). Placement errors of the probes cancel over k = 6, one electrical turn, but
-// at low speed a speed loop is not stable with so old a speed. With a window the speed is taken over `edges` if
+// at low speed a speed loop is not stable with such an old speed. With a window the speed is taken over `edges` if
 // these came within it, and over one edge if the rotor is too slow for that.
 #pragma once
 #include <cstdint>
@@ -26,17 +26,17 @@ namespace sixstep::control {
 template <class Scalar>
 struct HallSpeedConfig {
   TickRatio<Scalar> sector_rad_s_ticks{};  ///< (pi/3)/p timer_Hz: speed times ticks of one sector
-  std::uint32_t timeout_ticks = 0;  ///< no edge for so long is standstill; below 2^32 less one control period
+  std::uint32_t timeout_ticks = 0;  ///< without an edge until standstill; below 2^32 less one control period
   std::uint8_t edges = 1;           ///< k, 1..6
-  std::uint32_t window_ticks = 0;   ///< k = 1 where `edges` took longer than this; 0: always `edges`
+  std::uint32_t window_ticks = 0;   ///< k = 1 if `edges` took longer than this; 0: always `edges`
   std::uint32_t grain_ticks = 1;  ///< resolution of an edge's time: 1 by capture, a control period by polling
   bool operator==(const HallSpeedConfig&) const = default;
 };
 
 struct HallSpeedState {
-  std::uint32_t times[7]{};   ///< of the last edges, the latest first
+  std::uint32_t times[7]{};   ///< times of the last edges, the latest first
   std::uint8_t known = 0;     ///< how many of them are valid, all in one direction
-  std::int8_t direction = 0;  ///< of the last edge
+  std::int8_t direction = 0;  ///< direction of the last edge
 };
 
 constexpr std::uint8_t hall_speed_edges(std::uint8_t wanted, std::uint8_t known) {
@@ -81,7 +81,7 @@ constexpr Scalar hall_speed(const HallSpeedConfig<Scalar>& config, HallSpeedStat
   if (k == 0) return Scalar{};
   const std::uint32_t ticks = static_cast<std::uint32_t>(state.times[0] - state.times[k]);
   Scalar w = T::per_ticks(T::times(config.sector_rad_s_ticks, k), ticks == 0 ? 1 : ticks);
-  // Only past the mean sector's end: before it the bound is above the speed.
+  // The bound is below the measured speed only after the mean time of a sector.
   if (since > ticks / k) {
     const Scalar bound = T::per_ticks(config.sector_rad_s_ticks, since);
     if (bound < w) w = bound;
@@ -97,7 +97,7 @@ constexpr bool alike(std::uint32_t later, std::uint32_t earlier) {
 /// Compares the present sector's time with the last ones. It is known from the fifth edge in one direction on,
 /// if each of the last sectors took as long as the one before within a quarter. A rotor that starts from rest
 /// at a constant torque (sectors of 1, 0.41, 0.32, 0.27, 0.24) makes no edge that is `soon` from then on; one
-/// that slows down likewise makes none that is `twice`, nor two sectors `within`.
+/// that slows down at a constant torque makes none that is `twice`, nor two sectors `within`.
 /// A sector shorter than eight grains is unknown: from eight on (T - g)/(T + g) of a steady rotor is at least 3/4.
 constexpr SectorTime sector_time(const HallSpeedState& state, std::uint32_t grain, std::uint32_t now) {
   if (state.known < 5) return SectorTime::unknown;

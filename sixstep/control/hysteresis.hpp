@@ -12,7 +12,7 @@ namespace sixstep::control {
 template <class Scalar>
 struct HysteresisConfig {
   Scalar band_A{};             ///< h, half the width of the band
-  Watch watch = Watch::motor;  ///< current that the board's comparators watch; Watch::none: i_m, sampled here
+  Watch watch = Watch::motor;  ///< current that the board's comparators use; Watch::none: i_m, sampled here
   bool operator==(const HysteresisConfig&) const = default;
 };
 

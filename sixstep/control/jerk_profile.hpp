@@ -10,7 +10,7 @@
 //   v = 1/M sum of the trapezoid's speeds       so |v| and |change of v| keep the trapezoid's limits
 //   change of acceleration = (a[n] - a[n-M])/M  so it keeps a/M if a never has both signs M strides apart
 //
-// Before its acceleration changes sign the trapezoid keeps its speed for M strides. That costs nothing, because
+// Before its acceleration changes sign the trapezoid keeps its speed for M strides. This takes no extra time, because
 // with limited jerk the acceleration passes through 0 anyway. Each stride takes the fastest v that still stops
 // on the target: after c = M strides at v if it gains speed, after c = 0 if it loses speed (profile.hpp, with c
 // strides more):
@@ -21,7 +21,7 @@
 // profile is faster; a shorter move takes a little longer than the fastest one. A target nearer than the
 // stopping distance is passed and returned to.
 //
-// A stride is one control tick, or so many ticks that M is at most 64: then 64 stored numbers suffice for any
+// A stride is one control tick, or as many ticks as make M at most 64: then 64 stored numbers suffice for any
 // jerk. Between two strides runs the cubic B-spline of the means: position, speed and acceleration are
 // continuous. The spline's derivatives are B-splines of the differences, so that each limit holds at every
 // instant. It lies three strides behind.
@@ -81,7 +81,7 @@ struct JerkProfileState {
   std::uint16_t tick{};           ///< within the stride
   std::uint8_t next{}, filled{};  ///< cells
   std::uint8_t waits{};           ///< strides until the acceleration may change its sign
-  std::int8_t sign{};             ///< of the last acceleration
+  std::int8_t sign{};             ///< sign of the last acceleration
 };
 
 /// Limits of a profile.
@@ -96,7 +96,7 @@ template <class Scalar = double>
 constexpr JerkProfileConfig<Scalar> jerk_profile(const JerkProfileLimits& limits, double period_s) {
   constexpr double degrees = 57.295779513082320877;
   if (!(limits.speed_rad_s > 0) || !(limits.acceleration_rad_s2 > 0) || !(period_s > 0)) return {};
-  // A whole number of periods, but for its last digits, is not rounded up to one more.
+  // The factor keeps the last digits of a whole number of periods from rounding it up to one more.
   const double wanted = between(limits.smoothing_s / period_s * (1 - 1e-12), 0.0, jerk_profile_longest);
   const auto whole = static_cast<std::int32_t>(wanted);
   const std::int32_t smooth = static_cast<double>(whole) < wanted ? whole + 1 : whole < 1 ? 1 : whole;
@@ -104,7 +104,7 @@ constexpr JerkProfileConfig<Scalar> jerk_profile(const JerkProfileLimits& limits
   const std::int32_t cells = (smooth + ticks - 1) / ticks;
   const auto strides = static_cast<double>(cells), stride_s = static_cast<double>(ticks) * period_s;
   const auto most = static_cast<double>(jerk_profile_speed);
-  const double rad = limits.speed_rad_s * stride_s / most;  // of a count
+  const double rad = limits.speed_rad_s * stride_s / most;  // angle of a count
   const double steepest = limits.acceleration_rad_s2 * stride_s * stride_s / rad;
   return {.counts_per_deg = static_cast<Scalar>(1 / (rad * degrees)),
           .deg_per_part = static_cast<Scalar>(rad * degrees / strides),
@@ -118,7 +118,7 @@ constexpr JerkProfileConfig<Scalar> jerk_profile(const JerkProfileLimits& limits
 
 namespace detail {
 
-/// In halves, because cores with single precision convert 32 bits at once but need a library for 64.
+/// Converts in halves, because cores with single precision convert 32 bits at once but need a library for 64.
 template <class Scalar>
 constexpr Scalar scalar_of(std::int64_t n) {
   constexpr Scalar half = Scalar(4294967296.0);
@@ -129,7 +129,7 @@ constexpr Scalar scalar_of(std::int64_t n) {
   return below ? -x : x;
 }
 
-/// To the nearest count, at most jerk_profile_farthest either way.
+/// Rounds to the nearest count, at most jerk_profile_farthest either way.
 template <class Scalar>
 constexpr std::int64_t counts_of(Scalar x) {
   constexpr Scalar half = Scalar(4294967296.0), most = half * Scalar(4194304.0);
@@ -142,8 +142,8 @@ constexpr std::int64_t counts_of(Scalar x) {
   return below ? -n : n;
 }
 
-/// n/d rounded down, for 0 <= n and a quotient below 2^27. Digit by digit, because cores need a library to
-/// divide 64 bits.
+/// n/d rounded down, for 0 <= n and a quotient below 2^27. It is computed digit by digit, because
+/// cores need a library to divide 64 bits.
 constexpr std::int32_t quotient_27(std::int64_t n, std::int64_t d) {
   std::int32_t q = 0;
   for (std::int8_t bit = 26; bit >= 0; --bit) {
@@ -181,7 +181,7 @@ constexpr std::int32_t next_speed(std::int64_t R, std::int32_t last, std::int32_
 template <class Scalar>
 constexpr void trapezoid_stride(const JerkProfileConfig<Scalar>& config, JerkProfileState<Scalar>& state) {
   const bool back = state.way < 0;
-  // So short a distance needs no acceleration worth limiting, and R/(M + 1) is not a whole count.
+  // This distance is covered in one stride: its acceleration is negligible, and R/(M + 1) is not a whole count.
   const std::int64_t least = config.cells < config.acceleration ? config.cells : config.acceleration;
   if (state.velocity == 0 && state.waits == 0 && state.way <= least && state.way >= -least) {
     state.velocity = static_cast<std::int32_t>(state.way);

@@ -72,7 +72,7 @@ constexpr LegCommand<Scalar> source_leg(Chopping chopping, ChoppedSwitch chopped
           chopping == Chopping::complementary ? PwmSwitches::complementary : PwmSwitches::upper, duty};
 }
 
-/// The leg by which it leaves: its lower switch is on throughout, or is chopped.
+/// The leg by which the current leaves: its lower switch is on throughout, or is chopped.
 template <class Scalar>
 constexpr LegCommand<Scalar> sink_leg(Chopping chopping, ChoppedSwitch chopped, Scalar duty) {
   if (chopping == Chopping::hard) return {LegState::pwm, PwmSwitches::lower, duty};

@@ -14,7 +14,7 @@
 //
 // A reference of 0 is not enough: a loop that holds the sampled valley of a chopped current at 0 leaves its
 // mean above 0, and no sample shows reversed pulses that begin and end between two samples. So beyond a limit
-// all gates are off until the next sample, whatever chopping and current loop would do:
+// all gates are off until the next sample, for any chopping and current loop:
 //
 //   current       a phase above 5/4 of the limit
 //   speed         |w| above the limit, and the reference does not brake

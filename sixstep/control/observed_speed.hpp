@@ -43,8 +43,8 @@ struct ObservedSpeedConfig {
 template <class Scalar>
 struct ObservedSpeedState {
   Scalar w{};            ///< predicted for the next sample, rad/s
-  Scalar l{};            ///< load, of the torque limit; before the first sample: the initial output
-  Scalar t{};            ///< torque, of the torque limit
+  Scalar l{};            ///< load as a part of the torque limit; before the first sample: the initial output
+  Scalar t{};            ///< torque as a part of the torque limit
   bool started = false;  ///< the first sample initialises the observer
 };
 

@@ -23,7 +23,7 @@ namespace sixstep::control {
 /// The default rejects every sample: the current reads 0.
 template <class Scalar>
 struct OneShuntConfig {
-  Scalar least_duty = one<Scalar>;       ///< (delay of the sample + settling)/T_s; visible strictly above
+  Scalar least_duty = one<Scalar>;       ///< (delay of the sample + settling)/T_s; a sample counts above it
   std::uint8_t commutation_samples = 0;  ///< longest commutation that is corrected
   Scalar fade{};  ///< decay of the kept value per hidden tick: exp(-T_s R/L); 1 holds it
   bool operator==(const OneShuntConfig&) const = default;

@@ -9,7 +9,7 @@
 // inertia, friction and Coulomb torque over the full torque; for a duty these torques times R/(K_t U), and
 // K_t/U more in B' for the back-EMF (Ellis, Control System Design Guide, 2012, 8). An unknown torque, a load
 // for example, is left to the speed controller. Only PI laws get the feed-forward: the observers of other laws
-// would take it for a load.
+// would estimate it as a load.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/control/jerk_profile.hpp"
@@ -72,7 +72,7 @@ struct ProfiledPositionState<Scalar, false> {};
 /// Position reference of the last tick, for telemetry.
 template <class Scalar, bool there = position_profile_is_there>
 struct ProfiledReference {
-  bool profiled = false;  ///< else the setpoint is the reference
+  bool profiled = false;  ///< false: the setpoint is the reference
   Scalar reference_deg{};
 };
 template <class Storage, int FractionBits>

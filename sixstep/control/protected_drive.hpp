@@ -25,7 +25,7 @@ template <class Scalar>
 struct AlignConfig {
   Scalar current_A{};
   std::uint32_t ticks = 0;          ///< longest duration; 0: no alignment
-  std::uint32_t settled_ticks = 0;  ///< the rotor must stay in one of the two sectors for so long
+  std::uint32_t settled_ticks = 0;  ///< time for which the rotor must stay in one of the two sectors
   std::uint8_t sector = 0;          ///< s: its pair pulls
   bool operator==(const AlignConfig&) const = default;
 };
@@ -36,17 +36,17 @@ struct ProtectedConfig {
   DriveConfig<Scalar> drive{};
   Scalar setpoint_limit{};  ///< bound of |setpoint|, in the unit of the mode
   CurrentSensing sensing = CurrentSensing::phases;
-  AdcConfig<Scalar> current_adc[3]{};  ///< of phases a, b, c; one shunt: the first
+  AdcConfig<Scalar> current_adc[3]{};  ///< converters of phases a, b, c; one shunt: the first
   AdcConfig<Scalar> bus_adc{};         ///< its offset is not measured
   OneShuntConfig<Scalar> shunt{};
-  HallConfig hall{};  ///< above 1 stable sample, edges are evaluated at the tick, not in the interrupt
+  HallConfig hall{};  ///< above 1 stable sample the tick evaluates edges, not the interrupt
   HallSpeedConfig<Scalar> speed{};
   HallPositionConfig<Scalar> position{};
   AdvanceConfig<Scalar> advance{};
   FaultConfig<Scalar> faults{};
   AlignConfig<Scalar> align{};
   Scalar brake_current_A{};  ///< braking current against the rotation; 0: coasts
-  /// Up to this |w| the windings are shorted: choose it below brake_current_A R_tt/K_t. 0: never.
+  /// Largest |w| at which the windings are shorted: choose it below brake_current_A R_tt/K_t. 0: never.
   Scalar short_below_rad_s{};
   Scalar standing_rad_s{};  ///< |w| up to which the brake releases
   bool operator==(const ProtectedConfig&) const = default;
@@ -76,7 +76,7 @@ struct ProtectedState {
   std::uint32_t align_ticks = 0, align_settled = 0;
 };
 
-/// For a display or a log; the drive never reads it.
+/// Values for a display or a log; the drive never reads them.
 template <class Scalar>
 struct ProtectedTelemetry {
   Telemetry<Scalar> drive{};

@@ -27,7 +27,7 @@ template <class Scalar>
 struct SlidingSpeedConfig {
   Scalar q{};      ///< part of the error that a sample removes
   Scalar f{};      ///< q/b, output per rad/s
-  Scalar reach{};  ///< R, the largest load that it balances, of the torque limit
+  Scalar reach{};  ///< R, the largest load that it balances, as a part of the torque limit
   Scalar layer{};  ///< P, rad/s
   bool operator==(const SlidingSpeedConfig&) const = default;
 };

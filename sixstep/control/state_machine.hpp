@@ -35,8 +35,8 @@ struct ActivityState {
   bool run_released = true;  ///< after a fault `run` must be false once before it counts
 };
 
-/// True if a fault must be cleared now. Call it before activity_step, and pass that one the faults left after
-/// clearing.
+/// True if a fault must be cleared now. Call it before activity_step, and pass activity_step the faults
+/// that remain.
 constexpr bool clear_requested(ActivityState& state, const Request& request) {
   const bool rising = request.clear && !state.clear_was;
   state.clear_was = request.clear;

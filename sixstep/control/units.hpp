@@ -19,7 +19,7 @@ namespace detail {
 void does_not_fit();  // not constexpr and defined nowhere: a call stops the compiler
 
 template <class Scalar>
-struct FormatEnds {  // of floating point: no SI number reaches them
+struct FormatEnds {  // ends of floating point: no SI number reaches them
   static constexpr double digit = 1.0;
   static constexpr bool holds(double) { return true; }
   static constexpr bool holds_gain(double) { return true; }

@@ -57,7 +57,7 @@ struct Expansion {
 
 namespace detail {
 
-/// One instruction. A comparison would need a branch, to keep the sign of zero.
+/// This is one instruction. A comparison would need a branch, to keep the sign of zero.
 template <class Real>
 inline Real abs(Real v) {
   return std::fabs(v);

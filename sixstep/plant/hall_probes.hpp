@@ -15,9 +15,9 @@ namespace sixstep::plant {
 
 /// Electrical degrees. Neighbouring edges must not overlap, including hysteresis.
 struct HallPlacement {
-  double offset_deg = 0.0;        ///< of all edges
+  double offset_deg = 0.0;        ///< offset of all edges
   double hysteresis_deg = 0.0;    ///< distance between an edge's positions in the two directions
-  std::vector<double> own_deg{};  ///< of each edge in addition, the edge at 0 degrees first; none, 6, or 6 p
+  std::vector<double> own_deg{};  ///< further offset of each edge, from that at 0 degrees on; none, 6, or 6 p
 
   bool as_sectors() const { return offset_deg == 0.0 && hysteresis_deg == 0.0 && own_deg.empty(); }
 };

@@ -8,14 +8,14 @@
 
 namespace sixstep::plant {
 
-/// A time constant of 100 ns. Its segments of 50 ns are some 600 in a PWM period of 30 us, which otherwise has
-/// five.
+/// This is a time constant of 100 ns. A PWM period of 30 us then has some 600 segments of 50 ns, instead of five.
 inline constexpr double fastest_answer_1_s = 1e7;
 
 /// Electrical; 160 000 turns per second. The fields of the fastest motors turn 12 000 times per second.
 inline constexpr double fastest_field_rad_s = 1e6;
 
-/// From rest to that speed in 100 us. A drone's motor without propeller takes a thousand times as long.
+/// The field reaches that speed from rest in 100 us. A drone's motor without propeller takes a thousand times
+/// as long.
 inline constexpr double fastest_field_rad_s2 = 1e10;
 
 /// Rate of winding and switches, 1/s.
@@ -31,7 +31,7 @@ inline double bus_rate(const Machine& m, const Supply& s) {
 /// Rate of the speed when only viscous friction acts, 1/s.
 inline double friction_rate(const Shaft& shaft) { return shaft.B_Nm_s / shaft.J_kg_m2; }
 
-/// Speed at which the back-EMF between two terminals has that voltage, electrical rad/s.
+/// Speed at which the back-EMF between two terminals is `voltage_V`, electrical rad/s.
 inline double field_at(const Machine& m, double voltage_V) {
   return m.pole_pairs * voltage_V / (2.0 * m.K_e_V_s);
 }

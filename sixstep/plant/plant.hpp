@@ -73,7 +73,7 @@ class Plant {
   /// noise.
   Real slack() const { return slack_; }
   int sector() const { return mode_.sector; }
-  /// How often a floating leg began to conduct by a diode.
+  /// Number of times that a floating leg began to conduct by a diode.
   std::int64_t diodes_started() const { return diodes_started_; }
   Snapshot<Real> at(Real s) const;
 
@@ -154,7 +154,7 @@ bool Plant<Real>::resettle(Real wanted, bool& expanded) {
   return true;
 }
 
-/// With snapped state, by enumeration. The noise is widened as far as rounding makes that necessary.
+/// Settles the snapped state by enumeration. The noise is widened as far as rounding makes that necessary.
 template <class Real>
 bool Plant<Real>::settle_fully(Real wanted, bool& expanded) {
   snap();

@@ -95,8 +95,8 @@ bool holds_in_series(const Constants<Real>& c, const Mode& m, const Expansion<Re
   return ok;
 }
 
-/// All ways in which up to three undecided legs may float or conduct by a diode, those with fewest legs on first; one
-/// table per number of legs.
+/// All combinations in which up to three undecided legs float or conduct by a diode, those with fewest legs on first;
+/// one table per number of legs.
 struct Combination {
   std::array<Connection, 3> leg{};
   std::uint8_t on = 0;

@@ -52,8 +52,8 @@ bool settle_third_leg(const Constants<Real>& c, const State<Real>& s, const EmfP
   return true;
 }
 
-/// Two open legs beside one switch: both float if both are clearly within the rails. Otherwise false, because a leg
-/// beyond a rail may make the other conduct too.
+/// Two open legs beside one switch: both float if both are clearly within the rails. Otherwise it returns
+/// false, because a leg beyond a rail may make the other conduct too.
 template <class Real>
 [[gnu::noinline]] bool two_legs_float(const Constants<Real>& c, const State<Real>& s, const Mode& m,
                                       unsigned open) {

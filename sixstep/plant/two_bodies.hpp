@@ -8,8 +8,8 @@
 
 namespace sixstep::plant {
 
-/// Lower bound of K_e's factor over temperature, which is a straight line: a magnet that has lost nine tenths is
-/// none, and a K_e of the other sign is not a motor's.
+/// Lower bound of K_e's factor over temperature. The factor is a straight line, which does not describe a magnet
+/// that has lost nine tenths of its field.
 inline constexpr double least_on_K_e = 0.1;
 
 /// Temperatures above the ambient, K: w' = ww w + wh h + b_w, h' = hw w + hh h + b_h, wh and hw positive.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts an analogue input: amplifier with offset, gain error and noise, then a converter with so many bits over a
-// range. The firmware converts the counts back (control/adc.hpp).
+// Converts an analogue input: amplifier with offset, gain error and noise, then a converter with a number of
+// bits over a range. The firmware converts the counts back (control/adc.hpp).
 //
 //   counts = round(((1 + gain_error) x + offset + noise)/lsb) + zero, held to 0..2^bits - 1
 //   both signs:  lsb = 2 range/2^bits, zero = 2^(bits - 1)         one sign:  lsb = range/2^bits, zero = 0

@@ -15,7 +15,7 @@ struct BoardConfig {
   ModulatorConfig modulator;
   bool commutate_at_sample = false;  ///< false: at the Hall edge itself
   bool delayed = false;              ///< a command takes effect one period after its sample
-  bool sampled_in_middle = false;    ///< of the period; the answer takes effect at the next one's start
+  bool sampled_in_middle = false;    ///< in the middle of the period; the answer acts from the next start on
   Bases bases{};                     ///< bases of the controller's numbers
   SensorsConfig sensors{};
   FrontEndConfig front_end{};

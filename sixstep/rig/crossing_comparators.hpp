@@ -91,7 +91,7 @@ class Crossings {
   std::uint8_t lines_ = 0;
 };
 
-/// For a firmware that captures no edges of comparators.
+/// Empty type for a firmware that captures no edges of comparators.
 struct NoCrossings {};
 
 }  // namespace sixstep::rig

@@ -31,7 +31,7 @@ struct SampleInstant {
   const plant::Legs& legs;
   Real pole_pairs{};
   sim::Instant at{};
-  std::uint64_t number = 0;  ///< of the sample
+  std::uint64_t number = 0;  ///< index of the sample
   std::uint8_t pins = 0;
   bool reversed = false;  ///< sign of the six-step command in effect
   double duty = 0.0;      ///< duty of that command, from which the DC link's shunt is evaluated

@@ -145,7 +145,7 @@ void FrontEnd::follow_terminals(const FrontEndSegment<Real>& of, const plant::Te
     follow_legs(config_.comparators.lag_s, of, u, comparator_, reading_.comparator_V);
 }
 
-/// For a firmware with ideal measurements.
+/// Empty type for a firmware with ideal measurements.
 struct NoFrontEnd {};
 
 }  // namespace sixstep::rig

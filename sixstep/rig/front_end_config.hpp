@@ -8,22 +8,22 @@
 namespace sixstep::rig {
 
 /// Reference of the comparators: the mean of all three filtered terminals, as from three equal resistors, or half the
-/// bus, filtered likewise.
+/// bus through the same filter.
 enum class CrossingReference : std::uint8_t { virtual_star, half_bus };
 
 /// Comparators at the terminals, each with its own low-pass, for a firmware that captures their edges.
 struct CrossingComparators {
   double lag_s = 0.0;  ///< time constant of each low-pass; 0: no comparators
   CrossingReference against = CrossingReference::virtual_star;
-  plant::PerLeg<double> offset_V{};  ///< of each comparator, referred to the terminal
-  double hysteresis_V = 0.0;  ///< between the levels of a rising and a falling edge, referred to the terminal
+  plant::PerLeg<double> offset_V{};  ///< offset of each comparator, referred to the terminal
+  double hysteresis_V = 0.0;         ///< between the levels of a rising and a falling edge, at the terminal
 };
 
 /// Time constants of first-order lags, s; 0: no lag.
 struct FrontEndConfig {
-  double amplifier_s = 0.0;                ///< of each current's amplifier, 1/(2 pi bandwidth)
+  double amplifier_s = 0.0;                ///< lag of each current amplifier, 1/(2 pi bandwidth)
   std::int64_t amplifier_delay_ticks = 0;  ///< ps; shorter than the time between two samples
-  double divider_s = 0.0;  ///< of the bus divider, and of the terminals' if a firmware samples them
+  double divider_s = 0.0;  ///< lag of the bus divider, and of terminals that a firmware samples
   plant::PerLeg<double> divider_gain_error{};  ///< relative gain error of each terminal's divider
   CrossingComparators comparators{};
 
@@ -38,7 +38,7 @@ struct FrontEndReading {
   double dc_link_A = 0.0, bus_V = 0.0;
   plant::PerLeg<double> comparator_V{};  ///< at the comparators, if there are any
   double comparator_bus_V = 0.0;
-  bool currents = false, voltages = false;  ///< true: lagging; otherwise the plant's own values apply
+  bool currents = false, voltages = false;  ///< true: with a lag; false: the plant's own values apply
 };
 
 }  // namespace sixstep::rig

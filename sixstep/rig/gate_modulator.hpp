@@ -49,11 +49,11 @@ class GateModulator {
     begun_ = t;
   }
 
-  /// No edge is scheduled: the chip's next stop takes this place.
+  /// No edge is scheduled: the chip's next stop replaces it.
   sim::Instant next_edge() const { return sim::Instant::never(); }
   bool act(const sim::Instant&) { return false; }
   bool steady() const { return false; }
-  /// The dead time is the firmware's.
+  /// It has no effect: the firmware makes the dead time.
   void set_dead_time(double) {}
 
   const plant::Gates& gates() const { return gates_; }

@@ -61,7 +61,7 @@ HallInterpolator<Scalar>::HallInterpolator(const SensorsConfig& config, const Ba
   config_.timeout_ticks = static_cast<std::uint32_t>(config.timeout_s * config.capture_Hz);
   config_.delay_ticks = static_cast<std::uint32_t>(std::floor(config.hall_delay_s * config.capture_Hz + 0.5));
   config_.edges.half_hysteresis = control::binary_degrees(config.hall_hysteresis_deg / 2);
-  // One unit short of the next edge: a sector is entered only at its edge or when its angle is due.
+  // The margin is minus one unit, so that a sector is entered only at its edge or when its angle is due.
   config_.margin = ~control::BinaryAngle{0};
   calibration_config_.turns = config.calibration_turns;
   per_sector_ = control::Gain<Scalar>(sector_deg / raw_unit<Scalar>());

@@ -52,7 +52,7 @@ LegTimer::Switches LegTimer::asked() const {
 void LegTimer::set_dead_time(double ticks) {
   dead_ticks_ = config_.in_counts(ticks);
   if (waits_ || !(dead_ticks_ > 0)) return;
-  waits_ = true;  // from now on: switches turned off before have no wait
+  waits_ = true;  // applies from now on: switches that were turned off before have no wait
   for (unsigned k = 0; k < 3; ++k) legs_[k] = LegChannel(side_of(told_, k));
 }
 

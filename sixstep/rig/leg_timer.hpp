@@ -20,7 +20,7 @@ class LegTimer {
 
   /// Turns the timer on. The legs' previous states are unknown: any switch that turns on waits. No pulse is on.
   void wake(const sim::Instant& t);
-  /// Begins a PWM period; edges left of the one before are cancelled.
+  /// Begins a PWM period; the remaining edges of the period before are cancelled.
   void start_period(const sim::Instant& t);
   void start_pulse(unsigned pulse, const sim::Instant& t, double duty);
   /// Switches a pulse as a comparator does.
@@ -39,7 +39,7 @@ class LegTimer {
     output.in_pulse = static_cast<Switches>(output.in_pulse | switch_of(leg, sides.pulse));
     output.in_rest = static_cast<Switches>(output.in_rest | switch_of(leg, sides.rest));
   }
-  /// Another leg takes over a leg's state, including its wait (model.md 3).
+  /// Moves a leg's state, including its wait, to another leg (model.md 3).
   void hand_over(unsigned from, unsigned to);
   /// Sets the legs by pulses and connections. A switch that leg `late` would turn on at this instant waits too.
   static constexpr int none_late = -1;
@@ -55,7 +55,7 @@ class LegTimer {
   bool steady() const { return next_edge_ == sim::Instant::never(); }
   /// Turn-ons of the first pulse: they give the PWM's frequency, however many legs follow other pulses.
   std::int64_t turn_ons() const { return turn_ons_; }
-  /// Without those of a period that begins at this instant.
+  /// The turn-ons without those of a period that begins at this instant.
   std::int64_t turn_ons_before(const sim::Instant& t) const {
     return began_at(t) ? before_period_ : turn_ons_;
   }
@@ -93,7 +93,7 @@ class LegTimer {
   std::uint8_t waiting_ = 0;                        ///< mask of the legs that wait
   unsigned chopping_ = 0;                           ///< mask of the pulses with edges to come
   sim::Instant wait_end_ = sim::Instant::never();   ///< earliest end of a leg's wait
-  sim::Instant next_edge_ = sim::Instant::never();  ///< of pulses and legs
+  sim::Instant next_edge_ = sim::Instant::never();  ///< next edge of pulses and legs
   plant::Gates gates_{};                            ///< gates according to the legs
   std::int64_t turn_ons_ = 0, before_period_ = 0;
   sim::Instant period_begun_ = sim::Instant::never();

@@ -33,7 +33,7 @@ struct OwnConfig {
   bool operator==(const OwnConfig&) const = default;
 };
 
-/// Memory of so many bytes, all zero, aligned as by operator new.
+/// Memory of `bytes` bytes, all zero, aligned as by operator new.
 inline std::vector<std::uint64_t> zero_bytes(std::size_t bytes) {
   return std::vector<std::uint64_t>(bytes / 8 + 1);
 }

@@ -21,7 +21,7 @@ namespace sixstep::rig {
 struct ProbeGiven {
   plant::HallPlacement placement{};
   bool spaced_60 = false;
-  std::int64_t delay_ticks = 0;  ///< of each edge, ps
+  std::int64_t delay_ticks = 0;  ///< delay of each edge, ps
 };
 
 /// Probes whose edges are exactly those of the sectors.

@@ -18,29 +18,29 @@ enum class HallAngleFrom : std::uint8_t {
 };
 
 struct SensorsConfig {
-  AdcPath current{};  ///< of each phase, or of the shunt
+  AdcPath current{};  ///< converter of each phase, or of the shunt
   AdcPath bus{};
   double least_duty = 1.0;  ///< DC link: a sample is valid above this duty (one_shunt.hpp)
   double fade = 1.0;        ///< factor on an unmeasured current per period, exp(-R T_s/L)
-  double capture_Hz = 1e6;  ///< of the timer that captures the edges
+  double capture_Hz = 1e6;  ///< clock of the timer that captures the edges
   double timeout_s = 0.05;  ///< standstill after this time without an edge
-  std::uint64_t seed = 0;   ///< of the noise
+  std::uint64_t seed = 0;   ///< seed of the noise
   CurrentMeasurement currents = CurrentMeasurement::ideal;
   bool calibrated = true;  ///< offsets were measured, with their noise, before the run
   bool measures_bus = false;
   bool rotor_from_hall = false;  ///< speed and position from captured edges
   bool decodes_hall = false;     ///< decode the lines to find a broken one
   std::uint8_t commutation_samples = 0;
-  std::uint8_t edges = 6;  ///< over which a speed is taken
+  std::uint8_t edges = 6;  ///< edges over which a speed is taken
   HallAngleFrom hall_angle = HallAngleFrom::sectors;
   bool commutates_by_angle = false;     ///< at a sample, by the measured angle
-  std::uint8_t learned_edges = 1;       ///< over which a speed is taken once their positions are learned
+  std::uint8_t learned_edges = 1;       ///< edges of a speed after their positions are learned
   std::uint16_t calibration_turns = 8;  ///< electrical turns over which edges are learned
   double hall_delay_s = 0.0;            ///< delay of the edges by the data sheet
   double hall_hysteresis_deg = 0.0;
-  double window_s = 0.0;      ///< one edge suffices if `edges` take longer than this; 0: always `edges`
+  double window_s = 0.0;      ///< one edge suffices if `edges` take longer; 0: always `edges`
   ShaftSensorConfig shaft{};  ///< an encoder or a resolver instead of the Hall probes
-  double period_s = 0.0;      ///< of the control ticks
+  double period_s = 0.0;      ///< period of the control ticks
 
   /// True if all measurements are ideal.
   bool ideal() const {
@@ -59,7 +59,7 @@ inline std::uint32_t window_ticks(const SensorsConfig& config) {
 /// One sample instant: the plant in SI and the command in effect.
 struct Sample {
   double i_A[3]{};
-  double dc_link_A = 0.0;  ///< sum of the legs connected high: what a shunt carries
+  double dc_link_A = 0.0;  ///< current of the shunt: sum of the legs connected high
   double bus_V = 0.0;
   sim::Instant at{};
   std::uint64_t number = 0;
@@ -89,14 +89,14 @@ class Registers {
   std::uint16_t calibration_counts(std::size_t input, std::uint64_t sample) const {
     return converted(current_, 0.0, {seed_, stream + calibration + input, sample});
   }
-  /// In the unit of the current; takes effect from now on.
+  /// Sets the offset from now on, in the unit of the current.
   void set_current_offset(double offset_A) { current_.offset = offset_A; }
   void set_current_gain_error(double part) { current_.gain_error = part; }
   /// The free-running counter.
   std::uint32_t counter(const sim::Instant& t) const { return capture_.counts(t); }
 
  private:
-  // Streams of random numbers by input; far from the streams of a series' spread.
+  // Streams of random numbers by input, apart from the streams of a series' spread.
   static constexpr std::uint64_t stream = std::uint64_t{0x5e5} << 32, calibration = 8, terminals = 16;
   static constexpr std::size_t bus_input = 3;
 

@@ -271,7 +271,7 @@ class Rig {
   void let_go();
   void count(EventKind what) { ++event_counts_[static_cast<std::size_t>(what)]; }
 
-  // Small members last: the plant begins on a cache line, and each gap might cost a whole line.
+  // Small members last: the plant begins on a cache line, and padding might cost a whole line.
   Plant plant_;
   Timeline timeline_;
   Tunings tunings_;
@@ -296,7 +296,7 @@ class Rig {
   bool moving_ = false;
   bool pending_reversed_ = false,
        reversed_ = false;                        ///< sign of the waiting command, and of the one in effect
-  bool loaded_reversed_ = false, half_ = false;  ///< half_: the next sample is a middle
+  bool loaded_reversed_ = false, half_ = false;  ///< half_: the next sample is in the middle of a period
   bool ticked_ = false;
   Fault fault_ = Fault::none;
   std::uint8_t stuck_high_ = 0, stuck_low_ = 0;  ///< Hall lines, as bits of a code

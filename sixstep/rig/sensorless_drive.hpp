@@ -3,8 +3,8 @@
 // three terminals, and requests a timer's interrupt between two ticks.
 //
 //                     input of a tick                         a compare match         a fault
-//   SensorlessDrive   terminals and bus as counts, currents   sensorless_drive_       bridge off, starts again; after so
-//                     as SensedDrive                          commutate               many losses in a row off for good
+//   SensorlessDrive   terminals and bus as counts, currents   sensorless_drive_       bridge off, new start; off after
+//                     as SensedDrive                          commutate               more than lock.retries in a row
 //
 // The same timer captures the edges of comparators at the terminals (crossing_comparators.hpp). Terminals and bus
 // have equal dividers and converters: sensors.bus. The timer runs at sensors.capture_Hz. If pulses determine the

@@ -136,7 +136,7 @@ void Sensors<Scalar>::hall_edge(std::uint8_t pins, const sim::Instant& at) {
 
 template <class Scalar>
 void Sensors<Scalar>::sense(control::Measurement<Scalar>& m, const Sample& s) {
-  // First, because one shunt measures the current of the pair that belongs to the measured sector.
+  // The rotor is first, because one shunt measures the current of the measured sector's pair.
   if (follows_shaft()) rotor_.sense(m, s, ports_, registers_.counter(s.at));
   if (interpolates()) interpolator_.measure(m, registers_.counter(s.at));
   if (config_.currents == CurrentMeasurement::phases) {

@@ -19,15 +19,15 @@ enum class ResolverReading : std::uint8_t { sampled, tracking };
 
 struct Encoder {
   static constexpr int usual_lines = 1024;
-  int lines = usual_lines;         ///< per turn
-  std::optional<double> pitch_mm;  ///< of a linear motor, instead of lines
+  int lines = usual_lines;         ///< lines per turn
+  std::optional<double> pitch_mm;  ///< of a linear motor's scale, instead of lines
   bool referenced = true;          ///< its index was passed before the run
   double missed_Hz = 0.0;
 };
 struct AbsoluteEncoder {
   int bits = 14;
-  double latency_s = 0.0;  ///< latched this long before it is read
-  int speed_samples = 8;   ///< over which its speed is taken
+  double latency_s = 0.0;  ///< from the latching of the code to its reading
+  int speed_samples = 8;   ///< samples over which its speed is taken
 };
 struct Resolver {
   int pole_pairs = 1;
@@ -38,13 +38,13 @@ struct Resolver {
   double phase_deg = 0.0;
   std::optional<double> sine_phase_deg;  ///< if different from the cosine's
   bool calibrated = false;               ///< sampled: the decoder corrects the differences of the windings
-  double noise_V = 0.0;                  ///< of the windings, root mean square
+  double noise_V = 0.0;                  ///< noise of the windings, root mean square
   double bandwidth_Hz = 1000.0;
   double damping = 1.0;
   int bits = 16;
   ResolverReading reading = ResolverReading::sampled;
   double converter_Hz = 500e3;  ///< tracking: clock of the chip's loop
-  double latency_s = 0.0;       ///< tracking: latched this long before it is read
+  double latency_s = 0.0;       ///< tracking: from the latching of the angle to its reading
 };
 
 /// The windings alone, in SI.

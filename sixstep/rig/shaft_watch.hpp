@@ -13,14 +13,14 @@ enum class ShaftLoss : std::uint8_t {
   cosine,      ///< no signal from one winding, while the other has one
   sine,
   weak,    ///< both signals are weaker than the excitation allows
-  strong,  ///< or stronger
+  strong,  ///< both signals are stronger than that
   index    ///< at an encoder's index the count is wrong by more than a sector
 };
 
 struct ShaftFinding {
   ShaftLoss loss = ShaftLoss::none;
-  double shown = 0.0;       ///< of a resolver: sqrt(c^2 + s^2) relative to the expected value
-  std::int32_t counts = 0;  ///< of an encoder: missing counts according to the index
+  double shown = 0.0;       ///< resolver: sqrt(c^2 + s^2) relative to the expected value
+  std::int32_t counts = 0;  ///< encoder: missing counts according to the index
 
   bool lost() const { return loss != ShaftLoss::none; }
 };

@@ -33,7 +33,7 @@ class SixStepModulator {
 
   explicit SixStepModulator(const ModulatorConfig& config) : timer_(config) {}
 
-  /// Command in period 0 of a board with a delay of one period: nothing.
+  /// Command in period 0 of a board with a delay of one period: all gates off.
   static BoardCommand before_first() { return {}; }
 
   /// A PWM period begins at t with this command. |duty| = 1 has no off gap, 0 no on-time.
@@ -66,8 +66,8 @@ class SixStepModulator {
   /// The comparator's current as a combination of the phase currents.
   plant::PerLeg<double> comparator_weights(int which) const;
 
-  /// A pair of one leg commands both its switches. No leg of the timer does that, so the gates are set here for the
-  /// plant to refuse.
+  /// A pair of one leg commands both its switches. No leg of the timer does that, so the gates are set here, and
+  /// the plant refuses them.
   plant::Gates gates() const {
     plant::Gates gates = timer_.gates();
     if (command_.enabled && command_.pair.source == command_.pair.sink) gates.high |= gates.low;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A resolver-to-digital converter: a chip whose type 2 loop follows the windings with its own clock, and outputs an
-// angle of so many bits and the speed of its integrator (model.md 10).
+// angle of a number of bits and the speed of its integrator (model.md 10).
 //
 //   detected   tan(phi - theta) of both demodulated windings; beyond 45 degrees 1 in the direction of the shorter way
 //   followed   control/sensing/tracking.hpp, per clock of the chip

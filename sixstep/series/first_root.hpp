@@ -219,7 +219,7 @@ Real subdivide(const Real* c, int degree, Real length) {
 
 }  // namespace detail
 
-/// Upper bound of |y(s) - y(0)| over [0, 1]. Two sums, because the processor computes them in parallel.
+/// Upper bound of |y(s) - y(0)| over [0, 1]. There are two sums, because the processor computes them in parallel.
 template <class Real>
 inline Real tail_bound(const Coefficients<Real>& c, int degree) {
   Real even = 0, odd = 0;

@@ -113,7 +113,8 @@ template <int points, class Real>
   return v;
 }
 
-/// v if wanted, else zero; v may then be anything. Without a branch, because it would be mispredicted often.
+/// Returns v if wanted, else zero; v may then be anything. It has no branch, because a branch would often be
+/// mispredicted.
 template <class Real>
 [[gnu::always_inline]] inline Real only_if(bool wanted, Real v) {
   if constexpr (std::is_same_v<Real, double>)
@@ -122,7 +123,7 @@ template <class Real>
     return wanted ? v : Real(0);
 }
 
-/// Values of a series whose degree needs exactly so many points. Even and odd powers are summed separately,
+/// Values of a series whose degree needs exactly `points` points. Even and odd powers are summed separately,
 /// which halves the waiting. The number of orders is always even: an odd degree adds a zero, because a varying
 /// number of orders would be mispredicted. Call it for one series after the other: order by order, the compiler
 /// would store and load all coefficients.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commissioning: the drive measures the motor that is connected to it. Steps give resistance and inductance, a
-// slow turn each way the table of the Hall lines, a fast turn the flux linkage. Converters, timer and the
-// allowed current must be known; nothing of the motor.
+// Commissioning: the drive measures the motor that is connected to it. Steps give resistance and inductance. A
+// slow turn each way gives the table of the Hall lines, and a fast turn gives the flux linkage. The data of
+// converters and timer and the allowed current are required, but no data of the motor.
 //
 //   zeroing    measures the offsets of the three amplifiers, the bridge off
-//   rising     raises a vector until the test current flows: it and the one of half the current are the two levels
+//   rising     raises a vector until the test current flows; it and that of half the current are the two levels
 //   leaning    pulls the rotor to a quarter turn, so that no dead point is left
 //   aligning   pulls it to 0, where it rests until the end of the steps
 //   stepping   level_steps.hpp

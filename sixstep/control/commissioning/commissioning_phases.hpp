@@ -32,15 +32,15 @@ enum class CommissioningFault : std::uint8_t {
 struct CommissioningConfig {
   AdcConfig<Q30> current{};        ///< offset at no current; the gain is not used
   std::int32_t test_counts = 0;    ///< current of the higher level, counts
-  std::int32_t rise = 4;           ///< of the vector per tick, parts of the bus
+  std::int32_t rise = 4;           ///< increase of the vector per tick, parts of the bus
   std::uint32_t settle_ticks = 0;  ///< control ticks until the rotor rests
   LevelStepsConfig steps{};
   HallSurveyConfig hall{};
-  std::uint32_t slow_speed = 0;     ///< of the field in the slow turn, 2^-32 electrical turns a tick
+  std::uint32_t slow_speed = 0;     ///< field's speed in the slow turn, 2^-32 electrical turns a tick
   std::uint32_t fastest_speed = 0;  ///< largest speed of the field
   std::uint32_t acceleration = 0;   ///< change of its speed per tick
   std::uint8_t flux_turns = 16;     ///< electrical turns over which the flux linkage is averaged
-  std::uint8_t tries = 4;           ///< of the fast turn
+  std::uint8_t tries = 4;           ///< attempts at the fast turn
   std::uint32_t timer_ticks = 1;    ///< counts of the capture timer in a control tick
   bool operator==(const CommissioningConfig&) const = default;
 };
@@ -49,7 +49,7 @@ struct CommissioningConfig {
 struct CommissioningInput {
   std::uint16_t current_counts[3]{};
   std::uint16_t bus_counts = 0;
-  std::uint32_t at = 0;  ///< of the capture timer
+  std::uint32_t at = 0;  ///< reading of the capture timer
   std::uint8_t pins = 0;
 };
 
@@ -57,13 +57,13 @@ struct CommissioningState {
   CommissioningPhase phase = CommissioningPhase::zeroing;
   CommissioningFault fault = CommissioningFault::none;
   AdcState adc[3]{};
-  std::uint32_t ticks = 0;         ///< in this phase
+  std::uint32_t ticks = 0;         ///< number of ticks in this phase
   std::int32_t v = 0;              ///< the vector, parts of the bus
   std::int32_t low = 0, high = 0;  ///< vectors of the two levels
-  BinaryAngle angle = 0;           ///< of the vector
-  std::int32_t speed = 0;          ///< of the vector, 2^-32 turns a tick
+  BinaryAngle angle = 0;           ///< angle of the vector
+  std::int32_t speed = 0;          ///< speed of the vector, 2^-32 turns a tick
   std::uint32_t ticked_at = 0;     ///< the timer at the last tick
-  std::uint64_t way = 0;           ///< turned at the wanted speed, 2^-32 turns
+  std::uint64_t way = 0;           ///< angle turned at the wanted speed, 2^-32 turns
   std::int8_t direction = 1;
   std::uint8_t tries = 0;
   bool held = false;            ///< spinning: fast enough, the speed is held
@@ -127,7 +127,7 @@ constexpr void rising_tick(const CommissioningConfig& config, CommissioningState
   if (state.v > longest_vector) fail(state, CommissioningFault::current);
 }
 
-/// Changes the speed towards `wanted`; the way counts from there.
+/// Changes the speed towards `wanted`. The way is counted in ticks at that speed.
 constexpr void turn_field(CommissioningState& state, std::int32_t wanted, std::uint32_t acceleration) {
   const auto step = static_cast<std::int32_t>(acceleration);
   const std::int32_t off = wanted - state.speed;
@@ -142,7 +142,7 @@ constexpr void turn_field(CommissioningState& state, std::int32_t wanted, std::u
     state.way += static_cast<std::uint64_t>(wanted < 0 ? -static_cast<std::int64_t>(wanted) : wanted);
 }
 
-/// During the first turn each way the rotor's swing decays; the pins at its end are the first code.
+/// The rotor's swing decays during the first turn each way; the pins at its end are the first code.
 constexpr void turning_tick(const CommissioningConfig& config, CommissioningState& state, std::uint8_t pins) {
   const std::uint64_t before = state.way;
   const auto slow = static_cast<std::int32_t>(config.slow_speed);

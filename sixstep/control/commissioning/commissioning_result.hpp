@@ -4,7 +4,7 @@
 //
 //   R = r u/i,   L = R tau T,   psi = f u T/(2 pi)      u V and i A per count, T the control period
 //
-// R is that of a phase and of a switch. L is the one along the magnet's axis. psi is that of the fundamental:
+// R is the resistance of a phase and a switch. L is measured along the magnet's axis. psi is the fundamental's:
 // the peak of a phase's back-EMF over the electrical speed, K_e/p for a sine, 1.2159 K_e/p for the trapezoid of
 // 120 degrees.
 #pragma once
@@ -26,27 +26,27 @@ template <class Scalar>
 struct Commissioned {
   Scalar R_ohm{}, L_H{}, flux_linkage_Vs{};
   Scalar hall_offset_deg{};  ///< electrical: mean angle of the edges ahead of 60 n
-  Scalar hall_lag_deg{};     ///< by which they came later, in each direction
+  Scalar hall_lag_deg{};     ///< mean lag of the edges in each direction, electrical
 };
 
 /// Data of the board.
 struct CommissioningBoard {
   double V_per_count = 0.0, A_per_count = 0.0;
   std::uint16_t zero_counts = 2048;
-  double period_s = 0.0;  ///< of control ticks
-  double timer_Hz = 1e6;  ///< of the counter that captures Hall edges
+  double period_s = 0.0;  ///< period of the control ticks
+  double timer_Hz = 1e6;  ///< clock of the counter that captures Hall edges
   std::uint8_t late_half_ticks = 1;
 };
 
 /// Demands on the motor and the bench.
 struct CommissioningWish {
   double test_A = 0.0;             ///< current that the motor withstands for seconds
-  double settle_s = 0.2;           ///< until the rotor rests
-  double step_s = 0.02;            ///< of a level: ten electrical time constants
+  double settle_s = 0.2;           ///< time until the rotor rests
+  double step_s = 0.02;            ///< duration of a level: ten electrical time constants
   double slow_turns_s = 10.0;      ///< slow turn, electrical turns per second
   double fastest_turns_s = 500.0;  ///< largest speed, electrical turns per second
-  double spin_up_s = 1.0;          ///< up to the largest speed, at the first try
-  std::uint8_t tries = 4;          ///< each with a quarter of the acceleration of the one before
+  double spin_up_s = 1.0;          ///< time to the largest speed at the first try
+  std::uint8_t tries = 4;          ///< tries, each with a quarter of the acceleration of the one before
 };
 
 constexpr CommissioningConfig commissioning_config(const CommissioningBoard& board,
@@ -88,7 +88,7 @@ constexpr CommissioningScale<Scalar> commissioning_scale(const CommissioningBoar
           Gain<Scalar>(180.0 / deg_base)};
 }
 
-/// In 2^-12 counts of the bus over a count of current, times ticks.
+/// Inductance in 2^-12 counts of the bus over a count of current, times ticks.
 constexpr std::int32_t inductance_of(const LevelStepsReading& winding) {
   return detail::held_to_32(
       detail::shifted_down(static_cast<std::int64_t>(winding.resistance) * winding.tau, 24));

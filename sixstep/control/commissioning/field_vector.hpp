@@ -4,7 +4,7 @@
 //   v_k = v cos(angle - 120 k),   d_k = 1/2 + v_k + v_0,  v_0 = -(max v_k + min v_k)/2     (model.md 11)
 //   3 i_alpha = 2 i_a - i_b - i_c,   3 i_beta = sqrt 3 (i_b - i_c),   turned back by the angle: along, across
 //
-// All numbers are whole: voltages in parts of the bus, 2^20 to the whole of it; currents in 24ths of a
+// All numbers are whole: voltages in parts of 2^-20 of the bus; currents in 24ths of a
 // converter's count (eighths by the offset's resolution, adc.hpp; thirds of them by the formula). Only
 // commissioning_result.hpp converts them to V and A.
 #pragma once
@@ -22,7 +22,7 @@ inline constexpr std::int32_t whole_bus = std::int32_t{1} << 20;
 /// The longest vector that the three legs can make in every direction, 1/sqrt 3 of the bus, rounded down.
 inline constexpr std::int32_t longest_vector = 605411;
 
-/// In parts of the bus, or in 24ths of a count.
+/// Components in parts of the bus, or in 24ths of a count.
 struct FieldVector {
   std::int32_t along = 0, across = 0;
 };

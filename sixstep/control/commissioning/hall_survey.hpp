@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds which code of the Hall pins belongs to which angle, from edges and the field's angle at them, while a
-// field turns the rotor slowly, forward and then backward. Nothing must be known before: neither which line is
-// connected to which pin, nor which lines are inverted, nor whether probes are 120 or 60 degrees apart, nor how
-// far they are misplaced.
+// field turns the rotor slowly, forward and then backward. It needs no data of the probes: neither which line
+// is connected to which pin, nor which lines are inverted, nor whether probes are 120 or 60 degrees apart, nor
+// their errors of position.
 //
 // The rotor's d axis follows the field with a lag: friction over the torque of the current, the delay of the
 // field and half of the probes' hysteresis. All three change their sign with the direction, and the mean of
@@ -10,8 +10,8 @@
 //
 //   edge = (forward + backward)/2,   lag = (forward - backward)/2          theta_e = theta_d + 150 degrees (model.md 7)
 //
-// Cogging does not change its sign, nor does the effect of a back-EMF that is no sine: a standing field holds
-// the rotor of a trapezoid of 120 degrees up to 1.12 degrees beside it, by 0 at each multiple of 30. The error
+// Cogging does not change its sign, nor does the effect of a back-EMF that is no sine: in a standing field the
+// rotor of a trapezoid of 120 degrees deviates by up to 1.12 degrees, and by 0 at each multiple of 30. The error
 // is larger if the rotor turns so fast that six times its speed comes near its swing in the field, sqrt(1.5 p^2
 // psi I/J).
 #pragma once
@@ -35,7 +35,7 @@ struct HallSurveyConfig {
 /// The edge into a code when turning forward, which is the edge out of it when turning backward.
 struct SurveyedEdge {
   BinaryAngle first[2]{};  ///< theta_e of the first one, forward and backward
-  std::int64_t sum[2]{};   ///< of the angles by which the others are ahead of it
+  std::int64_t sum[2]{};   ///< sum of the angles by which the others are ahead of it
   std::uint8_t count[2]{};
   std::uint8_t before = 0xff;  ///< the code before it
 };

@@ -13,7 +13,7 @@
 //   tau/T = S - 1/(12 S)  or  S + 1/(24 S),                              exact to x^4/720 and x^4/640
 //
 // Steps up and down alternate, and their areas are added. Rounding of the converters: I_2 - I_1 is off by at
-// most 4/3 of a count (2/3 in each, by 2 i_a - i_b - i_c), S by ln(2 n)/n parts if it has n counts.
+// most 4/3 of a count (2/3 in each, by 2 i_a - i_b - i_c), S by ln(2 n)/n of itself if I_2 - I_1 has n counts.
 #pragma once
 #include <cstdint>
 
@@ -22,9 +22,9 @@
 namespace sixstep::control {
 
 struct LevelStepsConfig {
-  /// Of a level, a multiple of 4: ten time constants, so that its last quarter is steady.
+  /// Ticks of a level, a multiple of 4: ten time constants, so that its last quarter is steady.
   std::uint16_t ticks = 1024;
-  std::uint16_t pairs = 4;           ///< of steps, up and down
+  std::uint16_t pairs = 4;           ///< pairs of steps, up and down
   std::uint8_t late_half_ticks = 1;  ///< from a sample until its output is at the legs: 0, 1, 2
   bool operator==(const LevelStepsConfig&) const = default;
 };
@@ -32,13 +32,13 @@ struct LevelStepsConfig {
 /// Sums over the steps of one level.
 struct LevelSums {
   std::int64_t all = 0;   ///< currents of the step's ticks
-  std::int64_t tail = 0;  ///< of its last quarter
+  std::int64_t tail = 0;  ///< currents of its last quarter
   std::int64_t bus = 0;   ///< counts, in the last quarter
 };
 
 struct LevelStepsState {
   LevelSums level[2]{};     ///< the lower one, the higher one
-  std::uint16_t tick = 0;   ///< in the step
+  std::uint16_t tick = 0;   ///< tick within the step
   std::uint16_t steps = 0;  ///< completed; the first two are not counted
   bool high = false;
 };

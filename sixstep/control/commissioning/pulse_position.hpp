@@ -6,7 +6,7 @@
 //
 // y_s = 1/I_s is proportional to L. The second harmonic of the six shows the axis, by saliency. The first
 // harmonic shows north, by saturation, and the axis roughly; it alone shows which of the axis' two inductances
-// is along the magnet. Both are compared with the noise of the readings, over as many rounds, and with the
+// is along the magnet. Both are compared with the noise of the readings over the same rounds, and with the
 // rounding of the converters:
 //
 //   sigma^2 = s^2/n + 3 s^2/N + 45, in eighths of a count squared: n readings of each pair, with the deviation s;
@@ -30,10 +30,10 @@ namespace sixstep::control {
 struct PulsePositionConfig {
   AdcConfig<Q30> current{};       ///< offset at no current
   std::uint16_t pulse_ticks = 0;  ///< control ticks of a pulse; 0: no pulses
-  std::uint16_t rest_ticks = 0;   ///< after each, until its current has ended: as long, or longer
+  std::uint16_t rest_ticks = 0;   ///< ticks after a pulse until its current has ended: pulse_ticks or more
   std::uint8_t rounds = 8;        ///< n, two or more
-  std::uint8_t certain = 6;       ///< times its own noise; noise alone reaches 6 times in 1 of e^18 rounds
-  std::uint16_t amplifiers = 20;  ///< parts of 1000 by which two amplifiers may differ
+  std::uint8_t certain = 6;       ///< least ratio to the noise; noise alone reaches 6 in 1 of e^18 rounds
+  std::uint16_t amplifiers = 20;  ///< largest difference of two amplifiers, 1/1000
   bool operator==(const PulsePositionConfig&) const = default;
 };
 
@@ -42,12 +42,12 @@ enum class PulsePhase : std::uint8_t { zeroing, pulse, rest, done };
 struct PulsePositionState {
   PulsePhase phase = PulsePhase::zeroing;
   AdcState adc[3]{};
-  std::uint8_t step = 0;  ///< of a round
+  std::uint8_t step = 0;  ///< pulse of the round
   std::uint8_t round = 0;
   std::uint16_t ticks = 0;
   bool lost = false;         ///< an offset was out of tolerance
-  std::int32_t sum[6]{};     ///< of each sector's pair: eighths of a count, source less sink
-  std::int64_t squares = 0;  ///< of all readings
+  std::int32_t sum[6]{};     ///< sum for each sector's pair: eighths of a count, source less sink
+  std::int64_t squares = 0;  ///< sum over the squares of all readings
 };
 
 struct PulsePositionReading {
@@ -180,8 +180,8 @@ constexpr PulsePositionReading pulse_position(const PulsePositionConfig& config,
   reading.axis_seen =
       reading.axis_16 >= certain_16 && axis_20 * 1000 > static_cast<std::int64_t>(config.amplifiers) << 20;
   if (!reading.seen) return reading;
-  // The direction of the least inductance; the first pair is at -30 degrees, and theta_e 150 degrees ahead of
-  // theta_d.
+  // d is the direction of the least inductance. The first pair is at -30 degrees, and theta_e is 150 degrees
+  // ahead of theta_d.
   BinaryAngle d = vector_angle(-north.c, -north.s);
   if (reading.axis_seen) {
     const BinaryAngle half = vector_angle(axis.c, axis.s) / 2;

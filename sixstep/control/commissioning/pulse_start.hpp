@@ -22,7 +22,7 @@ template <class Scalar>
 struct PulsedDriveState {
   SensorlessDriveState<Scalar> drive{};
   PulsePositionState pulses{};
-  PulsePositionReading found{};  ///< of the last pulses
+  PulsePositionReading found{};  ///< result of the last pulses
   bool pulsing = false;
 };
 
@@ -32,7 +32,7 @@ struct PulsedDriveInput {
   std::uint16_t current_counts[3]{};
 };
 
-/// Begins the ramp in the sector of `electrical`, with the field as far in it as the rotor.
+/// Begins the ramp in the sector of `electrical`, with the field at the rotor's angle in this sector.
 template <class Scalar>
 constexpr void sensorless_ramp_from(const SensorlessConfig<Scalar>& config, SensorlessState& state,
                                     BinaryAngle electrical, std::uint32_t now) {

@@ -19,7 +19,7 @@ constexpr BinaryAngle vector_angle(std::int64_t x, std::int64_t y) {
     y = -y;
     angle = half_turn;
   }
-  // As long as the gain of the steps, 1.65 times sqrt 2, leaves room for.
+  // An int64 has room for this length times the gain of the steps, 1.65 times sqrt 2.
   constexpr std::int64_t most = std::int64_t{1} << 60;
   while (x < most / 4 && y < most / 4 && y > -most / 4) {
     x *= 2;

@@ -24,7 +24,7 @@ namespace sixstep::control {
 template <class Scalar>
 struct ActiveFluxConfig {
   Gain<Scalar> period_s{};        ///< T
-  Gain<Scalar> R_ohm{};           ///< of a phase
+  Gain<Scalar> R_ohm{};           ///< resistance of a phase
   Gain<Scalar> L_q_H{}, L_D_H{};  ///< L_D: L_d - L_q
   Scalar magnet_Vs{};             ///< psi; 0: none
   Gain<Scalar> pull{};            ///< g
@@ -34,12 +34,12 @@ struct ActiveFluxConfig {
 template <class Scalar>
 struct ActiveFluxState {
   AlphaBeta<Scalar> flux{};     ///< lambda, V s
-  AlphaBeta<Scalar> current{};  ///< of the last sample, A
+  AlphaBeta<Scalar> current{};  ///< current of the last sample, A
   Scalar along{}, across{};     ///< psi_a of the last sample, in the given frame
 };
 
-/// One sample, with the magnet assumed along `magnet`. Returns by how much it points ahead of that, about in
-/// radians, |x| <= 1.
+/// One sample, with the magnet assumed along `magnet`. Returns the angle by which it points ahead of that,
+/// approximately in radians, |x| <= 1.
 template <class Scalar>
 constexpr Scalar active_flux_step(const ActiveFluxConfig<Scalar>& config, ActiveFluxState<Scalar>& state,
                                   const AlphaBeta<Scalar>& mean_V, const AlphaBeta<Scalar>& i,

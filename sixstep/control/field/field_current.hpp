@@ -14,8 +14,8 @@
 // In both cases the PI's state is its output after the limit, less e: it cannot wind up against a bound that
 // moves with the speed and with the other axis.
 //
-// If the rotation takes more than 0.9 of the voltage, d first would take v_q away, and the magnet would drive a
-// current that needs even more v_d: up to twice psi/L_d. Then v is moved back to the circle along the line to
+// If the rotation takes more than 0.9 of the voltage, d first would leave too little v_q. The magnet would then
+// drive a current that needs even more v_d: up to twice psi/L_d. Then v is moved back to the circle along the line to
 // the voltage that holds the reference, the integrals wait, and a drive that does not decouple its axes
 // decouples the deviation from the reference (reachable_current.hpp).
 #pragma once
@@ -36,7 +36,7 @@ struct FieldCurrentConfig {
   Gain<Scalar> d_V_s_A{};     ///< p L_d: V per A and mechanical rad/s
   Gain<Scalar> q_V_s_A{};     ///< p L_q
   Gain<Scalar> magnet_V_s{};  ///< p psi: V per mechanical rad/s, the back-EMF's fundamental
-  Gain<Scalar> R_ohm{};       ///< of a phase, for the voltage of a constant current
+  Gain<Scalar> R_ohm{};       ///< resistance of a phase, for the voltage of a constant current
   bool operator==(const FieldCurrentConfig&) const = default;
 };
 

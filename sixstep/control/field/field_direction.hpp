@@ -17,7 +17,7 @@ namespace sixstep::control {
 template <class Scalar>
 struct FieldDirections {
   Direction<Scalar> sampled{}, answered{};
-  BinaryAngle angle = 0;  ///< of `sampled`, for quantities that depend on the angle itself
+  BinaryAngle angle = 0;  ///< angle of `sampled`, for quantities that depend on the angle itself
 };
 
 /// With the default there is no advance.
@@ -37,7 +37,7 @@ constexpr BinaryAngle turned_on(BinaryAngle magnet, Scalar speed_rad_s, Gain<Sca
   return magnet + static_cast<BinaryAngle>(on);
 }
 
-/// From the magnet's own angle.
+/// Directions from the magnet's own angle.
 template <class Scalar>
 constexpr FieldDirections<Scalar> magnet_directions(const FieldAdvanceConfig<Scalar>& config,
                                                     BinaryAngle sampled, Scalar speed_rad_s) {

@@ -7,8 +7,7 @@
 // that make torque, T = 3/2 p psi i_q for a round rotor. i_d* is the current of the most torque per ampere plus
 // the one that weakens the field. If the back-EMF is no sine both may follow its shape (harmonic_current.hpp):
 // the reference is then the constant i_q that would make the same mean torque. In a cascade both together stay
-// within current_limit_A: i_d comes first, and the speed PI is limited to the rest, so that it does not wind up
-// against it.
+// within current_limit_A: i_d comes first, and the speed PI is limited to the rest, so that it does not wind up.
 //
 // Two PIs and symmetric space-vector modulation control the currents, or instead of both a choice among the
 // eight states of three legs (finite_set.hpp). DriveConfig's chopping, current loop and bus voltage are not
@@ -45,7 +44,7 @@ struct FieldDriveState {
   FieldCurrentState<Scalar> current{};
   FieldWeakeningState<Scalar> weakening{};
   FiniteSetState<Scalar> finite_set{};
-  Dq<Scalar> measured{}, reference{};  ///< of the last tick, A
+  Dq<Scalar> measured{}, reference{};  ///< currents of the last tick, A
   LegCommands<Scalar> command{};       ///< last output
 };
 
@@ -57,7 +56,7 @@ struct FieldDriveInput {
 
 namespace detail {
 
-/// The current limit that is left beside i_d.
+/// The part of the current limit that i_d leaves.
 template <class Scalar>
 constexpr Scalar current_left(const FieldDriveConfig<Scalar>& config, const FieldDriveState<Scalar>& state) {
   const Scalar limit = config.drive.current_limit_A;
@@ -115,7 +114,7 @@ constexpr const LegCommands<Scalar>& choose_legs(const FieldDriveConfig<Scalar>&
   return state.command;
 }
 
-/// i_q reference, within the current limit beside i_d, and within the voltage if the field is weakened.
+/// i_q reference, within the current limit that i_d leaves, and within the voltage if the field is weakened.
 template <class Scalar>
 constexpr Scalar torque_current(const FieldDriveConfig<Scalar>& config, FieldDriveState<Scalar>& state,
                                 const Measurement<Scalar>& measured, Scalar value,

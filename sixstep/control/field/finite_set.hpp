@@ -19,7 +19,7 @@
 //
 //   J = |i* - i'|^2 + s^2 (legs that change over)
 //
-// where s, in A, is the current error that one switching leg is worth. A current beyond `most` is worse than
+// where s is the current error, in A, that weighs as much as one switching leg. A current beyond `most` is worse than
 // any within it; of those beyond, the shortest is best. Of equal states the one that changes fewer legs is
 // chosen: this decides between the two zero vectors.
 //
@@ -27,7 +27,7 @@
 // is within 2/(3 sqrt 3) b U of i*, the radius of the triangles that the seven currents make. There is no
 // integral: errors of the model, dead time and a diode's drop among them, remain in part in the mean.
 //
-// In floating point only: no scaling of it is proved.
+// It exists in floating point only, because its scaling is not proved.
 #pragma once
 #include "sixstep/control/field/field_current.hpp"
 #include "sixstep/control/leg_command.hpp"
@@ -93,13 +93,13 @@ constexpr LegCommands<Scalar> as_legs(LegBits legs) {
 
 namespace detail {
 
-/// A direction, turned on by `by`.
+/// A direction, turned further by `by`.
 template <class Scalar>
 constexpr Direction<Scalar> turned(const Direction<Scalar>& from, const Direction<Scalar>& by) {
   return {from.cos * by.cos - from.sin * by.sin, from.sin * by.cos + from.cos * by.sin};
 }
 
-/// A vector in a frame that has turned on by `by`.
+/// A vector in a frame that has turned further by `by`.
 template <class Scalar>
 constexpr Dq<Scalar> seen_from(const Dq<Scalar>& x, const Direction<Scalar>& by) {
   return {x.d * by.cos + x.q * by.sin, x.q * by.cos - x.d * by.sin};

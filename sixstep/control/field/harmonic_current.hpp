@@ -21,9 +21,9 @@
 // exact to 1.6e-4. A Fourier series would fall with the square of the order: 32 numbers of it leave 0.7 % at
 // the corners, for four times the products.
 //
-// A loop alone follows late. If it decouples the axes, the sixth harmonic of the current is fed forward with
-// the coupling: beside w p psi g the voltage that moves the current in the period of the output, from i* at its
-// begin to i* at its end; i* itself is that of the sample's angle, as the measured current is,
+// A loop without feed-forward lags. If it decouples the axes, the sixth harmonic of the current is fed forward
+// with the coupling: in addition to w p psi g, the voltage that moves the current in the period of the output,
+// from i* at its begin to i* at its end; i* itself is that of the sample's angle, as the measured current is,
 //
 //   v = L (i*(theta' + x/2) - i*(theta' - x/2))/T + R (i*(theta') - (i_w, I)),   x = w_e T
 //
@@ -31,7 +31,7 @@
 // the axes, i* is that of the angle that the magnet has when the loop has followed: to the first order of 6 w_e
 // over the loop's bandwidth nothing lags, and the rest grows with its square.
 //
-// In floating point only: no scaling of it is proved.
+// It exists in floating point only, because its scaling is not proved.
 #pragma once
 #include "sixstep/control/field/field_current.hpp"
 #include "sixstep/control/field/field_direction.hpp"
@@ -47,9 +47,9 @@ struct HarmonicCurrentConfig {
   /// Electrical rad per mechanical rad/s that the magnet turns until the current has followed, without
   /// feed-forward; clamped to 1 rad.
   Gain<Scalar> lead_rad_s{};
-  Gain<Scalar> half_turn_s{};        ///< p T/2: electrical rad of x/2 per mechanical rad/s, likewise clamped
+  Gain<Scalar> half_turn_s{};        ///< p T/2: electrical rad of x/2 per mechanical rad/s; clamped to 1 rad
   Gain<Scalar> slope_V_A{};          ///< L/T
-  Gain<Scalar> R_ohm{};              ///< of a phase
+  Gain<Scalar> R_ohm{};              ///< resistance of a phase
   Scalar least{};                    ///< min |g|
   Dq<Scalar> shape[shape_points]{};  ///< g with the magnet at n/32 of 60 degrees
   bool operator==(const HarmonicCurrentConfig&) const = default;

@@ -7,15 +7,15 @@
 //   Y_S = (1/L_d + 1/L_q)/2,   Y_D = (1/L_d - 1/L_q)/2
 //
 // A response along the assumed axis alone means that the axis is right. h_q/(2 V T Y_D) is e for small e, and
-// has the right sign up to 90 degrees off (Yoon, Sul, Morimoto and Ide, High-Bandwidth Sensorless Algorithm for
-// AC Machines Based on Square-Wave-Type Voltage Injection, IEEE Trans. IA 47, 2011). It shows the axis, not
-// which of its ends is north (polarity.hpp).
+// has the right sign for errors up to 90 degrees (Yoon, Sul, Morimoto and Ide, High-Bandwidth Sensorless
+// Algorithm for AC Machines Based on Square-Wave-Type Voltage Injection, IEEE Trans. IA 47, 2011). It shows the
+// axis, not which of its ends is north (polarity.hpp).
 //
 // The drive's own currents change too, and by more than the pulse does if a current is stepped. Of the changes
 // D in three periods (D[n] - 2 D[n-1] + D[n-2])/4 is the part that alternates with the pulse, a period old; a
 // current that runs along a parabola leaves nothing in it. The mean of two consecutive samples is free of the
 // pulse; the current loops use it, half a period late. Samples are at the begin of a period, because in its
-// middle the pulse's current is zero. In floating point only: no scaling is proved.
+// middle the pulse's current is zero. It exists in floating point only, because its scaling is not proved.
 #pragma once
 #include <cstdint>
 
@@ -34,12 +34,12 @@ struct InjectionConfig {
 
 template <class Scalar>
 struct InjectionState {
-  AlphaBeta<Scalar> current{};      ///< of the last sample, A
+  AlphaBeta<Scalar> current{};      ///< current of the last sample, A
   Dq<Scalar> change{};              ///< its difference from the sample before, in its period's frame
   Dq<Scalar> turn{};                ///< half of the difference from the change before
-  Direction<Scalar> answered[3]{};  ///< along which the last ticks' outputs pulse, the newest first
+  Direction<Scalar> answered[3]{};  ///< directions of the last ticks' pulses, the newest first
   std::uint8_t up = 0;              ///< bit n: the output of n ticks ago pulsed up
-  std::uint8_t pulses = 0;          ///< bit n: it pulsed
+  std::uint8_t pulses = 0;          ///< bit n: the output of n ticks ago pulsed
 };
 
 namespace detail {

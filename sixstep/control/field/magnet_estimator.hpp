@@ -14,9 +14,9 @@
 //                           '--------'---------'--> unseen    it was lost too often in a row after short runs
 //
 // Without injection a voltage along an axis holds the rotor, and then one a quarter turn further, so that it
-// cannot rest at a dead point. Then a current that turns with a steady acceleration takes the rotor along, up
-// to a speed at which the flux can be followed. A rotor that falls below w_low is started again. In floating
-// point only.
+// cannot rest at a dead point. Then a current vector that turns with a steady acceleration accelerates the
+// rotor up to a speed at which the flux can be followed. A rotor that falls below w_low is started again. The
+// estimator exists in floating point only.
 #pragma once
 #include "sixstep/control/field/active_flux.hpp"
 #include "sixstep/control/field/injection.hpp"
@@ -36,7 +36,7 @@ struct TurnStartConfig {
   std::uint32_t align_ticks = 0;  ///< duration of the alignment
   std::int64_t step = 0;          ///< increase of the speed per tick, 2^-48 turn per tick
   std::int64_t enough = 0;        ///< speed from which the flux is followed
-  std::uint32_t good_ticks = 0;   ///< a rotor that is followed for so long has started
+  std::uint32_t good_ticks = 0;   ///< a rotor that is followed for this time has started
   std::uint8_t retries = 3;       ///< failed starts in a row before the drive gives up
   bool operator==(const TurnStartConfig&) const = default;
 };
@@ -45,9 +45,9 @@ struct TurnStartConfig {
 template <class Scalar>
 struct EstimatorConfig {
   bool on = false;
-  TrackingConfig tracking{};     ///< of the electrical angle
+  TrackingConfig tracking{};     ///< tracking loop of the electrical angle
   Gain<Scalar> rad_s{};          ///< mechanical rad/s per unit of tracking_speed()
-  std::uint32_t axis_ticks = 0;  ///< until the axis is followed
+  std::uint32_t axis_ticks = 0;  ///< ticks until the axis is followed
   std::uint8_t late = 0;         ///< n: ticks from an output to the begin of its period
   bool in_middle = false;        ///< samples are in the middle of a period: no injection then
   InjectionConfig<Scalar> injection{};
@@ -71,8 +71,8 @@ struct EstimatorState {
   InjectionState<Scalar> injection{};
   NorthState<Scalar> north{};
   ActiveFluxState<Scalar> flux{};
-  Dq<Scalar> current{};               ///< of the last sample, in its frame
-  AlphaBeta<Scalar> answered_V[4]{};  ///< of the last ticks' outputs, the newest first
+  Dq<Scalar> current{};               ///< current of the last sample, in its frame
+  AlphaBeta<Scalar> answered_V[4]{};  ///< voltages of the last ticks' outputs, the newest first
 };
 
 /// True while a current turns a rotor that is not followed yet.
@@ -134,7 +134,7 @@ constexpr void turn_round(EstimatorState<Scalar>& state) {
   state.current = {-state.current.d, -state.current.q};
 }
 
-/// Turns the current and the angle with it, whatever the rotor does.
+/// Turns the current and the angle with it, regardless of the rotor.
 template <class Scalar>
 constexpr void turn_on(const EstimatorConfig<Scalar>& config, EstimatorState<Scalar>& state) {
   const TurnStartConfig<Scalar>& start = config.start;
@@ -176,7 +176,7 @@ constexpr bool out_of_sight(const EstimatorConfig<Scalar>& config, const Estimat
          magnitude(state.speed_rad_s) < config.low_rad_s;
 }
 
-/// Starts a lost rotor again. The start has failed only if the setpoint asks for a speed at which the rotor can
+/// Starts a lost rotor again. The start has failed only if the setpoint requires a speed at which the rotor can
 /// be followed.
 template <class Scalar>
 constexpr void look_for_it(const EstimatorConfig<Scalar>& config, EstimatorState<Scalar>& state,
@@ -196,7 +196,7 @@ constexpr void look_for_it(const EstimatorConfig<Scalar>& config, EstimatorState
 }  // namespace detail
 
 /// One control tick with its currents. Returns them in the frame of the assumed magnet, A, free of the pulse.
-/// reversed: direction in which a start turns the rotor; turns: the setpoint asks for a speed at which it can
+/// reversed: direction in which a start turns the rotor; turns: the setpoint requires a speed at which it can
 /// be followed.
 template <class Scalar>
 constexpr Dq<Scalar> estimator_step(const EstimatorConfig<Scalar>& config, EstimatorState<Scalar>& state,

@@ -8,8 +8,8 @@
 //
 //   (h+ - h-)/(h+ + h-) = +-I/I_sat
 //
-// Along the axis neither makes torque. A result below `certain` is rejected: the iron does not saturate, or
-// noise is as large.
+// Neither current makes torque, because both are along the axis. A result below `certain` is rejected: the iron
+// does not saturate, or noise is as large.
 #pragma once
 #include <cstdint>
 
@@ -23,8 +23,8 @@ template <class Scalar>
 struct PolarityConfig {
   Scalar current_A{};              ///< I
   Gain<Scalar> certain{};          ///< smallest |(h+ - h-)/(h+ + h-)| that is accepted
-  std::uint16_t settle_ticks = 0;  ///< until the current is constant
-  std::uint16_t look_ticks = 0;    ///< over which h is summed then
+  std::uint16_t settle_ticks = 0;  ///< ticks until the current is constant
+  std::uint16_t look_ticks = 0;    ///< ticks over which h is then summed
   bool operator==(const PolarityConfig&) const = default;
 };
 

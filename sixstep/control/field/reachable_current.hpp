@@ -8,7 +8,7 @@
 // shorted terminals, -Z^-1 E. Beyond the speed at which |E| is V the disc does not contain i = 0: for every
 // reference a current flows, at least (|E| - V)/|Z|. For a reference outside of the disc
 //
-//   1  the driving torque is given up first: i_q falls towards 0 at the same i_d as far as the voltage requires
+//   1  the driving torque is reduced first: i_q falls towards 0 at the same i_d as far as the voltage requires
 //   2  if that is not enough, or the rotor is braked, i' = i - (1 - V/|v|) Z^-1 v: along the line to the
 //      centre, up to the rim
 //
@@ -18,8 +18,8 @@
 // A voltage beyond the rim is moved back along the line to one that holds the reference, Z i' + E. With a
 // measured current i' + x this leaves a part s of the voltage that the loops add, w_e L j x - k x: the first
 // term turns x and does no work on it, the second shortens it. So |x|^2 falls by 2 s k |x|^2/L and by the loss
-// in R, however small s is. If the voltage is moved back in another direction, v_d first or along v itself, the
-// sum has no such sign.
+// in R, however small s is. If the voltage is moved back in another direction, v_d first or along v itself,
+// |x|^2 need not fall.
 //
 // In fixed point w p L and R must be below one volt per ampere of the bases.
 #pragma once

@@ -25,8 +25,8 @@ struct SensorlessFieldState {
 
 namespace detail {
 
-/// Functions of their own: GCC 12 ends with an internal error if a member is set to a temporary that begins
-/// with defaults.
+/// These are separate functions because GCC 12 ends with an internal error if a member is set to a temporary
+/// that begins with defaults.
 template <class Scalar>
 constexpr LegCommands<Scalar> given_up_legs() {
   LegCommands<Scalar> command{};
@@ -83,7 +83,7 @@ constexpr Dq<Scalar> estimating_voltage(const SensorlessFieldConfig<Scalar>& con
 
 namespace detail {
 
-/// True if the setpoint asks for a speed at which the rotor can be followed by its flux.
+/// True if the setpoint requires a speed at which the rotor can be followed by its flux.
 template <class Scalar>
 constexpr bool asks_to_turn(const SensorlessFieldConfig<Scalar>& config, Scalar setpoint) {
   const Scalar least = config.field.drive.mode == Mode::speed ? config.estimator.low_rad_s : Scalar{};

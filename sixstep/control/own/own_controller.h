@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Defines the interface of a user's own controller. It runs in a scenario, in a comparison and on a chip beside
- * the library's. Plain C, so that any language that can define a C symbol will do; own_controller.hpp makes a
- * controller of a C++ class.
+/* Defines the interface of a user's own controller. It runs in a scenario, in a comparison and on a chip like
+ * the library's. It is plain C, so that any language that can define a C symbol can provide it;
+ * own_controller.hpp makes a controller of a C++ class.
  *
  * A file with a controller is compiled into a shared object,
  *
@@ -48,11 +48,11 @@ enum { SIXSTEP_ANSWERS_PAIR = 0, SIXSTEP_ANSWERS_LEGS = 1 };
 
 /* One sample of the scenario's sensors. */
 typedef struct {
-  sixstep_real current_A[3]; /* of phases a, b, c, into the motor */
+  sixstep_real current_A[3]; /* currents of phases a, b, c, into the motor */
   sixstep_real speed_rad_s;  /* mechanical; of a linear motor m/s */
   sixstep_real position_deg; /* mechanical, counted over turns; of a linear motor 180/pi per m */
   sixstep_real bus_V;
-  sixstep_real magnet_cos, magnet_sin; /* of the magnet's electrical angle from phase a's axis; Hall codes alone: sector's middle */
+  sixstep_real magnet_cos, magnet_sin; /* of the magnet's electrical angle from phase a's axis; with Hall codes alone of the sector's middle */
   uint8_t hall;                        /* H1 H2 H3 as bits 2, 1, 0: the code of probes 120 degrees apart */
 } sixstep_measured;
 
@@ -74,7 +74,7 @@ typedef struct {
   sixstep_real overlap; /* -1..1: duty of the upper switch (below 0: of the lower one) of the third leg */
   sixstep_leg leg[3];
   sixstep_real current_reference_A;   /* for the report only */
-  sixstep_real speed_reference_rad_s; /* likewise */
+  sixstep_real speed_reference_rad_s; /* for the report only */
 } sixstep_answer;
 
 /* Data for the design: the nominal motor's data sheet, the board, and the loops that the library would use for this
@@ -87,10 +87,10 @@ typedef struct {
   sixstep_real period_s;
   sixstep_real bus_V;
   sixstep_real pole_pairs;
-  sixstep_real R_ohm, L_H;             /* of a phase */
+  sixstep_real R_ohm, L_H;             /* resistance and inductance of a phase */
   sixstep_real K_t_Nm_A;               /* N m per A of a driven pair, and V s/rad between two terminals */
   sixstep_real magnet_Vs;              /* peak flux linkage of the magnet with a phase, fundamental */
-  sixstep_real J_kg_m2, B_Nm_s;        /* of the shaft with the load */
+  sixstep_real J_kg_m2, B_Nm_s;        /* inertia and friction of the shaft with the load */
   sixstep_real current_d1, current_d0; /* V per A */
   sixstep_real speed_d1, speed_d0;     /* fraction of the full torque per rad/s */
   sixstep_real full_torque_Nm, full_current_A;
@@ -114,7 +114,7 @@ typedef struct {
   uint32_t parameters;                /* number of them, up to 64 */
   const sixstep_parameter* parameter;
   /* Fills config, which is zero before the call, from the given data and one value per parameter. Returns a null
-   * pointer, or the problem as half a sentence: "asks for more than the bus has". */
+   * pointer, or the problem as half a sentence: "needs a higher voltage than the bus has". */
   const char* (*design)(const sixstep_given* given, const sixstep_real* values, void* config);
   /* Fills state, which is zero before the call. May be null. */
   void (*start)(const void* config, void* state);

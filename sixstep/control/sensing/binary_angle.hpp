@@ -26,8 +26,8 @@ constexpr BinaryAngle electrical_angle(BinaryAngle mechanical, std::uint8_t pole
   return static_cast<BinaryAngle>(mechanical * pole_pairs + offset);
 }
 
-/// For constants and the host, |degrees| below 2^22. Rounded to nearest where double has 64 bits; where it has
-/// 32 (AVR) exact to 2^-24 of itself.
+/// Meant for constants and the host, |degrees| below 2^22. The result is rounded to nearest where double has 64
+/// bits; where it has 32 (AVR) it is exact to 2^-24 of itself.
 constexpr BinaryAngle binary_degrees(double degrees) {
   const double turns = degrees / 360.0;
   const auto whole = static_cast<std::int32_t>(turns);
@@ -75,8 +75,8 @@ constexpr void unwrap(UnwrappedAngle& state, BinaryAngle angle) {
 
 namespace detail {
 
-/// Number of bits of x. By halves, because a loop bit by bit becomes a library call on processors that do not
-/// count zeros.
+/// Number of bits of x. It halves the width, because a loop bit by bit becomes a library call on processors
+/// that do not count zeros.
 constexpr std::uint8_t bit_width(std::uint32_t x) {
   std::uint8_t bits = 0;
   for (std::uint8_t half = 16; half != 0; half = static_cast<std::uint8_t>(half >> 1)) {
@@ -111,7 +111,8 @@ constexpr BinaryAngle angle_of_parts(const TurnParts& turn, std::uint32_t part) 
   return static_cast<BinaryAngle>(((product >> (turn.right - 1)) + 1) >> 1);
 }
 
-/// Functions that a decoder requires of its scalar, beside ScalarTraits. This is the version for floating point.
+/// Functions that a decoder requires of its scalar, in addition to ScalarTraits. This is the version for
+/// floating point.
 template <class Scalar>
 struct AngleTraits {
   /// mantissa/2^right, the mantissa of 31 bits: the same constant also where double has 32 bits.

@@ -8,8 +8,8 @@
 // leaves these counts the angle seems to jump by about as much. So each angle is compared with the one
 // predicted from the last two. If the difference is more than acceleration and rounding can make, the faulty
 // track is the one whose inversion gives the predicted angle. Mirrored motion is detected if it moves more per
-// tick than the tolerance, or at a jump: a slow rotor hides it until then, and the top track, whose mirror has
-// no border, hides it for ever.
+// tick than the tolerance, or at a jump. In a slow rotor it is not detected before the jump. In the top track,
+// whose mirror has no border, it is never detected.
 #pragma once
 #include <cstdint>
 
@@ -23,7 +23,7 @@ inline constexpr std::uint8_t no_track = 0xff;
 template <class Scalar>
 struct GrayConfig {
   std::uint8_t bits = 0;      ///< n, 1..20; bit 0 of a code is the finest track
-  BinaryAngle tolerance = 0;  ///< of an angle against the predicted one: 2 counts and what acceleration
+  BinaryAngle tolerance = 0;  ///< largest error of the predicted angle: 2 counts and what acceleration
                               ///< adds, below an eighth of a turn; 0: not checked
   std::uint8_t patience = 0;  ///< bad codes in a row that the prediction replaces; then the code is accepted
   std::uint8_t span = 1;      ///< k, 1..8 ticks over which a speed is taken

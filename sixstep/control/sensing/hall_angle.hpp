@@ -34,7 +34,7 @@ struct HallAngleConfig {
   HallEdges edges{};
   BinaryAngle margin = 0;                ///< beyond the next edge, for jitter and misplaced edges
   TickRatio<Scalar> turn_rad_s_ticks{};  ///< (2 pi/p) timer_Hz: speed times ticks of an electrical turn
-  std::uint32_t timeout_ticks = 0;       ///< no edge for so long is standstill; below 2^31
+  std::uint32_t timeout_ticks = 0;       ///< standstill after this time without an edge; below 2^31
   std::uint32_t delay_ticks = 0;         ///< delay of an edge: filter, glitch suppression, interrupt
   std::uint8_t span = 1;                 ///< k, 1..6 sectors
   bool operator==(const HallAngleConfig&) const = default;
@@ -43,7 +43,7 @@ struct HallAngleConfig {
 struct HallAngleState {
   HallSpeedState times{};
   std::uint8_t sector = no_sector;
-  std::uint8_t edge = 0;         ///< the last one passed
+  std::uint8_t edge = 0;         ///< the last edge passed
   std::uint32_t turn_ticks = 0;  ///< 0: no speed is known
   TurnParts turn{};              ///< turn_in_parts(turn_ticks)
 };
@@ -115,7 +115,7 @@ constexpr HallAngle<Scalar> hall_angle(const HallAngleConfig<Scalar>& config, Ha
   if (way > width + config.margin) way = width + config.margin;
   way += angle_of_parts(state.turn, config.delay_ticks);
   way += edges.half_hysteresis;
-  const std::uint32_t past = since == 0 ? 0 : since - 1;  // the edge may be younger by a tick
+  const std::uint32_t past = since == 0 ? 0 : since - 1;  // the edge may have come up to a tick later
   const bool late = past >= state.turn_ticks || angle_of_parts(state.turn, past) > width;
   const std::uint32_t at_least = late ? detail::ticks_of_turn(past, width) : 0;
   const Scalar w = ScalarTraits<Scalar>::per_ticks(config.turn_rad_s_ticks,

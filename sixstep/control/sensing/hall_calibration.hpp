@@ -104,7 +104,7 @@ constexpr HallDeviations hall_deviations(const HallCalibrationState& state) {
   return deviations;
 }
 
-/// From one direction only. `offset`: mean angle by which the six edges, halfway between both directions, are
+/// Edges from one direction only. `offset`: mean angle by which the six edges, halfway between both directions, are
 /// ahead of 60 n degrees; the hysteresis is that of the data sheet.
 constexpr HallEdges hall_edges(const HallDeviations& deviations, std::int32_t offset,
                                BinaryAngle half_hysteresis) {
@@ -116,7 +116,8 @@ constexpr HallEdges hall_edges(const HallDeviations& deviations, std::int32_t of
   return edges;
 }
 
-/// From a run in each direction at one speed; seen_forward, seen_backward: mean offset of the edges in each run.
+/// Edges from a run in each direction at one speed; seen_forward, seen_backward: mean offset of the edges in
+/// each run.
 constexpr HallEdges hall_edges(const HallDeviations& forward, const HallDeviations& backward,
                                std::int32_t seen_forward, std::int32_t seen_backward) {
   HallDeviations mean{};

@@ -36,15 +36,15 @@ namespace sixstep::control {
 template <class Scalar>
 struct PulseSpeedConfig {
   TickRatio<Scalar> count_rad_s_ticks{};  ///< 2 pi/(4 N) timer_Hz: speed times ticks of one count
-  std::uint32_t timeout_ticks = 0;        ///< no edge for so long is standstill; below 2^31
+  std::uint32_t timeout_ticks = 0;        ///< standstill after this time without an edge; below 2^31
   bool operator==(const PulseSpeedConfig&) const = default;
 };
 
 struct PulseSpeedState {
   std::uint32_t count = 0;       ///< wraps; independent of the index
-  std::uint32_t place = 0;       ///< of the last edge, in counts: the border between two of them
-  std::uint32_t time = 0;        ///< of the last edge
-  std::uint32_t from_place = 0;  ///< of the last edge that a control tick used
+  std::uint32_t place = 0;       ///< place of the last edge: the border between two counts
+  std::uint32_t time = 0;        ///< time of the last edge
+  std::uint32_t from_place = 0;  ///< place of the last edge that a control tick used
   std::uint32_t from_time = 0;
   std::int32_t moved = 0;   ///< M
   std::uint32_t ticks = 0;  ///< T; 0: no speed is known

@@ -20,9 +20,9 @@ namespace sixstep::control {
 
 /// The default counts nothing; quadrature_of_lines makes one.
 struct QuadratureConfig {
-  std::uint32_t counts = 0;        ///< of a turn, 4 N
+  std::uint32_t counts = 0;        ///< counts of a turn, 4 N
   TurnParts turn{};                ///< turn_in_parts(counts)
-  std::uint8_t index_quarter = 2;  ///< of the line in which Z is high, 0..3: where Z is evaluated
+  std::uint8_t index_quarter = 2;  ///< quarter of Z's line, 0..3, in which Z is evaluated
   bool operator==(const QuadratureConfig&) const = default;
 };
 
@@ -34,8 +34,8 @@ constexpr QuadratureConfig quadrature_of_lines(std::uint32_t lines) {
 struct QuadratureState {
   std::uint32_t in_turn = 0;  ///< 0..counts-1, from the start; from the first index on from zero
   std::int32_t turns = 0;
-  std::uint8_t quarter = 0xff;    ///< of the line, 0..3; 0xff before the first reading
-  std::int8_t direction = 0;      ///< of the last step
+  std::uint8_t quarter = 0xff;    ///< quarter of the line, 0..3; 0xff before the first reading
+  std::int8_t direction = 0;      ///< direction of the last step
   bool referenced = false;        ///< an index was found
   std::uint32_t illegal = 0;      ///< transitions of both lines at once
   std::uint32_t corrections = 0;  ///< indexes that found counts missing

@@ -31,9 +31,9 @@ struct ResolverConfig {
   Gain<Scalar> skew{};           ///< tan q, of windings that are not at right angles
   bool normalise = true;         ///< divide by the measured amplitude; else it counts as 1
   TrackingConfig loop{};
-  Scalar least_square{};        ///< of c^2 + s^2; below it a winding or the excitation is broken
+  Scalar least_square{};        ///< least c^2 + s^2; below it a winding or the excitation is broken
   Scalar greatest_square{};     ///< above it a winding is shorted to its neighbour; 0: not checked
-  std::uint8_t lost_after = 1;  ///< results outside of these bounds in a row
+  std::uint8_t lost_after = 1;  ///< number of results in a row outside of these bounds
   bool operator==(const ResolverConfig&) const = default;
 };
 
@@ -56,7 +56,7 @@ struct ResolverState {
 
 template <class Scalar>
 struct ResolverReading {
-  BinaryAngle angle = 0;   ///< of the resolver's turn, p_r to the mechanical one, at the sample's middle
+  BinaryAngle angle = 0;   ///< in the resolver's turn, p_r to a mechanical one, at the sample's middle
   std::int32_t speed = 0;  ///< units of 2^-32 turn per call
   Scalar square{};         ///< c^2 + s^2
   bool lost = false;

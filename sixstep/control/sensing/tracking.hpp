@@ -30,7 +30,7 @@ struct TrackingConfig {
 struct TrackingState {
   BinaryAngle angle = 0;   ///< expected at the next tick
   std::int64_t speed = 0;  ///< 2^-48 turn per tick
-  std::int32_t error = 0;  ///< of the last tick, for display
+  std::int32_t error = 0;  ///< error of the last tick, for display
 };
 
 namespace detail {

@@ -6,9 +6,9 @@
 //   half the bus   u_f - U/2 = (2 u_f - u_s - u_k)/2                     only while the pair is on, where u_s + u_k = U
 //
 // Samples show a crossing once per period; an edge gives its time to a count of the timer. So each source
-// supplies what it measures: the samples whether the leg's old current has ended and the driven legs follow the
-// command (zero_crossing.hpp, and thus the causes of a loss), the line on which side of its reference the leg
-// is, the edge since when.
+// supplies its own measurement. The samples show whether the leg's old current has ended and whether the driven
+// legs follow the command (zero_crossing.hpp, and thus the causes of a loss). The line shows on which side of its
+// reference the leg is, and the edge shows since when.
 //
 // An edge counts only after the first sample without the old current: earlier edges belong to the freewheel.
 // The rest of the freewheel in the low-pass tau in front of each comparator keeps the line on the wrong side
@@ -41,7 +41,7 @@ namespace sixstep::control {
 /// The default takes the crossing from the samples.
 struct CapturedCrossingConfig {
   bool follows = false;
-  std::uint32_t lag_ticks = 0;     ///< of the low-pass: it delays an edge, and not a sample
+  std::uint32_t lag_ticks = 0;     ///< lag of the low-pass, which delays an edge but not a sample
   std::uint32_t period_ticks = 0;  ///< PWM period if half the bus is the reference; 0: virtual star
   /// If half the bus is the reference: time from a pulse's edge until its filter has settled.
   std::uint32_t settle_ticks = 0;

@@ -32,7 +32,7 @@ namespace sixstep::control {
 template <class Scalar>
 struct FloatingVoltageConfig {
   Gain<Scalar> third_per_count{};  ///< V/3 per count of the converter; fixed: raw units
-  std::uint16_t rail_counts = 0;   ///< so near to a rail a terminal is held by a diode or a switch
+  std::uint16_t rail_counts = 0;   ///< a terminal this near to a rail is held by a diode or a switch
   bool through_freewheel = false;  ///< also use periods at the rail: L and each phase's current are known
   bool operator==(const FloatingVoltageConfig&) const = default;
 };

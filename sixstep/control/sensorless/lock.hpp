@@ -28,15 +28,15 @@ enum class LockLoss : std::uint8_t {
 };
 
 struct LockConfig {
-  std::uint8_t window_eighths = 16;          ///< of a sector's time, from one crossing to the next
+  std::uint8_t window_eighths = 16;          ///< window in eighths of a sector, from crossing to crossing
   std::uint8_t tolerated = 2;                ///< sectors in a row whose crossing was not found
   std::uint8_t unlike_samples = 4;           ///< samples in a row that contradict the command
-  std::uint32_t shortest_ticks = 0;          ///< of a sector: no rotor is faster
-  std::uint32_t longest_ticks = 0xffffffff;  ///< of a sector: a slower rotor cannot be followed
+  std::uint32_t shortest_ticks = 0;          ///< shortest sector: no rotor is faster
+  std::uint32_t longest_ticks = 0xffffffff;  ///< longest sector: a slower rotor cannot be followed
   std::uint32_t most_flux = 0xffffffff;      ///< largest y times T of a rotor, counts times ticks
   std::int32_t threshold = 0x7fffffff;       ///< counts of y above which it is a voltage and not noise
   std::uint8_t retries = 3;                  ///< losses and failed starts in a row before the drive gives up
-  std::uint16_t sectors_to_forget = 60;      ///< without a loss, after which losses are counted anew
+  std::uint16_t sectors_to_forget = 60;      ///< sectors without a loss after which losses are counted anew
   bool operator==(const LockConfig&) const = default;
 };
 

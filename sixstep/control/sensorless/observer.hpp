@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Selects the back-EMF that the drive follows: the terminal's own (zero_crossing.hpp), or an observer's, which
-// averages the converters' noise and has a known delay. Called once per control tick with terminals, currents
-// and the command in effect. It gives the floating leg's estimate as counts of y = 2 e_f - e_s - e_k, like
+// averages the converters' noise and has a known delay. Call it once per control tick with terminals,
+// currents and the command in effect. It gives the floating leg's estimate as counts of y = 2 e_f - e_s - e_k, like
 // those that zero_crossing.hpp reads from the terminal, so that lock, clock and thresholds are the same. While
 // the leg's old current decays the observer has no input; the first sample after it sets the estimate, and a
 // crossing meanwhile is reported as passed, like the terminal's.
@@ -25,7 +25,7 @@
 
 namespace sixstep::control {
 
-/// comparators: their edges are the terminal's own crossings (captured_crossing.hpp), without an observer too.
+/// comparators: their edges are the terminal's own crossings (captured_crossing.hpp), also without an observer.
 enum class Follow : std::uint8_t { crossings, luenberger, sliding_mode, flux, comparators };
 
 constexpr bool observes(Follow follow) {
@@ -47,7 +47,7 @@ struct ObserverConfig {
 
 template <class Scalar>
 struct ObserverState {
-  FloatingVoltage<Scalar> before{};  ///< at the last sample
+  FloatingVoltage<Scalar> before{};  ///< voltage at the last sample
   LuenbergerState<Scalar> luenberger{};
   SlidingModeState<Scalar> sliding_mode{};
   FluxLinkageState<Scalar> flux{};
@@ -71,7 +71,7 @@ struct Observed {
 
 namespace detail {
 
-/// Truncated to a whole number; of fixed point the raw number.
+/// Truncates to a whole number; in fixed point it returns the raw number.
 template <class Scalar>
 constexpr std::int32_t as_counts(Scalar x) {
   if constexpr (requires { x.raw; })
@@ -84,7 +84,7 @@ constexpr std::int32_t as_counts(Scalar x) {
 template <class Scalar>
 constexpr std::uint32_t part_of_ticks(Scalar part, std::uint32_t whole) {
   if constexpr (requires { part.raw; }) {
-    constexpr int bits = Scalar::fraction_bits;  // 15 of them do for one period
+    constexpr int bits = Scalar::fraction_bits;  // 15 bits suffice for one period
     const auto raw = static_cast<std::uint32_t>(part.raw);
     const std::uint32_t digits =
         bits > 15 ? raw >> (bits > 15 ? bits - 15 : 0) : raw << (bits < 15 ? 15 - bits : 0);
@@ -181,7 +181,7 @@ constexpr Observed observer_step(const ObserverConfig<Scalar>& config, ObserverS
   return observed;
 }
 
-/// As zero_crossing_step, with the observer's y in place of the terminal's.
+/// Like zero_crossing_step, but with the observer's y instead of the terminal's.
 constexpr CrossingReading observed_crossing_step(const ZeroCrossingConfig& config, ZeroCrossingState& state,
                                                  const TerminalSample& s, const Observed& observed, bool on) {
   if (state.sector > 5) return {};

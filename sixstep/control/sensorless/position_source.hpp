@@ -20,7 +20,7 @@ enum class RotorSource : std::uint8_t { hall, back_emf };
 struct PositionSourceConfig {
   bool has_hall = false;
   RotorSource wanted = RotorSource::back_emf;
-  bool falls_back = true;   ///< to the back-EMF if a line fails; else the drive stops with a fault
+  bool falls_back = true;   ///< true: a failed line changes to the back-EMF; false: it stops the drive
   std::uint8_t agreed = 6;  ///< sectors, or edges, in a row before a change
   HallConfig hall{};
   bool operator==(const PositionSourceConfig&) const = default;

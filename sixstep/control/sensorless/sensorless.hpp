@@ -4,7 +4,7 @@
 // interrupt.
 //
 //   off -> catching -> aligning -> ramping -> running        wanted: a direction
-//           |  ^-------------------------------- lost         (lock.hpp), so many times in a row; then gave_up
+//           |  ^-------------------------------- lost         (lock.hpp); gave_up after more than lock.retries in a row
 //           '-> running                                        the rotor spins already (spin.hpp)
 //
 // `following`: another source commutates; crossings are only followed, so that the back-EMF can take over in
@@ -24,7 +24,7 @@ namespace sixstep::control {
 template <class Scalar>
 struct SensorlessAnswer {
   bool drives = false;    ///< false: the bridge is off
-  bool by_start = false;  ///< the current loop holds start_A, whatever mode and setpoint are
+  bool by_start = false;  ///< the current loop holds start_A in every mode, for any setpoint
   Scalar start_A{};       ///< signed
 };
 

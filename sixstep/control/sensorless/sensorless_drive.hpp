@@ -24,7 +24,7 @@ struct SensorlessDriveConfig {
   Scalar start_output{};              ///< the speed loop's output at the hand-over, from the ramp's torque
   SlewConfig<Scalar> duty{};          ///< change of a duty setpoint per tick; default: no limit
   SlewConfig<Scalar> current{};       ///< change of a current setpoint
-  Scalar least_duty{};  ///< while the rotor is followed: without an on-time no crossing is visible
+  Scalar least_duty{};  ///< least duty of a followed rotor: without an on-time no crossing is visible
   bool operator==(const SensorlessDriveConfig&) const = default;
 };
 

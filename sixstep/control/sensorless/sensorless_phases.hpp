@@ -218,7 +218,7 @@ constexpr void running_step(const SensorlessConfig<Scalar>& config, SensorlessSt
     if (loss != LockLoss::none) return lose(config, state, loss, now);
     if (reading.crossing == Crossing::seen) return take_crossing(config, state, at);
     commutation_clock_guess(state.clock, T, state.direction, now);
-    const std::uint32_t sooner = sector_ticks(config.clock, state.clock);  // it came before it was due
+    const std::uint32_t sooner = sector_ticks(config.clock, state.clock);  // the crossing came early
     return schedule_commutation(state.clock, at + delay_ticks(config.clock, sooner < T ? sooner : T));
   }
   const std::uint32_t T = sector_ticks(config.clock, state.clock);
@@ -231,7 +231,7 @@ constexpr void running_step(const SensorlessConfig<Scalar>& config, SensorlessSt
                         state.crossing.unlike);
   if (loss == LockLoss::none) return;
   if (input.wanted == state.direction) return lose(config, state, loss, now);
-  catch_spin(state, now);  // it coasted or was braked, as commanded
+  catch_spin(state, now);  // the rotor coasted or was braked, as commanded
 }
 
 /// After a crossing that was found, the flux linkage, if it is followed, determines the commutation instead of

@@ -7,8 +7,8 @@
 //   e^[n+1] = e^[n] + c (z[n+1]/a - e^[n])                      low-pass: the equivalent control contained in z
 //
 // While k is above every back-EMF the error i^ - i is driven into the layer; inside of it error[n+1] = (a - b
-// k/phi) error[n] + b e. A chip switches z once per period: with the sign alone the error would jump to and fro
-// over 2 b k. phi = k b/a is the narrowest layer without that: the error is constant after one period, and z =
+// k/phi) error[n] + b e. A chip switches z once per period: with the sign alone the error would chatter over
+// 2 b k. phi = k b/a is the narrowest layer without that: the error is constant after one period, and z =
 // a e of the period that has just ended. The low-pass is (1 - c)/c periods late, and the mean half a period.
 // observer.hpp subtracts this time, which compensates the phase lag at every speed.
 //

@@ -6,8 +6,8 @@
 //
 //   3 e_k = 3 u_k - (u_a + u_b + u_c)      without current: the star point need not be connected
 //
-// The order of the patterns gives the direction, their times the speed (commutation_clock.hpp): enough to take
-// a spinning rotor over without stopping it.
+// The order of the patterns gives the direction, their times the speed (commutation_clock.hpp): enough to
+// continue with a spinning rotor without stopping it.
 #pragma once
 #include <cstdint>
 
@@ -18,15 +18,15 @@ namespace sixstep::control {
 
 struct SpinConfig {
   std::int32_t threshold = 0x7fffffff;  ///< counts of 3 e_k above which it is a voltage and not noise
-  std::uint8_t crossings = 4;           ///< in one direction at similar intervals that prove a spinning rotor
-  std::uint32_t settle_ticks = 0;       ///< from the bridge off until the currents have ended
-  /// Without a crossing for so long the rotor stands; 0: the spin is not measured.
+  std::uint8_t crossings = 4;           ///< crossings at similar intervals in one direction that prove a spin
+  std::uint32_t settle_ticks = 0;       ///< time after turning the bridge off until currents have ended
+  /// Time without a crossing after which the rotor counts as standing; 0: the spin is not measured.
   std::uint32_t listen_ticks = 0;
   bool operator==(const SpinConfig&) const = default;
 };
 
 struct SpinState {
-  std::int32_t e[3]{};      ///< of the last sample
+  std::int32_t e[3]{};      ///< 3 e_k of the last sample, counts
   std::uint32_t zero[3]{};  ///< time of the last change of each sign
   std::uint32_t at = 0;     ///< time of the last sample
   std::uint32_t since = 0;  ///< time of the last crossing or the begin

@@ -3,7 +3,7 @@
 //
 // Alignment. A pair pulls the rotor to the angle at which its torque is 0, two sectors ahead of the pair's own:
 // 60 (s + 2) degrees forward. At the opposite angle the torque is 0 too; a second pair, one sector on, has no
-// dead point there. The rotor swings about its place with sqrt(p K_t I/J), without friction for ever, because
+// dead point there. The rotor swings about its place with sqrt(p K_t I/J). Only friction damps this swing, because
 // the pair's own back-EMF is 0 there. But the floating leg shows the speed of the swing. While that speed grows
 // the rotor moves towards its place, and the current is low; while it falls the rotor moves away, against the
 // full current. So each half swing reduces the energy by the ratio of the two currents.
@@ -12,7 +12,7 @@
 //
 //   w(t) = a t  (+ j t^2/2),    a commutation each 60 degrees
 //
-// but only while the back-EMF shows nothing. A crossing that is found sets the next commutation half a sector
+// but only while the back-EMF shows no crossing. A crossing that is found sets the next commutation half a sector
 // after it; one that is still expected is waited for, up to a whole sector; one that had passed before it could
 // be found, twice in a row or after two that were found, brings the commutation at once.
 #pragma once
@@ -26,17 +26,17 @@ namespace sixstep::control {
 /// The default does not start. The ramp is counted in control ticks; 2^32 is one sector.
 template <class Scalar>
 struct StartUpConfig {
-  Scalar current_A{};                ///< of the pair, in ramp and alignment
-  Scalar falling_A{};                ///< in the alignment, while the swing's speed grows
-  std::uint32_t align_ticks = 0;     ///< of each of the two steps, on the timer
+  Scalar current_A{};                ///< current of the pair, in ramp and alignment
+  Scalar falling_A{};                ///< current of the alignment while the swing's speed grows
+  std::uint32_t align_ticks = 0;     ///< duration of each of the two steps, on the timer
   std::uint8_t swing_shift = 4;      ///< 2^n control ticks: time constant of the swing's mean
   std::int32_t swing_threshold = 0;  ///< counts of y above which it is a swing
-  std::uint32_t first_speed = 0;     ///< at the begin of the ramp, 2^-32 sectors per control tick
+  std::uint32_t first_speed = 0;     ///< speed at the begin of the ramp, 2^-32 sectors per control tick
   std::uint32_t acceleration = 0;    ///< 2^-32 sectors per tick, in each tick
   std::uint32_t jerk = 0;            ///< 2^-48 sectors per tick, in each tick and tick: the law t^2; adds
                                      ///< up to 65535 units of the acceleration
-  std::uint32_t last_speed = 0;      ///< at the end of the ramp, 2^-32 sectors per tick
-  std::uint32_t longest_ticks = 0;   ///< of the whole ramp, on the timer
+  std::uint32_t last_speed = 0;      ///< speed at the end of the ramp, 2^-32 sectors per tick
+  std::uint32_t longest_ticks = 0;   ///< longest duration of the ramp, on the timer
   std::uint8_t trusted = 6;          ///< crossings found in a row for the hand-over
   /// Longest sector at the hand-over, ticks of the timer: 5 % of rated speed.
   std::uint32_t trusted_ticks = 0;
@@ -45,11 +45,11 @@ struct StartUpConfig {
 
 struct StartUpState {
   std::uint32_t since = 0;   ///< begin of the step or the ramp
-  std::uint8_t step = 0;     ///< of the alignment
+  std::uint8_t step = 0;     ///< step of the alignment
   std::int32_t swing = 0;    ///< mean of |y|, times 2^swing_shift
   bool falls = false;        ///< the swing's speed grows
-  std::uint32_t angle = 0;   ///< of the field in its sector, 2^-32 sectors
-  std::uint32_t speed = 0;   ///< of the field
+  std::uint32_t angle = 0;   ///< angle of the field in its sector, 2^-32 sectors
+  std::uint32_t speed = 0;   ///< speed of the field
   std::uint32_t faster = 0;  ///< acceleration added to the configured one, in 1/65536
   std::uint16_t ticks = 0;   ///< control ticks in this sector
   std::uint8_t waited = 0;   ///< whole sectors waited for a crossing
@@ -124,7 +124,7 @@ constexpr bool ramp_step(const StartUpConfig<Scalar>& config, StartUpState& stat
   if (reading.crossing == Crossing::seen) {
     state.passed = 0;
     if (state.trusted < 255) ++state.trusted;
-    // The field continues at the speed at which half a sector took so long.
+    // The field continues at the speed at which half a sector took this time.
     const std::uint32_t seen =
         0x80000000u / (state.ticks == 0 ? 1u : static_cast<std::uint32_t>(state.ticks));
     if (seen > state.speed) state.speed = seen < config.last_speed ? seen : config.last_speed;

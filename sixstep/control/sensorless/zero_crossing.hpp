@@ -40,7 +40,7 @@ struct TerminalSample {
 /// With the default no crossing is found.
 struct ZeroCrossingConfig {
   NeutralSeen seen = NeutralSeen::on_time;
-  std::uint16_t rail_counts = 0;        ///< so near to a rail a terminal is held by a diode or a switch
+  std::uint16_t rail_counts = 0;        ///< a terminal this near to a rail is held by a diode or a switch
   std::int32_t threshold = 0x7fffffff;  ///< counts of y above which it is a voltage and not noise
   std::int32_t below = 0x7fffffff;      ///< the same downwards; less in a freewheel, where a diode holds u_f
   std::uint32_t margin_ticks = 0;       ///< blanking after the freewheel's end
@@ -61,7 +61,7 @@ struct ZeroCrossingState {
   std::uint32_t freewheel = 0;  ///< ticks of the last freewheel, as far as samples show it
   bool held = false;            ///< at the last sample a diode held the terminal
   std::uint32_t at = 0;         ///< time of the last y
-  std::int32_t y = 0;           ///< the last one that was evaluated
+  std::int32_t y = 0;           ///< the last y that was evaluated
 };
 
 enum class Crossing : std::uint8_t {

@@ -76,7 +76,7 @@ void fields(Walk&& w, const control::EstimatorConfig<double>& c, Kept& kept) {
   w.signal({"high_rad_s", "rad/s"}, c.high_rad_s, high_rad_s, Base::speed);
 }
 
-/// All except the field-oriented drive, which has its own list of fields.
+/// Lists all fields except those of the field-oriented drive, which has its own list.
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::SensorlessFieldConfig<double>& c, Kept& kept) {
   auto& [field, estimator] = kept;

@@ -83,7 +83,7 @@ void fields(Walk&& w, const control::FiniteSetConfig<double>& c, Kept& kept) {
   w.signal({"most_A", "A"}, c.most_A, most_A, Base::current);
 }
 
-/// All except the drive, which has its own list of fields.
+/// Lists all fields except those of the drive, which has its own list.
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::FieldDriveConfig<double>& c, Kept& kept) {
   auto& [drive, current, weakening, per_ampere, advance, harmonic, finite_set] = kept;

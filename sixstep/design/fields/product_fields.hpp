@@ -99,7 +99,7 @@ void fields(Walk&& w, const control::AlignConfig<double>& d, Kept& kept) {
   w.count({"sector"}, d.sector, sector, unset.sector);
 }
 
-/// All except the drive, which has its own list of fields.
+/// Lists all fields except those of the drive, which has its own list.
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::ProtectedConfig<double>& d, Kept& kept) {
   auto& [drive, setpoint_limit, sensing, current_adc, bus_adc, shunt, hall, speed, position, advance, faults,

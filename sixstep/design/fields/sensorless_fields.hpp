@@ -109,7 +109,7 @@ void fields(Walk&& w, const control::SensorlessConfig<double>& d, Kept& kept, bo
   if (w.when_run(measures_position)) w.part("position", d.position, position);
 }
 
-/// All except the drive, which has its own list of fields, and the observer (observer_scaling.hpp).
+/// Lists all fields except those of the drive, which has its own list, and of the observer (observer_scaling.hpp).
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::SensorlessDriveConfig<double>& d, Kept& kept) {
   auto& [drive, sensorless, source, observer, start_output, duty, current, least_duty] = kept;
@@ -121,7 +121,7 @@ void fields(Walk&& w, const control::SensorlessDriveConfig<double>& d, Kept& kep
   w.signal({"least_duty"}, d.least_duty, least_duty, Base::one);
 }
 
-/// The same numbers in every arithmetic.
+/// Lists the fields of a converter, whose numbers are the same in every arithmetic.
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::AdcConfig<control::Q30>& d, Kept& kept) {
   auto& [per_eighth, offset_counts, offset_tolerance, log2_samples] = kept;

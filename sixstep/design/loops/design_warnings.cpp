@@ -32,7 +32,7 @@ std::string below_bound(double phase_deg) {
 void look_at_stability(const DriveDesign& d, const LoopDesign& loop, Collector& out) {
   if (!loop.figures.stable)
     return out.add(Concern::stability, "the " + loop.name + " loop is unstable", true);
-  // With the drive's own delay; only the table shows the effect of another board's.
+  // It uses the drive's own delay; only the table shows the effect of another board's.
   const double late = d.spec.late_periods();
   const std::string with = late > 0.0 ? "with " + periods_words(late) + " of delay the " : "the ";
   const double phase_deg = loop.figures.phase_rad.value_or(base::pi) * 180.0 / base::pi;
@@ -46,7 +46,7 @@ void look_at_stability(const DriveDesign& d, const LoopDesign& loop, Collector& 
                                 base::three_digits(loop.figures.sensitivity_peak) + " times");
 }
 
-/// Phase that the speed's sensor leaves at the lowest speed.
+/// Checks the phase that the speed's sensor leaves at the lowest speed.
 void look_at_sensing(const DriveDesign& d, Collector& out) {
   if (d.loops.size() < 2 || !(d.lag.delay_s() > 0.0)) return;
   const LoopDesign& speed = d.loops[1];
@@ -65,7 +65,7 @@ void look_at_sensing(const DriveDesign& d, Collector& out) {
             phase_deg < unusable_phase_deg);
 }
 
-/// Only in speed mode: a position drive's speed depends on the move, so its run shows the effect.
+/// It applies only in speed mode: a position drive's speed depends on the move, so its run shows the effect.
 void look_at_grain(const DriveDesign& d, Collector& out) {
   if (!is_grainy(d)) return;
   out.add(Concern::grain,
@@ -76,8 +76,8 @@ void look_at_grain(const DriveDesign& d, Collector& out) {
               base::three_digits(std::fmax(d.high_speed_left_V, 0.0)) + " V left");
 }
 
-/// A P loop on counted edges: one step away it commands K_p steps per second, so the next edge comes after 1/K_p and
-/// the speed is as old.
+/// A P loop on counted edges: one step away it commands K_p steps per second, so the next edge comes after
+/// 1/K_p, which is then the age of the speed.
 void look_at_steps(const DriveDesign& d, Collector& out) {
   if (d.spec.mode != control::Mode::position || !d.spec.rotor.hall || d.loops.size() < 3) return;
   const double blind_s = 1.0 / (d.loops[2].gains.d1 * 180.0 / base::pi);

@@ -23,7 +23,7 @@ constexpr double inner_faster = 10.0;
 /// A pair placed slower than 2 time_constants_to_settle L/R needs a negative proportional gain.
 constexpr double winding_times = 8.0;
 
-/// A placed pair needs at least so many control periods to settle.
+/// Least settling time of a placed pair, in control periods.
 constexpr double fewest_periods = 4.0;
 
 double settle_of_current(const DesignSpec& w, const MotorModel& m) {

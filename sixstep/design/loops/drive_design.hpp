@@ -31,15 +31,15 @@ struct DesignSpec {
   /// Settling time of the inner loop, s; default as above, or a tenth of the speed loop's if that is shorter.
   std::optional<double> current_settle_s;
   double damping = usual_damping;
-  std::optional<double> current_damping;  ///< of the inner loop; default: `damping`
-  std::optional<double> bandwidth_rad_s;  ///< of the loop that `method` designs; default: 4.6/settle_s
+  std::optional<double> current_damping;  ///< damping of the inner loop; default: `damping`
+  std::optional<double> bandwidth_rad_s;  ///< bandwidth of `method`'s loop; default: 4.6/settle_s
   double period_s = 30e-6;
-  std::optional<double> voltage_V;        ///< of the bus; default: the sheet's nominal voltage
+  std::optional<double> voltage_V;        ///< voltage of the bus; default: the sheet's nominal voltage
   std::optional<double> torque_limit_Nm;  ///< full output of the speed loop; default: usual_torque_limit_Nm
   std::optional<double> current_limit_A;  ///< limit of the speed loop's output, if less than full output
   double load_inertia_kg_m2 = 0.0;        ///< on the shaft, in addition to the rotor's
   int delay_periods = 0;           ///< whole periods from a sample until its result takes effect, 0 or 1
-  bool sampled_in_middle = false;  ///< of a period; the result takes effect at the next start or later
+  bool sampled_in_middle = false;  ///< in the middle of a period; the result acts at the next start or later
   control::Chopping chopping = control::Chopping::soft;
   RotorSensing rotor{.hall = false};
   /// Lowest speed that the drive must hold; default: a tenth of the speed that the bus reaches, bus/K_t.
@@ -74,7 +74,7 @@ struct LoopDesign {
   PiGains gains;       ///< position: d1 is the gain in rad/s per degree, d0 = 0
   std::vector<DerivationStep> steps;
   std::optional<PolePlacement> placed;
-  Transfer loop;        ///< open, with the spec's delay and the closed inner loops
+  Transfer loop;        ///< open loop with the spec's delay and the closed inner loops
   LoopFigures figures;  ///< of `loop`
   LoopFigures other;    ///< with the other of the board's two delays, a period more or less
   LoopFigures built;    ///< of `loop` with the lag of the spec's speed sensor at the lowest speed
@@ -131,16 +131,16 @@ struct DriveDesign {
   std::vector<LoopDesign> loops;  ///< from the inside out
   Ripple ripple;
   double longest_period_s =
-      0.0;  ///< the longest at which the current loop keeps 45 degrees with the longer of the delays
+      0.0;  ///< the longest period at which the current loop keeps 45 degrees with the longer of the delays
   double headroom_end_rad_s = 0.0;   ///< highest speed at which the bus drives the nominal current
   double high_speed_rad_s = 0.0;     ///< drives with a speed loop: a tenth below that
   double speed_step_rad_s = 0.0;     ///< step of the measured speed there, at constant speed
   double speed_step_part = 0.0;      ///< part of the torque limit that the speed loop answers at once
   double speed_step_V = 0.0;         ///< immediate answer of the current loop to that part
   double high_speed_left_V = 0.0;    ///< rest of the bus there, at half the nominal current
-  double braking_limit_rad_s = 0.0;  ///< highest at which soft chopping brakes by the nominal current
+  double braking_limit_rad_s = 0.0;  ///< highest speed at which soft chopping brakes by the nominal current
   double commutation_limit_rad_s =
-      0.0;  ///< highest at which a duty holds the nominal current's torque at a commutation
+      0.0;  ///< highest speed at which a duty holds the nominal current's torque at a commutation
   std::vector<Warning> warnings;
 
   const LoopDesign& loop(std::string_view name) const;
@@ -162,7 +162,7 @@ inline const char* nominal_current_words(const DriveDesign& d) {
                            : "a tenth of the stall current (the sheet names no nominal one)";
 }
 
-/// Relative band of a loop's settling time, in the linear step as in the run.
+/// Relative band of a loop's settling time, for the linear step and for the run.
 double settling_band(const DriveDesign& design, const LoopDesign& loop);
 
 /// Relative band in which a step of the speed counts as settled: 2 %. On Hall probes 10 %, a twentieth of the lowest

@@ -34,7 +34,7 @@ struct DriveLoops {
   LoopWinding winding;
   double period_s = 0.0;
   double late_periods =
-      0.0;  ///< from a sample until its answer takes effect; a sample in the middle of a period adds a half
+      0.0;  ///< delay from a sample until its answer acts; a sample in the middle of a period adds a half
   PiGains current{};
   PiGains speed{};
   double current_at_full_torque_A = 0.0;
@@ -46,17 +46,18 @@ struct LinearLaw {
   Polynomial r, y, q;
 };
 
-/// Rotor held, as in the design. The controller's voltage acts late_periods after its sample, for one period.
+/// Open loop with the rotor held, as in the design. The controller's voltage acts late_periods after its
+/// sample, for one period.
 Transfer open_current_loop(const DriveLoops& drive);
-/// Rotor free: it accelerates with the current, and its back-EMF reacts on slow changes.
+/// Open loop with the rotor free: it accelerates with the current, and its back-EMF reacts to slow changes.
 Transfer open_current_loop_turning(const DriveLoops& drive);
-/// From speed error to speed, with the current loop closed.
+/// Open loop from speed error to speed, with the current loop closed.
 Transfer open_speed_loop(const DriveLoops& drive);
 /// The loop L of a PI with the same response to the setpoint, T = L/(1 + L): it is what a measurement of T gives.
 Transfer speed_loop_by_setpoint(const DriveLoops& drive, const LinearLaw& law);
 /// The loop opened at the controller's output, for which margins are defined.
 Transfer open_speed_loop(const DriveLoops& drive, const LinearLaw& law);
-/// From position error to position, with both inner loops closed.
+/// Open loop from position error to position, with both inner loops closed.
 Transfer open_position_loop(const DriveLoops& drive);
 
 }  // namespace sixstep::design

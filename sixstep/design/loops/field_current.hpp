@@ -33,7 +33,8 @@ struct FieldMachine {
   double pole_pairs = 1.0;
 };
 
-/// From a sheet: a trapezoid's fundamental is 1.21585 of its peak (shape_factors.hpp); a salient rotor has L_d and L_q.
+/// Reads the machine from a sheet: a trapezoid's fundamental is 1.21585 of its peak (shape_factors.hpp); a
+/// salient rotor has L_d and L_q.
 FieldMachine field_machine(const MotorModel& motor, const Sheet& sheet);
 
 /// T = 3/2 p psi i_q, N m per A of i_q, for a round rotor.

@@ -42,7 +42,7 @@ double lowest_turn(const Transfer& loop) {
   return std::clamp(decay > 0.0 ? 0.01 * decay : 1e-5, 1e-12, 0.1);
 }
 
-/// As in margins.hpp: pi + arg L with arg L in (-2 pi, 0], negative beyond -180 degrees.
+/// The phase margin as in margins.hpp: pi + arg L with arg L in (-2 pi, 0], negative beyond -180 degrees.
 double phase_left(Complex L) {
   const double angle = L.angle_rad();
   return base::pi + (angle > 0.0 ? angle - 2.0 * base::pi : angle);

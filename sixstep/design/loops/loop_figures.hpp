@@ -13,7 +13,7 @@
 namespace sixstep::design {
 
 struct LoopFigures {
-  bool stable = false;                    ///< of the closed loop, by its poles
+  bool stable = false;                    ///< stability of the closed loop, by its poles
   std::optional<double> crossover_rad_s;  ///< last frequency at which |L| falls through 1
   std::optional<double> phase_rad;        ///< smallest distance to -180 degrees where |L| = 1
   std::optional<double> gain;             ///< factor on the gain that makes it unstable; empty: none above 1
@@ -42,7 +42,7 @@ LoopFigures sensed_figures(const SensedLoop& sensed, double period_s, int points
 
 struct BodePoint {
   double w_rad_s = 0.0;
-  double gain = 0.0, phase_rad = 0.0;  ///< of L, phase unwrapped from the lowest frequency on
+  double gain = 0.0, phase_rad = 0.0;  ///< values of L, the phase unwrapped from the lowest frequency on
   double closed_gain = 0.0;            ///< |L/(1 + L)|
 };
 std::vector<BodePoint> bode(const Transfer& loop, double period_s, double from_rad_s, int points);
@@ -52,11 +52,11 @@ struct StepResponse {
   std::vector<double> samples;                                  ///< from the instant of the step on
   double settling_s = std::numeric_limits<double>::infinity();  ///< last exit from +-band; infinite if
                                                                 ///< `seconds` do not suffice
-  /// Relative to the step; infinite for an unstable loop, which has no samples.
+  /// Overshoot relative to the step; infinite for an unstable loop, which has no samples.
   double overshoot = std::numeric_limits<double>::infinity();
   std::optional<double> reach_s;  ///< first sample at 98 %
 };
-/// Settled from the first sample after which all are inside the band, as in study's gauge.
+/// The step is settled from the first sample after which all are inside the band, as in study's gauge.
 StepResponse step_response(const Transfer& closed_loop, double period_s, double seconds, double band = 0.02);
 /// The same for an open loop whose controller measures the output through the lag, in whole periods.
 StepResponse sensed_step(const SensedLoop& sensed, double period_s, double seconds, double band = 0.02);

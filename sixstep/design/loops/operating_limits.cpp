@@ -12,7 +12,7 @@ namespace sixstep::design {
 
 namespace {
 
-/// Between two voltages that are `swing_V` apart.
+/// Ripple between two voltages that are `swing_V` apart.
 double swing_ripple_A(const MotorModel& motor, double swing_V, double duty, double period_s) {
   const double R = 2.0 * motor.machine.R_ohm, x = period_s * motor.machine.R_ohm / motor.machine.L_H;
   // R b0 = 1 - exp(-R T/L), without cancellation: pole_placement's plant of resistance 1.

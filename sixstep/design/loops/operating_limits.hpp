@@ -21,7 +21,7 @@ double duty_for_voltage(control::Chopping chopping, double part_of_bus);
 double current_ripple_A(const MotorModel& motor, double bus_V, double period_s, control::Chopping chopping,
                         double duty);
 
-/// The same, between two voltages across the pair, whose mean over a period is mean_V. 0 where mean_V is not
+/// The same ripple between two voltages across the pair, whose mean over a period is mean_V. 0 where mean_V is not
 /// between them.
 double ripple_between_A(const MotorModel& motor, double on_V, double off_V, double mean_V, double period_s);
 
@@ -72,7 +72,7 @@ TestSpeeds test_speeds(const MotorModel& motor, double bus_V, double torque_limi
 /// K_t w/R_tt. Result: highest speed at which a braking current i can be held, (i/K_t) R_tt.
 double soft_braking_limit_rad_s(const MotorModel& motor, double current_A);
 
-/// Back-EMF that a commutation must overcome, in parts of the peak E of a phase: 2 e_staying - e_entering - e_leaving
+/// Back-EMF that a commutation must overcome, relative to the peak E of a phase: 2 e_staying - e_entering - e_leaving
 /// at the edge. 4 for a flat top of at least 120 degrees, 3 for a sine.
 double commutation_emfs(const plant::Machine& machine);
 /// Highest speed at which a duty exists that holds the staying phase's current through a commutation, with R_s of a

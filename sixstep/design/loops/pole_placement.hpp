@@ -32,7 +32,7 @@ struct DerivationStep {
 /// Default demands: the inputs of the thesis (chapter 6).
 inline constexpr double usual_current_settle_s = 1e-3, usual_speed_settle_s = 10e-3, usual_damping = 0.9;
 
-/// A settling time is that of 1 %: exp(-4.6).
+/// Time constants until a deviation has decayed to 1 %: exp(-4.6).
 inline constexpr double time_constants_to_settle = 4.6;
 
 struct PolePlacement {

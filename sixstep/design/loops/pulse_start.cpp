@@ -16,8 +16,8 @@ constexpr double clear = 2.0;     // factor on the certain level
 constexpr double of_range = 0.9;  // part of the range; noise and rounding stay within it
 constexpr double most_turned =
     15.0;  // electrical degrees: a quarter of a sector costs 3 % of the ramp's torque
-constexpr double tolerance = 0.125;  // of the range: a larger offset means a broken amplifier
-constexpr double least_counts = 64;  // between source and sink; below it the chip takes a wire for open
+constexpr double tolerance = 0.125;  // part of the range: a larger offset means a broken amplifier
+constexpr double least_counts = 64;  // between source and sink; below it the chip assumes an open wire
 constexpr double noises = 5.0;
 
 /// Values from which the others are computed.
@@ -48,7 +48,7 @@ Basis basis_of(const MotorModel& motor, const PulseSpec& spec) {
   return b;
 }
 
-/// From the beginning of a pulse to its sample.
+/// Time from the beginning of a pulse to its sample.
 double time_s(const Basis& b, int ticks) { return (ticks - 0.5 - b.spec.delay_periods) * b.spec.period_s; }
 
 double current_A(const Basis& b, double t_s, double L_H) {
@@ -98,7 +98,7 @@ PulseStart of_length(const Basis& b, int ticks) {
   s.pulses.current.offset_tolerance =
       static_cast<std::uint16_t>(tolerance * static_cast<double>(1 << (b.spec.adc_bits - 1)));
   s.pulses.pulse_ticks = static_cast<std::uint16_t>(ticks);
-  s.pulses.rest_ticks = static_cast<std::uint16_t>(ticks + 1);  // it falls faster, against the whole bus
+  s.pulses.rest_ticks = static_cast<std::uint16_t>(ticks + 1);  // the current falls faster than it rose
   s.current_A = current_A(b, t_s, b.L_S);
   s.greatest_A = current_A(b, t_s, b.L_least);
   const double k = x / (base::exp(x) - 1);

@@ -34,16 +34,16 @@ namespace sixstep::design {
 
 /// Supply, motor and converter of the pulses; SI.
 struct PulseSpec {
-  double bus_V = 0.0;     ///< of the supply
-  double period_s = 0.0;  ///< from sample to sample
+  double bus_V = 0.0;     ///< voltage of the supply
+  double period_s = 0.0;  ///< time from sample to sample
   int delay_periods = 0;  ///< delay of a command beyond the start of the next period
   double L_d_H = 0.0, L_q_H = 0.0;
   double saturation_A = 0.0;     ///< I_sat of a phase; 0: the sheet has none
-  double most_A = 0.0;           ///< of a pair: current that the start needs anyway
-  int adc_bits = 12;             ///< of the phase currents
+  double most_A = 0.0;           ///< current of a pair that the start needs anyway
+  int adc_bits = 12;             ///< bits of the phase currents' converters
   double current_range_A = 0.0;  ///< in each direction
   double offset_A = 0.0, noise_A = 0.0;
-  double late_s = 0.0;  ///< a rising current is measured so much too early: amplifier's lag and delay
+  double late_s = 0.0;  ///< age of a rising current's measurement: amplifier's lag and delay
 };
 
 /// Configuration of the chip, and figures of the design.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes when a resolver counts as lost: of its windings only c^2 + s^2 is known not to depend on the angle.
+// Computes when a resolver counts as lost. The check uses c^2 + s^2, which for ideal windings does not depend
+// on the angle.
 //
 //   intact     c = k_1 cos phi,  s = k_2 sin(phi + q):  c^2 + s^2 lies within the eigenvalues l_1 <= l_2 of
 //              [k_1^2 + k_2^2 sin^2 q,  k_2^2 sin q cos q;  k_2^2 sin q cos q,  k_2^2 cos^2 q]
@@ -25,7 +26,7 @@ struct ResolverShows {
 
 struct ResolverLimits {
   double least_square = 0.0, greatest_square = 0.0;
-  int in_a_row = 1;  ///< number of results outside, at most 255
+  int in_a_row = 1;  ///< number of results outside the limits, at most 255
 };
 ResolverLimits resolver_limits(const ResolverShows& whole);
 

@@ -78,7 +78,7 @@ void add_crossover(double crossover_rad_s, std::vector<DerivationStep>& steps) {
       {"w_c", "d1 T_max/J, where the speed loop crosses over by d1 alone", crossover_rad_s, "rad/s"});
 }
 
-/// Whether the speed at this speed is taken over one edge, so that no errors of the probes' places cancel.
+/// True if the speed is taken over one edge there, so that the errors of the probes' positions do not cancel.
 bool one_edge_at(const RotorSensing& sensing, double pole_pairs, double speed_rad_s, double crossover_rad_s) {
   const double turn_s = one_turn * sector_s(pole_pairs, speed_rad_s);
   return sensing.edges == 1 || (sensing.edges == 0 && turn_s > hall_window_s(crossover_rad_s));

@@ -25,7 +25,7 @@ struct RotorSensing {
   bool hall = true;  ///< Hall probes; false: ideal, like an encoder with very many lines
   int edges = 0;  ///< edges over which a speed is taken, 1..6; 0: six if they cost the loop little, else one
   ShaftSensing shaft{};     ///< an encoder or a resolver instead of both
-  double late_s = 0.0;      ///< from a probe's edge to the pin of the chip
+  double late_s = 0.0;      ///< delay from a probe's edge to the pin of the chip
   double stray_rad = 0.0;   ///< electrical: largest deviation of k sectors together from k pi/3
   double timeout_s = 0.0;   ///< time without an edge after which the speed reads 0; 0: not given
   double capture_Hz = 0.0;  ///< clock of the timer that captures the probes' edges; 0: not given
@@ -37,8 +37,8 @@ struct RotorSensing {
 /// "Hall, 1 edge", "Hall, 6 edges or 1"; sensor_words() for an encoder or a resolver
 std::string edges_words(const RotorSensing& sensing);
 
-/// Phase in rad by which six edges may delay a speed loop at its crossover; above it one edge is used instead. An
-/// eighth of the half turn that makes feedback unstable.
+/// Phase in rad by which six edges may delay a speed loop at its crossover; above it one edge is used instead. It is
+/// an eighth of the half turn that makes feedback unstable.
 inline constexpr double six_edges_phase_rad = 0.39269908169872415480783;
 
 /// Time within which six edges must come to be averaged, s, for a loop with crossover at `crossover_rad_s`: their

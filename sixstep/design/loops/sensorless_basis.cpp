@@ -28,7 +28,7 @@ base::Problem too_slow(const SensorlessBasis& b) {
 base::Problem badly_filtered(const SensorlessBasis& b) {
   const ComparatorSpec& c = b.spec.comparators;
   const std::string least = base::rounded(1.01 / (2.0 * base::pi * b.longest_comparator_lag_s()), 3) +
-                            " Hz";  // rounded, still enough
+                            " Hz";  // still sufficient after rounding
   if (!(c.bandwidth_Hz > 0.0))
     return {"comparators.bandwidth_Hz", "",
             "is missing, and comparators without a low-pass turn over at each edge of the pulse",

@@ -7,7 +7,7 @@
 
 namespace sixstep::design {
 
-inline constexpr double rail_lags = 3.5;  ///< from an edge until a terminal is at its rail, to exp(-3.5)
+inline constexpr double rail_lags = 3.5;  ///< lags after which a terminal is within exp(-3.5) of its rail
 
 /// Basic values, SI.
 struct SensorlessBasis {
@@ -16,8 +16,8 @@ struct SensorlessBasis {
   double R_tt = 0.0, no_load_rad_s = 0.0, nominal_A = 0.0, start_A = 0.0, load_Nm = 0.0;
   double lsb_V = 0.0, threshold_V = 0.0, lowest_rad_s = 0.0;
   double lock_V = 0.0;            ///< the threshold plus the comparators' error
-  double lag_s = 0.0;             ///< of the terminals' filters
-  double comparator_lag_s = 0.0;  ///< of the low-passes before the comparators, if these are followed
+  double lag_s = 0.0;             ///< lag of the terminals' filters
+  double comparator_lag_s = 0.0;  ///< lag of the low-passes before the comparators, if these are followed
 
   double sector_s(double speed_rad_s) const {
     return base::sector_rad / (motor.machine.pole_pairs * speed_rad_s);

@@ -23,7 +23,7 @@ namespace sixstep::design {
 struct SensorlessObserver {
   control::ObserverConfig<double> chip;
   double pole = 0.0;           ///< p in z, both of the Luenberger observer
-  double lag_s = 0.0;          ///< of the estimate
+  double lag_s = 0.0;          ///< lag of the estimate
   double level_V_s = 0.0;      ///< psi_c
   double highest_rad_s = 0.0;  ///< four control periods a sector
   std::vector<DerivationStep> steps;
@@ -38,7 +38,7 @@ base::Result<SensorlessObserver> sensorless_observer(const MotorModel& motor, co
 /// The flux linkage by which the floating leg's changes from its zero crossing to the commutation, V s.
 double flux_level_V_s(const plant::Machine& machine);
 
-/// sensorless_drive with an observer.
+/// Returns sensorless_drive() with an observer.
 control::SensorlessDriveConfig<double> sensorless_drive(const control::DriveConfig<double>& drive,
                                                         const SensorlessStart& start,
                                                         const SensorlessObserver& observer);

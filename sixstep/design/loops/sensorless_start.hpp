@@ -39,7 +39,7 @@ namespace sixstep::design {
 /// Comparators at the terminals, used if `followed`.
 struct ComparatorSpec {
   bool followed = false;
-  double bandwidth_Hz = 0.0;      ///< of each low-pass
+  double bandwidth_Hz = 0.0;      ///< bandwidth of each low-pass
   bool against_half_bus = false;  ///< false: against the virtual star
   double offset_V = 0.0;          ///< largest offset by their sheet, referred to the terminal
   double hysteresis_V = 0.0;      ///< between the levels of the two edges
@@ -47,21 +47,21 @@ struct ComparatorSpec {
 
 /// Supply, board and load of a sensorless drive; SI.
 struct SensorlessSpec {
-  double bus_V = 0.0;     ///< of the supply
-  double period_s = 0.0;  ///< from sample to sample
+  double bus_V = 0.0;     ///< voltage of the supply
+  double period_s = 0.0;  ///< time from sample to sample
   double capture_Hz = 16e6;
   int adc_bits = 12;
-  double adc_range_V = 0.0;     ///< of terminals and bus, at their dividers' inputs; 0: 5/4 of the bus
-  double adc_noise_V = 0.0;     ///< root mean square
-  double mismatch = 0.0;        ///< of the dividers, relative
+  double adc_range_V = 0.0;     ///< range of terminals and bus, at their dividers' inputs; 0: 5/4 of the bus
+  double adc_noise_V = 0.0;     ///< noise of each converter, root mean square
+  double mismatch = 0.0;        ///< relative mismatch of the dividers
   double greatest_load = 0.5;   ///< load at the start, relative to the nominal torque
   double overload = 1.5;        ///< start current, relative to the nominal one
-  double lowest_part = 0.05;    ///< of the no-load speed; the ramp ends there
+  double lowest_part = 0.05;    ///< part of the no-load speed; the ramp ends there
   double advance_deg = 0.0;     ///< electrical, ahead of the middle between two crossings
   double sampling_s = 0.25e-6;  ///< time that a pulse must have on either side of its middle for a sample
   double pulse_late_s =
       0.0;                  ///< delay of the pulse after the timer: a dead time, with complementary chopping
-  double blanking_s = 0.0;  ///< after the end of the freewheel: filters of dividers and converters
+  double blanking_s = 0.0;  ///< time after the end of the freewheel: filters of dividers and converters
   double terminal_bandwidth_Hz = 0.0;  ///< of dividers and bus, first-order lags; 0: no filters
   double speed_window_s =
       0.0;  ///< six crossings make a speed within this time, otherwise one (hall_speed.hpp); 0: always six
@@ -76,8 +76,8 @@ struct SensorlessSpec {
 struct SensorlessStart {
   control::SensorlessConfig<double> rotor;
   double start_output = 0.0;        ///< the ramp's current relative to that of a speed loop's full output
-  double duty_per_period = 0.0;     ///< of the throttle
-  double least_duty = 0.0;          ///< the least that is long enough for a sample
+  double duty_per_period = 0.0;     ///< largest change of the throttle's duty
+  double least_duty = 0.0;          ///< least duty whose pulse is long enough for a sample
   double current_per_period = 0.0;  ///< A
   double start_current_A = 0.0;
   double lowest_rad_s = 0.0, highest_rad_s = 0.0;  ///< range in which crossings can be measured

@@ -27,7 +27,7 @@ struct ShaftSensing {
   ShaftSensorKind kind = ShaftSensorKind::none;
   double gear = 1.0;      ///< n
   bool linear = false;    ///< a linear scale: n is the magnets' period over 2 pi, in m, N the lines in it
-  double period_s = 0.0;  ///< T_s, of the control ticks
+  double period_s = 0.0;  ///< T_s, the control period
   // incremental encoder
   int lines = 0;            ///< N
   double capture_Hz = 0.0;  ///< f
@@ -35,9 +35,9 @@ struct ShaftSensing {
   // absolute encoder
   int bits = 0;            ///< n
   int samples = 1;         ///< k
-  double latency_s = 0.0;  ///< of the code, or of a resolver's angle
+  double latency_s = 0.0;  ///< latency of the code, or of a resolver's angle
   // resolver
-  int pole_pairs = 1;          ///< of the resolver
+  int pole_pairs = 1;          ///< pole pairs of the resolver
   double natural_rad_s = 0.0;  ///< w_n of its tracking loop
   double damping = 1.0;        ///< D
   double step_s = 0.0;         ///< T_l, of that loop

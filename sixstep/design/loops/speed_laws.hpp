@@ -33,7 +33,7 @@ struct SpeedLawSpec {
   double full_rad_s2 = 0.0;  ///< A: acceleration by the full output
   double fades_1_s = 0.0;    ///< B/J: relative loss of speed by friction
   double lag_periods = 0.0;  ///< M: delay of the torque after its command
-  double limit = 1.0;        ///< of the output
+  double limit = 1.0;        ///< limit of the output
   double settle_s = 0.0;
   double ratio = usual_observer_ratio;  ///< k
   double period_s = 0.0;

@@ -41,7 +41,7 @@ constexpr bool tracking_is_stable(double K_p, double K_i) {
 /// The largest stable w_n T of gains copied from continuous time.
 double taken_over_limit(double damping);
 
-/// In the chip's numbers.
+/// The gains in the chip's numbers.
 control::TrackingConfig tracking_config(const TrackingDesign& design);
 
 }  // namespace sixstep::design

@@ -36,7 +36,7 @@ Polynomial sum(const Polynomial& a, const Polynomial& b);
 struct Transfer {
   Polynomial num{1.0}, den{1.0};
 
-  /// At z = exp(j turn), turn = w T_s.
+  /// Value at z = exp(j turn), turn = w T_s.
   Complex at(double turn) const;
 };
 
@@ -55,7 +55,8 @@ bool is_stable(const Polynomial& denominator);
 double slowest_decay(const Polynomial& denominator);
 
 /// x' = A x + B u with at most four states, sampled with zero-order hold: transfer from u to state `output`. With
-/// late_s, a part of a period, an input acts from that time after its sample on, and the one before it until then.
+/// late_s, a part of a period, an input acts from that time after its sample on, and the input before it acts
+/// until then.
 struct Linear {
   int states = 0;
   std::array<std::array<double, 4>, 4> A{};

@@ -25,7 +25,7 @@ base::Result<ScaledProduct<Scalar>> scaled_product(const control::ProtectedConfi
                                                    const OperatingRange& range, const Bases& bases,
                                                    int adc_bits);
 
-/// With the bases of bases_for.
+/// Scales with the bases of bases_for.
 template <class Scalar>
 base::Result<ScaledProduct<Scalar>> scaled_product(const control::ProtectedConfig<double>& product,
                                                    const OperatingRange& range, int adc_bits);

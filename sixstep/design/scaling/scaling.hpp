@@ -14,13 +14,13 @@ namespace sixstep::design {
 /// Range of the inputs: magnitudes that measurements and setpoint do not exceed. Beyond them a sensor or a user is at
 /// fault, and saturation is the right answer.
 struct OperatingRange {
-  double current_A = 0.0;     ///< of each phase, the ADC's range
+  double current_A = 0.0;     ///< current of each phase, the ADC's range
   double speed_rad_s = 0.0;   ///< mechanical
   double position_deg = 0.0;  ///< mechanical; only in position mode
   double bus_V = 0.0;
   double setpoint = 0.0;  ///< in the unit of the mode
   double speed_change_rad_s =
-      0.0;  ///< of the measured speed from one sample to the next; 0: any change within speed_rad_s
+      0.0;  ///< change of the measured speed from one sample to the next; 0: any change within speed_rad_s
 };
 
 /// Values that 1.0 stands for. Duties and fractions of torque have the base 1.
@@ -89,7 +89,7 @@ template <class Scalar>
 base::Result<Scaled<Scalar>> scaled(const control::DriveConfig<double>& drive, const OperatingRange& range,
                                     const Bases& bases);
 
-/// With the bases of bases_for.
+/// Scales with the bases of bases_for.
 template <class Scalar>
 base::Result<Scaled<Scalar>> scaled(const control::DriveConfig<double>& drive, const OperatingRange& range);
 

@@ -45,7 +45,7 @@ struct Sheet {
   WindingConnection connection = WindingConnection::star;
   double mutual_inductance_mH = 0.0;  // delta: between two branches
   std::vector<double> phase_resistance_deviation,
-      phase_back_emf_deviation;                                        // of a, b, c from the mean, as a part
+      phase_back_emf_deviation;                                        // relative deviations of a, b, c
   std::vector<double> cogging_orders, cogging_mNm, cogging_phase_deg;  // periods per turn of the shaft
 
   std::optional<base::Quantity> nominal_voltage_V;
@@ -90,7 +90,7 @@ struct Sheet {
   std::optional<base::Quantity> thermal_resistance_housing_ambient_K_W;
   std::optional<base::Quantity> thermal_time_constant_winding_s, thermal_time_constant_motor_s;
   std::optional<base::Quantity> max_winding_temperature_degC;
-  double magnet_loss_percent_K = 0.12;  // of K_e, above 25 degC: NdFeB
+  double magnet_loss_percent_K = 0.12;  // loss of K_e above 25 degC: NdFeB
 };
 
 }  // namespace sixstep::design

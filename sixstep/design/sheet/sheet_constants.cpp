@@ -95,7 +95,7 @@ void read_inductance(SheetReader& reader) {
   unknown_frame(reader, "inductance_mH", *q, candidates);
 }
 
-/// Not part of the model, but its frame is required for the comparison with the nominal torque.
+/// The nominal current is not part of the model. Its frame is required for the comparison with the nominal torque.
 void read_nominal_current(SheetReader& reader) {
   const std::optional<Quantity>& q = reader.sheet.nominal_current_A;
   const SheetConstants& c = reader.out;

@@ -39,7 +39,7 @@ void read_harmonics(SheetReader& reader) {
     }
 }
 
-/// Lists of a table for a shape that is none.
+/// Reports lists of a table for a shape that is no table.
 void read_table_keys(SheetReader& reader) {
   const Sheet& s = reader.sheet;
   if (s.back_emf == BackEmfShape::table) return;  // read_shape_table() checks them

@@ -14,7 +14,7 @@ struct Point {
   bool printed_speed = true;
 };
 
-/// Speed as printed, otherwise that of the ideal line, w = (U - R_tt I)/K_t.
+/// Point with the printed speed, otherwise with that of the ideal line, w = (U - R_tt I)/K_t.
 std::optional<Point> no_load_point(const SheetConstants& c, const std::optional<Quantity>& voltage,
                                    const std::optional<Quantity>& speed,
                                    const std::optional<Quantity>& current) {
@@ -69,7 +69,7 @@ void add_given(SheetReader& reader) {
   f.coulomb_Nm = take(s.coulomb_friction_mNm, "coulomb_friction_mNm", -3) + f.iron.coulomb_Nm;
 }
 
-/// Nothing is negative: the iron's part of a measured sum is at most the sum.
+/// No part is negative: the iron's part of a measured sum is at most the sum.
 void check_iron(SheetReader& reader) {
   const Friction& f = reader.out.friction;
   const auto beyond = [&](const char* key, double part, double sum, const char* unit) {

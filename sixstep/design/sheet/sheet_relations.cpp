@@ -62,7 +62,7 @@ class Relations {
   }
 
  private:
-  /// In the words and units of a linear motor; the deviation does not change.
+  /// Converts to the words and units of a linear motor; the deviation does not change.
   static void in_metres(Relation& r) {
     const base::LinearUnit unit = base::in_linear(r.unit);
     r.name = base::linear_words(r.name);
@@ -113,7 +113,7 @@ class Relations {
           *K_t_ * *stall_ * 1e3, *torque, "mNm");
   }
 
-  /// Constants that are printed in addition to the one used.
+  /// Compares constants that are printed in addition to the one used.
   void constants() {
     for (const OtherWay& other : c_.other_ways) {
       const std::optional<Quantity>& k_n = s_.speed_constant_rpm_V;
@@ -148,8 +148,8 @@ class Relations {
     return rms ? Term{torque_per_rms_A(c_.K_e_V_s->value, c_.shape), K_t_->doubt} : *K_t_;
   }
 
-  /// The nominal point lies on the no-load speed minus gradient times torque, or below it by what a warm motor loses
-  /// besides.
+  /// The nominal point lies on the no-load speed minus gradient times torque, or below it by the additional
+  /// drop of a warm motor.
   void nominal_speed() {
     const std::optional<Term> printed = term(s_.nominal_speed_rpm), current = term(s_.nominal_current_A);
     if (!printed) return;
@@ -198,7 +198,7 @@ class Relations {
         // I/(I - I_0) - 1 at the ends of both roundings. Without friction the rounding of I is in I K_t already.
         const double idle = idle_->value * (1.0 + idle_->doubt),
                      least = current->value * (1.0 - current->doubt);
-        // It is a factor beside that of the rounding, which add() adds.
+        // This factor is in addition to that of the rounding, which add() adds.
         const double share = (1.0 + computed.doubt + torque->doubt) * idle / (least - idle);
         friction = idle < least ? std::fmin(share, most_above) : most_above;
       }
@@ -242,7 +242,7 @@ class Relations {
     return radii + doubt(s_.rotor_length_mm) + doubt(s_.rotor_density_kg_m3);
   }
 
-  /// The printed inertia against that of the dimensions.
+  /// Compares the printed inertia with that of the dimensions.
   void body() {
     if (!c_.J_of_body_kg_m2 || !s_.inertia_gcm2 || !J_) return;
     const Term printed{s_.inertia_gcm2->value, relative_doubt(*s_.inertia_gcm2)};

@@ -29,7 +29,7 @@ struct ThermalModel {
   double max_winding_degC = 0.0;
 };
 
-/// Needs all five lines of the sheet; one Problem names the missing ones.
+/// It needs all five lines of the sheet; one Problem names the missing ones.
 base::Result<ThermalModel> thermal_model(const Sheet& sheet);
 
 struct Temperatures {

@@ -14,8 +14,8 @@ struct WorseEnds {
   std::string values;  ///< the differing ones, as the motor file writes them: "key = 11.7, key = 5.3"
 };
 
-/// Worse are higher resistances, shorter time constants (at a given resistance less copper and iron to warm) and a
-/// lower limit. Empty if the sheet's thermal lines are incomplete or no range has an end worse than its value.
+/// Higher resistances, shorter time constants (at a given resistance less copper and iron to warm) and a lower limit
+/// are worse. Empty if the sheet's thermal lines are incomplete or no range has an end worse than its value.
 std::optional<WorseEnds> at_worse_ends(const Sheet& sheet);
 
 /// Largest factor on the temperature rise above ambient by `model`, at a constant loss: both resistances and both

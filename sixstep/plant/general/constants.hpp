@@ -82,14 +82,14 @@ template <class Real>
 struct More {
   using Kept = series::CompensatedSum<Real>;
   Kept loop;       ///< j_ab + j_bc + j_ca, A
-  Kept source;     ///< through L_b, A
+  Kept source;     ///< current through L_b, A
   Kept load_w;     ///< elastic: rad/s
   Kept twist;      ///< elastic: theta_m/n - theta_load, rad
   Kept load;       ///< present load torque from the constant, steps and ramps, N m
   Kept capacitor;  ///< v_C where the capacitor has a resistance, V
-  Kept charge;     ///< of a battery, relative to the whole charge
+  Kept charge;     ///< charge of a battery, relative to the whole charge
   Kept slow;       ///< v_1 of a battery, V
-  Kept phase;      ///< of the mains, from the top of the present pulse, rad
+  Kept phase;      ///< phase of the mains, from the top of the present pulse, rad
 };
 
 template <class Real, class Visit>

@@ -13,7 +13,6 @@ struct StarEnds {
 
 /// The highest and the lowest terminal; u_n = (U_s - e_high - e_low)/2 centres them. A terminal behind a broken wire
 /// (`dead`, a mask of legs) is not near any rail and does not count; if all wires are broken, all three count.
-/// legs) has no rails to keep a distance from; with no wire whole all three count.
 template <class Real>
 constexpr StarEnds star_ends(const PerLeg<Real>& e, unsigned dead) {
   if (dead == 0b111) dead = 0;

@@ -23,7 +23,7 @@ struct ShapePoint {
 
 /// Shape f of the back-EMF over the electrical angle (model.md 7): a trapezoid, harmonics or a table.
 struct Shape {
-  double flat_deg = 120.0;            ///< of the trapezoid, used if the two lists below are empty
+  double flat_deg = 120.0;            ///< flat width of the trapezoid, used if both lists below are empty
   std::vector<Harmonic> harmonics{};  ///< a sine is {1, 1.0}
   std::vector<ShapePoint> table{};
 };

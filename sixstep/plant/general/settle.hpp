@@ -106,7 +106,7 @@ Judgement judge_rest(const Question<Real>& q, const Mode& mode, const Expansion<
 /// False for the parts of the mode that settle() does not determine: only events change those.
 constexpr bool is_sought(int id) { return id < guard::brake; }
 
-/// Lexicographic (plant/settle.hpp).
+/// Lexicographic check of the series (plant/settle.hpp).
 template <class Real>
 bool holds_in_series(const Question<Real>& q, const Mode& mode, const Expansion<Real>& y,
                      const Series<Real>& z) {
