@@ -37,7 +37,7 @@ struct FluxLinkageConfig {
 /// Signs are such that g falls through zero.
 template <class Scalar>
 struct FluxLinkageState {
-  Scalar i_A{};                      ///< at the last sample
+  Scalar i_A{};                      ///< current at the last sample
   Scalar g_V{};                      ///< mean back-EMF of the last period
   Accumulator<Scalar> psi{}, top{};  ///< psi and its maximum since the sector began
   Scalar per_tick{};                 ///< fall of psi in the last period
