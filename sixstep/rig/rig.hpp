@@ -93,9 +93,9 @@ class Rig {
   const Firmware& firmware() const { return firmware_; }
   /// Motion of the sensor's shaft over the present segment, up to its part s.
   ShaftMotion<Real> shaft_motion(Real s, const sim::Instant& to) const;
-  /// Only for a firmware that has converters.
+  /// Requires a firmware that has converters.
   const auto& front_end() const { return front_end_; }
-  /// Only for a firmware that captures the edges of comparators at the terminals.
+  /// Requires a firmware that captures the edges of comparators at the terminals.
   const auto& crossings() const { return crossings_; }
   const auto& telemetry() const { return firmware_.telemetry(); }
   double current_reference_A() const {
