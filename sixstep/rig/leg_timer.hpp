@@ -31,7 +31,7 @@ class LegTimer {
   /// Applies to changes from now on. A running wait keeps its end.
   void set_dead_time(double ticks);
 
-  /// All legs off; the pulses continue.
+  /// Turns all legs off; the pulses continue.
   void disconnect() { outputs_ = {}; }
   /// Connects a leg that is not connected yet.
   void connect(unsigned leg, control::LegSides sides, unsigned pulse) {

@@ -191,7 +191,7 @@ class Rig {
     return {plant_.state().sector, static_cast<double>(plant_.state().x), sensor_pole_pairs()};
   }
   bool listens() const;
-  /// Not inlined, because few boards have a part that follows the plant between two samples.
+  /// It is not inlined, because few boards have a part that follows the plant between two samples.
   [[gnu::noinline]] void show_segment(Real s, const sim::Instant& to);
   void show_terminals();
   void show_signals(Real s, const sim::Instant& to);
@@ -221,7 +221,7 @@ class Rig {
     if constexpr (six_step) return watching() && compare();
     return false;
   }
-  /// Not inlined, so that the run loop around act() keeps its registers.
+  /// It is not inlined, so that the run loop around act() keeps its registers.
   [[gnu::noinline]] bool act_on_due();
   bool compare();
   bool do_timeline();

@@ -45,7 +45,7 @@ struct FluxLinkageState {
   std::uint16_t falling = 0;         ///< periods since psi was greatest
 };
 
-/// One period with its mean voltage, and the current at its end. Returns the mean of g, V.
+/// Advances by a period with its mean voltage, and the current at its end. Returns the mean of g, V.
 template <class Scalar>
 constexpr Scalar flux_linkage_step(const FluxLinkageConfig<Scalar>& config, FluxLinkageState<Scalar>& state,
                                    Scalar w_V, Scalar i_A) {

@@ -71,8 +71,8 @@ struct SheetConstants {
   base::Problems missing;              ///< values that a model also needs
 };
 
-/// Without side effects. Two forms of one printed value are a Problem; two printed values of one constant are kept as
-/// other_ways. A missing frame is a Problem that gives the meaning of each candidate.
+/// It has no side effects. Two forms of one printed value are a Problem; two printed values of one constant are
+/// kept as other_ways. A missing frame is a Problem that gives the meaning of each candidate.
 SheetConstants sheet_constants(const Sheet& sheet);
 
 /// Relative rounding error: half of the last printed digit over the value. The digit is the file's if the text is
