@@ -77,8 +77,8 @@ struct StayingPhase {
   Leg leg = Leg::a;
 };
 
-/// The staying phase's leg. If the pairs have no leg in common, or there was no pair before: the source of the
-/// positive pair.
+/// The staying phase's leg. It is the source of the positive pair if the pairs have no leg in common, or if there
+/// was no pair before.
 constexpr Leg staying_leg(StayingPhase& state, std::uint8_t sector) {
   if (sector == state.sector) return state.leg;
   const Pair now = positive_pair(sector),

@@ -86,8 +86,8 @@ constexpr void enter_sector(const CommutationStepConfig<Scalar>& config, Commuta
   state.flank = -config.flat_flanks;
 }
 
-/// Once per tick: measures the rest of the leaving current, and computes the voltage that holds the staying
-/// one. `reversed`: the sign of the last command.
+/// Call it once per tick: it measures the rest of the leaving current, and computes the voltage that holds the
+/// staying one. `reversed`: the sign of the last command.
 template <class Scalar>
 constexpr void watch_leaving(const CommutationStepConfig<Scalar>& config, CommutationStepState<Scalar>& state,
                              const Measurement<Scalar>& measured, std::uint8_t sector, bool reversed) {

@@ -192,7 +192,7 @@ constexpr Scalar measured_value(Mode mode, const Measurement<Scalar>& measured, 
                                   : Scalar{};
 }
 
-/// All gates off until the next tick; the loops keep their state.
+/// Turns all gates off until the next tick; the loops keep their state.
 template <class Scalar>
 constexpr void coast(DriveState<Scalar>& state) {
   state.command.enabled = false;

@@ -73,7 +73,7 @@ constexpr std::uint16_t fault_step(const FaultConfig<Scalar>& config, FaultState
   if (lasting(!(m.bus_V <= config.over_voltage_V), state.over)) now |= fault_over_voltage;
   if (lasting(!(m.bus_V >= config.under_voltage_V), state.under)) now |= fault_under_voltage;
   const bool too_fast = !within(m.speed_rad_s, config.over_speed_rad_s);
-  // A false edge and a real overspeed look the same here, so both faults are reported; the line is reported
+  // A false edge and a real overspeed give the same measurement, so both faults are reported; the line is reported
   // only if a code proves it.
   if (too_fast) now |= fault_over_speed;
   if (too_fast && events.false_edge != 0) now |= fault_hall;

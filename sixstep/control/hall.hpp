@@ -42,7 +42,7 @@ struct HallState {
   std::uint8_t candidate = 0xff;      ///< the code under test
   std::uint8_t seen = 0;              ///< samples since it appeared
   std::uint8_t sector = no_sector;    ///< the last valid sector
-  std::int8_t direction = 0;          ///< of the last edge: +1 forward, -1 backward, 0 before the first
+  std::int8_t direction = 0;          ///< direction of the last edge: +1 forward, -1 backward, 0 none yet
   std::uint8_t suspect = 0;           ///< 1..3: line with an edge that a steady rotor cannot make; 0: none
   std::uint8_t edges_since = 0;       ///< edges since the suspect's edge; after 6 `suspect` is cleared
   HallFault fault = HallFault::none;  ///< impossible_code while such a code is present

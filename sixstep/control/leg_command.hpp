@@ -33,7 +33,7 @@ template <class Scalar>
 struct LegCommands {
   bool enabled = false;         ///< false: all six gates off
   bool fault = false;           ///< the controller has stopped the drive; the bridge is off
-  LegCommand<Scalar> leg[3]{};  ///< of a, b, c
+  LegCommand<Scalar> leg[3]{};  ///< commands of legs a, b, c
   bool operator==(const LegCommands&) const = default;
 };
 

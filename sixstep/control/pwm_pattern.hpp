@@ -57,7 +57,7 @@ constexpr ChoppedSwitch chopped_switch(const PwmPatternConfig<Scalar>& config, P
   return lower ? ChoppedSwitch::lower : ChoppedSwitch::upper;
 }
 
-/// Once per tick, before chopped_switch(): adds the rotor's motion in its sector, up to the middle.
+/// Call it once per tick, before chopped_switch(): it adds the rotor's motion in its sector, up to the middle.
 template <class Scalar>
 constexpr void move_in_sector(const PwmPatternConfig<Scalar>& config, PwmPatternState<Scalar>& state,
                               std::uint8_t sector, Scalar speed_rad_s) {

@@ -15,7 +15,7 @@ struct LegsLaw {
   std::array<std::uint8_t, 3> leg{0, 1, 2};  ///< the connected legs in order, then the floating ones
   std::uint8_t connected = 0;
   std::uint8_t floating = 0, diodes = 0;  ///< as masks: bit k is leg k
-  PerLeg<PoleTerms<Real>> pole{};         ///< in the order of `leg`; zero for a floating leg
+  PerLeg<PoleTerms<Real>> pole{};         ///< terms in the order of `leg`; zero for a floating leg
   PerLeg<Real> along{};  ///< in the order of `leg`: sign that makes a diode's current positive; 0: no diode
   Terms slope, slope_2;  ///< di/dt of the first current and, where three legs are connected, of the second
   Terms star;            ///< u_n + mean of e over the connected legs, for one or two connected legs

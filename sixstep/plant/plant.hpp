@@ -55,7 +55,8 @@ class Plant {
     mode_guards(constants_, mode_, y_, slack_, visit);
     edge_guards(constants_.emf[mode_.sector].piece[mode_.piece], y_, visit);
   }
-  /// Once per expansion: the segment ends at the fraction s of its length; `end` gets the increments until there.
+  /// Call it once per expansion: the segment ends at the fraction s of its length; `end` gets the increments
+  /// until there.
   void end_at(Real s) {
     if (s != 1) y_.end = detail::increments(y_, constants_.legs[legs_index(mode_.legs)], s);
   }

@@ -30,7 +30,7 @@ unsigned named_legs(const State<Real>& s, const Gates& gates, Real noise, Legs& 
   return open;
 }
 
-/// One open leg k beside two that conduct: it floats if u_n + e_k is within the rails. Beyond a rail it conducts by
+/// One open leg k while two others conduct: it floats if u_n + e_k is within the rails. Beyond a rail it conducts by
 /// that rail's diode: with the third leg on, L di_k/dt is two thirds of the excess voltage. False: too close to a
 /// rail to decide.
 template <class Real>
@@ -52,7 +52,7 @@ bool settle_third_leg(const Constants<Real>& c, const State<Real>& s, const EmfP
   return true;
 }
 
-/// Two open legs beside one switch: both float if both are clearly within the rails. Otherwise it returns
+/// Two open legs while one switch is on: both float if both are clearly within the rails. Otherwise it returns
 /// false, because a leg beyond a rail may make the other conduct too.
 template <class Real>
 [[gnu::noinline]] bool two_legs_float(const Constants<Real>& c, const State<Real>& s, const Mode& m,
@@ -74,7 +74,7 @@ template <class Real>
 }  // namespace detail
 
 /// The most frequent cases, without enumeration: gates and currents determine all connections except at most that of
-/// one leg beside two that conduct. False, with nothing written: a value is too close to zero or to a rail, or more
+/// one leg while two others conduct. False, with nothing written: a value is too close to zero or to a rail, or more
 /// legs are open.
 template <class Real>
 bool settle_fast(const Constants<Real>& c, const State<Real>& s, const Gates& gates, Mode& mode) {

@@ -50,8 +50,8 @@ bool pass_edge(State<Real>& state, Mode& mode, bool ahead, Pieces&& pieces, Coun
   return leaves;
 }
 
-/// A rotor at rest on an edge that the bridge drives back from either side would pass the edge for ever at one instant.
-/// It is moved inside the piece by the possible rounding error, so that time proceeds.
+/// A rotor at rest on an edge that the bridge drives back from either side would pass the edge endlessly at one
+/// instant. It is moved inside the piece by the possible rounding error, so that time proceeds.
 template <class Real>
 void clear_edge(State<Real>& state, bool ahead) {
   const Real inside = 4 * noise_of(Real(base::sector_rad), Real(1));  // more than the noise of edge_guards()

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Solves two bodies that exchange heat, winding and housing (model.md 8, (11)), as a linear system: exactly by its
-// two eigenvalues, whatever their signs.
+// two eigenvalues of any sign.
 #pragma once
 #include <cmath>
 

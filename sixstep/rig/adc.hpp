@@ -16,7 +16,7 @@ struct AdcPath {
   int bits = 12;           ///< at most 16
   double range = 0.0;      ///< full scale, in the unit of the measured quantity
   bool both_signs = true;  ///< true: from -range; false: from 0
-  double offset = 0.0;     ///< in the same unit
+  double offset = 0.0;     ///< offset in the same unit
   double gain_error = 0.0;
   double noise = 0.0;  ///< root mean square, in the same unit, white and normal
 

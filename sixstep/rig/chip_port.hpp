@@ -15,7 +15,7 @@ constexpr int chip_inputs = 8;  ///< channels of the converter
 /// Command to run on. Pins change at the cycle reached last; counts are read if the last answer was a sample.
 struct ChipRun {
   std::uint64_t until = 0;              ///< last cycle, counted since the reset
-  std::uint16_t counts[chip_inputs]{};  ///< at the converter's inputs, by channel
+  std::uint16_t counts[chip_inputs]{};  ///< values at the converter's inputs, by channel
   std::uint32_t hall_pins = 0;          ///< H1 H2 H3 as bits 2, 1, 0
   std::uint32_t asks_for_times = 0;     ///< nonzero: nothing runs, and the answer is a ChipTimes
 };
@@ -48,7 +48,7 @@ struct InterruptTimes {
 
 struct ChipTimes {
   InterruptTimes control, hall;
-  std::uint64_t periods = 0;  ///< of the PWM timer since its start
+  std::uint64_t periods = 0;  ///< periods of the PWM timer since its start
   std::uint64_t conversions =
       0;  ///< started by the timer; fewer than periods if the control interrupt overran
 };

@@ -46,7 +46,7 @@ template <class Scalar>
 struct FieldCall {
   CoreEntry entry = CoreEntry::tick;
   std::uint32_t decoded = 0;            ///< 0: `magnet` is the output of an ideal sensor
-  control::BinaryAngle electrical = 0;  ///< of the rotor, if decoded
+  control::BinaryAngle electrical = 0;  ///< angle of the rotor, if decoded
   std::uint32_t unused = 0;
   control::Measurement<Scalar> measured{};
   control::Setpoint<Scalar> setpoint{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values that a field-oriented drive holds from one sample to the next, in SI whatever its arithmetic; for figures
+// Values that a field-oriented drive holds from one sample to the next, in SI for any arithmetic; for figures
 // and recorders.
 #pragma once
 #include "sixstep/control/frames.hpp"

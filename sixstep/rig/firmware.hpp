@@ -6,7 +6,7 @@
 //   LeanDrive     ideal values in controller units   on_hall               ends the run         -
 //   SensedDrive   the same through [sensors]         captured, on_hall     ends the run         broken line,
 //                                                                                               lost sensor
-//   ProductDrive  registers: counts, pins, counter   protected_on_hall     bridge off, goes on  reason, line,
+//   ProductDrive  registers: counts, pins, counter   protected_on_hall     off, run continues   reason, line,
 //                                                                                               when
 //
 // LeanDrive and SensedDrive (lean_drive.hpp) run control/drive.hpp; ProductDrive (product_drive.hpp) runs
@@ -52,7 +52,7 @@ struct Diagnosis {
   double certain = 0.0;                              ///< result that would have been enough
   ShaftFinding shaft{};                              ///< finding of a lost encoder or resolver
   OwnFinding own{};                                  ///< error in the answer of a user's controller
-  CoreTrouble core = CoreTrouble::none;              ///< trouble of a core beside the host
+  CoreTrouble core = CoreTrouble::none;              ///< trouble of a core in parallel to the host
 };
 
 /// New configuration of a running chip (control/retune.hpp).

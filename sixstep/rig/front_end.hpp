@@ -98,7 +98,7 @@ class FrontEnd {
   FrontEndReading reading_{};
 };
 
-/// With a delay, the converters get the amplifiers' value that much earlier than the sample; at a jump, the value
+/// With a delay, the converters get the amplifiers' value from one delay before the sample; at a jump, the value
 /// before it.
 template <class Real>
 void FrontEnd::follow_currents(const FrontEndSegment<Real>& of) {

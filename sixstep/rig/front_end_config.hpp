@@ -36,7 +36,7 @@ struct FrontEndConfig {
 struct FrontEndReading {
   plant::PerLeg<double> i_A{}, terminal_V{};
   double dc_link_A = 0.0, bus_V = 0.0;
-  plant::PerLeg<double> comparator_V{};  ///< at the comparators, if there are any
+  plant::PerLeg<double> comparator_V{};  ///< voltages at the comparators, if there are any
   double comparator_bus_V = 0.0;
   bool currents = false, voltages = false;  ///< true: with a lag; false: the plant's own values apply
 };

@@ -96,7 +96,7 @@ void LegTimer::look_at_legs() {
   wait_end_ = *end;
 }
 
-/// By reference, because a copy of a value just written would wait until both halves are in memory.
+/// It returns a reference, because a copy of a value just written would wait until both halves are in memory.
 const Instant& LegTimer::first_edge() const {
   const Instant* first = &wait_end_;
   for (unsigned left = chopping_; left != 0; left &= left - 1) {

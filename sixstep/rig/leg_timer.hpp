@@ -31,7 +31,7 @@ class LegTimer {
   /// Applies to changes from now on. A running wait keeps its end.
   void set_dead_time(double ticks);
 
-  /// All legs off; the pulses continue.
+  /// Turns all legs off; the pulses continue.
   void disconnect() { outputs_ = {}; }
   /// Connects a leg that is not connected yet.
   void connect(unsigned leg, control::LegSides sides, unsigned pulse) {
@@ -88,7 +88,7 @@ class LegTimer {
   bool waits_ = false;       ///< there is or was a dead time; otherwise the legs' waits are not checked
   std::array<Pulse, 3> pulses_{};
   std::array<LegChannel, 3> legs_{};
-  std::array<Output, 3> outputs_{};                 ///< by pulse
+  std::array<Output, 3> outputs_{};                 ///< outputs by pulse
   Switches told_{};                                 ///< last commands to the legs
   std::uint8_t waiting_ = 0;                        ///< mask of the legs that wait
   unsigned chopping_ = 0;                           ///< mask of the pulses with edges to come

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A core beside the board's own drive: each call of an entry also goes to the core. The plant stands still until the
-// core has answered, and its answer must equal the host's to the bit. The transport of calls and answers is outside
-// the library (faces/loop/).
+// A core in parallel to the board's own drive: each call of an entry also goes to the core. The plant stands
+// still until the core has answered, and its answer must equal the host's to the bit. The transport of calls
+// and answers is outside the library (faces/loop/).
 #pragma once
 #include <cstddef>
 #include <cstdint>

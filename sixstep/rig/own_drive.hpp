@@ -154,7 +154,7 @@ class OwnDrive {
   Sensors<double> sensors_;
   bool ideal_, by_hall_;
   bool reversed_ = false;
-  std::uint8_t sector_ = 0;  ///< from the last possible code
+  std::uint8_t sector_ = 0;  ///< sector of the last possible code
   sixstep_answer answer_{};
   Command command_{};
   control::Telemetry<double> telemetry_{};

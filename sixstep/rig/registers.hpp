@@ -33,7 +33,7 @@ struct SensorsConfig {
   std::uint8_t commutation_samples = 0;
   std::uint8_t edges = 6;  ///< edges over which a speed is taken
   HallAngleFrom hall_angle = HallAngleFrom::sectors;
-  bool commutates_by_angle = false;     ///< at a sample, by the measured angle
+  bool commutates_by_angle = false;     ///< commutates at a sample, by the measured angle
   std::uint8_t learned_edges = 1;       ///< edges of a speed after their positions are learned
   std::uint16_t calibration_turns = 8;  ///< electrical turns over which edges are learned
   double hall_delay_s = 0.0;            ///< delay of the edges by the data sheet

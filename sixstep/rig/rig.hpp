@@ -93,9 +93,9 @@ class Rig {
   const Firmware& firmware() const { return firmware_; }
   /// Motion of the sensor's shaft over the present segment, up to its part s.
   ShaftMotion<Real> shaft_motion(Real s, const sim::Instant& to) const;
-  /// Only for a firmware that has converters.
+  /// Requires a firmware that has converters.
   const auto& front_end() const { return front_end_; }
-  /// Only for a firmware that captures the edges of comparators at the terminals.
+  /// Requires a firmware that captures the edges of comparators at the terminals.
   const auto& crossings() const { return crossings_; }
   const auto& telemetry() const { return firmware_.telemetry(); }
   double current_reference_A() const {
@@ -191,7 +191,7 @@ class Rig {
     return {plant_.state().sector, static_cast<double>(plant_.state().x), sensor_pole_pairs()};
   }
   bool listens() const;
-  /// Not inlined, because few boards have a part that follows the plant between two samples.
+  /// It is not inlined, because few boards have a part that follows the plant between two samples.
   [[gnu::noinline]] void show_segment(Real s, const sim::Instant& to);
   void show_terminals();
   void show_signals(Real s, const sim::Instant& to);
@@ -221,7 +221,7 @@ class Rig {
     if constexpr (six_step) return watching() && compare();
     return false;
   }
-  /// Not inlined, so that the run loop around act() keeps its registers.
+  /// It is not inlined, so that the run loop around act() keeps its registers.
   [[gnu::noinline]] bool act_on_due();
   bool compare();
   bool do_timeline();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a chip with its own clock (chip_drive.hpp) beside the rig: when the plant reaches the chip's stop, its actions
-// are applied and it runs on. Part of rig.hpp.
+// Runs a chip with its own clock (chip_drive.hpp) along with the rig: when the plant reaches the chip's stop,
+// its actions are applied and it runs on. Part of rig.hpp.
 #pragma once
 #include "sixstep/rig/rig.hpp"
 

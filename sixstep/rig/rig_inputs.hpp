@@ -227,7 +227,7 @@ void Rig<Real, Firmware, Plant>::drift(const Action& action) {
   if (action.kind == ActionKind::current_gain) registers->set_current_gain_error(action.value);
 }
 
-/// Only for a firmware with a shaft sensor.
+/// Requires a firmware with a shaft sensor.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::fail_shaft_sensor(const Action& action) {
   ShaftPorts* const ports = shaft_ports_of(firmware_);
@@ -243,7 +243,7 @@ void Rig<Real, Firmware, Plant>::fail_shaft_sensor(const Action& action) {
   if (action.kind == ActionKind::excitation) ports->excite(action.value);
 }
 
-/// Only for a firmware that samples the terminals.
+/// Requires a firmware that samples the terminals.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::break_divider(std::size_t leg) {
   if constexpr (requires { firmware_.break_divider(leg); }) {

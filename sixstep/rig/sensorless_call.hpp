@@ -12,7 +12,7 @@ template <class Scalar>
 struct SensorlessCall {
   CoreEntry entry = CoreEntry::tick;
   std::uint32_t now = 0;   ///< count of the timer
-  std::uint32_t pins = 0;  ///< of Hall probes; in `capture` the comparators' lines
+  std::uint32_t pins = 0;  ///< pins of Hall probes; in `capture` the comparators' lines
   std::uint32_t on = 0, on_ticks = 0;
   std::uint32_t terminal_counts[3]{}, bus_counts = 0, current_counts[3]{};
   control::Measurement<Scalar> measured{};

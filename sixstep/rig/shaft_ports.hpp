@@ -3,7 +3,7 @@
 //
 //   incremental   the timer counts the quarters of lines by itself, captures the time of the last one, and latches its
 //                 count where the index passes; edges that it misses are not counted. It evaluates the pins alone:
-//                 with A or B stuck, each edge of the other line looks like a step back after the one before
+//                 with A or B stuck, each edge of the other line reverses the step of the edge before it
 //   absolute      the code is latched some time before it is read; a track may stick
 //   resolver      both windings through converters, at the peaks of the excitation; or a chip that follows them
 #pragma once

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Configuration of a sensor on the shaft, instead of Hall probes or beside them on the load's side (model.md 10): the
-// engineer's description, the board's data, and the sensor's output at an angle. Drive peripherals and traces use the
-// same functions.
+// Configuration of a sensor on the shaft, instead of Hall probes, or in addition to them on the load's side
+// (model.md 10): the engineer's description, the board's data, and the sensor's output at an angle. Drive
+// peripherals and traces use the same functions.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -14,19 +14,19 @@ namespace sixstep::rig {
 
 enum class ShaftSensor : std::uint8_t { none, encoder, absolute, resolver };
 
-/// Source of the angle of a resolver: the drive's own converter and loop, or a chip beside it.
+/// Source of the angle of a resolver: the drive's own converter and loop, or a separate chip.
 enum class ResolverReading : std::uint8_t { sampled, tracking };
 
 struct Encoder {
   static constexpr int usual_lines = 1024;
   int lines = usual_lines;         ///< lines per turn
-  std::optional<double> pitch_mm;  ///< of a linear motor's scale, instead of lines
+  std::optional<double> pitch_mm;  ///< pitch of a linear motor's scale, instead of lines
   bool referenced = true;          ///< its index was passed before the run
   double missed_Hz = 0.0;
 };
 struct AbsoluteEncoder {
   int bits = 14;
-  double latency_s = 0.0;  ///< from the latching of the code to its reading
+  double latency_s = 0.0;  ///< time from the latching of the code to its reading
   int speed_samples = 8;   ///< samples over which its speed is taken
 };
 struct Resolver {

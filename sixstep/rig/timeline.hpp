@@ -77,7 +77,7 @@ struct Action {
                        ///< 1 + the bit of a Gray code, stuck low where negative; a resolver's winding 1 or 2,
   ///< 0 both whole; A, B, Z as 1 to 3, stuck low where negative; a part of the excitation;
   ///< the leg, 0 to 2, whose divider breaks
-  Waveform waveform{};  ///< of a setpoint; for a load torque and a shaft's speed only the rate
+  Waveform waveform{};  ///< motion of a setpoint; for a load torque and a shaft's speed only the rate
 };
 
 /// Sorted by time, stable where times are equal.

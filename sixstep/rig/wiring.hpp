@@ -28,8 +28,8 @@ constexpr std::array<std::uint8_t, 3> ends_of(WireOrder order) {
 
 /// Converts between phases and legs, and between probes and pins.
 struct Wiring {
-  WireOrder phases = WireOrder::abc;  ///< at legs a, b, c
-  WireOrder probes = WireOrder::abc;  ///< at pins H1, H2, H3
+  WireOrder phases = WireOrder::abc;  ///< phases at legs a, b, c
+  WireOrder probes = WireOrder::abc;  ///< probes at pins H1, H2, H3
   std::uint8_t inverted = 0;  ///< mask of the pins, as bits of a Hall code, that read their probe inverted
 
   bool operator==(const Wiring&) const = default;

@@ -9,7 +9,7 @@
 //   aligning   pulls it to 0, where it rests until the end of the steps
 //   stepping   level_steps.hpp
 //   turning    hall_survey.hpp, forward and backward
-//   spinning   turns it ever faster until the back-EMF is half of the vector
+//   spinning   accelerates it until the back-EMF is half of the vector
 //   measuring  flux_turn.hpp; then spinning and measuring again at three quarters of the speed: if the two differ the
 //              rotor was lost, and is aligned and spun again, with a quarter of the acceleration
 //   done, failed

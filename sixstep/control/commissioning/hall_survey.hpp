@@ -56,7 +56,7 @@ enum class HallSurvey : std::uint8_t {
 /// Signal of each pin, expressed by probes 120 degrees apart.
 struct HallLines {
   std::uint8_t sector[8] = {no_sector, no_sector, no_sector, no_sector,
-                            no_sector, no_sector, no_sector, no_sector};  ///< of each code of the pins
+                            no_sector, no_sector, no_sector, no_sector};  ///< sector of each code of the pins
   std::uint8_t probe[3]{};    ///< 1..3: the probe at pin H1, H2, H3
   std::uint8_t inverted = 0;  ///< pins that read their probe inverted, as bits of a code
   bool operator==(const HallLines&) const = default;

@@ -25,7 +25,7 @@ struct LevelStepsConfig {
   /// Ticks of a level, a multiple of 4: ten time constants, so that its last quarter is steady.
   std::uint16_t ticks = 1024;
   std::uint16_t pairs = 4;           ///< pairs of steps, up and down
-  std::uint8_t late_half_ticks = 1;  ///< from a sample until its output is at the legs: 0, 1, 2
+  std::uint8_t late_half_ticks = 1;  ///< delay from a sample until its output is at the legs: 0, 1, 2
   bool operator==(const LevelStepsConfig&) const = default;
 };
 

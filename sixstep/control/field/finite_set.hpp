@@ -65,7 +65,7 @@ struct FiniteSetState {
 template <class Scalar>
 struct FiniteSetInput {
   Dq<Scalar> reference{}, measured{};
-  Direction<Scalar> magnet{};  ///< at the sample
+  Direction<Scalar> magnet{};  ///< direction at the sample
   Scalar speed_rad_s{}, bus_V{};
   Dq<Scalar> e{}, e_next{};
 };

@@ -16,7 +16,7 @@
 //
 // Requirement: each turn takes as long as the first to 1/steady of it, or the run is rejected. A drift d of the
 // turn's time over the run changes the angles by at most d/(8 n) turns (steady 64, n 32: 0.022 degrees). Ripple
-// in step with the edges looks like misplacement: let the rotor coast, or run it fast enough. If the magnets
+// in step with the edges is measured as misplacement: let the rotor coast, or run it fast enough. If the magnets
 // differ from pole to pole, choose n as a multiple of the pole pairs.
 #pragma once
 #include <cstdint>

@@ -8,7 +8,7 @@
 //   corrected     c = g_c x_c - o_c,   s = g_s x_s - o_s - tan q c,   g_s = g_c/((1 + a) cos q)
 //   detected      with an estimate theta:  along = c cos theta + s sin theta = A cos(phi - theta)
 //                                         across = s cos theta - c sin theta = A sin(phi - theta)
-//                 error = across/along = tan(phi - theta), whatever the amplitude; or across, with A taken as 1
+//                 error = across/along = tan(phi - theta), for any amplitude; or across, with A taken as 1
 //   tracked       tracking.hpp
 //
 // Beyond 45 degrees (90 without normalising) the error is 1 in the direction of the shorter way, so that the

@@ -49,7 +49,7 @@ struct CapturedCrossingConfig {
 };
 
 struct CapturedLines {
-  std::uint8_t lines = 0;   ///< of a, b, c as bits 2, 1, 0: 1 above the reference
+  std::uint8_t lines = 0;   ///< lines of a, b, c as bits 2, 1, 0: 1 above the reference
   std::uint32_t at[3]{};    ///< time of the last edge of each line
   std::uint32_t began = 0;  ///< begin of the sector
   bool came_back = false;   ///< in this sector the floating leg's line was on its side before the crossing

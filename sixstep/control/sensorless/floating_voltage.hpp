@@ -40,7 +40,7 @@ struct FloatingVoltageConfig {
 template <class Scalar>
 struct FloatingVoltage {
   Scalar w_V{};
-  bool held = false;   ///< at a rail, by the old current
+  bool held = false;   ///< the old current holds the terminal at a rail
   bool known = false;  ///< w is the phase's voltage
 };
 

@@ -37,7 +37,7 @@ struct FluxLinkageConfig {
 /// Signs are such that g falls through zero.
 template <class Scalar>
 struct FluxLinkageState {
-  Scalar i_A{};                      ///< at the last sample
+  Scalar i_A{};                      ///< current at the last sample
   Scalar g_V{};                      ///< mean back-EMF of the last period
   Accumulator<Scalar> psi{}, top{};  ///< psi and its maximum since the sector began
   Scalar per_tick{};                 ///< fall of psi in the last period
@@ -45,7 +45,7 @@ struct FluxLinkageState {
   std::uint16_t falling = 0;         ///< periods since psi was greatest
 };
 
-/// One period with its mean voltage, and the current at its end. Returns the mean of g, V.
+/// Advances by a period with its mean voltage, and the current at its end. Returns the mean of g, V.
 template <class Scalar>
 constexpr Scalar flux_linkage_step(const FluxLinkageConfig<Scalar>& config, FluxLinkageState<Scalar>& state,
                                    Scalar w_V, Scalar i_A) {

@@ -64,8 +64,8 @@ constexpr bool follows_on(std::uint32_t interval, std::uint32_t T) {
   return interval / 5 >= T / 8 && interval / 8 <= T / 5;
 }
 
-/// A sector's crossing was found, or had passed. `interval`: ticks since the one before; T: ticks of a sector,
-/// 0 if the one before was not found. `hidden`: the old current decayed meanwhile.
+/// Checks a sector's crossing that was found, or had passed. `interval`: ticks since the one before; T: ticks
+/// of a sector, 0 if the one before was not found. `hidden`: the old current decayed meanwhile.
 constexpr LockLoss lock_crossing(const LockConfig& config, LockState& state, Crossing crossing,
                                  std::uint32_t interval, std::uint32_t T, bool hidden) {
   if (crossing == Crossing::seen && interval >= config.shortest_ticks) {
@@ -85,7 +85,7 @@ constexpr LockLoss lock_crossing(const LockConfig& config, LockState& state, Cro
   return ++state.early < config.tolerated ? LockLoss::none : LockLoss::wrong_sector;
 }
 
-/// A sample y of the back-EMF. `crossed`: the crossing of this sector is past, else still ahead.
+/// Checks a sample y of the back-EMF. `crossed`: the crossing of this sector is past, else still ahead.
 constexpr LockLoss lock_sample(const LockConfig& config, LockState& state, std::int32_t y, bool crossed,
                                std::uint32_t T) {
   const std::uint32_t size = static_cast<std::uint32_t>(y < 0 ? -y : y);
@@ -99,7 +99,8 @@ constexpr LockLoss lock_sample(const LockConfig& config, LockState& state, std::
   return ++state.odd < config.unlike_samples ? LockLoss::none : LockLoss::wrong_sector;
 }
 
-/// No crossing yet, `since` ticks after the last one, in sectors of T ticks. `hides`: the old current still flows.
+/// Checks a missing crossing, `since` ticks after the last one, in sectors of T ticks. `hides`: the old current
+/// still flows.
 constexpr LockLoss lock_waiting(const LockConfig& config, std::uint32_t since, std::uint32_t T, bool hides,
                                 std::uint8_t unlike_samples) {
   if (unlike_samples >= config.unlike_samples) return LockLoss::terminals;

@@ -35,7 +35,7 @@ struct LuenbergerState {
   Accumulator<Scalar> e_V{};  ///< e^
 };
 
-/// One period with its mean voltage, and the current at its end. Returns the estimate of e, V.
+/// Advances by a period with its mean voltage, and the current at its end. Returns the estimate of e, V.
 template <class Scalar>
 constexpr Scalar luenberger_step(const LuenbergerConfig<Scalar>& config, LuenbergerState<Scalar>& state,
                                  Scalar w_V, Scalar i_A) {
@@ -61,7 +61,7 @@ constexpr void luenberger_set(LuenbergerState<Scalar>& state, Scalar e_V, Scalar
   state.e_V = ScalarTraits<Scalar>::accumulator(e_V);
 }
 
-/// A period of unknown voltage: the estimate is kept.
+/// Advances by a period of unknown voltage: the estimate is kept.
 template <class Scalar>
 constexpr Scalar luenberger_hold(LuenbergerState<Scalar>& state, Scalar i_A) {
   state.i_A = i_A;

@@ -96,7 +96,7 @@ constexpr bool source_hall_edge(const PositionSourceConfig& config,
   return true;
 }
 
-/// Once per control tick, before the steps: selects the first source, and changes from Hall to back-EMF.
+/// Call it once per control tick, before the steps: it selects the first source, and changes from Hall to back-EMF.
 template <class Scalar>
 constexpr void source_step(const PositionSourceConfig& config,
                            const SensorlessConfig<Scalar>& sensorless_config, PositionSourceState& state,

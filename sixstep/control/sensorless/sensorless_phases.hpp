@@ -22,7 +22,7 @@ struct SensorlessConfig {
   SpinConfig spin{};
   StartUpConfig<Scalar> start{};
   LockConfig lock{};
-  HallSpeedConfig<Scalar> speed{};  ///< from the crossings' times
+  HallSpeedConfig<Scalar> speed{};  ///< speed from the crossings' times
   HallPositionConfig<Scalar> position{};
   bool operator==(const SensorlessConfig&) const = default;
 };

@@ -40,7 +40,7 @@ struct SlidingModeState {
   Accumulator<Scalar> e_V{};  ///< e^
 };
 
-/// One period with its mean voltage, and the current at its end. Returns the estimate of e, V.
+/// Advances by a period with its mean voltage, and the current at its end. Returns the estimate of e, V.
 template <class Scalar>
 constexpr Scalar sliding_mode_step(const SlidingModeConfig<Scalar>& config, SlidingModeState<Scalar>& state,
                                    Scalar w_V, Scalar i_A) {
@@ -75,7 +75,7 @@ constexpr void sliding_mode_set(const SlidingModeConfig<Scalar>& config, Sliding
   state.e_V = T::accumulator(e_V);
 }
 
-/// A period of unknown voltage: error and estimate are kept.
+/// Advances by a period of unknown voltage: error and estimate are kept.
 template <class Scalar>
 constexpr Scalar sliding_mode_hold(SlidingModeState<Scalar>& state, Scalar i_A) {
   state.i_A = i_A;

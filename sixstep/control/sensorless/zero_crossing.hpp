@@ -44,7 +44,7 @@ struct ZeroCrossingConfig {
   std::int32_t threshold = 0x7fffffff;  ///< counts of y above which it is a voltage and not noise
   std::int32_t below = 0x7fffffff;      ///< the same downwards; less in a freewheel, where a diode holds u_f
   std::uint32_t margin_ticks = 0;       ///< blanking after the freewheel's end
-  std::uint32_t settle_ticks = 0;       ///< from the commutation, until filters have settled
+  std::uint32_t settle_ticks = 0;       ///< ticks from the commutation until filters have settled
   bool operator==(const ZeroCrossingConfig&) const = default;
 };
 
@@ -66,8 +66,8 @@ struct ZeroCrossingState {
 
 enum class Crossing : std::uint8_t {
   none,
-  seen,          ///< at a known time
-  passed_before  ///< before it could be found: between the commutation and `at`
+  seen,          ///< a crossing at a known time
+  passed_before  ///< a crossing between the commutation and `at`, before it could be found
 };
 
 struct CrossingReading {

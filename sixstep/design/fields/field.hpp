@@ -30,8 +30,8 @@ struct Ratio {
 
 struct Field {
   const char* name;        ///< name of the member
-  const char* unit = "";   ///< in SI; with the base `setpoint` the unit follows from the mode
-  const char* about = "";  ///< comment beside the number in an exported header
+  const char* unit = "";   ///< SI unit; with the base `setpoint` the unit follows from the mode
+  const char* about = "";  ///< comment after the number in an exported header
   bool always = false;     ///< shown even if it has its default value
 };
 

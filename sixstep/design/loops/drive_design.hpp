@@ -39,7 +39,7 @@ struct DesignSpec {
   std::optional<double> current_limit_A;  ///< limit of the speed loop's output, if less than full output
   double load_inertia_kg_m2 = 0.0;        ///< on the shaft, in addition to the rotor's
   int delay_periods = 0;           ///< whole periods from a sample until its result takes effect, 0 or 1
-  bool sampled_in_middle = false;  ///< in the middle of a period; the result acts at the next start or later
+  bool sampled_in_middle = false;  ///< samples in mid-period; the result acts at the next start or later
   control::Chopping chopping = control::Chopping::soft;
   RotorSensing rotor{.hall = false};
   /// Lowest speed that the drive must hold; default: a tenth of the speed that the bus reaches, bus/K_t.
@@ -56,7 +56,7 @@ struct DesignSpec {
 double usual_current_settle_s_of(const MotorModel& motor);
 
 /// Default clock of the timer that captures a sensor's edges. For Hall probes as in a scenario's sensors; for an
-/// encoder, with far more edges, that of an ordinary chip, whose tick is short beside a control period.
+/// encoder, with far more edges, that of an ordinary chip, whose tick is short against a control period.
 inline constexpr double usual_capture_Hz = 1e6, usual_encoder_capture_Hz = 16e6;
 
 /// A spec for a real board: Hall probes, and a command that takes effect one period late.
@@ -75,10 +75,10 @@ struct LoopDesign {
   std::vector<DerivationStep> steps;
   std::optional<PolePlacement> placed;
   Transfer loop;        ///< open loop with the spec's delay and the closed inner loops
-  LoopFigures figures;  ///< of `loop`
+  LoopFigures figures;  ///< figures of `loop`
   LoopFigures other;    ///< with the other of the board's two delays, a period more or less
-  LoopFigures built;    ///< of `loop` with the lag of the spec's speed sensor at the lowest speed
-  StepResponse step;    ///< of the closed loop, sensor included
+  LoopFigures built;    ///< figures of `loop` with the lag of the spec's speed sensor at the lowest speed
+  StepResponse step;    ///< step of the closed loop, sensor included
 };
 
 /// Subject of a warning.
@@ -123,7 +123,7 @@ struct DriveDesign {
   double nominal_current_A = 0.0;
   bool nominal_printed = true;  ///< false: the sheet has none, and a tenth of the stall current is used
   double lowest_speed_rad_s = 0.0;
-  SpeedLag lag;                         ///< of the measured speed at the lowest speed
+  SpeedLag lag;                         ///< lag of the measured speed at the lowest speed
   std::vector<DerivationStep> sensing;  ///< derivation of that lag
   std::vector<SettlingLimit> limits;    ///< limits by way of sensing; for speed and position
   double settle_by_torque_s =

@@ -16,7 +16,7 @@
 //
 //   tau = J R/(3/2 (p psi)^2),  tau' = psi/(R I):    aligned after 10 (2 tau + tau')
 //
-// The axis then turns, and a loop keeps the current I along it, whatever R has become. x = 1/8 of the largest torque
+// The axis then turns, and a loop keeps the current I along it, for any change of R. x = 1/8 of the largest torque
 // of I, T_I = 3/2 p psi I, accelerates the rotor: a = x T_I/J. Now there is no damping: at an angle delta behind the
 // axis the rotor swings like a pendulum. Against a load y T_I it stands at first, up to delta_0 ahead of the axis,
 // until sin delta = y. The axis takes it along if the difference of their speeds falls to zero before

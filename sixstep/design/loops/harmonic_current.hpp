@@ -9,7 +9,7 @@
 // current for any shape; also for a table, whose fundamental is not that of the sine with the same torque constant.
 //
 // A loop without feed-forward voltage, with integral gain K_i = d1 + d0 on a winding of R, follows a reference R/K_i
-// samples late, whatever its delay: the samples of a step's error add up to that. Meanwhile the magnet turns by p w T
+// samples late, for any delay: the samples of a step's error add up to that. Meanwhile the magnet turns by p w T
 // R/K_i.
 #pragma once
 #include "sixstep/control/field/harmonic_current.hpp"

@@ -32,7 +32,7 @@ double torque_per_A(const plant::Machine& machine);
 struct LimitSetting {
   plant::Machine machine;
   double J_kg_m2 = 0.0;
-  double period_s = 0.0;     ///< from sample to sample
+  double period_s = 0.0;     ///< time from sample to sample
   double bus_V = 0.0;        ///< highest, plus two diode drops
   double speed_rad_s = 0.0;  ///< highest
   double current_A = 0.0;    ///< the limit

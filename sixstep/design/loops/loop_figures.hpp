@@ -49,7 +49,7 @@ std::vector<BodePoint> bode(const Transfer& loop, double period_s, double from_r
 
 /// A unit step of the reference of the closed loop, at the samples.
 struct StepResponse {
-  std::vector<double> samples;                                  ///< from the instant of the step on
+  std::vector<double> samples;                                  ///< output from the instant of the step on
   double settling_s = std::numeric_limits<double>::infinity();  ///< last exit from +-band; infinite if
                                                                 ///< `seconds` do not suffice
   /// Overshoot relative to the step; infinite for an unstable loop, which has no samples.

@@ -49,7 +49,7 @@ struct OpenLoop {
 };
 
 /// Finds where L is real: Im(N conj D) = 0 divided by sin(w T_s), c = cos(w T_s), p = a0 - 1, q = -a0,
-/// besides z = -1.
+/// in addition to z = -1.
 ///   m = 0: 2 d0 c = d1 (q - 1) - d0 p
 ///   m = 1: 4 d0 c^2 + 2 (d1 + d0 p) c + d1 p + d0 (q - 1) = 0
 std::optional<double> gain_margin(const OpenLoop& loop) {

@@ -41,7 +41,7 @@ struct PulseSpec {
   double saturation_A = 0.0;     ///< I_sat of a phase; 0: the sheet has none
   double most_A = 0.0;           ///< current of a pair that the start needs anyway
   int adc_bits = 12;             ///< bits of the phase currents' converters
-  double current_range_A = 0.0;  ///< in each direction
+  double current_range_A = 0.0;  ///< range in each direction
   double offset_A = 0.0, noise_A = 0.0;
   double late_s = 0.0;  ///< age of a rising current's measurement: amplifier's lag and delay
 };
@@ -49,7 +49,7 @@ struct PulseSpec {
 /// Configuration of the chip, and figures of the design.
 struct PulseStart {
   control::PulsePositionConfig pulses;
-  double current_A = 0.0, greatest_A = 0.0;  ///< at the sample: with L_S, and at worst
+  double current_A = 0.0, greatest_A = 0.0;  ///< current at the sample: with L_S, and at worst
   double north = 0.0, axis = 0.0;            ///< signals relative to their noise
   double off_deg = 0.0;                      ///< electrical: error of the angle at five times the noise
   double turned_deg = 0.0;                   ///< electrical: largest angle by which the pulses turn the rotor

@@ -62,12 +62,12 @@ struct SensorlessSpec {
   double pulse_late_s =
       0.0;                  ///< delay of the pulse after the timer: a dead time, with complementary chopping
   double blanking_s = 0.0;  ///< time after the end of the freewheel: filters of dividers and converters
-  double terminal_bandwidth_Hz = 0.0;  ///< of dividers and bus, first-order lags; 0: no filters
+  double terminal_bandwidth_Hz = 0.0;  ///< first-order lags of dividers and bus; 0: no filters
   double speed_window_s =
       0.0;  ///< six crossings make a speed within this time, otherwise one (hall_speed.hpp); 0: always six
   control::Chopping chopping = control::Chopping::soft;
   control::NeutralSeen seen = control::NeutralSeen::on_time;
-  double diode_V = 0.0;  ///< of the bridge's diodes; measured in a freewheel
+  double diode_V = 0.0;  ///< drop of the bridge's diodes; measured in a freewheel
   bool catches_spin = true;
   ComparatorSpec comparators{};
 };

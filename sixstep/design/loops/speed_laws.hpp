@@ -53,7 +53,7 @@ base::Result<SpeedLawDesign> disturbance_rejection(const SpeedLawSpec& spec);
 base::Result<SpeedLawDesign> sliding_mode(const SpeedLawSpec& spec);
 
 /// Mean delay, in samples, of a current loop whose integral gain is K_i V/A per sample on a winding of R, against a
-/// torque that is held from the sample on: the samples of a step's error add up to R/K_i, whatever the loop's delay,
+/// torque that is held from the sample on: the samples of a step's error add up to R/K_i for any delay of the loop,
 /// and the mean of two neighbours counts.
 double current_lag_periods(double R_ohm, double K_i_V_A);
 

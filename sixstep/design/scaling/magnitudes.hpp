@@ -11,7 +11,7 @@ struct Magnitudes {
   double current_levels = 0.0;  ///< reference and band
   double speed = 0.0;
   double speed_ref = 0.0;
-  double speed_change = 0.0;  ///< from sample to sample
+  double speed_change = 0.0;  ///< change from sample to sample
   double position = 0.0;
   double position_ref = 0.0;
   double voltage = 0.0;  ///< limit of the current PI

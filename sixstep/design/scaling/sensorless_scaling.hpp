@@ -14,7 +14,7 @@ struct ScaledSensorless {
   std::vector<Headroom> proof;
 };
 
-/// The same drive during its start: it controls a current, whatever its mode.
+/// The same drive during its start: it controls a current in every mode.
 control::DriveConfig<double> while_it_starts(const control::DriveConfig<double>& drive);
 
 /// Range of the inputs during the start.

@@ -12,7 +12,7 @@ namespace sixstep::design {
 namespace {
 
 /// Mean of f_p - f_n over a sector for peak 1 (model.md 1): torque per ampere of the driven pair over K_e.
-/// By symmetry twice the mean of one phase's shape over 60 degrees from the middle of its top.
+/// It is, by symmetry, twice the mean of one phase's shape over 60 degrees from the middle of its top.
 /// Trapezoid with ramps through zero at 90 degrees, h = 90 - w/2 from top to zero:
 ///   w >= 120:  2
 ///   w < 120:   (2/60) (w/2 + integral of (90 - x)/h over w/2..60) = (90 - h/2 - 450/h)/30

@@ -12,9 +12,9 @@ namespace sixstep::design {
 /// other factors; these are the factors of the given shape.
 struct ShapeFactors {
   double sector_mean =
-      0.0;  ///< of f_p - f_n over a sector: K_t/K_e; 2 for 120 degrees flat, 1.65399 for a sine
+      0.0;  ///< mean of f_p - f_n over a sector: K_t/K_e; 2 for 120 degrees flat, 1.65399 for a sine
   double line_peak = 0.0;   ///< largest f_a - f_b; 2, sqrt 3
-  double line_rms = 0.0;    ///< of f_a - f_b; 1.49071, 1.22474
+  double line_rms = 0.0;    ///< rms of f_a - f_b; 1.49071, 1.22474
   double phase_rms = 0.0;   ///< 0.88192, 0.70711
   double phase_peak = 0.0;  ///< largest |f_a|; 1 unless a table or harmonics say otherwise
   double fundamental =

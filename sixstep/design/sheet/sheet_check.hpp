@@ -35,7 +35,7 @@ struct Relation {
 /// One line of the sheet and its use.
 struct LineUse {
   std::string key;     ///< as the file writes it
-  double value = 0.0;  ///< in the unit of the standard key
+  double value = 0.0;  ///< value in the unit of the standard key
   std::string unit;
   double doubt = 0.0;  ///< relative rounding error of the printed value
   bool used = false;   ///< the model uses it

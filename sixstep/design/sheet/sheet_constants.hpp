@@ -24,7 +24,7 @@ struct Constant {
 struct OtherWay {
   std::string key;
   double K_e_V_s = 0.0;
-  double relative_doubt = 0.0;  ///< of the printed value
+  double relative_doubt = 0.0;  ///< relative error of the printed value
 };
 
 /// The iron's part of the friction: hysteresis does not depend on speed, eddy currents grow with it (model.md 7).
@@ -39,7 +39,7 @@ struct Friction {
   double coulomb_Nm = 0.0;
   IronDrag iron;  ///< the iron's part of both, if the sheet separates it
   std::string from;
-  double no_load_speed_rad_s = 0.0;          ///< of the no-load point used; 0: none
+  double no_load_speed_rad_s = 0.0;          ///< speed of the no-load point used; 0: none
   std::optional<double> all_viscous_Nm_s;    ///< one extreme for a single point: B = K_t I_0/w_0
   std::optional<double> all_coulomb_Nm;      ///< the other extreme: T_c = K_t I_0
   std::optional<double> split_viscous_Nm_s;  ///< from two points
@@ -71,8 +71,8 @@ struct SheetConstants {
   base::Problems missing;              ///< values that a model also needs
 };
 
-/// Without side effects. Two forms of one printed value are a Problem; two printed values of one constant are kept as
-/// other_ways. A missing frame is a Problem that gives the meaning of each candidate.
+/// It has no side effects. Two forms of one printed value are a Problem; two printed values of one constant are
+/// kept as other_ways. A missing frame is a Problem that gives the meaning of each candidate.
 SheetConstants sheet_constants(const Sheet& sheet);
 
 /// Relative rounding error: half of the last printed digit over the value. The digit is the file's if the text is
@@ -80,7 +80,7 @@ SheetConstants sheet_constants(const Sheet& sheet);
 double relative_doubt(const base::Quantity& q);
 
 /// The sheet with all values that the model needs in the standard keys (resistance_ohm, inductance_mH,
-/// torque_constant_mNm_A, inertia_gcm2, viscous_friction_Nm_s, coulomb_friction_mNm), whatever their printed form.
+/// torque_constant_mNm_A, inertia_gcm2, viscous_friction_Nm_s, coulomb_friction_mNm), for any printed form.
 /// Values already in a standard key keep their bits. For callers that change single values.
 Sheet in_standard_keys(Sheet sheet);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads further data of a sheet's winding besides R, L and K_t: harmonics, delta, unequal phases, cogging.
+// Reads further data of a sheet's winding in addition to R, L and K_t: harmonics, delta, unequal phases, cogging.
 #include <cmath>
 
 #include "sixstep/design/sheet/parameters.hpp"

@@ -253,8 +253,8 @@ class Relations {
       r.remark = "a factor 16: a diameter for the radius?";
   }
 
-  /// Not a relation of the motor, because a bus may be lower than its nominal voltage. A speed far above the allowed
-  /// one is a misread line.
+  /// This is no relation of the motor, because a bus may be lower than its nominal voltage. A speed far above
+  /// the allowed one is a misread line.
   void mechanics() {
     const std::optional<Term> allowed = term(s_.max_speed_rpm), printed = term(s_.no_load_speed_rpm);
     if (!allowed || !(printed || (U_ && K_t_))) return;

@@ -28,7 +28,7 @@ inline Term operator-(Term a, Term b) {
   return {value, (a.value * a.doubt + b.value * b.doubt) / value};
 }
 
-/// The voltage at which a sheet's values hold is exact by definition, whatever its digits.
+/// The voltage at which a sheet's values hold is exact by definition, with any number of digits.
 inline Term exact(double value) { return {value, 0.0}; }
 
 /// A line of the sheet in `unit`; empty if it is missing or not above 0.

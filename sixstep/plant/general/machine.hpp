@@ -72,7 +72,7 @@ struct Shaft {
   double J_kg_m2 = 0.0, B_Nm_s = 0.0;  ///< the motor's side
   double coulomb_Nm = 0.0, static_Nm = 0.0;
   double gear = 1.0;        ///< motor turns per load turn
-  double efficiency = 1.0;  ///< of the gear, in (0, 1]: torque of the driven side over the lossless one
+  double efficiency = 1.0;  ///< gear, in (0, 1]: torque of the driven side over the lossless one
   double load_J_kg_m2 = 0.0, load_B_Nm_s = 0.0;
   double stiffness_Nm = 0.0;  ///< N m/rad at the load's side; 0: rigid
   double damping_Nm_s = 0.0;
@@ -105,7 +105,7 @@ struct Battery {
   std::vector<ChargePoint> open_circuit{};
   double capacity_C = 0.0;            ///< the whole charge, A s
   double R_1_ohm = 0.0, C_1_F = 0.0;  ///< slow recovery of the voltage, in series; 0: none
-  double charge = 1.0;                ///< at the start, relative to the whole
+  double charge = 1.0;                ///< charge at the start, relative to the whole
 };
 
 /// Mains behind a bridge of diodes, which never takes current back.

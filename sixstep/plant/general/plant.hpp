@@ -38,7 +38,7 @@ class Plant {
   /// Speed imposed by a dynamometer at the load's side; it grows by `rate` per second.
   void set_speed(double speed_rad_s, double rate_rad_s2);
   void set_locked(bool locked);
-  /// Only for a steady source.
+  /// Requires a steady source.
   void set_source_voltage(double V_0_V);
   void set_source_sinks(bool sinks);
   /// Factors of temperature on the given R and K_e. Currents and speed continue.

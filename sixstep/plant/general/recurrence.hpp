@@ -169,8 +169,8 @@ class Recurrence {
   bool ramp_carries_ = false;  ///< a leg on a ramp of its back-EMF is connected, or the winding has a loop
   int connected_ = 0;
   std::array<int, 3> leg_{};       ///< the connected legs, then the floating ones
-  PerLeg<PoleTerms<Real>> terms_;  ///< of the connected legs, in the order of leg_
-  PerLeg<Real> R_;                 ///< in the order of leg_
+  PerLeg<PoleTerms<Real>> terms_;  ///< terms of the connected legs, in the order of leg_
+  PerLeg<Real> R_;                 ///< resistances in the order of leg_
   Real part_ = 0, change_ = 0;     ///< weight of a connected leg in their mean; 1/L if a current can flow
   PerWay<Real> now_{}, rise_{};
   Real wx_ = 0;

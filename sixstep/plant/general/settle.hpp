@@ -172,8 +172,8 @@ bool settle_source(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Seri
 }  // namespace detail
 
 /// Settles the mode without trials, which nearly always suffices: gates and currents determine all connections, and
-/// each open leg is clearly inside its window; or one open leg beside two that conduct is clearly outside it. False:
-/// trials are necessary; `mode` may have been changed.
+/// each open leg is clearly inside its window; or one open leg, while two others conduct, is clearly outside
+/// it. False: trials are necessary; `mode` may have been changed.
 template <class Real>
 bool settle_fast(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series<Real>& z) {
   const Constants<Real>& c = q.constants;
