@@ -8,7 +8,7 @@ namespace sixstep::testing {
 
 namespace general = plant::general;
 
-/// Star, trapezoid, everything that the lean kernel has too; cases change what they need.
+/// Star and trapezoid, with features of the lean kernel only; cases change the members that they require.
 struct GeneralSetup {
   general::Machine machine{.R_ohm = {0.515, 0.515, 0.515},
                            .K_e_V_s = {0.01675, 0.01675, 0.01675},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference motor of model.md 6 and ways to put it on the bench: the plant alone with gates held, or on
-// the virtual board.
+// The reference motor of model.md 6 in two setups: the plant alone with constant gates, or on the virtual
+// board.
 #pragma once
 #include <functional>
 #include <vector>

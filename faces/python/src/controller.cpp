@@ -46,7 +46,7 @@ py::dict as_dict(const sixstep_given& g) {
   return out;
 }
 
-/// What the controller returned is not what it should be.
+/// Reports that the controller returned a value of the wrong kind.
 [[noreturn]] void throw_wrong(const py::object& out, const char* wanted) {
   PyErr_Format(PyExc_TypeError, "the controller's step() returned %.60R; it returns %s", out.ptr(), wanted);
   throw py::error_already_set();
