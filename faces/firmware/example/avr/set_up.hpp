@@ -64,7 +64,7 @@ asm(".pushsection .init3,\"ax\",@progbits\n\t"
     "sts 0x91, r24\n\t"
     ".popsection");
 
-/// With the pull-ups of port K: a broken wire reads 1, not the signal of its neighbour.
+/// Enables the pull-ups of port K: a broken wire reads 1, not the signal of its neighbour.
 inline void set_up_hall_pins() {
   byte(atmega2560::PORTK) = 7;
   byte(atmega2560::PCMSK2) = 7;
