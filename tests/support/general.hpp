@@ -31,7 +31,7 @@ inline GeneralRig general_rig(const GeneralSetup& setup, const Board& board) {
   return GeneralRig(setup.plant(), board.drive, board.board, board.timeline, {}, {}, setup.probes);
 }
 
-/// The general plant alone with gates held, as a System for sim::run.
+/// The general plant alone with constant gates, as a System for sim::run.
 class HeldGeneral : public rig::UnscheduledPlant<double, general::Plant<double>> {
  public:
   explicit HeldGeneral(const GeneralSetup& setup, const plant::Gates& gates = {})

@@ -12,7 +12,7 @@
 
 namespace sixstep::testing {
 
-/// The books of whichever kernel a run is on.
+/// The energy book of the run's kernel.
 template <class Real>
 struct BooksOfEither {
   plant::Audit<Real> lean;

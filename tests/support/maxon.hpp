@@ -42,7 +42,7 @@ inline plant::Gates all_off() { return {}; }
 inline plant::Gates a_to_b() { return gates({true, false, false}, {false, true, false}); }
 inline plant::Gates all_low() { return gates({}, {true, true, true}); }
 
-/// The plant with gates held, as a System for sim::run; notes every located event.
+/// The plant with constant gates, as a System for sim::run; notes every located event.
 template <class RealType = double>
 class Held : public rig::UnscheduledPlant<RealType> {
   using rig::UnscheduledPlant<RealType>::plant_;

@@ -114,7 +114,7 @@ inline const char* word(control::SensorlessPhase phase) {
   return words[static_cast<std::size_t>(phase)];
 }
 
-/// Sectors from the rotor's to the one that is commutated for, -2..3.
+/// Sectors from the rotor's sector to that of the commutation, -2..3.
 template <class Rig>
 int ahead(const Rig& rig) {
   return control::sectors_between(static_cast<std::uint8_t>(rig.plant().sector()),

@@ -77,7 +77,7 @@ constexpr void put_instant(Put put, const Instant& t) {
 inline void barrier() { asm volatile("" ::: "memory"); }
 
 /// Passes one row from the control interrupt to the main loop, which requests the next row as soon as it has
-/// sent one. The log so has as many rows as the line can transmit, each with its instant.
+/// sent one. So the log has as many rows as the line can transmit, each with its instant.
 template <class Row>
 class LogSlot {
  public:

@@ -29,7 +29,7 @@ inline void set_up_serial_line() {
   byte(UCSR0B) = TXEN0;
 }
 
-/// Counts up and down (mode 10), pulses high around the bottom at PB5..PB7.
+/// The timer counts up and down (mode 10), with pulses high around the bottom at PB5..PB7.
 inline void set_up_timer() {
   using namespace atmega2560;
   word(ICR1L) = static_cast<std::uint16_t>(pwm_counts);

@@ -5,7 +5,7 @@
 // complementary channels, and "dead-time insertion is enabled by setting both CCxE and CCxNE"):
 //
 //   CCxE CCxNE   upper OCx             lower OCxN
-//    0     0     let go (Hi-Z)         let go (Hi-Z)
+//    0     0     off (Hi-Z)            off (Hi-Z)
 //    1     0     OCxREF                driven low            no dead time
 //    0     1     driven low            OCxREF                no dead time
 //    1     1     OCxREF                not OCxREF            dead time at each edge of OCxREF

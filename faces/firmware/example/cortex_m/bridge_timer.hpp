@@ -7,7 +7,7 @@
 //                     update and gives the commutation event there. A leg that changes sides is off from that event on, and has its new
 //                     switch after the dead time.
 //                     A later answer waits as a whole for the next period's end, and is counted as missed.
-//   Hall interrupt    the pair moves at once, in the present and in the waiting command; the pulse goes on in the leg that takes over.
+//   Hall interrupt    the pair changes at once, in the present and in the waiting command; the pulse continues in the incoming leg.
 //                     The duty stays.
 //   off, and a fault  at once
 //
@@ -150,7 +150,8 @@ inline void prepare_period_end() {
 /// old pulse; later, the old pair would have a pulse of some counts.
 [[gnu::noinline]] void at_period_end() {
   const InterruptsOff hold;
-  // Revoked after the core had accepted it, or already made by a late control tick.
+  // The interrupt was revoked after the core had accepted it, or a late control tick has already made the
+  // change.
   if ((tim1().DIER & bit::CC4IE) == 0 || (tim1().SR & bit::CC4IF) == 0) return;
   if (change_due) {
     preload(coming.first);

@@ -37,7 +37,7 @@ inline bool set_up_clock() {
   return true;
 }
 
-/// Back to the chip's own 8 MHz, to which it has already switched when the external clock stopped.
+/// Returns to the chip's own 8 MHz, to which it has already switched when the external clock stopped.
 inline void fall_back_to_own_clock() { rcc().CFGR = 0; }
 
 inline void switch_parts_on() {
