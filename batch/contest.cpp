@@ -13,7 +13,7 @@
 namespace batch {
 namespace {
 
-/// Enough for a curve over the width of a page.
+/// Number of rows that suffices for a curve over the width of a page.
 constexpr double rows_of_a_trace = 1500;
 
 /// Runs the nominal drive and keeps the rows for the drawing.

@@ -46,7 +46,7 @@ struct Evaluated {
   bool holds() const { return cost == cost && worst() <= 0.0; }
 };
 
-/// Feasible before infeasible; then the lower cost or the smaller miss.
+/// Orders feasible points before infeasible ones, then by lower cost or smaller miss.
 bool better(const Evaluated& a, const Evaluated& b) {
   if (a.holds() != b.holds()) return a.holds();
   if (!a.holds()) return a.worst() < b.worst();

@@ -212,8 +212,7 @@ struct Membership {
     ::pthread_setspecific(end_of_thread(), at);
   }
   ~Membership() {
-    if (at->place != ControllerPlace::outside)
-      return;  // exit() also calls this handler; its own handler reports it
+    if (at->place != ControllerPlace::outside) return;  // exit() runs this, too; its handler reports it
     at->runs = 0;
     at->thread = 0;
   }

@@ -14,8 +14,8 @@ namespace report {
 /// not the columns, because a trace of every event has the columns of all drives.
 struct HeldCurrent {
   const char *title, *column, *reference, *label, *reference_label;
-  /// The largest |i| of the phases, and the magnitude of the reference, without a column. Needed because the
-  /// column i_m is that of the pair which suits the rotor, while the drive may have another pair on.
+  /// The largest |i| of the phases, and the magnitude of the reference, without a column. The column i_m is
+  /// not used, because it is that of the pair of the rotor's sector, and the drive may drive another pair.
   bool of_phases = false;
 };
 HeldCurrent held_by(const sixstep::study::Scenario& scenario);

@@ -210,7 +210,7 @@ std::optional<StepCurrent> step_current(const Trace& trace, const Step& step) {
 
 namespace {
 
-/// How long a value that is held between rows was at the bound or beyond it.
+/// Time during which a value that is constant between rows was at the bound or beyond it.
 double seconds_at(const Values& time, const Values& held, double bound, double from_s) {
   double sum = 0.0;
   for (std::size_t n = 1; n < time.size(); ++n)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Extracts the main facts from the rows of a run: its largest step, the current during it, and how long the bus
-// or a limit held it back. Between two rows the trace is a straight line, as in a chart.
+// Extracts the main facts from the rows of a run: its largest step, the current during it, and the time
+// during which the bus or a limit delayed it. Between two rows the trace is a straight line, as in a chart.
 #pragma once
 #include <optional>
 #include <string>
@@ -43,7 +43,7 @@ struct StepCurrent {
 };
 std::optional<StepCurrent> step_current(const sixstep::study::Trace& trace, const Step& step);
 
-/// How long the bus or a limit held the run back, s.
+/// Time in s during which the bus or a limit delayed the run.
 struct Held {
   double seen_s =
       0.0;  ///< length of the run's last part, if an envelope replaces the rows before it; else of the run

@@ -71,7 +71,7 @@ base::Problems check(BenchArguments& a) {
   return problems;
 }
 
-/// Names the library's members and the recording's headings as options; all other problems belong to the
+/// Names the library's members and the recording's headings as options. All other problems come from the
 /// recording.
 base::Problems of_recording(base::Problems problems, const std::string& path) {
   constexpr std::pair<std::string_view, std::string_view> options[] = {
@@ -102,7 +102,7 @@ base::Result<text::Recording> recording_of(const BenchArguments& a) {
   return text::read_recording(a.path, *text);
 }
 
-/// Opened before the work, so that an unwritable path fails at once.
+/// The output files. They are opened before the work, so that an unwritable path fails at once.
 struct BenchOutputs {
   std::optional<files::AtomicFile> write, html, shape;
 
@@ -151,7 +151,7 @@ Exit identify_command(const BenchArguments& arguments) {
   return problems.empty() ? Exit::ok : Exit::bad_input;
 }
 
-/// The sheet, if there is one; pole pairs given beside it must be equal to its own.
+/// The sheet, if there is one. Given pole pairs must be equal to the sheet's.
 base::Result<std::optional<design::Sheet>> sheet_of(EmfArguments& a) {
   if (a.motor.empty()) return std::optional<design::Sheet>();
   const base::Result<design::Sheet> sheet = files::read_sheet(a.motor, a.data_dir);

@@ -27,7 +27,7 @@ struct BodeFile {
   files::AtomicFile file;
 };
 
-/// Refuses options of a run or of many runs that a measurement does not use.
+/// Refuses options of one or many runs that a measurement does not use.
 base::Problems strangers(const RunArguments& a) {
   base::Problems problems;
   const auto refuse = [&](const char* option, bool given) {

@@ -33,7 +33,7 @@ struct CommissionArguments {
   std::string command;  ///< the command that makes the files again
 };
 
-/// Opened before the work, so that an unwritable path fails at once.
+/// The output files. They are opened before the work, so that an unwritable path fails at once.
 struct CommissionFiles {
   std::optional<files::AtomicFile> write, html;
 

@@ -74,7 +74,7 @@ struct Compared {
   }
 };
 
-/// Runs all jobs on the same instants with every column, whatever a scenario records for itself.
+/// Runs all jobs on the same instants with every column, independent of the scenario's [record].
 std::vector<Compared> on_one_grid(const std::vector<Job>& jobs) {
   std::vector<const study::Scenario*> scenarios;
   std::vector<Compared> runs;
@@ -85,7 +85,7 @@ std::vector<Compared> on_one_grid(const std::vector<Job>& jobs) {
     Compared& run = runs.emplace_back(Compared{
         .scenario = job.scenario(), .core = job.core(), .most_bytes = report::most_row_bytes / jobs.size()});
     run.scenario.record = {.grid_s = report::common_grid_s(scenarios)};
-    // Also columns without use in a mode, so that all runs have the same columns.
+    // Columns without use in a mode are included, so that all runs have the same columns.
     for (const study::Column& column : study::all_columns(run.scenario.sheet.kind))
       run.scenario.record.columns.push_back(column.name);
   }
@@ -127,9 +127,9 @@ base::Result<std::optional<Log>> read_log(const LogArguments& asked, const study
                            .found = {}});
 }
 
-/// Fits the shift of the log's clock by all its columns, because a board begins to count after its own set-up.
-/// The range is twenty PWM periods, in steps of a twentieth of one; --shift replaces the fit. Problems: almost
-/// none of the log is in the simulated time.
+/// Fits the shift of the log's clock by all its columns, because a board's clock starts after its own set-up.
+/// The range is twenty PWM periods, in steps of a twentieth of one; --shift replaces the fit. Problems:
+/// almost no row of the log is in the simulated time.
 base::Problems lay_over(Log& log, const Compared& run) {
   const study::Trace simulated = run.events->trace();
   study::Trace& trace = log.read.trace;

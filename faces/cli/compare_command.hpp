@@ -9,23 +9,23 @@ namespace cli {
 
 struct RunArguments;
 
-/// Whether the runs are compared: with a board's log; or if --html is the only output, for several files or for
-/// one file on a chip (lays_over).
+/// Whether the runs are compared: with a board's log; or if --html is the only output, for several files or
+/// for one file on a chip (lays_over).
 bool compares(const RunArguments& arguments);
 
 /// Whether --on names a map of a user's own firmware.
 bool names_own_firmware(const RunArguments& arguments);
-/// Whether --on names a chip that runs a program of its own.
+/// Whether --on names a chip that runs a program of its own instead of the host's drive.
 bool on_a_chip(const RunArguments& arguments);
-/// Whether one file runs on the host and on a chip whose program is no copy of the host's drive, so that both
-/// results are shown over each other.
+/// Whether one file runs on the host and on a chip with another program than the host's drive, so that the
+/// page overlays both results.
 bool lays_over(const RunArguments& arguments);
 
-/// sixstep run A B .. --html FILE: runs all files and shows them over each other on one page. With --compare LOG
-/// it compares a board's log with the one run, in numbers and, if --html is given, on the page.
+/// sixstep run A B .. --html FILE: runs all files and overlays them on one page. With --compare LOG it
+/// compares a board's log with the one run, in numbers and, if --html is given, on the page.
 Exit compare_command(const RunArguments& arguments, const std::vector<Job>& jobs);
 
-/// Problems of such a comparison: too many runs for a page, or more than a log's one.
+/// Problems of such a comparison: too many runs for a page, or more than one run with a log.
 base::Problems check_comparison(const RunArguments& arguments);
 
 }  // namespace cli

@@ -36,7 +36,7 @@ Candidates files(const std::string& current, std::string_view extension, bool fo
     const std::string name = entry.path().filename().string();
     if (!name.starts_with(start) || (name.front() == '.' && start.empty())) continue;
     if (text::visible(name) != name) continue;  // shells show candidates unescaped, one per line
-    // A name that begins with - would be read as an option.
+    // The parser would read a name that begins with - as an option.
     const std::string path = (name.front() == '-' && folder.empty() ? "./" : folder) + name;
     if (entry.is_directory(error))
       found.push_back({path + "/", ""});
@@ -70,7 +70,7 @@ Candidates keys(std::string_view behind, bool tables) {
   return found;
 }
 
-/// "key=" and, behind the =, the words of a key or the values of a flag.
+/// "key=" and, after the =, the words of a key or the values of a flag.
 Candidates settings(const std::string& current) {
   const std::size_t equals = current.find('=');
   if (equals == std::string::npos) return keys("=", false);

@@ -15,7 +15,7 @@ namespace {
 
 bool takes_value(const CLI::Option& option) { return option.get_items_expected_max() > 0; }
 
-/// The option of a word with its "--", without the part behind =; null: none of the verb's.
+/// The option of a word with its "--", without the part after =; null: none of the verb's.
 const CLI::Option* option_of(const CLI::App& verb, const std::string& word) {
   return word.starts_with("-") ? verb.get_option_no_throw(word.substr(0, word.find('='))) : nullptr;
 }
@@ -29,7 +29,7 @@ const CLI::App* inner_verb(const CLI::App& verb, const std::string& word) {
 /// The state after the words before the last one.
 struct Reading {
   const CLI::App* verb;
-  const CLI::Option* open = nullptr;  ///< its value comes next
+  const CLI::Option* open = nullptr;  ///< the next word is its value
   std::size_t positionals = 0;
   std::set<const CLI::Option*> given;
 
@@ -61,7 +61,7 @@ void add_options(const Reading& at, std::vector<Candidate>& out) {
       out.push_back({first_name(*option), option->get_description()});
 }
 
-/// The next positional argument; the last one may take any number of words.
+/// The next positional argument. The last one may have any number of words.
 const CLI::Option* next_positional(const Reading& at) {
   std::vector<const CLI::Option*> all;
   for (const CLI::Option* option : at.verb->get_options())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the words that may come next on a command line, for every shell.
+// Finds the possible next words of a command line, for every shell.
 #pragma once
 #include <string>
 #include <vector>

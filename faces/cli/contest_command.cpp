@@ -58,7 +58,7 @@ std::string file_name(std::string_view name) {
   return out + ".toml";
 }
 
-/// Opened before the work, so that an unwritable path fails at once.
+/// The output files. They are opened before the work, so that an unwritable path fails at once.
 struct ContestFiles {
   std::optional<files::AtomicFile> json, csv, html;
   std::vector<files::AtomicFile> scenarios;  ///< of the entries that have one, in their order
@@ -143,7 +143,7 @@ Exit exit_of_contest(const analysis::Contest& contest) {
   return any ? Exit::ok : Exit::failed;
 }
 
-/// A user's controller that cannot take part, as one without a speed loop: its row has dashes only.
+/// A user's controller that cannot take part, for example one without a speed loop: its row has dashes only.
 Exit own_without_run(const analysis::Contest& contest) {
   Exit exit = Exit::ok;
   for (std::size_t n = 0; n < contest.entries.size(); ++n) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stores the drives of a comparison like the runs of a plan; they are resumed in the same way.
+// Stores the drives of a comparison like the runs of a plan, and resumes them in the same way.
 #pragma once
 #include <string>
 
@@ -15,7 +15,7 @@ struct ContestStoring {
   std::string command;
 };
 
-/// The store for the drives of these entries. Problem: it belongs to another comparison.
+/// The store for the drives of these entries. Problem: it contains another comparison.
 base::Result<files::PlanStore> store_of(const analysis::Contest& contest, const ContestStoring& storing);
 
 /// Makes the drives that the store lacks, unless they are stopped, and then reads all drives from the store.

@@ -43,7 +43,7 @@ struct CurveArguments {
   std::string command;  ///< the command that makes the page again
 };
 
-/// Opened before the work, so that an unwritable path fails at once.
+/// The output files. They are opened before the work, so that an unwritable path fails at once.
 struct CurveFiles {
   std::optional<files::CsvWriter> csv;
   std::optional<files::AtomicFile> json, html;
@@ -104,7 +104,7 @@ void read_chopping(const std::string& word, analysis::Bench& bench, base::Proble
                       near.empty() ? "soft is the default" : fmt::format("did you mean {}?", near)});
 }
 
-/// At full duty nothing is chopped.
+/// Refuses a chopping mode at full duty, where no switch is chopped.
 void refuse_chopping_without_use(const CurveArguments& a, double duty, base::Problems& problems) {
   if (std::fabs(duty) != 1.0) return;
   for (const auto& [option, given] :

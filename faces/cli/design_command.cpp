@@ -129,8 +129,8 @@ base::Problems put(std::optional<files::AtomicFile>& file, const std::string& te
   return file->commit();
 }
 
-/// The simulated scenario with the board's settings beside the loops. A warning names the settings that are
-/// lost.
+/// The simulated scenario with the board's other settings than the loops. A warning names the settings that
+/// are lost.
 analysis::CarriedOver designed_scenario(analysis::DesignStudy& s, const study::Scenario* board,
                                         bool writes_scenario) {
   study::Scenario scenario = s.scenario;

@@ -15,10 +15,10 @@ base::Problems unread_by(const design::DesignSpec& spec, const DesignArguments& 
 /// Options that only the other kind of motor has (turning or linear).
 base::Problems of_other_motion(const design::Sheet& sheet, const DesignArguments& a);
 
-/// Options besides the scenario, which determines a field-oriented design.
+/// Refuses options that a field-oriented design does not read, because the scenario determines it.
 base::Problems unread_by_field_design(const DesignArguments& a);
 
-/// Options besides the plan, which determines --optimise.
+/// Refuses options that --optimise does not read, because the plan determines it.
 base::Problems unread_by_optimise(const DesignArguments& a);
 
 }  // namespace cli

@@ -43,7 +43,7 @@ inline constexpr ExitMeaning exit_meanings[] = {
     {Exit::out_of_time, "ended by SIGXCPU at its limit of processor time"},
 };
 
-/// For a run that came to its end or to a fault.
+/// Exit code of a run that reached its end or a fault.
 inline Exit exit_of(const study::Outcome& outcome) {
   if (outcome.fault) return Exit::fault;
   return outcome.passed() ? Exit::ok : Exit::failed;

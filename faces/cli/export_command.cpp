@@ -135,7 +135,7 @@ base::Result<study::Clearance> cleared(const study::Scenario& scenario) {
 Exit not_cleared(const ExportArguments& a, const study::Control& control, const study::Clearance& c) {
   complain(within(a.file, c.unmeasured));
   complain(within(a.file, c.unheld));
-  // Loops that were designed for the sensor go with it.
+  // Loops that were designed for the sensor must be designed again.
   const bool of_sensor = std::any_of(c.unmeasured.begin(), c.unmeasured.end(),
                                      [](const base::Problem& p) { return p.where == "sensors.rotor"; });
   using Mode = sixstep::control::Mode;

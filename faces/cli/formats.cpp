@@ -18,7 +18,7 @@ namespace {
 
 std::string json_text(const files::RunStory& s) { return text::json_summary(s.scenario, s.outcome); }
 
-/// The rows refer to the scenario, which must stay where it is.
+/// A run with its rows. The rows refer to the scenario, which must not move.
 struct Kept {
   explicit Kept(const study::Scenario& s) : scenario(s), events(scenario) {}
   study::Scenario scenario;

@@ -15,7 +15,7 @@ struct Format {
   std::string_view option;   ///< "--csv"
   std::string_view meaning;  ///< help text of the option
   files::OpenSink open;
-  std::string_view in_folder;  ///< what --out DIR appends to the scenario's name; empty: not written there
+  std::string_view in_folder;  ///< suffix of the scenario's name in --out DIR; empty: not written there
   /// The text that - as the file's name prints; null: - is a file name.
   std::string (*printed)(const files::RunStory&) = nullptr;
   /// A message before the run about the parts that will not fit into the format; null: everything fits.

@@ -81,8 +81,8 @@ bool holds(std::string_view text, std::string_view word) {
   return std::search(text.begin(), text.end(), word.begin(), word.end(), same) != text.end();
 }
 
-/// The keys, and the words of keys, whose name or meaning has `word` in it, a line each; "" where there is none. The keys of `at`,
-/// `motor_override` and `compare` repeat those of other tables.
+/// The keys, and the words of keys, whose name or meaning contains `word`, one per line; "" without any. The
+/// keys of `at`, `motor_override` and `compare` repeat those of other tables.
 std::string with_word(const std::vector<KeyEntry>& entries, std::string_view word) {
   std::string text;
   for (const KeyEntry& entry : entries) {
@@ -95,8 +95,8 @@ std::string with_word(const std::vector<KeyEntry>& entries, std::string_view wor
   return text;
 }
 
-/// The verb of this name, because `sixstep help COMMAND` means `sixstep COMMAND --help`. If a key has that name
-/// too, the command comes first and the key below it.
+/// The verb of this name, because `sixstep help COMMAND` means `sixstep COMMAND --help`. If a key has the
+/// same name, the command comes first and the key below it.
 const CLI::App* command_of(const CLI::App& app, const std::string& name) {
   const auto found = app.get_subcommands([&](const CLI::App* verb) { return verb->get_name() == name; });
   return found.empty() ? nullptr : found.front();

@@ -26,14 +26,14 @@ class Job {
   /// Sets the core that also runs the drive; null: only the host. Problems: a drive that no core can run.
   base::Problems take_core(const loop::Core* core);
   const loop::Core* core() const { return core_; }
-  /// For one of two runs of a file: `where` is appended to its name.
+  /// Sets `where`, which is appended to the name of one of two runs of a file.
   void tell_where(std::string where) { where_ = std::move(where); }
 
-  /// Runs and puts the outputs in place. `reached` is called now and then with the simulated time.
+  /// Runs and publishes the outputs. `reached` is called repeatedly with the simulated time.
   void run(const std::function<void(double t_s)>& reached);
 
   Exit exit_code() const;
-  std::string name() const;  ///< the file's stem, and where it ran
+  std::string name() const;  ///< the file's stem, and the name of the core
   const study::Scenario& scenario() const { return scenario_; }
   const study::Outcome* outcome() const { return outcome_ ? &*outcome_ : nullptr; }
   bool begun() const { return outcome_ || !problems_.empty(); }

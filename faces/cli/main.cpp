@@ -63,7 +63,7 @@ constexpr Listed listed[] = {{"new", declare_new},         {"run", declare_run},
                              {"schema", declare_schema},   {"completion", declare_completion, true},
                              {"man", declare_man, true}};
 
-/// The requested verb, or all of them: declaring the options of all takes longer than many a verb.
+/// Declares the requested verb, or all of them: declaring the options of all takes longer than many a verb.
 std::vector<Verb> declared(CLI::App& app, std::string_view word) {
   for (const Listed& verb : listed)
     if (verb.name == word && !verb.looks_at_all) return {verb.declare(app)};
@@ -92,22 +92,22 @@ Exit run_program(int count, const char* const* words) {
   return exit_after_stop(chosen->call(retyped(count, words)));
 }
 
-/// Without allocating memory.
+/// Reports lack of memory without allocating any.
 Exit out_of_memory() {
   print("sixstep is out of memory; make room, or ask for less: fewer --jobs, a shorter run\n", stderr);
   return Exit::bad_input;
 }
 
-/// Ends the program at the failed allocation: streams swallow std::bad_alloc, and a value read from one would be
-/// reported as wrong.
+/// Ends the program at the failed allocation: streams catch std::bad_alloc, and a value read from a stream
+/// would be reported as wrong.
 [[noreturn]] void end_without_memory() {
   const Exit exit = out_of_memory();
   files::remove_temporary_files();
   ::_exit(static_cast<int>(exit));
 }
 
-/// For exceptions that no code catches: lack of memory in one of the program's own threads, or an internal
-/// error, for which abort() keeps the trace.
+/// Handles uncaught exceptions: lack of memory in one of the program's own threads, or an internal error, for
+/// which abort() keeps the trace.
 [[noreturn]] void end_uncaught() {
   try {
     if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);

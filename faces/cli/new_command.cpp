@@ -53,8 +53,8 @@ base::Result<study::Scenario> scenario_of(const NewArguments& a, const std::stri
   return scenario;
 }
 
-/// Writes the schema beside the scenario, where its first line refers to it. An existing schema stays; a message
-/// says so if it differs.
+/// Writes the schema into the scenario's folder, where the scenario's first line refers to it. An existing
+/// schema stays unchanged; a message reports a difference.
 base::Result<std::string> write_schema(const std::string& path) {
   if (taken(path).empty()) {
     const base::Problems problems = write_new(path, text::scenario_schema());

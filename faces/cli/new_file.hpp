@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes new files that then belong to the user.
+// Writes new files for the user to edit.
 #pragma once
 #include <string>
 
@@ -17,7 +17,7 @@ base::Problems taken(const std::string& path);
 /// Writes the whole file; never replaces an existing one.
 base::Problems write_new(const std::string& path, const std::string& text);
 
-/// The motor's path as a scenario at `toml` has to name it; the name of a motor compiled in stays as it is.
+/// The motor's path as a scenario at `toml` has to name it. The name of a motor compiled in is unchanged.
 std::string motor_beside(const std::string& motor, const std::string& toml);
 
 }  // namespace cli

@@ -9,7 +9,7 @@ namespace cli {
 
 struct OptimiseArguments {
   std::string plan;   ///< a file with `minimise`
-  std::string store;  ///< for every evaluation; empty: none
+  std::string store;  ///< stores every evaluation; empty: none
   bool resume = false, force = false, quiet = false;
   std::string toml, json, data_dir, command;
   unsigned jobs = 0;

@@ -25,8 +25,8 @@ files::Sink stdout_sink(const Format& format) {
   return sink;
 }
 
-/// A message about a period so short that no board has it and that the run takes long: each period takes 0.3 us
-/// to 3 us of computing time.
+/// A message about a period that is shorter than on any board and makes the run slow: each period takes 0.3
+/// us to 3 us of computing time.
 std::string length_foretold(const study::Scenario& s) {
   constexpr double short_s = 1e-6, many = 1e7, one_s = 1e-6;
   const double periods = s.duration_s / s.pwm.period_s;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Manages the outputs of one run in every requested format: opened before it begins, filled during it, put in
-// place at its end.
+// Manages the outputs of one run in every requested format: opened before it begins, filled during it,
+// published at its end.
 #pragma once
 #include <string>
 #include <string_view>
@@ -42,10 +42,11 @@ class Outputs {
   /// An output cannot be written any more: the disk is full, or the reader closed a pipe.
   bool failed() const;
 
-  /// An interrupted run leaves NAME.partial.EXT of each, and prints nothing to standard output.
+  /// Publishes the outputs. An interrupted run leaves NAME.partial.EXT of each, and prints nothing to
+  /// standard output.
   base::Problems publish(const files::RunStory& story, bool whole);
 
-  /// The final path of the page for people; empty: none.
+  /// The final path of the HTML page; empty: none.
   const std::string& page() const { return page_; }
 
   /// Names of an interrupted run's files.

@@ -68,7 +68,7 @@ base::Problems same_program(const batch::PlanRuns& runs, files::PlanStore& store
            .cure = "finish it with that version, or begin anew with --force"}};
 }
 
-/// A plan whose runs have been made: its store's rows and their results. It must not move.
+/// A plan whose runs are complete: its store's rows and their results. It must not move.
 class MadePlan {
  public:
   MadePlan(const ReadPlan& plan, files::PlanStore store)
@@ -95,12 +95,12 @@ class MadePlan {
                        analysis::runs_of(plan_.scenarios->plan()));
   }
   Exit exit() const { return exit_of_series(series_); }
-  /// How many runs were stopped or refused, and the reason of the first.
+  /// The number of stopped or refused runs, and the reason of the first.
   std::string stopped() const {
     const std::string lines = text::stopped_text(series_, plan_.scenarios->plan());
     return lines.empty() ? "" : text::visible(plan_.name) + ":\n" + lines;
   }
-  /// The table says so too.
+  /// Whether runs of the plan are missing; the table states this as well.
   bool cut_short() const { return series_.runs < analysis::runs_of(plan_.scenarios->plan()); }
   text::JunitSuite verdicts() const { return text::junit_suite(plan_.name, series_); }
 
@@ -130,7 +130,7 @@ class MadePlan {
                          [this](const auto& visit) { each(visit); }};
 };
 
-/// Makes the runs that the store lacks, until all are made or an interrupt comes.
+/// Makes the runs that the store lacks, until all are made or an interrupt arrives.
 base::Result<files::PlanStore> make_runs(const RunArguments& a, const ReadPlan& plan) {
   base::Result<files::PlanStore> store = store_of(a, plan, text::plan_identity(plan.scenarios->plan()));
   if (!store) return store;

@@ -60,7 +60,7 @@ base::Problems PlanOutputs::open(const RunArguments& arguments, const ReadPlan& 
   return {};
 }
 
-/// If the page goes into a folder, it has reports of the worst runs beside it.
+/// If the page is written into a folder, reports of the worst runs are written into the same folder.
 std::string PlanOutputs::page(const text::PlanStory& story, const ReadPlan& plan,
                               base::Problems& problems) const {
   WorstReports worst;
@@ -79,7 +79,7 @@ base::Problems PlanOutputs::publish(const text::PlanStory& story, const ReadPlan
     if (open.option == "--csv") write_csv(open.file, story, plan);
     if (open.option == "--json") open.file.write(json);
     if (open.option == page_option) open.file.write(page(story, plan, problems));
-    // After an interrupt at this moment, the page may lack reports of the worst runs.
+    // If an interrupt arrives now, the page may lack reports of the worst runs.
     const bool in_place = whole && !interrupted();
     const base::Problems unwritten = in_place ? open.file.commit() : open.file.commit_partial();
     append(problems, unwritten);

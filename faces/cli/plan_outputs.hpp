@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Manages the output files of a plan: opened before its first run, put in place after its last.
+// Manages the output files of a plan: opened before its first run, published after its last.
 #pragma once
 #include <optional>
 #include <string>
@@ -16,7 +16,7 @@ class PlanOutputs {
  public:
   /// Problems: nothing was written, and no run must start. `arguments` must outlive this object.
   base::Problems open(const RunArguments& arguments, const ReadPlan& plan);
-  /// Under partial names if the plan was interrupted.
+  /// Publishes the files, under partial names if the plan was interrupted.
   base::Problems publish(const text::PlanStory& story, const ReadPlan& plan, bool whole);
   /// The partial names, after publish().
   const std::vector<std::string>& partial_files() const { return partial_files_; }

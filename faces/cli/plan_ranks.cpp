@@ -31,7 +31,8 @@ Ranks& ranks() {
   return all;
 }
 
-// Messages between the processes, as bytes. Only the leader opens files; the others ask it for named texts.
+// Messages between the processes, as bytes. Only the leader opens files; the others request named texts from
+// it.
 
 std::string bytes_of(const text::PlannedText& of) {
   batch::ByteWriter w;
@@ -112,7 +113,7 @@ Exit among_ranks(const std::function<Exit()>& program) {
     return Exit::bad_input;
   }
   batch::Cluster& cluster = ranks().cluster = std::move(*joined);
-  // mpirun gives the first process a terminal of its own, wherever its output goes afterwards.
+  // mpirun gives the first process a terminal of its own, independent of the output's destination.
   if (cluster.size > 1) ::setenv("NO_COLOR", "1", 1);
   Exit exit = Exit::ok;
   if (cluster.rank == 0) {

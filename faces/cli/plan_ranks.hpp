@@ -16,7 +16,7 @@ Exit among_ranks(const std::function<Exit()>& program);
 /// Threads that make runs, summed over all processes; `jobs` as in batch::PlanRuns.
 unsigned threads_for_runs(unsigned jobs);
 
-/// Makes the plan's runs with all processes; if there is only one, like batch::run_plan().
+/// Makes the plan's runs with all processes. A single process works like batch::run_plan().
 void make(const batch::PlanRuns& runs, const ReadPlan& plan);
 
 }  // namespace cli

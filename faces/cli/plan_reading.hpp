@@ -30,11 +30,11 @@ bool plans(const RunArguments& arguments, const std::string& file);
 /// `file` is a scenario, or a plan that names one.
 base::Result<ReadPlan> read_plan(const std::string& file, const RunArguments& arguments);
 
-/// For one run of the plan; its command is the plan's.
+/// The origin of one run of the plan; its command is the plan's.
 files::TraceOrigin origin_of_run(const ReadPlan& plan, std::uint64_t number);
 
-/// The store of the runs: --store, or one beside the other outputs of --out; empty: one that is removed at the
-/// program's end.
+/// The store of the runs: --store, or one in the folder of --out; empty: one that is removed at the program's
+/// end.
 std::string store_path(const RunArguments& arguments, const std::string& name);
 
 }  // namespace cli

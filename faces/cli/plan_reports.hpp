@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Links a plan's page with its runs: the command that repeats one run, and reports of the runs to look at first.
+// Links a plan's page with its runs: the command that repeats one run, and reports of the runs to inspect
+// first.
 #pragma once
 #include <cstddef>
 #include <map>

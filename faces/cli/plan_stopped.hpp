@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Handles runs of a plan in which a user's own controller ended the program. A file beside the store lists them,
-// so that --resume does not fail at the same run again.
+// Handles runs of a plan in which a user's controller ended the program. A file in the store's folder lists
+// them, so that --resume does not fail at the same run again.
 #pragma once
 #include <set>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace cli {
 
-/// From now on such a run is noted beside the store. Unless the plan `goes_on`, earlier notes are deleted.
+/// Starts to note such runs in the store's folder. Unless the plan `goes_on`, earlier notes are deleted.
 void note_stopped_runs(const files::PlanStore& store, bool goes_on);
 /// Stores the runs noted in earlier sittings as rows: stopped by a fault, with the reason. Returns their
 /// numbers, because the rows may not be in the file yet.

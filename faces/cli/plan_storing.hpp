@@ -8,14 +8,14 @@
 
 namespace cli {
 
-/// As --store, --resume and --force say. `identity` is the text that must not change between two sittings.
+/// Opens the store by --store, --resume and --force. `identity` is the text that must not change between two
+/// sittings.
 base::Result<files::PlanStore> store_of(const RunArguments& arguments, const ReadPlan& plan,
                                         std::string identity);
 
-/// The message that rows are kept in the store, and how to continue, after an interrupt; empty if there is no
-/// store.
+/// The message after an interrupt that the store keeps the rows, and how to continue; empty without a store.
 std::string kept_in(const std::string& store);
-/// kept_in(), and the files with partial names; empty if nothing is left.
+/// kept_in(), and the files with partial names; empty if no file remains.
 std::string left_behind(const std::vector<std::string>& partial_files, const std::string& store);
 
 /// The unit of a scenario's key; empty if it has none.

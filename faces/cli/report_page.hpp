@@ -47,7 +47,7 @@ std::string comparison_page(const std::vector<ComparedSource>& runs, const LogFo
 /// One plan, or two over each other.
 std::string plan_page(const std::vector<report::PagePlan>& plans, const std::string& command);
 
-/// Numbers of the plan's runs to look at first.
+/// Numbers of the plan's runs to inspect first.
 std::vector<std::size_t> worst_runs(const text::PlanStory& story, std::size_t most);
 
 }  // namespace cli

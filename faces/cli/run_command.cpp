@@ -102,13 +102,13 @@ base::Problems write_index(const RunArguments& arguments, const std::vector<Job>
 
 void print_table(const std::vector<Job>& jobs, const RunArguments& arguments) {
   std::vector<text::TableEntry> entries;
-  for (const Job& job : jobs)  // an interrupted run has met or missed nothing yet
+  for (const Job& job : jobs)  // an interrupted run has no verdict yet
     if (job.finished()) entries.push_back({job.name(), job.outcome()});
   if (arguments.quiet) return print(text::faults_text(entries), stderr);
   std::FILE* to = arguments.paths.prints() ? stderr : stdout;  // standard output then holds only that format
   if (entries.empty()) return;
   std::string text = text::verdict_table(entries, may_colour(to));
-  // Without a summary if runs were interrupted or never began.
+  // The summary is omitted if runs were interrupted or never began.
   if (!interrupted() && entries.size() == jobs.size()) text += text::verdict_summary(entries, may_colour(to));
   print(text, to);
 }
@@ -117,7 +117,7 @@ std::string verdicts_xml(const std::vector<Job>& jobs) {
   std::vector<text::JunitSuite> suites;
   suites.reserve(jobs.size());
   for (const Job& job : jobs)
-    // A run that an output stopped did not run to its end, whatever its results.
+    // A run that an output stopped did not reach its end, even if it has results.
     suites.push_back(job.outcome() && job.problems().empty() ? text::junit_suite(job.name(), *job.outcome())
                                                              : text::junit_suite(job.name(), job.problems()));
   return text::junit_xml(suites);

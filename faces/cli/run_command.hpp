@@ -46,7 +46,7 @@ struct RunArguments {
   bool bode = false;                ///< measure the loop's frequency response instead of a run
   std::optional<double> amplitude;  ///< of the multisine, in the mode's unit
   std::string junit;                ///< verdicts for build servers
-  std::string on;       ///< core that runs the drive, beside the host or instead of it; empty: none
+  std::string on;       ///< core that runs the drive, in parallel with the host or instead of it; empty: none
   LogArguments log;     ///< log to compare with the run
   std::string command;  ///< the command line as it can be typed again
 };

@@ -15,8 +15,8 @@ namespace {
 
 struct StopSignal {
   int number;
-  /// A second such signal comes from the user and ends the program at once. SIGHUP comes twice when a terminal
-  /// closes, from the kernel and from the shell; SIGXCPU comes once a second.
+  /// Whether a second such signal, which then comes from the user, ends the program at once. SIGHUP arrives
+  /// twice when a terminal closes, from the kernel and from the shell; SIGXCPU arrives once a second.
   bool again_ends_at_once;
 };
 constexpr StopSignal stop_signals[] = {
@@ -52,7 +52,7 @@ void take_stop_signals() {
   struct sigaction ask {
   }, before{};
   ask.sa_handler = on_stop_signal;
-  // Without SA_RESTART, so that a wait for the other end of a pipe ends.
+  // SA_RESTART is not set, so that a wait for the other end of a pipe ends.
   for (const StopSignal& stop : stop_signals) {
     // nohup ignores SIGHUP, and a shell's background job ignores the keyboard's SIGQUIT.
     const bool may_be_ignored = stop.number == SIGHUP || stop.number == SIGQUIT;

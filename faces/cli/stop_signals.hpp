@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Handles signals that ask the program to end: Ctrl-C, SIGTERM, a closed terminal, a limit of processor time.
+// Handles termination signals: Ctrl-C, SIGTERM, a closed terminal, a limit of processor time.
 #pragma once
 #include <string>
 
@@ -7,10 +7,10 @@
 
 namespace cli {
 
-/// From now on such a signal also removes temporary files; it still ends the program at once.
+/// Makes such a signal also remove temporary files; it still ends the program at once.
 void take_stop_signals();
-/// From now on such a signal asks runs to end; a second Ctrl-C, SIGTERM or SIGQUIT ends the program at once. For
-/// every verb that must clean up more than temporary files.
+/// Makes such a signal stop runs; a second Ctrl-C, SIGTERM or SIGQUIT ends the program at once. Used by every
+/// verb that must clean up more than temporary files.
 void catch_interrupts();
 
 bool interrupted();
@@ -21,13 +21,13 @@ Exit exit_of_interrupt();
 void tell_stop(const std::string& line);
 /// Tells exit_after_stop() that standard output has reported the interrupt.
 void stop_is_told();
-/// For work that leaves nothing when it is interrupted: prints that. `kept` names anything that it does leave.
+/// Reports an interrupt of work that leaves no result. `kept` names anything that it does leave.
 Exit told_interrupted(const std::string& what, const std::string& kept = "");
-/// For work that continues until it is interrupted: `exit` stays the exit code.
+/// Exit code of work that continues until it is interrupted: `exit` unchanged.
 Exit ended_as_asked(Exit exit);
 
-/// The exit code of a verb that has returned. An interrupted verb never returns success, because its result may
-/// be incomplete. If the verb has not reported the interrupt, it is reported here.
+/// The exit code of a verb that has returned. An interrupted verb never returns success, because its result
+/// may be incomplete. This function reports the interrupt if the verb has not.
 Exit exit_after_stop(Exit exit);
 
 }  // namespace cli

@@ -24,8 +24,8 @@ int unprinted = 0;  // errno of the failed standard output
 
 void print(std::string_view text, std::FILE* to) {
   if (to == stdout && unheard()) return;
-  // In one call if the kernel takes it: a reader that needs only the first line then does not close the pipe in
-  // between.
+  // The loop writes all in one call if the kernel allows it: a reader that needs only the first line then
+  // does not close the pipe in between.
   while (!text.empty()) {
     const ssize_t taken = ::write(::fileno(to), text.data(), text.size());
     if (taken >= 0) {
@@ -79,8 +79,8 @@ std::size_t terminal_width(std::FILE* stream) {
 void take_write_errors() {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-  // open() returns the lowest free number: without these, one of the run's files would get the printed text.
-  // Opened in the wrong direction, they refuse reads or writes as a closed stream does.
+  // open() returns the lowest free number: without these, one of the run's files would receive the printed
+  // text. Opened in the wrong direction, they refuse reads or writes like a closed stream.
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }

@@ -11,12 +11,12 @@
 
 namespace cli {
 
-/// After standard output has failed, the error is kept and nothing more is written there.
+/// Prints the text. After standard output has failed, the error is kept and later text is discarded.
 void print(std::string_view text, std::FILE* to = stdout);
 /// Whether standard output has failed.
 bool unheard();
-/// The last call of every command. A failed standard output is reported and is bad input. If the reader of a
-/// pipe closed it, nothing is reported, and `reader_gone` replaces an `ok`.
+/// The last call of every command. A failed standard output is reported and is bad input. If the reader has
+/// closed a pipe, nothing is reported, and `reader_gone` replaces an `ok`.
 Exit exit_after_printing(Exit exit);
 
 /// Prints one complaint per line on standard error.

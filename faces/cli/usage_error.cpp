@@ -85,8 +85,8 @@ Problem unknown_word(const Called& called, const std::string& word) {
           .cure = near.empty() ? called.path + " --help lists them" : fmt::format("did you mean {}?", near)};
 }
 
-// The error's details come from the options as they were parsed: the exception gives only its kind and the
-// library's own text.
+// The error's details come from the parsed options: the exception contains only its kind and the library's
+// own text.
 
 std::string meaning(const Called& called, const CLI::Option* option) {
   return option ? "it means: " + option->get_description() : called.help();
@@ -101,7 +101,8 @@ std::optional<Problem> missing(const Called& called) {
   return {};
 }
 
-/// An option takes the next word as its value, whatever it is, so only the last option can lack one.
+/// Reports a wrong number of values. Only the last option can lack one, because an option takes any next word
+/// as its value.
 std::optional<Problem> wrong_count(const Called& called, const std::string& last_word) {
   for (const CLI::Option* option : called.verb->get_options())
     if (static_cast<int>(option->results().size()) > option->get_items_expected_max())
@@ -117,7 +118,7 @@ bool reads(const std::string& word) {
   return CLI::detail::lexical_cast(word, number);
 }
 
-/// By the option's type.
+/// Reports a value that is no number, by the option's type.
 std::optional<Problem> no_number(const Called& called) {
   for (const CLI::Option* option : called.verb->get_options()) {
     if (option->count() == 0) continue;
@@ -133,7 +134,7 @@ std::optional<Problem> no_number(const Called& called) {
   return {};
 }
 
-/// By the limits of integer_in().
+/// Reports a value out of range, by the limits of integer_in().
 std::optional<Problem> out_of_range(const Called& called) {
   for (CLI::Option* option : called.verb->get_options())
     for (std::string word : option->results()) {
@@ -141,7 +142,7 @@ std::optional<Problem> out_of_range(const Called& called) {
       try {
         limit = (*option->get_validator(0))(word);
       } catch (const CLI::OptionNotFound&) {
-        break;  // it takes any value
+        break;  // any value is allowed
       }
       if (!limit.empty())
         return Problem{.where = option->get_name(), .value = word, .limit = limit, .cure = called.help()};
@@ -161,7 +162,7 @@ std::optional<Problem> excluded(const Called& called) {
 
 Problem problem_of(const Called& called, const CLI::ParseError& error, const std::string& last_word) {
   const std::vector<std::string> left = called.verb->remaining(true);
-  // An unknown word explains what is missing.
+  // An unknown word explains the missing argument.
   if (!left.empty()) return unknown_word(called, left.front());
   if (!verbs_of(*called.verb).empty())
     return {.where = called.path,
@@ -185,7 +186,7 @@ Exit usage_error(CLI::App& app, const CLI::ParseError& error, const std::string&
     return Exit::ok;
   }
   const Called called(app);
-  // A call without arguments gets the help.
+  // A call without arguments prints the help.
   if (called.verb == &app && app.remaining(true).empty()) {
     print(app.help(), stderr);
     return Exit::bad_input;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Declares a verb of the command line: its options and its function stand in its own file; main.cpp lists the
-// verbs.
+// Declares a verb of the command line. Its options and its function are in a separate file; main.cpp lists
+// the verbs.
 #pragma once
 #include <functional>
 #include <memory>

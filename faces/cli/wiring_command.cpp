@@ -34,7 +34,7 @@ struct WiringArguments {
   std::string command;  ///< the command that makes the page again
 };
 
-/// Opened before the work, so that an unwritable path fails at once.
+/// The output files. They are opened before the work, so that an unwritable path fails at once.
 struct WiringFiles {
   std::optional<files::AtomicFile> svg, html, toml;
 

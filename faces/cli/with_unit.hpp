@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Options that take a number with its unit, as the keys of a scenario do: "--period 25us".
+// Options for a number with its unit, like the keys of a scenario: "--period 25us".
 #pragma once
 #include <CLI/Option.hpp>
 
@@ -9,8 +9,8 @@
 
 namespace cli {
 
-/// Converts the option's text into `unit`. A text that is no number with a fitting unit stays, and the option's own
-/// check refuses it.
+/// Converts the option's text into `unit`. A text that is no number with a fitting unit is unchanged, and the
+/// option's own check refuses it.
 CLI::Option* take_unit(CLI::Option* option, std::string unit);
 
 }  // namespace cli

@@ -79,7 +79,7 @@ base::Problem not_here(const std::string& program) {
 base::Result<Child> Child::start(const Command& command) {
   const Prepared prepared(command);
   if (prepared.program.empty()) return not_here(command.words.front());
-  // Numbers above all that the program asks for, so that none is overwritten before it is copied.
+  // Temporary numbers above all requested ones, so that no descriptor is overwritten before it is copied.
   std::vector<Given> out_of_the_way;
   for (const Given& given : command.given)
     out_of_the_way.push_back({::fcntl(given.ours, F_DUPFD_CLOEXEC, 64), given.theirs});

@@ -13,7 +13,7 @@
 
 namespace loop {
 
-/// Only the thread that started it may use it.
+/// An emulated chip. Only the thread that started it may use it.
 class Chip {
  public:
   /// Loads the image; the chip is in reset. Problems: the emulator is missing or does not start.
@@ -22,7 +22,7 @@ class Chip {
   /// Valid as long as this object.
   rig::ChipPort port();
   double clock_Hz() const { return greeting_.clock_Hz; }
-  /// The times of its interrupts so far; nothing if the chip has ended.
+  /// The times of its interrupts so far; empty if the chip has ended.
   rig::ChipTimes times();
 
  private:

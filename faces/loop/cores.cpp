@@ -42,9 +42,10 @@ Core cortex(std::string_view name, std::string_view title, const char* cpu, cons
   return core;
 }
 
-/// clang 14 to 16 miscompile for it (docs/reference/core-bits.md). Its flags are in a file beside its program,
-/// so that an image to flash has the same ones. They keep branches as branches, and switches without tables,
-/// because LLVM's replacements cost a fifth more cycles on a chip that shifts bit by bit.
+/// clang 14 to 16 produce wrong code for the AVR (docs/reference/core-bits.md). Its flags are in a file in
+/// the program's folder, so that an image to flash has the same flags. They keep branches as branches, and
+/// switches without tables, because LLVM's replacements cost a fifth more cycles on a chip that shifts bit by
+/// bit.
 Core avr() {
   return {.name = "avr",
           .title = "ATmega2560",

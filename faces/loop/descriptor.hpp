@@ -29,7 +29,7 @@ class Descriptor {
   int number_ = -1;
 };
 
-/// A started program inherits neither end, unless it is given one.
+/// A pipe. A started program inherits neither end unless explicitly given.
 struct Pipe {
   Descriptor read, write;
 };

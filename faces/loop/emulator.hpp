@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a core in its emulator, call by call: it computes the drive beside the host (rig/lockstep_core.hpp).
+// Runs a core in its emulator, call by call: it computes the drive in parallel with the host
+// (rig/lockstep_core.hpp).
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -12,7 +13,7 @@
 
 namespace loop {
 
-/// Only the thread that started it may use it.
+/// An emulated core. Only the thread that started it may use it.
 class Emulator {
  public:
   /// Loads the image and waits until its program runs. Problems: the emulator is missing or does not start.
@@ -28,7 +29,7 @@ class Emulator {
 
   OneProcessor processor_;
   std::optional<Talk> talk_;
-  rig::CoreGreeting greeting_{.word = 0};  ///< until the program has sent its own
+  rig::CoreGreeting greeting_{.word = 0};  ///< empty until the program has sent its greeting
   std::uint64_t calls_ = 0;
 };
 

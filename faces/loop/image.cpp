@@ -68,7 +68,7 @@ const char* drive_of(const study::Scenario& scenario) {
   return "-DSIXSTEP_LEAN_DRIVE";
 }
 
-/// For a core that is called: compile and link at once.
+/// Builds the program of a called core: compiles and links in one step.
 Words called_core(const Core& core, const study::Scenario& scenario, const fs::path& root,
                   const fs::path& folder, const fs::path& image) {
   const fs::path bare = root / "faces/firmware/bare";
@@ -84,8 +84,8 @@ Words called_core(const Core& core, const study::Scenario& scenario, const fs::p
   return words;
 }
 
-/// For a whole chip: compile its program as tools/firmware_image.sh does, then link it behind its C library's
-/// start code.
+/// Builds the program of a whole chip: compiles it like tools/firmware_image.sh, then links it after its C
+/// library's start code.
 std::vector<Words> whole_chip(const Core& core, const fs::path& root, const fs::path& folder,
                               const fs::path& image) {
   const fs::path example = root / "faces/firmware/example/avr";
@@ -130,7 +130,7 @@ base::Problems carried_out(const Core& core, const Words& words, const fs::path&
            "please report it with the scenario file"}};
 }
 
-/// Reports all missing programs at once, before the compiler takes time.
+/// Reports all missing programs at once, before the compilation.
 base::Problems missing_programs(const Core& core) {
   base::Problems missing;
   for (const Words* words : {&core.compiler, &core.linker, &core.emulator})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the files that this program needs to run a drive on a core. It searches relative to its own place, so
-// that an installation can be moved.
+// Finds the files that this program needs to run a drive on a core. It searches relative to the program's
+// path, so that an installation can be moved.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -8,7 +8,7 @@
 namespace loop {
 
 /// The folder with sixstep/ and faces/, from which a core's program is compiled: SIXSTEP_SOURCES, else the
-/// sources of the build, else the installed ones. Empty, or a folder without them: there are none.
+/// sources of the build, else the installed ones. Empty, or a folder without sources, if there are none.
 std::filesystem::path sources_folder();
 
 /// The ATmega2560's board; only its name if it must be on PATH.

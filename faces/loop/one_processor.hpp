@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps a thread and the processes that it starts on one processor. Two programs that take turns wait for each
-// other anyway, and waking a sleeping processor takes longer than a switch (loop_benchmark: twice the calls per
-// second).
+// Keeps a thread and the processes that it starts on one processor. Two alternating programs wait for each
+// other anyway, and waking a sleeping processor takes longer than a switch (loop_benchmark: twice the calls
+// per second).
 #pragma once
 #include <sched.h>
 

@@ -9,7 +9,8 @@
 
 namespace loop {
 
-/// From a map's path and text (text/firmware_map/). Problems: mistakes in the map, or a missing program.
+/// Makes a core from a map's path and text (text/firmware_map/). Problems: mistakes in the map, or a missing
+/// program.
 base::Result<Core> own_firmware(const std::string& path, const std::string& text);
 
 }  // namespace loop

@@ -9,7 +9,8 @@ namespace loop {
 
 namespace {
 
-/// A program that has not answered by then hangs. An emulator on a busy machine starts within the second limit.
+/// Time limits of an answer and of the start; a program that exceeds them hangs. An emulator on a busy
+/// machine starts within the second limit.
 constexpr int answer_limit_ms = 5000, start_limit_ms = 30000;
 
 /// The pipes' descriptor numbers in the program.
@@ -19,7 +20,7 @@ constexpr int calls_there = 3, answers_there = 4;
 
 base::Result<Talk> Talk::begin(std::vector<std::string> emulator, const std::string& image, void* greeting,
                                std::size_t bytes) {
-  // Only the child holds the other ends, so that each side is notified when the other ends.
+  // The child alone holds the other ends, so that each side detects the end of the other.
   Pipe calls = made_pipe(), answers = made_pipe();
   if (!calls.read || !answers.read)
     return base::Problem{emulator.front(), "", "cannot be talked to: this program has too many files open",

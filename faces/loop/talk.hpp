@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exchanges calls and answers with another program over two pipes; there they are descriptors 3 and 4.
+// Exchanges calls and answers with another program over two pipes, which are its descriptors 3 and 4.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -24,7 +24,7 @@ class Talk {
 
   /// Sends all bytes, or reports that the other program has ended.
   rig::CoreTrouble say(const void* from, std::size_t bytes);
-  /// Reads all bytes; each part must come within `limit_ms`.
+  /// Reads all bytes; each part must arrive within `limit_ms`.
   rig::CoreTrouble hear(void* to, std::size_t bytes, int limit_ms);
   /// Sends a call and reads the answer within five seconds; a program that needs longer hangs.
   rig::CoreTrouble ask(const void* call, std::size_t call_bytes, void* answer, std::size_t answer_bytes);
@@ -37,7 +37,7 @@ class Talk {
   Descriptor to_, from_;
 };
 
-/// The Problem that the greeting did not come, because of `trouble`.
+/// The Problem that the greeting did not arrive, because of `trouble`.
 base::Problem no_greeting(const std::string& program, rig::CoreTrouble trouble);
 
 }  // namespace loop

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference motor on the bench that holds its speed.
+// The reference motor on a bench with constant speed.
 #pragma once
 #include "sixstep/analysis/curve/bench.hpp"
 #include "tests/support/maxon.hpp"
@@ -25,7 +25,7 @@ inline analysis::Bench shaped(design::BackEmfShape shape, double flat_deg) {
   return b;
 }
 
-/// With nominal point and the thermal lines of the sister winding 339286.
+/// The reference motor's sheet with nominal point and the thermal lines of the sister winding 339286.
 inline design::Sheet curve_sheet() {
   design::Sheet s = maxon_sheet();
   const auto given = [](double value) { return base::Quantity{value, "", ""}; };

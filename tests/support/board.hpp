@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference motor on the virtual board: what the tests' runs have in common.
+// The reference motor on the virtual board, as the tests' runs share it.
 #pragma once
 #include "sixstep/rig/lean_rig.hpp"
 #include "tests/support/maxon.hpp"
 
 namespace sixstep::testing {
 
-/// Open loop or closed, as the configs say; each rig gets its own timeline.
+/// A board, open loop or closed as the configs define. Each rig gets its own timeline.
 struct Board : Drivetrain {
   control::DriveConfig<double> drive{.mode = control::Mode::duty, .nominal_bus_V = 24.0};
   rig::BoardConfig board{};

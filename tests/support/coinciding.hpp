@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs in which two things fall on one instant, exactly or within rounding.
+// Runs in which two events fall on one instant, exactly or within rounding.
 #pragma once
 #include <cmath>
 
@@ -25,7 +25,7 @@ inline Board turning(Board b, double edge_s) {
   return b;
 }
 
-/// On-time after which a current, pushed by U - E and pulled by U + E, is back at zero at `zero_s`.
+/// On-time after which a current, raised by U - E and lowered by U + E, is zero again at `zero_s`.
 inline double on_time_for_zero(const Drivetrain& d, double E, double zero_s) {
   const double U = 24.0, R = d.R_tt(), tau = d.tau();
   double low = 0, high = zero_s;

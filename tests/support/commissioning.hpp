@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motors of the library on a board that is to find out what they are.
+// Motors of the library on a board that identifies them.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -19,11 +19,11 @@ namespace general = plant::general;
 struct CommissionedMotor {
   const char* name;
   double bus_V, period_s;
-  double test_A;   ///< a good part of what the motor stands
+  double test_A;   ///< a large part of the motor's permissible current
   double range_A;  ///< of its board's converter, 12 bits
 };
 
-/// Of very different kind: flat with a trapezoid, a drone's outer runner, a wheel's hub.
+/// Motors of very different kinds: flat with a trapezoid, a drone's outer runner, a wheel's hub.
 inline constexpr CommissionedMotor commissioned_motors[] = {{"maxon-251601", 24.0, 30e-6, 5.0, 10.24},
                                                             {"dji-2212-920kv", 12.0, 20e-6, 15.0, 30.0},
                                                             {"hoverboard-hub", 36.0, 50e-6, 12.0, 25.0}};
@@ -74,7 +74,8 @@ struct CommissioningBench {
     wish.test_A = from.test_A;
   }
 
-  /// The fundamental's, V s: c_1 = 4 sin g/(pi g) of a trapezoid whose slopes are 2 g wide (model.md 1).
+  /// Flux linkage of the fundamental, V s: c_1 = 4 sin g/(pi g) of a trapezoid whose slopes are 2 g wide
+  /// (model.md 1).
   double flux_linkage() const {
     const double g = (180.0 - machine.shape.flat_deg) / 2 * base::pi / 180;
     const double c_1 = machine.shape.harmonics.empty() ? 4 * std::sin(g) / (base::pi * g) : 1.0;
@@ -86,7 +87,7 @@ struct CommissioningBench {
   }
 };
 
-/// Runs until a phase has come, or it is done or has failed; what it found.
+/// Runs until a phase is reached, done or failed, and returns the result.
 template <class Rig>
 const control::CommissioningState& commission(
     Rig& rig, double most_s = 60.0, control::CommissioningPhase until = control::CommissioningPhase::done) {

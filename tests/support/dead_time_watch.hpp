@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Watches gates: within a leg, each turn-on comes at least the dead time after the other switch's turn-off,
+// Checks gates: within a leg, each turn-on occurs at least the dead time after the other switch's turn-off,
 // the first one after the run's begin.
 #pragma once
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a field-oriented drive had in hand at each of its ticks, on the kernel that the scenario asks for.
+// Records values of a field-oriented drive at each of its ticks, on the kernel that the scenario requires.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ struct TickWatch {
 
 }  // namespace detail
 
-/// Calls look(rig) at each tick and gives what it answered, in order.
+/// Calls look(rig) at each tick and returns its results in order.
 template <class Scalar = double, class Look>
 auto field_ticks(const study::Scenario& s, Look look) {
   using Firmware = rig::FieldDrive<Scalar>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figures of a scenario's run, as the tests ask for them.
+// Figures of a scenario's run, in the tests' order.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ inline study::Measure over(study::MetricKind metric, study::Signal signal, doubl
   return m;
 }
 
-/// A failure, and as many figures of nothing as were asked for, where the run could not start.
+/// Runs the scenario. If the run cannot start, the test fails and each figure is empty.
 inline study::Outcome outcome_of(const study::Scenario& s) {
   const auto out = study::run(s);
   if (out) return *out;
@@ -27,7 +27,7 @@ inline study::Outcome outcome_of(const study::Scenario& s) {
   return none;
 }
 
-/// What was asked, in that order.
+/// Returns the compared figures in their order.
 inline std::vector<double> figures_of(const study::Scenario& s) {
   std::vector<double> figures;
   for (const study::ComparisonResult& c : outcome_of(s).comparisons) figures.push_back(c.measured);

@@ -8,7 +8,7 @@ namespace sixstep::testing {
 
 namespace general = plant::general;
 
-/// Star, trapezoid, everything that the lean kernel has too; cases change what they need.
+/// Star and trapezoid, with features of the lean kernel only; cases change the members that they require.
 struct GeneralSetup {
   general::Machine machine{.R_ohm = {0.515, 0.515, 0.515},
                            .K_e_V_s = {0.01675, 0.01675, 0.01675},
@@ -31,7 +31,7 @@ inline GeneralRig general_rig(const GeneralSetup& setup, const Board& board) {
   return GeneralRig(setup.plant(), board.drive, board.board, board.timeline, {}, {}, setup.probes);
 }
 
-/// The general plant alone with gates held, as a System for sim::run.
+/// The general plant alone with constant gates, as a System for sim::run.
 class HeldGeneral : public rig::UnscheduledPlant<double, general::Plant<double>> {
  public:
   explicit HeldGeneral(const GeneralSetup& setup, const plant::Gates& gates = {})

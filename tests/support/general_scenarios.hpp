@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What makes a scenario of the reference motor one for the general kernel.
+// Changes after which a scenario of the reference motor requires the general kernel.
 #pragma once
 #include <functional>
 
@@ -20,7 +20,7 @@ inline void give_thermal_lines(study::Scenario& s) {
   s.sheet.max_winding_temperature_degC = base::Quantity{125, "", ""};
 }
 
-/// Each makes a scenario one that only the general kernel runs.
+/// A change after which only the general kernel can run a scenario.
 struct AsksForGeneral {
   const char* what;
   std::function<void(study::Scenario&)> make;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one list of names that act where they are not escaped, for every place that shows or writes one. The
-// tests of the program read the same file.
+// The list of names that have an effect if they are not escaped, for every place that shows or writes a name.
+// The tests of the program read the same file.
 #pragma once
 #include <fstream>
 #include <string>

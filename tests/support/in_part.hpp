@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Under the sanitizers a simulation takes ten times as long: of cases that differ in numbers only, they see one in seven. And many
-// cases that are alike are looked at in part by ./test and .ci/run, all of them by ctest --preset long.
+// Selects a part of many similar cases. A simulation takes ten times as long under the sanitizers, which
+// therefore run one case in seven if the cases differ in numbers only. ./test and .ci/run run a part of the
+// cases, ctest --preset long runs all of them.
 #pragma once
 #include <cstdlib>
 
@@ -16,7 +17,7 @@ inline constexpr int one_in = 1;
 
 class InPart {
  public:
-  /// Of this case; the first is always looked at.
+  /// Whether to skip this case; the first is always run.
   bool leaves_out() { return n_++ % one_in != 0; }
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The laws that hold for every run (model.md 5), as an observer for any system that has a plant. It looks
-// inside the segments too, not only at their ends.
+// The laws that hold for every run (model.md 5), as an observer for any system that has a plant. It also
+// checks instants inside the segments, not only their ends.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 
 namespace sixstep::testing {
 
-/// The books of whichever kernel a run is on.
+/// The energy book of the run's kernel.
 template <class Real>
 struct BooksOfEither {
   plant::Audit<Real> lean;
@@ -49,22 +49,23 @@ class LawChecker {
 
   const plant::Audit<Real>& audit() const { return audit_.lean; }
   double highest_current_A() const { return highest_current_; }
-  /// How often a free shaft stood still at once: a clamp gripped it and let it go at one instant.
+  /// Number of times at which a free shaft stopped abruptly: a clamp gripped it and released it at one
+  /// instant.
   int stops() const { return stops_; }
 
-  /// A law, and how much of what rounding allows it the run used: 1 is all of it.
+  /// A law, and the deviation of the run as a fraction of the one that rounding allows.
   struct Used {
     const char* law;
     double part;
   };
 
-  /// Rounding: sums are kept exactly by construction, diodes and rails to the guards' noise of 64 eps of
-  /// scale (twice, for the evaluation; and as often as the mode at hand had its noise widened), and so are
-  /// the currents and the speed from one segment to the next. The energy balance to 1e-11, once what those
-  /// steps took along is in the book: beside a current i one of d takes L i d, which is much beside what so
-  /// far has moved where i is far below the scale. Within a segment too a current is rounded to some eps of
-  /// that scale (8, as its sum): L i times that is no imbalance. Nor is what the bus sends through three legs that are high by
-  /// the rounding of the currents' sum, where nothing else flows.
+  /// Limits by rounding. Sums are exact by construction. Diodes and rails may deviate by the guards' noise of
+  /// 64 eps of scale (twice, for the evaluation, and by the mode's own widening factor), and so may the
+  /// currents and the speed from one segment to the next. The energy balance holds to 1e-11, after the energy
+  /// of these steps is added to the book: a step d of a current i changes the energy by L i d, which is large
+  /// against the energy so far if i is far below the scale. A current within a segment is rounded to some eps
+  /// of that scale (8, like its sum): L i times that is no imbalance. The same applies to the bus's energy
+  /// through three legs whose currents' sum has a rounding error, if no other current flows.
   std::array<Used, 9> used(double energy_tolerance = 1e-11) const {
     const plant::EnergyBook book = audit_.energy();
     const double rounded_A = 8 * 0x1p-52 * amp_scale_;
@@ -89,11 +90,11 @@ class LawChecker {
  private:
   static constexpr double noise = 128 * 0x1p-52;
 
-  /// The largest so far; a NaN stays.
+  /// Keeps the largest value so far; a NaN remains.
   static void raise(double& worst, double v) {
     if (!(v <= worst) && worst == worst) worst = v;
   }
-  /// Nothing steps in a current or a speed but what rounding calls zero; a clamp stops a shaft.
+  /// Checks that currents and speed have no steps except rounding between segments; a clamp may stop a shaft.
   void join(const auto& p) {
     const plant::Snapshot<Real> now = p.at(Real(0));
     const auto d = [](Real v) { return static_cast<double>(v); };
@@ -127,7 +128,7 @@ class LawChecker {
       if (!plant::is_floating(leg)) continue;
       raise(floating_current_, std::fabs(d(now.i[k])));
       if constexpr (requires { p.dead(); })
-        if ((p.dead() >> k & 1) != 0) continue;  // behind a broken wire there are no rails
+        if ((p.dead() >> k & 1) != 0) continue;  // the pole behind a broken wire has no rails
       raise(beyond_rail_, (-V_f - d(now.pole[k])) / volt);
       raise(beyond_rail_, (d(now.pole[k] - now.bus) - V_f) / volt);
     }
@@ -138,13 +139,13 @@ class LawChecker {
   bool time_went_back_ = false;
   plant::Snapshot<Real> end_{};  ///< of the segment before
   double current_step_ = 0, speed_step_ = 0, speed_scale_ = 0;
-  double stray_W_ = 0, stray_J_ = 0;  ///< of the segment at hand and of all
+  double stray_W_ = 0, stray_J_ = 0;  ///< of the present segment, and of all segments
   double stepped_ = 0;                ///< magnetic energy that currents won between segments, J
   std::int64_t segments_ = 0;
   int stops_ = 0;
   double inductance_ = 0, amp_scale_ = 0, volt_scale_ = 0, current_sum_ = 0, floating_current_ = 0,
          highest_current_ = 0;
-  double reverse_diode_ = 0, beyond_rail_ = 0;  ///< as parts of what is allowed
+  double reverse_diode_ = 0, beyond_rail_ = 0;  ///< as fractions of the allowed values
 };
 
 }  // namespace sixstep::testing

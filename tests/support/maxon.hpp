@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference motor of model.md 6 and ways to put it on the bench: the plant alone with gates held, or on
-// the virtual board.
+// The reference motor of model.md 6 in two setups: the plant alone with constant gates, or on the virtual
+// board.
 #pragma once
 #include <functional>
 #include <vector>
@@ -42,7 +42,7 @@ inline plant::Gates all_off() { return {}; }
 inline plant::Gates a_to_b() { return gates({true, false, false}, {false, true, false}); }
 inline plant::Gates all_low() { return gates({}, {true, true, true}); }
 
-/// The plant with gates held, as a System for sim::run; notes every located event.
+/// The plant with constant gates, as a System for sim::run; notes every located event.
 template <class RealType = double>
 class Held : public rig::UnscheduledPlant<RealType> {
   using rig::UnscheduledPlant<RealType>::plant_;

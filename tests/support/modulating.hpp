@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commands to a modulator and a look at its gates, for its tests.
+// Commands to a modulator and its gates as text, for its tests.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ inline BoardCommand command(double duty, Chopping chopping = Chopping::soft, Pai
 }
 inline Instant at(std::int64_t ticks, double offset = 0.0) { return {ticks, offset}; }
 
-/// "a+ b-": which gates are on.
+/// Returns the gates that are on: "a+ b-".
 template <class Modulator>
 std::string on(const Modulator& m) {
   std::string text;
@@ -38,7 +38,7 @@ std::string on(const Modulator& m) {
   return text;
 }
 
-/// Does the next edge and says when it was.
+/// Executes the next edge and returns its instant.
 template <class Modulator>
 Instant do_next(Modulator& m) {
   const Instant edge = m.next_edge();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a textbook simulator does with soft chopping: RK4, diodes by the sign of the current, a leg
-// without gate and current stays off. It leaves out that such a leg starts to conduct when its terminal would
-// pass a rail (model.md 2).
+// A textbook simulation of soft chopping: RK4, diodes by the sign of the current, a leg without gate and
+// current stays off. It neglects that such a leg starts to conduct when its terminal would exceed a rail
+// (model.md 2).
 #pragma once
 #include <array>
 #include <cmath>
@@ -14,8 +14,8 @@ class NaiveSoftChopper {
  public:
   NaiveSoftChopper(const Drivetrain& d, double step_s) : d_(d), h_(step_s) {}
 
-  /// One step with the source's upper switch on or off; cut where a diode's current vanishes or a sector
-  /// ends, so that the step's size is no excuse.
+  /// One step with the source's upper switch on or off. It is cut where a diode's current vanishes or a
+  /// sector ends, so that the step size cannot cause the deviation.
   void step(bool on) {
     double left = h_;
     for (int cuts = 0; left > 0 && cuts < 20; ++cuts) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sensorless drive that follows an observer, on the bench of sensorless.hpp, and how far each of its commutations lay
-// from the rotor's sector edge.
+// A sensorless drive with an observer, on the bench of sensorless.hpp, and the angle errors of its
+// commutations against the rotor's sector edge.
 #pragma once
 #include "sixstep/design/loops/sensorless_observer.hpp"
 #include "sixstep/design/scaling/observer_scaling.hpp"
@@ -19,14 +19,14 @@ inline const char* word(control::Follow follow) {
   return words[static_cast<std::size_t>(follow)];
 }
 
-/// The chip is told to follow; motor and board stay.
+/// Configures the chip for an observer; motor and board stay unchanged.
 inline void follow(SensorlessBench& bench, control::Follow follow) {
   const auto observer = design::sensorless_observer(bench.motor, bench.spec, follow);
   ASSERT_TRUE(observer) << base::to_string(observer.problems().front());
   bench.chip.observer = observer->chip;
 }
 
-/// Commutations by the timer, in electrical degrees behind the rotor's edge.
+/// Angle errors of the timer's commutations, in electrical degrees behind the rotor's edge.
 struct CommutationError {
   int count = 0;
   double sum = 0.0, squares = 0.0, worst = 0.0;
@@ -34,7 +34,7 @@ struct CommutationError {
   double mean() const { return count == 0 ? 0.0 : sum / count; }
 };
 
-/// Runs on to `to_s` and watches each compare match where it happens. `forward`: the way that the rotor turns.
+/// Continues the run to `to_s` and measures at each compare match. `forward`: the rotor's direction.
 template <class Rig>
 CommutationError watch_commutations(Rig& rig, double to_s, double period_s, bool forward = true) {
   CommutationError error;

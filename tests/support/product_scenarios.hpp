@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenarios of the product drive, and a witness of what its bridge did.
+// Scenarios of the product drive, and a recorder of its bridge's events.
 #pragma once
 #include <algorithm>
 #include <string>
@@ -23,8 +23,8 @@ inline study::Sensors board_sensors(int bits = 12) {
   return s;
 }
 
-/// The product drive on the reference motor, limits where none is reached in plain running. Its speed loop is
-/// soft: edges tell the speed a sector late.
+/// The product drive on the reference motor, with limits that normal running does not reach. Its speed loop
+/// is soft, because edges show the speed a sector late.
 inline study::Scenario product_scenario(control::Mode mode, double reference) {
   study::Scenario s = maxon_scenario(mode, reference);
   s.control.drive = study::FirmwareKind::product;
@@ -88,7 +88,8 @@ struct Witness {
   }
 };
 
-/// On a board, at 300 rad/s with 0.6 J in its rotor, on a bus of 0.1 mF behind 0.1 ohm; let go it brakes with 2 A.
+/// A drive at 300 rad/s with 0.6 J in its rotor, on a bus of 0.1 mF behind 0.1 ohm. It brakes with 2 A when
+/// its run request ends.
 inline study::Scenario braking_onto_a_small_bus() {
   study::Scenario s = product_scenario(control::Mode::speed, 300.0);
   s.duration_s = 0.5;

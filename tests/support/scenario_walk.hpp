@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scenario's run looked at from inside, whatever its firmware and arithmetic: the standing laws within each
-// segment, and whether a copy of the rig taken at a control tick goes on to the same end.
+// Checks a scenario's run from inside, with any firmware and arithmetic: the laws within each segment, and
+// whether a copy of the rig taken at a control tick reaches the same end.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -12,7 +12,8 @@
 namespace sixstep::testing {
 
 struct Walk {
-  base::Problems problems;  ///< why the arithmetic cannot hold the drive; then nothing else is said
+  base::Problems
+      problems;  ///< why the arithmetic cannot represent the drive; the other members are then empty
   sim::Stop stop = sim::Stop::end;
   std::int64_t segments = 0, ticks = 0;
   std::uint64_t digest = 0;
@@ -28,7 +29,7 @@ struct WalkPlan {
   std::int64_t most_segments = 1'000'000;
 };
 
-/// Compiled is that of the scenario.
+/// `compiled` must belong to the scenario.
 Walk walk(const study::Scenario& scenario, const study::Compiled& compiled, const WalkPlan& plan = {});
 
 }  // namespace sixstep::testing

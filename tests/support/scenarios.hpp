@@ -42,7 +42,7 @@ inline study::Scenario current_square() {
   return s;
 }
 
-/// The same current by a band of 0.2 A.
+/// The same current with a hysteresis band of 0.2 A.
 inline study::Scenario hysteresis() {
   study::Scenario s = current_square();
   s.control.current = {.type = study::CurrentLoopType::hysteresis, .band_A = 0.2};
@@ -59,8 +59,8 @@ inline study::Scenario cascade(double duration_s = 8e-3) {
   return s;
 }
 
-/// Turned from outside at a speed that is held, so that angles are known in closed form, with current in the windings that commutation
-/// is seen to go by the sensor.
+/// Constant speed of a motor turned from outside, and its start angle: angles then have a closed form. The
+/// windings carry current, so that the sensor's commutation is visible.
 inline constexpr double turned_rad_s = 200, turned_from_rad = 0.3;
 inline study::Scenario turned_by(study::RotorSensing rotor, double duration_s) {
   study::Scenario s = maxon_scenario(control::Mode::current, 0.5);

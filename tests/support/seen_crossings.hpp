@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a running drive without a rotor sensor sees the back-EMF cross zero, against where the rotor stands.
+// Measures the delay of the back-EMF's zero crossings that a sensorless drive detects, against the rotor's
+// angle.
 #pragma once
 #include "tests/support/sensorless.hpp"
 
 namespace sixstep::testing {
 
-/// Where each sector's crossing was seen, in the mean over so many: behind the sector's middle, rad electrical.
+/// Mean delay of each sector's detected crossings behind the sector's middle, rad electrical, and their
+/// number.
 struct SeenCrossings {
   double late_rad[6]{};
   int count[6]{};
   double speed_rad_s = 0.0;
 };
 
-/// At as many looks as samples; until then the drive has come to run by itself.
+/// Takes `looks` samples, after the drive has reached running by itself.
 inline SeenCrossings seen_crossings(const SensorlessBench& bench, double from_s, int looks = 6000) {
   SeenCrossings seen;
   auto rig = bench.rig();

@@ -26,7 +26,7 @@ struct SensorlessMotor {
   double period_s;
 };
 
-/// Of very different kind: flat with a trapezoid, a drone's outer runner, a wheel's hub.
+/// Motors of very different kinds: flat with a trapezoid, a drone's outer runner, a wheel's hub.
 inline constexpr SensorlessMotor three_motors[] = {
     {"maxon-251601", 24.0, 30e-6}, {"dji-2212-920kv", 12.0, 20e-6}, {"hoverboard-hub", 36.0, 50e-6}};
 
@@ -114,7 +114,7 @@ inline const char* word(control::SensorlessPhase phase) {
   return words[static_cast<std::size_t>(phase)];
 }
 
-/// Sectors from the rotor's to the one that is commutated for, -2..3.
+/// Sectors from the rotor's sector to that of the commutation, -2..3.
 template <class Rig>
 int ahead(const Rig& rig) {
   return control::sectors_between(static_cast<std::uint8_t>(rig.plant().sector()),
@@ -126,7 +126,7 @@ control::SensorlessPhase phase(const Rig& rig) {
   return rig.firmware().rotor().phase;
 }
 
-/// Runs until `what` holds, looking every `every_s`; the time, or a negative one.
+/// Runs until `what` holds, checked every `every_s`. Returns the time, or a negative one.
 template <class Rig, class What>
 double run_until_true(Rig& rig, double most_s, double every_s, What&& what) {
   sim::NoObserver none;
@@ -137,7 +137,8 @@ double run_until_true(Rig& rig, double most_s, double every_s, What&& what) {
   return -1;
 }
 
-/// Runs on and counts at how many looks the drive was wrong by more than a sector's edge, or had lost the rotor.
+/// Continues the run and counts the checks at which the drive was wrong by more than a sector's edge, or had
+/// lost the rotor.
 template <class Rig>
 int wrong_looks(Rig& rig, double to_s, double every_s) {
   int wrong = 0;

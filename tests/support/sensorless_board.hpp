@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bench of sensorless.hpp with a board as one is built: channels of a tenth of the phase, diodes, dead time, converters that
-// are as noisy as one count, terminals whose dividers are unlike, a measured bus, and answers that count a period late.
+// The bench of sensorless.hpp with a realistic board: channels of a tenth of the phase's resistance, diodes,
+// dead time, converters with noise of one count, terminals with unequal dividers, a measured bus, and answers
+// one period late.
 #pragma once
 #include <random>
 
@@ -8,7 +9,8 @@
 
 namespace sixstep::testing {
 
-/// Dividers of resistors of 0.1 %: two of them differ by 0.4 % at most. That of leg a reads so much more than that of leg b.
+/// Largest difference of two dividers of 0.1 % resistors. The divider of leg a reads higher than that of leg
+/// b by this part.
 inline constexpr double unlike_dividers = 0.004;
 
 template <class Scalar>
@@ -23,7 +25,7 @@ struct BuiltDrive : rig::SensorlessDrive<Scalar> {
 
 using BuiltRig = rig::Rig<double, BuiltDrive<double>>;
 
-/// The board is built like that, and the drive designed for what is known of it: noise, dividers, diodes.
+/// Applies that board, and designs the drive with its known noise, dividers and diodes.
 inline void build(SensorlessBench& bench) {
   const double R = bench.motor.machine.R_ohm;
   bench.devices = {.R_on_ohm = 0.1 * R, .V_f_V = 0.7, .r_d_ohm = 0.05 * R};
@@ -52,13 +54,13 @@ inline SensorlessBench on_built_board(const SensorlessMotor& motor, control::Mod
   return bench;
 }
 
-/// When both steps of the alignment are over.
+/// Time at which both steps of the alignment are over.
 inline double aligned_s(const SensorlessBench& bench) {
   return 2 * bench.start.rotor.start.align_ticks / bench.spec.capture_Hz;
 }
 
-/// The duty that turns the motor with a tenth of its no-load speed against its load: what copper, channels and diodes take
-/// is put on top. Hard chopping applies 2 d - 1 of the bus.
+/// The duty that turns the motor at a tenth of its no-load speed against its load. It includes the voltage
+/// drops of copper, channels and diodes. Hard chopping applies 2 d - 1 of the bus.
 inline double tenth_of_no_load(const SensorlessBench& bench) {
   const double R_tt = 2 * (bench.motor.machine.R_ohm + bench.devices.R_on_ohm);
   const double drop_V = bench.load_part * bench.nominal_A() * R_tt + bench.devices.V_f_V;
@@ -71,7 +73,7 @@ inline const char* word(control::Chopping chopping) {
   return words[static_cast<std::size_t>(chopping)];
 }
 
-/// From rest to a speed, and 0.1 s of holding it.
+/// Result of a start from rest to a speed, and of 0.1 s at this speed.
 struct Started {
   bool holds = false;
   bool at_once = false;  ///< without a second try
@@ -94,8 +96,9 @@ inline int starts_each(int usual) {
   return asked != nullptr ? std::atoi(asked) : usual;
 }
 
-/// Of each motor against no load to half of it, from angles that are drawn, to 0.3 of the no-load speed: 99 of 100 starts hold. The
-/// n-th drive of all is bench_of(motor, n), and turns as sign_of(n) has it.
+/// Starts each motor against no load to half of its nominal load, from random angles, to 0.3 of the no-load
+/// speed: 99 of 100 starts must hold. The n-th drive of all is bench_of(motor, n), and turns in the direction
+/// of sign_of(n).
 template <class BenchOf, class SignOf>
 void expect_starts_from_any_angle(unsigned seed, BenchOf&& bench_of, SignOf&& sign_of) {
   std::mt19937 draw(seed);
@@ -124,7 +127,7 @@ void expect_starts_from_any_angle(unsigned seed, BenchOf&& bench_of, SignOf&& si
     }
 }
 
-/// So much of the no-load speed, 0.8 s after the alignment, without the rotor having been lost.
+/// Expects this fraction of the no-load speed 0.8 s after the alignment, without a loss of the rotor.
 inline void expect_speed_held(SensorlessBench& bench, double part, const std::string& of) {
   const double w = part * bench.no_load_rad_s();
   bench.setpoint(0, w);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The built board of sensorless_board.hpp with comparators at its filtered terminals, and a drive that follows their edges.
+// The realistic board of sensorless_board.hpp with comparators at its filtered terminals, and a drive that
+// uses their edges.
 #pragma once
 #include "tests/support/sensorless_board.hpp"
 
@@ -9,7 +10,8 @@ inline const char* word(rig::CrossingReference against) {
   return against == rig::CrossingReference::half_bus ? "half the bus" : "virtual star";
 }
 
-/// Comparators that are off by 2 mV of 3.3 V, seen at the terminal through a divider, and switch 3 mV apart.
+/// Comparators with an offset of 2 mV of 3.3 V, seen at the terminal through a divider, and a hysteresis of 3
+/// mV.
 inline rig::CrossingComparators usual_comparators(rig::CrossingReference against, double bus_V) {
   const double per_V = 1.25 * bus_V / 3.3;
   return {.against = against,
@@ -17,8 +19,9 @@ inline rig::CrossingComparators usual_comparators(rig::CrossingReference against
           .hysteresis_V = 3e-3 * per_V};
 }
 
-/// Comparators are put on the bench's board, behind a low-pass whose time constant is so much of the longest there may be, and the
-/// drive is designed for them. Half the bus asks for one that is settled within half of a pulse: the ramp there goes on to a fifth of the no-load speed.
+/// Adds comparators to the bench's board, behind a low-pass whose time constant is this part of the longest
+/// possible, and designs the drive for them. Half the bus as reference requires a low-pass that settles
+/// within half of a pulse: the ramp then ends at a fifth of the no-load speed.
 inline void capture_crossings(SensorlessBench& bench, rig::CrossingComparators comparators,
                               double part_of_longest = 0.8) {
   const bool half_bus = comparators.against == rig::CrossingReference::half_bus;

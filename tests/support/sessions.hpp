@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs and sessions that are expected to succeed: what they leave behind, or a failed test.
+// Runs and sessions that must succeed: returns their results, or fails the test.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -26,13 +26,13 @@ inline study::Outcome closed(study::Session& session) {
   return out ? *out : study::Outcome{};
 }
 
-/// To the scenario's end.
+/// Advances the session to the scenario's end.
 inline study::Outcome run_out(study::Session& session) {
   session.advance(1e6);
   return closed(session);
 }
 
-/// Slices of awkward lengths, each looked at and continued in a copy.
+/// Runs in slices of irregular lengths, each sampled and continued in a copy.
 inline study::Outcome sliced(const study::Scenario& s, const study::Listeners& listeners = {}) {
   study::Session session = opened(s, listeners);
   double t_s = 0.0;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Controllers that answer three legs, on the virtual board: a function of what a tick is given.
+// Controllers that command three legs, on the virtual board, as a function of a tick's inputs.
 #pragma once
 #include "sixstep/rig/rig.hpp"
 #include "tests/support/board.hpp"
 
 namespace sixstep::testing {
 
-/// Controller: LegCommands<double> operator()(instant, setpoint), with whatever it keeps.
+/// Controller: LegCommands<double> operator()(instant, setpoint), with any state.
 template <class Controller>
 class ThreeLegFirmware {
  public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A shaft whose motion is known in closed form, shown to a board's ports segment by segment.
+// A shaft whose motion has a closed form, given to a board's ports segment by segment.
 #pragma once
 #include <cmath>
 
@@ -19,7 +19,7 @@ struct Motion {
     const auto sector = static_cast<std::int64_t>(std::floor(sectors));
     return {sector, theta(t) * p - static_cast<double>(sector) * base::sector_rad, p};
   }
-  /// On the load's side of a gear, and of a coupling that is twisted by so much.
+  /// Shows the load's side of a gear, and of a coupling with this twist.
   void show(rig::ShaftPorts& ports, double from_s, double to_s, double sample_s = 1.0, double gear = 0.0,
             double twist_rad = 0.0) const {
     const double h = 10e-6;

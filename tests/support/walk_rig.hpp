@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// walk() for one kind of drive. Each is compiled in a file of its own, side by side.
+// walk() for one kind of drive. Each kind has a separate file, so that they compile in parallel.
 #pragma once
 #include <cmath>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A study of wirings that looks like one, without its 252 runs: for those who write it. What is "measured" is made up of theory.
+// A study of wirings with plausible results but without its 252 runs, for tests of its output. The "measured"
+// values follow from theory.
 #pragma once
 #include <cmath>
 

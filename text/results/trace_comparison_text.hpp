@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints how far a board's log differs from its simulation.
+// Prints the difference between a board's log and its simulation.
 #pragma once
 #include <string>
 #include <vector>

@@ -57,7 +57,7 @@ class Family {
     return all;
   }
 
-  /// The base's own `extends` has done its work.
+  /// The base's own `extends` has been applied.
   base::Result<Document> follow(const Named& base, const std::string& from, Complaints& complaints) {
     const auto refuse = [&](std::string limit, std::string cure) -> base::Result<Document> {
       complaints.value(*base.node, base.path, {.limit = std::move(limit), .cure = std::move(cure)});

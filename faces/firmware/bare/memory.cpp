@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defines the three functions that compilers insert to copy and clear structs. They copy words where possible,
-// as a C library does; otherwise the instruction counts would include code that nobody would flash.
+// Defines the three functions that compilers insert to copy and clear structs. They copy words where
+// possible, like a C library; otherwise the instruction counts would include code that no real firmware has.
 #include <cstdint>
 
 using Size = decltype(sizeof 0);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads commands typed on a terminal: r runs, s stops, c clears faults, a number and Enter sets the setpoint in
-// the mode's unit. An interrupt puts characters into a ring, from which the main loop takes them. After a lost
-// or invalid character everything except s is ignored up to the next Enter: "70" is never taken for 7, "7" and
-// "30" never for 730, nor "1,5" for 5.
+// the mode's unit. An interrupt writes characters into a ring buffer, and the main loop reads them. After a
+// lost or invalid character everything except s is ignored up to the next Enter: "70" is never read as 7, "7"
+// and "30" never as 730, nor "1,5" as 5.
 #pragma once
 #include <cstdint>
 
@@ -44,7 +44,7 @@ class Commands {
   static constexpr std::int32_t most = 200'000;  // with one more digit, the thousandths still fit in 31 bits
   static constexpr std::uint8_t no_point = 0xFF;
 
-  /// -12.345: an optional sign, at most one point, and up to three digits behind it.
+  /// Part of a number such as -12.345: an optional sign, at most one point, and up to three digits after it.
   constexpr bool continues_number(char c) {
     if (c == '-') {
       negative_ = true;
@@ -92,7 +92,7 @@ class Ring {
     char character = 0;
   };
 
-  /// In the interrupt. A full ring loses this character.
+  /// Called in the interrupt. A full buffer loses this character.
   void put(char c) {
     const auto begin = begin_, end = end_;
     if (static_cast<std::uint8_t>(end - begin) >= size) return lose();
@@ -101,16 +101,14 @@ class Ring {
     barrier();
     end_ = static_cast<std::uint8_t>(end + 1);
   }
-  /// In the interrupt: a character after the last one was lost.
+  /// Called in the interrupt: a character after the last one was lost.
   void lose() { losses_ = static_cast<std::uint8_t>(losses_ + 1); }
 
-  /// In the main loop: returns a gap before the character that follows it, or behind the last character; then
-  /// the character.
+  /// Called in the main loop: returns a mark for lost characters at their place, else the next character.
   Item take() {
     const auto begin = begin_;
-    std::uint8_t losses =
-        losses_;  // read before the end index: a character that came before the loss is then
-                  // returned first
+    std::uint8_t losses = losses_;  // read before the end index: a character received before the loss is then
+                                    // returned first
     const bool empty = begin == end_;
     barrier();
     if (!empty) losses = losses_before_[begin % size];

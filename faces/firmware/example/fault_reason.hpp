@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names the reasons why a board's drive stands, for its line "# fault: over-current": printed when it happens,
-// and about once a second as long as the drive stands. The reason is kept over a reset, in memory that the
+// Names the reasons why a board's drive is stopped, for its line "# fault: over-current": printed when it
+// happens, and about once a second during the stop. The reason is kept over a reset, in memory that the
 // start-up does not clear, so that a watchdog's reset does not hide it.
 #pragma once
 #include <cstdint>
@@ -17,7 +17,7 @@ enum class Reason : std::uint8_t {
   current_sensor,  ///< a reading at the converter's end, or three currents whose sum is not zero
   setpoint_wire,   ///< the potentiometer reads beyond its ends
   comparator,      ///< the power stage's own, at the timer's break input
-  clock,           ///< the external clock did not come, or stopped
+  clock,           ///< the external clock did not start, or stopped
   converter,       ///< no conversion ends
   watchdog,        ///< the main loop or the control interrupt hung
   over_voltage,
@@ -76,8 +76,8 @@ constexpr void put_fault(Put put, Reason reason) {
   put('\n');
 }
 
-/// Lies in a section that no start-up clears. After power-up its content is random: it counts only with the
-/// right key.
+/// The reason is in a section that the start-up does not clear. After power-up its content is random: it is
+/// valid only with the right key.
 struct KeptReason {
   static constexpr std::uint32_t right_key = 0x5157E9A3;
   volatile std::uint32_t key;
@@ -85,7 +85,7 @@ struct KeptReason {
   volatile std::uint8_t check;  ///< the reason, inverted
 
   void keep(Reason why) {
-    key = 0;  // a reset in between leaves nothing half written
+    key = 0;  // a reset in between leaves no half-written reason
     reason = why;
     check = static_cast<std::uint8_t>(~static_cast<unsigned>(why));
     key = right_key;

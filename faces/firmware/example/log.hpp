@@ -29,13 +29,13 @@ constexpr void put_digits(Put put, Word rest, unsigned decimals, unsigned first_
   }
 }
 
-/// "-0.123" is -123 with three decimals. `put` takes one character.
+/// Prints decimals: "-0.123" is -123 with three decimals. `put` receives one character.
 template <class Put>
 constexpr void put_number(Put put, std::int32_t value, unsigned decimals = 0) {
   const std::uint32_t rest =
       value < 0 ? 0u - static_cast<std::uint32_t>(value) : static_cast<std::uint32_t>(value);
   if (value < 0) put('-');
-  if (rest < 65536)  // most are, and 16-bit words take an 8-bit chip half the time
+  if (rest < 65536)  // the usual case; 16-bit words need half the time on an 8-bit chip
     put_digits(put, static_cast<std::uint16_t>(rest), decimals, 5);
   else
     put_digits(put, rest, decimals, 0);
@@ -59,7 +59,7 @@ struct Instant {
   }
 };
 
-/// In microseconds, without 64-bit numbers.
+/// Time in microseconds, without 64-bit numbers.
 template <class Put>
 constexpr void put_instant(Put put, const Instant& t) {
   if (t.seconds == 0) return put_number(put, static_cast<std::int32_t>(t.microseconds));
@@ -72,15 +72,16 @@ constexpr void put_instant(Put put, const Instant& t) {
   }
 }
 
-/// Data that an interrupt wrote are read behind it; data that it may write again are not used behind it.
+/// Compiler barrier: data from an interrupt are read after it; data that the interrupt may write again are
+/// not used after it.
 inline void barrier() { asm volatile("" ::: "memory"); }
 
-/// Passes one row from the control interrupt to the main loop, which requests the next one as soon as it has
-/// sent one: as many rows as the line can take, each with its instant.
+/// Passes one row from the control interrupt to the main loop, which requests the next row as soon as it has
+/// sent one. So the log has as many rows as the line can transmit, each with its instant.
 template <class Row>
 class LogSlot {
  public:
-  /// In the interrupt: takes the row if the main loop waits for one, and returns whether it did.
+  /// Called in the interrupt: copies the row if the main loop waits for one, and returns whether it did.
   bool take(const Row& row) {
     if (full_) return false;
     row_ = row;
@@ -89,13 +90,13 @@ class LogSlot {
     return true;
   }
 
-  /// In the main loop: null if there is none.
+  /// Called in the main loop: the row to send; null if there is none.
   const Row* waiting() const {
     const bool there = full_;
     barrier();
     return there ? &row_ : nullptr;
   }
-  /// In the main loop: the row was sent.
+  /// Called in the main loop after the row was sent.
   void next() {
     barrier();
     full_ = false;

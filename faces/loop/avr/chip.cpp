@@ -87,7 +87,7 @@ void Chip::pass_converter() {
   }
 }
 
-/// A firmware whose timer starts its control samples may convert a current in between; such a sample is no
+/// A firmware whose timer starts its control samples may convert a current in between. Such a sample is no
 /// control sample (rig/chip_port.hpp).
 std::uint32_t Chip::sampled(int input) {
   constexpr int currents = 3, between_control_samples = 4;
@@ -149,7 +149,7 @@ void Chip::write_adcsra(std::uint8_t value, std::uint64_t at) {
   if ((shown & ADIF) != 0) avr_raise_interrupt(avr_, converted_);
 }
 
-/// Selecting a trigger whose flag is set is an edge too (26.4).
+/// A newly selected trigger whose flag is set counts as an edge, too (26.4).
 void Chip::write_adcsrb(std::uint8_t value, std::uint64_t at) {
   const bool before = (avr_->data[ADCSRB] & ADTS_bits) == ADTS_timer1_overflow;
   avr_->data[ADCSRB] = value;
@@ -174,7 +174,7 @@ bool Chip::is_on(const Pin& pin) const {
   return channel >= 0 && timer_.connected(channel) ? timer_.level(channel) : flag(pin.PORT(), pin.mask());
 }
 
-/// As in control/gates.hpp: upper gates are the even bits, lower ones the odd bits.
+/// The gates in the order of control/gates.hpp: upper gates are the even bits, lower ones the odd bits.
 std::uint32_t Chip::gates() const {
   std::uint32_t on = 0;
   for (int leg = 0; leg < 3; ++leg) {

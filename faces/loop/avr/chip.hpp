@@ -92,7 +92,7 @@ class Chip {
   bool has_write_ = false;
   Write write_{};  ///< by the last instruction
   bool ended_ = false, slept_ = false;
-  bool was_reset_ = false;      ///< by the watchdog
+  bool was_reset_ = false;      ///< the watchdog reset the chip
   std::uint64_t response_ = 0;  ///< cycles of entered interrupts that the core has not counted
 
   Timer1 timer_;

@@ -24,7 +24,7 @@ using namespace atmega2560;
 // return; simavr counts only the last.
 constexpr std::uint64_t interrupt_response = 5, wake_up = 5, interrupt_return = 5;
 
-/// simavr logs an invalid instruction or address and continues. There is no other report of it.
+/// Whether simavr logged an invalid instruction or address, after which it continues. It has no other report.
 bool told_of_error = false;
 
 void listen(avr_t*, int level, const char*, va_list) {
@@ -70,7 +70,7 @@ avr_int_vector_t* Chip::vector(unsigned number) const {
   return nullptr;
 }
 
-/// From now on timer 1 and the converter are ours: simavr's own do not get the writes.
+/// Replaces simavr's timer 1 and converter: they no longer receive the writes.
 void Chip::take_over() {
   const auto mine = [&](Address at, bool reads) {
     auto& io = avr_->io[AVR_DATA_TO_IO(at)];
@@ -94,12 +94,12 @@ void Chip::take_over() {
   for (const char port : of_gates)
     for (const Address at : {Pin{port, 0}.PIN(), Pin{port, 0}.DDR(), Pin{port, 0}.PORT()}) take_over_port(at);
   // If simavr starts a timer during a run (the watchdog's or the serial line's), it continues by that timer's
-  // time. Here the run ends at once instead, because only run_core() has the right end.
+  // time. This setting ends the run at once instead, because only run_core() has the right end.
   avr_->run_cycle_limit = 1;
-  // simavr advances by its own estimate of the idle time. It is taken back, because sleep_core() has the right
-  // one.
+  // simavr advances by its own estimate of the idle time. This function subtracts it, because sleep_core()
+  // has the right one.
   avr_->sleep = [](avr_t* avr, avr_cycle_count_t cycles) { avr->cycle -= cycles + 1; };
-  // Called by the watchdog.
+  // The watchdog calls this function.
   avr_->reset = [](avr_t* avr) {
     Chip& c = *static_cast<Chip*>(avr->io[AVR_DATA_TO_IO(ADMUX)].w.param);
     c.was_reset_ = true;
@@ -219,7 +219,7 @@ void Chip::run_core(std::uint64_t target) {
       avr_->state == cpu_Crashed || avr_->state == cpu_Done || avr_->pc >= avr_->codeend || told_of_error;
 }
 
-/// Sleeps until an interrupt may come: one of ours, or one of simavr's other peripherals.
+/// Sleeps until an interrupt may occur: one of this class, or one of simavr's other peripherals.
 void Chip::sleep_core(std::uint64_t target) {
   slept_ = true;
   const auto* timer = avr_->cycle_timers.timer;

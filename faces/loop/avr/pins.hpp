@@ -29,7 +29,7 @@ struct Pins {
   Pin lower[3] = {{'A', 0}, {'A', 1}, {'A', 2}};
   std::uint8_t inputs[4] = {0, 1, 2, 3};  ///< of the converter: currents of legs a, b, c, potentiometer
 
-  /// The signal at an input of the converter: 0 to 3 as above; -1: none.
+  /// The signal at an input of the converter: 0 to 3 in the above order; -1: none.
   int what_hangs_at(unsigned channel) const {
     for (int n = 0; n < 4; ++n)
       if (inputs[n] == channel) return n;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts the cycles of one interrupt, from its request to the instruction behind its return.
+// Counts the cycles of one interrupt, from its request to the instruction after its return.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -16,7 +16,7 @@ class Stopwatch {
   const sixstep::rig::InterruptTimes& times() const { return times_; }
 
   void asked(std::uint64_t at) { asked_ = at; }
-  /// A later request belongs to the next interrupt.
+  /// Ends the request phase: a later request belongs to the next interrupt.
   void entered() {
     served_ = asked_;
     asked_ = never;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Models timer 1 of an ATmega2560 in its phase correct modes up to ICR1 (8 and 10), by data sheet 2549 (17). In
-// all other modes it stands still and its outputs are off. next() is the next cycle at which something happens;
-// no call is needed before.
+// Models timer 1 of an ATmega2560 in its phase correct modes up to ICR1 (8 and 10), by data sheet 2549 (17).
+// In all other modes it does not count and its outputs are off. next() is the next cycle with an event; no
+// call is necessary before it.
 //
 // A phase is counted in ticks from the tick that leaves BOTTOM: there TOV1 is set, and a match shows at the tick
 // that leaves the matching count (figures 17-12 and 17-13). So the on-time is centred on phase 0, and the count

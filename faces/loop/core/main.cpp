@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a drive on a core beside the host: waits for a call, executes it, and sends the answer
+// Runs a drive on a core in parallel with the host: waits for a call, executes it, and sends the answer
 // (sixstep/rig/core_call.hpp). The drive is that of drive_config.hpp, an exported header.
 #include <drive_config.hpp>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drives that are commanded from outside: what an environment's action is, as a controller behind the interface for own controllers.
+// Drives with commands from outside: makes an environment's action a controller behind the interface for
+// users' controllers.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -10,13 +11,14 @@
 
 namespace python {
 
-/// duty: of the pair of the Hall code, -1..1. legs: three duties, 0..1. current: setpoint of the library's current loop, A.
+/// duty: of the pair of the Hall code, -1..1. legs: three duties, 0..1. current: setpoint of the library's
+/// current loop, A.
 enum class Action : std::uint8_t { duty, legs, current };
 
 std::optional<Action> action_of(std::string_view word);
 constexpr std::size_t columns_of(Action action) { return action == Action::legs ? 3 : 1; }
 
-/// The command of one drive for its next tick, and what the board measured at its last one.
+/// The command of one drive for its next tick, and the board's measurements of its last one.
 struct Exchange {
   std::array<double, 3> action{};
   sixstep_measured seen{};
@@ -27,7 +29,8 @@ struct Exchange {
 
 const sixstep_controller& controller_of(Action action);
 
-/// While it lives, each session that this thread opens with such a controller takes its commands from this exchange.
+/// While it lives, each session that this thread opens with such a controller reads its commands from this
+/// exchange.
 class Opening {
  public:
   explicit Opening(Exchange& exchange);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A controller written in Python. It takes the place of a user's controller in C (control/own/own_controller.h): the
+// A controller written in Python. It replaces a user's controller in C (control/own/own_controller.h): the
 // same measurement, the same output, once per control period.
 //
 // The Python object has
@@ -38,7 +38,7 @@ class Controller {
   double answer_to(const sixstep_measured& measured, double setpoint, sixstep_answer& answer);
 
   pybind11::object step_;
-  pybind11::object start_;  ///< None: the controller has none
+  pybind11::object start_;  ///< None: the controller has no start()
   pybind11::object seen_;   ///< Python's view of measured_, the same object in each step
   std::shared_ptr<sixstep_measured> measured_;
   uint8_t chopping_ = SIXSTEP_SOFT;

@@ -20,7 +20,7 @@ class Crew {
   }
   ~Crew() {
     if (threads_.empty()) return;
-    if (!has_threads()) {  // after a fork: nobody is there to join
+    if (!has_threads()) {  // after a fork the threads do not exist, so that joining would block
       for (std::thread& thread : threads_) thread.detach();
       return;
     }
@@ -31,7 +31,8 @@ class Crew {
   Crew(const Crew&) = delete;
   Crew& operator=(const Crew&) = delete;
 
-  /// False in a process that was forked from the one that made the threads: it has none of them.
+  /// False in a process that was forked from the one that made the threads, because a fork does not copy
+  /// threads.
   bool has_threads() const { return ::getpid() == process_; }
 
   /// Calls work(n) for each n < count, in any order, and returns when all have ended.
@@ -45,7 +46,7 @@ class Crew {
   }
 
  private:
-  static constexpr std::size_t at_once = 4;  // of neighbours, so that the threads do not ask for each one
+  static constexpr std::size_t at_once = 4;  // adjacent calls, to limit accesses to next_
 
   void take() {
     for (std::size_t from = next_.fetch_add(at_once); from < count_; from = next_.fetch_add(at_once))

@@ -25,7 +25,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// What a board observes at a control tick, and the setpoint of the scenario's reference.
+/// The board's measurements at a control tick, and the setpoint of the scenario's reference.
 constexpr std::array observed = {"i_a_A",        "i_b_A",           "i_c_A",      "speed_rad_s",
                                  "position_deg", "bus_V",           "magnet_cos", "magnet_sin",
                                  "hall",         "motor_current_A", "setpoint"};
@@ -57,7 +57,7 @@ class Environment {
     return tried.current_A;
   }
 
-  /// Starts drive n anew as drive `numbers[n]` of the scenario's [spread] with this seed; none: as it is written.
+  /// Restarts drive which[k] as drive numbers[k] of the scenario's [spread] with this seed; none: as written.
   void reset(const std::vector<std::size_t>& which, std::uint64_t seed,
              const std::vector<std::optional<std::uint64_t>>& numbers) {
     for (std::size_t k = 0; k < which.size(); ++k) {
@@ -71,7 +71,7 @@ class Environment {
     }
   }
 
-  /// Each drive goes on by so many control periods under its action. True in `over`: its run has ended.
+  /// Advances each drive by `periods` control periods under its action. `over` is true if its run has ended.
   void step(const Numbers& actions, std::uint64_t periods) {
     if (actions.ndim() != 2 || static_cast<std::size_t>(actions.shape(0)) != drives_.size() ||
         static_cast<std::size_t>(actions.shape(1)) != actions_)
@@ -116,7 +116,7 @@ class Environment {
   py::array_t<bool> over() const {
     return each([](const Drive& drive) { return drive.over; });
   }
-  /// A fault ended the run before its time.
+  /// Whether a fault ended the run before its time.
   py::array_t<bool> failed() const {
     return each([this](const Drive& drive) {
       return drive.over && drive.session && drive.session->now_s() < scenario_.duration_s * (1.0 - 1e-9);
@@ -124,7 +124,8 @@ class Environment {
   }
 
  private:
-  static constexpr std::uint64_t between_looks = 1000;  ///< periods without a look at Ctrl-C: a millisecond
+  static constexpr std::uint64_t between_looks =
+      1000;  ///< periods between two checks for Ctrl-C: a millisecond
 
   static study::Session opened(const study::Scenario& scenario, Exchange& exchange) {
     const Opening commanded(exchange);
@@ -138,7 +139,8 @@ class Environment {
       out.mutable_at(static_cast<py::ssize_t>(n)) = property(drives_[n]);
     return out;
   }
-  /// A tick lies at the start or in the middle of a period: up to three quarters of one, each advance contains one.
+  /// Advances to three quarters of the last period. This includes its tick, which is at the start or in the
+  /// middle of a period.
   void advance(Drive& drive, std::uint64_t periods) const {
     if (drive.over) return;
     drive.periods += periods;

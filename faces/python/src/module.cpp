@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// sixstep._core: the library as the Python package calls it. The package's own files are the face that users see.
+// sixstep._core: the library as the Python package calls it. Users call the functions of the package's own
+// files.
 #include <pybind11/pybind11.h>
 
 #include "faces/python/src/controller.hpp"

@@ -28,11 +28,11 @@ struct Outcome {
   bool passed = false, complete = false;
   double simulated_s = 0.0;
   std::vector<study::Column> columns, event_columns;
-  std::shared_ptr<Rows> rows, events;  ///< events: empty unless they were asked for
+  std::shared_ptr<Rows> rows, events;  ///< events: empty unless requested
   pybind11::object stopped_by;         ///< the exception that ended the run early, or None
 };
 
-/// Rows of so many columns.
+/// Makes rows with this number of columns.
 std::shared_ptr<Rows> rows_of(std::size_t columns);
 
 Outcome outcome_of(const study::Scenario& scenario, const study::Outcome& outcome);

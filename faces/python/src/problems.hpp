@@ -16,7 +16,7 @@ struct Refused {
   base::Problems problems;
 };
 
-/// The value; throws Refused if there is none.
+/// Returns the value; throws Refused if there is none.
 template <class T>
 T taken(base::Result<T> result) {
   if (!result) throw Refused{result.problems()};

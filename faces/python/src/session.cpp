@@ -25,7 +25,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// One call at a time: while one advances without the GIL, another thread may ask for the same session.
+/// Allows one call at a time: while one advances without the GIL, another thread may call the same session.
 class Busy {
  public:
   explicit Busy(std::atomic<bool>& busy) : busy_(busy) {
@@ -41,7 +41,8 @@ class Busy {
   std::atomic<bool>& busy_;
 };
 
-/// Where rows of this thread's call go. A copied session keeps its own rows, but copies its listener with all that it holds.
+/// Destination of the rows of this thread's call. A copied session keeps its own rows, but copies its
+/// listener with all that it holds.
 thread_local Rows* recording = nullptr;
 
 class Recording {
@@ -85,7 +86,7 @@ class Session {
     {
       const py::gil_scoped_release free;
       const Recording into(*rows_);
-      // In parts, between which Ctrl-C is looked for; they change no bit.
+      // Advances in parts and checks for Ctrl-C between them; the parts change no bit.
       while (goes_on && session.now_s() + part_s_ < to_s && watch.keep_going(session.now_s()))
         goes_on = session.skip(session.now_s() + part_s_);
       // After Ctrl-C the values of the instant that was reached are read.
@@ -94,7 +95,7 @@ class Session {
     std::optional<py::error_already_set> raised;
     if (controller_) raised = controller_->take_error();
     if (raised) {
-      session_.reset();  // the controller is in no state to go on
+      session_.reset();  // the controller's state does not allow to continue
       throw std::move(*raised);
     }
     if (!watch.stopped_by_nothing()) watch.raise();
@@ -147,7 +148,7 @@ class Session {
   std::shared_ptr<Controller> controller_;
   std::vector<study::Column> columns_;
   std::shared_ptr<Rows> rows_;
-  double part_s_;  ///< simulated between two looks at Ctrl-C
+  double part_s_;  ///< simulated time between two checks for Ctrl-C
   std::optional<study::Session> session_;
   std::atomic<bool> busy_ = false;
 };

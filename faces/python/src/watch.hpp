@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looks after signals, and reports progress, while a run holds no GIL.
+// Checks for signals, and reports progress, while a run does not hold the GIL.
 #pragma once
 #include <pybind11/pybind11.h>
 
@@ -13,7 +13,7 @@ class Watch {
   /// `progress`: None, or a function of the simulated time in s.
   explicit Watch(pybind11::object progress) : progress_(std::move(progress)) {}
 
-  /// False: end the run, stopped_by() says why. Takes the GIL at most every `interval`.
+  /// False: end the run; stopped_by() returns the reason. Acquires the GIL at most every `interval`.
   bool keep_going(double t_s) {
     const auto now = std::chrono::steady_clock::now();
     if (now - looked_ < interval) return true;
@@ -30,7 +30,7 @@ class Watch {
   }
 
   bool stopped_by_nothing() const { return stopped_by_.is_none(); }
-  /// Raises what stopped the run. Needs the GIL.
+  /// Raises the exception that stopped the run. Needs the GIL.
   [[noreturn]] void raise() const {
     PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(stopped_by_.ptr())), stopped_by_.ptr());
     throw pybind11::error_already_set();

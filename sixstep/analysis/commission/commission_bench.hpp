@@ -24,7 +24,7 @@ struct CommissionSubject {
   int seed = 0;                       ///< of the converters' noise
 };
 
-/// How the test's current was chosen.
+/// Origin of the test's current.
 enum class TestCurrent : std::uint8_t {
   asked_for,
   twice_nominal,

@@ -12,7 +12,7 @@ namespace sixstep::analysis {
 
 /// Largest errors of the results, by the chip's own numbers: the converters' rounding and noise (level_steps.hpp,
 /// flux_turn.hpp), the capture timer's count, and the angle by which dead time and diodes turn the field. A
-/// trapezoid's field adds 1.12 degrees, and cogging pulls the rotor aside; the chip cannot measure these two, so
+/// trapezoid's field adds 1.12 degrees, and cogging shifts the rotor; the chip cannot measure these two, so
 /// the bench adds both. The gain error of a converter is not included.
 struct CommissionBounds {
   double R_part = 0.0, L_part = 0.0, flux_part = 0.0;  ///< relative to the value found

@@ -15,7 +15,7 @@ ContestValues values_of(const RunRecord& record) {
   return record->end == RunEnd::refused ? no_contest_values() : contest_values_of(gauges_of(record));
 }
 
-/// NaN is worst: a drive without the figure did not get so far.
+/// NaN is worst: a drive without the figure ended before it.
 double worse(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 
 Plan plan_of(const std::vector<ContestEntry>& entries, std::size_t drives, std::uint64_t seed) {

@@ -16,7 +16,7 @@ namespace {
 /// seconds of computing for each of its runs.
 constexpr double most_periods = 1e6;
 
-/// A pulse of 30 ps in 30 us: less is no pulse.
+/// Least duty: a pulse of 30 ps in 30 us.
 constexpr double least_duty = 1e-6;
 
 /// Refuses allowed numbers that together take too long to simulate.

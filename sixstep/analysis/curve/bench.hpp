@@ -19,7 +19,7 @@ struct Bench {
   double duty = 1.0;  ///< in [-1, 1], not 0; a negative one drives backwards
   control::Chopping chopping = control::Chopping::soft;
   double pwm_period_s = 30e-6;
-  /// Called now and then, on any thread; false ends the work, which is then a Problem. May be empty.
+  /// Called repeatedly, on any thread; false ends the work, which is then a Problem. May be empty.
   std::function<bool()> keep_going{};
 };
 

@@ -12,7 +12,7 @@ struct NoLoad {
   double slope_Nm_s = 0.0;        ///< of the shaft torque over speed there, negative
   double free_speed_rad_s = 0.0;  ///< mean of a free rotor
   double free_winding_current_A = 0.0;
-  double free_bus_current_A = 0.0;  ///< likewise
+  double free_bus_current_A = 0.0;  ///< mean of a free rotor
   double time_constant_s = 0.0;     ///< J/|slope|
   double free_s = 0.0;              ///< simulated time with the rotor free
   bool settled = true;              ///< false: longest_free_s is too short for that time constant

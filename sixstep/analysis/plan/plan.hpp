@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lays out the runs of a plan: which keys of one scenario differ, over which values, and how points lie between
-// them. Run n depends on the plan and n alone: it is the same in any order and on any machine.
+// Lays out the runs of a plan: the varied keys of one scenario, their values, and the points between them.
+// Run n depends on the plan and n alone: it is the same in any order and on any machine.
 #pragma once
 #include <cstddef>
 #include <cstdint>

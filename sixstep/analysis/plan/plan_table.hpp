@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Table of a plan's runs: a row per run, a column per varied key, strayed value and figure of merit. The columns
-// are known before the first run.
+// Table of a plan's runs: a row per run, a column per varied key, value of [[spread]] and figure of merit.
+// The columns are known before the first run.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -53,13 +53,13 @@ using UnitOfKey = std::function<std::string(const std::string& key)>;
 /// `scenario`: with its spread, before any value deviates.
 TableColumns columns_of(const Plan& plan, const study::Scenario& scenario, const UnitOfKey& unit_of = {});
 
-/// A strayed value under its key.
+/// A value drawn by [[spread]], with its key.
 struct Strayed {
   std::string key;
   double value = 0.0;  ///< in the key's unit; NaN where it could not be drawn
 };
 
-/// The scenario of a planned run, and its strayed values.
+/// The scenario of a planned run, and its values drawn by [[spread]].
 struct PlannedRun {
   study::Scenario scenario;
   std::vector<Strayed> strayed;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the scenario that tests a design with all switching. Its comparisons set the designed values beside the
-// simulated ones.
+// Makes the scenario that tests a design with all switching. Its comparisons compare the designed values with
+// the simulated ones.
 #pragma once
 #include <optional>
 #include <string>

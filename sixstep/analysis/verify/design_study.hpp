@@ -43,8 +43,8 @@ struct DesignOrder {
   bool advises = true;                 ///< tries changes against each warning (advice.hpp)
 };
 
-/// Adds to a speed design's scenario the requirement that the speed does not swing further than it may, because no
-/// mean shows this. A position's scenario has it.
+/// Adds to a speed design's scenario the requirement that the speed's swing stays within its limit, because
+/// no mean shows this. A position's scenario has it.
 void require_swing(const DesignStudy& study, study::Scenario& scenario);
 
 /// The first grave warning; empty where the design is usable.

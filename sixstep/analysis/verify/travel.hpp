@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes how long a drive needs at the limits of torque and bus.
+// Computes the time that a drive needs at the limits of torque and bus.
 #pragma once
 #include "sixstep/design/loops/drive_design.hpp"
 

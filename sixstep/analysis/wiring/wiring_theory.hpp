@@ -46,7 +46,7 @@ struct WiringTheory {
   std::array<double, 6> torque_Nm_A{};  ///< mean over each of them
   double mean_Nm_A = 0.0;               ///< over the turn
   double part = 0.0;                    ///< over the mean of straight wires
-  double least_part = 0.0;  ///< least torque in its direction at any angle, likewise; 0 where it hums
+  double least_part = 0.0;  ///< least torque in its direction at any angle, the same way; 0 where it hums
   /// At one duty, without inductance and friction and with continuous current: the speed at which the mean torque is 0,
   /// over that of straight wires, and the rms of the pair's current there, over the stalled one. From dU - w g = R
   /// i and mean(g i) = 0:

@@ -133,7 +133,7 @@ void check_encoder(const Scenario& s, base::Problems& out) {
                    "lower one of them"});
 }
 
-/// With a linear motor, refuses all sensors except a scale with lines, because they need a turning shaft.
+/// Refuses all sensors except a scale with lines for a linear motor, because they need a turning shaft.
 void check_linear(const Scenario& s, const std::string& word, base::Problems& out) {
   if (s.sheet.kind != design::MotorKind::linear) return;
   if (s.sensors.rotor != RotorSensing::encoder)

@@ -55,7 +55,7 @@ void add_smooth_chopping(const Scenario& s, const Basis& basis, control::DriveEx
                      .complementary_below_A = below};
 }
 
-/// With a wider top the flanks are too short to be ramps at a chip's samples.
+/// Widest top of the shape. With a wider one the flanks are too short to be ramps at a chip's samples.
 constexpr double widest_flat_deg = 175.0;
 
 /// commutation_step.hpp.

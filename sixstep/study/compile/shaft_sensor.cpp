@@ -54,7 +54,7 @@ void take_resolver(const Scenario& s, rig::ShaftSensorConfig& to) {
     to.tracking = design::tracking_config(*loop);
 }
 
-/// With a linear motor one period of the magnets is a turn.
+/// One period of the magnets counts as a turn of a linear motor.
 void take_encoder(const Scenario& s, rig::ShaftSensorConfig& to) {
   if (!s.sensors.encoder.pitch_mm || !s.sheet.pole_pitch_mm) return;
   to.linear = true;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run that can stop and go on. It can be advanced, sampled at the present instant, given another future, and
-// copied. The kernel and the kind of drive are chosen once, when the run is made; after that each slice costs
-// one virtual call.
+// A run that can stop and continue. It can be advanced, sampled at the present instant, given another future,
+// and copied. The kernel and the kind of drive are chosen once, when the run is made; after that each slice
+// costs one virtual call.
 #pragma once
 #include <memory>
 

@@ -33,7 +33,7 @@ struct ComparisonResult {
 
 using plant::EnergyBook;
 
-/// How often one kind of event occurred.
+/// Number of events of one kind.
 struct EventCount {
   std::string event;
   std::int64_t count = 0;
@@ -48,7 +48,8 @@ struct LoopGains {
   std::vector<design::DerivationStep> steps{};  // of a law that is no PI: d1 is its gain on the error, d0 = 0
 };
 
-/// The product drive turned the bridge off and latched why; the motor coasted on to the end of the run.
+/// The product drive turned the bridge off and latched the reason; the motor then coasted to the end of the
+/// run.
 struct Trip {
   double at_s = 0.0;                 // the tick that latched it
   std::vector<std::string> reasons;  // "over-current"; all that were detected in that tick

@@ -58,7 +58,7 @@ struct RunWatch {
     }
   }
 
-  /// Called now and then and at the end, because temperatures move slowly and cost an exponential each.
+  /// Called repeatedly and at the end, because temperatures move slowly and cost an exponential each.
   template <class Rig>
   void look(const Rig& rig) {
     if constexpr (requires { rig.plant().heat(); }) {

@@ -26,7 +26,7 @@ namespace {
 
 /// Silicon switches withstand 150 or 175 degC according to their data sheets.
 constexpr double usual_junction_limit_degC = 150.0;
-/// With fewer control periods in a commutation step, its current is controlled only a few times.
+/// Least control periods in a commutation step: with fewer, its current is controlled only a few times.
 constexpr double least_periods_per_step = 5.0;
 /// Part of the shunt's samples outside of the pulse above which a remark follows.
 constexpr double hidden_part = 0.01;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The keys of a scenario with a linear motor, each beside the rotary motor's key that it replaces
+// The keys of a scenario with a linear motor, each with the rotary motor's key that it replaces
 // (base/linear.hpp).
 #pragma once
 #include "sixstep/base/angle.hpp"

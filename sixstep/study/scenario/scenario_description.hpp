@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The keys of a scenario file. The descriptions beside this file are the only place for their names, units,
-// ranges and meanings. The structs hold the defaults.
+// The keys of a scenario file. The descriptions in this folder alone define their names, units, ranges and
+// meanings. The structs hold the defaults.
 #pragma once
 #include "sixstep/base/visitor.hpp"
 #include "sixstep/study/scenario/scenario.hpp"

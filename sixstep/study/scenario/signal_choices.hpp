@@ -150,7 +150,7 @@ inline constexpr base::Choice<Signal> column_words[] = {
     {"bus_A", Signal::bus_current, "the same as bus_current"},
 };
 
-/// Words of a linear motor (base/linear.hpp), each beside the rotary motor's word.
+/// Words of a linear motor (base/linear.hpp), each with the rotary motor's word.
 inline constexpr base::Choice<Signal> linear_signal_words[] = {
     {"force", Signal::torque, "linear motor: electromagnetic force, N", "torque"},
     {"force_N", Signal::torque, "linear motor: the same as force", "torque_Nm"},

@@ -88,8 +88,8 @@ constexpr ByPins by_pins = [] {
 }();
 
 /// Majority of three readings six cycles apart: an edge of the bridge disturbs the pins for about 0.3 us (4.8
-/// cycles), and so only one reading. An edge of the rotor between them causes the Hall interrupt again. In
-/// assembly (19 cycles), because a compiler keeps no distance.
+/// cycles), and so only one reading. An edge of the rotor between them causes the Hall interrupt again.
+/// Written in assembly (19 cycles), because a compiler does not guarantee the distance.
 inline std::uint8_t hall_pins() {
   std::uint8_t pins, second, third;
   asm volatile(
@@ -109,7 +109,7 @@ inline std::uint8_t hall_pins() {
   return pins & 7;
 }
 static_assert(clock_Hz == 16'000'000);
-/// The pins as the last Hall interrupt read them, whose pair is at the gates. A newer edge causes the next Hall
+/// The pins at the last Hall interrupt; the gates have the pair for them. A newer edge causes the next Hall
 /// interrupt.
 inline volatile std::uint8_t pins_seen = 0;
 

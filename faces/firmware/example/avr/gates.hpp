@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Changes the six gates: first all that go off, and after the dead time those that come on. No gate comes on
-// earlier than the dead time after any other went off, also if two changes follow each other. All of it runs
-// with interrupts off.
+// Changes the six gates: first it turns gates off, and after the dead time it turns the others on. No gate
+// turns on earlier than the dead time after any other turned off, also if two changes follow each other. All
+// of it runs with interrupts off.
 #pragma once
 #include "faces/firmware/example/avr/board.hpp"
 #include "faces/firmware/example/avr/bridge.hpp"
@@ -28,10 +28,10 @@ constexpr PinsByWay pins_by_way = [] {
 }();
 
 inline Way shown = Way::off;   // at the pins
-inline Way wanted = Way::off;  // from the next TOP on, where the timer also takes the on-time
+inline Way wanted = Way::off;  // applies from the next TOP on, when the timer also loads the on-time
 
-/// Exactly dead_cycles from the write that turns off a lower gate to the one that enables the upper gate. In the
-/// other direction two cycles more.
+/// Waits exactly dead_cycles from the write that turns off a lower gate to the one that enables the upper
+/// gate. The other direction takes two cycles more.
 inline void change_over(Pins stay, Pins to) {
   constexpr std::uint8_t loops = (dead_cycles - 1) / 3, rest = (dead_cycles - 1) % 3;
   static_assert(loops > 0 && (dead_cycles - 1) / 3 < 256, "one byte counts it");
@@ -54,8 +54,8 @@ inline void change_over(Pins stay, Pins to) {
       : "memory");
 }
 
-/// Sets the pair of `shown` for these Hall pins. A gate that stays on is not touched, because it may be in its
-/// pulse.
+/// Sets the pair of `shown` for these Hall pins. A gate that stays on is not written, because it may be in
+/// its pulse.
 inline void show(std::uint8_t hall) {
   const Pins to = pins_by_way.at[static_cast<std::uint8_t>(shown) | hall];
   volatile std::uint8_t &uppers = byte(atmega2560::DDRB), &lowers = byte(atmega2560::PORTA);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs an exported current or duty loop on an ATmega2560 at 16 MHz. tools/firmware_image.sh makes an image of
-// this program, and `sixstep run SCENARIO --on avr` runs it in the loop. The control interrupt comes once a
-// period, after the conversion. Two interrupts may interrupt it: the Hall interrupt, which moves the bridge, and
-// TOP's, from which on a new sign is in effect. The main loop logs to the serial line and feeds the watchdog. A
-// fault turns the gates off, and its reason is printed as long as the drive stands.
+// this program, and `sixstep run SCENARIO --on avr` runs it in the loop. The control interrupt occurs once a
+// period, after the conversion. Two interrupts may interrupt it: the Hall interrupt, which commutates the
+// bridge, and TOP's, from which on a new sign is in effect. The main loop logs to the serial line and feeds
+// the watchdog. A fault turns the gates off, and its reason is printed as long as the drive stands.
 #include "faces/firmware/example/avr/set_up.hpp"
 #include "faces/firmware/example/log.hpp"
 
@@ -31,7 +31,7 @@ LogSlot<Row> log;
 std::uint16_t row_clock = 0;      // at the beginning of the control interrupt
 volatile std::uint8_t heart = 0;  // counts control interrupts
 
-/// All three compare registers, so that a leg that a commutation brings in has its pulse at once.
+/// Sets all three compare registers, so that a leg after a commutation has its pulse at once.
 void set_on_time(std::uint16_t counts) {
   word(atmega2560::OCR1AL) = counts;
   word(atmega2560::OCR1BL) = counts;
@@ -65,8 +65,8 @@ void calibrate() {
   phase = Phase::waits;
 }
 
-/// Whatever the potentiometer's position at power-up, the motor starts only after somebody turned the setpoint
-/// to 0.
+/// Waits until the setpoint has been 0, so that the motor does not start at power-up with any position of the
+/// potentiometer.
 void wait_for_zero() {
   convert(potentiometer_channel);
   const std::uint16_t counts = conversion();
@@ -86,9 +86,9 @@ __attribute__((noinline)) void stand_by(std::uint16_t counts) {
   convert_at_bottom(pins_seen);
 }
 
-/// Without extras a drive uses the Hall code only for the pair, which is at the pins already. Its loop therefore
-/// computes in one fixed sector, whose legs the compiler knows; this saves 100 cycles of conversion between
-/// motor and phase currents.
+/// Without extras a drive uses the Hall code only for the pair, which is at the pins already. Its loop
+/// therefore computes in one fixed sector, whose legs are compile-time constants; this saves 100 cycles of
+/// conversion between motor and phase currents.
 constexpr std::uint8_t code_of_loop = 0b101;
 
 void control(std::uint8_t pins, std::uint16_t counts) {
@@ -101,8 +101,8 @@ void control(std::uint8_t pins, std::uint16_t counts) {
   step(drive, state, m, setpoint, telemetry);
 }
 
-/// Takes effect at the next TOP, where the timer takes the on-time. The interrupt comes there if the sign
-/// changes, or if the third leg's conversion must begin.
+/// Applies the answer at the next TOP, when the timer loads the on-time. The TOP interrupt is enabled if the
+/// sign changes, or if the third leg's conversion must begin.
 void answer(bool legs_are_next) {
   set_on_time(counts_of(state.command.duty));
   wanted = state.reversed ? Way::negative : Way::positive;
@@ -139,8 +139,8 @@ constexpr auto full_mA = static_cast<std::int32_t>(units.current_A * 1000);
 constexpr std::int32_t full_setpoint = drive.mode == Mode::duty ? 1000 : full_mA;
 static_assert(full_mA < 65536, "times a signal of 16 bits");
 
-/// Periods between two rows without a control interrupt: elapsed time in periods, rounded, minus the interrupts
-/// that came.
+/// Periods between two rows without a control interrupt: elapsed time in periods, rounded, minus the number
+/// of interrupts.
 std::uint8_t missed(std::uint16_t half_us, std::uint8_t came) {
   constexpr std::uint16_t period_half_us = pwm_counts / 4;
   std::uint16_t periods = 0;
@@ -179,7 +179,8 @@ void send(const Row& row) {
   begun = true;
 }
 
-/// While control interrupts come, and while the drive stands, so that it continues to print the reason.
+/// Feeds the watchdog while control interrupts occur, and while the drive is stopped, so that it continues to
+/// print the reason.
 void feed_watchdog() {
   static std::uint8_t seen = 0;
   if (heart == seen && phase != Phase::stands) return;
@@ -187,7 +188,7 @@ void feed_watchdog() {
   asm volatile("wdr");
 }
 
-/// Prints when the drive begins to stand or to wait, and then once a second.
+/// Prints when the drive stops or begins to wait, and then once a second.
 void tell_phase() {
   constexpr std::uint8_t second = 31;  // overflows of timer 3, each 33 ms
   static Phase told = Phase::calibrates;
@@ -228,10 +229,10 @@ extern "C" __attribute__((signal, used)) void INTERRUPT_ADC() {
     stop_by_current(counts);
   }
   const std::uint16_t last = conversion();
-  const bool has_legs = legs == Legs::third;  // otherwise TOP did not come in time
+  const bool has_legs = legs == Legs::third;  // otherwise TOP did not occur in time
   legs = Legs::none;
   const std::uint8_t last_pins = pins_seen;
-  convert_at_bottom(last_pins);  // as early as possible: a BOTTOM before it would be a period without control
+  convert_at_bottom(last_pins);  // as early as possible: an earlier BOTTOM would be a period without control
   if (phase != Phase::drives) return;
   note_row(pins, telemetry.motor_current_A, setpoint.value, telemetry.duty);
   answer(!looks_at_legs);
@@ -267,7 +268,7 @@ extern "C" __attribute__((signal, used)) void INTERRUPT_PCINT2() {
   show(pins);
 }
 
-/// No control interrupt came for too long.
+/// Interrupt after too long a time without a control interrupt.
 extern "C" __attribute__((signal, used)) void INTERRUPT_TIMER0_OVF() {
   firmware::stop(firmware::Reason::converter);
 }

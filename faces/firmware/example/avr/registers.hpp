@@ -16,7 +16,7 @@ inline volatile std::uint16_t& word(atmega2560::Address address) {
 
 }  // namespace firmware
 
-// By their numbers, as the compiler needs them (14.1).
+// Interrupts by their numbers, as the compiler requires them (14.1).
 #define INTERRUPT_PCINT2 __vector_11
 #define INTERRUPT_TIMER1_CAPT __vector_16
 #define INTERRUPT_TIMER0_OVF __vector_23

@@ -29,7 +29,7 @@ inline void set_up_serial_line() {
   byte(UCSR0B) = TXEN0;
 }
 
-/// Counts up and down (mode 10), pulses high around the bottom at PB5..PB7.
+/// The timer counts up and down (mode 10), with pulses high around the bottom at PB5..PB7.
 inline void set_up_timer() {
   using namespace atmega2560;
   word(ICR1L) = static_cast<std::uint16_t>(pwm_counts);
@@ -64,7 +64,7 @@ asm(".pushsection .init3,\"ax\",@progbits\n\t"
     "sts 0x91, r24\n\t"
     ".popsection");
 
-/// With the pull-ups of port K: a broken wire reads 1, not the signal of its neighbour.
+/// Enables the pull-ups of port K: a broken wire reads 1, not the signal of its neighbour.
 inline void set_up_hall_pins() {
   byte(atmega2560::PORTK) = 7;
   byte(atmega2560::PCMSK2) = 7;

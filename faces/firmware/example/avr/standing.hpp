@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Holds the phase of the drive and the reason why it stands. It starts to drive at one place only: after the
-// offsets are measured and the potentiometer is at its middle. A reason to stand is kept over resets.
+// Holds the phase of the drive and the reason of its stop. The drive starts at one place only: after the
+// offsets are measured and the potentiometer is at its middle. The reason of a stop is kept over resets.
 #pragma once
 #include "faces/firmware/example/avr/gates.hpp"
 #include "faces/firmware/example/fault_reason.hpp"
@@ -20,8 +20,8 @@ inline volatile Reason reason = Reason::none;
 
 }  // namespace firmware
 
-/// In .noinit, which avr-libc's start code does not clear. Declared in assembly, because clang would put such a
-/// section into the image, with zeros.
+/// The reason is in .noinit, which avr-libc's start code does not clear. It is declared in assembly, because
+/// clang would put such a section into the image, with zeros.
 asm(".pushsection .noinit,\"aw\",@nobits\n"
     ".global kept_reason\n"
     "kept_reason: .skip 6\n"
@@ -31,8 +31,8 @@ static_assert(sizeof(firmware::KeptReason) == 6);
 
 namespace firmware {
 
-/// Keeps the first reason. The control tick calls it with interrupts on; an interrupt in between would enable
-/// the pair again, therefore it disables them.
+/// Stops the drive and keeps the first reason. The control tick calls it with interrupts on; an interrupt in
+/// between would enable the pair again, therefore it disables them.
 inline void stop(Reason why) {
   const std::uint8_t interrupts = byte(atmega2560::SREG);
   asm volatile("cli" ::: "memory");
@@ -48,8 +48,8 @@ inline void stop(Reason why) {
   byte(atmega2560::SREG) = interrupts;
 }
 
-/// From MCUSR and the kept reason. A reset without any bit in MCUSR was not requested: a boot loader has cleared
-/// the watchdog's bit, or the program jumped to its own beginning.
+/// Determines the reason from MCUSR and the kept reason. A reset without any bit in MCUSR was not requested:
+/// a boot loader has cleared the watchdog's bit, or the program jumped to its own beginning.
 inline Reason reason_after_reset(std::uint8_t cause) {
   const bool ran_before = kept_reason.key == KeptReason::right_key;
   if ((cause & atmega2560::WDRF) == 0 && (cause != 0 || !ran_before)) return Reason::none;

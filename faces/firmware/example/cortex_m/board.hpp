@@ -25,16 +25,17 @@ using namespace sixstep::control;
 using exported::Scalar;
 
 constexpr std::uint32_t clock_Hz = 72'000'000;
-/// The Nucleo's 8 MHz come from its debugger as a clock; with a crystal this is false.
+/// The Nucleo's debugger supplies a clock of 8 MHz; with a crystal this is false.
 constexpr bool has_external_clock = true;
 
 /// Whether bootstrap capacitors feed the upper gates; they charge while the leg's output is low (IR21xx, L638x
-/// and most shields). Then all lower gates pulse for a while before the first pulse, every on-time leaves a
-/// least gap, and no pattern keeps an upper gate on.
+/// and most shields). Then all lower gates pulse for a while before the first pulse, every on-time ends with
+/// a least off-time, and no pattern keeps an upper gate on.
 constexpr bool upper_gates_by_bootstrap = true;
 constexpr std::uint32_t charge_ns = 2'000, charge_periods = 100, least_gap_ns = 1'500;
-/// The level of the break input that turns all gates off. The chip pulls the pin to this level, so that a lost
-/// wire does the same. An output with an open drain therefore needs a pull-up of its own, at its end of the wire.
+/// The level of the break input that turns all gates off. The chip pulls the pin to this level, so that a
+/// broken wire has the same effect. An output with an open drain therefore needs a separate pull-up at its
+/// end of the wire.
 constexpr bool break_active_high = false;
 
 // The rest follows from the drive.
@@ -48,8 +49,8 @@ constexpr std::uint32_t counts_of_ns(std::uint64_t ns) {
 constexpr auto pwm_counts =
     static_cast<std::uint32_t>(exported::pwm_period_ps * (clock_Hz / 1'000'000) / 1'000'000);
 /// Worst-case instructions of a control tick and a Hall interrupt, one count each: with a shorter period each
-/// Hall edge would cost a period. The flash's wait states come on top. A late answer takes effect a period later
-/// and is reported (tests/target/image_load.py).
+/// Hall edge would cost a period. The flash's wait states are added. A late answer takes effect a period
+/// later and is reported (tests/target/image_load.py).
 constexpr std::uint32_t least_period_counts = 1600;
 static_assert(pwm_counts >= least_period_counts && pwm_counts <= 65536,
               "TIM1 has 16 bits, and the interrupts take 22.2 us at least");

@@ -5,19 +5,20 @@
 // complementary channels, and "dead-time insertion is enabled by setting both CCxE and CCxNE"):
 //
 //   CCxE CCxNE   upper OCx             lower OCxN
-//    0     0     let go (Hi-Z)         let go (Hi-Z)
+//    0     0     off (Hi-Z)            off (Hi-Z)
 //    1     0     OCxREF                driven low            no dead time
 //    0     1     driven low            OCxREF                no dead time
 //    1     1     OCxREF                not OCxREF            dead time at each edge of OCxREF
 //
-// A leg with only one switch in use needs one enable; the timer then inserts no dead time. Therefore a leg that
-// changes between its switches is off for the dead time, by two commutation events (COM) at least the dead time
-// apart. At the first event it goes off, and all other legs get their new outputs; at the second one it gets its
-// own. Only a leg with both enables before and after changes at once, because the timer inserts its own dead
-// time. Off is driven: CCxE or CCxNE alone, OCxREF forced low. A leg goes off by its mode alone and changes its
-// enables while OCxREF is low, so that no order within one event matters.
+// A leg with only one switch in use needs one enable; the timer then inserts no dead time. Therefore a leg
+// that changes between its switches is off for the dead time, by two commutation events (COM) at least the
+// dead time apart. At the first event it turns off, and all other legs get their new outputs; at the second
+// event it gets its new outputs. Only a leg with both enables before and after changes at once, because the
+// timer inserts its own dead time. Off is driven: CCxE or CCxNE alone, OCxREF forced low. A leg turns off by
+// its mode alone and changes its enables while OCxREF is low, so that the order within one event has no
+// effect.
 //
-// bridge_timer.hpp decides when the events come.
+// bridge_timer.hpp decides when the events occur.
 #pragma once
 #include "faces/firmware/example/cortex_m/registers.hpp"
 #include "sixstep/control/gates.hpp"
@@ -46,8 +47,8 @@ class LegOutput {
   std::uint8_t bits_;
 };
 
-/// From a leg's two gates in the on-time and in the rest of the period; bit 0 the upper one, bit 1 the lower
-/// one.
+/// Output of a leg from its two gates in the on-time and in the rest of the period; bit 0 is the upper gate,
+/// bit 1 the lower one.
 constexpr LegOutput leg_output(unsigned on, unsigned off) {
   constexpr unsigned upper = 1, lower = 2;
   if (on & off & upper) return {bit::force_high, LegOutput::upper_alone};
@@ -65,8 +66,8 @@ constexpr LegOutput leg_off(LegOutput from) {
   return {bit::force_low, lower ? LegOutput::lower_alone : LegOutput::upper_alone};
 }
 
-/// Whether a leg must be off in between: it changes from one switch to the other, without the timer's own dead
-/// time before and after.
+/// Whether a leg must be off in between: it changes from one switch to the other, and the timer does not
+/// insert the dead time before and after.
 constexpr bool needs_pause(LegOutput from, LegOutput to) {
   const unsigned before = from.switches(), behind = to.switches();
   if (((before >> 1 & behind) | (behind >> 1 & before)) == 0 || from == to) return false;
@@ -96,20 +97,20 @@ constexpr BridgeOutputs between(const BridgeOutputs& from, const BridgeOutputs& 
   return way;
 }
 
-/// All legs off at once.
+/// Turns all legs off at once.
 constexpr BridgeOutputs legs_off(const BridgeOutputs& from) {
   return {{leg_off(from.leg[0]), leg_off(from.leg[1]), leg_off(from.leg[2])}};
 }
 
-/// Whether a switch may come on that could not before.
+/// Whether a switch may turn on that could not before.
 constexpr bool turns_on(const BridgeOutputs& from, const BridgeOutputs& to) {
   unsigned more = 0;
   for (int n = 0; n < 3; ++n) more |= to.leg[n].switches() & ~from.leg[n].switches();
   return more != 0;
 }
 
-/// The registers. CCMR2 also has the mode of the fourth channel, whose reference rises at its compare value and
-/// starts the converter.
+/// The registers' values. CCMR2 also has the mode of the fourth channel, whose reference rises at its compare
+/// value and starts the converter.
 struct GateOutputs {
   std::uint32_t CCMR1, CCMR2, CCER;
 };

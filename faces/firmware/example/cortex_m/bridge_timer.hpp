@@ -7,17 +7,17 @@
 //                     update and gives the commutation event there. A leg that changes sides is off from that event on, and has its new
 //                     switch after the dead time.
 //                     A later answer waits as a whole for the next period's end, and is counted as missed.
-//   Hall interrupt    the pair moves at once, in the present and in the waiting command; the pulse goes on in the leg that takes over.
+//   Hall interrupt    the pair changes at once, in the present and in the waiting command; the pulse continues in the incoming leg.
 //                     The duty stays.
 //   off, and a fault  at once
 //
-// The manual does not say when the reference of a leg that leaves a forced level follows PWM: at once, or at the
-// next match of its compare unit. So the pulse of a leg that a Hall edge brings in may begin with the next
+// The manual does not define when the reference of a leg follows PWM after a forced level: at once, or at the
+// next match of its compare unit. So the pulse of a leg that starts at a Hall edge may begin with the next
 // period instead of within this one. In neither case are both switches on.
 //
-// Two commutation events that matter to one leg are never closer than the dead time: each event that turns
-// anything on waits for it first. Interrupts are off while outputs change, so that the interrupt at the period's
-// end finds them complete.
+// Two commutation events that change one leg are never closer than the dead time: each event that turns a
+// switch on waits for it first. Interrupts are off while outputs change, so that the interrupt at the
+// period's end finds them complete.
 #pragma once
 #include "faces/firmware/example/cortex_m/board.hpp"
 #include "faces/firmware/example/cortex_m/bridge.hpp"
@@ -61,7 +61,7 @@ inline void preload(const GateOutputs& out) {
   tim1().CCER = out.CCER;
 }
 
-/// The commutation event: all channels take their preloaded values at once.
+/// The commutation event: all channels load their preloaded values at once.
 inline void commutation_event() {
   tim1().EGR = bit::COMG;
   changed_at = tim2().CNT;
@@ -85,7 +85,7 @@ inline Change change(const BridgeOutputs& way, const BridgeOutputs& to) {
 }
 inline Change change(const BridgeOutputs& to) { return change(between(legs, to), to); }
 
-/// Makes a change whose first event is preloaded and due.
+/// Executes a change whose first event is preloaded and due.
 inline void make(const Change& change) {
   commutation_event();
   if (change.pauses) {
@@ -112,11 +112,11 @@ inline void compare_next(std::uint32_t counts) {
   for (int n = 0; n < 3; ++n) tim1().CCR[n] = counts;
 }
 
-/// Enables the interrupt at the period's end. Its flag belongs to this period, because control ticks clear it as
-/// they begin.
+/// Enables the interrupt at the period's end. Its flag was set in this period, because each control tick
+/// clears it first.
 inline void arm_period_end(bool on) { tim1().DIER = (tim1().DIER & bit::BIE) | (on ? bit::CC4IE : 0); }
 
-/// Whether two enabled commands have the same gates, whatever their duty.
+/// Whether two enabled commands have the same gates at any duty.
 inline bool same_gates(const BridgeCommand<Scalar>& a, const BridgeCommand<Scalar>& b) {
   return a.enabled && b.enabled && a.pair == b.pair && a.chopping == b.chopping && a.chopped == b.chopped;
 }
@@ -145,12 +145,13 @@ inline void prepare_period_end() {
   arm_period_end(false);
 }
 
-/// The fourth compare unit's interrupt: waits for the update, some counts away, and makes the period's change
-/// there. The event comes with the update or some counts before it, in the gap of the old on-time; later, the
-/// old pair would have a pulse of some counts.
+/// The fourth compare unit's interrupt: waits for the update, which follows after some counts, and makes the
+/// period's change there. The event occurs with the update or some counts before it, in the off-time of the
+/// old pulse; later, the old pair would have a pulse of some counts.
 [[gnu::noinline]] void at_period_end() {
   const InterruptsOff hold;
-  // Revoked after the core had accepted it, or already made by a late control tick.
+  // The interrupt was revoked after the core had accepted it, or a late control tick has already made the
+  // change.
   if ((tim1().DIER & bit::CC4IE) == 0 || (tim1().SR & bit::CC4IF) == 0) return;
   if (change_due) {
     preload(coming.first);
@@ -164,8 +165,8 @@ inline void prepare_period_end() {
   arm_period_end(false);
 }
 
-/// Whether the period's end for which an answer was meant is over, or so near that its duty and its pair might
-/// not take effect together; then both wait for the next end. A change still waiting for the passed end is made
+/// Whether the period's end intended for an answer is over, or so near that its duty and its pair might not
+/// take effect together. Then both wait for the next end. A change still waiting for the passed end is made
 /// first.
 inline bool period_is_over() {
   if ((tim1().SR & bit::CC4IF) == 0) return false;  // control ticks clear it as they begin

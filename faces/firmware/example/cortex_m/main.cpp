@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs an exported product drive in float on an STM32F303 (Cortex-M4F, 72 MHz); tools/firmware_image.sh makes an
-// image of this program. The control interrupt comes once a period, after four conversions; the Hall interrupt
-// moves the bridge; the interrupt at the period's end puts a waiting command into effect. The main loop takes
-// commands from the serial line, logs to it, and feeds the watchdog.
+// image of this program. The control interrupt occurs once a period, after four conversions; the Hall
+// interrupt commutates the bridge; the interrupt at the period's end puts a waiting command into effect. The
+// main loop reads commands from the serial line, logs to it, and feeds the watchdog.
 #include "faces/firmware/example/commands.hpp"
 #include "faces/firmware/example/cortex_m/standing.hpp"
 
@@ -13,8 +13,8 @@ ProtectedState<Scalar> state;
 ProtectedTelemetry<Scalar> telemetry;  // the drive never reads it
 Setpoint<Scalar> setpoint;
 
-/// Written by the main loop with interrupts off. A stop and a clear each stay set until a control tick has read
-/// them, whatever is typed afterwards.
+/// Commands, written by the main loop with interrupts off. A stop and a clear each stay set until a control
+/// tick has read them, independent of later input.
 struct Asked {
   bool run, stop, clear;
 };
@@ -35,8 +35,8 @@ Ring<64> received;
 volatile std::uint8_t heart = 0;  // counts control interrupts
 volatile bool listening = false;  // control interrupts are enabled
 
-/// Measures time with the free-running counter. A period without a control interrupt still takes its time and is
-/// counted as missed; so is a period whose answer came after its end.
+/// Measures time with the free-running counter. A period without a control interrupt still counts as time,
+/// and as missed. A period whose answer came after its end also counts as missed.
 struct LogClock {
   Instant t;
   std::uint32_t rest = 0;  // counts beyond the last microsecond
@@ -53,7 +53,7 @@ struct LogClock {
 };
 LogClock log_clock;
 
-/// A request to run waits until the bootstraps are charged; then it goes to the drive.
+/// The request for this tick. A request to run waits until the bootstraps are charged.
 Request request_now() {
   const bool clear = asked.clear;
   wants_to_run = asked.run && !asked.stop;
@@ -97,7 +97,8 @@ void send(const Row& row) {
   put('\n');
 }
 
-/// While control interrupts come, or while the board waits for a reset with the gates disabled.
+/// Feeds the watchdog while control interrupts occur, or while the board waits for a reset with the gates
+/// disabled.
 void feed_watchdog() {
   static std::uint8_t seen = 0;
   const bool stands = needs_reset && !gates_may_work();
@@ -289,11 +290,11 @@ extern "C" void USART2_IRQHandler() {
     if (disturbed) received.lose();
     if (!disturbed || c == 's') received.put(c);  // a false stop is better than a lost one
   }
-  if ((status & bit::ORE) != 0) received.lose();  // behind the character that was read
+  if ((status & bit::ORE) != 0) received.lose();  // after the character that was read
   usart2().ICR = status & (bit::FE | bit::NF | bit::ORE);
 }
 
-/// The bridge stays off until r is typed, after a watchdog's reset as after any other.
+/// Starts with the bridge off until r is typed, after a watchdog's reset as after any other.
 int main() {
   using namespace firmware;
   const Reason before = reason_before_reset();

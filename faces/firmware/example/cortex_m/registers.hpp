@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists the registers of an STM32F303 that the program uses, and their bits. Source: ST RM0316, with the section
-// beside each; for the core itself (SCB, NVIC) Arm's ARMv7-M reference, B3.2 and B3.4.
+// Lists the registers of an STM32F303 that the program uses, and their bits. Source: ST RM0316, with the
+// section at each register; for the core itself (SCB, NVIC) Arm's ARMv7-M reference, B3.2 and B3.4.
 #pragma once
 #include <cstdint>
 
@@ -119,7 +119,7 @@ constexpr std::uint32_t SYSRESETREQ = 0x05FA0004;
 
 }  // namespace bit
 
-/// Numbers in the vector table behind the core's own sixteen entries (14.1).
+/// Numbers in the vector table after the core's own sixteen entries (14.1).
 constexpr unsigned irq_adc1_2 = 18, irq_tim1_break = 24, irq_tim1_compare = 27, irq_tim2 = 28,
                    irq_usart2 = 38;
 

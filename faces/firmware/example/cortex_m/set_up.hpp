@@ -9,8 +9,9 @@ namespace firmware {
 
 constexpr std::uint32_t baud = 1'000'000;
 
-/// Whether the condition became true within `looks` checks, so that a broken part does not keep the others from
-/// reporting it. At 8 MHz they take 20 ms, less than the watchdog's time; a crystal starts within 10.
+/// Whether the condition became true within `looks` checks, so that a broken part does not prevent the others
+/// from reporting it. At 8 MHz the checks take 20 ms, less than the watchdog's time; a crystal starts within
+/// 10.
 template <class Condition>
 bool waited_for(Condition condition, std::uint32_t looks = 20'000) {
   for (; looks > 0; --looks)
@@ -21,8 +22,8 @@ bool waited_for(Condition condition, std::uint32_t looks = 20'000) {
 constexpr std::uint32_t own_clock_Hz =
     8'000'000;  // the chip's own clock, after a reset and if the external one is missing
 
-/// 8 MHz times nine. False: no external clock came, and the chip runs on its own 8 MHz. If the clock stops
-/// later, TIM1's break turns the gates off, and NMI_Handler is called (9.2.7).
+/// Sets the clock to 8 MHz times nine. False: there is no external clock, and the chip runs on its own 8 MHz.
+/// If the clock stops later, TIM1's break turns the gates off, and NMI_Handler is called (9.2.7).
 inline bool set_up_clock() {
   rcc().CR = rcc().CR | bit::HSEON | (has_external_clock ? bit::HSEBYP : 0);
   if (!waited_for([] { return (rcc().CR & bit::HSERDY) != 0; })) return false;
@@ -36,7 +37,7 @@ inline bool set_up_clock() {
   return true;
 }
 
-/// Back to the chip's own 8 MHz, to which it has already switched when the external clock stopped.
+/// Returns to the chip's own 8 MHz, to which it has already switched when the external clock stopped.
 inline void fall_back_to_own_clock() { rcc().CFGR = 0; }
 
 inline void switch_parts_on() {
@@ -83,7 +84,8 @@ inline void set_up_pins() {
   }
 }
 
-/// For a bus that runs at `bus_Hz`. With eight samples per bit if sixteen are too many for it (29.5.4).
+/// Sets the line's rate for a bus of `bus_Hz`, with eight samples per bit if the bus is too slow for sixteen
+/// (29.5.4).
 inline void set_up_serial_line(std::uint32_t bus_Hz) {
   const bool eight = bus_Hz < 16 * baud;
   const std::uint32_t divider = (eight ? 2 * bus_Hz : bus_Hz) / baud;
@@ -94,13 +96,13 @@ inline void set_up_serial_line(std::uint32_t bus_Hz) {
 
 /// Enables the gates. The break input must have its quiet level.
 inline void let_gates_work() { tim1().BDTR = tim1().BDTR | bit::MOE; }
-/// Disables the gates in hardware, whatever the output registers say.
+/// Disables the gates in hardware, independent of the output registers.
 inline void forbid_gates() { tim1().BDTR = tim1().BDTR & ~bit::MOE; }
 inline bool gates_may_work() { return (tim1().BDTR & bit::MOE) != 0; }
 
-/// Counts up; its update begins a period. Enables and modes are preloaded, and all three channels take them at
-/// once at a commutation event. The fourth channel has no pin: its reference rises a microsecond before the
-/// update and starts the converter. Without MOE the outputs are driven low too (OSSI).
+/// The timer counts up; its update begins a period. Enables and modes are preloaded, and all three channels
+/// load them at once at a commutation event. The fourth channel has no pin: its reference rises a microsecond
+/// before the update and starts the converter. Without MOE the outputs are driven low too (OSSI).
 inline void set_up_bridge_timer() {
   const GateOutputs off = registers(BridgeOutputs{});
   tim1().PSC = 0;
@@ -132,8 +134,8 @@ inline void set_up_hall_timer() {
   tim2().CR1 = bit::CEN;
 }
 
-/// Injected sequence a, b, c, bus, 7.5 and 12.5 clocks of 72 MHz each: from 72 to 64 counts before the update,
-/// 52 to 44, 32 to 24, 12 to 4. False: the converter does not answer.
+/// Injected sequence a, b, c, bus, 7.5 and 12.5 clocks of 72 MHz each: from 72 to 64 counts before the
+/// update, 52 to 44, 32 to 24, 12 to 4. False: the converter does not react.
 inline bool set_up_converter() {
   adc12_ccr() = bit::CKMODE_HCLK;
   adc1().CR = 0;
@@ -158,7 +160,7 @@ inline bool set_up_converter() {
   return true;
 }
 
-/// Resets after 40 ms by its own clock of about 40 kHz.
+/// The watchdog resets after 40 ms by its own clock of about 40 kHz.
 inline void set_up_watchdog() {
   iwdg().KR = bit::start;
   iwdg().KR = bit::unlock;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Handles the board's own reasons to keep the gates off, beside the drive's faults: its comparator, its sensors,
-// its clock, a converter that stopped, and a reason kept over a reset. Nothing restarts by itself: the drive
-// waits for c, and then for r.
+// Handles the board's own reasons to keep the gates off, in addition to the drive's faults: its comparator,
+// its sensors, its clock, a converter that stopped, and a reason kept over a reset. The drive does not
+// restart by itself: it waits for c, and then for r.
 #pragma once
 #include "faces/firmware/example/cortex_m/bridge_timer.hpp"
 #include "faces/firmware/example/cortex_m/kept.hpp"
@@ -15,7 +15,7 @@ std::uint32_t counts_a_us = clock_Hz / 1'000'000;
 volatile std::uint32_t last_tick = 0;  // TIM2's count
 std::uint8_t strange_sums = 0;
 
-/// A bit beside those of Fault: it stops the drive and appears in the log's column.
+/// A bit in addition to those of Fault: it stops the drive and appears in the log's column.
 constexpr std::uint16_t fault_board = 1u << 15;
 
 inline void trip(Reason why) {
@@ -43,7 +43,7 @@ inline bool sum_is_strange(const ProtectedState<Scalar>& state, const BoardInput
   return eighths > most || eighths < -most;
 }
 
-/// Before the tick: three wrong sums in a row count, because one may be a disturbance.
+/// Called before the tick. It reports three wrong sums in a row, because a single one may be a disturbance.
 inline void watch_sensors(const ProtectedState<Scalar>& state, const BoardInput& in) {
   strange_sums = !sum_is_strange(state, in)
                      ? std::uint8_t{0}
@@ -51,7 +51,7 @@ inline void watch_sensors(const ProtectedState<Scalar>& state, const BoardInput&
   if (strange_sums == 3) trip(Reason::current_sensor);
 }
 
-/// The reason of a drive that stands; never none, so that the line "# fault" is printed as long as it stands.
+/// The reason of a stopped drive; never none, so that the line "# fault" is printed during the whole stop.
 constexpr Reason reason_of(std::uint16_t faults) {
   return faults & fault_hall            ? Reason::hall
          : faults & fault_calibration   ? Reason::calibration
@@ -64,10 +64,10 @@ constexpr Reason reason_of(std::uint16_t faults) {
                                         : Reason::board;
 }
 
-/// A conversion ends each period. Without one for a millisecond the current is not watched.
+/// Checks that a conversion ends each period. Without one for a millisecond the current is not monitored.
 inline void watch_converter(bool listening) {
   constexpr std::uint32_t longest = clock_Hz / 1000 > 4 * pwm_counts ? clock_Hz / 1000 : 4 * pwm_counts;
-  // Checked twice: a tick between the two reads of one check looks like a missing one.
+  // Checks twice: a tick between the two reads of one check looks like a missing one.
   const auto late = [] {
     const std::uint32_t seen = last_tick;
     return tim2().CNT - seen > longest;

@@ -20,7 +20,7 @@ double size_of(const Harmonic& h) { return std::sqrt(h.a_V * h.a_V + h.b_V * h.b
 /// The angle in a cos x + b sin x = size cos(x + angle).
 double angle_of(const Harmonic& h) { return base::atan2(-h.b_V, h.a_V); }
 
-/// The channel's harmonics as parts of the fundamental, whose peak is at 0.
+/// The channel's harmonics relative to the fundamental, whose peak is at 0.
 ShapeHarmonics seen_by(const ChannelFit& channel) {
   ShapeHarmonics out;
   out.resize(channel.harmonics.size());

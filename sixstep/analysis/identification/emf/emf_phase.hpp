@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds how fast the motor turned: the phase of the fundamental over time, first by zero crossings, then by least
+// Finds the motor's speed: the phase of the fundamental over time, first by zero crossings, then by least
 // squares.
 #pragma once
 #include <array>

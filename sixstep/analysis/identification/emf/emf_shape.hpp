@@ -39,9 +39,9 @@ struct ShapePeak {
 ShapePeak peak_of(const ShapeHarmonics& shape);
 
 /// The peak of the wave of which these are the first harmonics. The harmonics of a flat top go on beyond these:
-/// the sum without the rest overshoots by 1 to 5 % beside the flanks (Gibbs). The sum averaged over a turn of the
-/// first missing harmonic (Lanczos) leaves a tenth of that. A pointed top lacks the part of the missing harmonics,
-/// and stays as summed. `below` and `above`: uncertainty of the peak.
+/// the sum without the rest overshoots by 1 to 5 % near the flanks (Gibbs). The sum averaged over a turn of
+/// the first missing harmonic (Lanczos) leaves a tenth of that. A pointed top lacks the part of the missing
+/// harmonics, and stays as summed. `below` and `above`: uncertainty of the peak.
 struct WavePeak {
   ShapePeak peak;
   double below = 0.0, above = 0.0;

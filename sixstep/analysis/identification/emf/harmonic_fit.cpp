@@ -188,8 +188,8 @@ class Iteration {
   Iteration(const EmfRecord& record, const HarmonicPoints& points, std::size_t harmonics)
       : record_(record), fitter_(points, harmonics), linear_(record.channels.size()) {}
 
-  /// One step of Gauss and Newton. Returns how far the phase moved at the recording's ends, rad; empty: no step is
-  /// possible.
+  /// One step of Gauss and Newton. Returns the change of the phase at the recording's ends, rad; empty: no
+  /// step is possible.
   std::optional<double> step(EmfPhase& phase) {
     left_ = Symmetric(phase.terms);
     std::vector<double> right(phase.terms);
@@ -283,7 +283,7 @@ base::Result<HarmonicFit> fit_harmonics(const EmfRecord& record, const EmfPhase&
     if (*moved < nothing_rad) break;
   }
   out.periods = seconds * out.phase.rate[0] / base::turn_rad;
-  if (!(out.periods > 1.0)) return out;  // no spectrum beside its harmonics: the caller refuses it
+  if (!(out.periods > 1.0)) return out;  // no spectrum between its harmonics: the caller refuses it
   if (base::Problems problems = take_channels(record, points, iteration, out); !problems.empty())
     return problems;
   return out;

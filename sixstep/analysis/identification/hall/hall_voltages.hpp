@@ -39,8 +39,8 @@ struct VoltageModel {
 /// Empty where the rotor hardly moves while voltages are recorded.
 std::optional<VoltageModel> fit_voltages(const std::vector<VoltageVector>& vectors, const MotionPath& path);
 
-/// Turns the model so that the fundamental's angle is that of notation.md. Returns the degrees by which the path
-/// is off.
+/// Turns the model so that the fundamental's angle is that of notation.md. Returns the path's error in
+/// degrees.
 double turned_into_place(VoltageModel& model);
 
 /// The voltages' phase as sightings, one for every few degrees of the path.

@@ -25,7 +25,7 @@
 
 namespace sixstep::analysis {
 
-/// Called now and then; false ends the work. Empty: go on.
+/// Called repeatedly; false ends the work. Empty: the work is never ended early.
 using KeepGoing = std::function<bool()>;
 
 /// An unknown that is the same in every sighting, and the factor with which it enters this one.
