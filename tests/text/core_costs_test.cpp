@@ -103,7 +103,7 @@ TEST(CoreCosts, EveryLineIsAComment) {
   std::istringstream lines(text::core_cost_lines(drive_of(control::Mode::speed)));
   int count = 0;
   for (std::string line; std::getline(lines, line); ++count) EXPECT_TRUE(line.starts_with("//")) << line;
-  EXPECT_EQ(count, 14);
+  EXPECT_EQ(count, 15);
 }
 
 TEST(CoreCosts, WhatComesToItIsNamed) {
