@@ -103,7 +103,7 @@ template <class BenchOf, class SignOf>
 void expect_starts_from_any_angle(unsigned seed, BenchOf&& bench_of, SignOf&& sign_of) {
   std::mt19937 draw(seed);
   std::uniform_real_distribution<double> angle(0.0, 2 * base::pi);
-  const int count = starts_each(1);
+  const int count = starts_each(2);
   int drawn = 0;
   for (const SensorlessMotor& motor : three_motors)
     for (const double load : {0.0, 0.1, 0.3, 0.5}) {
