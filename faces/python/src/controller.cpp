@@ -154,14 +154,6 @@ double Controller::answer_to(const sixstep_measured& measured, double setpoint, 
   return 0.0;
 }
 
-double motor_current_A(const sixstep_measured& measured) {
-  control::Measurement<double> seen{};
-  seen.i_a_A = measured.current_A[0];
-  seen.i_b_A = measured.current_A[1];
-  seen.i_c_A = measured.current_A[2];
-  return control::motor_current(seen, control::positive_pair(control::sector_of_hall(measured.hall)));
-}
-
 Designing::Designing(Controller* controller) : before_(std::exchange(designed, controller)) {}
 Designing::~Designing() { designed = before_; }
 
@@ -188,7 +180,7 @@ void declare_controller(py::module_& module) {
       .def_readonly("magnet_sin", &sixstep_measured::magnet_sin, "sine of the same angle")
       .def_readonly("hall", &sixstep_measured::hall, "Hall code: H1 H2 H3 as bits 2, 1, 0")
       .def_property_readonly(
-          "motor_current_A", &motor_current_A,
+          "motor_current_A", &control::pair_current,
           "current of the pair that makes positive torque, A: half the difference of its two phases");
   py::class_<Controller, std::shared_ptr<Controller>>(module, "Controller")
       .def(py::init<py::object, bool>(), py::arg("controller"), py::arg("legs") = false);

@@ -47,9 +47,6 @@ class Controller {
   sixstep_controller functions_;
 };
 
-/// Current of the pair that makes positive torque, A: half the difference of its two phases.
-double motor_current_A(const sixstep_measured& measured);
-
 /// While it lives, runs that this thread starts are designed for this controller.
 class Designing {
  public:

@@ -16,6 +16,7 @@
 #include "faces/python/src/crew.hpp"
 #include "faces/python/src/problems.hpp"
 #include "faces/python/src/scenario.hpp"
+#include "sixstep/control/own/own_pair.hpp"
 #include "sixstep/study/scenario/spread.hpp"
 #include "sixstep/study/session/session.hpp"
 
@@ -107,7 +108,7 @@ class Environment {
                                                        m.magnet_cos,
                                                        m.magnet_sin,
                                                        static_cast<double>(m.hall),
-                                                       motor_current_A(m),
+                                                       control::pair_current(m),
                                                        drive.exchange->setpoint};
       to = std::copy(row.begin(), row.end(), to);
     }
