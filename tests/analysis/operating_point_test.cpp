@@ -139,7 +139,7 @@ TEST(OperatingPoint, InductanceBendsTheLineDownwards) {
   const Bench b = maxon_bench();
   for (const double speed : {50.0, 200.0, 400.0, 600.0, 702.6})
     EXPECT_LT(at(b, speed).torque_Nm, analysis::ideal_torque_Nm(b, speed)) << speed;
-  // At the ideal no-load speed no current flows, so that commutation has no effect.
+  // No current flows at the ideal no-load speed, so that commutation has no effect.
   const double axis = analysis::ideal_no_load_rad_s(b);
   EXPECT_NEAR(at(b, axis).torque_Nm, 0.0, 1e-14);
 }
@@ -280,7 +280,7 @@ TEST(OperatingPoint, ChoppedIntervalCoversARunTenTimesAsLong) {
     missed += std::fabs(p.torque_Nm - s.torque / s.seconds) > p.half_width_Nm;
     missed += std::fabs(p.bus_current_A - s.supplied / s.seconds / 24) > p.half_width_A;
   }
-  // At 99 %, more than one miss in 16 intervals occurs once in 90 times with drawn phases; these phases are spread evenly.
+  // More than one miss in 16 intervals of 99 % occurs once in 90 times with drawn phases; these phases are spread evenly.
   EXPECT_LE(missed, 1) << "seed " << seed;
 }
 

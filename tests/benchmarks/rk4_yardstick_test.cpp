@@ -79,7 +79,7 @@ TEST(Rk4Textbook, LeavingTheSameOutCostsItTheSame) {
 }
 
 TEST(Yardsticks, RunUpAsTheReference) {
-  // At full voltage only commutations and diode stops fall between the steps.
+  // Only commutations and diode stops fall between the steps at full voltage.
   for (const double step_s : {1e-6, 1e-7}) {
     const Errors plain = errors<Rk4Textbook>(step_s, true, "R2.csv", 1.0),
                  tuned = errors<Rk4Tuned>(step_s, true, "R2.csv", 1.0);

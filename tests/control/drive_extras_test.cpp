@@ -92,7 +92,7 @@ TYPED_TEST(Extras, TheWindowLimitsTheReferenceAndTheSpeedPi) {
   }
 }
 
-/// Above the speed limit all gates are off; then the loop continues from its last output.
+/// All gates are off above the speed limit; then the loop continues from its last output.
 TYPED_TEST(Extras, AtALimitTheLoopWaitsWithTheBridgeOff) {
   using S = TypeParam;
   Bench<S> b(Mode::current), free(Mode::current);

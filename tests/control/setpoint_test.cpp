@@ -42,7 +42,7 @@ TYPED_TEST(SetpointShaping, SlewKeepsStepsBelowTheLastBit) {
   }
 }
 
-/// In whole digits the profile is computed by hand: a = 1, limit 3, distance 12.
+/// The profile in whole digits is computed by hand: a = 1, limit 3, distance 12.
 TYPED_TEST(SetpointShaping, ProfileIsTheFastestThatCanStop) {
   using S = TypeParam;
   const double unit = is_fixed<S> ? digit<S>() : 1.0;

@@ -103,7 +103,7 @@ TYPED_TEST(SpeedLaws, ObservedSpeedHoldsItsSetpointWhateverTheModelLacks) {
   EXPECT_NEAR(bench.w, 20.0, this->roundings(20, 100));
 }
 
-/// At the limit the observer uses the limited torque, and so estimates the load alone. After leaving the limit the drive behaves as if it
+/// The observer at the limit uses the limited torque, and so estimates the load alone. After leaving the limit the drive behaves as if it
 /// had never been there.
 TYPED_TEST(SpeedLaws, ObservedSpeedDoesNotWindUp) {
   using S = TypeParam;

@@ -112,7 +112,7 @@ TEST(DriveDesign, TheClosedLoopsAreTheCascadeWrittenOut) {
 }
 
 /// A locked rotor of 1.03 ohm and 0.572 mH, 30 us, a step of 2 A: i' = a_h (a_h i + b_h u_first) + b_h u_then, with a_h over half a period.
-/// With samples in the middle of a period a sample's voltage acts in the second half of the interval to the next sample.
+/// A sample in the middle of a period has its voltage in the second half of the interval to the next sample.
 double overshoot_of_recurrence_A(const PiGains& g, int delay_periods, bool middle) {
   const double a = std::exp(-1.03 * 15e-6 / 0.572e-3), b = (1 - a) / 1.03;
   double i = 0, before = 0, highest = 0, volts[3] = {0, 0, 0};
@@ -155,7 +155,7 @@ TEST(DriveDesign, HalfAPeriodCostsHalfThePhaseOfOne) {
   EXPECT_NEAR(*start.sooner(s).phase_rad - *middle.sooner(m).phase_rad, half, 0.04 * half);
   EXPECT_EQ(late_words(middle.spec.late_periods()), "1.5 periods late");
   EXPECT_EQ(late_words(middle.spec.sooner_periods()), "half a period late");
-  // At the longest period 45 degrees remain, as reported for a sample at the start too.
+  // 45 degrees of phase remain at the longest period, as reported for a sample at the start too.
   const DriveDesign longest = designed({.mode = Mode::current,
                                         .period_s = middle.longest_period_s,
                                         .delay_periods = 1,
@@ -282,7 +282,7 @@ TEST(DriveDesign, AsksForWhatTheMotorStandsWhereNobodySaid) {
   MotorModel motor = thesis_motor();
   motor.nominal_current_A = 2.33;
   EXPECT_DOUBLE_EQ(design_drive(motor, {.mode = Mode::speed})->current_at_full_torque_A, 2.5 * 2.33);
-  // Without a printed current the design uses a tenth of the stall current, 24/1.03/10 A, and says so.
+  // The current without a printed one is a tenth of the stall current, 24/1.03/10 A, and the design is marked so.
   const auto silent = design_drive(thesis_motor(), {.mode = Mode::speed});
   EXPECT_FALSE(silent->nominal_printed);
   EXPECT_DOUBLE_EQ(silent->current_at_full_torque_A, 2.5 * 24 / 1.03 / 10);

@@ -82,7 +82,7 @@ TEST(PulseStartDesign, BoundsWhatThePulsesTurn) {
   EXPECT_TRUE(!refused || refused->turned_deg <= 15.0) << "a quarter of a sector";
 }
 
-/// Without a saturation current the required pulse is unknown: the pulse is as long as the limits allow, and one period more exceeds one.
+/// The required pulse is unknown without a saturation current: it is as long as the limits allow, and one period more exceeds one.
 TEST(PulseStartDesign, AsksAsLoudAsItMayWhereTheSheetIsSilent) {
   design::PulseSpec silent = salient;
   silent.saturation_A = 0;

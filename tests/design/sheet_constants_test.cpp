@@ -117,7 +117,7 @@ TEST(SheetConstants, AMissingFrameIsToldWithWhatEachWouldMean) {
       "phase, 3.295 A peak, a nominal torque of 100.7 mNm; write frame = \"terminal\" or \"rms\"");
 }
 
-/// Without a torque constant the message names the current, because no torque is known.
+/// The message names the current of a sheet without a torque constant, whose torque is unknown.
 TEST(SheetConstants, NominalCurrentSaysWhichAmperes) {
   Sheet s = without_constant();
   s.nominal_current_A = Quantity{10, "", ""};

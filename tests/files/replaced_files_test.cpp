@@ -121,7 +121,7 @@ TEST_F(ReplacedFiles, WhatAKilledProgramLeftIsInNobodysWay) {
     ASSERT_TRUE(first && second);
     EXPECT_NE(first->temporary(), second->temporary()) << "nor do two at once share a name";
   }
-  // In a container every program has the same process number, so that a killed program's file met the next program.
+  // Every program in a container has the same process number, so that a killed program's file has the next one's name.
   for (int count = 0; count < 64; ++count)
     with(".a.csv.tmp" + std::to_string(::getpid()) + "-" + std::to_string(count), "");
   EXPECT_EQ(told_writing(at("a.csv"), ours), "");

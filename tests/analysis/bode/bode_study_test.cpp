@@ -83,8 +83,8 @@ TEST(Bode, CurrentLoopOfALockedRotorIsTheDesigned) {
     }
 }
 
-/// With samples in the middle of centred pulses, half of a duty's change acts before the next sample and half after it: 1/2 (1 +- x/4) and
-/// 1/2 (1 -+ x/4) of a held voltage, x = R T/L = 0.054. L differs by 1.4 % in the imaginary part.
+/// A duty's change acts half before the next sample and half after it, with samples in the middle of centred pulses: 1/2 (1 +- x/4) and 1/2
+/// (1 -+ x/4) of a held voltage, x = R T/L = 0.054. L differs by 1.4 % in the imaginary part.
 TEST(Bode, ASampleInTheMiddleIsHalfAPeriodLater) {
   for (const int delay : {0, 1}) {
     study::Scenario s = steady_current(true);

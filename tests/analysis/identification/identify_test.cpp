@@ -150,7 +150,7 @@ TEST(Identify, RowsInStepWithTheRotorLeaveTheirDoubt) {
   EXPECT_LT(sum / all, 0.9);
 }
 
-/// Without voltages the log shows the two codes that never occur, but no rotor angle.
+/// A log without voltages shows the two codes that never occur, but no rotor angle.
 TEST(Identify, CodesAloneTellWhichOnesNeverOccur) {
   for (int inverted = 0; inverted < 8; ++inverted) {
     HallTruth t = drilled();

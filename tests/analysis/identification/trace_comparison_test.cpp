@@ -95,7 +95,7 @@ TEST(TraceComparison, AClockThatStartedLongBeforeCountsFromItsFirstRow) {
   EXPECT_EQ(start_shift_s(simulated, trace({{"t_s", {-1, 0.5}}, {"duty", {0, 1}}})), 0.0);
 }
 
-/// With one row each difference may be 0 and proves nothing.
+/// The difference over a single row may be 0 and proves nothing.
 TEST(TraceComparison, AHandfulOfRowsAtTheLeast) {
   const study::Trace simulated = trace({{"t_s", {0, 1}}, {"duty", {0, 1}}, {"i_q_A", {NAN, NAN}}});
   const auto of = [&](std::vector<double> t_s) {

@@ -79,7 +79,7 @@ TEST(PulsePosition, FindsNorthAndTheAngle) {
       }
 }
 
-/// Without saliency the polarity signal alone gives the angle, to its own noise; the third harmonic of cos^3 has no effect.
+/// The polarity signal alone gives the angle of a rotor without saliency, to its own noise; the third harmonic of cos^3 has no effect.
 TEST(PulsePosition, SaturationAloneIsEnough) {
   Drawn drawn{2};
   for (int deg = 1; deg < 360; deg += 7) {

@@ -52,7 +52,7 @@ TYPED_TEST(FieldBlocks, TurningMakesTheVoltagesOfTheEquations) {
       }
 }
 
-/// Without an error the output is e alone.
+/// The output without an error is e alone.
 TYPED_TEST(FieldBlocks, WithoutAnErrorTheAnswerIsWhatTurningMakes) {
   const FieldCurrentConfig<TypeParam> c = decoupled<TypeParam>(VoltageLimit::circle);
   FieldCurrentState<TypeParam> state;
@@ -104,7 +104,7 @@ TYPED_TEST(FieldBlocks, EachAxisStaysWithinItsOwnLimit) {
   EXPECT_EQ(state.voltage.q, c.q.limit);
 }
 
-/// The voltage |v| above the part m of the circle lowers i_d by K times the excess, and below it raises i_d likewise to 0.
+/// The voltage |v| above the part m of the circle lowers i_d by K times the excess, and a voltage below it raises i_d to 0 in the same way.
 TYPED_TEST(FieldBlocks, WeakeningFallsByWhatTheVoltageLacks) {
   const FieldWeakeningConfig<TypeParam> c{Gain<TypeParam>(0.1), Gain<TypeParam>(0.9), TypeParam(0.5)};
   FieldWeakeningState<TypeParam> state;

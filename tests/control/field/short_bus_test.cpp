@@ -145,7 +145,7 @@ Case hand_brake() {
           .to_rad_s = 1000};
 }
 
-/// Without the limitation the current was 460 A in each case, 2 psi/L: the current of a sudden short circuit.
+/// The current without this limitation was 460 A in each case, 2 psi/L: that of a sudden short circuit.
 TEST(ShortBus, AHandBrakeThatIsTurnedBeyondTheBusIsHeld) {
   for (const double i_q : {0.0, 80.0, -80.0, -20.0})
     for (const double weakening_A : {0.0, 5.0, 40.0, 150.0})

@@ -158,8 +158,9 @@ TYPED_TEST(BinaryAngleIn, SmallAnglesInRadBecomeUnits) {
 TYPED_TEST(BinaryAngleIn, SineAndCosineAreRightToTheStatedError) {
   using S = TypeParam;
   const double cubic = std::pow(std::numbers::pi / 256, 3) / 6;
-  // In fixed point table, two products and the range adjustment round half a digit each; formats that end below 1 make that a digit more,
-  // and rounding before a gain adds a hundredth. In floating point the table and two sums round at most a quarter of a digit each.
+  // The roundings are half a digit each in fixed point, of table, two products and range adjustment; formats that end below 1 make that a
+  // digit more, and rounding before a gain adds a hundredth. In floating point the table and two sums round at most a quarter of a digit
+  // each.
   const double digits = is_fixed<S> ? 2.1 + (static_cast<double>(one<S>) < 1 ? 0.6 : 0.0) : 1.0;
   const double bound = cubic + 1e-9 + digits * digit<S>();
   double worst = 0;

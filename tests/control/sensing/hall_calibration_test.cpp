@@ -66,7 +66,7 @@ TEST(HallCalibration, FindsWhatWasPlanted) {
   EXPECT_NEAR(rms, law, 0.23 * law);
 }
 
-/// Without jitter the error is the timer's tick.
+/// The error without jitter is the timer's tick.
 TEST(HallCalibration, IsRightToATick) {
   const double tick_deg = 360 * hz / timer_Hz;
   Drawn drawn{1};

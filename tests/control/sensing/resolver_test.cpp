@@ -259,7 +259,7 @@ TEST(ResolverLaw, SingleDisturbancesAreNoLoss) {
   EXPECT_GT(outside, 150);
 }
 
-/// Without signals the angle stays.
+/// The angle stays without signals.
 TEST(ResolverLaw, ADeadResolverDoesNotTurn) {
   const SecondOrder loop(0.1, 0.8);
   const ResolverConfig<Q15> c = config<Q15>(Windings{}, loop);

@@ -245,7 +245,7 @@ TEST(Observer, TheDefaultFollowsTheTerminalsOwnCrossings) {
   EXPECT_FALSE(o.follows);
 }
 
-/// While the old current decays no crossing counts; a crossing during that time is reported afterwards as passed.
+/// No crossing counts while the old current decays; one during that time is reported afterwards as passed.
 TEST(Observer, IsBlindUntilTheOldCurrentHasRunOut) {
   for (const Follow which : {Follow::luenberger, Follow::sliding_mode, Follow::flux}) {
     ObserverConfig<double> config;
