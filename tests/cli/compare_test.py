@@ -169,7 +169,7 @@ class Compare(ProgramTest):
     def test_draws_a_page(self):
         page = (self.made / "c.html").read_text(encoding="utf-8")
         names = list(self.controllers)
-        for n, name in enumerate(names):  # the response to the load, and the number in the trades
+        for n, name in enumerate(names):  # the response to the load, and the numbered point
             self.assertEqual(page.count(f'aria-label="{n + 1} {name}"'), 1, name)
             self.assertRegex(page, f"<circle[^>]*/><text[^>]*>{n + 1}</text>")
         trades = page.partition('aria-label="Torque ripple against losses"')[2].partition("</svg>")[0]
