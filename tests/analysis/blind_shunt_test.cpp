@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One shunt sees a current above a duty. What a design does below it is told, by the formula of that duty and by the run itself.
+// One shunt measures currents only above a duty. A formula of that duty and the run itself judge a design's warning about smaller currents.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,7 +32,7 @@ const design::Warning* of_shunt(const DesignStudy& s) {
   return nullptr;
 }
 
-/// Two settling times of 1 us in a period of 30 us, of 24 V on 1.03 ohm.
+/// The unmeasured current equals 24 V/1.03 ohm times the duty of two settling times of 1 us in a period of 30 us.
 TEST(BlindShunt, ASmallerStepThanItSeesIsGrave) {
   const double unseen_A = 2 * 1e-6 / 30e-6 * 24 / 1.03;
   for (const double part : {0.5, 1.2}) {
@@ -54,7 +54,7 @@ TEST(BlindShunt, TheStepThatNobodyChoseIsSeen) {
   }
 }
 
-/// Under half the nominal torque all is well, and without a load it swings: the design runs that as well as we do here.
+/// The design is fine at half the nominal torque. Without a load the speed swings, which a run here shows as well as the design.
 TEST(BlindShunt, ASpeedThatSwingsWithoutALoadIsNotUsable) {
   for (const auto currents : {rig::CurrentMeasurement::dc_link, rig::CurrentMeasurement::phases}) {
     const auto study = designed("teknic-m2310p", Mode::speed, {}, currents);

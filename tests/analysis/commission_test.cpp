@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A drive that finds out what hangs at it, on the bench that `commission_bench` makes of a sheet: the motors of the library
-// within the bounds that it claims, and those with which it cannot be, with the reason.
+// Commissioning on the bench that `commission_bench` makes of a sheet: the library's motors are identified within the claimed bounds, and
+// impossible ones are refused with the reason.
 #include "sixstep/analysis/commission/commission_study.hpp"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ constexpr OnBench benches[] = {
     {"maxon-488607", 0},    {"maxon-651607", 0},      {"maxon-651609", 0},       {"maxon-651614", 0},
     {"teknic-m2310p", 0},   {"hoverboard-hub", 36},   {"mjbots-mj5208", 24},     {"gmcc-ksk89d53u", 100}};
 
-/// All of them where the environment says so (ctest --preset long), else one in four.
+/// Every motor with SIXSTEP_ALL_MOTORS (ctest --preset long), else one in four.
 bool in_full() { return std::getenv("SIXSTEP_ALL_MOTORS") != nullptr; }
 
 TEST(Commission, FindsTheMotorsOfTheLibraryWithinItsBounds) {
@@ -67,10 +67,10 @@ TEST(Commission, FindsTheMotorsOfTheLibraryWithinItsBounds) {
     EXPECT_NEAR(s->shown_offset_deg, subject.hall_offset_deg, 1e-9) << on.motor;
     EXPECT_LE(s->worst_edge_deg(), s->bounds.edge_deg) << on.motor;
     EXPECT_TRUE(s->holds()) << on.motor;
-    // A bound that says nothing would hold, too.
+    // The bounds are small as well: an infinite one would always hold.
     EXPECT_LT(s->bounds.R_part, 0.01) << on.motor;
     EXPECT_LT(s->bounds.L_part, 0.05) << on.motor;
-    // A salient rotor's current along and across the magnet is not told apart: its bound is wide, what is found is not.
+    // A salient rotor's currents along and across the magnet are not separable: the bound is wide, but the value is good.
     EXPECT_LT(is.beyond_L_H > 0 ? std::fabs(s->found.flux_linkage_Vs / is.flux_linkage_Vs - 1)
                                 : s->bounds.flux_part,
               is.beyond_L_H > 0 ? 0.02 : 0.08)
@@ -79,7 +79,7 @@ TEST(Commission, FindsTheMotorsOfTheLibraryWithinItsBounds) {
   }
 }
 
-/// What a motor stands that nobody has rated is guessed low: twice a tenth of what full duty drives through two phases.
+/// The test current without a rated one is low: twice a tenth of the current at full duty through two phases.
 TEST(Commission, ASheetWithoutNominalCurrentIsTestedWithTheStandIn) {
   CommissionSubject drone = subject_of("dji-2212-920kv");
   const auto usual = analysis::commission_bench(drone);
@@ -97,8 +97,8 @@ TEST(Commission, ASheetWithoutNominalCurrentIsTestedWithTheStandIn) {
   EXPECT_EQ(text::stand_in_words(*printed), "");
 }
 
-/// The board's forward is the motor's where an even number of phases is crossed, and its backward where an odd number is: the
-/// edges stand where the board has them then, in either case.
+/// The board's forward is the motor's with an even number of crossed phases, and its backward with an odd number. The edges lie at the
+/// board's angles in both cases.
 TEST(Commission, FindsTheLinesOfCrossedWires) {
   InPart some;
   constexpr WireOrder orders[] = {WireOrder::abc, WireOrder::bca, WireOrder::cab,
@@ -117,7 +117,7 @@ TEST(Commission, FindsTheLinesOfCrossedWires) {
   }
 }
 
-/// Another noise is another finding, within the same bounds; the same noise the same to the last bit.
+/// Another noise gives another result within the same bounds; the same noise gives the same bits.
 TEST(Commission, HoldsWhateverTheNoiseAndIsTheSameForOne) {
   InPart some;
   double first = 0.0;
@@ -137,7 +137,7 @@ TEST(Commission, HoldsWhateverTheNoiseAndIsTheSameForOne) {
   }
 }
 
-/// More current, more counts between the levels: what rounding and dead time leave open shrinks.
+/// A larger current covers more counts between the levels, so that rounding and dead time matter less.
 TEST(Commission, BoundsShrinkWithTheCurrentOverOneRange) {
   CommissionSubject subject = subject_of("maxon-251601");
   subject.current_A = 3.0;
@@ -149,8 +149,8 @@ TEST(Commission, BoundsShrinkWithTheCurrentOverOneRange) {
   EXPECT_LT(more->bounds.edge_deg, less->bounds.edge_deg);
 }
 
-/// Of a trapezoid 4 sin g/(pi g) with slopes 2 g wide (model.md 1); of harmonics the first; of a table the integral: a triangle's
-/// is 8/pi^2.
+/// The fundamental of a trapezoid with slopes 2 g wide is 4 sin g/(pi g) (model.md 1), of harmonics the first, of a table the integral:
+/// 8/pi^2 for a triangle.
 TEST(Commission, KnowsTheFundamentalOfEachShape) {
   plant::general::Machine m{.R_ohm = {1, 1, 1}, .K_e_V_s = {0.02, 0.02, 0.02}, .L_H = 1e-3, .pole_pairs = 4};
   for (const double flat_deg : {60.0, 100.0, 120.0, 150.0}) {
@@ -193,7 +193,7 @@ TEST(Commission, SaysWhichMotorsItCannotBeMadeWith) {
 
 TEST(Commission, WhatIsNotFoundIsNoProblemAndNotHeld) {
   CommissionSubject subject = subject_of("dji-2212-920kv");
-  subject.current_A = 4.0;  // half of the vector goes to dead time and diodes
+  subject.current_A = 4.0;  // dead time and diodes take half of the vector
   const auto s = analysis::study_commission({.subject = subject});
   ASSERT_TRUE(s);
   EXPECT_FALSE(s->lines_found());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the curve's points lie, what belongs to them, and what the winding stands.
+// The curve's points, the quantities at each, and the winding's thermal limits.
 #include "sixstep/analysis/curve/curve.hpp"
 
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ TEST(Curve, ComparesTheNominalPointAtItsTorque) {
   EXPECT_EQ(*curve.nominal->current_A, 2.33);
   EXPECT_EQ(curve.nominal->at_speed->speed_rad_s, *curve.nominal->speed_rad_s);
   EXPECT_NEAR(curve.nominal->at_torque->shaft_torque_Nm, 83.4e-3, 1e-12);
-  // 12 % of torque are missing at the speed, 3.5 % of speed at the torque: the same difference.
+  // The torque is 12 % lower at the speed, and the speed 3.5 % lower at the torque: the same difference.
   const double slower = curve.nominal->at_torque->speed_rad_s / *curve.nominal->speed_rad_s - 1;
   EXPECT_LT(curve.nominal->at_speed->shaft_torque_Nm, 0.89 * 83.4e-3);
   EXPECT_GT(slower, -0.04);
@@ -75,7 +75,7 @@ TEST(Curve, TellsTheSheetsGradientFromItsTwoPoints) {
   EXPECT_NEAR(d.ideal, 1.03 / (0.0335 * 0.0335), 1e-9);
   EXPECT_NEAR(*d.printed, 8.8 * per_mNm, 1e-9);
   EXPECT_NEAR(*d.sheet, (6710 - 5240) / 83.4 * per_mNm, 1e-9);
-  // Both twice the gradient: commutation takes the same whoever measures.
+  // Both are twice the gradient: commutation has the same effect in the sheet and in the simulation.
   EXPECT_GT(*d.curve, 2 * d.ideal);
   EXPECT_NEAR(*d.curve, *d.sheet, 0.15 * *d.sheet);
 }
@@ -148,7 +148,7 @@ TEST(Curve, ContinuousTorqueWarmsTheWindingToItsLimit) {
       const double friction = plant::friction_Nm(r.bench.motor.shaft, speed);
       const design::Heating heating{limits.continuous_A * limits.continuous_A * 1.03, friction * speed, 40};
       EXPECT_NEAR(design::steady_temperatures(model, heating)->winding_degC, 125, 1e-10) << speed;
-      // K_t of magnets as warm as the housing: 0.12 % less for each kelvin above 25 degC.
+      // K_t of magnets at the housing's temperature falls by 0.12 % for each kelvin above 25 degC.
       const double housing = design::steady_temperatures(model, heating)->housing_degC;
       const double K_t = 0.0335 * (1 - 0.0012 * (housing - 25));
       EXPECT_NEAR(limits.continuous_Nm, K_t * limits.continuous_A - friction, 1e-14);
@@ -165,8 +165,8 @@ TEST(Curve, ContinuousTorqueWarmsTheWindingToItsLimit) {
   }
 }
 
-/// By the network's own equations: what is allowed at the worse ends takes that motor's winding just to its limit,
-/// and what is allowed by the values would take it beyond.
+/// The network's equations are the second way: the allowed current at the worse ends heats that motor's winding exactly to its limit, and
+/// the allowed current at the values exceeds it.
 TEST(Curve, WhatTheWindingStandsIsToldOfBothEndsOfARange) {
   CurveRequest r = request(3);
   r.sheet.thermal_time_constant_winding_s->range = base::Interval{11.7, 17.7};
@@ -190,7 +190,7 @@ TEST(Curve, WhatTheWindingStandsIsToldOfBothEndsOfARange) {
   EXPECT_LT(at_worst.continuous_A, by_values.continuous_A);
 }
 
-/// Where the air or friction alone take the winding beyond its limit there is no torque that it stands.
+/// No torque is allowed where ambient temperature or friction alone heats the winding beyond its limit.
 TEST(Curve, InHotAirTheWindingStandsNothing) {
   CurveRequest r = request(3);
   r.ambient_degC = 130;
@@ -199,7 +199,7 @@ TEST(Curve, InHotAirTheWindingStandsNothing) {
   EXPECT_TRUE(std::isnan(still.continuous_A) && std::isnan(still.short_Nm[0]));
   r.ambient_degC = 120;
   EXPECT_GT(analysis::thermal_limits(model, r, 0.0).continuous_Nm, 0.0);
-  // 700 rad/s of 7.3e-6 N m s: 3.6 W through 4.25 K/W are 15 K.
+  // The friction of 7.3e-6 N m s at 700 rad/s is 3.6 W, which heats through 4.25 K/W by 15 K.
   EXPECT_TRUE(std::isnan(analysis::thermal_limits(model, r, 700.0).continuous_Nm));
 }
 
@@ -214,13 +214,13 @@ TEST(Curve, AWarmMotorTurnsFasterAndPullsLess) {
   const Curve here = whole(warm), there = whole(cold);
   EXPECT_NEAR(here.points.front().shaft_torque_Nm / there.points.front().shaft_torque_Nm, on_K / on_R, 1e-9);
   EXPECT_GT(here.no_load.point.speed_rad_s, there.no_load.point.speed_rad_s / on_K * 0.98);
-  // What the winding stands is the motor's, whatever temperature the curve was asked for.
+  // The thermal limits belong to the motor, independent of the curve's temperature.
   const analysis::ThermalLimits a = analysis::thermal_limits(*here.thermal, warm, 300),
                                 b = analysis::thermal_limits(*there.thermal, cold, 300);
   EXPECT_NEAR(a.continuous_A, b.continuous_A, 1e-12);
   EXPECT_NEAR(a.continuous_Nm, b.continuous_Nm, 1e-14);
   EXPECT_NEAR(a.short_Nm[0], b.short_Nm[0], 1e-14);
-  // The same current warms it to the same end.
+  // The same current heats it to the same final temperature.
   const analysis::OperatingPoint& p = here.points.front();
   const design::Heating heating{p.winding_current_A * p.winding_current_A * 1.03, 0, 25};
   EXPECT_NEAR(*here.warming.front().permissible_s, *design::permissible_seconds(*here.thermal, heating),
@@ -229,7 +229,7 @@ TEST(Curve, AWarmMotorTurnsFasterAndPullsLess) {
 
 TEST(Curve, APointHeldTooLongOverheats) {
   const Curve curve = whole(request(5));
-  // Stall puts 559 W into 3.7 J/K: below a second. No load is cool for ever.
+  // The stall current's 559 W into 3.7 J/K reach the limit within a second. The no-load point never does.
   ASSERT_TRUE(curve.warming.front().permissible_s);
   EXPECT_FALSE(curve.warming.front().winding_degC) << "copper runs away above 1/(a R)";
   EXPECT_LT(*curve.warming.front().permissible_s, 1.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A design is put to the test with the sensor that it is for: encoder, absolute encoder, resolver, on either side of a gear, and
-// what the verdict says of it is what was run.
+// A design's test run uses the board's sensor: encoder, absolute encoder or resolver, on either side of a gear. The verdict describes that
+// run.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ using study::SensorShaft;
 constexpr RotorSensing shaft_sensors[] = {RotorSensing::encoder, RotorSensing::absolute,
                                           RotorSensing::resolver};
 
-/// A board that reads its rotor so, as a scenario names it.
+/// A board with this rotor sensor, as a scenario names it.
 study::Scenario board_with(RotorSensing rotor, Mode mode = Mode::speed) {
   study::Scenario s;
   s.motor = "maxon-251601";
@@ -57,9 +57,9 @@ TEST(DesignSensors, TheRunHasTheSensorOfTheBoard) {
     EXPECT_EQ(s.scenario.sensors.rotor, rotor);
     EXPECT_TRUE(s.usable());
     EXPECT_GT(s.design.lag.delay_s(), 0.0);
-    // As fast as the linear design with the sensor's delay says, and for the delay's sake only: the loop holds.
+    // The loop settles as the linear design with the sensor's delay predicts.
     EXPECT_LT(figure(s, "settling time"), 1.25 * s.design.loop("speed").step.settling_s);
-    // What the run saw is not the ideal sensor's: its bits differ.
+    // The digest shows that the run does not use the ideal sensor.
     const auto ideal = study::run(with_ideal_sensors(s.scenario), {});
     ASSERT_TRUE(ideal);
     EXPECT_NE(ideal->digest, s.outcome.digest);
@@ -70,12 +70,12 @@ TEST(DesignSensors, AMoveRestsWithinWhatTheSensorTells) {
   for (const RotorSensing rotor : shaft_sensors) {
     const DesignStudy s = studied(board_with(rotor, Mode::position));
     EXPECT_TRUE(s.usable());
-    // Three counts of 4 x 1024 in a turn are 0.26 degrees, of 2^14 0.07.
+    // Three counts are 0.26 degrees with 4 x 1024 per turn, and 0.07 degrees with 2^14.
     EXPECT_LE(figure(s, "swing around the target"), rotor == RotorSensing::encoder ? 4 * 360.0 / 4096 : 0.1);
   }
 }
 
-/// n turns of the motor make one of the load: J_1 + J_2/n^2 and the same loops. The sensor is beyond the gear.
+/// The load turns once in n turns of the motor: J_1 + J_2/n^2 gives the same loops. The sensor is on the load's side of the gear.
 TEST(DesignSensors, BehindAGearTheLoopsAreOfTheMotorsShaft) {
   study::Scenario geared = board_with(RotorSensing::absolute);
   geared.load.gear = 5.0;
@@ -94,7 +94,7 @@ TEST(DesignSensors, BehindAGearTheLoopsAreOfTheMotorsShaft) {
   EXPECT_NEAR(figure(s, "settling time"), figure(t, "settling time"), 0.1 * figure(t, "settling time"));
 }
 
-/// Probes 3 degrees too late and 2 too early beside each other make a sector of 60 degrees one of 55 or 65.
+/// A probe edge 3 degrees late and the next 2 degrees early make a sector of 60 degrees one of 55 or 65.
 TEST(DesignSensors, ProbesBesideTheirPlacesMakeTheSpeedStray) {
   study::Scenario board = board_with(RotorSensing::hall);
   board.sensors.hall_edges_deg = {3, -2, 0, 0, 0, 0};
@@ -114,7 +114,7 @@ TEST(DesignSensors, ProbesBesideTheirPlacesMakeTheSpeedStray) {
     }
   }
   EXPECT_EQ(told, 2);
-  // Edges that are taken as exact print the step of probes 3 degrees off to opposite sides; six edges have none.
+  // Edges taken as exact print the step for probes 3 degrees off to alternate sides; six edges have no step.
   const auto dw = [&board](std::vector<double> edges_deg, const char* symbol, int speed_edges) {
     board.sensors.hall_edges_deg = std::move(edges_deg);
     board.sensors.speed_edges = speed_edges;
@@ -125,7 +125,7 @@ TEST(DesignSensors, ProbesBesideTheirPlacesMakeTheSpeedStray) {
   EXPECT_NEAR(dw({}, "dw_3", 1), dw({3, -3, 3, -3, 3, -3}, "dw", 1), 1e-12);
   EXPECT_EQ(dw({}, "dw_3", 6), 0.0);
   board.sensors.hall_edges_deg = {3, -2, 0, 0, 0, 0};
-  // Over a whole turn the faults cancel, and learned edges have none.
+  // The faults cancel over a whole turn, and learned edges have none.
   board.sensors.speed_edges = 6;
   EXPECT_EQ(rotor_sensing_of(board).stray_rad, 0.0);
   board.sensors.speed_edges = 1;
@@ -144,7 +144,7 @@ TEST(DesignSensors, AnotherSensorThanTheBoardsTakesItsPlaceWhole) {
   EXPECT_EQ(board.sensors.shaft, SensorShaft::motor);
 }
 
-/// Of a resolver that is sampled the peaks lie on control periods: 10 kHz has them 50 us apart.
+/// A sampled resolver has its peaks on control periods: 10 kHz has them 50 us apart.
 TEST(DesignSensors, AResolverIsExcitedInStepWithTheControl) {
   for (const double period_s : {10e-6, 25e-6, 30e-6, 40e-6, 50e-6, 100e-6}) {
     const study::Sensors s = with_rotor({}, RotorSensing::resolver, period_s);
@@ -175,9 +175,9 @@ TEST(DesignSensors, WhatASensorlessDriveComesToIsTold) {
   const DesignStudy s = studied(board);
   ASSERT_GE(s.sensorless.size(), 3u);
   EXPECT_EQ(s.sensorless[1].symbol, "w_low");
-  // Never below a twentieth of the no-load speed.
+  // The speed is at least a twentieth of the no-load speed.
   EXPECT_GE(s.sensorless[1].value, 0.05 * 24 / s.design.motor.K_t_Nm_A * (1 - 1e-12));
-  // A load that its start cannot move is refused with the key to change, not designed for.
+  // A load that the start cannot move is refused, and the message names the key.
   board.control.sensorless.greatest_load = 2.0;
   const auto refused = study_design(
       {.subject = {.motor = board.motor, .sheet = board.sheet, .board = board}, .spec = spec_of(board)});

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Designs against the switching simulation: what the linear design foretells must come out where no limit
-// acts, the ripple must be the two exponentials', and the worst of the tolerances must be the one that was
-// planted.
+// Designs judged by the switching simulation: without active limits the run gives the linear design's figures, the ripple is that of the
+// two exponentials, and the worst tolerance is the planted one.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -62,17 +61,17 @@ TEST(DesignedCurrentLoop, DoesInTheSimulationWhatWasDesigned) {
       const DriveDesign d = designed({.mode = Mode::current, .method = method, .delay_periods = late});
       const Outcome o = ran(design_scenario(d, subject));
       EXPECT_TRUE(o.passed());
-      // The design holds the mean voltage through the period, the PWM gives it at the period's start: at the
-      // next sample the current is less by up to exp(-(1 - d) R T/L) against the mean of exp, here at
-      // most 2.7 % of the gain. The settling time may so fall one sample beside.
+      // The design holds the mean voltage through the period; the PWM applies it at the period's start. At the next sample the current is
+      // lower by up to exp(-(1 - d) R T/L) against the mean of exp, here by at most 2.7 % of the gain. The settling time may differ by one
+      // sample.
       EXPECT_NEAR(measured(o, "settling time"), foretold(o, "settling time"), 1.001 * period_s);
       EXPECT_NEAR(measured(o, "overshoot"), foretold(o, "overshoot"), 0.027 * 2);
     }
   }
 }
 
-/// Half a period later, as the samples of centred pulses are: the linear loop foretells the overshoot to the 1.4 % of x/4 that half a pulse
-/// differs by from half a held voltage, x = R T/L.
+/// Samples of centred pulses are half a period later: the linear loop predicts the overshoot to x/4 = 1.4 %, by which half a pulse differs
+/// from half a held voltage, x = R T/L.
 TEST(DesignedCurrentLoop, DoesSoOnSamplesInTheMiddleToo) {
   for (const int late : {0, 1}) {
     const DriveDesign d = designed({.mode = Mode::current, .delay_periods = late, .sampled_in_middle = true});
@@ -85,7 +84,7 @@ TEST(DesignedCurrentLoop, DoesSoOnSamplesInTheMiddleToo) {
   }
 }
 
-/// One shunt is sampled in the middle, whoever wrote the specification; a board says it itself.
+/// One shunt is sampled in the middle in any specification; a board states its own sample.
 TEST(DesignStudy, TakesTheSamplesPlaceFromItsBoard) {
   const auto late_of = [](const DesignSubject& on) {
     const auto s =
@@ -104,8 +103,7 @@ TEST(DesignStudy, TakesTheSamplesPlaceFromItsBoard) {
 }
 
 TEST(DesignedCurrentLoop, HasTheRippleOfTwoExponentials) {
-  // Held rotor, constant duty: nothing but the bus and the pair. After 20 time constants exp(-20) of the
-  // start is left.
+  // A locked rotor at constant duty has only the bus and the pair. After 20 time constants exp(-20) of the start remains.
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary}) {
     for (const double duty : {0.6, 0.8}) {
       const DriveDesign d = designed({.mode = Mode::current, .chopping = chopping});
@@ -124,7 +122,7 @@ TEST(DesignedCurrentLoop, HasTheRippleOfTwoExponentials) {
   }
 }
 
-/// With a diode the pair's voltage falls to -0.7 V, and the mean of 24 V and that is R I: by hand, as straight lines.
+/// The diode sets the pair's voltage to -0.7 V, and the mean of that and 24 V equals R I: straight lines, computed by hand.
 TEST(DesignedCurrentLoop, ExpectsTheRippleThatTheDiodeMakes) {
   const DriveDesign d = designed({.mode = Mode::current});
   DesignSubject on = subject;
@@ -142,14 +140,13 @@ TEST(DesignedSpeedLoop, DoesInTheSimulationWhatWasDesigned) {
   const DriveDesign d = designed({.mode = Mode::speed});
   const Outcome o = ran(design_scenario(d, subject));
   EXPECT_TRUE(o.passed());
-  // What the linear design does not know is the torque ripple of the commutations: measured right here, it
-  // moves the crossing of the 2 % band by ripple over slope, and the peak by itself.
+  // The linear design has no torque ripple of the commutations, which this test measures: it moves the crossing of the 2 % band by ripple
+  // over slope, and the peak by its own height.
   const double ripple = measured(o, "speed ripple"), band = 0.02 * 10;
   EXPECT_LT(ripple, 2 * band);
   EXPECT_NEAR(measured(o, "overshoot"), foretold(o, "overshoot"), ripple);
-  // Near its end the response fades as exp(-xi w0 t), xi w0 = 4.6/T_reg: a level off by a is reached log(1 +
-  // a/band)
-  // /(xi w0) later.
+  // The response decays near its end as exp(-xi w0 t), xi w0 = 4.6/T_reg: a level that is off by a is reached log(1 + a/band)/(xi w0)
+  // later.
   EXPECT_NEAR(measured(o, "settling time"), foretold(o, "settling time"),
               std::log(1 + ripple / band) * 10e-3 / 4.6);
 }
@@ -175,7 +172,7 @@ TEST(PositionGain, OvershootsBeyondAndNotAtTheGainFound) {
 }
 
 TEST(PositionGain, IsTheThesissForItsMove) {
-  // data/scenarios/thesis/7.5-position.toml, tried by hand: 2.4 does not overshoot, 2.5 does.
+  // data/scenarios/thesis/7.5-position.toml has these bounds by trial: 2.4 does not overshoot, 2.5 does.
   const auto found =
       largest_position_gain(designed({.mode = Mode::position, .torque_limit_Nm = 0.78}), subject);
   ASSERT_TRUE(found);
@@ -198,7 +195,7 @@ TEST(Variations, AreAsWarmAsTheSheetLetsTheMotorBe) {
   EXPECT_EQ(all.size(), 1u + 9u + 16u);
   EXPECT_EQ(all[3].words, "R at 125 degC");
   EXPECT_NEAR(all[3].factors[0], 1.393, 1e-12);
-  // 4.5 and 4.25 K/W, 125 degC: the housing comes to 25 + 100 4.25/8.75.
+  // The housing reaches 25 + 100 4.25/8.75 degC with 4.5 and 4.25 K/W and 125 degC.
   EXPECT_EQ(all[8].words, "K_t at 74 degC");
   EXPECT_NEAR(all[8].factors[2], 1 - 0.0012 * 100 * 4.25 / 8.75, 1e-12);
 }
@@ -225,7 +222,7 @@ TEST(Variations, ChangeTheMotorAndNotTheController) {
 TEST(Robustness, FindsThePlantedTolerance) {
   const DriveDesign d = designed({.mode = Mode::current});
   const Scenario s = design_scenario(d, subject);
-  // The inductance halved doubles the loop's gain and its ripple; the others hardly stray.
+  // The halved inductance doubles the loop's gain and its ripple; the other tolerances are small.
   const std::vector<Tolerance> planted{{Strays::resistance, {{"R -1 %", 0.99}, {"R +1 %", 1.01}}},
                                        {Strays::inductance, {{"L halved", 0.5}}},
                                        {Strays::torque_constant, {{"K_t +1 %", 1.01}}}};
@@ -257,8 +254,8 @@ TEST(Robustness, SaysNeverWhereTheLoopNoLongerSettles) {
 }
 
 TEST(DesignedCurrentLoop, OfAFastLoopWithDelaySoftChoppingMakesAnOscillator) {
-  // A negative duty of soft chopping puts the whole bus against the current, however small it is (model.md
-  // 4b): no linear design knows. The same gains settle as designed where the legs complement each other.
+  // A small negative duty with soft chopping puts the whole bus against the current (model.md 4b), which no linear design contains. The
+  // same gains settle as designed with complementary chopping.
   const DesignSpec spec{.mode = Mode::current, .settle_s = 0.5e-3, .delay_periods = 1};
   DesignSpec complementary = spec;
   complementary.chopping = Chopping::complementary;
@@ -307,7 +304,7 @@ TEST(DesignStudy, CountsTheLoadsInertiaIn) {
                                .tolerances = {{Strays::inertia, {{"J +50 %", 1.5}}}}});
   ASSERT_TRUE(s && s->usable());
   EXPECT_EQ(s->outcome.gains[1].d1, s->design.loop("speed").gains.d1);
-  // Integrator: the same poles on 3.35/1.35 of the inertia need gains in that ratio, but for friction.
+  // Integrator: the same poles on 3.35/1.35 of the inertia need gains in that ratio, apart from friction.
   const DriveDesign bare = designed({.mode = Mode::speed, .settle_s = 20e-3});
   EXPECT_NEAR(s->design.loop("speed").gains.d1 / bare.loop("speed").gains.d1, 3.35 / 1.35, 0.01);
   const Scenario heavy =
@@ -335,7 +332,7 @@ TEST(DesignStudy, ItsPositionGainStandsTheTolerances) {
                                    .tolerances = sheet_tolerances(subject.sheet, Mode::position)});
   ASSERT_TRUE(moved && moved->robustness && moved->position);
   EXPECT_TRUE(moved->usable());
-  // The sheet's motor alone would stand more: with twice its inertia it would overshoot.
+  // The sheet's motor alone would allow more: with twice its inertia it would overshoot.
   EXPECT_LT(moved->position->gain_rad_s_per_deg, 0.9 * moved->position->nominal);
   const RobustFigure& overshoot = moved->robustness->figures[1];
   EXPECT_EQ(overshoot.figure, "overshoot");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a field-oriented drive comes to, against the laws of its loops and of the circle.
+// A field-oriented drive's figures against the laws of its loops and of the voltage circle.
 #include "sixstep/analysis/verify/field_study.hpp"
 
 #include <gmock/gmock.h>
@@ -48,7 +48,7 @@ double value(const std::vector<design::DerivationStep>& steps, const std::string
   return 0.0;
 }
 
-/// With a delay L = k/(z (z - 1)), k = z_1 (1 - z_1): |L| = 1 where 2 sin(w T/2) = k, and the phase there is -90 degrees less
+/// The loop with a delay is L = k/(z (z - 1)), k = z_1 (1 - z_1): |L| = 1 where 2 sin(w T/2) = k, and its phase there is -90 degrees minus
 /// 3/2 w T.
 TEST(FieldStudy, TheCurrentLoopHasTheMarginsOfItsRule) {
   study::Scenario s = field_oriented(Mode::current, 2.0);
@@ -61,7 +61,7 @@ TEST(FieldStudy, TheCurrentLoopHasTheMarginsOfItsRule) {
   ASSERT_TRUE(loop.figures.crossover_rad_s && loop.figures.phase_rad && loop.figures.gain);
   EXPECT_NEAR(*loop.figures.crossover_rad_s / w, 1.0, 1e-9);
   EXPECT_NEAR(*loop.figures.phase_rad, base::pi / 2 - 1.5 * w * T, 1e-9);
-  // Poles on the unit circle where k = 1: z^2 - z + 1.
+  // The poles lie on the unit circle at k = 1: z^2 - z + 1.
   EXPECT_NEAR(*loop.figures.gain, 1 / k, 1e-9);
   EXPECT_NEAR(value(loop.steps, "z"), z, 1e-15);
   EXPECT_TRUE(f.warnings.empty());
@@ -77,7 +77,7 @@ TEST(FieldStudy, ASalientRotorHasAnAxisEach) {
   const LoopDesign &d = f.design.loops[0], &q = f.design.loops[1];
   EXPECT_EQ(d.name, "current d");
   EXPECT_EQ(q.name, "current q");
-  // Each zero on its own winding's pole, and the same loop of both.
+  // Each zero cancels its own winding's pole, and both axes have the same loop.
   EXPECT_NEAR(value(d.steps, "a0"), -std::exp(-R * T / 0.2e-3), 1e-12);
   EXPECT_NEAR(value(q.steps, "a0"), -std::exp(-R * T / 0.4e-3), 1e-12);
   EXPECT_NEAR(*d.figures.crossover_rad_s / *q.figures.crossover_rad_s, 1.0, 1e-9);
@@ -85,7 +85,7 @@ TEST(FieldStudy, ASalientRotorHasAnAxisEach) {
   EXPECT_NEAR(value(f.axes, "k"), 0.2e-3 * 8 / (2 * K_e), 1e-12);
 }
 
-/// |L| is full torque times the PI over J w; the current loop and what a period does to a slow loop are below w T.
+/// |L| equals full torque times the PI over J w; the current loop and the sampling change it by less than w T.
 TEST(FieldStudy, TheSpeedLoopTurnsByTheTorqueOfIq) {
   study::Scenario s = field_oriented(Mode::speed, 300.0);
   s.control.speed.settle_s = 0.1;
@@ -105,7 +105,7 @@ TEST(FieldStudy, TheSpeedLoopTurnsByTheTorqueOfIq) {
 TEST(FieldStudy, TheCircleBoundsSpeedAndCurrent) {
   study::Scenario s = field_oriented(Mode::speed, 600.0);
   s.control.speed.settle_s = 0.1;
-  s.control.current.limit_A = 6.0;  // below full torque's
+  s.control.current.limit_A = 6.0;  // less than at full torque
   FieldStudy f = studied(s);
   const double circle = 24 / std::numbers::sqrt3;
   EXPECT_NEAR(value(f.limits, "U_s/sqrt 3"), circle, 1e-12);
@@ -126,7 +126,7 @@ TEST(FieldStudy, TheCircleBoundsSpeedAndCurrent) {
   EXPECT_NEAR(value(f.limits, "w_1"), 0.95 * circle / (K_e - 8 * L * 5), 1e-9);
 }
 
-/// The linear loop tells what the switching one does: a step of i_q into the locked rotor, at the samples.
+/// The linear loop predicts the switching simulation: a step of i_q into the locked rotor, at the samples.
 TEST(FieldStudy, TheStepIsTheRuns) {
   study::Scenario s = field_oriented(Mode::current, 2.0);
   s.load.locked = true;
@@ -138,7 +138,7 @@ TEST(FieldStudy, TheStepIsTheRuns) {
   EXPECT_NEAR(figures_of(s)[0], f.design.loops[0].step.settling_s, T);
 }
 
-/// As of a six-step drive's loops: with less than 20 degrees of phase, and unstable ones.
+/// The rule of six-step loops applies: below 20 degrees of phase, or unstable, is grave.
 TEST(FieldStudy, LittlePhaseIsGrave) {
   int usable = 0, little = 0;
   for (double settle_s = 0.5e-3; settle_s < 20e-3; settle_s *= 1.1) {

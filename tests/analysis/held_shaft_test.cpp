@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The check of docs/howto/flash-an-image.md with the shaft held: twelve places of an electrical turn separate straight wires from
-// all others, wherever the first place is.
+// The check of docs/howto/flash-an-image.md with the shaft held: twelve angles of an electrical turn distinguish straight wires from all
+// others, for any first angle.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ double trapezoid(double deg) {
 }
 double sine(double deg) { return std::cos((deg - 60) * pi / 180); }
 
-/// Least and largest torque per ampere at `places` places from `first_deg` on.
+/// Least and largest torque per ampere at `places` angles from `first_deg` on.
 std::pair<double, double> pulls(const rig::Wiring& wiring, double (*emf)(double), double first_deg,
                                 int places) {
   double least = 1e9, most = -1e9;
@@ -49,14 +49,14 @@ TEST(HeldShaft, TwelvePlacesSeparateStraightWires) {
     }
 }
 
-/// Six places of the same part of their sectors pull alike, with half the torque.
+/// Six angles at the same part of their sectors have equal torque, half of the straight one.
 TEST(HeldShaft, SixPlacesDoNotShowAnEarlyPair) {
   const rig::Wiring early{.phases = rig::WireOrder::bac, .probes = rig::WireOrder::bac};
   ASSERT_TRUE(analysis::sectors_ahead(early));
   ASSERT_NE(analysis::sectors_ahead(early), 0);
   const auto [least, most] = pulls(early, trapezoid, 30, 6);
   EXPECT_NEAR(least, most, 1e-12);
-  EXPECT_NEAR(most, 1.0, 1e-12);  // of 2 where the wires are straight
+  EXPECT_NEAR(most, 1.0, 1e-12);  // straight wires have 2
 }
 
 }  // namespace SIXSTEP_TEST_FILE

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a design says of speeds far above the one its test is run at: steps of the measured speed that reach a limit, and targets out of
-// reach.
+// Warnings of a design about speeds far above that of its test: steps of the measured speed that reach a limit, and unreachable targets.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +17,7 @@ using namespace sixstep;
 using namespace sixstep::analysis;
 using design::Concern;
 
-/// An encoder of 1024 lines on the maxon motor, as a board's timer of 1 MHz captures its edges.
+/// An encoder of 1024 lines on the maxon motor; the board's timer captures its edges at 1 MHz.
 DesignOrder on_encoder_board(double capture_Hz = 1e6) {
   DesignOrder order{.subject = {"maxon-251601", sixstep::testing::maxon_sheet(), {}},
                     .spec = design::on_a_board(),
@@ -47,8 +46,8 @@ double held(const design::DriveDesign& d, DesignSubject subject, double rad_s) {
   return outcome ? outcome->verdicts.front().measured : 0.0;
 }
 
-/// The clamp cuts off what d1 makes of a tick where that is more than the load leaves of the limit: the speed stands where the two are
-/// equal, d1 w/(f T) = 1 - load/limit, T being a period give or take a count.
+/// The limit clips d1's response to a tick where it exceeds the torque that the load leaves. The speed stays where the two are equal, d1
+/// w/(f T) = 1 - load/limit, with T one period to within a count.
 TEST(HighSpeed, StandsWhereATickIsWhatTheLoadLeavesOfTheLimit) {
   const DesignOrder order = on_encoder_board();
   const auto s = study_design(order);
@@ -73,7 +72,7 @@ TEST(HighSpeed, OfAFasterClockIsHeld) {
   EXPECT_NEAR(held(s->design, order.subject, s->design.high_speed_rad_s), s->design.high_speed_rad_s, 1.0);
 }
 
-/// Advice was tried: what it names is usable.
+/// The advice was tried: a design with the named clock is usable.
 TEST(HighSpeed, IsAdvisedAClockThatHolds) {
   DesignOrder order = on_encoder_board();
   order.advises = true;
@@ -84,7 +83,7 @@ TEST(HighSpeed, IsAdvisedAClockThatHolds) {
       << s->warnings.front().cure;
 }
 
-/// The most that a speed of edges told in whole ticks is off, by counting them: edges `edge_s` apart, and up to 2 % closer or farther.
+/// The largest error of a speed from edges in whole ticks, by counting: edges are `edge_s` apart, and up to 2 % closer or farther.
 double counted_step(double edge_s, int edges, double f_Hz, double speed) {
   double most = 0.0;
   for (int near = -20; near <= 20; ++near) {
@@ -113,7 +112,7 @@ TEST(HighSpeed, StepsOfTheMeasuredSpeedAreThoseThatATimerMakes) {
   EXPECT_NEAR(step, counted_step(count, counts, f, speed), 0.15 * step);
 }
 
-/// Probes beside their places: the speed over one sector that is s longer is off by s of 60 degrees; over a turn they cancel.
+/// Misplaced probes: the speed over one sector longer by s is off by s of 60 degrees; over a turn the errors cancel.
 TEST(HighSpeed, StepsOfProbesBesideTheirPlacesAreTheirs) {
   const double p = 4, speed = 300, stray = 5 * base::pi / 180;
   design::RotorSensing hall{.hall = true, .edges = 1, .stray_rad = stray};
@@ -134,7 +133,7 @@ DesignOrder on_hall(double step, double settle_s, control::Chopping chopping) {
   return order;
 }
 
-/// Where the bus is on without a pause, the same load leaves the same speed: that is what stands.
+/// The speed at full duty with the same load is the highest that the drive reaches.
 double full_on_speed(const study::Scenario& of) {
   study::Scenario s = of;
   s.control = {};
@@ -177,7 +176,7 @@ TEST(AskedStep, OutOfReachIsAdvisedASmallerOneThatHolds) {
   EXPECT_TRUE(next->usable());
 }
 
-/// A long way at the torque limit: the window at the end of the run lies behind it.
+/// A long acceleration at the torque limit: the run's final window lies after it.
 TEST(AskedStep, IsRunUntilItHasArrived) {
   DesignOrder order = on_encoder_board(16e6);
   order.spec.voltage_V = 48;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The design of a linear motor has the turning one's gains in other units, and is told in its own.
+// A linear motor's design has the rotating motor's gains in other units, and prints its own units.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ DesignStudy studied(const DesignOrder& order) {
   return *study;
 }
 
-/// On the same board; torque limit, lowest speed and step of the one are the other's.
+/// Both motors are on the same board, with equivalent torque limit, lowest speed and step.
 std::pair<DesignStudy, DesignStudy> both(Mode mode) {
   DesignOrder turning{.subject = {"m", maxon_sheet(), {}}, .spec = design::on_a_board()};
   turning.spec.mode = mode;
@@ -51,7 +51,7 @@ TEST(LinearDesign, HasTheTurningOnesGains) {
     const auto [turning, linear] = both(mode);
     for (std::size_t n = 0; n < turning.design.loops.size(); ++n) {
       const auto &a = turning.design.loops[n], &b = linear.design.loops[n];
-      // A per rad/s and per m/s; the gain of the position is one over time but for its degrees.
+      // The speed's gain is in A per m/s instead of A per rad/s; the position's gain is 1/s apart from the degrees.
       const double factor = a.name == "speed" ? 1 / r : 1.0;
       expect_part(b.gains.d1, a.gains.d1 * factor, a.name, a.name == "position" ? 2e-3 : 1e-11);
       expect_part(b.gains.d0, a.gains.d0 * factor, a.name);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The no-load point: where the held curve needs no torque, and where a free rotor ends up.
+// The no-load point: the speed without torque on the curve, and the final speed of a free rotor.
 #include "sixstep/analysis/curve/no_load.hpp"
 
 #include <gtest/gtest.h>
@@ -21,16 +21,16 @@ NoLoad found(const Bench& b) {
   return n ? *n : NoLoad{};
 }
 
-/// How far the speed of a free rotor swings within a sector, at most: half the torque's ripple for half of
-/// it. The mean cannot be further off than the swing.
+/// The largest swing of a free rotor's speed within a sector: half the torque's ripple over half of the sector. The mean's error is at most
+/// this swing.
 double swing_rad_s(const Bench& b, const NoLoad& n) {
   const double sector_s = base::sector_rad / (8 * std::fabs(n.point.speed_rad_s));
   return n.point.ripple_Nm / 2 * sector_s / 2 / b.motor.shaft.J_kg_m2;
 }
 
 TEST(NoLoad, OfThe251601IsThatOfTheIndependentSolver) {
-  // 702.6128 rad/s and 0.15310 A +- 1e-4 of it, as data/scenarios/thesis/7.2-no-load.toml quotes it: half a
-  // last digit, and as much again because that mean's window cuts a sector.
+  // The values are 702.6128 rad/s and 0.15310 A +- 1e-4 of it from data/scenarios/thesis/7.2-no-load.toml: half a last digit, and the same
+  // again because that mean's window cuts a sector.
   const NoLoad n = found(maxon_bench());
   EXPECT_NEAR(n.point.speed_rad_s, 702.6128, 5e-5);
   EXPECT_NEAR(n.point.winding_current_A, 0.15310, 3e-5);
@@ -54,7 +54,7 @@ TEST(NoLoad, AFreeRotorAgrees) {
     b.motor.shaft.coulomb_Nm = coulomb;
     const NoLoad n = found(b);
     EXPECT_NEAR(n.free_speed_rad_s, n.point.speed_rad_s, swing_rad_s(b, n));
-    // What friction takes at a speed that is that little different.
+    // Friction differs by the same part as the speed.
     const double part = swing_rad_s(b, n) / n.point.speed_rad_s;
     EXPECT_NEAR(n.free_winding_current_A, n.point.winding_current_A, 4 * part * n.point.winding_current_A);
     EXPECT_NEAR(n.free_bus_current_A, n.point.bus_current_A, 4 * part * n.point.bus_current_A);
@@ -86,8 +86,7 @@ TEST(NoLoad, ChoppedAFreeRotorLiesWithinTheInterval) {
     b.chopping = chopping;
     const NoLoad n = found(b);
     EXPECT_GT(n.half_width_rad_s, 0.0);
-    // The found speed is where the torque's interval holds zero: off by one half width, and the interval by
-    // another.
+    // The found speed is where the torque's interval holds zero: the speed is off by one half width, and the interval by another.
     EXPECT_NEAR(n.free_speed_rad_s, n.point.speed_rad_s, 2 * n.half_width_rad_s + swing_rad_s(b, n))
         << name_of(chopping);
   }

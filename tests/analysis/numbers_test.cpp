@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a program, and not a file, gives to an analysis: the same table holds it.
+// Values given to an analysis by a program instead of a file have the limits of the same table.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ std::string first(const base::Problems& problems) {
   return problems.empty() ? std::string() : to_string(problems.front());
 }
 
-/// What the table lets pass is a drive, or is refused in words; never a defect.
+/// Values within the table's limits give a drive or a refusal in words, never a defect.
 TEST(Numbers, ADesignAtTheEndsOfTheTableIsUsableOrRefused) {
   for (const double voltage_V : {1e-6, 1e-3, 100.0, 1e3, 1e5})
     for (const double period_s : {1e-9, 30e-6, 1e-3, 1.0})

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The steady state at a held speed against the laws that it must keep and against runs that know nothing of
-// it.
+// The steady state at a held speed against its laws and against independent runs.
 #include "sixstep/analysis/curve/operating_point.hpp"
 
 #include <gtest/gtest.h>
@@ -29,8 +28,7 @@ OperatingPoint at(const Bench& b, double speed) {
 
 const double speeds[] = {0.5, 20.0, 150.0, 400.0, 548.7, 702.6, 716.0, 900.0, 1500.0, -10.0, -300.0};
 
-/// Largest relative residual of a point's energies: the rounding of some hundred segments' integrals, a few eps each,
-/// and of their sums.
+/// Largest relative residual of a point's energies: the rounding of some hundred segments' integrals, a few eps each, and of their sums.
 constexpr double balance = 1e-12;
 
 TEST(OperatingPoint, EnergyBalances) {
@@ -42,7 +40,7 @@ TEST(OperatingPoint, EnergyBalances) {
       SCOPED_TRACE(speed);
       EXPECT_LE(std::fabs(p.energy_residual), balance);
       const double left = p.supplied_W - p.copper_W - p.devices_W - p.friction_W - p.shaft_W;
-      // Torque is averaged apart from T_e w; what is stored differs by the orbit's residual.
+      // Torque is averaged separately from T_e w; the stored energy differs by the orbit's residual.
       EXPECT_NEAR(left, 0.0, balance * (p.copper_W + std::fabs(p.supplied_W) + std::fabs(p.shaft_W)));
       EXPECT_EQ(p.devices_W > 0, !ideal);
     }
@@ -67,7 +65,7 @@ TEST(OperatingPoint, RippleAndRmsAreOrderedAsTheyMustBe) {
     EXPECT_LE(p.ripple_rms_Nm, p.ripple_Nm / 2 * (1 + 1e-12));  // Popoviciu
     EXPECT_LE(p.phase_rms_A, p.phase_peak_A);
     EXPECT_LE(p.motor_current_A, p.winding_current_A * (1 + 1e-12));  // a triangle's inequality
-    // Half the sum of three that cancel is the greatest, and its square at most 2/3 of the squares' sum.
+    // Half the sum of three currents that cancel is the largest one, and its square at most 2/3 of the sum of squares.
     EXPECT_LE(p.winding_current_A, std::sqrt(2.0) * p.phase_rms_A * (1 + 1e-12));
   }
 }
@@ -107,8 +105,8 @@ TEST(OperatingPoint, IsTheTailOfALongRunTo1e9) {
       Bench b = maxon_bench();
       if (!ideal) b.devices = {.R_on_ohm = 0.02, .V_f_V = 0.7, .r_d_ohm = 0.01};
       const OperatingPoint p = at(b, speed);
-      // Whole electrical turns; the window's ends are rounded to picoseconds, 1e-12 s of 40 A in 0.02 s and
-      // more. Before it 60 time constants.
+      // The window has whole electrical turns; its ends are rounded to picoseconds: 1e-12 s of 40 A in 0.02 s and more. It begins after 60
+      // time constants.
       const double turn_s = 2 * base::pi / (8 * std::fabs(speed));
       const study::Outcome run = long_run(b, speed, 0.035, std::ceil(0.02 / turn_s) * turn_s);
       const auto measured = [&](std::size_t n) { return run.comparisons[n].measured; };
@@ -131,7 +129,7 @@ TEST(OperatingPoint, WithoutInductanceIsTheIdealLine) {
     };
     const double coarse = missing(1e-3), fine = missing(0.5e-3);
     EXPECT_GT(coarse, 0.0) << speed;
-    // Linear in L: the next term is smaller by what the first one is of the whole.
+    // The difference is linear in L: the next term relative to the first equals the first relative to the whole.
     EXPECT_NEAR(fine / coarse, 0.5, 2 * coarse / ideal) << speed;
     EXPECT_NEAR(2 * fine - coarse, 0.0, 2 * coarse * coarse / ideal) << speed;
   }
@@ -141,7 +139,7 @@ TEST(OperatingPoint, InductanceBendsTheLineDownwards) {
   const Bench b = maxon_bench();
   for (const double speed : {50.0, 200.0, 400.0, 600.0, 702.6})
     EXPECT_LT(at(b, speed).torque_Nm, analysis::ideal_torque_Nm(b, speed)) << speed;
-  // Where the line meets the axis no current flows at all, so that nothing is left to be late.
+  // No current flows at the ideal no-load speed, so that commutation has no effect.
   const double axis = analysis::ideal_no_load_rad_s(b);
   EXPECT_NEAR(at(b, axis).torque_Nm, 0.0, 1e-14);
 }
@@ -162,7 +160,7 @@ TEST(OperatingPoint, MirroredItIsTheSame) {
   }
 }
 
-/// Mean of what held rotors at many angles do; Gauss on each piece of the shape, exact where it is linear.
+/// Mean over rotors held at many angles, with Gauss quadrature on each piece of the shape, exact where it is linear.
 struct HeldMeans {
   double torque = 0.0, square = 0.0, low = 1e9, high = -1e9;
 };
@@ -237,7 +235,7 @@ TEST(OperatingPoint, ALockedRotorLoadsTwoPhasesAndItsAngleDecides) {
 TEST(OperatingPoint, SlowRotationLeadsToStandstill) {
   for (const Bench& b : {maxon_bench(), shaped(design::BackEmfShape::sine, 120)}) {
     const OperatingPoint still = at(b, 0.0), slow = at(b, 0.01), slower = at(b, 0.005);
-    // First order in the speed: back-EMF and the share of the commutations.
+    // The effects are of first order in the speed: back-EMF and the part of the time in commutations.
     EXPECT_NEAR(2 * slower.torque_Nm - slow.torque_Nm, still.torque_Nm, 1e-9);
     EXPECT_LT(slow.torque_Nm, slower.torque_Nm);
     EXPECT_LT(slower.torque_Nm, still.torque_Nm);
@@ -245,7 +243,8 @@ TEST(OperatingPoint, SlowRotationLeadsToStandstill) {
   }
 }
 
-/// Dry friction does not go as the rotor slows down: what just turns has it as what turns slowly has, and no more of it than it is driven.
+/// Dry friction stays constant as the rotor slows down. A rotor that just turns has the friction of slow rotation, but at most its driving
+/// torque.
 TEST(OperatingPoint, WhatJustTurnsHasTheFrictionOfSlowRotation) {
   Bench b = maxon_bench();
   b.motor.shaft.coulomb_Nm = 0.1;
@@ -281,28 +280,28 @@ TEST(OperatingPoint, ChoppedIntervalCoversARunTenTimesAsLong) {
     missed += std::fabs(p.torque_Nm - s.torque / s.seconds) > p.half_width_Nm;
     missed += std::fabs(p.bus_current_A - s.supplied / s.seconds / 24) > p.half_width_A;
   }
-  // Of 16 intervals at 99 % more than one miss once in 90 times, were the phases drawn; they are spread.
+  // More than one miss in 16 intervals of 99 % occurs once in 90 times with drawn phases; these phases are spread evenly.
   EXPECT_LE(missed, 1) << "seed " << seed;
 }
 
 TEST(OperatingPoint, ChoppedAtNearlyFullDutyComesToFullDuty) {
   Bench b = maxon_bench();
   const OperatingPoint full = at(b, 400.0);
-  b.duty = 1 - 1e-6;  // one part in a million off, in 30 ps
+  b.duty = 1 - 1e-6;  // one part in a million of the period, 30 ps
   const OperatingPoint chopped = at(b, 400.0);
   EXPECT_NEAR(chopped.torque_Nm, full.torque_Nm, 5e-6 * 0.78 + chopped.half_width_Nm);
   EXPECT_NEAR(chopped.phase_peak_A, full.phase_peak_A, 1e-3);
 }
 
 TEST(OperatingPoint, HeldRotorUnderChoppingIsTheMeanVoltageOverTheResistance) {
-  // Current flows throughout: soft and complementary give d U, hard (2 d - 1) U on average; ideal devices.
+  // Current flows throughout with ideal devices: soft and complementary give d U, hard (2 d - 1) U on average.
   for (const control::Chopping chopping :
        {control::Chopping::soft, control::Chopping::hard, control::Chopping::complementary}) {
     Bench b = maxon_bench();
     b.duty = 0.8;
     b.chopping = chopping;
     const OperatingPoint p = at(b, 0.0);
-    // Twenty time constants leave exp(-20) of the start from rest.
+    // The start from rest leaves exp(-20) after twenty time constants.
     EXPECT_NEAR(p.torque_Nm, 0.0335 * analysis::mean_voltage_V(b) / 1.03, std::exp(-20.0) * p.torque_Nm)
         << name_of(chopping);
     EXPECT_NEAR(p.energy_residual, 0.0, balance);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// No member of a spec is without effect: in each mode, by each method and with each kind of sensor another value either changes
-// what was designed or how it is run, or is refused by name.
+// Each member of a spec has an effect. In each mode, method and kind of sensor, another value changes the design or its run, or is refused
+// by name.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -41,7 +41,7 @@ const Member members[] = {
     {"lowest_speed_rad_s", [](DesignSpec& w) { w.lowest_speed_rad_s = 55.0; }},
 };
 
-/// What came of a spec, its wishes themselves left out: gains and figures of each loop, warnings, and the run's own numbers.
+/// Results of a spec without its requested values: gains and figures of each loop, the number of warnings, and the run's values.
 std::vector<double> result_of(const DesignSpec& w) {
   const auto d = design::design_drive(*design::motor_model(subject.sheet), w);
   if (!d) return {};
@@ -68,7 +68,7 @@ void walk(const DesignSpec& w, const std::string& where) {
     SCOPED_TRACE(std::string(m.name) + where);
     DesignSpec changed = w;
     m.change(changed);
-    // What cannot be designed at all has been refused by name: tests/design/drive_design_test.cpp.
+    // Impossible designs are refused by name in tests/design/drive_design_test.cpp.
     const std::vector<double> after = result_of(changed);
     if (const auto idle = design::without_use(changed, m.name)) {
       EXPECT_EQ(idle->where, m.name);
@@ -87,7 +87,7 @@ TEST(SpecUse, EachMemberChangesTheDesignOrIsRefusedByName) {
         for (const bool bandwidth : {false, true}) {
           if (method == GainMethod::symmetrical_optimum && mode == Mode::current) continue;
           if (method == GainMethod::pole_placement && bandwidth) continue;
-          // Within a position loop stands the speed loop of the same method.
+          // A position loop contains the speed loop of the same method.
           if (method != GainMethod::pole_placement && mode == Mode::position) continue;
           DesignSpec w = design::on_a_board();
           w.mode = mode;
@@ -100,7 +100,7 @@ TEST(SpecUse, EachMemberChangesTheDesignOrIsRefusedByName) {
         }
 }
 
-/// What is refused must not be what changes something: the same member without its row.
+/// A refused member must change no result.
 TEST(SpecUse, WhatIsRefusedChangesNothing) {
   for (const Mode mode : {Mode::current, Mode::speed, Mode::position})
     for (const bool hall : {true, false}) {

@@ -16,7 +16,7 @@ Statistics of(std::initializer_list<double> values) {
 }
 
 TEST(Statistics, KnowsMeanAndDeviation) {
-  const Statistics s = of({2, 4, 4, 4, 5, 5, 7, 9});  // mean 5, squares sum to 32
+  const Statistics s = of({2, 4, 4, 4, 5, 5, 7, 9});  // mean 5, sum of squares 32
   EXPECT_EQ(s.mean(), 5.0);
   EXPECT_DOUBLE_EQ(*s.standard_deviation(), std::sqrt(32.0 / 7.0));
   EXPECT_EQ(s.min(), 2.0);
@@ -26,7 +26,7 @@ TEST(Statistics, KnowsMeanAndDeviation) {
 TEST(Statistics, QuantilesAreValuesThatOccurred) {
   const Statistics s = of({30, 10, 40, 20});
   EXPECT_EQ(s.quantile(0.0), 10.0);
-  EXPECT_EQ(s.quantile(0.25), 10.0);  // one of four does not exceed it: just 25 %
+  EXPECT_EQ(s.quantile(0.25), 10.0);  // one value of four is not above it: exactly 25 %
   EXPECT_EQ(s.quantile(0.2500001), 20.0);
   EXPECT_EQ(s.quantile(0.5), 20.0);
   EXPECT_EQ(s.quantile(0.75), 30.0);
@@ -34,7 +34,7 @@ TEST(Statistics, QuantilesAreValuesThatOccurred) {
   EXPECT_EQ(s.quantile(1.0), 40.0);
 }
 
-/// As many values lie above it as below.
+/// The median has equally many values above and below it.
 TEST(Statistics, TheMedianIsTheMiddleOrTheMeanOfTheTwoThere) {
   EXPECT_EQ(of({30, 10, 40}).median(), 30.0);
   EXPECT_EQ(of({30, 10, 40, 20}).median(), 25.0);
@@ -47,7 +47,7 @@ TEST(Statistics, TheMedianIsTheMiddleOrTheMeanOfTheTwoThere) {
   EXPECT_EQ(of({1, 2, never}).median(), 2.0);
   EXPECT_EQ(of({never, never}).median(), never);
   EXPECT_EQ(of({most, most}).median(), most);
-  // Mirrored values have the mirrored median, which no one-sided choice of the two has.
+  // Mirrored values have the mirrored median, unlike with either one of the two middle values.
   EXPECT_EQ(*of({-30, -10, -40, -20}).median(), -*of({30, 10, 40, 20}).median());
 }
 
@@ -75,13 +75,13 @@ TEST(Statistics, WhatHasNoValueIsCountedApart) {
   EXPECT_EQ(s.mean(), 2.0);
 }
 
-/// Sums of large equal parts would lose the digits in which the values differ.
+/// The values differ only in their last digits, which plain sums of the large values would lose.
 TEST(Statistics, KeepsTheDigitsOfFiguresThatHardlyDiffer) {
   const double base = 1e9, step = 0x1p-20;
   Statistics s;
   for (int n = 0; n < 1001; ++n) s.add(base + n * step);
   EXPECT_EQ(s.mean(), base + 500 * step);
-  // Sum of (n - 500)^2 over 1001 values is 2 * 500 * 501 * 1001/6.
+  // The sum of (n - 500)^2 over 1001 values is 2 * 500 * 501 * 1001/6.
   EXPECT_DOUBLE_EQ(*s.standard_deviation(), step * std::sqrt(2.0 * 500 * 501 * 1001 / 6 / 1000));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// When a design is usable, judged by its own figures, and which current loop is designed where nobody says.
+// The conditions of a usable design, from its own figures, and the default current loop.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ double swing_of(const DesignStudy& study) {
   return 0.0;
 }
 
-/// Of one pole pair a Hall step is 60 degrees, and the rotor swings over a few of them about its target.
+/// A Hall step with one pole pair is 60 degrees, so that the rotor swings over a few of them about its target.
 TEST(UsableDesign, APositionOnHallProbesOfOnePolePairIsNone) {
   DesignOrder order = on_a_board(Mode::position);
   order.subject.sheet.pole_pairs = 1;
@@ -45,7 +45,7 @@ TEST(UsableDesign, APositionOnHallProbesOfOnePolePairIsNone) {
 
 void holds_its_figures(const DesignStudy& study) {
   EXPECT_LE(swing_of(study), usual_move(study.design) / 10);
-  if (!study.robustness) return;  // a position's gain that was found at once
+  if (!study.robustness) return;  // the position gain needed no search
   const std::vector<double>& levels = study.scenario.reference.values;
   const bool steps = levels.size() > 1;
   for (const RobustFigure& f : study.robustness->figures) {
@@ -58,7 +58,7 @@ void holds_its_figures(const DesignStudy& study) {
   }
 }
 
-/// It overshoots a step by less than that step, ends its start, and rests near its target.
+/// The overshoot is below the step, the start ends, and the rotor rests near its target.
 TEST(UsableDesign, HoldsItsOwnFiguresOutOfToleranceToo) {
   int usable = 0;
   for (const Mode mode : {Mode::speed, Mode::position}) {
@@ -75,7 +75,7 @@ TEST(UsableDesign, HoldsItsOwnFiguresOutOfToleranceToo) {
   EXPECT_GE(usable, 2);
 }
 
-/// A move of height h under the torque T takes 2 sqrt(h J/T), and h/top + top J/T where the bus ends the acceleration before its middle.
+/// A move of height h with torque T takes 2 sqrt(h J/T), and h/top + top J/T where the bus voltage ends the acceleration earlier.
 TEST(DesignedMove, IsExpectedAsFastAsTorqueAndBusAllow) {
   for (const double bus_V : {6.0, 24.0, 200.0}) {
     DesignOrder order = on_a_board(Mode::position);
@@ -86,14 +86,13 @@ TEST(DesignedMove, IsExpectedAsFastAsTorqueAndBusAllow) {
     const study::Scenario s = design_scenario(*d, order.subject);
     const double h = 1000 * base::pi / 180, a = d->torque_limit_Nm / d->motor.shaft.J_kg_m2;
     const double top = bus_V / d->motor.K_t_Nm_A;
-    double least = 0.0;  // by steps: full acceleration up to the top speed, and as long down
+    double least = 0.0;  // stepwise: full acceleration up to the top speed, and the same time down
     for (double x = 0.0, dt = 1e-6; x < h / 2; least += 2 * dt) x += std::min(a * least / 2, top) * dt;
     EXPECT_NEAR(s.compare.front().value, least, 2e-3 * least) << bus_V;
   }
 }
 
-/// A position's run is required to rest as well as not to overshoot: who exports a design that does not is refused.
-/// Two turns take the rotor to 167 rad/s: of a motor that may turn at 130 the loop asks for less, and less it is.
+/// Two turns accelerate the rotor to 167 rad/s. With a largest speed of 130 rad/s in the sheet the loop limits the speed below that.
 TEST(DesignedMove, IsNoFasterThanTheSheetAllows) {
   for (const double most_rad_s : {0.0, 130.0}) {
     DesignOrder order = on_a_board(Mode::position);
@@ -112,6 +111,7 @@ TEST(DesignedMove, IsNoFasterThanTheSheetAllows) {
   }
 }
 
+/// A position's run must rest as well as not overshoot; otherwise the design's export is refused.
 TEST(DesignedMove, IsRequiredToRest) {
   DesignOrder order = on_a_board(Mode::position);
   const auto d = design::design_drive(*design::motor_model(order.subject.sheet), order.spec);
@@ -131,9 +131,7 @@ TEST(DesignedSpeed, BeyondTheBusIsRefusedByName) {
   EXPECT_EQ(study.problems().front().where, "lowest_speed_rad_s");
 }
 
-/// A first command above the bus: a slower current loop needs no other bus, and is what is offered, with a slower loop around it where it
-/// would come too close to that.
-/// Torque takes J w/T_max for the step: a flywheel's loop that nobody gives a settling time waits for it, and so does its run.
+/// The torque takes J w/T_max for the step. A flywheel's default settling time and run time exceed that.
 TEST(DesignedSpeed, OfAFlywheelIsUsableAndHeldUpByItsTorque) {
   DesignOrder order = on_a_board(Mode::speed);
   order.spec.load_inertia_kg_m2 = 1e-3;
@@ -143,7 +141,7 @@ TEST(DesignedSpeed, OfAFlywheelIsUsableAndHeldUpByItsTorque) {
   const double soonest = 1.0135e-3 * 35.5 / 0.195;
   EXPECT_GT(*usual->design.spec.settle_s, soonest);
   for (const design::Warning& w : usual->warnings) EXPECT_NE(w.of, design::Concern::settling) << w.what;
-  // One that asks for more: the run is long enough to show what it takes, and slower is offered.
+  // A settling time that is too short: the run is long enough to show the real one, and the advice is a slower loop.
   order.spec.settle_s = 0.037;
   order.advises = true;
   const auto hasty = study_design(order);
@@ -156,7 +154,7 @@ TEST(DesignedSpeed, OfAFlywheelIsUsableAndHeldUpByItsTorque) {
   EXPECT_NE(late->cure.find("settle_s = 0.28"), std::string::npos) << late->cure;
 }
 
-/// On its way it comes to the lowest speed and to none below, wherever that lies under the top.
+/// The test's speed falls to the lowest speed but not below it, for any lowest speed below the top.
 TEST(DesignedSpeed, IsTriedDownToTheLowestSpeedAndNoFurther) {
   for (const double lowest_rad_s : {71.0, 300.0, 480.0, 510.0}) {
     DesignOrder order = on_a_board(Mode::speed);
@@ -171,7 +169,7 @@ TEST(DesignedSpeed, IsTriedDownToTheLowestSpeedAndNoFurther) {
   }
 }
 
-/// Whatever step is asked for, the converter reads what it overshoots to.
+/// The converter's range contains the step and its overshoot, for any step.
 TEST(DesignedCurrent, HasAConverterAsWideAsItsStep) {
   for (const double step_A : {1.0, 8.0, -8.0, 15.0}) {
     DesignOrder order = on_a_board(Mode::current);
@@ -205,7 +203,7 @@ TEST(Advice, OffersABusAboveTheSheetsOnlyWhereNothingElseHelps) {
   EXPECT_GE(slower, 1);
 }
 
-/// Of a placed pair d1 is positive while 2 x 4.6/T_reg is above R/L.
+/// A placed pair has a positive d1 while 2 x 4.6/T_reg is above R/L.
 TEST(UsualCurrentLoop, OfAnyWindingGainsPositively) {
   for (const double times : {1.0, 0.3, 0.1, 0.03}) {
     design::MotorModel motor = *design::motor_model(sixstep::testing::maxon_sheet());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All 36 ways to plug a motor in as the bench runs them: what is measured is what theory says, and knows nothing of it.
+// All 36 ways to connect a motor, as bench runs: the measured behaviour equals theory, which the run does not use.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,7 +29,7 @@ WiringStudy studied(const design::Sheet& sheet) {
   return s ? *s : WiringStudy{};
 }
 
-/// Torque per ampere is wrong only while a commutation lasts: five L/R of a sector that takes a hundred sixths of them or more.
+/// Torque per ampere differs from theory only during a commutation: five L/R of each sector.
 void expect_theory_and_runs_agree(const WiringStudy& s) {
   ASSERT_EQ(s.cases.size(), 36u);
   const double straight = s.cases.front().measured.torque_Nm_A;
@@ -60,10 +60,10 @@ TEST(WiringRuns, OfATrapezoidDoWhatTheorySays) {
   EXPECT_EQ(s.bench.from, analysis::BenchCurrent::nominal);
   EXPECT_NEAR(s.bench.duty, 2.33 / (24 / 1.03), 1e-15);
   EXPECT_EQ(s.symptom(WiringDoes::hums).ways, 18u);
-  // What a bench tells apart: without load a rough one draws half of the stalled current, a good one next to nothing.
+  // The symptom on a bench: without load a rough motor draws half of the stalled current, a good one almost none.
   EXPECT_NEAR(s.symptom(WiringDoes::forward_late).phase_rms_A, std::sqrt(2.0 / 3) * 0.5 * 2.33, 0.05 * 2.33);
   EXPECT_LT(s.symptom(WiringDoes::forward).phase_rms_A, 0.05 * 2.33);
-  // A motor that has settled takes from its supply what friction and copper lose: nothing speeds it up.
+  // A settled motor takes the losses of friction and copper from its supply: its speed is constant.
   for (const WiringDoes does : {WiringDoes::forward, WiringDoes::backward, WiringDoes::forward_early,
                                 WiringDoes::forward_late, WiringDoes::backward_early}) {
     const analysis::Symptom told = s.symptom(does);
@@ -75,11 +75,11 @@ TEST(WiringRuns, OfATrapezoidDoWhatTheorySays) {
             s.symptom(WiringDoes::forward_late).speed_rad_s);
 }
 
-/// A drone's winding forgets its current within a PWM period of 50 us; torque per ampere is the motor's all the same.
+/// A drone's winding current decays within a PWM period of 50 us; its torque per ampere is nevertheless the motor's.
 TEST(WiringRuns, OfAShortTimeConstantHaveTheTorqueOfTheory) {
   design::Sheet sheet = nominal_sheet();
   sheet.inductance_mH->value = 0.02;
-  sheet.inertia_gcm2->value = 20;  // soon at speed
+  sheet.inertia_gcm2->value = 20;  // reaches its speed quickly
   const base::Result<analysis::WiringBench> bench = analysis::wiring_bench({.motor = "m", .sheet = sheet});
   ASSERT_TRUE(bench);
   EXPECT_LT(bench->turned_pwm_s, bench->motor.machine.L_H / bench->motor.machine.R_ohm / 2.9);
@@ -111,17 +111,17 @@ TEST(WiringRuns, OfASalientMotorWithCoggingDoWhatTheorySays) {
   expect_theory_and_runs_agree(studied(sheet));
 }
 
-/// Half the torque does not turn against this friction, and theory without friction says it would: the study tells it.
+/// Half the torque does not overcome this friction, although theory without friction predicts rotation: the study reports it.
 TEST(WiringRuns, ThatFrictionHoldsDisagreeAndSayHow) {
   design::Sheet sheet = nominal_sheet();
-  sheet.coulomb_friction_mNm = base::Quantity{60, "", ""};  // of 78 mNm with all of it
+  sheet.coulomb_friction_mNm = base::Quantity{60, "", ""};  // the whole motor has 78 mNm
   const WiringStudy s = studied(sheet);
   EXPECT_EQ(s.agreeing(), 24u);
   for (const WiringCase& c : s.cases)
     EXPECT_EQ(c.measured.does, analysis::runs_well(c.theory.does) ? c.theory.does : WiringDoes::hums);
 }
 
-/// `turns` from the start; half of them in the watched time.
+/// Six starts with `turns` each; half of them in the watched time.
 WiringMeasured measured(std::array<double, 6> turns, double torque, std::array<float, 2> halves) {
   WiringMeasured m;
   for (std::size_t n = 0; n < 6; ++n) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The 36 ways to plug a motor in, in theory: against tables and shapes that stand here once more, integrated by brute force, and
-// against what must not change when everything is called by another name.
+// The theory of the 36 ways to connect a motor. Independent tables and shapes integrated numerically are the second way, and renamed phases
+// and probes are the invariance.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ const std::string words[] = {"abc", "bca", "cab", "acb", "cba", "bac"};
 constexpr int probes[6][3] = {{1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}, {1, 0, 1}};
 constexpr int pairs[6][2] = {{0, 1}, {0, 2}, {1, 2}, {1, 0}, {2, 0}, {2, 1}};
 
-/// The end at each place: letters of a word.
+/// The end at each place: one letter each.
 struct Words {
   std::string phases, probes;
 };
@@ -58,7 +58,7 @@ double of_sines(double deg, const std::vector<plant::general::Harmonic>& all) {
   return sum;
 }
 
-/// A motor, and the torque per ampere of a pair of its phases as model.md 7 says it.
+/// A motor, and the torque per ampere of a pair of its phases by model.md 7.
 struct Motor {
   const char* name;
   Machine machine;
@@ -111,8 +111,8 @@ std::vector<Motor> motors() {
 
 constexpr double current = 3.0;
 
-/// By the midpoint rule, h = pi/18000: a line with corners is missed by h^2/8 of the change of slope at each, (180/pi)/30 K a
-/// line, six of them; 2e-8 K in all. A cosine's (h^2/24) f'' is less.
+/// The midpoint rule has h = pi/18000. A line with corners is off by h^2/8 of the change of slope at each, (180/pi)/30 K a line, six of
+/// them: 2e-8 K in all. A cosine's (h^2/24) f'' is less.
 struct BruteForce {
   std::array<double, 6> sector{};
   double mean = 0, square = 0, first = 0, second = 0;
@@ -136,7 +136,7 @@ WiringDoes expected(const BruteForce& b, const BruteForce& straight) {
   if (*least <= 0 && *most >= 0) return WiringDoes::hums;
   const bool forward = *least > 0, well = std::fabs(b.mean) > 0.75 * straight.mean;
   if (well) return forward ? WiringDoes::forward : WiringDoes::backward;
-  // An early pair's torque is still to come on the rotor's way through the sector.
+  // An early pair's torque rises during the sector.
   const bool comes = forward ? b.second > b.first : std::fabs(b.first) > std::fabs(b.second);
   if (forward) return comes ? WiringDoes::forward_early : WiringDoes::forward_late;
   return comes ? WiringDoes::backward_early : WiringDoes::backward_late;
@@ -168,10 +168,10 @@ TEST(WiringTheory, IsTheTorqueIntegratedByBruteForce) {
   });
 }
 
-/// Three well and three backward, six rough either way, and eighteen that hum: whatever the shape.
+/// Three ways run well and three backward, six are rough in each direction, and eighteen hum, for each shape.
 TEST(WiringTheory, CountsTheWays) {
   for (const Motor& m : motors()) {
-    // Much current makes a salient rotor pull nearly as well a sector ahead, but for the end of each sector.
+    // A large current makes a salient rotor turn almost as well one sector ahead, apart from the end of each sector.
     for (const double amperes : {current, 5 * current}) {
       std::array<int, analysis::kinds_of_wiring> count{};
       const analysis::PairTorque torque(m.machine, amperes);
@@ -195,8 +195,8 @@ TEST(WiringTheory, OfAlikePhasesHasHalfTheTorqueASectorOff) {
   });
 }
 
-/// Flat tops: mean(g^2) of a pair that is a sector off is 4/3 of its mean's square, K^2. So it runs 1.5 times as fast, with half of
-/// the stalled current.
+/// Flat tops give mean(g^2) of a pair one sector off as 4/3 of its mean's square, K^2: it runs 1.5 times as fast, with half of the stalled
+/// current.
 TEST(WiringTheory, KnowsWhatATrapezoidDrawsWithoutLoad) {
   const Motor m = motors()[0];
   const analysis::PairTorque torque(m.machine, current);
@@ -206,7 +206,7 @@ TEST(WiringTheory, KnowsWhatATrapezoidDrawsWithoutLoad) {
   EXPECT_NEAR(early.idle_current_part, 0.5, 1e-12);
   EXPECT_NEAR(early.least_part, 0, 1e-12);
   const WiringTheory well = analysis::wiring_theory(torque, {});
-  EXPECT_NEAR(well.idle_current_part, 0, 1e-7);  // the root of what rounding leaves
+  EXPECT_NEAR(well.idle_current_part, 0, 1e-7);  // the root of the rounding error
   EXPECT_NEAR(well.least_part, 1, 1e-12);
 }
 
@@ -223,7 +223,7 @@ TEST(WiringTheory, HumsAboutAnglesToWhichItIsDrivenFromBothSides) {
   });
 }
 
-/// Phases and probes moved on together: the motor by other names.
+/// Phases and probes renamed together leave the motor the same.
 TEST(WiringTheory, DoesNotSeeNamesThatMoveOnTogether) {
   const auto on = [](WireOrder order) {
     std::string word = words[static_cast<int>(order)];
@@ -247,7 +247,7 @@ TEST(WiringTheory, DoesNotSeeNamesThatMoveOnTogether) {
   });
 }
 
-/// Phases a and b and probes 2 and 3 of the motor by each other's names, its angle from the other side: the mirrored motor.
+/// Exchanged names of phases a and b and of probes 2 and 3, with the angle reversed, give the mirrored motor.
 TEST(WiringTheory, RunsTheMirroredMotorTheOtherWay) {
   const auto renamed = [](WireOrder order, char x, char y) {
     std::string word = words[static_cast<int>(order)];
@@ -267,7 +267,7 @@ TEST(WiringTheory, RunsTheMirroredMotorTheOtherWay) {
   });
 }
 
-/// The wires at three places, moved: the letters of a word.
+/// The wires at three places after the moves: one letter each.
 std::string moved(const std::string& word, const analysis::Moves& moves) {
   std::string out(3, ' ');
   for (std::size_t n = 0; n < 3; ++n) out[moves[n]] = word[n];
@@ -321,7 +321,7 @@ TEST(Cures, OfThePhaseWiresAloneReachNoMoreThanARunBackwardWhereTwoHallLinesAreS
     const bool keeps = analysis::keeps_the_turn(w.probes);
     EXPECT_EQ(count[static_cast<int>(WiringDoes::forward)], keeps ? 1 : 0);
     EXPECT_EQ(count[static_cast<int>(WiringDoes::backward)], keeps ? 0 : 1);
-    // Rough is the other way round.
+    // Rough wires run in the other direction.
     EXPECT_EQ(count[static_cast<int>(WiringDoes::backward_early)], keeps ? 1 : 0);
     EXPECT_EQ(count[static_cast<int>(WiringDoes::forward_late)], keeps ? 0 : 1);
     EXPECT_EQ(count[static_cast<int>(WiringDoes::hums)], 3);
@@ -335,7 +335,7 @@ TEST(Cures, StepByStepLeadFromEveryWiringForward) {
     int steps = 0;
     for (; does(w) != WiringDoes::forward && steps < 5; ++steps) {
       const WiringDoes before = does(w);
-      // Any two phases will do.
+      // Any swap of two phases gives a turning motor.
       if (before == WiringDoes::hums) {
         for (const analysis::Moves& swap : {analysis::Moves{1, 0, 2}, {0, 2, 1}, {2, 1, 0}})
           EXPECT_NE(does(analysis::cured(w, {.legs = swap})), WiringDoes::hums);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A printed decimal in another unit is the double that one would have written there.
+// A printed decimal converted to another unit is the double of the decimal written in that unit.
 #include "sixstep/base/decimal.hpp"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ TEST(Decimal, LastDigitIsThatOfTheShortestDecimal) {
   EXPECT_EQ(last_digit_of(1.03), 0.01);
   EXPECT_EQ(last_digit_of(24.0), 1.0);
   EXPECT_EQ(last_digit_of(7.3e-6), 1e-7);
-  EXPECT_EQ(last_digit_of(0.1 + 0.2), 0.0);  // no print
+  EXPECT_EQ(last_digit_of(0.1 + 0.2), 0.0);  // not a printed decimal
 }
 
 }  // namespace SIXSTEP_TEST_FILE

@@ -25,7 +25,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double max = std::numeric_limits<double>::max();
 constexpr double tiny = std::numeric_limits<double>::denorm_min();
 
-// The oracle needs some ten bits more than a double has.
+// The oracle needs about ten bits more than a double.
 constexpr bool has_oracle = std::numeric_limits<Wide>::digits >= 64;
 
 /// Distance in units of the last place of the double nearest to the true value.
@@ -36,7 +36,7 @@ double ulps(double got, Wide truth) {
   return static_cast<double>(std::abs(static_cast<Wide>(got) - truth) / std::ldexp(Wide(1), exponent - 52));
 }
 
-// The bounds below are what was measured, rounded up; the claim is 1.
+// The bounds below are the measured errors, rounded up; base/elementary.hpp claims 1 ulp.
 class Elementary : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -80,7 +80,7 @@ TEST_F(Elementary, LogIsWithinOneUlpOverItsWholeRange) {
 TEST_F(Elementary, SineAndCosineAreWithinOneUlpAtAnyAngle) {
   double worst = 0.0;
   for (int n = 0; n < samples; ++n) {
-    const double nearly = std::floor(uniform(0.0, 3e6)) * (base::pi / 2);  // next to a zero of one of them
+    const double nearly = std::floor(uniform(0.0, 3e6)) * (base::pi / 2);  // next to a zero of sine or cosine
     for (const double x : {uniform(-1e5, 1e5), uniform(-7.0, 7.0), wide(-40, 20), 7.0 * n / samples, nearly,
                            -std::nextafter(nearly, inf), wide(20, 62)}) {
       const base::SinCos got = base::sin_cos(x);
@@ -119,10 +119,10 @@ TEST_F(Elementary, PowIsWithinOneUlpOverItsWholeRange) {
   EXPECT_LE(worst, 0.8) << "seed " << seed;
 }
 
-// Facts about single doubles that no platform's library is needed for.
+// Known values of single doubles need no library for comparison.
 TEST(ElementaryHardCases, SineOfTheDoubleNextToAMultipleOfHalfPi) {
-  // 6381956970095103 * 2^797 is the double that comes nearest to a multiple of pi/2 of all: cos =
-  // -4.6871659242546277e-19 (J.-M. Muller, Elementary Functions, 3rd ed., section 11.5).
+  // The double nearest to a multiple of pi/2 is 6381956970095103 * 2^797: its cosine is -4.6871659242546277e-19 (J.-M. Muller, Elementary
+  // Functions, 3rd ed., section 11.5).
   EXPECT_DOUBLE_EQ(base::cos(std::ldexp(6381956970095103.0, 797)), -4.6871659242546277e-19);
   EXPECT_DOUBLE_EQ(base::sin(std::ldexp(6381956970095103.0, 797)), 1.0);
   EXPECT_DOUBLE_EQ(base::sin(base::pi), 1.2246467991473532e-16);
@@ -134,7 +134,7 @@ TEST(ElementaryHardCases, ExactResultsAreExact) {
   EXPECT_EQ(base::log(1.0), 0.0);
   EXPECT_EQ(base::cos(0.0), 1.0);
   EXPECT_EQ(base::exp(1.0), 2.7182818284590452353602874713527);
-  for (int n = 0; n <= 22; ++n) {  // the powers of ten that are doubles
+  for (int n = 0; n <= 22; ++n) {  // powers of ten that doubles hold exactly
     double expected = 1.0;
     for (int k = 0; k < n; ++k) expected *= 10.0;
     EXPECT_EQ(base::pow(10.0, n), expected);
@@ -180,8 +180,7 @@ TEST(ElementaryHardCases, SpecialValuesAreThoseOfTheStandard) {
   const std::vector<double> values{0.0,  -0.0, 1.0,  -1.0, 0.5,   -0.5, 2.0,  -2.0, 3.0,
                                    -3.0, inf,  -inf, tiny, -tiny, max,  -max, 2.5,  9007199254740993.0};
   for (const double x : values) {
-    for (const double y :
-         values) {  // no rounding is in doubt for these: the library's answer is the standard's
+    for (const double y : values) {  // the library's results are the standard's: rounding is certain
       const double power = std::pow(x, y), got = base::pow(x, y), angle = base::atan2(y, x);
       if (std::isnan(power)) {
         EXPECT_TRUE(std::isnan(got)) << x << '^' << y;
@@ -244,8 +243,8 @@ struct Digest {
 };
 
 TEST(ElementaryBits, AreTheSameOnEveryCompilerAndPlatform) {
-  // The arguments come from a 64-bit linear congruence and exact arithmetic alone. A platform that fails here
-  // contracts a b + c or computes in more than double: look at its flags, never at this number.
+  // The arguments come from a 64-bit linear congruence and exact arithmetic only. A platform that fails here contracts a b + c or computes
+  // in more than double: check its compiler flags, never this number.
   std::uint64_t state = 1;
   const auto next = [&state] {  // in [1, 2)
     state = state * 6364136223846793005u + 1442695040888963407u;

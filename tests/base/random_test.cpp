@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Known answers of the generator's authors; moments within bounds that follow from the sample's size.
+// Known answers from the generator's authors; moments within bounds from the sample's size.
 #include "sixstep/base/random.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ static_assert(philox({~0u, ~0u, ~0u, ~0u}, {~0u, ~0u}) ==
 static_assert(philox({0x243f6a88u, 0x85a308d3u, 0x13198a2eu, 0x03707344u}, {0xa4093822u, 0x299f31d0u}) ==
               PhiloxBlock{0xd16cfe09u, 0x94fdccebu, 0x5001e420u, 0x24126ea1u});
 
-// The ends of the open interval, and its symmetry.
+// Both ends of the open interval, and its symmetry.
 static_assert(open_unit(0) == 0x1p-53 && open_unit(~std::uint64_t{0}) == 1.0 - 0x1p-53);
 static_assert(open_unit(0) + open_unit(~std::uint64_t{0}) == 1.0);
 
@@ -41,14 +41,14 @@ double mean_of_power(const std::vector<double>& x, double centre, int power) {
   return sum / static_cast<double>(x.size());
 }
 
-/// A mean of n draws of this variance strays by sqrt(variance/n); beyond five times that once in 1.7 million.
+/// The mean of n draws has the standard deviation sqrt(variance/n); it exceeds five times that once in 1.7 million.
 double five_sigma(double variance) { return 5.0 * std::sqrt(variance / count); }
 
 TEST(Random, UniformHasItsMoments) {
   for (const std::uint64_t stream : {0u, 1u, 77u}) {
     SCOPED_TRACE("seed " + std::to_string(seed) + ", stream " + std::to_string(stream));
     const std::vector<double> x = draws(draw_uniform, stream);
-    // Var(x) = 1/12; of (x - 1/2)^2: 1/80 - 1/144 = 1/180; of its fourth power: 1/2304 - 1/6400.
+    // The variances: Var(x) = 1/12; of (x - 1/2)^2: 1/80 - 1/144 = 1/180; of its fourth power: 1/2304 - 1/6400.
     EXPECT_NEAR(mean_of_power(x, 0.0, 1), 0.5, five_sigma(1.0 / 12));
     EXPECT_NEAR(mean_of_power(x, 0.5, 2), 1.0 / 12, five_sigma(1.0 / 180));
     EXPECT_NEAR(mean_of_power(x, 0.5, 4), 1.0 / 80, five_sigma(1.0 / 2304 - 1.0 / 6400));
@@ -59,7 +59,7 @@ TEST(Random, NormalHasItsMoments) {
   for (const std::uint64_t stream : {0u, 1u, 77u}) {
     SCOPED_TRACE("seed " + std::to_string(seed) + ", stream " + std::to_string(stream));
     const std::vector<double> x = draws(normal, stream);
-    // E x^2k = (2k - 1)!!: Var(x^2) = 3 - 1, Var(x^3) = 15, Var(x^4) = 105 - 9.
+    // The moments: E x^2k = (2k - 1)!!: Var(x^2) = 3 - 1, Var(x^3) = 15, Var(x^4) = 105 - 9.
     EXPECT_NEAR(mean_of_power(x, 0.0, 1), 0.0, five_sigma(1.0));
     EXPECT_NEAR(mean_of_power(x, 0.0, 2), 1.0, five_sigma(2.0));
     EXPECT_NEAR(mean_of_power(x, 0.0, 3), 0.0, five_sigma(15.0));
@@ -67,7 +67,7 @@ TEST(Random, NormalHasItsMoments) {
   }
 }
 
-/// Kolmogorov and Smirnov: sqrt(n) D exceeds 2.8 with probability 2 exp(-2 2.8^2) = 3e-7.
+/// The Kolmogorov-Smirnov bound: sqrt(n) D exceeds 2.8 with probability 2 exp(-2 2.8^2) = 3e-7.
 double deviation(std::vector<double> x, double (*distribution)(double)) {
   std::sort(x.begin(), x.end());
   double worst = 0.0;
@@ -84,8 +84,7 @@ TEST(Random, BothFollowTheirDistribution) {
       << "seed " << seed;
 }
 
-/// Neighbours in any of the three coordinates are as good as strangers: the product of two centred uniforms
-/// has variance 1/144.
+/// Neighbours in each of the three coordinates are independent: the product of two centred uniforms has variance 1/144.
 TEST(Random, NeighboursAreNotCorrelated) {
   double by_seed = 0.0, by_stream = 0.0, by_counter = 0.0;
   for (std::uint64_t n = 0; n < count; ++n) {
@@ -118,7 +117,7 @@ TEST(Random, EveryBitOfThePlaceCounts) {
   }
 }
 
-/// The bits themselves, on whichever platform this runs: the normal's hang on base/elementary alone.
+/// The bits are equal on every platform: the normal's depend on base/elementary alone.
 TEST(Random, HasTheSameBitsEverywhere) {
   EXPECT_EQ(std::bit_cast<std::uint64_t>(uniform({1, 2, 3})), 0x3fd98fbfd3f7822eu);
   EXPECT_EQ(std::bit_cast<std::uint64_t>(normal({1, 2, 3})), 0xbfb26ab5baedb393u);

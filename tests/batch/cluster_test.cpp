@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plan on a cluster has the rows of one process, whoever makes them; threads with letter boxes stand for its processes.
+// A plan on a cluster has the rows of one process, for any distribution of the runs. Threads with mailboxes replace its processes.
 #include "batch/cluster.hpp"
 
 #include <gmock/gmock.h>
@@ -22,7 +22,7 @@ namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::testing;
 
-/// Letter boxes in memory.
+/// Mailboxes in memory.
 struct Post {
   std::mutex guard;
   std::map<unsigned, std::deque<Mail>> boxes;
@@ -61,7 +61,7 @@ base::Result<analysis::PlannedRun> drive(const study::Scenario& s, std::uint64_t
   return analysis::planned_drive(s, seed, n);
 }
 
-/// A leader and `others`, of which each has asked the leader for its seed.
+/// A leader and `others`; each of these has requested its seed from the leader.
 struct Together {
   study::Scenario scenario = half_ms();
   analysis::Plan plan{.axes = {}, .drives = 60, .seed = 5};
@@ -70,7 +70,7 @@ struct Together {
   std::map<std::size_t, analysis::RunRecord> rows{};
   std::size_t twice = 0;
   std::map<unsigned, std::size_t> made{};
-  std::size_t begins_with = 1;  ///< ranks that wait for each other at their first run
+  std::size_t begins_with = 1;  ///< number of ranks that wait for each other at their first run
   std::condition_variable begun{};
   std::map<unsigned, int> exits{};
   std::stop_source stop{};
@@ -151,7 +151,7 @@ TEST(Cluster, HasTheRowsOfOneProcess) {
   }
 }
 
-/// Nobody ends a run before each has begun one, so that a fast one cannot take all while another is not yet scheduled.
+/// No run ends before each process has begun one, so that a fast process cannot take all of them.
 TEST(Cluster, LetsEverybodyWork) {
   Together cluster;
   cluster.begins_with = 3;
@@ -214,7 +214,7 @@ TEST(Cluster, DoesNotWaitForTheDeadOnceStopped) {
   runs.take = [&](analysis::RunRecord&& record) {
     if (record->number > 20) cluster.stop.request_stop();
   };
-  Cluster leader = cluster.post.of(0, 2);  // and nobody is the other
+  Cluster leader = cluster.post.of(0, 2);  // the second process does not exist
   EXPECT_FALSE(lead_plan(leader, runs, {"", [](const std::string&) { return std::string(); }}));
 }
 
@@ -231,7 +231,7 @@ TEST(Cluster, AnExceptionOfWhoTakesTheRowsComesOut) {
   }
 }
 
-/// The leader's disk is full while a run waits for its answer: nobody will answer, and the follower must go all the same.
+/// The leader's disk is full while a run waits for its answer: no answer comes, and the follower must end nevertheless.
 TEST(Cluster, ADismissalEndsARunThatWaitsForAnAnswer) {
   Together cluster;
   Cluster leader = cluster.post.of(0, 2);
@@ -249,7 +249,7 @@ TEST(Cluster, ADismissalEndsARunThatWaitsForAnAnswer) {
   EXPECT_EQ(cluster.exits.at(1), 4);
 }
 
-/// A row that does not fit the leader's columns, as another build's might not: it is taken by nobody.
+/// A row that does not fit the leader's columns, as from another build: the leader discards it.
 TEST(Cluster, RowsOfOtherColumnsAreNoRows) {
   Together cluster;
   cluster.plan.drives = 1'000'000'000;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The curve is the same however many threads take its points.
+// The curve is the same for any number of threads.
 #include "batch/curve.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Letters between the processes of a cluster: what was written is read, to the bit; what was not written is read by nobody.
+// Messages between the processes of a cluster: written ones are read back to the bit, and any other bytes are refused.
 #include "batch/letters.hpp"
 
 #include <gmock/gmock.h>
@@ -36,7 +36,7 @@ TEST(ByteFormat, IsTheSameOnEveryProcessor) {
 analysis::RunValues row(std::size_t number) {
   analysis::RunValues r;
   r.number = number;
-  r.strayed = {0.1, std::bit_cast<double>(0x7FF8'0000'0000'1234)};  // a NaN with a mark
+  r.strayed = {0.1, std::bit_cast<double>(0x7FF8'0000'0000'1234)};  // a NaN with a payload
   r.end = analysis::RunEnd::fault;
   r.problem = std::string("t = 1 s\0\n\xFF", 10);
   r.figures = {-0.0, std::numeric_limits<double>::infinity(), 5e-324};
@@ -124,7 +124,7 @@ TEST(Letters, WhatWasCutOrBrokenIsNone) {
   unknown[0] = 9;
   EXPECT_FALSE(read(unknown));
   std::string endless = whole;
-  endless[15] = '\x7F';  // 2^62 rows: no memory is taken for them
+  endless[15] = '\x7F';  // 2^62 rows: the reader reserves no memory for them
   EXPECT_FALSE(read(endless));
 }
 

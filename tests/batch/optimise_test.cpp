@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The search finds what a held rotor's law says, I = U/R, and names what limits it.
+// The search finds the optimum of a locked rotor's law, I = U/R, and names the active limit.
 #include "batch/optimise.hpp"
 
 #include <gmock/gmock.h>
@@ -17,12 +17,12 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep::testing;
 using ::testing::ElementsAre;
 
-/// Held at full voltage for thirty time constants: the figure is the current's end.
+/// The rotor is locked at full voltage for thirty time constants: the figure is the final current.
 struct Held {
   std::optional<double> min, max;
   std::size_t drives = 0;
   double spread = 0.0;
-  bool tells_current = false;  ///< as a figure that is only compared, too
+  bool tells_current = false;  ///< reports the current as a compared figure too
 
   analysis::Plan plan() const {
     return {.axes = {{.key = "supply.voltage_V", .values = {}, .from = 6, .to = 24},
@@ -114,7 +114,7 @@ TEST(Optimise, WithoutRequirementsEndsInTheCornerOfTheLeastCurrent) {
   EXPECT_TRUE(found.best->limits[1].upper);
 }
 
-/// Enough points end in the corner, where the law's I = 6 V/4 ohm is the least; a few do not, and say so.
+/// A sufficient number of points ends in the corner, where the law's I = 6 V/4 ohm is the smallest; a small one does not, and reports it.
 TEST(Optimise, SaysWhetherItEndedByItself) {
   const Found enough = search({}, 400), few = search({}, 4);
   ASSERT_TRUE(enough.best && few.best);
@@ -139,7 +139,7 @@ TEST(Optimise, StopsAtARequirementAndNamesIt) {
   EXPECT_FALSE(found.best->limits[0].upper);
 }
 
-/// Of drives that stray the one with the largest resistance decides.
+/// The drive with the largest resistance decides among the varied ones.
 TEST(Optimise, IsRobustOverTheDrives) {
   const Held held{.min = 10.0, .drives = 6, .spread = 0.1};
   const Found found = search(held, 60, 2);

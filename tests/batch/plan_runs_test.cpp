@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plan's runs are the runs one would make by hand, on any number of threads; and they can be stopped and broken into.
+// A plan's runs equal runs made singly, on any number of threads; they can be stopped and interrupted.
 #include "batch/plan_runs.hpp"
 
 #include <gmock/gmock.h>
@@ -28,7 +28,7 @@ study::Spread spread(const char* key, double relative) {
   return s;
 }
 
-/// Drives of one scenario: what --runs makes of it.
+/// The drives of one scenario, as with --runs.
 struct Drives {
   study::Scenario scenario;
   analysis::Plan plan;
@@ -62,7 +62,7 @@ struct Drives {
   }
 };
 
-/// A held rotor at full voltage: the final current is U/R_tt (1 - exp(-t/tau)), here after 30 time constants.
+/// A locked rotor at full voltage: the final current is U/R_tt (1 - exp(-t/tau)), here after 30 time constants.
 study::Scenario stall(double limit_A) {
   study::Scenario s = maxon_scenario(sixstep::control::Mode::duty, 1.0);
   s.load.locked = true;
@@ -94,7 +94,7 @@ TEST(PlanRuns, GiveTheSpreadThatTheCircuitsLawGives) {
     expected.add(24.0 / R * (1.0 - std::exp(-s.duration_s / tau_s)));
     holds += R >= 1.03;
   }
-  // On this case the engine keeps 2e-15 of the current (README, R1), nine roundings; exp here adds its own.
+  // The engine's error here is 2e-15 of the current (README, R1), nine roundings; exp here adds its own.
   constexpr double bound = 16 * 0x1p-52 * 24.0 / 0.927;
   for (const double p : {0.0, 0.05, 0.5, 0.95, 1.0})
     EXPECT_NEAR(*current.statistics.quantile(p), *expected.quantile(p), bound) << p;
@@ -163,7 +163,7 @@ TEST(PlanRuns, CountWhatCouldNotStartAndGoOn) {
   EXPECT_EQ(series.figures[0].statistics.missing(), 3u);
 }
 
-/// As the run alone says of itself: its values hold, and a fault stopped it.
+/// The series equals the single run: its values hold, and a fault stopped it.
 TEST(PlanRuns, AFaultIsToldBesideRequirementsThatTheValuesHold) {
   const Drives drives(stall(100.0), 2, 1);
   const base::Result<study::Outcome> whole = study::run(stall(100.0));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The yardsticks must be fair: they solve the same machine, with the error that their step allows and no
-// more.
+// The reference solvers must be fair: they solve the same machine, with only the error of their step.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,7 +23,7 @@ void expect_rl_rise() {
   for (int n = 1; n <= 3000; ++n) {
     motor.step();
     const double exact = held.U / (2 * held.R) * (1.0 - std::exp(-n * held.step_s * held.R / held.L));
-    // Fourth order: (h R/L)^5/120 a step, times the steps of one time constant.
+    // The error is of fourth order: (h R/L)^5/120 a step, times the steps of one time constant.
     ASSERT_NEAR(motor.current(0), exact, 1e-12 * 24) << n;
     ASSERT_EQ(motor.current(2), 0.0);
   }
@@ -46,7 +45,7 @@ Errors errors(double step_s, bool floating_phase_conducts = true, const char* tr
 }
 
 TEST(Rk4Tuned, HasTheFloatingPhaseAndFirstOrderErrorsUnderSoftChopping) {
-  // Only the switching instants between steps are left, and they shrink with the step.
+  // The remaining errors are switching instants between steps, and they shrink with the step.
   const double coarse = errors(1e-6).current, fine = errors(1e-7).current;
   std::printf("RK4 with it: %.2f %% of peak current at 1 us, %.3f %% at 0.1 us\n", 100 * coarse, 100 * fine);
   EXPECT_LT(coarse, 1e-2);
@@ -59,15 +58,15 @@ TEST(Rk4Tuned, LeavingTheFloatingPhaseOutCostsTenPercentOfPeakCurrentAtAnyStep) 
               100 * finer.speed);
   EXPECT_NEAR(finer.current, 0.106, 0.0005);
   EXPECT_NEAR(finer.speed, 0.0040, 0.0005);
-  EXPECT_NEAR(fine.current, finer.current, 0.002);  // no smaller step helps
+  EXPECT_NEAR(fine.current, finer.current, 0.002);  // a smaller step does not help
 }
 
 TEST(Rk4Textbook, HasFirstOrderErrorsUnderSoftChoppingToo) {
   const Errors coarse = errors<Rk4Textbook>(1e-6), fine = errors<Rk4Textbook>(1e-7);
   std::printf("textbook: %.2f %% of peak current at 1 us, %.3f %% at 0.1 us\n", 100 * coarse.current,
               100 * fine.current);
-  // Ten times the tuned one's: it asks its ifs inside a stage too, where a diode's current may look reversed.
-  // An independent program of this kind has 6 % and 1 %.
+  // The error is ten times the tuned one's: conditions are evaluated inside a stage too, where a diode's current may seem reversed. An
+  // independent program of this kind has 6 % and 1 %.
   EXPECT_LT(coarse.current, 6e-2);
   EXPECT_LT(fine.current, 1e-2);
   EXPECT_LT(fine.current, coarse.current / 4);
@@ -80,14 +79,14 @@ TEST(Rk4Textbook, LeavingTheSameOutCostsItTheSame) {
 }
 
 TEST(Yardsticks, RunUpAsTheReference) {
-  // Full voltage: only commutations and diode stops fall between the steps.
+  // Only commutations and diode stops fall between the steps at full voltage.
   for (const double step_s : {1e-6, 1e-7}) {
     const Errors plain = errors<Rk4Textbook>(step_s, true, "R2.csv", 1.0),
                  tuned = errors<Rk4Tuned>(step_s, true, "R2.csv", 1.0);
     std::printf("full voltage at %.1f us: textbook %.3f %%, tuned %.3f %% of peak current\n", 1e6 * step_s,
                 100 * plain.current, 100 * tuned.current);
-    // Commutations a step late at most, and late again by the angle that this cost: of first order. An
-    // independent program of this kind has 1.2 % at 1 us and 0.12 % at 0.1 us.
+    // Commutations are up to one step late, and later again by the resulting angle: the error is of first order. An independent program of
+    // this kind has 1.2 % at 1 us and 0.12 % at 0.1 us.
     EXPECT_NEAR(plain.current, 1.2e4 * step_s, 0.05e4 * step_s);
     EXPECT_NEAR(tuned.current, 1.2e4 * step_s, 0.05e4 * step_s);
   }

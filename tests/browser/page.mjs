@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pages in Chromium: opened from a file, without a network, and any complaint of theirs fails the test.
+// Pages in Chromium, opened from a file without a network. Any error, warning or network request of a page fails the test.
 import assert from 'node:assert/strict';
 import {after, before} from 'node:test';
 import path from 'node:path';
@@ -19,10 +19,10 @@ before(async () => {
 });
 after(() => browser?.close());
 
-/** A page on which any complaint or attempt to reach a network fails the test. */
+/** Opens a page; close() fails on its errors, warnings and network requests. */
 export async function opened(name, {theme = 'light', hash = ''} = {}) {
   const page = await browser.newPage({viewport: {width: 1280, height: 900}, colorScheme: theme});
-  // On a busy machine frames come late. Here they always do, so that a test that does not wait for one fails anywhere.
+  // A busy machine delays frames. This delay is permanent here, so that a test that does not wait for a frame fails on any machine.
   await page.addInitScript(() => {
     const soon = requestAnimationFrame;
     globalThis.requestAnimationFrame = (draw) => setTimeout(() => soon(draw), 60);
@@ -43,7 +43,7 @@ export async function close(page) {
 export const scales = (page) => page.evaluate(() => sixstep.charts.map((u) => [u.scales.x.min, u.scales.x.max]));
 export const allEqual = (list) => list.every((x) => JSON.stringify(x) === JSON.stringify(list[0]));
 
-/** Cursor, theme and size reach the page with its next frames: asks again until the answer is right. */
+/** Cursor, theme and size reach the page with its next frames: repeats the check until it passes, for 5 s. */
 export async function eventually(check) {
   for (const begin = performance.now(); ; await new Promise((done) => setTimeout(done, 20))) {
     try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The report as its reader meets it: opened from a file, in Chromium, without a network.
+// The report as a reader opens it: from a file, in Chromium, without a network.
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {inflateSync} from 'node:zlib';
@@ -7,7 +7,7 @@ import {allEqual, close, drag, eventually, opened, plotArea, scales} from './pag
 
 test('opens quickly, with verdict and all charts', async () => {
   const page = await opened('short.html');
-  // A loaded machine may delay any one opening, so the best of several counts, and the bound leaves room.
+  // A loaded machine may delay a single opening, so that the best of several counts, and the bound has a margin.
   let best = Infinity;
   for (let n = 0; n < 4; ++n) {
     await page.reload();
@@ -54,7 +54,7 @@ test('the cursor is read out in every chart', async () => {
   await page.mouse.move(box.x + box.width / 8, box.y + 40);
   const reads = (place, pattern) =>
     eventually(async () => assert.match(await page.locator(place).first().textContent(), pattern, place));
-  await reads('#cursor', /t = 2\.(4[6-9]|5[0-3])\d* ms/);  // a pixel is some 0.03 ms
+  await reads('#cursor', /t = 2\.(4[6-9]|5[0-3])\d* ms/);  // a pixel is about 0.03 ms
   for (const id of ['currents', 'line-voltages', 'speed', 'torque']) await reads(`#chart-${id} .value`, /^−?\d/);
   await reads('#chart-speed .value', /rpm/);
   await reads('#chart-logic .value', /^[01]$/);
@@ -70,7 +70,7 @@ test('every chart says in words what it shows, and colours can be told from thei
     await page.emulateMedia({colorScheme: theme});
     const ratios = await page.evaluate(() => {
       const probe = document.body.appendChild(document.createElement('i'));
-      const rgb = (name) => {  // through a canvas: it knows every notation
+      const rgb = (name) => {  // the canvas reads every colour notation
         probe.style.color = `var(--${name})`;
         const ctx = document.createElement('canvas').getContext('2d');
         ctx.fillStyle = getComputedStyle(probe).color;
@@ -242,7 +242,7 @@ test('a torque-speed curve opens with its charts, the nominal point and one zoom
     return Array.from(u.data[0]).flatMap((rpm, n) => (values[n] == null ? [] : [[Math.round(rpm), Math.round(10 * values[n])]]));
   });
   assert.deepEqual(nominal, [[5240, 834]]);
-  // The usable corner first; what a stalled motor does on demand, and back.
+  // The page first shows the usable corner, the stall point after a click, and the corner after another click.
   const highest = () => page.evaluate(() => sixstep.charts.map((u) => u.scales.y.max));
   const corner = await highest();
   assert.ok(corner[0] > 200 && corner[0] < 300, `${corner[0]} mNm`);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page of a motor's 36 wirings: read in light and dark, on a desk and on a phone.
+// The page of a motor's 36 wirings, in light and dark, on a large and a small screen.
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {close, opened} from './page.mjs';
@@ -27,7 +27,7 @@ test('all 36 wirings and what each kind looks like can be read, in light and dar
       assert.ok(label.length > 20, label);
     assert.deepEqual(await clashes(page), [[], [], []]);
     inks.push(await page.locator('figure.wiring text').first().evaluate((t) => getComputedStyle(t).fill));
-    // Marks tell kinds apart without colour, and colours without words.
+    // Marks distinguish kinds without colour, and colours without words.
     const kinds = await page.locator('figure.wiring .w-bar').evaluateAll((all) => new Set(all.map((bar) => getComputedStyle(bar).fill)).size);
     assert.equal(kinds, 4);
     await close(page);

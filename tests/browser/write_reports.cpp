@@ -39,7 +39,7 @@ std::string page(const sixstep_tests::SyntheticRun& run) {
                          .scenario_text = scenario_text});
 }
 
-/// The synthetic run has no polynomials: the row at or before each instant of the grid.
+/// A grid of a synthetic run, which has no polynomials: each instant has the last row at or before it.
 sixstep::study::Trace sampled(const sixstep::study::Trace& trace) {
   sixstep::study::Trace grid{.columns = trace.columns, .values = {}, .every_event = false};
   grid.values.resize(trace.values.size());

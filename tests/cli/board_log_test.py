@@ -35,7 +35,7 @@ class BoardLog(LogTest):
         found = self.found(made.stdout)
         self.assertEqual(set(found), {"i_m_A", "speed_rad_s", "hall"}, made.stdout)
         self.assertEqual(found["i_m_A"][0], 123)
-        self.assertLess(found["i_m_A"][1], 0.6e-3)  # a millampere's half at most
+        self.assertLess(found["i_m_A"][1], 0.6e-3)  # at most half a milliampere
         self.assertLess(found["speed_rad_s"][1], 1e-4)
         self.assertIn("mean of the samples at 3 A", made.stdout)
 
@@ -108,8 +108,8 @@ class LogsOfOthers(LogTest):
         self.assertEqual(set(found), set(columns), text)
         for name in columns:
             self.assertEqual(found[name][0], len(self.rows), text)
-        self.assertLess(found["speed_rad_s"][1], 0.01)  # 0.1 rpm and its eRPM are less
-        self.assertLess(found["i_m_A"][1], 0.006)       # half of a hundredth of an ampere, and what lies between instants
+        self.assertLess(found["speed_rad_s"][1], 0.01)  # 0.1 rpm and the eRPM's step are less
+        self.assertLess(found["i_m_A"][1], 0.006)       # half of 0.01 A, and the interpolation between instants
         self.assertNotIn("moved by", text)
         return text
 

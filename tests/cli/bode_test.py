@@ -43,7 +43,7 @@ class Bode(ProgramTest):
         self.assertIn("current around -5 A", made.stdout)
         told = json.loads((self.path / "b.json").read_text())
         table = (self.path / "b.csv").read_text().splitlines()
-        self.assertRegex(table[0], r"^# sixstep \d")  # so that the same command may write it again
+        self.assertRegex(table[0], r"^# sixstep \d")  # marks sixstep's own file, which the command may overwrite
         self.assertEqual(len([line for line in table if not line.startswith("# ")]), 1 + len(told["points"]))
         self.assertIn("Frequency response of", (self.path / "b.html").read_text())
         self.assertAlmostEqual(told["measured"]["crossover_Hz"] / told["designed"]["crossover_Hz"], 1, delta=0.03)
@@ -57,7 +57,7 @@ class Bode(ProgramTest):
         self.assertIn("NOTHING WAS MEASURED: no line has a coherence of 0.9", made.stdout)
         margins = re.split(r"measured +designed\n", made.stdout)[1].splitlines()[:5]
         self.assertEqual([re.split(r" {2,}", line.strip())[1] for line in margins], ["-"] * 5, made.stdout)
-        # The linear loop counts the half period of samples in the middle, and crossings have no sensor to take another for.
+        # The linear loop includes the half period of samples in the middle and the crossings' delay, so that no deviation is reported.
         self.assertNotIn("no linear loop", made.stdout)
         self.assertIn("the loop includes the delay of the back-EMF's zero crossings: the speed is ", made.stdout)
         told = json.loads((self.path / "b.json").read_text())
@@ -97,7 +97,7 @@ class Bode(ProgramTest):
         """Complementary chopping was named where the rotor's sensor was the cause, and cured nothing. With the cure no loop is beside the designed one."""
         for mode, name in (("speed", "sp"), ("position", "po")):
             self.run_program("new", name, "--motor", "maxon-251601", "--mode", mode)
-        free = ("--set", "load.torque_Nm=0", "--set", "bridge.dead_time_s=0")  # around no current a dead time bends the loop too
+        free = ("--set", "load.torque_Nm=0", "--set", "bridge.dead_time_s=0")  # around zero current a dead time distorts the loop too
         both, ideal = ("--set", "pwm.chopping=complementary"), ("--set", "sensors.rotor=ideal")
         encoder = ("--set", "sensors.rotor=encoder", "--set", "pwm.commutation=sample")
         for words, said, cures in some((

@@ -14,7 +14,7 @@ import unittest
 import cells
 from program import SHORT, SOURCE, ProgramTest
 
-# Figures far apart, in other units, some of which never come.
+# Figures of different sizes and units; some have no value.
 FIGURES = """
 [[require]]
 metric = "max"

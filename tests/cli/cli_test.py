@@ -14,7 +14,7 @@ from program import PROGRAM, SHORT, SOURCE, ProgramTest
 
 R1 = str(SOURCE / "data/scenarios/reference/R1.toml")
 
-# Copper that strays by a tenth: half of the drives hold 23.3 A.
+# A winding resistance that varies by a tenth: half of the drives hold 23.3 A.
 SPREAD = """
 [[spread]]
 key = "motor_override.resistance_ohm"
@@ -25,7 +25,7 @@ class CommandLine(ProgramTest):
     def test_0_when_all_requirements_hold(self):
         result = self.run_program("run", self.write("a.toml", 1000))
         self.assertIn("ok", result.stdout)
-        self.assertNotIn("\x1b", result.stdout)  # no terminal, no colour
+        self.assertNotIn("\x1b", result.stdout)  # no colour without a terminal
         self.assertEqual(self.names(), ["a.toml"])
 
     def test_1_when_a_requirement_fails(self):
@@ -49,7 +49,7 @@ class CommandLine(ProgramTest):
         data = json.loads(re.search(r'id="data">(.*?)</script>', page, re.S).group(1))
         differences = [curve for chart in data["charts"] if chart["id"].endswith("-difference") for curve in chart["curves"]]
         self.assertTrue(differences)
-        for curve in differences:  # zero, every bit of it
+        for curve in differences:  # exactly zero
             self.assertRegex(curve["data"], r"^A+=*$")
         self.run_program("run", *files, "--html", "both.html", "--csv", "a.csv", code=2)
         self.assertIn("more than the 5", self.run_program("run", *[files[0]] * 6, "--html", "x.html", code=2).stderr)
@@ -109,7 +109,7 @@ class CommandLine(ProgramTest):
                                                                 "rename it, or run it without --out\n")):
             self.assertEqual(self.run_program(*words.split(), code=2).stderr, told)
         self.assertEqual(self.names(), ["a.toml", "index.toml"])
-        self.run_program("run", "a.toml", "--csv", "/dev/null", "--vcd", "/dev/null", "--quiet")  # takes them all
+        self.run_program("run", "a.toml", "--csv", "/dev/null", "--vcd", "/dev/null", "--quiet")  # /dev/null accepts all of them
 
     def test_out_holds_everything_of_each_scenario(self):
         self.run_program("run", self.write("a.toml", 1000), self.write("b.toml", 1000), "--out", "deep/out")

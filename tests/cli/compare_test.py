@@ -17,7 +17,7 @@ from program import PROGRAM, ProgramTest
 
 MOTOR = "maxon-251601"
 R_OHM = 1.03  # of its sheet, from terminal to terminal
-# What each figure of a comparison is made of, by the labels of its scenarios: a sum, and what is taken off.
+# The parts of each figure of a comparison, by the labels of its scenarios: added and subtracted ones.
 MADE_OF = {
     "settling after the start": (["settling of the start"], []),
     "overshoot of the start": (["overshoot of the start"], []),
@@ -81,7 +81,7 @@ class Compare(ProgramTest):
         for name, controller in self.controllers.items():
             self.assertIn(name, self.printed)
             self.assertEqual(set(controller["nominal"]), set(self.told["units"]))
-        self.assertRegex((self.made / "c.csv").read_text(), r"^# sixstep \d")  # so that the same command may write it again
+        self.assertRegex((self.made / "c.csv").read_text(), r"^# sixstep \d")  # marks sixstep's own file, which the command may overwrite
         rows = cells.lines_of_csv(self.made / "c.csv")
         self.assertEqual([row["controller"] for row in rows], [name for name in self.controllers for _ in ("nominal", "worst")])
 
@@ -169,7 +169,7 @@ class Compare(ProgramTest):
     def test_draws_a_page(self):
         page = (self.made / "c.html").read_text(encoding="utf-8")
         names = list(self.controllers)
-        for n, name in enumerate(names):  # its answer to the load, and its number among the trades
+        for n, name in enumerate(names):  # the response to the load, and the numbered point
             self.assertEqual(page.count(f'aria-label="{n + 1} {name}"'), 1, name)
             self.assertRegex(page, f"<circle[^>]*/><text[^>]*>{n + 1}</text>")
         trades = page.partition('aria-label="Torque ripple against losses"')[2].partition("</svg>")[0]

@@ -12,7 +12,7 @@ import unittest
 from hostile import FILES, is_visible
 from program import PROGRAM, ProgramTest
 
-# Asks the program for completions, and notes what else it is called with.
+# A script that calls the program for completions, and logs every other call.
 NOTING = """#!/bin/bash
 case $1 in __complete | completion) exec {program} "$@";; esac
 printf '%s\\0' "$@" >{folder}/called.part && mv {folder}/called.part {folder}/called
@@ -62,12 +62,12 @@ class CompletedNames(ProgramTest):
         before = {str(number): os.listdir(self.path / f"d{number}") for number in range(len(FILES))}
         for number, name in enumerate(FILES):
             with self.subTest(shell=shell, name=name):
-                # From the file's own folder: a name may begin with anything.
+                # The shell is in the file's own folder, because a name may begin with any character.
                 self.typed(terminal, f"cd {self.path}/d{number}; sixstep here\n")
                 found = self.typed(terminal, "sixstep run \t\n")
                 if name.startswith(b"-"):  # fish offers none that begins with a point
                     self.assertIn(found, ([b"run", b"./" + name + b".toml"], [b"run"] if shell == "fish" else []))
-                elif is_visible(name):  # else the program offers none, and it is the shell's to offer it or not
+                elif is_visible(name):  # the program offers none of the others; the shell may offer them itself
                     self.assertEqual(found, [b"run", name + b".toml"])
         self.typed(terminal, f"cd {self.path}; sixstep here\n")
         self.assertEqual(self.typed(terminal, "sixstep run d0/\t\n"), [b"run", b"d0/" + FILES[0] + b".toml"])

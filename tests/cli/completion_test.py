@@ -8,7 +8,7 @@ import unittest
 
 from program import PROGRAM, ProgramTest
 
-# What a shell's function would do at Tab: prints the candidates, one a line.
+# The work of a shell's function at Tab: it prints the candidates, one per line.
 BASH = """
 set -u
 source <("$PROGRAM" completion bash)

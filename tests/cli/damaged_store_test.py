@@ -19,7 +19,7 @@ RUNS, MORE = 200, 210
 class DamagedStore(ProgramTest):
     def setUp(self):
         super().setUp()
-        (self.path / "a.toml").write_text(SHORT.format(limit=4) +  # 3.7 A at 0.1 ms, more or less
+        (self.path / "a.toml").write_text(SHORT.format(limit=4) +  # about 3.7 A at 0.1 ms
                                           '[[spread]]\nkey = "motor_override.inductance_mH"\nrelative = 0.2\n')
         self.run_program("run", "a.toml", "--runs", f"{RUNS}", "--store", "s.sqlite", "--quiet", code=1)
         self.good = (self.path / "s.sqlite").read_bytes()

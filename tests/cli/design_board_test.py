@@ -46,7 +46,7 @@ over_speed_rad_s = 300
         self.assertEqual(written["protection"]["over_current_A"], 4)
         self.assertNotIn("not_usable", written)
         self.assertNotIn("gate drivers of small bridges", (self.path / "d.toml").read_text())
-        # With a limit that lets it trip the text says what the file says.
+        # With a limit above the trip level, text and file name the same omission.
         told, written = self.designed_for(board.replace("limit_A = 3", "limit_A = 8"), code=1)
         self.assertIn("NOT USABLE: of the board's scenario are left out: ", told)
         self.assertIn("control.drive and [protection]", written["not_usable"])
@@ -160,7 +160,7 @@ position = {gain_rad_s_per_deg = 0.1, speed_limit_rad_s = 50}
         scenarios = SOURCE / "data" / "scenarios"
         self.run_program("design", "--scenario", str(scenarios / "firmware" / "cortex-m.toml"), "--mode", "speed", "--quick", "--quiet", "--toml", "kept.toml")
         board, kept = (tomllib.loads(path.read_text()) for path in (scenarios / "firmware" / "cortex-m.toml", self.path / "kept.toml"))
-        for key in ("off_at_s", "voltage_samples"):  # of its own course; the default
+        for key in ("off_at_s", "voltage_samples"):  # of the board's own course; a default value
             board["protection"].pop(key, None)
         self.assertEqual(kept["protection"], board["protection"])
         self.assertEqual(kept["control"]["drive"], "product")

@@ -123,7 +123,7 @@ class Design(ProgramTest):
                 self.assertEqual(gains["loop"], loop["name"])
                 self.assertEqual(gains["d1"], loop["gain_rad_s_per_deg"] if mode == "position" and gains["loop"] == mode
                                  else loop["gains"]["d1"])
-            # Its test is a board's, with the dead time that the usual gate drivers ask for.
+            # Its test has a board's dead time, the one that usual gate drivers need.
             self.assertRegex((self.path / "d.toml").read_text(), r"(?m)^# bridge\.dead_time_s: what gate drivers of small bridges ask for")
             self.run_program("export", "header", "d.toml", "--out", "d.hpp")
             d1 = float(designed["loops"][0]["gains"]["d1"]).hex()
@@ -238,10 +238,10 @@ class Design(ProgramTest):
         self.assertEqual(self.names(), ["d.html"])
 
     def test_an_interrupted_design_leaves_nothing_behind(self):
-        # A loop so slow that a minute of the drive is simulated for each motor.
+        # A very slow loop: a minute of the drive is simulated for each motor.
         design = subprocess.Popen([PROGRAM, "design", "maxon-251601", "--mode", "speed", "--settle", "5", "--toml", "d.toml"],
                                   cwd=self.path, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        while not self.names():  # the outputs are open: it is on its way
+        while not self.names():  # the outputs are open: the run has begun
             time.sleep(0.01)
         time.sleep(0.3)
         design.send_signal(signal.SIGINT)
@@ -262,10 +262,10 @@ class Design(ProgramTest):
             for name, value in models["parameters"].items():
                 self.assertEqual(mat[name], [[value]])
             self.assertEqual(mat["theta_e_deg"], [[float(angle)]])
-            # model.md 1 on the sheet: R/L per phase, K_e f/L, 1/L.
+            # The expected values follow model.md 1 for the sheet: R/L per phase, K_e f/L, 1/L.
             A, L, K_e = mat["phase_A"], 0.286e-3, 0.01675
             self.assertAlmostEqual(A[0][0], -1.03 / 0.572e-3, 9)
-            # Flat tops of 120 degrees, ramps of 60 between: c falls through 0 at 30, b rises through 0 at 90.
+            # The shape has flat tops of 120 degrees and ramps of 60 between: c falls through 0 at 30, b rises through 0 at 90.
             f = {"30": (1, -1, 0), "105": (1, 0.5, -1)}[angle]
             for phase in range(3):
                 self.assertAlmostEqual(A[phase][3], -K_e * f[phase] / L, 9)
@@ -290,7 +290,7 @@ class Design(ProgramTest):
         self.assertIn('did you mean "maxon-251601"?', told("maxon-25160"))
         self.assertIn("--voltage is missing, and the sheet prints no nominal voltage", told("mjbots-mj5208"))
         self.assertIn("cannot be written", self.run_program("design", "maxon-251601", "--json", "no/d.json", code=2).stderr)
-        # A fast loop with a delay, chopped softly: only the simulation knows that it oscillates.
+        # A fast loop with a delay and soft chopping: only the simulation shows its oscillation.
         text = told("maxon-251601", "--settle", "0.5e-3", "--delay", "1", code=1)
         self.assertRegex(text.splitlines()[0], "^NOT USABLE: in the simulation, with soft chopping, it never settles$")
         self.assertIn("usable with --chopping complementary", text)
@@ -302,7 +302,7 @@ class Design(ProgramTest):
         self.assertIn("not_usable is what its design found", self.run_program(*export, code=2).stderr)
         self.assertIn("NOT USABLE", self.run_program("run", "d.toml").stdout)
         self.assertEqual(self.names(), ["d.toml"])
-        # Designed anew on the same board, but with what was advised: the line is gone.
+        # A second design on the same board with the advised value: the warning is gone.
         self.run_program("design", "--scenario", "d.toml", "--mode", "speed", "--capture", "1e6", "--quick", "--quiet", "--toml", "e.toml")
         self.assertNotIn("not_usable", (self.path / "e.toml").read_text())
 

@@ -14,8 +14,8 @@ from program import ProgramTest, some
 
 MODES = ("speed", "current", "position", "duty")
 COUNT, SEED = int(os.environ.get("SIXSTEP_DRAWN_MOTORS", "4")), int(os.environ.get("SIXSTEP_SEED", "1"))
-QUICK = 4  # so many are drawn in each test of the program, one in each mode; of more each is designed, too
-LONGEST_S = 20.0  # of computing, all cores together and without optimising: what this guards against took minutes
+QUICK = 4  # number of drawn motors in the usual tests, one per mode; with more, each also gets a design
+LONGEST_S = 20.0  # of CPU time on all cores, without optimisation: the fault that this detects took minutes
 
 # Ranges of sheets: pole pairs, bus in V, no-load speed in rad/s, L/R in s, mechanical time constant R J/K_t^2 in s, stall current
 # in A, nominal current as a part of it.
@@ -58,7 +58,7 @@ def computing_s():
     return used.ru_utime + used.ru_stime
 
 
-# Motors that once got no scenario, or one after minutes: small time constants, one pole pair, a slow wheel, a drone's reactance.
+# Motors that once gave no scenario, or one after minutes: small time constants, one pole pair, a slow wheel, a drone's reactance.
 FOUND = {
     "small": """pole_pairs = 2
 back_emf = "sine"
@@ -120,7 +120,7 @@ class MotorTest(ProgramTest):
             self.assertEqual(first.stderr, "")
             self.assertRegex(first.stdout, "^(good|usable)")
             return
-        if first.returncode == 2:  # a position that no gain was found for
+        if first.returncode == 2:  # a position for which no gain was found
             advised = re.findall(r"finds no gain that does not overshoot: .*; take (.*)$", first.stderr)
         else:
             self.assertRegex(first.stdout, "^NOT USABLE: ")

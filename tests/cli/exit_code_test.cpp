@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// No scenario that is accepted can bring a fault about: the bridge's commands never name a leg twice and the
-// probes never fail. So the way from a fault to the shell is tested here, at the place where it becomes an
-// exit code.
+// No accepted scenario can cause a fault: bridge commands never name a leg twice, and probes never fail. This test therefore checks the
+// exit code of a fault at the function that computes it.
 #include "faces/cli/exit_code.hpp"
 
 #include <gtest/gtest.h>

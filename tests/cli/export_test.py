@@ -9,7 +9,7 @@ import unittest
 from program import PROGRAM, SOURCE, ProgramTest, some
 
 DESPITE = ["--despite", "the tests look at its text"]
-BOARD = "current-square-board"  # passes: converters, and a period to answer in
+BOARD = "current-square-board"  # passes: it has converters, and a period for the answer
 
 
 class Export(ProgramTest):
@@ -71,7 +71,7 @@ class Export(ProgramTest):
         self.assertIn("--range current_A = 3A must be a number above 0", told(position, "--range", "current_A=3A", "--arithmetic", "q15"))
         self.assertIn("--range current_A", told(position, "--range", "current_A", "--arithmetic", "q15"))
         self.assertIn("add --arithmetic q15", told(position, "--range", "current_A=3"))
-        # What the scenario itself asks for, or its source gives, is within every range.
+        # A range must include the scenario's own largest setpoint and its source's values.
         square = self.scenario("current-square-board")
         for stated, least in (("current_A=4.9", "5 A"), ("setpoint=4.9", "5 of its unit"), ("bus_V=23", "24 V")):
             self.assertIn(f"is less than {least}, the largest of this scenario's", told(square, "--range", stated, "--arithmetic", "q15"))
@@ -81,7 +81,7 @@ class Export(ProgramTest):
         small = told(position, "--arithmetic", "q15", "--set", "control.speed.d1=1e-9", "--set", "control.speed.d0=-0.9e-9")
         self.assertIn(f"{position}: control.arithmetic = \"q15\" cannot hold this drive: speed.K_i = ", small)
         self.assertIn("take 32 bits", small)
-        # 16 bits cannot hold the ratio of such bases: told with the gain's name.
+        # The ratio of such bases does not fit 16 bits: the message names the gain.
         self.assertIn("position_gain = ", told(position, "--arithmetic", "q15", "--set", "control.position.gain_rad_s_per_deg=1e6"))
         self.run_program("export", code=2)
         self.run_program("export", "heder", position, code=2)

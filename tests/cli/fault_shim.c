@@ -3,9 +3,9 @@
  *
  *   SIXSTEP_FAULT="pwrite 5 28"        the fifth pwrite fails with errno 28
  *   SIXSTEP_FAULT="malloc 300 12 on"   and so does every later one
- *   SIXSTEP_FAULT="short 3 0"          the third write takes half of what it is given
+ *   SIXSTEP_FAULT="short 3 0"          the third write writes half of its data
  *
- * Standard streams are left alone. */
+ * Standard streams never fail. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -79,6 +79,6 @@ ssize_t write(int d, const void* b, size_t n) {
   return real(d, b, d > 2 && n > 1 && fails("short") ? n / 2 : n);
 }
 
-/* dlsym itself asks for memory. */
+/* dlsym itself allocates memory. */
 extern void* __libc_malloc(size_t);
 void* malloc(size_t n) { return fails("malloc") ? NULL : __libc_malloc(n); }

@@ -30,10 +30,10 @@ EIO, ENOMEM, EACCES, ENOSPC = 5, 12, 13, 28
 KINDS = (("write", EIO), ("write", ENOSPC), ("short", 0), ("pwrite", EIO), ("fsync", EIO), ("rename", EACCES), ("truncate", ENOSPC), ("reserve", ENOSPC),
          ("read", EIO), ("pread", EIO), ("close", EIO), ("malloc", ENOMEM))
 CALLS = (1, 2, 3, 5, 8, 13, 21, 34, 55)
-# What stands behind the N-th depends on the length of a path, too: so some lie side by side, where scenarios are read in a plan.
+# The N-th allocation varies with a path's length, so some numbers are close together where a plan's scenarios are read.
 ALLOCATIONS = (1, 200, 1000, 3000, 6000, *range(8500, 9500, 37), 20000, 50000, 100000)
 FAULTS = [(work, kind, reason, at, often) for work in WORK for kind, reason in KINDS for at in (ALLOCATIONS if kind == "malloc" else CALLS)
-          for often in ("", "on") if not (often and (kind == "short" or (kind == "malloc" and at == 1)))]  # without any memory not even that is told
+          for often in ("", "on") if not (often and (kind == "short" or (kind == "malloc" and at == 1)))]  # without any memory no message is possible
 
 
 def rows(path):
@@ -60,7 +60,7 @@ class Faults(ProgramTest):
             self.assertNotIn("internal error", told)
             self.assertRegex(told, r"\w+ \w+", "it says why")
         for name, text in self.whole().items():
-            if name == "o.xml" and code == 2:  # it speaks of the run, and says that it was stopped
+            if name == "o.xml" and code == 2:  # it describes the run, and says that it was stopped
                 self.assertTrue(text == files[name] or b"<error" in text, text)
                 continue
             self.assertTrue(text == files[name], f"{name} stands whole, and differs")

@@ -24,14 +24,14 @@ R3 = str(SOURCE / "data/scenarios/reference/R3.toml")
 PLAN = str(SOURCE / "data/plans/best-pwm.toml")
 SERIES = str(SOURCE / "data/scenarios/current-square-series.toml")
 LONG = ["--set", "duration_s=1e4", "--set", "record.grid_s=1e-3"]
-# A fifth of a second where the machine is ours: a computer that runs other tests beside these takes longer.
+# The program needs a fifth of a second on an idle machine; other tests in parallel make that longer.
 BOUND_S = 5.0
 ROUNDS = len(some(range(4), 2))
 TOLD = {signal.SIGINT: 130, signal.SIGTERM: 143}
 
 BEGUN_OR_NOT = r"^(long: interrupted at [\d.e-]+ s of 10000 s|interrupted before the first run began)\n$"
 
-# Nobody waits for the end of any of these. The rotor is held, so nothing but its length makes it long.
+# None of these runs ends within the test. The rotor is held, so that only the duration makes a run long.
 ENDLESS = """
 motor = "maxon-251601"
 duration_s = 1e4
@@ -83,7 +83,7 @@ class Ends(Started):
             except subprocess.TimeoutExpired:
                 self.fail(f"{words} goes on after {sent.name} at {wait:.3f} s, seed {SEED}")
             self.slowest = max(self.slowest, time.monotonic() - begin)
-        # Before it listens to signals, or where it has nothing to put in order, the signal itself ends it.
+        # The signal itself ends the program before it listens to signals, or where no output needs closing.
         self.assertIn(program.returncode, (TOLD[sent], -sent), (words, wait, SEED, out + told))
         return program.returncode > 0, out + told
 

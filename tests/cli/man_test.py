@@ -57,7 +57,7 @@ class Manual(ProgramTest):
         """Every line of docs/reference/command-line.md does what it says, in a home of its own."""
         text = (SOURCE / "docs/reference/command-line.md").read_text(encoding="utf-8")
         script = "set -eu\n" + "".join(re.findall(r"(?ms)^```sh\n(.*?)^```$", text))
-        # What compare prints has tests of its own; here its two lines are to be what it takes.
+        # Other tests check compare's output; this one checks only that compare accepts these two lines.
         self.assertEqual(len(re.findall("(?m)^sixstep compare ", script)), 2)
         script = re.sub("(?m)^sixstep compare maxon-251601 .*$", "", script).replace("compare teknic-m2310p", "compare maxon-251601")
         (self.path / "bin").mkdir()
@@ -71,7 +71,7 @@ class Manual(ProgramTest):
 
     def test_formatters_have_nothing_to_say(self):
         (self.path / "sixstep.1").write_text(self.page)
-        # Without a date: the same program prints the same page on every day.
+        # The page has no date: the same program prints the same page on every day.
         linters = {"mandoc": ["-T", "lint", "-W", "style"], "groff": ["-man", "-ww", "-z", "-T", "utf8"]}
         present = [linter for linter in linters if shutil.which(linter)]
         if not present:

@@ -33,7 +33,7 @@ long peak_of_KiB(std::vector<std::string> words) {
   return usage.ru_maxrss;
 }
 
-/// Of a run of R3 (soft chopping) with a row per PWM period.
+/// Peak memory of R3 (soft chopping) with a row per PWM period.
 long peak_KiB(const std::string& duration_s, std::vector<std::string> more) {
   std::vector<std::string> words = {SIXSTEP_PROGRAM,
                                     "run",
@@ -55,8 +55,8 @@ class Memory : public ::testing::Test {
   void TearDown() override { std::filesystem::remove_all(folder_); }
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
 
-  /// Ten times the time against once: KiB more at the peak. Pages of the program's own files count too, and which of them
-  /// the kernel maps beside those asked for changes from run to run: what grows with time does so in each of three tries.
+  /// The growth of peak memory, in KiB, from one to ten times the run's duration. Pages of the program's files count too, and the kernel
+  /// maps a varying number of them. Growth with time appears in each of three tries.
   long growth_KiB(const std::vector<std::string>& more) {
     long least = growth_in_one_try_KiB(more);
     for (int n = 1; n < 3 && least > bound_KiB; ++n) least = std::min(least, growth_in_one_try_KiB(more));
@@ -64,12 +64,12 @@ class Memory : public ::testing::Test {
   }
 
  private:
-  // The writer holds 64 KiB of text; the rest is the steps of an allocator. Kept in memory, 120'000 rows of
-  // seven columns would be 6.5 MiB more, and all columns of each event far more.
+  // The writer buffers 64 KiB of text; the rest are steps of an allocator. In memory 120'000 rows of seven columns would need 6.5 MiB more,
+  // and all columns of each event far more.
   long growth_in_one_try_KiB(const std::vector<std::string>& more) {
     const long once = peak_KiB("0.4", more), tenfold = peak_KiB("4", more);
     std::printf("peak %ld KiB for 0.4 s, %ld KiB for 4 s\n", once, tenfold);
-    // A child begins with what its parent's fork gave it, which a program that needs nothing shows: this must not hide ours.
+    // A child starts with its parent's pages from fork, as a trivial program shows: these must not hide the program's own.
     EXPECT_GT(once, peak_of_KiB({"/bin/true"}));
     return tenfold - once;
   }
@@ -91,7 +91,7 @@ TEST_F(Memory, DoesNotGrowWhileEveryEventStreamsToAFile) {
   EXPECT_GT(std::filesystem::file_size(file("events.csv")), 20'000'000u);
 }
 
-// The columns wait on the disk in blocks of 2048 rows.
+// The columns are buffered on disk in blocks of 2048 rows.
 TEST_F(Memory, DoesNotGrowWhileColumnsWaitForTheirMatFiles) {
   EXPECT_LE(growth_KiB({"--mat", file("a.mat"), "--mat73", file("h.mat"), "--set", "record.grid_s=10e-6"}),
             bound_KiB);
@@ -103,7 +103,7 @@ TEST_F(Memory, DoesNotGrowWhileLogicSignalsStreamToAFile) {
   EXPECT_GT(std::filesystem::file_size(file("a.vcd")), 3u * 1024u * bound_KiB);
 }
 
-// A report keeps its events, 59 MB a simulated second: the measure sees them, up to their bound.
+// A report keeps its events, 59 MB per simulated second: the measurement includes them, up to their bound.
 TEST_F(Memory, OfAReportHasABound) {
   const std::string report = file("report.html");
   const long some = peak_KiB("0.4", {"--html", report}), most = peak_KiB("20", {"--html", report});

@@ -9,7 +9,7 @@ import unittest
 from program import PROGRAM, SOURCE, ProgramTest, some
 
 MODES = ("speed", "current", "position", "duty")
-# Of several trades: a flat motor, a drone, two servos of which one runs at 200 V.
+# The motors are of several trades: a flat motor, a drone, two servos of which one runs at 200 V.
 MOTORS = ("maxon-251601", "dji-2212-920kv", "teknic-m2310p", "baldor-bsm90n-175")
 
 
@@ -18,7 +18,7 @@ class Starter(ProgramTest):
         return json.loads(self.run_program("run", file, "--json", "-", *words).stdout)["digest"]
 
     def test_it_passes_as_it_is_in_every_mode_with_motors_of_every_trade(self):
-        # Each motor in one mode and each mode once, then the others.
+        # Each motor in one mode and each mode once come first, then the other pairs.
         pairs = [(motor, MODES[(n + shift) % len(MODES)]) for shift in range(len(MODES)) for n, motor in enumerate(MOTORS)]
         for motor, mode in some(pairs, len(MOTORS)):
             with self.subTest(f"{motor} {mode}"):
@@ -76,7 +76,7 @@ class Starter(ProgramTest):
             opened, closed = [], False
             for line in text.splitlines():
                 if re.match(r"(# )?\[", line):
-                    closed = line.startswith("#")  # a table behind a #, and its keys with it
+                    closed = line.startswith("#")  # a commented-out table, with its keys
                 opened.append(line if closed else re.sub(r"^# (\w+ = (?!nan|\"\"|\[\]))", r"\1", line))
             (self.path / "b.toml").write_text("\n".join(opened) + "\n")
             self.assertEqual(self.digest("a.toml"), self.digest("b.toml"), mode)
@@ -135,7 +135,7 @@ class Starter(ProgramTest):
         self.run_program("run", "--quiet", "a.toml")
 
 
-# What the newcomer is after, whatever he writes at first: all that he knows besides the messages.
+# The values that the newcomer wants in any case: all other knowledge comes from the messages.
 WANTED = {"duration_s": "0.21", "motor": '"maxon-251601"', "metric": '"mean"', "shape": "steps"}
 
 
@@ -207,7 +207,7 @@ class Follower:
         self.lines[self.row] = self.lines[self.row].replace(value[0], f"= {float(value[1]) * float(factor)!r}", 1)
 
     def insert_wanted(self, key):
-        # A missing key is told where its table begins; the file itself begins at its first line.
+        # The message about a missing key gives the line where its table begins; the file itself begins at its first line.
         self.lines.insert(self.row + self.lines[self.row].startswith("["), f"{key} = {WANTED[key]}")
 
     def set_key(self, path, value):
@@ -227,7 +227,7 @@ class Follower:
         self.replace_word(self.word().lstrip("-"))
 
 
-# (what went wrong, mode of the starter, what the newcomer writes instead of what)
+# (the mistake, the starter's mode, the text that the newcomer replaces, his text)
 MISTAKES = [
     ("a typo in a key", "speed", r"^settle_s\b", "setle_s"),
     ("a typo in a table", "speed", r"^\[reference\]", "[refrence]"),
@@ -278,7 +278,7 @@ class Newcomer(ProgramTest):
             result = self.run_program("run", "first.toml", code=2)
             told = result.stderr.splitlines()
             self.assertTrue(told)
-            # From the last place to the first: an edit does not move those before it.
+            # The edits go from the last place to the first, because an edit moves the places after it.
             for message in reversed(told):
                 self.follower.follow(message)
             if self.passes():

@@ -11,7 +11,7 @@ from program import BRISK, SHORT, SOURCE, WIRING, Started, hall_log
 
 LETTER = "Dear reader,\nthis is nobody's trace.\n"
 EMF = f"motor emf {SOURCE}/data/recordings/bly172s-emf.csv --pole-pairs 4"
-# Each output of each verb; {} is the file. A trace of minutes shows that the refusal comes first.
+# The outputs of each verb; {} is the file. A run of minutes shows that the refusal comes before it.
 OUTPUTS = {"run --csv": "run slow.toml --csv {}", "run --mat": "run slow.toml --mat {}", "run --mat73": "run slow.toml --mat73 {}",
            "run --vcd": "run slow.toml --vcd {}", "run --json": "run slow.toml --json {}", "run --html": "run slow.toml --html {}",
            "run --html of two": "run slow.toml slow.toml --html {}",
@@ -55,7 +55,7 @@ class Overwriting(Started):
             with self.subTest(what):
                 self.run_program(*words, "--force")
                 self.assertNotIn(LETTER.encode(), (self.path / name).read_bytes())
-                self.run_program(*words)  # what sixstep has written says so
+                self.run_program(*words)  # files written by sixstep contain that mark
             (self.path / name).unlink()
 
     def test_a_scenario_of_a_design_that_was_gone_on_with_stays(self):
@@ -76,7 +76,7 @@ class Overwriting(Started):
             self.run_program("run", "slow.toml", "--out", "site", "--quiet", "--set", "duration_s=1e-4")
 
     def test_a_partial_file_is_ours_too(self):
-        for _ in range(2):  # the second takes the place of the first one's
+        for _ in range(2):  # the second run replaces the first one's files
             with self.started("run", "slow.toml", "--csv", "a.csv") as program:
                 self.wait_until(lambda: any(name.endswith(".tmp") for name in self.names()))
                 time.sleep(0.2)

@@ -36,7 +36,7 @@ WHO = rf"^{re.escape(str(CONTROLLER))}: the controller "
 ENDS = "; the program ends here, and what it has not finished is lost\n$"
 AT_20 = r" in step 20, at t = 0\.600 ms"
 
-# What is said of each way to end the program, and where it may be.
+# The message about each way to end the program, and the places where it may occur.
 WAYS = {"exit": r"ended the program by exit\(\)", "quick_exit": r"ended the program by exit\(\)", "_exit": r"ended the program by _exit\(\)",
         "_Exit": r"ended the program by _exit\(\)", "abort": r"gave up by abort\(\) \(SIGABRT\)", "null": r"crashed \(SIGSEGV: .*\)",
         "divide": r"crashed \(SIGFPE: .*\)", "illegal": r"crashed \(SIG(ILL|TRAP).*\)", "recursion": r"crashed \(SIG(SEGV|BUS): .*\)",

@@ -141,7 +141,7 @@ class Plan(ProgramTest):
                 time.sleep(draw.uniform(0.01, 0.15))
                 program.send_signal(signal.SIGKILL)
             if program.returncode != -signal.SIGKILL:
-                (self.path / "s.sqlite").unlink()  # it was finished: begin anew
+                (self.path / "s.sqlite").unlink()  # the plan was finished: restart
                 before = 0
                 continue
             kills += 1
@@ -149,7 +149,7 @@ class Plan(ProgramTest):
                 continue
             try:
                 now = len(self.rows("s.sqlite", "run"))
-            except sqlite3.OperationalError as missing:  # killed before its tables came
+            except sqlite3.OperationalError as missing:  # killed before the tables existed
                 self.assertIn("no such table", str(missing))
                 now = 0
             self.assertGreaterEqual(now, before, f"seed {seed}")
@@ -276,7 +276,7 @@ class Plan(ProgramTest):
         bad = xml.etree.ElementTree.parse(self.path / "bad.xml").getroot()
         self.assertEqual(bad.get("errors"), "1")
         self.assertIn("1 could not run, the first of them run 1", bad[0][0][0].get("message"))
-        self.run_program("run", held, "--junit", "runs.xml", code=1)  # over what is sixstep's own
+        self.run_program("run", held, "--junit", "runs.xml", code=1)  # overwrites sixstep's own file
         (self.path / "other.xml").write_text("<?xml version='1.0'?><mine/>")
         self.run_program("run", held, "--junit", "other.xml", code=2)
 
@@ -349,7 +349,7 @@ class Plan(ProgramTest):
         self.run_program("run", "p.toml", "--html", "q.html", "--jobs", "2", code=1)
         made = [t.split("<footer>")[0] for t in (text, (self.path / "q.html").read_text())]
         self.assertEqual(*made)
-        # The command that the page names makes the run that it names it for.
+        # The page's command makes the run that the page names.
         command = re.search(r"<pre class=\"text\">sixstep (run p.toml --only 3 --html run-3.html)</pre>", text).group(1)
         self.run_program(*command.split(), "--json", "3.json", code=1)
         self.assertAlmostEqual(json.loads((self.path / "3.json").read_text())["require"][0]["measured"], 24.0, places=9)
@@ -373,7 +373,7 @@ class Plan(ProgramTest):
     def test_a_folder_has_the_page_rows_store_and_reports_of_the_worst(self):
         self.held()
         (self.path / "p.toml").write_text(PLAN)
-        (self.path / "p.toml").write_text(PLAN.replace("from = 1.0", "from = 1.1"))  # no two alike
+        (self.path / "p.toml").write_text(PLAN.replace("from = 1.0", "from = 1.1"))  # all values differ
         self.run_program("run", "p.toml", "--out", "out", code=1)
         self.assertEqual(self.names("out"), ["p.csv", "p.html", "p.json", "p.run-3.html", "p.run-4.html", "p.run-5.html", "p.sqlite"])
         text, (plan,) = self.page("out/p.html")

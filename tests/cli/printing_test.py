@@ -39,7 +39,7 @@ class Pipes(Started):
 
     def test_nothing_but_words_reaches_a_pipe(self):
         with self.started("run", self.write("a.toml", 1000), "--set", "duration_s=1e4") as program:
-            time.sleep(0.7)  # a terminal would have seen a bar by now
+            time.sleep(0.7)  # a terminal would show a progress bar after this time
             program.send_signal(signal.SIGINT)
             out, told = program.communicate(timeout=20)
         self.assertNotRegex(out + told, r"[\r\x1b]|real time")

@@ -32,7 +32,7 @@ max = {limit}
 
 
 BRISK = re.sub("(?m)^inertia.*$", "inertia_gcm2 = 0.3", (SOURCE / "data/motors/maxon-251601.toml").read_text())
-WIRING = "motor wiring brisk.toml --current 15"  # of that motor a fifth of the work, for tests of what is printed
+WIRING = "motor wiring brisk.toml --current 15"  # a fifth of the usual computation, for tests of printed text
 
 
 def some(cases, count):
@@ -56,7 +56,7 @@ class ProgramTest(unittest.TestCase):
 
     def run_program(self, *words, code=0):
         result = subprocess.run([PROGRAM, *words], cwd=self.path, capture_output=True, text=True, timeout=300)
-        # None: all holds, or a requirement does not.
+        # None accepts both: all requirements hold, or one does not.
         self.assertIn(result.returncode, (0, 1) if code is None else (code,), result.stderr + result.stdout)
         return result
 

@@ -69,7 +69,7 @@ class Interruption(Session):
         self.assertEqual(self.names(), ["a.partial.csv", "a.toml"])
 
     def test_a_second_ctrl_c_ends_at_once(self):
-        # Standard output that takes nothing holds the program up at its last word: it cannot answer the first.
+        # A full standard output blocks the program at its last message, so that it cannot react to the first signal.
         ours, full = os.pipe()
         os.write(full, bytes(fcntl.fcntl(full, fcntl.F_SETPIPE_SZ, 4096)))
         with self.started("run", self.write("a.toml", 1000), "--csv", "a.csv", stdout=full) as program:
@@ -246,10 +246,10 @@ class Watching(Session):
             scenario.write_text(text.format(limit=-1))  # saved in place
             self.wait_until(lambda: pauses() == 2)
             self.assertIn("FAILED", said().split("-- runs")[1])
-            scenario.write_text("motor = ")  # a slip on the way
+            scenario.write_text("motor = ")  # a typing error
             self.wait_until(lambda: pauses() == 3)
             self.assertIn("a.toml:1:", said().split("-- runs")[2])
-            (self.path / "new").write_text(text.format(limit=1000))  # as vim and many others save
+            (self.path / "new").write_text(text.format(limit=1000))  # the way in which vim and many others save
             os.replace(self.path / "new", scenario)
             self.wait_until(lambda: pauses() == 4)
             (self.path / "own.toml").write_text(shipped + "\n# changed\n")  # the motor's file counts too

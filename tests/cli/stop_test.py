@@ -99,7 +99,7 @@ class Stopped(Started):
                 return
         self.fail("the signal never came while it prepared")
 
-    # A square wave of 10 ms over 1e4 s is two million stretches, seconds of preparing in which nothing is finished yet.
+    # A square wave of 10 ms over 1e4 s has two million sections: the preparation lasts seconds, during which nothing is finished.
     LONG = ["--set", "duration_s=1e4", "--set", "record.grid_s=1e-3", "--set", "reference.period_s=100"]
 
     def test_a_terminal_that_goes_leaves_what_is_finished(self):

@@ -56,7 +56,7 @@ metric = "mean"
 min = 0
 """
 
-# Keys that act, but not on this run: what they say is out of its reach, or is of what is written of it.
+# Keys with an effect outside of this run: their range is out of its reach, or they affect only a written file.
 ELSEWHERE = {
     "motor_override.magnet_loss_percent_K": "acts through [heat], and in the tolerances of designs",
     "heat.ambient_degC": "from it a remark warms the motor by the sheet's thermal values",

@@ -35,7 +35,8 @@ class Wiring(Started):
                 phases, probes = TURN[w["phases"]], DIGITS.index(w["hall_lines"])
                 does = w["measured"]["does"]
                 self.assertEqual(does, w["theory"]["does"])
-                # One of the two turned round: it hums. Both or neither: the difference of the two shifts says what it does.
+                # A reversed order of only one of the two makes the motor hum. With both or neither, the difference of the two shifts
+                # decides.
                 self.assertEqual(does == "hums", (phases < 3) != (probes < 3))
                 if phases < 3 and probes < 3:
                     self.assertEqual(does, ["forward", "backward_early", "backward_late"][(phases - probes) % 3])
@@ -84,12 +85,12 @@ class Wiring(Started):
         picture = xml.etree.ElementTree.fromstring(first[0])
         self.assertEqual(picture.tag, "{http://www.w3.org/2000/svg}svg")
         self.assertEqual(sum(title.text.startswith("phases ") for title in picture.iter("{http://www.w3.org/2000/svg}title")), 36)
-        # The scenario is the bench: crossed, it does what the table says.
+        # The scenario equals the bench: with crossed wires it has the table's behaviour.
         crossed = ["--set", 'bridge.phases="bac"', "--set", 'sensors.hall_lines="132"']
         for extra, sign in (([], 1), (crossed, -1)):
             told = json.loads(self.run_program("run", "w.toml", *extra, "--json", "-", "--quiet").stdout)
             self.assertGreater(told["compare"][0]["measured"] * sign, 50)
-        # It expects what it measures, and names the bench by the keys that cross wires.
+        # The scenario expects the measured values, and names the bench by the keys that cross wires.
         told = json.loads(self.run_program("run", "w.toml", "--json", "-", "--quiet").stdout)
         for figure in told["compare"]:
             self.assertAlmostEqual(figure["measured"] / figure["value"], 1, places=9)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The duty that holds the staying phase, against the star's own equations: every sector, both ways, either switch chopped.
+// The duty that holds the staying phase's current, against the star's own equations: every sector, both directions, either switch chopped.
 #include "sixstep/control/commutation_step.hpp"
 
 #include <gtest/gtest.h>
@@ -15,8 +15,8 @@ using namespace sixstep::control;
 
 constexpr double E = 2.0, R = 0.3, U = 24.0;
 
-/// L di/dt of the staying phase over a period: v_k - v_n - e_k - R i_k, the star point at the mean of v - e. The leaving
-/// phase's diode holds its terminal at the rail that its current flows to, but for the part that it overlaps.
+/// The mean L di/dt of the staying phase over a period: v_k - v_n - e_k - R i_k, the star point at the mean of v - e. The leaving phase's
+/// diode holds its terminal at the rail of its current's direction, except during the overlap.
 double slope(Pair pair, Leg staying, ChoppedSwitch chopped, double duty, double overlap, double E_V,
              double I) {
   const Leg leaving = free_leg(pair);
@@ -26,9 +26,9 @@ double slope(Pair pair, Leg staying, ChoppedSwitch chopped, double duty, double 
   v[at(pair.sink)] = chopped == ChoppedSwitch::lower ? (1 - duty) * U : 0.0;
   e[at(pair.source)] = E_V;
   e[at(pair.sink)] = -E_V;
-  const bool was_sink = staying == pair.source;  // its current flows out of the motor, into the upper diode
+  const bool was_sink = staying == pair.source;  // its current flows out of the motor into the upper diode
   v[at(leaving)] =
-      was_sink ? (1 + overlap) * U : overlap * U;  // its lower switch, or its upper one, against the rail
+      was_sink ? (1 + overlap) * U : overlap * U;  // its lower or its upper switch opposes the rail
   e[at(leaving)] = was_sink ? -E_V : E_V;
   double star = 0.0;
   for (std::size_t k = 0; k < 3; ++k) star += (v[k] - e[k]) / 3;
@@ -42,7 +42,7 @@ TYPED_TEST_SUITE(CommutationStepOf, Scalars);
 
 TYPED_TEST(CommutationStepOf, HoldsTheStayingPhase) {
   using S = TypeParam;
-  const double volt = 1.0 / 32, ampere = 1.0 / 16, speed = 1.0 / 512;  // of the scalar's 1
+  const double volt = 1.0 / 32, ampere = 1.0 / 16, speed = 1.0 / 512;  // relative to the scalar's 1
   CommutationStepConfig<S> config{Gain<S>(2 * E / 100.0 * volt / speed), Gain<S>(1.5 * R * volt / ampere),
                                   Gain<S>(0.0)};
   int overlapping = 0;
@@ -75,8 +75,8 @@ TYPED_TEST(CommutationStepOf, HoldsTheStayingPhase) {
   EXPECT_EQ(overlapping, 6 * 2 * 2 * 2);  // the two larger currents at the highest speed
 }
 
-/// While it is held, the leaving current falls by T (2 E + 3 R I/2)/L a period: an answer that acts too late for half of that is not
-/// asked for.
+/// The step holds while the leaving current falls by T (2 E + 3 R I/2)/L a period. It ends once less than half of that remains, because the
+/// answer would act too late.
 TYPED_TEST(CommutationStepOf, LastsWhileACurrentLeaves) {
   using S = TypeParam;
   const CommutationStepConfig<S> config{Gain<S>(0.5), Gain<S>(0.25),
@@ -91,7 +91,7 @@ TYPED_TEST(CommutationStepOf, LastsWhileACurrentLeaves) {
   watch_leaving(config, state, with(0.5, -0.5, 0.0), 0, false);
   EXPECT_NEAR(static_cast<double>(state.volts), 0.325, 8 * digit<S>());
   EXPECT_FALSE(state.hands_over);
-  watch_leaving(config, state, with(0.5, -0.4, -0.1), 1, false);  // a-b to a-c, first seen by a tick
+  watch_leaving(config, state, with(0.5, -0.4, -0.1), 1, false);  // a-b to a-c, detected by a tick
   EXPECT_TRUE(state.hands_over);
   watch_leaving(config, state, with(0.5, -0.083, -0.417), 1, false);
   EXPECT_TRUE(state.hands_over);
@@ -105,12 +105,12 @@ TYPED_TEST(CommutationStepOf, LastsWhileACurrentLeaves) {
   watch_leaving(config, state, with(0.05, 0.0, -0.05), 2, false);
   enter_sector(config, state, 3);
   EXPECT_FALSE(state.hands_over);
-  // Where legs overlap, what is left of the bus takes the current away: 0.4 - 0.325 = 0.075 of a volt, 0.01875 A.
+  // The overlap removes the bus voltage in part; the rest drives the leaving current down: 0.4 - 0.325 = 0.075 of a volt, 0.01875 A.
   CommutationStepConfig<S> overlaps = config;
   overlaps.overlap_bus_V = S(0.4);
   watch_leaving(overlaps, state, with(0.0, 0.5, -0.5), 2, false);
   EXPECT_NEAR(static_cast<double>(state.least_A), 0.01875, 8 * digit<S>());
-  // The flank begins a quarter of it behind the edge; a tick passes an eighth: 4 E - 2 E f.
+  // The flank begins a quarter of it after the edge; a tick covers an eighth: 4 E - 2 E f.
   CommutationStepConfig<S> flanked = config;
   flanked.flanks_per_rad_s = Gain<S>(0.3125);
   flanked.ahead_per_rad_s = Gain<S>(0.3125);
@@ -121,12 +121,12 @@ TYPED_TEST(CommutationStepOf, LastsWhileACurrentLeaves) {
     EXPECT_NEAR(static_cast<double>(state.volts), 0.325 - 0.1 * f, 8 * digit<S>()) << f;
   }
   m.speed_rad_s = S(-0.4);
-  watch_leaving(config, state, with(0.0, -0.5, 0.5), 3, true);  // back, against the command's sense
+  watch_leaving(config, state, with(0.0, -0.5, 0.5), 3, true);  // reversed, against the command's sign
   EXPECT_NEAR(static_cast<double>(state.driven_A), 0.5, 2 * digit<S>());
 }
 
-/// Of the drive: the Hall interrupt takes the duty there at once, ticks keep it while the current leaves, the PI rests, and then goes on
-/// from where it was.
+/// The drive's Hall interrupt sets the duty at once, ticks keep it while the current leaves, and the PI pauses. Then the PI continues from
+/// its last output.
 TEST(CommutationStep, TheLoopRestsMeanwhile) {
   DriveConfig<double> config{};
   config.mode = Mode::current;

@@ -10,7 +10,7 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep::control;
 
 TEST(Commutation, TableIsTheModels) {
-  // model.md 3, row by row: H1 H2 H3 and the driven pair of sectors 0 to 5.
+  // The table of model.md 3: H1 H2 H3 and the driven pair of sectors 0 to 5.
   constexpr std::uint8_t code[] = {0b100, 0b110, 0b010, 0b011, 0b001, 0b101};
   constexpr Pair pair[] = {{Leg::a, Leg::b}, {Leg::a, Leg::c}, {Leg::b, Leg::c},
                            {Leg::b, Leg::a}, {Leg::c, Leg::a}, {Leg::c, Leg::b}};
@@ -57,11 +57,11 @@ TEST(StayingPhase, IsTheOneThatBothPairsHave) {
   EXPECT_EQ(staying_current(state, m, 0), 3.0);                 // a to b: none was before
   EXPECT_EQ(staying_current(state, m, 1), 3.0);                 // a to c: a stays
   m = {.i_a_A = 1, .i_b_A = 2, .i_c_A = -3};
-  EXPECT_EQ(staying_current(state, m, 2), 3.0);  // b to c: c stays, in which the current runs out
+  EXPECT_EQ(staying_current(state, m, 2), 3.0);  // b to c: c stays, whose current decays
   EXPECT_EQ(staying_current(state, m, 2), 3.0);
-  EXPECT_EQ(staying_current(state, m, 1), 3.0);  // turned back, a to c: c stays
+  EXPECT_EQ(staying_current(state, m, 1), 3.0);  // reversed, a to c: c stays
   m = {.i_a_A = -5, .i_b_A = 0, .i_c_A = 5};
-  EXPECT_EQ(staying_current(state, m, 4), 5.0);  // c to a, with no leg in its place: the source's
+  EXPECT_EQ(staying_current(state, m, 4), 5.0);  // c to a, with no leg in common: the source's
 }
 
 }  // namespace SIXSTEP_TEST_FILE

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a product adds inside the loops, and the speed loop that sets the duty (thesis 6.2.2).
+// A product's additions inside the loops, and the speed loop that sets the duty (thesis 6.2.2).
 #include "sixstep/control/drive_extras.hpp"
 
 #include <gtest/gtest.h>
@@ -92,7 +92,7 @@ TYPED_TEST(Extras, TheWindowLimitsTheReferenceAndTheSpeedPi) {
   }
 }
 
-/// Above the limit of speed all gates are off, and the loop goes on from where it was.
+/// All gates are off above the speed limit; then the loop continues from its last output.
 TYPED_TEST(Extras, AtALimitTheLoopWaitsWithTheBridgeOff) {
   using S = TypeParam;
   Bench<S> b(Mode::current), free(Mode::current);
@@ -114,12 +114,12 @@ TYPED_TEST(Extras, BackEmfAndMeasuredBusEnterTheDuty) {
   Bench<S> b(Mode::current);
   b.config.extras.feed_forward.K_t_V_s = Gain<S>(0.5);
   b.measured.speed_rad_s = S(0.75);
-  // u = 0.125 + 0.375 over the nominal 0.75, then over the measured one.
+  // The voltage u = 0.125 + 0.375 is divided by the nominal 0.75, then by the measured bus.
   EXPECT_NEAR(static_cast<double>(b.tick(0.125).duty), 0.5 / 0.75, 3 * digit<S>());
   b.config.extras.bus.lowest_bus_V = S(0.5);
   b.measured.bus_V = S(1.0);
   EXPECT_NEAR(static_cast<double>(b.tick(0.125).duty), 0.5, 3 * digit<S>());
-  // Both together within the PI's limit, and the PI does not wind up against it.
+  // The sum of both stays within the PI's limit, and the PI does not wind up against it.
   for (int n = 0; n < 10; ++n) EXPECT_LE(b.tick(1.5).duty, S(0.75));
   EXPECT_EQ(b.tick(1.5).duty, S(0.75));
   b.tick(1.25);
@@ -136,7 +136,7 @@ TYPED_TEST(Extras, TheSetpointSlewsFromWhatIsMeasured) {
   EXPECT_EQ(b.telemetry.speed_reference_rad_s, S(0.5625));
   for (int n = 0; n < 20; ++n) b.tick(1.0);
   EXPECT_EQ(b.telemetry.speed_reference_rad_s, S(1.0));
-  b.measured.hall = 0;  // off by a fault
+  b.measured.hall = 0;  // a fault turns the bridge off
   b.tick(1.0);
   b.measured.hall = 0b100;
   b.tick(1.0);
@@ -157,8 +157,7 @@ TYPED_TEST(Extras, SmoothChoppingFollowsTheCurrentNotTheConfig) {
   EXPECT_EQ(b.tick(-0.5).chopping, Chopping::soft);
 }
 
-/// The lean drive, any bits of a fixed-point measurement: no duty outside 0..1, no overflow (sanitizers
-/// tell).
+/// The lean drive with arbitrary bits in a fixed-point measurement: duties stay within 0..1, without overflow (sanitizers report one).
 TYPED_TEST(Extras, AnyMeasurementGivesALawfulDuty) {
   using S = TypeParam;
   constexpr int seed = 1307;
@@ -212,7 +211,7 @@ Bench<S> positional(double K_b) {
 
 TYPED_TEST(Extras, PositionalSpeedIsTheSamePiShortOfItsLimit) {
   Bench<TypeParam> incremental(Mode::speed), b = positional<TypeParam>(0.0);
-  for (int n = 0; n < 8; ++n) {  // multiples of 2^-6: no form rounds
+  for (int n = 0; n < 8; ++n) {  // multiples of 2^-6: exact in both forms
     for (Bench<TypeParam>* bench : {&incremental, &b}) bench->tick(n % 3 == 0 ? -0.125 : 0.125);
     EXPECT_EQ(b.telemetry.current_reference_A, incremental.telemetry.current_reference_A) << n;
   }

@@ -158,7 +158,7 @@ TEST(Drive, SampledHysteresisIsAllOrNothing) {
   b.measured.i_b_A = -5.3;
   EXPECT_EQ(b.tick(5.0).duty, 0.0);
   EXPECT_EQ(b.tick(5.0).pair, positive_pair(0));
-  const BridgeCommand<double> back = b.tick(-5.0);  // s i_m = -5.3, far below
+  const BridgeCommand<double> back = b.tick(-5.0);  // s i_m = -5.3, far below the setpoint
   EXPECT_EQ(back.duty, 1.0);
   EXPECT_EQ(back.pair, swapped(positive_pair(0)));
 }
@@ -201,7 +201,7 @@ TEST(Drive, FloatFollowsDouble) {
     d.measured.speed_rad_s = w;
     const float a = f.tick(r).duty;
     const double b = d.tick(r).duty;
-    // Sums of terms up to 24 V: each sample rounds a few times, and the integral keeps the errors.
+    // The terms are up to 24 V: each sample rounds a few times, and the integral keeps the errors.
     EXPECT_NEAR(a, b, (n + 1) * 8 * 0x1p-23) << n;
   }
 }

@@ -65,7 +65,7 @@ using Formats = ::testing::Types<Q15, Q31, Fixed<std::int16_t, 12>, Q14, Fixed<s
                                  Fixed<std::int32_t, 27>>;
 TYPED_TEST_SUITE(FixedFormats, Formats);
 
-/// Corners as often as anything else: that is where fixed point goes wrong.
+/// The ends of the range are half of the draws, because fixed point fails there.
 template <class Storage>
 Storage drawn(std::mt19937_64& random) {
   constexpr Storage corners[] = {0,
@@ -123,13 +123,13 @@ TYPED_TEST(FixedFormats, GainsAboveAndBelowOneRoundOnce) {
   for (int n = 0; n < 20000; ++n) {
     const double wanted = (n % 2 ? 1 : -1) * std::exp2(exponent(random));
     const Gain<F> gain(wanted);
-    // A mantissa of at least 2^(bits-2) is off by half a digit at most.
+    // The error of a mantissa of at least 2^(bits-2) is at most half a digit.
     EXPECT_LE(std::fabs(static_cast<double>(gain) - wanted),
               std::fabs(wanted) * std::ldexp(1.0, 1 - detail::Widths<Storage>::bits));
     const F x = F::from_raw(drawn<Storage>(random)), y = F::from_raw(drawn<Storage>(random));
     const I128 m = gain.mantissa, scale = I128{1} << gain.right;
     ASSERT_EQ(ScalarTraits<F>::product(x, gain).raw, fitted<F>(rounded(x.raw * m, scale)));
-    // In the accumulator: a difference of signals, 2^guard finer, saturated at its own ends.
+    // The accumulator's result: a difference of signals, 2^guard finer, saturated at its own ends.
     using Raw = typename Accumulator<F>::Raw;
     const I128 fine = rounded((I128{x.raw} - y.raw) * m << Accumulator<F>::guard_bits, scale);
     const I128 high = detail::greatest<Raw>, low = detail::least<Raw>;
@@ -168,7 +168,7 @@ TYPED_TEST(FixedFormats, TimesBecomeRatesAndFractions) {
   EXPECT_EQ(T::counts(3, Gain<F>(5.0)).raw, 15) << "a count and a gain to raw digits";
 }
 
-/// The nearest digit, whatever the counts: in whole numbers, part 2^n + whole/2 over whole.
+/// The result is the nearest digit for any counts: in whole numbers, part 2^n + whole/2 over whole.
 TYPED_TEST(FixedFormats, AFractionIsTheNearestDigit) {
   using F = TypeParam;
   std::mt19937_64 random{48};

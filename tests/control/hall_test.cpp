@@ -19,7 +19,7 @@ using namespace sixstep::control;
 static_assert(std::is_trivially_copyable_v<HallState> && std::is_trivially_copyable_v<HallSpeedState> &&
               std::is_trivially_copyable_v<HallPositionState>);
 
-/// Three probes by their definition: each is high over half a turn, the next one lags by `apart` sectors.
+/// Three probes by their definition: each is high over half a turn, and the next one lags by `apart` sectors.
 std::uint8_t pins(int sector, int apart) {
   const auto high = [&](int lag) { return (sector - lag + 18 + 1) % 6 < 3; };  // H1 over sectors 5, 0, 1
   return static_cast<std::uint8_t>(high(0) << 2 | high(apart) << 1 | int{high(2 * apart)});
@@ -82,8 +82,8 @@ TEST(Hall, GlitchesShorterThanTheFilterDoNotCount) {
   EXPECT_EQ(hall_step(config, state, pins(1, 2)).moved, 0) << "counted once";
 }
 
-/// A line breaks somewhere within a sector while the rotor turns on steadily, read 20 times per sector: the
-/// impossible code must come within a turn, and name that line.
+/// A line breaks within a sector of a steadily turning rotor, read 20 times per sector: the impossible code comes within a turn and names
+/// that line.
 TEST(Hall, ABrokenLineIsNamed) {
   int named = 0, untold = 0;
   for (const int apart : {2, 1})
@@ -106,21 +106,21 @@ TEST(Hall, ABrokenLineIsNamed) {
               hall_speed_edge(times, now, fault.moved);
             }
             ASSERT_NE(fault.fault, HallFault::none);
-            // Breaking together with another line's edge may look like a jump, which names no line.
+            // A break at another line's edge may seem a jump, which names no line.
             if (breaks_at % 20 == 0 && fault.fault == HallFault::jump) continue;
             ASSERT_EQ(fault.fault, HallFault::impossible_code);
             ++(fault.line == 0 ? untold : named);
             ASSERT_TRUE(fault.line == line || fault.line == 0)
                 << apart << ' ' << direction << ' ' << line << ' ' << level << ' ' << breaks_at;
           }
-  // A false edge between 3/4 and 8/9 of a sector is as soon as a rotor's that strays by a quarter, and what
-  // comes after it is not alike: one in six breaks brings a false edge forward.
+  // A false edge between 3/4 and 8/9 of a sector is as early as that of a rotor with a speed change of a quarter. The next sectors differ
+  // too: one in six breaks makes an early false edge.
   std::printf("named %d, not told %d\n", named, untold);
   EXPECT_LE(untold, named / 30);
 }
 
-/// A rotor at constant acceleration `a` sectors/s^2 from `w` sectors/s, which turns back where it comes to
-/// rest; read 1000 times per second. A line breaks at `at_s`. What is named is the line, or nothing.
+/// A rotor at constant acceleration `a` sectors/s^2 from `w` sectors/s, which reverses at standstill; read 1000 times per second. A line
+/// breaks at `at_s`. The result is the named line, or 0.
 std::uint8_t named(double w, double a, double at_s, int line, int level) {
   HallState state;
   HallSpeedState times;
@@ -138,8 +138,7 @@ std::uint8_t named(double w, double a, double at_s, int line, int level) {
   return 0;
 }
 
-/// Where the rotor slows down, turns back or starts, times do not tell one line from another: then nothing is
-/// named, and never another line.
+/// Times cannot distinguish the lines where the rotor slows down, reverses or starts: the decoder then names none, and never another line.
 TEST(Hall, NoOtherLineIsNamedWhereTheRotorTurnsBack) {
   int right = 0, wrong = 0, untold = 0;
   for (const double w : {0.0, 3.0, 8.0, 15.0, 30.0})
@@ -158,7 +157,7 @@ TEST(Hall, NoOtherLineIsNamedWhereTheRotorTurnsBack) {
 TEST(Hall, FromRestNoEdgeComesSoonerThanARotorBringsIt) {
   HallSpeedState times;
   std::uint32_t now = 0;
-  // sqrt(n + 1) - sqrt(n) at a constant torque.
+  // The edges' intervals are sqrt(n + 1) - sqrt(n) at a constant torque.
   for (const std::uint32_t after : {1000u, 414u, 318u, 268u, 236u, 213u, 196u}) {
     EXPECT_NE(sector_time(times, 1, now + after), SectorTime::soon) << after;
     hall_speed_edge(times, now += after, 1);
@@ -172,7 +171,7 @@ template <class Scalar>
 class HallMotion : public ::testing::Test {};
 TYPED_TEST_SUITE(HallMotion, Scalars);
 
-/// Eight pole pairs, a 1 MHz timer, speeds in units of 1000 rad/s so that every scalar holds them.
+/// The rotor has eight pole pairs, the timer 1 MHz; speeds are in units of 1000 rad/s so that every scalar holds them.
 constexpr double sector_rad_s_ticks = 3.14159265358979323846 / 3 / 8 * 1e6 / 1000;
 
 template <class Scalar>
@@ -194,7 +193,7 @@ TYPED_TEST(HallMotion, SteadySpeedIsOneOverTheSectorTimeThroughTheWrap) {
         for (int n = 0; n < 20; ++n) {
           hall_speed_edge(state, now += ticks, direction);
           const double w = static_cast<double>(hall_speed(config, state, now + ticks / 3));
-          // One rounding of the ratio and one of the quotient.
+          // The error is one rounding of the ratio and one of the quotient.
           EXPECT_NEAR(w, direction * sector_rad_s_ticks / ticks,
                       1.5 * digit<S>() * std::fmax(1, std::fabs(w)));
         }
@@ -203,7 +202,7 @@ TYPED_TEST(HallMotion, SteadySpeedIsOneOverTheSectorTimeThroughTheWrap) {
 
 TYPED_TEST(HallMotion, MisplacedProbesCancelOverOneTurn) {
   using S = TypeParam;
-  const std::uint32_t sector[6] = {900, 1100, 1010, 990, 1050, 950};  // 6000 in all
+  const std::uint32_t sector[6] = {900, 1100, 1010, 990, 1050, 950};  // the sum is 6000
   HallSpeedState six, one_edge;
   std::uint32_t now = 77;
   double worst = 0;
@@ -270,7 +269,7 @@ TYPED_TEST(HallMotion, PositionRunsOnThroughSectorsAndBackToWhereItWas) {
     const S fraction = sector_fraction(config, speed, now + since);
     return static_cast<double>(hall_position(position, count, speed.direction, fraction)) / sector;
   };
-  // A gain is off by 2^-15 of itself in 16 bits, over 30 sectors; then the roundings of sum and fraction.
+  // The error of a gain is 2^-15 of itself in 16 bits, over 30 sectors; the roundings of sum and fraction add to it.
   const double near = 3 * digit<S>() / sector + 30 * digit<S>();
   EXPECT_NEAR(at(0), 0.5, near) << "nothing known: the middle of the sector";
   for (int n = 1; n <= 30; ++n) {

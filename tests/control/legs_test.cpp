@@ -41,7 +41,7 @@ TEST(Legs, EachStateAndKindOfPwmHasItsGates) {
   }
 }
 
-/// model.md 3's choppings of either switch, once as a pair and once as three legs.
+/// The choppings of model.md 3 for either switch, once as a pair and once as three legs.
 TEST(Legs, SixStepAsLegsHasItsGates) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
     for (const ChoppedSwitch chopped : {ChoppedSwitch::upper, ChoppedSwitch::lower})
@@ -73,7 +73,7 @@ class Frames : public ::testing::Test {
 };
 TYPED_TEST_SUITE(Frames, Scalars);
 
-/// Rounding: half a digit for each input, difference, product and gain.
+/// The tolerance is half a digit for each input, difference, product and gain.
 constexpr double digits = 4;
 
 TYPED_TEST(Frames, ThreePhasesAreOneVectorOfTheirPeakAndACommonPartDropsOut) {
@@ -115,9 +115,9 @@ template <class Scalar>
 class Modulation : public Frames<Scalar> {};
 TYPED_TEST_SUITE(Modulation, Scalars);
 
-constexpr double bus = 0.75;  // a part of the base, for fixed point
+constexpr double bus = 0.75;  // relative to the base, for fixed point
 
-/// What rounding makes of a duty: a few digits of the voltage over the bus.
+/// The rounding error of a duty: a few digits of the voltage over the bus.
 template <class S>
 constexpr double duty_digits = 8 * digit<S>();
 
@@ -151,7 +151,7 @@ TYPED_TEST(Modulation, BothReachTheVoltagesBetweenTheTerminalsWithinTheirRange) 
 
 TYPED_TEST(Modulation, ClampsBeyondItsRangeAndNotBefore) {
   using S = TypeParam;
-  // A vector along a, which leaves the hexagon last, and one 30 degrees on, which does so at U_s/sqrt 3.
+  // A vector along a leaves the hexagon last, and one 30 degrees on leaves it at U_s/sqrt 3.
   const double reach = bus / std::numbers::sqrt3, thirty = std::numbers::pi / 6;
   const auto within = [](const LegCommands<S>& legs) {
     bool free = true;

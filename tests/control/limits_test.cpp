@@ -42,7 +42,7 @@ TYPED_TEST(Limits, SpeedFoldsTheDrivingSideBackAndLeavesBraking) {
     const CurrentWindow<S> window = current_window(config, S(w), S{});
     const double high = std::fmin(0.75, std::fmax(0.0, 4 * (0.5 - w)));
     const double low = -std::fmin(0.75, std::fmax(0.0, 4 * (0.5 + w)));
-    // The rounded speed, times the gain, and the product's own rounding.
+    // The error is that of the rounded speed times the gain, and the product's own rounding.
     EXPECT_NEAR(static_cast<double>(window.high), high, 3 * digit<S>()) << w;
     EXPECT_NEAR(static_cast<double>(window.low), low, 3 * digit<S>()) << w;
   }
@@ -63,7 +63,7 @@ TYPED_TEST(Limits, RegenerationTakesBrakingAwayAsTheBusRises) {
   EXPECT_TRUE(at(0.0, 1.5).low == S(-0.75)) << "at rest nothing comes back";
 }
 
-/// All braking current into a capacitor, C dU/dt = i: the bus must stop short of its limit.
+/// The whole braking current charges a capacitor, C dU/dt = i: the bus must stay below its limit.
 TYPED_TEST(Limits, ABusThatCannotSinkStaysBelowItsLimit) {
   using S = TypeParam;
   LimitsConfig<S> config;
@@ -145,7 +145,7 @@ TYPED_TEST(Limits, ChoppingIsComplementaryWhereverTheCurrentMayReverse) {
   EXPECT_EQ(at(true, -0.5), Chopping::soft) << "the same current driven by a negative one";
 }
 
-/// d -> 0+ and d -> 0-: the mean over the period of what connects source and sink of the positive pair.
+/// Only the off-time's gates act at d -> 0+ and d -> 0-: complementary chopping has the same gates at both.
 TEST(Chopping, OnlyComplementaryIsContinuousThroughZero) {
   const auto off_time = [](bool reversed, Chopping chopping) {
     const Pair p{Leg::a, Leg::b};
@@ -158,7 +158,7 @@ TEST(Chopping, OnlyComplementaryIsContinuousThroughZero) {
 }
 
 TEST(Gates, DrivenPairAsTheModelsTableSays) {
-  // T1 T3 T5 are bits 0, 2, 4, T2 T4 T6 bits 1, 3, 5; sector 1 drives T1 T6.
+  // The bits 0, 2, 4 are T1 T3 T5, the bits 1, 3, 5 are T2 T4 T6; sector 1 drives T1 T6.
   BridgeCommand<float> c{.enabled = true, .pair = {Leg::a, Leg::c}};
   EXPECT_EQ(gates(c, true), 0b100001);
   EXPECT_EQ(gates(c, false), 0b100000);

@@ -9,7 +9,8 @@ namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 
-/// Back-EMF shapes of the three phases in the middle of a sector, by the convention of docs/reference/model.md 3: the phase of the positive pair's
+/// Back-EMF shapes of the three phases in the middle of a sector (docs/reference/model.md 3): the phase of the positive pair's source is at
+/// +1, that of its sink at -1. A pair's torque per ampere is their difference.
 /// source is at +1, that of its sink at -1. A pair's torque per ampere is their difference.
 double torque_per_ampere(std::uint8_t sector, const sixstep_answer& a) {
   const control::Pair positive = control::positive_pair(sector);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The PI blocks in every scalar, held to the double one within what their formats resolve.
+// The PI blocks in every scalar against the double one, within the formats' resolution.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ template <class Scalar>
 class PiScalars : public ::testing::Test {};
 TYPED_TEST_SUITE(PiScalars, Scalars);
 
-/// The gain as the format holds it: what the comparison in double must use.
+/// The gain as the format stores it, for the comparison in double.
 template <class S>
 double held(double gain) {
   return static_cast<double>(static_cast<Gain<S>>(gain));
@@ -37,37 +37,37 @@ TYPED_TEST(PiScalars, FollowsExactArithmeticOnTheSameGains) {
   double u = 0, before = 0;
   double worst = 0;
   for (int n = 0; n < 2000; ++n) {
-    // A wandering error that keeps off the limits: a clamp on one side only would part the two for good.
+    // The random error avoids the limits: a clamp in only one of the two would separate them permanently.
     const auto e = static_cast<S>(any(random) - 0.05 * static_cast<double>(u));
     u = u + d1 * (static_cast<double>(e) - before) + K_i * before;
     before = static_cast<double>(e);
     ASSERT_LT(std::fabs(static_cast<double>(u)), 0.9) << "seed " << seed;
     worst = std::fmax(worst, std::fabs(static_cast<double>(pi_step(config, state, e)) - u));
   }
-  // Per sample fixed point rounds two increments to half a digit of the sum; float and double three numbers
-  // below 1 to half an epsilon. Then the output once.
+  // The rounding per sample is half a digit of the sum for two increments in fixed point, and half an epsilon for three numbers below 1 in
+  // floating point. The output is rounded once.
   const double rounding = is_fixed<S> ? digit<S>() * std::ldexp(1.0, 4 - 8 * int{sizeof(S)}) : 2 * digit<S>();
   EXPECT_LE(worst, 2000 * rounding + 2 * digit<S>()) << "seed " << seed;
 }
 
 TYPED_TEST(PiScalars, ASmallIntegralGainDoesNotVanish) {
   using S = TypeParam;
-  // 1.3e-4 per sample on an error of 40 digits: 2^-8 of a digit each time, and yet it counts.
+  // The increment is 1.3e-4 per sample on an error of 40 digits: 2^-8 of a digit each time, and it must accumulate.
   const double e = 40 * std::ldexp(1.0, -14), K_i = held<S>(1.3378e-4);
   const PiConfig<S> config = pi<S>(held<S>(0.0158299), K_i, 0.9);
   PiState<S> state;
   double u = 0;
   for (int n = 0; n < 10000; ++n) u = static_cast<double>(pi_step(config, state, static_cast<S>(e)));
   const double exact = held<S>(0.0158299) * e + 9999 * K_i * e;
-  // Each increment is rounded to a digit of the sum (16 bits: 2^-12 of 2^-14), or by float's eps of u.
+  // The rounding of each increment is a digit of the sum (16 bits: 2^-12 of 2^-14), or float's eps of u.
   const double rounding =
       is_fixed<S> ? digit<S>() * std::ldexp(1.0, 4 - 8 * int{sizeof(S)}) : digit<S>() * exact;
-  // d0 = K_i - d1 in float: K_i is what is left, off by an epsilon of d1.
+  // The difference d0 = K_i - d1 in float: its error in K_i is an epsilon of d1.
   const double cancelled = is_fixed<S> ? 0 : 10000 * e * 0.0158299 * digit<S>();
   EXPECT_NEAR(u, exact, 10000 * rounding + digit<S>() + cancelled);
 }
 
-/// The integral waits: u moves by d1 times what the error moved, and steps on from there.
+/// The integral pauses: u changes by d1 times the error's change, and continues from there.
 TYPED_TEST(PiScalars, WaitsAndGoesOnFromThere) {
   using S = TypeParam;
   const double d1 = held<S>(0.75), K_i = held<S>(0.125);
@@ -85,7 +85,7 @@ TYPED_TEST(PiScalars, LeavesTheLimitWithTheFirstSampleOfTheOtherSign) {
   PiState<S> state;
   for (int n = 0; n < 1000; ++n) EXPECT_LE(pi_step(config, state, S(0.5)), S(0.5));
   EXPECT_EQ(pi_step(config, state, S(0.5)), S(0.5));
-  // 0.5 - 1.0*(0.25 + 0.5) + 0.25*0.5
+  // The sum is 0.5 - 1.0*(0.25 + 0.5) + 0.25*0.5.
   EXPECT_NEAR(static_cast<double>(pi_step(config, state, S(-0.25))), -0.125, 2 * digit<S>());
   for (int n = 0; n < 1000; ++n) pi_step(config, state, S(-1.9));
   EXPECT_EQ(pi_step(config, state, S(-1.9)), S(-0.5)) << "a jump beyond the range saturates, it never wraps";
@@ -93,7 +93,7 @@ TYPED_TEST(PiScalars, LeavesTheLimitWithTheFirstSampleOfTheOtherSign) {
 
 TYPED_TEST(PiScalars, LargeJumpsAreNotCutBeforeTheLimit) {
   using S = TypeParam;
-  // 0.8 -> -0.8 at a gain of 4.5: -7.2, from +0.9 straight to -0.9, although signals end at 2.
+  // A change 0.8 -> -0.8 at a gain of 4.5 is -7.2: the output goes from +0.9 directly to -0.9, although signals end at 2.
   const PiConfig<S> config = pi<S>(4.5, 0.0, 0.9);
   PiState<S> state;
   EXPECT_EQ(pi_step(config, state, S(0.8)), S(0.9));
@@ -117,7 +117,7 @@ TYPED_TEST(PiScalars, PositionalIsTheVelocityFormAwayFromTheLimit) {
   }
 }
 
-/// Held at the limit, I + K e - (u_limit - v) settles where K_i e = K_b (v - u_limit): v - limit = K_i e/K_b.
+/// The integral at the limit settles where K_i e = K_b (v - u_limit), v = I + K e: v - limit = K_i e/K_b.
 TYPED_TEST(PiScalars, BackCalculationHoldsTheIntegralNearTheLimit) {
   using S = TypeParam;
   const double e = 0.25, K = 1.5, K_i = 0.125;
@@ -137,8 +137,8 @@ TYPED_TEST(PiScalars, BackCalculationHoldsTheIntegralNearTheLimit) {
       << "without it the integral winds up";
 }
 
-/// K e far above 16 times what a signal holds, where every fixed sum ends: the integral stays at the limit,
-/// and the first small error finds it there.
+/// The product K e far exceeds 16 times a signal's range, where every fixed sum ends. The integral stays at the limit, and the first small
+/// error leaves it.
 TYPED_TEST(PiScalars, NothingWindsUpWhereTheProportionalPartSaturates) {
   using S = TypeParam;
   const double K = 200, K_i = 20, K_b = K_i / K;
@@ -146,7 +146,7 @@ TYPED_TEST(PiScalars, NothingWindsUpWhereTheProportionalPartSaturates) {
                                      static_cast<Gain<S>>(gain_beyond_limit(K, K_i, K_b))};
   PiPositionalState<S> state;
   for (int n = 0; n < 5000; ++n) EXPECT_EQ(pi_positional_step(config, state, S(0.75)), S(0.5));
-  // Less than half a digit over K_b is not seen.
+  // An excess below half a digit over K_b rounds to zero.
   EXPECT_NEAR(static_cast<double>(ScalarTraits<S>::signal(state.integral)), 0.5, digit<S>() / (2 * K_b));
   EXPECT_LT(static_cast<double>(pi_positional_step(config, state, S(-0.0015))), 0.25);
 }

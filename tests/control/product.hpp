@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The product's drive for its tests: gains of the reference motor per unit, and a coarse motor that fills the
-// registers.
+// The product's drive for its tests: gains of the reference motor per unit, and a simple motor model that supplies the registers.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -11,7 +10,7 @@
 
 namespace sixstep::control {
 
-// What 1.0 means. Signals end at 2, so differences of full-scale signals still fit.
+// The values of 1.0. Signals end at 2, so differences of full-scale signals still fit.
 inline constexpr double base_A = 20, base_V = 25, base_rad_s = 500, base_deg = 2000;
 // maxon 251601 (model.md 6) at the terminals; the thesis's period; a timer of 1 MHz.
 inline constexpr double R = 1.03, L = 0.572e-3, K_t = 33.5e-3, J = 135e-7, T = 30e-6, U = 24;
@@ -42,7 +41,7 @@ ProtectedConfig<S> product() {
   return c;
 }
 
-/// One mean circuit R L between the driven terminals, flat back-EMF: enough to close the loops.
+/// One mean R-L circuit between the driven terminals with a flat back-EMF: sufficient to close the loops.
 struct Motor {
   double i = 0, w = 0, theta_e = 0.3, t = 0;  // theta_e in sectors
   int sector() const { return static_cast<int>(std::floor(theta_e)); }

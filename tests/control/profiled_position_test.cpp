@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The position loop with a profile in the drives: what is told ahead, where it begins, what another configuration does to it.
+// The position loop with a profile in the drives: its feed-forward, its start, and the effect of another configuration.
 #include "sixstep/control/profiled_position.hpp"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ struct Bench {
 
   const ProfiledMotion<double>& now() const { return state.extras.position.profile.now; }
   BridgeCommand<double> tick(double target) { return step(config, state, measured, {target}, telemetry); }
-  /// The shaft is where the profile says.
+  /// Moves the shaft to the profile's position.
   void follow() {
     measured.position_deg = now().position_deg;
     measured.speed_rad_s = now().speed_rad_s;
@@ -62,14 +62,14 @@ TEST(ProfiledPosition, SpeedIsAddedToWhatThePositionLoopAsksFor) {
   EXPECT_EQ(with.now().speed_rad_s, 0.0);
 }
 
-/// A shaft that follows exactly leaves nothing to the loops: what is asked for is the torque ahead alone.
+/// A shaft that follows exactly needs no correction: the reference is the feed-forward torque alone.
 TEST(ProfiledPosition, TorqueIsAskedForBeforeAnErrorIsSeen) {
   Bench b{positioning()};
   double most = 0.0;
   b.tick(0.0);
   for (int n = 0; n < 4000; ++n) {
     b.measured.position_deg =
-        b.now().position_deg;  // of the tick before; what the profile adds now is not known yet
+        b.now().position_deg;  // of the previous tick; the profile's next value is unknown yet
     DriveState<double> next = b.state;
     const ProfiledMotion<double> ahead =
         jerk_profile_step(b.config.extras.position.profile, next.extras.position.profile, 720.0);
@@ -110,7 +110,7 @@ TEST(ProfiledPosition, AnotherModeIsToldNothingAndTheProfileBeginsAnewBehindIt) 
   b.tick(720.0);
   EXPECT_NEAR(b.now().position_deg, 222.0 + 70.0 * T * 180 / 3.14159265, 1e-4);
   EXPECT_NEAR(b.now().speed_rad_s, 70.0, 1.0) << "as fast as the shaft turns";
-  b.measured.hall = 0;  // off by a fault
+  b.measured.hall = 0;  // a fault turns the bridge off
   b.tick(720.0);
   b.measured.hall = 0b100;
   b.measured.position_deg = 300.0;
@@ -130,7 +130,7 @@ TEST(ProfiledPosition, OtherLimitsInFlightMakeNoJump) {
   const double way = before.speed_rad_s * T * 180 / 3.14159265358979;
   EXPECT_NEAR(b.now().position_deg, before.position_deg + way, 1e-4);
   EXPECT_NEAR(b.now().speed_rad_s, before.speed_rad_s, 1e-3);
-  // Another gain alone leaves the profile as it is.
+  // A changed gain alone leaves the profile unchanged.
   const JerkProfileState<double> kept = b.state.extras.position.profile;
   next.position_gain = 0.7;
   retune(b.config, b.state, next);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which switch of the pair is chopped, against the patterns' definition: by the 120 degrees for which each switch carries current.
+// The chopped switch of the pair, against the patterns' definition: by the 120 degrees in which each switch carries current.
 #include "sixstep/control/pwm_pattern.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ using namespace sixstep::control;
 constexpr PwmPattern all[] = {PwmPattern::upper, PwmPattern::lower, PwmPattern::pwm_on, PwmPattern::on_pwm,
                               PwmPattern::pwm_on_pwm};
 
-/// A rotor that turns one way and is driven that way.
+/// A rotor that turns in one direction and is driven in it.
 struct Turning {
   bool backward = false;
   std::uint8_t sector(int n) const { return static_cast<std::uint8_t>(backward ? 5 - n % 6 : n % 6); }
@@ -24,7 +24,7 @@ struct Turning {
   }
 };
 
-/// By definition: of a switch that carries current in the sectors n and n + 1, `begun` says that this is the second.
+/// The definition: a switch carries current in the sectors n and n + 1, and `begun` is true in the second.
 bool chops(PwmPattern pattern, bool upper, bool begun, bool second_half) {
   switch (pattern) {
     case PwmPattern::upper:
@@ -47,7 +47,7 @@ TYPED_TEST_SUITE(PwmPatternOf, Scalars);
 
 TYPED_TEST(PwmPatternOf, ChopsWhatItsNameSaysBothWays) {
   using S = TypeParam;
-  constexpr int ticks = 16;  // a sector's
+  constexpr int ticks = 16;  // per sector
   for (const PwmPattern pattern : all)
     for (const bool backward : {false, true}) {
       const Turning rotor{backward};
@@ -57,8 +57,7 @@ TYPED_TEST(PwmPatternOf, ChopsWhatItsNameSaysBothWays) {
         for (int k = 0; k <= ticks; ++k) {
           if (k > 0) move_in_sector(config, state, rotor.sector(n), backward ? S(-0.5) : S(0.5));
           const ChoppedSwitch chopped = chopped_switch(config, state, rotor.sector(n), rotor.pair(n));
-          const bool begun =
-              rotor.pair(n - 1).source == rotor.pair(n).source;  // of the first sector too: it came that way
+          const bool begun = rotor.pair(n - 1).source == rotor.pair(n).source;  // in the first sector too
           if (pattern == PwmPattern::pwm_on_pwm && is_fixed<S> && k == ticks / 2)
             continue;  // a digit early or late
           EXPECT_EQ(chopped == ChoppedSwitch::upper, chops(pattern, true, begun, k >= ticks / 2))
@@ -68,7 +67,7 @@ TYPED_TEST(PwmPatternOf, ChopsWhatItsNameSaysBothWays) {
     }
 }
 
-/// A motor that is braked is driven against its way: the pair's roles swap, the leg that stays is the same one.
+/// A braked motor is driven against its rotation: the pair's roles swap, and the staying leg remains the same.
 TEST(PwmPattern, ACommandOfTheOtherSignKeepsTheLeg) {
   const PwmPatternConfig<double> config{PwmPattern::on_pwm, 0.0};
   PwmPatternState<double> state;
@@ -81,7 +80,7 @@ TEST(PwmPattern, ACommandOfTheOtherSignKeepsTheLeg) {
   }
 }
 
-/// Over a turn every switch is chopped for as long as the next: what warms one more than another is left to upper and lower.
+/// Every switch is chopped for the same time over a turn: only the patterns upper and lower heat some switches more.
 TEST(PwmPattern, ShareTheChoppingAmongSixSwitches) {
   for (const PwmPattern pattern : {PwmPattern::pwm_on, PwmPattern::on_pwm, PwmPattern::pwm_on_pwm}) {
     const Turning rotor;
@@ -99,7 +98,7 @@ TEST(PwmPattern, ShareTheChoppingAmongSixSwitches) {
   }
 }
 
-/// The Hall interrupt starts the sector's first half; a pattern that goes by nothing leaves the command as it is.
+/// The Hall interrupt starts the sector's first half; a fixed pattern leaves the command unchanged.
 TEST(PwmPattern, TheDriveHasItAtTicksAndInTheInterrupt) {
   DriveConfig<double> config{.mode = Mode::duty};
   config.extras.on = true;

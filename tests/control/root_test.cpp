@@ -35,7 +35,7 @@ template <class Scalar>
 class Circle : public ::testing::Test {};
 TYPED_TEST_SUITE(Circle, SensingScalars);
 
-/// Fixed point cuts off to a digit; floating point rounds a handful of times.
+/// The tolerance is a digit for the truncation in fixed point, and a few roundings in floating point.
 template <class Scalar>
 double allowed(double value) {
   return is_fixed<Scalar> ? digit<Scalar>() : 4 * digit<Scalar>() * value;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scalars that typed tests of control blocks run with, and their resolution.
+// The scalars for typed tests of control blocks, and their resolution.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace sixstep::control {
 
 using Scalars = testing::Types<double, float, Q14, Q30>;
 
-/// With those whose largest number is below 1: decoders reach it, at half a turn and at a quarter's sine.
+/// Scalars that include those with a largest number below 1: decoders reach it, at half a turn and at the sine's peak.
 using SensingScalars = testing::Types<double, float, Q15, Q14, Q31, Q30>;
 
 template <class Scalar>
@@ -27,7 +27,7 @@ constexpr double digit() {
     return std::numeric_limits<Scalar>::epsilon();
 }
 
-/// A gain that takes counts to signals: raw digits in fixed point.
+/// A gain from counts to signals: raw digits in fixed point.
 template <class Scalar>
 constexpr Gain<Scalar> per_count(double signal) {
   if constexpr (is_fixed<Scalar>)
@@ -36,7 +36,7 @@ constexpr Gain<Scalar> per_count(double signal) {
     return static_cast<Gain<Scalar>>(signal);
 }
 
-/// A PI by d1 and K_i = d0 + d1 per sample: floating point keeps d0, fixed point K_i (pi.hpp).
+/// A PI from d1 and K_i = d0 + d1 per sample: floating point stores d0, fixed point K_i (pi.hpp).
 template <class Scalar>
 PiConfig<Scalar> pi(double d1, double K_i, double limit) {
   if constexpr (is_fixed<Scalar>)

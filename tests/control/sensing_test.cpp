@@ -19,7 +19,7 @@ template <class Scalar>
 class Sensing : public ::testing::Test {};
 TYPED_TEST_SUITE(Sensing, Scalars);
 
-/// 12 bits, 0.0005 per count around 2048.
+/// The converter has 12 bits, 0.0005 per count around 2048.
 template <class S>
 AdcConfig<S> adc() {
   return {per_count<S>(0.0000625), 2048, 20, 4};
@@ -28,7 +28,7 @@ AdcConfig<S> adc() {
 TYPED_TEST(Sensing, CountsBecomeSignalsAroundTheMeasuredOffset) {
   using S = TypeParam;
   AdcState state;
-  // 16-bit formats round the gain to 2^-15 of itself and the product to a digit.
+  // The rounding in 16-bit formats is 2^-15 of the gain itself, and a digit of the product.
   const double near = digit<S>() + std::ldexp(1.0, -15) * (is_fixed<S> ? 1 : 0);
   EXPECT_NEAR(static_cast<double>(adc_value(adc<S>(), state, 2148)), 0.05, near) << "the circuit's offset";
   for (int n = 0; n < 15; ++n)
@@ -73,7 +73,7 @@ TYPED_TEST(Sensing, OneShuntShowsTheDrivenCurrentInTheOnTimeOnly) {
       << "the default sees nothing";
 }
 
-/// Exponential commutation: the incoming phase rises to the kept current. i_m is the mean of both.
+/// The commutation is exponential: the incoming phase rises to the constant current. i_m is the mean of both.
 TYPED_TEST(Sensing, OneShuntCorrectsForTheIncomingPhase) {
   using S = TypeParam;
   OneShuntState<S> state;
@@ -103,7 +103,7 @@ TYPED_TEST(Sensing, PhaseCurrentsOfAPairGiveBackTheMotorCurrent) {
 
 TYPED_TEST(Sensing, DerivativeOfARampSettlesAtItsSlopeWithTheFilterTimeConstant) {
   using S = TypeParam;
-  // b = T_s/(T_f + T_s) = 1/8; a ramp of r per sample settles at g r/b.
+  // The filter has b = T_s/(T_f + T_s) = 1/8; a ramp of r per sample settles at g r/b.
   const DerivativeConfig<S> config{Gain<S>(4.0), Gain<S>(0.125)};
   DerivativeState<S> state;
   const double r = 1.0 / 128;
@@ -111,7 +111,7 @@ TYPED_TEST(Sensing, DerivativeOfARampSettlesAtItsSlopeWithTheFilterTimeConstant)
   for (int n = 1; n <= 64; ++n) {
     const S seen = ScalarTraits<S>::signal(derivative_step(config, state, S(0.25 + r * n)));
     const double y = static_cast<double>(seen);
-    // y[n] = g r (1 - (1-b)^n)/b. Fixed point rounds the fed-back y to a digit: at most b/2/b of it stays.
+    // The output is y[n] = g r (1 - (1-b)^n)/b. Fixed point rounds the fed-back y to a digit: at most b/2/b of it remains.
     EXPECT_NEAR(y, 32 * r * (1 - std::pow(0.875, n)), 2 * digit<S>()) << n;
   }
 }
@@ -119,7 +119,7 @@ TYPED_TEST(Sensing, DerivativeOfARampSettlesAtItsSlopeWithTheFilterTimeConstant)
 TYPED_TEST(Sensing, ADerivativeMayExceedTheSignalItIsTakenOff) {
   using S = TypeParam;
   using T = ScalarTraits<S>;
-  // 0.4 per sample for four samples at g/b = 16: towards 6.4, three times and more what a signal holds.
+  // The input rises by 0.4 per sample for four samples at g/b = 16: the output tends to 6.4, more than three times a signal's range.
   const DerivativeConfig<S> config{Gain<S>(8.0), Gain<S>(0.5)};
   DerivativeState<S> state;
   double exact = 0;
@@ -127,7 +127,7 @@ TYPED_TEST(Sensing, ADerivativeMayExceedTheSignalItIsTakenOff) {
   for (int n = 1; n <= 4; ++n) {
     exact = exact / 2 + 8 * 0.4;
     const Accumulator<S> y = derivative_step(config, state, S(-0.8 + 0.4 * n));
-    // A quarter of it is a signal again. Each x is half a digit off, which g takes to four.
+    // A quarter of it is within the signal's range again. The error of each x is half a digit, which g multiplies to four.
     EXPECT_NEAR(4 * static_cast<double>(T::signal(T::share(y, Gain<S>(0.25)))), exact, 20 * digit<S>()) << n;
   }
   EXPECT_GT(exact, 5.9);

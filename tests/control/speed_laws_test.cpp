@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The speed controllers beside the PI, on the mechanical plant as it is sampled: poles, reaching, loads and limits in closed
-// form.
+// The speed controllers other than the PI, on the sampled mechanical plant: poles, reaching, loads and limits in closed form.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +16,7 @@ using namespace sixstep::control;
 template <class S>
 class SpeedLaws : public ::testing::Test {
  public:
-  /// So many roundings of numbers up to `largest`.
+  /// The effect of `count` roundings of numbers up to `largest`.
   static double roundings(double largest, int count) {
     return count * largest * static_cast<double>(std::numeric_limits<S>::epsilon());
   }
@@ -25,7 +24,7 @@ class SpeedLaws : public ::testing::Test {
 using Floating = ::testing::Types<double, float>;
 TYPED_TEST_SUITE(SpeedLaws, Floating);
 
-// t[n] = c t[n-1] + (1 - c) u[n], w[n+1] = a w[n] + b (t[n] - l)
+// The plant is t[n] = c t[n-1] + (1 - c) u[n], w[n+1] = a w[n] + b (t[n] - l).
 constexpr double a = 0.998, b = 0.5, c = 0.625, p = 0.97, z_o = 0.875;
 constexpr double g = b * c / (a - c), B = (b + g) * (1 - c);
 
@@ -35,7 +34,7 @@ ObservedSpeedConfig<S> observed() {
           S((a - p) / B), S((1 - a) / b), S(g)};
 }
 
-/// The drive's shaft with a controller at it.
+/// The drive's shaft with a controller.
 template <class S>
 struct Bench {
   ObservedSpeedConfig<S> config = observed<S>();
@@ -53,7 +52,7 @@ TYPED_TEST(SpeedLaws, ObservedSpeedFollowsItsSetpointWithTheOnePoleOfTheRegulato
   using S = TypeParam;
   Bench<S> bench;
   const S r = 10;
-  const S h_end = r + S(g) * S((1 - a) / b) * r;  // w + g t where it stands
+  const S h_end = r + S(g) * S((1 - a) / b) * r;  // w + g t at the end
   S before = h_end;
   for (int n = 0; n < 200; ++n) {
     bench.tick(r);
@@ -64,8 +63,8 @@ TYPED_TEST(SpeedLaws, ObservedSpeedFollowsItsSetpointWithTheOnePoleOfTheRegulato
   EXPECT_NEAR(bench.w, 10 * (1 - std::pow(p, 200)), 0.2);
 }
 
-/// What a load does to the speed has the poles p, c and twice z_o, and nothing is left of it: the polynomial with these roots makes 0 of
-/// the course.
+/// The speed's response to a load has the poles p, c and twice z_o, and decays to zero: the polynomial with these roots, applied to the
+/// response, gives 0.
 TYPED_TEST(SpeedLaws, ObservedSpeedAnswersALoadWithThePolesThatWerePlaced) {
   using S = TypeParam;
   Bench<S> bench;
@@ -104,8 +103,8 @@ TYPED_TEST(SpeedLaws, ObservedSpeedHoldsItsSetpointWhateverTheModelLacks) {
   EXPECT_NEAR(bench.w, 20.0, this->roundings(20, 100));
 }
 
-/// While the limit cuts, the observer sees the torque that is left, and with it the load alone; out of the limit it is a drive that never
-/// was in it.
+/// The observer at the limit uses the limited torque, and so estimates the load alone. After leaving the limit the drive behaves as if it
+/// had never been there.
 TYPED_TEST(SpeedLaws, ObservedSpeedDoesNotWindUp) {
   using S = TypeParam;
   Bench<S> bench;
@@ -113,7 +112,7 @@ TYPED_TEST(SpeedLaws, ObservedSpeedDoesNotWindUp) {
   bench.high = S(0.5);
   bench.low = S(-0.5);
   for (int n = 0; n < 2000; ++n) {
-    bench.tick(S(1000));  // 0.25 b/(1 - a) = 62.5 are in reach
+    bench.tick(S(1000));  // 0.25 b/(1 - a) = 62.5 is the highest speed
     ASSERT_LE(bench.u, S(0.5));
   }
   EXPECT_EQ(bench.u, S(0.5));
@@ -129,7 +128,7 @@ TYPED_TEST(SpeedLaws, ObservedSpeedDoesNotWindUp) {
   EXPECT_LT(over, this->roundings(63, 100)) << "and no further than asked for";
 }
 
-/// The extended state observer and controller as Miklosovic, Radke and Gao write them, b_0 and T by themselves.
+/// The extended state observer and controller in the form of Miklosovic, Radke and Gao, with b_0 and T separate.
 TYPED_TEST(SpeedLaws, WithoutFrictionAndLagItIsLinearActiveDisturbanceRejection) {
   using S = TypeParam;
   const double T = 1.0 / 32768, b_0 = b / T, w_c = (1 - p) / T;
@@ -140,7 +139,7 @@ TYPED_TEST(SpeedLaws, WithoutFrictionAndLagItIsLinearActiveDisturbanceRejection)
   config.L_l = S((1 - z_o) * (1 - z_o) / b);
   config.K = S((1 - p) / b);
   ObservedSpeedState<S> state{};
-  double z_1 = 0, z_2 = 0;  // foretold
+  double z_1 = 0, z_2 = 0;  // predicted values
   std::mt19937 random{20261125};
   std::uniform_real_distribution<double> drawn(-1.0, 1.0);
   double y = 0.0;
@@ -167,7 +166,7 @@ TYPED_TEST(SpeedLaws, ObservedSpeedBeginsWhereTheShaftIs) {
   EXPECT_NEAR(bench.u, 0.0, this->roundings(1, 20));
 }
 
-// q = 1 - p; on the surface the pole is z_o.
+// The law has q = 1 - p; on the surface the pole is z_o.
 template <class S>
 SlidingSpeedConfig<S> sliding(double reach) {
   return {S(1 - p), S((1 - p) / b), S(reach), S(reach * b / (1 - z_o))};
@@ -197,7 +196,7 @@ TYPED_TEST(SpeedLaws, SlidingSpeedFollowsItsSetpointOnTheSurface) {
   }
 }
 
-/// From s_0 beyond the layer by b (R - l) a sample.
+/// The state moves from s_0 towards the layer by b (R - l) a sample.
 TYPED_TEST(SpeedLaws, SlidingSpeedReachesItsLayerInTheTimeOfItsLaw) {
   using S = TypeParam;
   for (const double load : {0.0, 0.25, -0.25}) {
@@ -209,7 +208,7 @@ TYPED_TEST(SpeedLaws, SlidingSpeedReachesItsLayerInTheTimeOfItsLaw) {
     bench.state.m = w_0 + S(s_0);
     const double layer = 0.5 * b / (1 - z_o), per_sample = b * (0.5 - load);
     const int due = static_cast<int>(std::ceil((s_0 - layer) / per_sample));
-    // Held at the speed where it began, no error adds to it.
+    // The setpoint equals the speed, so that no error adds to it.
     int n = 0;
     for (; bench.surface() > S(layer) && n < 1000; ++n) {
       const S s = bench.surface();
@@ -220,7 +219,7 @@ TYPED_TEST(SpeedLaws, SlidingSpeedReachesItsLayerInTheTimeOfItsLaw) {
   }
 }
 
-/// In the layer s[n+1] = z_o s[n] + b l, and where it rests the switching part is the load.
+/// The surface in the layer follows s[n+1] = z_o s[n] + b l; at rest the switching part equals the load.
 TYPED_TEST(SpeedLaws, SlidingSpeedBearsALoadWithoutAnErrorThatStays) {
   using S = TypeParam;
   SlidingBench<S> bench{sliding<S>(0.5)};
@@ -228,7 +227,7 @@ TYPED_TEST(SpeedLaws, SlidingSpeedBearsALoadWithoutAnErrorThatStays) {
   for (int n = 0; n < 40; ++n) {
     const S s = bench.state.started ? bench.surface() : S(0), error = -bench.w;
     bench.tick(S(0));
-    // u has q e/b beside, which the surface gives back.
+    // The output u also contains q e/b, which the surface subtracts again.
     ASSERT_NEAR(bench.surface(), z_o * static_cast<double>(s) + b * 0.4, this->roundings(4, 20))
         << n << " " << error;
   }
@@ -238,8 +237,8 @@ TYPED_TEST(SpeedLaws, SlidingSpeedBearsALoadWithoutAnErrorThatStays) {
   EXPECT_NEAR(bench.surface(), 0.4 * b / (1 - z_o), this->roundings(4, 200));
 }
 
-/// Far from its setpoint: full torque until it takes q e of the error e a sample, and up to q/(1 - z_o) of that error sooner, since the
-/// surface is not left at once; then along the surface.
+/// The drive starts far from its setpoint: full torque until it removes q e of the error e a sample, and up to q/(1 - z_o) of that error
+/// sooner, because the surface is not left at once; then along the surface.
 TYPED_TEST(SpeedLaws, SlidingSpeedDoesNotWindUp) {
   using S = TypeParam;
   SlidingBench<S> bench{sliding<S>(1.0)};
@@ -256,7 +255,7 @@ TYPED_TEST(SpeedLaws, SlidingSpeedDoesNotWindUp) {
   }
   EXPECT_LT(most, 200 + b) << "no further than a sample";
   EXPECT_NEAR(bench.w, 200.0, this->roundings(200, 200));
-  // A load beyond what it bears: the speed gives way, and nothing piles up meanwhile.
+  // The load exceeds the law's reach: the speed falls, and no integral accumulates.
   bench.config.reach = S(0.5);
   bench.config.layer = S(0.5 * b / (1 - z_o));
   bench.load = S(0.75);
@@ -291,7 +290,7 @@ DriveConfig<S> speed_drive(SpeedLaw law) {
   return d;
 }
 
-/// Between any two laws: at no error the torque stays what it is.
+/// A change between any two laws keeps the torque at zero error.
 TYPED_TEST(SpeedLaws, AnotherLawBeginsWithTheTorqueOfTheOneBefore) {
   using S = TypeParam;
   const SpeedLaw all[] = {SpeedLaw::pi, SpeedLaw::positional, SpeedLaw::observed, SpeedLaw::sliding};
@@ -303,7 +302,7 @@ TYPED_TEST(SpeedLaws, AnotherLawBeginsWithTheTorqueOfTheOneBefore) {
       Measurement<S> m{};
       m.hall = 0b101;
       m.speed_rad_s = S(50);
-      // As far as the shaft's own course matters: it loses speed until the law has found the torque that holds it.
+      // The shaft loses speed until the law has reached the torque that holds it.
       for (int n = 0; n < 40000; ++n) {
         step(config, state, m, {S(50)}, telemetry);
         const S t = telemetry.current_reference_A / S(10);
@@ -317,7 +316,7 @@ TYPED_TEST(SpeedLaws, AnotherLawBeginsWithTheTorqueOfTheOneBefore) {
     }
 }
 
-/// K (b r - y) + I: with b = 0 a step of the setpoint moves the integral alone, K_i (r - y) a sample.
+/// The output is K (b r - y) + I: with b = 0 a step of the setpoint acts only through the integral, K_i (r - y) a sample.
 TYPED_TEST(SpeedLaws, ASetpointWeightTakesTheKickOffASetpoint) {
   using S = TypeParam;
   for (const double weight : {0.0, 0.5, 1.0}) {
@@ -334,8 +333,8 @@ TYPED_TEST(SpeedLaws, ASetpointWeightTakesTheKickOffASetpoint) {
   }
 }
 
-/// A pole pair of an integrator without zero: T = b K_i/(z^2 - (2 - b K) z + 1 - b K + b K_i) does not overshoot where the poles are real,
-/// while the PI of the same poles does.
+/// An integrator with a pole pair and no zero, T = b K_i/(z^2 - (2 - b K) z + 1 - b K + b K_i), does not overshoot with real poles; the PI
+/// with the same poles does.
 TYPED_TEST(SpeedLaws, AnIPControllerDoesNotOvershootWhereThePiDoes) {
   using S = TypeParam;
   const double pole = 0.95, K = (2 - 2 * pole) / b, K_i = (1 - pole) * (1 - pole) / b;
@@ -352,7 +351,7 @@ TYPED_TEST(SpeedLaws, AnIPControllerDoesNotOvershootWhereThePiDoes) {
       step(config, state, m, {S(2)}, telemetry);
       m.speed_rad_s = m.speed_rad_s + S(b) * telemetry.current_reference_A / S(10);
       most = std::fmax(most, static_cast<double>(m.speed_rad_s));
-      // A double pole's step response without zero.
+      // The step response of a double pole without zero.
       if (weight == 0.0) {
         ASSERT_NEAR(m.speed_rad_s, 2 * (1 - (1 + n * (1 - pole)) * std::pow(pole, n)),
                     this->roundings(2, 2000))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Deadbeat current control on a winding with held voltage, which it predicts: reached in one period after its answer begins,
-// and what is known in closed form of a model that is off.
+// Deadbeat current control on a winding with held voltage. The current reaches its reference one period after the answer takes effect; the
+// error of a wrong model has a closed form.
 #include "sixstep/design/loops/deadbeat.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using namespace sixstep::control;
 constexpr double R = 1.03, L = 0.572e-3, T = 30e-6;
 constexpr design::DeadbeatSpec spec{.R_ohm = R, .L_H = L, .K_t_Nm_A = 0.0335, .period_s = T, .limit_V = 24.0};
 
-/// The winding itself, of any inductance, over `time_s`.
+/// The winding itself, with any inductance, over `time_s`.
 double winding(double i, double u_minus_e, double time_s, double L_H = L) {
   const double a = std::exp(-R * time_s / L_H);
   return a * i + (1 - a) / R * u_minus_e;
@@ -30,14 +30,14 @@ DeadbeatConfig<double> config_of(double wait_periods, double correction = design
   return design::deadbeat(s)->config;
 }
 
-/// A drive of this loop and that winding: what was answered takes effect `wait` periods after the sample.
+/// A drive of this loop and that winding: the answer takes effect `wait` periods after the sample.
 struct Loop {
   DeadbeatConfig<double> config;
   double wait, L_H = L;
   DeadbeatState<double> state{};
   double i = 0, in_effect = 0;
 
-  /// From this sample to the next.
+  /// Advances from one sample to the next.
   double tick(double reference, double e, double speed = 0) {
     const double before = in_effect;
     in_effect = deadbeat_step(config, state, reference, i, speed);
@@ -48,11 +48,11 @@ struct Loop {
 };
 
 TEST(Deadbeat, ReachesItsReferenceOnePeriodAfterTheAnswerBegins) {
-  const double e = spec.K_t_Nm_A * 200;  // at 200 rad/s, which it knows
+  const double e = spec.K_t_Nm_A * 200;  // at 200 rad/s, which the loop measures
   for (const double wait : {0.0, 1.0}) {
     Loop loop{config_of(wait), wait};
     for (int n = 0; n < 40; ++n) loop.tick(0.0, e, 200);
-    ASSERT_NEAR(loop.i, 0.0, 1e-3);  // what the first tick, which knew of no voltage in effect, has left
+    ASSERT_NEAR(loop.i, 0.0, 1e-3);  // error of the first tick, which had no previous voltage
     loop.state.missed = 0;
     loop.i = 0;
     loop.in_effect = loop.state.u = e;
@@ -70,7 +70,7 @@ TEST(Deadbeat, ReachesItsReferenceOnePeriodAfterTheAnswerBegins) {
 TEST(Deadbeat, AnAnswerHalfAPeriodAfterItsSampleReachesItWhereThePeriodEnds) {
   Loop loop{config_of(0.5), 0.5};
   loop.tick(0.8, 0.0);
-  // Its voltage holds half a period more, into the next interval between samples.
+  // Its voltage holds for half a period more, after the next sample.
   EXPECT_NEAR(winding(loop.i, loop.in_effect, 0.5 * T), 0.8, 1e-12);
 }
 
@@ -82,7 +82,7 @@ TEST(Deadbeat, OfAVoltageThatTheModelLacksAPartIsLeftAtEachSample) {
 }
 
 TEST(Deadbeat, AnInductanceOffByMPutsThePoleAtOneMinusOneOverM) {
-  // Without correction, and R so small that the decay says nothing.
+  // The loop has no correction, and R is so small that the decay is negligible.
   for (const double m : {0.55, 0.8, 1.25, 2.0}) {
     design::DeadbeatSpec s = spec;
     s.R_ohm = 1e-9;
@@ -110,7 +110,8 @@ TEST(Deadbeat, WhatTheLimitCutsOffIsForeseenAndNothingWindsUp) {
     before = loop.i;
     ++ticks;
   }
-  // i(t) = U/R (1 - exp(-R t/L)) at full voltage: that many periods, the last one shortened, and the wait.
+  // The current at full voltage is i(t) = U/R (1 - exp(-R t/L)): the ticks are that number of periods, the last one shortened, plus the
+  // wait.
   const double least = -L / R * std::log1p(-10.0 * R / 24.0) / T;
   EXPECT_EQ(ticks, static_cast<int>(std::ceil(least)) + 1);
 }
@@ -130,8 +131,8 @@ template <class Scalar>
 class DeadbeatScalars : public ::testing::Test {};
 TYPED_TEST_SUITE(DeadbeatScalars, Scalars);
 
-/// In parts of 40 A, 60 V and 1500 rad/s: each format follows the double one as far as its digits tell. The current that comes back
-/// is the winding's, so that errors do not add up beyond what one tick makes: its roundings, times 1/b in volts.
+/// The bases are 40 A, 60 V and 1500 rad/s: each format follows double within its digits. The measured current is the winding's, so that
+/// errors stay those of one tick: its roundings, times 1/b in volts.
 TYPED_TEST(DeadbeatScalars, FollowsTheDoubleOne) {
   using S = TypeParam;
   constexpr double A = 40, V = 60, W = 1500;
@@ -155,8 +156,8 @@ TYPED_TEST(DeadbeatScalars, FollowsTheDoubleOne) {
                               static_cast<S>(200.0 / W));
     i = winding(i, in_effect - e, T);
     in_effect = static_cast<double>(u) * V;
-    // Of 0.7 V that the model lacks each tick leaves 3/4, and two ticks' worth of it, b apiece, is in the current; else rounding,
-    // a few digits of a current each tick.
+    // Each tick leaves 3/4 of the 0.7 V that the model lacks; the current contains two ticks of it, b each. The remaining error is
+    // rounding, a few digits of a current each tick.
     const double unknown = 0.7 / d.V_per_A * (1 + 4.0 / 3) * std::pow(0.75, n - 1);
     if (n % 100 >= 60) {
       EXPECT_NEAR(i, reference, 8 * digit<S>() * A + unknown) << n;

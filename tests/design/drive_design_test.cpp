@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole drives: the loops with what lies within against a simulation written out, the poles that were placed,
-// the warnings that must and must not come.
+// Whole drives: each loop with its inner loops against an explicit simulation, the placed poles, and required and absent warnings.
 #include "sixstep/design/loops/drive_design.hpp"
 #include "sixstep/base/angle.hpp"
 
@@ -43,26 +42,25 @@ TEST(DriveDesign, PlacesTheThesissPoles) {
   EXPECT_NEAR(d.loop("speed").gains.d1, 0.0158299, 0.5e-7);
   for (const LoopDesign& loop : d.loops) {
     ASSERT_TRUE(loop.placed);
-    // (z - 1)(z + a0) + b0 (d1 z + d0) at the placed pole
+    // The polynomial is (z - 1)(z + a0) + b0 (d1 z + d0) at the placed pole.
     using C = std::complex<double>;
     const C z{loop.placed->z_re, loop.placed->z_im};
     const C value =
         (z - 1.0) * (z + loop.placed->plant.a0) + loop.placed->plant.b0 * (loop.gains.d1 * z + loop.gains.d0);
     EXPECT_LE(std::abs(value), 1e-12);
   }
-  // The current loop is what was placed, so its closed denominator is the wanted polynomial.
+  // The current loop has placed poles, so its closed denominator is the wanted polynomial.
   const Polynomial den = closed(d.loop("current").loop).den;
   const PolePlacement& p = *d.loop("current").placed;
   EXPECT_NEAR(den[1], 2 - 2 * p.z_re, 1e-12);  // (z - z1)(z - z2) in powers of z - 1
   EXPECT_NEAR(den[0], (1 - p.z_re) * (1 - p.z_re) + p.z_im * p.z_im, 1e-12);
 }
 
-/// The cascade as a program: current and speed of the motor in small steps of the exact solution would need
-/// an exponential; here Runge and Kutta with 50 steps a period, whose error is far below what is asked.
+/// The cascade as a program, with Runge-Kutta in 50 steps a period for the motor's current and speed. Its error is far below the tolerance.
 std::vector<double> simulated(const DriveDesign& d, double position_gain, std::size_t count) {
   const double R = 1.03, L = 0.572e-3, K = 0.0335, J = 1.35e-5, B = 7.3e-6, T = d.spec.period_s;
   double i = 0, w = 0, theta = 0, e1 = 0, y = 0, e2 = 0;
-  double asked[3] = {0, 0, 0};  // volts: of this sample, of the one before and of the one before that
+  double asked[3] = {0, 0, 0};  // volts: of this sample and of the two before
   std::vector<double> out;
   for (std::size_t k = 0; k < count; ++k) {
     out.push_back(position_gain > 0 ? theta * 180 / 3.14159265358979324 : w);
@@ -78,7 +76,7 @@ std::vector<double> simulated(const DriveDesign& d, double position_gain, std::s
     constexpr int steps = 50;
     for (int n = 0; n < steps; ++n) {
       const double h = T / steps;
-      // A sample in the middle of a period: until that ends, what was asked for before acts on.
+      // A sample lies in the middle of a period: until the period's end the previous voltage acts.
       const bool before = d.spec.sampled_in_middle && n < steps / 2;
       const double u = asked[d.spec.delay_periods + (before ? 1 : 0)];
       const auto di = [&](double ii, double ww) { return (u - R * ii - K * ww) / L; };
@@ -105,7 +103,7 @@ TEST(DriveDesign, TheClosedLoopsAreTheCascadeWrittenOut) {
                                          300 * d.spec.period_s),
                        theta = step_response(closed(d.loop("position").loop), d.spec.period_s,
                                              300 * d.spec.period_s);
-    // The K of Runge's and Kutta's error is (h R/L)^4, 1e-12 a period; 300 periods and a sum of angles.
+    // The error of Runge-Kutta is (h R/L)^4, 1e-12 a period; it adds over 300 periods and in the angle's sum.
     for (std::size_t k = 0; k < 300; ++k) {
       ASSERT_NEAR(w.samples[k], speed[k], 1e-9) << k;
       ASSERT_NEAR(theta.samples[k], position[k], 1e-9) << k;
@@ -113,8 +111,8 @@ TEST(DriveDesign, TheClosedLoopsAreTheCascadeWrittenOut) {
   }
 }
 
-/// A locked rotor of 1.03 ohm and 0.572 mH, 30 us, a step of 2 A: i' = a_h (a_h i + b_h u_first) + b_h u_then, with a_h over half a
-/// period. From the middle of a period on the volts of a sample act in the second half of what lies between it and the next.
+/// A locked rotor of 1.03 ohm and 0.572 mH, 30 us, a step of 2 A: i' = a_h (a_h i + b_h u_first) + b_h u_then, with a_h over half a period.
+/// A sample in the middle of a period has its voltage in the second half of the interval to the next sample.
 double overshoot_of_recurrence_A(const PiGains& g, int delay_periods, bool middle) {
   const double a = std::exp(-1.03 * 15e-6 / 0.572e-3), b = (1 - a) / 1.03;
   double i = 0, before = 0, highest = 0, volts[3] = {0, 0, 0};
@@ -147,7 +145,7 @@ TEST(DriveDesign, ASampleInTheMiddleMakesTheLoopHalfAPeriodLater) {
   }
 }
 
-/// A delay takes w times it of the phase at the crossover, and the crossover hardly moves: half a period lies between none and one.
+/// A delay costs w times itself in phase at the crossover, which hardly changes: half a period costs half as much as one.
 TEST(DriveDesign, HalfAPeriodCostsHalfThePhaseOfOne) {
   const DriveDesign start = designed({.mode = Mode::current, .delay_periods = 1});
   const DriveDesign middle = designed({.mode = Mode::current, .delay_periods = 1, .sampled_in_middle = true});
@@ -157,7 +155,7 @@ TEST(DriveDesign, HalfAPeriodCostsHalfThePhaseOfOne) {
   EXPECT_NEAR(*start.sooner(s).phase_rad - *middle.sooner(m).phase_rad, half, 0.04 * half);
   EXPECT_EQ(late_words(middle.spec.late_periods()), "1.5 periods late");
   EXPECT_EQ(late_words(middle.spec.sooner_periods()), "half a period late");
-  // The longest period, as it is told of a sample at the start too: 45 degrees are left there.
+  // 45 degrees of phase remain at the longest period, as reported for a sample at the start too.
   const DriveDesign longest = designed({.mode = Mode::current,
                                         .period_s = middle.longest_period_s,
                                         .delay_periods = 1,
@@ -166,7 +164,7 @@ TEST(DriveDesign, HalfAPeriodCostsHalfThePhaseOfOne) {
   EXPECT_LT(middle.longest_period_s, start.longest_period_s);
 }
 
-/// A duty of hard chopping moves the voltage twice as far: half the gains make the same loops, whatever the rule.
+/// A duty of hard chopping changes the voltage twice as much: half the gains give the same loops, for each rule.
 TEST(DriveDesign, HardChoppingTakesHalfTheGains) {
   for (const GainMethod method :
        {GainMethod::pole_placement, GainMethod::cancellation, GainMethod::symmetrical_optimum}) {
@@ -258,7 +256,7 @@ TEST(DriveDesign, WarnsOfWhatIsOffAndOfNothingElse) {
                     "times the frequency"));
   EXPECT_TRUE(warns(designed({.mode = Mode::current, .settle_s = 0.25e-3}), "asks for"));
   EXPECT_TRUE(warns(designed({.mode = Mode::current, .period_s = 60e-6}), "ripple"));
-  // A ripple of more than the nominal current is grave, and the chokes that are named leave a fifth, however short L/R is.
+  // A ripple above the nominal current is grave, and the named chokes reduce it to a fifth, for any short L/R.
   for (const double period_s : {10e-6, 1e-3}) {
     MotorModel bare = thesis_motor();
     bare.machine.L_H /= 40;
@@ -284,11 +282,11 @@ TEST(DriveDesign, AsksForWhatTheMotorStandsWhereNobodySaid) {
   MotorModel motor = thesis_motor();
   motor.nominal_current_A = 2.33;
   EXPECT_DOUBLE_EQ(design_drive(motor, {.mode = Mode::speed})->current_at_full_torque_A, 2.5 * 2.33);
-  // Without a printed current a tenth of the stall current, 24/1.03/10 A, and the design says so.
+  // The current without a printed one is a tenth of the stall current, 24/1.03/10 A, and the design is marked so.
   const auto silent = design_drive(thesis_motor(), {.mode = Mode::speed});
   EXPECT_FALSE(silent->nominal_printed);
   EXPECT_DOUBLE_EQ(silent->current_at_full_torque_A, 2.5 * 24 / 1.03 / 10);
-  // No more than the bus drives through the held rotor.
+  // The current is at most that of the whole bus through the held rotor.
   motor.nominal_current_A = 20.0;
   EXPECT_DOUBLE_EQ(design_drive(motor, {.mode = Mode::speed})->current_at_full_torque_A, 24 / 1.03);
 }
@@ -307,8 +305,8 @@ TEST(DriveDesign, TakesNoFasterSpeedLoopThanItsSensorStands) {
   const DriveDesign slow = designed(open);
   open.rotor.edges = 1;
   const DriveDesign quick = designed(open);
-  // Six edges at 100 rad/s are 3.5 sectors of 1.309 ms old, one edge is one: settling times in that ratio but
-  // for what the current loop costs.
+  // The delay at 100 rad/s is 3.5 sectors of 1.309 ms with six edges and one sector with one edge. The settling times have that ratio,
+  // apart from the current loop's part.
   EXPECT_NEAR(slow.lag.delay_s(), 3.5 * base::pi / 3 / 8 / 100, 1e-12);
   EXPECT_NEAR(quick.lag.delay_s(), base::pi / 3 / 8 / 100, 1e-12);
   EXPECT_NEAR(*slow.spec.settle_s / *quick.spec.settle_s, 3.5, 0.35);
@@ -322,7 +320,7 @@ TEST(DriveDesign, TakesNoFasterSpeedLoopThanItsSensorStands) {
   EXPECT_FALSE(warns(designed({.mode = Mode::speed}), "Hall"));
 }
 
-/// Of a loop that its sensor makes unstable no overshoot is told, which would be infinite.
+/// The overshoot of a loop that its sensor makes unstable is infinite and is not printed.
 TEST(DriveDesign, AnUnstableLoopIsCalledSo) {
   DesignSpec spec = on_hall_probes(1, 10e-3);
   spec.settle_s.reset();
@@ -333,8 +331,8 @@ TEST(DriveDesign, AnUnstableLoopIsCalledSo) {
   for (const Warning& w : d.warnings) EXPECT_EQ(w.what.find("inf"), std::string::npos) << w.what;
 }
 
-/// T_max turns J by half the lowest speed in J w_low/(2 T_max) and no sooner: a loop that nobody gives a settling time has as long and
-/// half as long again. A small inertia leaves the thesis's 10 ms.
+/// T_max changes the speed of J by half the lowest speed in J w_low/(2 T_max) at best: the default settling time is 1.5 times that. A small
+/// inertia keeps the thesis's 10 ms.
 TEST(DriveDesign, IsNoFasterThanTorqueAndInertiaAllow) {
   for (const double load_kg_m2 : {0.0, 1e-4, 1e-3, 1e-2}) {
     const DriveDesign d = designed({.mode = Mode::speed, .load_inertia_kg_m2 = load_kg_m2});
@@ -348,7 +346,7 @@ TEST(DriveDesign, IsNoFasterThanTorqueAndInertiaAllow) {
       << "what somebody asks for stays";
 }
 
-/// A fifth of the lowest speed must be left between it and 0.9 (U - R I/2)/K_t, I what the torque limit asks for or the nominal current.
+/// The lowest speed must lie a fifth below 0.9 (U - R I/2)/K_t, where I is the torque limit's or the nominal current.
 TEST(DriveDesign, RefusesALowestSpeedWithoutRoomAboveIt) {
   MotorModel motor = thesis_motor();
   motor.nominal_current_A = 2.33;
@@ -374,10 +372,10 @@ TEST(DriveDesign, TellsWhatEachWayOfSensingAllows) {
     ASSERT_TRUE(d.limits[n].settle_s);
     EXPECT_DOUBLE_EQ(d.limits[n].lowest_speed_rad_s, (n % 3 == 0 ? 1.0 : n % 3 == 1 ? 2.0 : 5.0) * 100.0);
     if (n % 3 > 0) {
-      EXPECT_LT(*d.limits[n].settle_s, *d.limits[n - 1].settle_s);  // faster where it turns faster
+      EXPECT_LT(*d.limits[n].settle_s, *d.limits[n - 1].settle_s);  // faster at a higher speed
     }
     if (n >= 3 && n < 6) {
-      EXPECT_GT(*d.limits[n].settle_s, *d.limits[n - 3].settle_s);  // six edges after one
+      EXPECT_GT(*d.limits[n].settle_s, *d.limits[n - 3].settle_s);  // six edges instead of one
     }
   }
 }

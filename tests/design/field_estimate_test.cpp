@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the estimator of the magnet's angle is laid out by, against what its header promises.
+// The design values of the estimator of the magnet's angle, against the bounds of its header.
 #include "sixstep/design/loops/field_estimate.hpp"
 
 #include <gmock/gmock.h>
@@ -35,7 +35,7 @@ double number(const control::FixedGain<std::int32_t>& g) {
   return std::ldexp(static_cast<double>(g.mantissa), -g.right);
 }
 
-/// A loop of type 2 stays a/K_a behind an acceleration a.
+/// A loop of type 2 lags an acceleration a by a/K_a.
 TEST(FieldEstimate, FullTorqueLeavesTheAngleFiveDegreesBehind) {
   for (const double I : {2.0, 4.0, 6.0}) {
     FieldEstimateSpec s = spec(true, false);
@@ -57,7 +57,7 @@ TEST(FieldEstimate, TheTrackingLoopStaysBetweenAHundredthAndATwentiethOfTheContr
   }
 }
 
-/// The pulse is within a quarter of the circle and a fifth of the current; what north is told by keeps the saliency's sign.
+/// The pulse is within a quarter of the voltage circle and a fifth of the current; the polarity's criterion keeps the saliency's sign.
 TEST(FieldEstimate, ThePulseIsNoLargerThanWhatIsThere) {
   for (const double I : {0.5, 4.0, 30.0})
     for (const bool along : {false, true}) {
@@ -88,14 +88,14 @@ TEST(FieldEstimate, TheFluxIsFollowedWhereTheBackEmfIsATenthOfTheCircle) {
   EXPECT_NEAR(c.low_rad_s, c.high_rad_s / 2, 1e-12);
   EXPECT_NEAR(c.flux.pull, 1 - std::exp(-4 * c.high_rad_s * T), 1e-12);
   EXPECT_NEAR(c.flux.magnet_Vs, 0.01675 / 8, 1e-15);
-  // An eighth of what the current makes, and the speed it ends at.
+  // The acceleration is an eighth of the current's, and the start ends at the upper speed.
   const double unit = 8 * T / (2 * std::numbers::pi) * std::ldexp(1.0, 48);
   EXPECT_NEAR(static_cast<double>(c.start.step), 0.125 * 1.5 * 0.01675 * 4 / 135e-7 * T * unit, 1.0);
   EXPECT_NEAR(static_cast<double>(c.start.enough), c.high_rad_s * unit, 1.0);
 }
 
-/// A rotor that is pulled behind an axis that speeds up by x of the most torque, against friction of y of it, as a pendulum without
-/// damping: whether it is still taken along when the axis has turned on by 20 turns. Angles in units of the swing's own time.
+/// A rotor behind an axis that accelerates by x of the largest torque, against friction of y of it: a pendulum without damping. True if the
+/// rotor still follows after 20 turns of the axis. Angles are in units of the pendulum's time.
 bool is_taken_along(double x, double y, double before) {
   double behind = -before, axis = 0.0, rotor = 0.0;  // speeds
   constexpr double dt = 1e-3;
@@ -109,7 +109,7 @@ bool is_taken_along(double x, double y, double before) {
   return true;
 }
 
-/// What is promised is below what equal areas allow, and that is where a rotor begins to stay behind.
+/// The promised load is below the limit of the equal-area criterion, above which a rotor loses synchronism.
 TEST(FieldEstimate, TheGreatestLoadThatItStartsAgainstIsToldWithRoomToSpare) {
   const auto out = field_estimate(salient, 0, spec(false, true));
   ASSERT_TRUE(out);

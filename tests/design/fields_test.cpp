@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lists of a configuration's fields name every member that there is.
+// The lists of a configuration's fields name every existing member.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::control;
 
-/// Leaves zeros where it has been.
+/// Sets each visited member to zero.
 struct Clear {
   static constexpr bool when_run(bool) { return true; }
   static constexpr bool when_on(bool) { return true; }
@@ -36,13 +36,13 @@ struct Clear {
 
 #if defined(__GNUC__) && !defined(__clang__)
 
-/// All bytes of its members are 0xff, those between them 0.
+/// Sets all bytes of the members to 0xff and the padding to 0.
 template <class Config>
 void fill(Config& config) {
   std::memset(static_cast<void*>(&config), 0xff, sizeof config);
   __builtin_clear_padding(&config);
 }
-/// Member by member: behind an array of structs GCC 12 clears what lies that array's length before.
+/// Fills each member separately: after an array of structs GCC 12 clears a region of the array's length too early.
 template <class Scalar>
 void fill(FieldDriveConfig<Scalar>& config) {
   std::memset(static_cast<void*>(&config), 0, sizeof config);
@@ -91,7 +91,7 @@ TEST(Fields, AreEveryMemberOfAConfiguration) {
 
 #endif
 
-/// What is told of the loops that no mode runs stays as it is; the flags of extras do not matter.
+/// Values of loops that no mode runs stay as they are; the flags of extras have no effect.
 TEST(Fields, AsFloatTakesThemAll) {
   DriveConfig<double> d;
   d.mode = Mode::speed;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The model that the choice among the legs' states goes by, against closed forms.
+// The model for the selection of the legs' states, against closed forms.
 #include "sixstep/design/loops/finite_set.hpp"
 
 #include <gtest/gtest.h>

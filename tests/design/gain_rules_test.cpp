@@ -20,7 +20,7 @@ TEST(Cancellation, LeavesOnePoleWhereItIsWanted) {
     ASSERT_TRUE(rule);
     const auto [a0, b0] = current_plant(R, L_H, period_s);
     const auto [d1, d0] = rule->gains;
-    // (z - 1)(z + a0) + b0 (d1 z + d0) = (z + a0)(z - exp(-w T))
+    // The polynomial is (z - 1)(z + a0) + b0 (d1 z + d0) = (z + a0)(z - exp(-w T)).
     const double pole = std::exp(-w * period_s);
     EXPECT_NEAR(b0 * d1 + a0 - 1.0, a0 - pole, 8 * eps);
     EXPECT_NEAR(b0 * d0 - a0, -a0 * pole, 8 * eps);
@@ -42,8 +42,7 @@ TEST(Cancellation, IsTheFirmwaresRuleForShortPeriods) {
 TEST(SymmetricalOptimum, HasItsKnownPhaseMargin) {
   EXPECT_NEAR(symmetrical_optimum_phase_rad(2.0) * 180.0 / 3.14159265358979, 36.8698976458440, 1e-12);
   EXPECT_NEAR(symmetrical_optimum_phase_rad(1.0 + std::sqrt(2.0)), 3.14159265358979 / 4, 1e-14);
-  // Against the loop it is meant for: an integrator behind one lag, sampled so fast that the hold hardly
-  // counts.
+  // The intended plant is an integrator with one lag, sampled so fast that the hold is negligible.
   const double J = 1.35e-5, T_max = 0.78, lag = 1e-4, T = lag / 1000;
   for (const double a : {1.5, 2.0, 2.8, 5.0}) {
     const auto rule = symmetrical_optimum(J, T_max, lag, a, T);
@@ -56,7 +55,7 @@ TEST(SymmetricalOptimum, HasItsKnownPhaseMargin) {
         series({{rule->gains.d1 + rule->gains.d0, rule->gains.d1}, {0.0, 1.0}}, sampled(plant, 1, T));
     const LoopFigures f = loop_figures(loop, T);
     ASSERT_TRUE(f.stable && f.phase_rad);
-    // Hold and Euler's integral shift the phase by w_c T/2 each at most: w_c T = 1e-3/a.
+    // Hold and Euler's integral change the phase by at most w_c T/2 each: w_c T = 1e-3/a.
     EXPECT_NEAR(*f.phase_rad, symmetrical_optimum_phase_rad(a), 1e-3 / a);
     EXPECT_NEAR(*f.crossover_rad_s * a * lag, 1.0, 1e-3);
   }

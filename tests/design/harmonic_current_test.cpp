@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shape vector that the drive is given, against closed forms: of the trapezoid, of harmonics, of a table, of a delta.
+// The drive's shape vector, against closed forms for a trapezoid, harmonics, a table and a delta.
 #include "sixstep/design/loops/harmonic_current.hpp"
 
 #include <gtest/gtest.h>
@@ -24,8 +24,8 @@ general::Machine machine_of(general::Shape shape, double K_e = 0.02) {
           .shape = std::move(shape)};
 }
 
-/// In the middle of a sector the trapezoid's vector is a hexagon's inradius, 2/sqrt 3, along q; at its corner 4/3. From the middle
-/// on, d rad, it has gone 4/pi d along the side.
+/// The trapezoid's vector is a hexagon's inradius, 2/sqrt 3, along q in the middle of a sector, and 4/3 at its corner. At d rad from the
+/// middle it has moved 4/pi d along the side.
 TEST(HarmonicShape, OfTheTrapezoidIsAHexagon) {
   const double f1 = 4 / pi * 0.5 / (pi / 6);
   const auto c = harmonic_shape(machine_of({.flat_deg = 120}), 0.02 * f1);
@@ -34,7 +34,7 @@ TEST(HarmonicShape, OfTheTrapezoidIsAHexagon) {
   for (int n = 0; n < control::shape_points; ++n) {
     const double d = n <= 16 ? n * pi / 96 : (n - 32) * pi / 96;
     const double inradius = 2 / std::numbers::sqrt3, along = 4 / pi * d;
-    // The q axis has turned on by d: what is along the side lies by d behind it.
+    // The q axis has turned by d: the part along the side is d behind it.
     EXPECT_NEAR(c.shape[n].q * f1, inradius * std::cos(d) + along * std::sin(d), 1e-12) << n;
     EXPECT_NEAR(c.shape[n].d * f1, inradius * std::sin(d) - along * std::cos(d), 1e-12) << n;
   }
@@ -43,7 +43,8 @@ TEST(HarmonicShape, OfTheTrapezoidIsAHexagon) {
   EXPECT_NEAR(f.copper, f1 * f1 * std::numbers::sqrt3 * pi / 8, 2e-4);
 }
 
-/// cos(theta - 60) is (0, 1) for ever; a fifth of size c turns against it six times, a seventh along with it, a third drops out.
+/// The fundamental cos(theta - 60) is constantly (0, 1). A fifth harmonic of size c rotates against it six times, a seventh with it, a
+/// third vanishes.
 TEST(HarmonicShape, OfHarmonicsIsTheirSequence) {
   const auto sine = harmonic_shape(machine_of({.harmonics = {{1, 1.0}, {3, 0.3}}}), 0.02);
   EXPECT_TRUE(is_sine(sine));
@@ -54,7 +55,7 @@ TEST(HarmonicShape, OfHarmonicsIsTheirSequence) {
   const auto both = harmonic_shape(machine_of({.harmonics = {{1, 1.0}, {5, 0.1}, {7, 0.04}}}), 0.02);
   EXPECT_FALSE(is_sine(both));
   for (int n = 0; n < control::shape_points; ++n) {
-    // Phase a is cos of the angle a quarter turn before the magnet.
+    // Phase a has the cosine of the angle a quarter turn before the magnet.
     const double x = n * pi / 96 + pi / 2, magnet = x - pi / 2;
     const double alpha = std::cos(x) + 0.1 * std::cos(5 * x) + 0.04 * std::cos(7 * x);
     const double beta = std::sin(x) - 0.1 * std::sin(5 * x) + 0.04 * std::sin(7 * x);
@@ -63,7 +64,7 @@ TEST(HarmonicShape, OfHarmonicsIsTheirSequence) {
   }
 }
 
-/// The same trapezoid by its corners, and with phases that stray to both sides: their mean.
+/// The same trapezoid from its corners, and with phases that deviate to both sides: the mean.
 TEST(HarmonicShape, OfATableAndOfPhasesThatStrayIsTheirMean) {
   const auto trapezoid = harmonic_shape(machine_of({.flat_deg = 120}), 0.02);
   const auto table =
@@ -79,7 +80,7 @@ TEST(HarmonicShape, OfATableAndOfPhasesThatStrayIsTheirMean) {
   }
 }
 
-/// Sines in three branches are sines of 1/sqrt 3 in the star that has their terminals, and in phase with it.
+/// Sines in three branches are in phase with those of the star with the same terminals, which are smaller by sqrt 3.
 TEST(HarmonicShape, OfADeltaIsThatOfItsStar) {
   general::Machine m = machine_of({.harmonics = {{1, 1.0}}});
   m.winding = general::Winding::delta;

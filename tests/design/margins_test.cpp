@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Margins against their definitions: |L| = 1 at the crossover, the closed loop on the unit circle when a
-// margin is used up, and a brute-force Nyquist scan.
+// Margins against their definitions: |L| = 1 at the crossover, the closed loop on the unit circle with a margin used up, and a numerical
+// Nyquist scan.
 #include "sixstep/design/loops/margins.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// (The ripple beside the exact simulation: tests/analysis/design_study_test.cpp.)
+// Limits and ripple against closed forms. (tests/analysis/design_study_test.cpp compares the ripple with the exact simulation.)
 #include "sixstep/design/loops/operating_limits.hpp"
 
 #include <gtest/gtest.h>
@@ -29,13 +29,13 @@ TEST(Ripple, IsTheSteadyStateOfTwoExponentials) {
   for (const double d : {0.01, 0.215, 0.5, 0.9}) {
     for (const double e : {0.0, 3.0}) {  // the EMF cancels
       const double on = std::exp(-R * d * T / L), off = std::exp(-R * (1 - d) * T / L);
-      // i goes to (U - e)/R while on and to -e/R while off: lowest = off highest - (1 - off) e/R
+      // The current tends to (U - e)/R while on and to -e/R while off: lowest = off highest - (1 - off) e/R.
       const double highest = ((1 - on) * (24 - e) / R - on * (1 - off) * e / R) / (1 - on * off);
       const double lowest = off * highest - (1 - off) * e / R;
       EXPECT_NEAR(current_ripple_A(m, 24.0, T, control::Chopping::soft, d), highest - lowest, 1e-12);
     }
   }
-  // model.md 13: 0.21 A at 5 A, which needs d = 5 R/24 with the rotor held.
+  // The ripple is 0.21 A at 5 A by model.md 13, with d = 5 R/24 and the rotor held.
   EXPECT_NEAR(current_ripple_A(m, 24.0, T, control::Chopping::soft, 5 * R / 24), 0.21, 0.005);
 }
 
@@ -50,15 +50,15 @@ TEST(Ripple, IsWorstAtHalfDutyAndTwiceAsLargeInHardChopping) {
   EXPECT_TRUE(std::isinf(period_for_ripple_s(m, 24.0, control::Chopping::soft, 24.0)));
 }
 
-/// What a leg puts on its terminal, in parts of the bus; where no switch is on, a diode carries the current: of the leg that it
-/// leaves by the upper one, of the leg that it enters by the lower one.
+/// A leg's terminal voltage over the bus voltage. With both switches off a diode conducts: the lower one of the source leg, the upper one
+/// of the sink leg.
 double terminal(control::LegSide side, bool source) {
   if (side == control::LegSide::high) return 1.0;
   if (side == control::LegSide::low) return 0.0;
   return source ? 0.0 : 1.0;
 }
 
-/// Mean of the pair's voltage over a period, as the timer drives its legs, while the current flows.
+/// Mean of the pair's voltage over a period, from the timer's control of its legs, while the current flows.
 double mean_voltage(control::Chopping chopping, control::ChoppedSwitch chopped, double duty) {
   const auto mean = [&](const control::LegCommand<double>& leg, bool source) {
     const control::LegSides sides = control::sides_of(leg);
@@ -88,8 +88,8 @@ TEST(Headroom, EndsWhereTheBusIsUsedUp) {
   EXPECT_NEAR(soft_braking_limit_rad_s(m, 2.33), 2.33 / 0.0335 * 1.03, 1e-12);
 }
 
-/// At the limit the whole bus keeps the staying phase's current at the edge, by the star's equations over the plant's
-/// own shapes: L di/dt = v_k - e_k - R i_k - v_star, the leaving leg at the rail of the staying one.
+/// The whole bus just holds the staying phase's current at the limit, by the star's equations with the plant's own shapes: L di/dt = v_k -
+/// e_k - R i_k - v_star, the leaving leg at the rail of the staying one.
 TEST(CommutationLimit, IsTheSpeedAtWhichAWholeDutyHoldsTheStayingCurrent) {
   const auto rate = [](const MotorModel& m, double bus_V, double i, double w) {
     const plant::Machine& x = m.machine;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Data sheet to model: the reference motor's numbers to the bit, the shapes' sector means, and what is
-// refused.
+// Data sheet to model: the reference motor's numbers to the bit, the shapes' sector means, and refused sheets.
 #include "sixstep/design/sheet/parameters.hpp"
 
 #include <gtest/gtest.h>
@@ -49,7 +48,7 @@ TEST(MotorModel, OfTheReferenceMotorHasTheNearestDoubles) {
   EXPECT_EQ(m->machine.pole_pairs, 8);
   EXPECT_EQ(m->shaft.J_kg_m2, 1.35e-5);
   EXPECT_EQ(m->K_t_Nm_A, 0.0335);
-  Sheet s = maxon();  // a number that is no short decimal
+  Sheet s = maxon();  // a number without a short decimal
   s.inertia_gcm2->value = 0.1 + 0.2;
   EXPECT_EQ(motor_model(s)->shaft.J_kg_m2, (0.1 + 0.2) / 1e7);
   EXPECT_EQ(m->no_load_current_A, 0.185);
@@ -79,8 +78,8 @@ TEST(MotorModel, PhaseFrameIsTakenAsItIs) {
 }
 
 TEST(MotorModel, TorquePerAmpereIsTheSectorMeanOfTheShape) {
-  // Against the shape itself: midpoint rule over the first sector, whose pair is a, b. Piecewise linear
-  // shapes with ramps ending on the grid are integrated exactly; the rest to the rule's h^2/24 f''.
+  // The shape itself is the second way: midpoint rule over the first sector, with the pair a, b. Piecewise linear shapes with ramps ending
+  // on the grid are integrated exactly; others to the rule's h^2/24 f''.
   for (const double flat : {10.0, 60.0, 90.0, 119.0, 120.0, 121.0, 150.0, 179.0}) {
     Sheet s = maxon();
     s.flat_deg = flat;
@@ -140,7 +139,7 @@ TEST(MotorModel, BothConstantsMustBeOneFact) {
             "the two\n");
 }
 
-/// Numbers in SI under keys that want mH and gcm2: a run of such a motor would not end.
+/// The numbers are in SI units under keys in mH and gcm2: a run of such a motor would not end.
 TEST(MotorModel, AMotorTooFastToBeOneHasASlipInAUnit) {
   Sheet henry = maxon();
   henry.inductance_mH->value = 0.572e-3;

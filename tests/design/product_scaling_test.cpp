@@ -48,7 +48,7 @@ TYPED_TEST(ProductScaling, CountsAndEdgesReadTheSameAsInDouble) {
     const auto n = static_cast<std::uint16_t>(counts);
     const double i = adc_value(exact.current_adc[0], AdcState{}, n),
                  u = adc_value(exact.bus_adc, AdcState{}, n);
-    // The gain's own rounding on what it multiplies, then half a digit.
+    // The tolerance is the gain's rounding times the value, plus half a digit.
     EXPECT_NEAR(static_cast<double>(adc_value(c.current_adc[0], AdcState{}, n)) * b.current_A, i,
                 gains * std::fabs(i) + digit / 2 * b.current_A * 1.0001);
     EXPECT_NEAR(static_cast<double>(adc_value(c.bus_adc, AdcState{}, n)) * b.voltage_V, u,
@@ -82,7 +82,7 @@ TYPED_TEST(ProductScaling, WhatCannotWorkIsNamed) {
     EXPECT_TRUE(names(scaled.problems(), where)) << where;
   };
   ProtectedConfig<double> p = product();
-  p.faults.over_current_A = 31;  // bases_for: 20.1 A and a reference of 10 A
+  p.faults.over_current_A = 31;  // limits of bases_for: 20.1 A and a reference of 10 A
   expect("faults.over_current_A", p, range, 12);
   p = product();
   p.bus_adc.per_eighth *= 2;  // reads up to 80 V

@@ -11,7 +11,7 @@ namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 
-// Over the whole turn c^2 + s^2 comes down to twice the lower limit and up to four fifths of the upper one, and no further.
+// The smallest c^2 + s^2 over the whole turn is twice the lower limit, and the largest four fifths of the upper one.
 TEST(ResolverWatch, LimitsAreThoseOfTheWholeTurn) {
   for (const design::ResolverShows& x : {design::ResolverShows{},
                                          {.k_1 = 0.9, .k_2 = 1.3, .quadrature_rad = 0.0},
@@ -32,8 +32,8 @@ TEST(ResolverWatch, LimitsAreThoseOfTheWholeTurn) {
   }
 }
 
-// Of like windings the nearer limit is the upper one, sqrt(5)/2 - 1 away. Results that share no sample come beyond it less often
-// than exp(-z^2/2)/2.
+// Equal windings have the upper limit as the nearer one, sqrt(5)/2 - 1 away. Results without common samples exceed it more rarely than
+// exp(-z^2/2)/2.
 TEST(ResolverWatch, SoManyInARowAsNoiseDoesNotBring) {
   const double room = std::sqrt(5.0) / 2 - 1;
   int before = 1;
@@ -50,7 +50,7 @@ TEST(ResolverWatch, SoManyInARowAsNoiseDoesNotBring) {
       const double c = 1 + room / z * base::normal({1, 2, n}), s = room / z * base::normal({1, 3, n});
       beyond += c * c + s * s > limits.greatest_square;
     }
-    // Across the radius noise adds as well: twice the noise's square, half of it of the amplitude.
+    // The noise across the radius adds twice its square to the squared amplitude, half of which enters the amplitude.
     if (z >= 3) {
       EXPECT_LE(beyond, results * rare + 5 * std::sqrt(results * rare) + 5);
     }

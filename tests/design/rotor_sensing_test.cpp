@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lag of a speed from Hall edges, against the sensor itself sampled in small steps.
+// The delay of a speed from Hall edges, against the sensor itself in small time steps.
 #include "sixstep/design/loops/rotor_sensing.hpp"
 
 #include <gtest/gtest.h>
@@ -14,15 +14,15 @@
 namespace sixstep::design {
 namespace SIXSTEP_TEST_FILE {
 
-/// The sensor by its definition: at each edge, one sector apart, the mean over the last k sectors, held until
-/// the next. A speed 1 + sin v t comes in; what its part at v comes out as, over whole beats of both.
+/// The sensor by its definition: at each edge, one sector apart, the mean over the last k sectors, held until the next. The input is a
+/// speed of 1 + sin v t; the result is the output's component at v, over whole beats of both.
 std::complex<double> measured_response(int k, double sector_s, double v) {
   const int per_sector = 64, sectors = 6000;
   const double step = sector_s / per_sector;
   std::complex<double> sum{};
   for (int n = 10; n < sectors; ++n) {
     const double edge = n * sector_s, from = edge - k * sector_s;
-    const double mean = (std::cos(v * from) - std::cos(v * edge)) / (v * k * sector_s);  // of sin v t
+    const double mean = (std::cos(v * from) - std::cos(v * edge)) / (v * k * sector_s);  // mean of sin v t
     for (int m = 0; m < per_sector; ++m) {
       const double t = edge + (m + 0.5) * step;
       sum += mean * std::polar(1.0, -v * t);
@@ -36,11 +36,11 @@ TEST(SpeedLag, IsTheSensorsResponseWhereverInTheSectorATickFalls) {
   for (const int k : {1, 2, 6}) {
     const SpeedLag lag = speed_lag({.hall = true, .edges = k}, pole_pairs, speed, 0.0);
     EXPECT_NEAR(lag.delay_s(), (k + 1) / 2.0 * T, 1e-15);
-    for (const double part : {0.013, 0.047, 0.11}) {  // of the edges' frequency
+    for (const double part : {0.013, 0.047, 0.11}) {  // fraction of the edges' frequency
       const double v = part * 2 * base::pi / T;
       const Complex H = lag.at(v);
       const std::complex<double> found = measured_response(k, T, v);
-      // Beats that are not whole leave one part in the number of sectors.
+      // Incomplete beats leave an error of one over the number of sectors.
       EXPECT_NEAR(H.re, found.real(), 2e-3) << k << " " << part;
       EXPECT_NEAR(H.im, found.imag(), 2e-3) << k << " " << part;
     }
@@ -68,13 +68,13 @@ TEST(SpeedLag, OfAdaptiveEdgesIsNowhereLongerThanItSays) {
     EXPECT_LE(longest, said * (1 + 1e-9)) << low;
     EXPECT_GE(longest, said * 0.998) << low;
   }
-  // What six edges may cost: pi/8 at the crossover.
+  // Six edges are used up to a phase of pi/8 at the crossover.
   EXPECT_NEAR(3.5 / 6 * window * crossover, base::pi / 8, 1e-12);
   EXPECT_EQ(hall_window_s(0.0), 0.0);
 }
 
 TEST(SensedFigures, AreTheLoopsLessThePhaseOfTheDelay) {
-  // An integrator w_c/s, sampled a thousand times faster than it crosses over: 90 degrees less the hold.
+  // An integrator w_c/s, sampled at a thousand times its crossover: 90 degrees minus the hold.
   const double period = 1e-6, crossover = 1000.0;
   const Transfer loop{{crossover * period}, {0.0, 1.0}};
   const SpeedLag lag{0.3e-3, 0.1e-3};
@@ -82,8 +82,8 @@ TEST(SensedFigures, AreTheLoopsLessThePhaseOfTheDelay) {
   EXPECT_NEAR(*sensed.crossover_rad_s, crossover, 0.01 * crossover);
   EXPECT_NEAR(*bare.phase_rad - *sensed.phase_rad, *sensed.crossover_rad_s * 0.2e-3, 0.005);
   EXPECT_TRUE(sensed.stable);
-  // A hold over 2 D turns by v D and shrinks by sinc(v D): phase runs out where v D = pi/2 and |L H| = 1, at
-  // v = w_c 2/pi, D = (pi/2)^2/w_c. Many times that must not wrap round to stable.
+  // A hold over 2 D turns the phase by v D and reduces the gain by sinc(v D): the phase margin ends at v D = pi/2 with |L H| = 1, at v =
+  // w_c 2/pi, D = (pi/2)^2/w_c. Multiples of it must not count as stable.
   const double D = base::pi / 2 * base::pi / 2 / crossover;
   for (const double times : {1.05, 6.0, 25.0})
     EXPECT_FALSE(sensed_figures({loop, {0.0, 2 * times * D}, {}}, period).stable) << times;
@@ -99,7 +99,7 @@ TEST(SensedFigures, OfALoopAroundASensedOneWithoutLagAreItsOwn) {
 }
 
 TEST(SensedStep, IsTheStepOfTheLoopWithItsDelayedMean) {
-  // An integrator against its own mean over two samples: y' = g (1 - (y + y_before)/2), by hand.
+  // An integrator with feedback of its mean over two samples: y' = g (1 - (y + y_before)/2), by hand.
   const double period = 1.0, g = 0.2;
   const StepResponse r = sensed_step({Transfer{{g}, {0.0, 1.0}}, {2 * period, 0.0}, {}}, period, 50.0);
   double y = 0.0, before = 0.0;

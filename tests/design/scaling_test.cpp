@@ -46,8 +46,8 @@ TYPED_TEST_SUITE(Scaling, Formats);
 template <class S>
 constexpr double digit = static_cast<double>(S::from_raw(1));
 
-/// Every input at an end of its range, or anywhere, for some ticks in a row: a sum that saturated although
-/// the proof says it cannot would be off by a fair part of full scale; rounding is not.
+/// Inputs are at the ends of their ranges, or anywhere between, for several ticks. A sum that saturates against the proof would be off by a
+/// large part of full scale; rounding is not.
 TYPED_TEST(Scaling, CornersOfTheRangeFollowDoubleWithinTheirResolution) {
   using S = TypeParam;
   constexpr int seed = 251601;
@@ -59,8 +59,8 @@ TYPED_TEST(Scaling, CornersOfTheRangeFollowDoubleWithinTheirResolution) {
     const auto scaled = design::scaled<S>(d, r);
     ASSERT_TRUE(scaled) << base::to_string(scaled.problems()[0]);
     const design::Bases b = scaled->bases;
-    // One digit of each signal in SI. A measured current is rounded, and their half difference; the reference
-    // is rounded; a gain is off by 2^(1-bits) of itself on an error of at most full scale.
+    // The tolerances are one digit of each signal in SI. A measured current and the half difference are rounded; the reference is rounded;
+    // a gain is off by 2^(1-bits) of itself, with an error of at most full scale.
     const double gains = std::ldexp(1.0, 1 - 8 * int{sizeof(S)});
     const double i = b.current_A * digit<S>, w = b.speed_rad_s * digit<S>, p = b.position_deg * digit<S>;
     const double u = b.voltage_V * digit<S>;
@@ -92,7 +92,7 @@ TYPED_TEST(Scaling, CornersOfTheRangeFollowDoubleWithinTheirResolution) {
         step(scaled->config, fixed, q, {S(setpoint / mode_base)}, s);
         double i_ref_off = i;
         if (mode != Mode::current) {
-          // pi_step: clamping never widens a difference, so each tick adds what its increments are off by.
+          // The limits of pi_step never widen a difference, so each tick adds the error of its increments.
           fraction_off += d.speed.d1 * 2 * w_off + K_i_w * w_off + gains * (d.speed.d1 + K_i_w) * jump_w;
           i_ref_off = d.current_at_full_torque_A * (fraction_off + 2 * digit<S> + gains) + i;
           ASSERT_NEAR(static_cast<double>(s.current_reference_A) * b.current_A, t.current_reference_A,
@@ -164,8 +164,7 @@ TYPED_TEST(Scaling, GainsThatTheFormatCannotHoldAreNamed) {
   EXPECT_TRUE(names(saturating.problems(), "current integral increment"));
 }
 
-/// From full speed backwards the setpoint slews to what is wanted: the error is that of two full speeds,
-/// however little is wanted.
+/// The setpoint slews from full speed backwards: the largest error is that of two full speeds, even for a small setpoint.
 TYPED_TEST(Scaling, ASlewedSetpointBeginsAtWhatIsMeasured) {
   DriveConfig<double> d = cascade(Mode::speed);
   OperatingRange r = range(Mode::speed);
@@ -183,19 +182,19 @@ TYPED_TEST(Scaling, ASlewedSetpointBeginsAtWhatIsMeasured) {
   EXPECT_EQ(error_of(), 1440.0);
 }
 
-/// The derivative and the integral behind it are sums of 16 times the output; what they may reach follows
-/// from how fast the measured speed changes.
+/// The derivative and its integral are sums of 16 times the output; their largest values follow from the fastest change of the measured
+/// speed.
 TYPED_TEST(Scaling, AnIntegralBehindASteepDerivativeIsProved) {
   DriveConfig<double> d = cascade(Mode::speed);
   OperatingRange r = range(Mode::speed);
   d.extras.on = true;
   d.extras.speed_law = control::SpeedLaw::positional;
   d.extras.speed = {0.0158, 0.00013, 0.00013 / 0.0158, 0.97};
-  d.extras.speed_derivative = {0.05, 0.01};  // 72 times the output where the speed jumps from end to end
+  d.extras.speed_derivative = {0.05, 0.01};  // 72 times the output for a speed jump over the whole range
   const auto jumping = design::scaled<TypeParam>(d, r);
   ASSERT_FALSE(jumping);
   EXPECT_TRUE(names(jumping.problems(), "speed derivative and integral"));
-  r.speed_change_rad_s = 0.5;  // 2.5 times
+  r.speed_change_rad_s = 0.5;  // 2.5 times the output
   EXPECT_TRUE(design::scaled<TypeParam>(d, r));
   d.extras.speed.K_b = 0.0;
   const auto free = design::scaled<TypeParam>(d, r);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers of the back-EMF observers against the closed forms that sensorless_observer.hpp states.
+// Values of the back-EMF observers against the closed forms of sensorless_observer.hpp.
 #include "sixstep/design/loops/sensorless_observer.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using control::Follow;
 using sixstep::testing::maxon;
 using sixstep::testing::spec;
 
-/// 1/5 of the shortest sector.
+/// The lag is 1/5 of the shortest sector.
 const double lag_s = base::pi / 3 / 8 / (24 / 0.0335) / 5;
 
 TEST(SensorlessObserver, PlacesBothPolesOfLuenbergersWhereTheLagAsks) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is said of an encoder's and a resolver's speed, against the decoders themselves on a rotor that swings.
+// The stated delays of an encoder's and a resolver's speed, against the decoders themselves on an oscillating rotor.
 #include "sixstep/design/loops/shaft_sensing.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ struct Swing {
   double angle_rad(double t) const { return w * (t + part / v * (1 - std::cos(v * t))); }
 };
 
-/// By how much a told speed is late: the phase of its part at v, over whole swings behind the first ones.
+/// The delay of a measured speed: the phase of its component at v, over whole oscillations after the first ones.
 double found_delay_s(const Swing& shaft, const std::function<double(double)>& told_at) {
   const int swings = 60, skipped = 10;
   const int per_swing = static_cast<int>(std::floor(2 * base::pi / shaft.v / T_s + 0.5));
@@ -38,10 +38,10 @@ double found_delay_s(const Swing& shaft, const std::function<double(double)>& to
   return -(std::arg(sum) + base::pi / 2) / shaft.v;
 }
 
-/// Whole control ticks to a swing, at about v rad/s.
+/// A frequency near v rad/s with whole control ticks per oscillation.
 double v_near(double v) { return 2 * base::pi / (T_s * std::floor(2 * base::pi / v / T_s)); }
 
-// The tick that looks sees the last edge, half a count old in the mean.
+// The tick reads the last edge, which is half a count old on average.
 TEST(EncoderSpeed, IsAsOldAsItIsSaidToBe) {
   for (const double w : {100.0, 5.0}) {  // 1024 lines: a count in 15 us, and in 307 us
     ShaftSensing sensing{.kind = ShaftSensorKind::encoder,
@@ -57,7 +57,7 @@ TEST(EncoderSpeed, IsAsOldAsItIsSaidToBe) {
     const double found = found_delay_s(shaft, [&](double t) {
       const auto counts = static_cast<std::int64_t>(std::floor(shaft.angle_rad(t) / count_rad));
       if (counts != before) {
-        double low = t - T_s, high = t;  // when the last edge was passed
+        double low = t - T_s, high = t;  // the time of the last edge
         for (int n = 0; n < 50; ++n) {
           const double middle = (low + high) / 2;
           (shaft.angle_rad(middle) < static_cast<double>(counts) * count_rad ? low : high) = middle;
@@ -69,8 +69,8 @@ TEST(EncoderSpeed, IsAsOldAsItIsSaidToBe) {
       return control::pulse_speed(config, state, static_cast<std::uint32_t>(t * 1e8));
     });
     const ShaftSpeedAge age = speed_age(sensing, w);
-    // A count is seen at the tick behind it: where counts are longer than ticks that is half a tick more, which is the sampling
-    // of the loop itself; a fifth of swing bends counts by as much.
+    // A tick sees a count that passed before it: counts longer than ticks add half a tick, which is the sampling of the loop itself. An
+    // oscillation by a fifth changes the counts' length by the same part.
     EXPECT_NEAR(found, (age.mean_s + age.hold_s) / 2, 0.2 * age.mean_s + T_s / 2) << w;
     EXPECT_GT(age.mean_s, w > 50 ? 0.99 * T_s : 9 * T_s);
   }
@@ -89,7 +89,7 @@ TEST(AbsoluteSpeed, IsHalfItsWindowAndItsLatencyOld) {
     return control::gray_step(config, state, control::gray_of_binary(count)).speed;
   });
   const ShaftSpeedAge age = speed_age(sensing, 100);
-  // The counts of 2^-20 turn are noise, a hundredth of the swing.
+  // The steps of 2^-20 turn act as noise, a hundredth of the oscillation.
   EXPECT_NEAR(found, age.mean_s / 2 + age.late_s, 2e-6);
   EXPECT_NEAR(lowest_told_rad_s(sensing), 2 * base::pi / 0x1p20 / 240e-6, 1e-12);
 }
@@ -115,7 +115,7 @@ TEST(ResolverSpeed, IsAsLateAndAsNoisyAsItsLoopIsSaidToBe) {
     control::tracking_follow(config, state, binary(2 * shaft.angle_rad(t) / (2 * base::pi)));
     return control::tracking_speed(state) * told_unit;
   });
-  // The step itself is half a tick; the phase of w_n^2/(...) at w_n/12 is that of its delay to (1/12)^2.
+  // The step itself adds half a tick; the phase of w_n^2/(...) at w_n/12 equals that of its delay to (1/12)^2.
   EXPECT_NEAR(found, speed_age(sensing, 100).late_s, T_s + 0.01 * speed_age(sensing, 100).late_s);
 
   control::TrackingState noisy{};
@@ -127,11 +127,12 @@ TEST(ResolverSpeed, IsAsLateAndAsNoisyAsItsLoopIsSaidToBe) {
     const double told = control::tracking_speed(noisy) * told_unit;
     if (n >= skipped) squares += told * told / (steps - skipped);
   }
-  // In time the loop is w_n T_s = 6 % from its sampled self, its cube three times as much; the drawing is good to 2 %.
+  // The sampled loop differs from the continuous one by w_n T_s = 6 % in time, by three times that in the cube; the random sample is
+  // accurate to 2 %.
   EXPECT_NEAR(std::sqrt(squares) / speed_jitter_rad_s(sensing, 0), 1, 1.5 * loop->natural_rad_s * T_s + 0.02);
 }
 
-// The speed loop stands behind its sensor's delay, at its crossover to a degree; the design names the sensor and what it costs.
+// The speed loop includes its sensor's delay, at its crossover to a degree; the design names the sensor and its effect.
 TEST(DriveDesign, KnowsWhatItsEncoderOrResolverCosts) {
   MotorModel motor;
   motor.machine = {.R_ohm = 0.515, .L_H = 0.286e-3, .K_e_V_s = 0.01675, .pole_pairs = 8};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A back-EMF as a table: its factors against closed forms, other shapes and sums over the turn, and what is no table.
+// A back-EMF as a table: its factors against closed forms, other shapes and sums over the turn, and invalid tables.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ Points corners(double flat_deg) {
     p.angle.push_back(angle);
     p.value.push_back(value);
   }
-  if (p.angle[0] < 0) {  // the turn begins on the top
+  if (p.angle[0] < 0) {  // the turn starts on the top
     std::rotate(p.angle.begin(), p.angle.begin() + 1, p.angle.end());
     std::rotate(p.value.begin(), p.value.begin() + 1, p.value.end());
     p.angle.back() += 360;
@@ -48,10 +48,10 @@ Points sampled(int count, F&& f) {
   return p;
 }
 
-/// No half wave is like another.
+/// All half waves differ.
 Points crooked() { return {{10, 80, 150, 200, 260, 330}, {0.5, 1.3, 0.2, -1.0, -0.4, -0.6}}; }
 
-/// Minus its mean: a winding's flux comes back.
+/// Subtracts the mean: a winding's flux returns to its value after a turn.
 Points closed(Points p) {
   double mean = 0;
   for (std::size_t n = 0; n < p.angle.size(); ++n) {
@@ -86,7 +86,7 @@ TEST(ShapeTable, OfTheTrapezoidsCornersHasTheTrapezoidsFactors) {
 }
 
 TEST(ShapeTable, OfManySamplesApproachesWhatWasSampled) {
-  // A chord lies within h^2/8 of a curve whose second derivative is at most 1 + 25 0.1; the factors are means of it.
+  // A chord differs by at most h^2/8 from a curve whose second derivative is at most 1 + 25 0.1; the factors are means of it.
   const int count = 720;
   const double h = 2 * base::pi / count, bound = 3.5 * h * h;
   const auto f = [](double x) {
@@ -109,7 +109,7 @@ TEST(ShapeTable, WithoutSymmetryHasTheMeansOfAllSectorsAsTheKernelDoes) {
   plant::general::Machine m{.K_e_V_s = {1, 1, 1}};
   for (std::size_t n = 0; n < p.angle.size(); ++n) m.shape.table.push_back({p.angle[n], p.value[n]});
   EXPECT_NEAR(f.sector_mean, plant::general::sector_mean(m), 1e-14);
-  // Midpoint sums over the turn; a corner costs at most its change of slope times the step squared.
+  // Midpoint sums over the turn: the error at a corner is at most its change of slope times the step squared.
   constexpr int n = 36000;
   double mean = 0, cos = 0, sin = 0, square = 0;
   const int source[] = {0, 0, 1, 1, 2, 2}, sink[] = {1, 2, 2, 0, 0, 1};
@@ -159,7 +159,7 @@ TEST(ShapeTable, WhatIsNoTableIsTold) {
   s = sheet_of(corners(120));
   for (double& v : s.back_emf_shape) v += 0.1;
   EXPECT_NE(first(s).find("subtract 0.1 from every value"), std::string::npos) << first(s);
-  for (double& v : s.back_emf_shape) v -= 0.0985;  // 0.75e-3 of its peak to peak is a measurement's
+  for (double& v : s.back_emf_shape) v -= 0.0985;  // 0.75e-3 of its peak to peak: a measurement error
   EXPECT_EQ(first(s), "");
   s = sheet_of(corners(120));
   for (double& v : s.back_emf_shape) v = -v;

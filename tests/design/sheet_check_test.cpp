@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The relations of a sheet: the 251601's by the numbers, every slip noticed, no honest rounding called one.
+// The relations of a sheet: the 251601's numbers hold, every mistake is found, and valid rounding is accepted.
 #include "sixstep/design/sheet/sheet_check.hpp"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ Relation relation(const SheetCheck& check, const std::string& name) {
   return {};
 }
 
-/// The margin of a torque from which friction is taken off is what the roundings of I and I_0 allow, and no more.
+/// The torque's margin with friction subtracted equals the effect of the roundings of I and I_0.
 TEST(SheetCheck, NominalTorqueAllowsTheFrictionToItsRounding) {
   const double K = 54.1, I = 2.05, I_0 = 0.092, I_half = 0.005, I_0_half = 0.5e-3, K_half = 0.05;
   Sheet s = printed_251601();
@@ -40,13 +40,13 @@ TEST(SheetCheck, NominalTorqueAllowsTheFrictionToItsRounding) {
   s.no_load_current_mA = {1e3 * I_0, "", ""};
   s.nominal_torque_mNm = {108, "", ""};
   const Relation r = relation(checked(s), "nominal torque");
-  // The largest ratio of K I as printed to the true K (I - I_0), and the printed torque half a digit below the true one.
+  // The largest ratio is K I as printed over the true K (I - I_0), with the printed torque half a digit below the true one.
   const double largest = K * I / ((K - K_half) * (I - I_half - I_0 - I_0_half)) * 108 / 107.5 - 1;
   EXPECT_NEAR(r.highest, largest, 0.03 * largest);
   EXPECT_NEAR(r.lowest, -(I_half / I + K_half / K + 0.5 / 108), 1e-9);
 }
 
-/// Numbered lines are maxon's alone.
+/// Numbered lines are only maxon's.
 TEST(SheetCheck, ANumberedLineOfAnotherMakerIsDoubted) {
   Sheet s = printed_251601();
   EXPECT_TRUE(checked(s).doubts.empty());
@@ -86,7 +86,7 @@ TEST(SheetCheck, TheReferenceMotorsRelationsByTheNumbers) {
   EXPECT_NEAR(*check.electrical_time_constant_s, 0.286e-3 / 0.515, 1e-18);
 }
 
-/// 55000 rpm without load beside mechanics that stand 15000 is a misread line; a winding for half as much again is none.
+/// A no-load speed of 55000 rpm with mechanics for 15000 rpm is a misread line; a winding for 1.5 times the mechanics' speed is valid.
 TEST(SheetCheck, ANoLoadSpeedFarAboveTheMechanicsIsADoubt) {
   Sheet sheet = printed_251601();
   sheet.max_speed_rpm = Quantity{.value = 6710 / 1.5};
@@ -95,23 +95,23 @@ TEST(SheetCheck, ANoLoadSpeedFarAboveTheMechanicsIsADoubt) {
   const SheetCheck check = checked(sheet);
   EXPECT_EQ(relation(check, "maximum speed").verdict, RelationVerdict::broken);
   EXPECT_NEAR(relation(check, "maximum speed").deviation, 2.7, 0.01);
-  sheet.no_load_speed_rpm.reset();  // then by U and k_M
+  sheet.no_load_speed_rpm.reset();  // then from U and k_M
   EXPECT_NEAR(relation(checked(sheet), "maximum speed").deviation,
               24 / 33.5e-3 * 30 / base::pi / 6710 * 3.7 - 1, 0.02);
 }
 
 TEST(SheetCheck, ToleranceIsTheRoundingOfWhatIsPrinted) {
-  // 1.03 is 1.025 to 1.035 and 23.3 is 23.25 to 23.35; the voltage is exact.
+  // The printed 1.03 means 1.025 to 1.035 and 23.3 means 23.25 to 23.35; the voltage is exact.
   const Relation r = relation(checked(printed_251601()), "stall current");
   EXPECT_NEAR(r.highest, 0.005 / 1.03 + 0.05 / 23.3, 1e-15);
   EXPECT_EQ(r.lowest, -r.highest);
   Sheet s = printed_251601();
-  s.stall_current_A->last_digit = 0.001;  // as if the file said 23.300
+  s.stall_current_A->last_digit = 0.001;  // as for 23.300 in the file
   EXPECT_NEAR(relation(checked(s), "stall current").highest, 0.005 / 1.03 + 0.0005 / 23.3, 1e-15);
 }
 
 TEST(SheetCheck, ASheetRoundedToThreeDigitsIsNeverCalledInconsistent) {
-  // True values of a whole grid of motors, each printed to three digits as sheets are.
+  // True values of a whole grid of motors, each printed to three digits, as in sheets.
   const auto three = [](double x) {
     const double unit = std::pow(10.0, std::floor(std::log10(x)) - 2);
     return Quantity{std::strtod(std::to_string(std::round(x / unit) * unit).c_str(), nullptr), "", ""};
@@ -151,14 +151,14 @@ TEST(SheetCheck, EverySlipOfALineThatIsPrintedTwiceIsNoticed) {
         &Sheet::mechanical_time_constant_ms, &Sheet::nominal_voltage_V})
     for (const double slip : {0.5, 0.9, 1.1, 2.0}) {
       Sheet s = printed_251601();
-      s.nominal_torque_mNm.reset();  // broken in print
+      s.nominal_torque_mNm.reset();  // outside of what the print allows
       (s.*line)->value *= slip;
       if (s.max_efficiency_percent->value >= 100) continue;
       EXPECT_FALSE(checked(s).consistent) << (s.*line)->value;
     }
 }
 
-/// Friction is a torque: between terminals and of a phase it is the same, and half of a current is no sign of another frame.
+/// Friction is a torque, equal in the terminal and phase frames: a half current indicates no other frame.
 TEST(SheetCheck, FrictionThatLacksHalfTheCurrentIsNoFactorOfAFrame) {
   Sheet s = printed_251601();
   const double w = s.no_load_speed_rpm->value * base::pi / 30.0;
@@ -193,7 +193,7 @@ TEST(SheetCheck, AWellKnownFactorIsNamed) {
 }
 
 TEST(SheetCheck, EfficiencyLiesBetweenAllCoulombAndAllViscous) {
-  // Against the motor itself: eta = w (i - I_f(w))/(U i) K_t with w = (U - R i)/K_t, greatest over i.
+  // The motor itself is the second way: eta = w (i - I_f(w))/(U i) K_t with w = (U - R i)/K_t, maximised over i.
   const double U = 24, R = 1.03, K = 0.0335, I_0 = 0.185, stall = U / R, w_0 = (U - R * I_0) / K;
   double coulomb = 0.0, viscous = 0.0;
   for (double i = I_0; i < stall; i += 1e-4) {
@@ -202,7 +202,7 @@ TEST(SheetCheck, EfficiencyLiesBetweenAllCoulombAndAllViscous) {
     viscous = std::max(viscous, w * K * (i - I_0 * w / w_0) / (U * i));
   }
   const double x = std::sqrt(I_0 / stall);
-  EXPECT_NEAR(coulomb, (1 - x) * (1 - x), 1e-8);  // a maximum: flat to second order in the step
+  EXPECT_NEAR(coulomb, (1 - x) * (1 - x), 1e-8);  // flat to second order in the step at the maximum
   EXPECT_NEAR(viscous, (1 - x) / (1 + x), 1e-8);
   Sheet s = printed_251601();
   s.max_efficiency_percent->last_digit = 1e-3;
@@ -228,7 +228,7 @@ TEST(SheetCheck, AKnownDeviationMustBeOneAndIsOne) {
             "known_deviation = \"stall\" names no relation of this sheet; it has: stall");
 }
 
-/// Units that are off by a thousand towards the slow side break no relation of a sheet that prints little.
+/// Units too large by a thousand break no relation of a sheet with few values.
 TEST(SheetCheck, ASlowWindingOrRotorIsDoubted) {
   const auto doubts = [](const Sheet& sheet) {
     std::vector<std::string> out;
@@ -253,7 +253,7 @@ TEST(SheetCheck, ASlowWindingOrRotorIsDoubted) {
   EXPECT_EQ(doubts(s)[0].substr(0, 64), "inertia_kgm2 = 48 makes R J/K_t^2 4.41e+04 s, and next to no mot");
 }
 
-/// A value beside a key of the file is in that key's unit.
+/// A value printed next to a key of the file is in that key's unit.
 TEST(SheetCheck, MessagesNameValuesAsTheFileWritesThem) {
   Sheet s = printed_251601();
   s.with_brake = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every way of printing a constant means the same machine, and a bad sheet is told one thing with its cure.
+// Every printed form of a constant gives the same machine, and a bad sheet gives one message with its cure.
 #include "sixstep/design/sheet/sheet_constants.hpp"
 
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@ using base::Quantity;
 
 constexpr double eps = 0x1p-52;
 
-/// A sine machine of the 251601's size without torque constant.
+/// A sine machine of the 251601's size without a torque constant.
 Sheet without_constant() {
   Sheet s = printed_251601();
   s.torque_constant_mNm_A.reset();
@@ -41,7 +41,7 @@ TEST(SheetConstants, EachWayIsTheTableOfConstantsForASine) {
   s = without_constant();
   s.speed_constant_rpm_V = Quantity{300, "line-peak", ""};
   EXPECT_NEAR(K_e(s), 9.549296585513721 / (300 * std::sqrt(3.0)), 4 * eps);
-  s.speed_constant_rpm_V->frame = "six-step";  // by K_t = 9549/KV
+  s.speed_constant_rpm_V->frame = "six-step";  // from K_t = 9549/KV
   EXPECT_NEAR(K_e(s), 9.549296585513721 / 300 / 1.6539866862653762, 4 * eps);
   s = without_constant();
   s.torque_constant_Nm_A = Quantity{0.03, "peak", ""};
@@ -117,7 +117,7 @@ TEST(SheetConstants, AMissingFrameIsToldWithWhatEachWouldMean) {
       "phase, 3.295 A peak, a nominal torque of 100.7 mNm; write frame = \"terminal\" or \"rms\"");
 }
 
-/// Without a torque constant there is no torque to tell by: the amperes themselves are told.
+/// The message names the current of a sheet without a torque constant, whose torque is unknown.
 TEST(SheetConstants, NominalCurrentSaysWhichAmperes) {
   Sheet s = without_constant();
   s.nominal_current_A = Quantity{10, "", ""};
@@ -216,7 +216,7 @@ TEST(SheetConstants, FrictionLiesBetweenItsExtremesAndTwoPointsSplitIt) {
   EXPECT_NEAR(*one.all_viscous_Nm_s, loss / w0, 4 * eps * loss / w0);
   EXPECT_NEAR(*one.all_coulomb_Nm, loss, 4 * eps * loss);
   EXPECT_EQ(one.B_Nm_s, *one.all_viscous_Nm_s);  // the default
-  // A motor with T = 3e-6 w + 2e-3, and what it would draw at two speeds.
+  // A motor with T = 3e-6 w + 2e-3, and its currents at two speeds.
   const double B = 3e-6, T_c = 2e-3, w[] = {200.0, 700.0};
   s.no_load_speed_rpm = Quantity{w[1] * 30 / base::pi, "", ""};
   s.no_load_current_mA = Quantity{(B * w[1] + T_c) / 0.0335 * 1e3, "", ""};
@@ -264,7 +264,7 @@ TEST(SheetConstants, StandardKeysMeanTheSameModel) {
   EXPECT_NEAR(a->machine.K_e_V_s, b->machine.K_e_V_s, 4 * eps);
   EXPECT_NEAR(a->machine.L_H, b->machine.L_H, 4 * eps * 1e-3);
   EXPECT_EQ(a->shaft.B_Nm_s, b->shaft.B_Nm_s);
-  // What stands in a standard key keeps its bits.
+  // A value in a standard key keeps its bits.
   const auto printed = motor_model(printed_251601()), again = motor_model(in_standard_keys(printed_251601()));
   EXPECT_EQ(printed->machine.K_e_V_s, again->machine.K_e_V_s);
   EXPECT_EQ(printed->machine.L_H, again->machine.L_H);

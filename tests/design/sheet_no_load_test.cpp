@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The no-load points of a sheet against n_0 = (U - R I_0)/k_M and k_M I_0 = T_c + B w_0: by the formula, by a sheet as printed,
-// and every slip noticed whichever way friction is given.
+// The no-load points of a sheet against n_0 = (U - R I_0)/k_M and k_M I_0 = T_c + B w_0: by the formula, by a printed sheet, and with every
+// mistake found for each form of friction.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ Relation relation(const Sheet& sheet, const std::string& name) {
   return r.value_or(Relation{});
 }
 
-/// A motor whose no-load speed and current fulfil both equations up to rounding: U = R I + K w, K I = T_c + B w.
+/// A motor whose no-load speed and current satisfy both equations to rounding: U = R I + K w, K I = T_c + B w.
 struct Motor {
   double U = 24.0, R = 1.03, K = 0.0335, B = 4e-6, T_c = 3e-3;
   double w(double at_V) const { return (at_V - R * T_c / K) / (K + R * B / K); }
@@ -50,14 +50,14 @@ struct Motor {
   double I() const { return I(U); }
 };
 
-/// Printed to so many digits that rounding is nothing.
+/// A value printed with enough digits to make rounding negligible.
 Quantity fine(double value, const char* frame = "") {
   Quantity q{value, frame, ""};
   q.last_digit = 1e-9 * value;
   return q;
 }
 
-/// With no line but those of the no-load relations.
+/// A sheet with only the lines of the no-load relations.
 Sheet sheet_of(const Motor& m) {
   Sheet s;
   s.name = "x";
@@ -75,7 +75,7 @@ Sheet sheet_of(const Motor& m) {
 }
 
 TEST(SheetNoLoad, ASheetsOwnFrictionMakesItsNoLoadCurrent) {
-  // Faulhaber 3564 B as printed, its four windings: k_M mNm/A, I_0 A, n_0 rpm, U V, R ohm, C_0 and C_V of all.
+  // The sheet of Faulhaber 3564 B as printed, with its four windings: k_M mNm/A, I_0 A, n_0 rpm, U V, R ohm, C_0 and C_V of all.
   const double C_0 = 1.10, C_V = 2.4e-4;
   const struct {
     double U, R, n_0, I_0, k_M;
@@ -99,7 +99,7 @@ TEST(SheetNoLoad, ASheetsOwnFrictionMakesItsNoLoadCurrent) {
     EXPECT_NEAR(r.left, by_hand, 1e-12 * by_hand);
     EXPECT_EQ(r.verdict, RelationVerdict::holds) << r.deviation;
     EXPECT_LT(std::abs(r.deviation), 0.0025);
-    EXPECT_LT(r.highest, 0.025);  // of two digits in C_V, and no margin beside them
+    EXPECT_LT(r.highest, 0.025);  // two digits in C_V, without further margin
     EXPECT_EQ(relation(s, "no-load speed").verdict, RelationVerdict::holds);
   }
 }
@@ -117,7 +117,7 @@ TEST(SheetNoLoad, TheSpeedIsHeldWhicheverWayFrictionIsGiven) {
   for (const std::vector<Member>& lines : silent) {
     Sheet s = sheet_of(m);
     for (const Member line : lines) (s.*line).reset();
-    // What is printed neither as current nor as friction is no part of the computed side.
+    // Friction that the sheet does not print is no part of the computed side.
     const double dry = s.coulomb_friction_mNm ? m.T_c : 0.0, viscous = s.viscous_friction_Nm_s ? m.B : 0.0;
     const double w = (m.U - m.R * dry / m.K) / (m.K + m.R * viscous / m.K);
     const double I = s.no_load_current_mA ? m.I() : (dry + viscous * w) / m.K;
@@ -160,7 +160,7 @@ TEST(SheetNoLoad, TheCurrentIsHeldAgainstTheFrictionByTheFormula) {
     EXPECT_NEAR(r.deviation, 1.0 / slip - 1.0, 1e-12);
     EXPECT_EQ(r.verdict, RelationVerdict::broken) << slip;
   }
-  Sheet without_friction = good;  // a motor that is said to have none, and draws a current
+  Sheet without_friction = good;  // a motor without stated friction that draws a current
   without_friction.viscous_friction_Nm_s->value = 0.0;
   without_friction.coulomb_friction_mNm.reset();
   EXPECT_EQ(relation(without_friction, "no-load current").deviation, -1.0);
@@ -201,11 +201,11 @@ TEST(SheetNoLoad, ASecondPointIsHeldAsTheFirst) {
   s.second_no_load_current_mA = fine(m.I(U) * 1e3);
   EXPECT_NEAR(relation(s, "second no-load speed").deviation, 0.0, 1e-12);
   EXPECT_NEAR(relation(s, "second no-load current").deviation, 0.0, 1e-12);
-  Sheet dry_given = s;  // B then comes of the first point, and the second is free to contradict it
+  Sheet dry_given = s;  // B then follows from the first point, and the second may contradict it
   dry_given.viscous_friction_Nm_s.reset();
   EXPECT_FALSE(found(dry_given, "no-load current"));
   EXPECT_NEAR(relation(dry_given, "second no-load current").deviation, 0.0, 1e-12);
-  Sheet split = dry_given;  // both points make the friction: nothing is left to hold
+  Sheet split = dry_given;  // both points determine the friction: no relation remains
   split.coulomb_friction_mNm.reset();
   EXPECT_FALSE(found(split, "second no-load current"));
   s.second_no_load_speed_rpm->value *= 1.05;
@@ -237,7 +237,7 @@ TEST(SheetNoLoad, AnotherMotorsFrictionIsAllowedToDiffer) {
   EXPECT_EQ(measured.verdict, RelationVerdict::holds);
   EXPECT_FALSE(measured.remark.empty());
   s.viscous_friction_Nm_s->kind = Trust::unstated;
-  s.no_load_current_mA->range = base::Interval{m.I() * 1e3, 1.25e3 * m.I()};  // sources differ, the file says
+  s.no_load_current_mA->range = base::Interval{m.I() * 1e3, 1.25e3 * m.I()};  // the file: sources differ
   const Relation ranged = relation(s, "no-load current");
   EXPECT_EQ(ranged.verdict, RelationVerdict::holds);
   EXPECT_NEAR(ranged.lowest, -0.2, 1e-8);

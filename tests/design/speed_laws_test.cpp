@@ -14,7 +14,7 @@ using design::SpeedLawDesign;
 using design::SpeedLawSpec;
 using ::testing::HasSubstr;
 
-/// The maxon 251601 with 0.1 N m: J = 135 g cm2, and a friction that can be seen.
+/// The maxon 251601 with 0.1 N m: J = 135 g cm2, and friction large enough to matter.
 SpeedLawSpec maxon() {
   return {.full_rad_s2 = 0.1 / 1.35e-5,
           .fades_1_s = 2.0,
@@ -32,7 +32,7 @@ double step_of(const SpeedLawDesign& d, const std::string& symbol) {
   return 0.0;
 }
 
-/// The regulator that is told as the least of a weighted sum is that: the Riccati equation, iterated from nothing, comes to the same gain.
+/// The stated gain is the minimum of a weighted sum: the Riccati equation, iterated from zero, gives the same gain.
 TEST(SpeedLawDesign, StateFeedbackIsTheLinearQuadraticRegulatorOfItsWeight) {
   for (const double settle : {2e-3, 20e-3, 0.5}) {
     SpeedLawSpec spec = maxon();
@@ -50,14 +50,14 @@ TEST(SpeedLawDesign, StateFeedbackIsTheLinearQuadraticRegulatorOfItsWeight) {
   }
 }
 
-/// What is held for a sample is what friction takes, and the observer's matrix has the trace and the determinant of its double pole.
+/// The friction term equals the friction over a sample, and the observer's matrix has the trace and the determinant of its double pole.
 TEST(SpeedLawDesign, ObserverAndFrictionAreWhatTheyClaim) {
   for (const auto& d : {design::state_feedback(maxon()), design::disturbance_rejection(maxon())}) {
     ASSERT_TRUE(d);
     const control::ObservedSpeedConfig<double>& k = d->gains.observed;
     const double z_o = std::exp(-5 * 4.6 * 30e-6 / 20e-3);
     EXPECT_NEAR(d->fast_pole, z_o, 1e-15);
-    // foretold error: [a - k_1, -b; L_l, 1] with k_1 = a L_w + b L_l
+    // The predicted error has the matrix [a - k_1, -b; L_l, 1] with k_1 = a L_w + b L_l.
     const double k_1 = k.a * k.L_w + k.b * k.L_l;
     EXPECT_NEAR(k.a - k_1 + 1, 2 * z_o, 1e-14);
     EXPECT_NEAR(k.a - k_1 + k.b * k.L_l, z_o * z_o, 1e-14);
@@ -85,7 +85,7 @@ TEST(SpeedLawDesign, TheBoundaryLayerFollowsFromItsPole) {
   EXPECT_NEAR(step_of(*d, "t_r"), 1.35e-5 / 0.1, 1e-15);
 }
 
-/// The samples' errors of a current step on a winding, with and without a period of delay.
+/// The lag is the sum of the samples' errors of a current step on a winding, with and without a period of delay.
 TEST(SpeedLawDesign, ACurrentLoopIsLateByResistanceOverIntegralGain) {
   const double R = 1.03, L = 0.572e-3, T = 30e-6;
   const auto placed = design::place_poles(design::current_plant(R, L, T), 1e-3, 0.9, T);
@@ -107,7 +107,7 @@ TEST(SpeedLawDesign, ACurrentLoopIsLateByResistanceOverIntegralGain) {
   EXPECT_EQ(design::current_lag_periods(R, 10 * R), 0.0) << "no torque comes before it is asked for";
 }
 
-/// sum of c_k delta^k x at sample n, delta x[n] = x[n+1] - x[n].
+/// The sum of c_k delta^k x at sample n, delta x[n] = x[n+1] - x[n].
 double applied(const design::Polynomial& p, std::vector<double> x, std::size_t n) {
   double sum = 0.0;
   x.erase(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(n));
@@ -118,7 +118,7 @@ double applied(const design::Polynomial& p, std::vector<double> x, std::size_t n
   return sum;
 }
 
-/// q u = r setpoint - y speed, whatever the two do: the block's own answers to noise.
+/// q u = r setpoint - y speed holds for arbitrary signals: the block's own outputs for noise.
 template <class Step>
 void expect_linear(const design::LinearLaw& law, Step step) {
   std::mt19937 random{20261126};
@@ -175,7 +175,7 @@ TEST(SpeedLawDesign, LinearLawsAreWhatTheBlocksCompute) {
                 });
 }
 
-/// A PI as a linear law is the loop of a PI, seen from its setpoint and at its output.
+/// A PI as a linear law equals the PI's loop, from its setpoint and at its output.
 TEST(SpeedLawDesign, APiAsALinearLawIsItsLoop) {
   design::DriveLoops loops;
   loops.motor.machine.R_ohm = 0.515;

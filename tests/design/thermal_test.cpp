@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two-body thermal model against its differential equations, integrated otherwise, and against the
-// textbook's two exponentials.
+// The two-body thermal model against its differential equations, integrated numerically, and against the textbook's two exponentials.
 #include "sixstep/design/sheet/thermal_ranges.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +19,7 @@ using design::ThermalModel;
 
 constexpr ThermalModel flat{4.5, 4.25, 16.6, 212.0, 125.0};
 
-/// Runge and Kutta's fourth order on the equations as the header prints them.
+/// Fourth-order Runge-Kutta on the equations as the header states them.
 Temperatures integrated(const ThermalModel& m, const Heating& h, Temperatures at, double seconds, int steps) {
   const double C_w = m.winding_s / m.winding_housing_K_W, C_h = m.motor_s / m.housing_ambient_K_W;
   using Pair = std::array<double, 2>;
@@ -43,13 +42,13 @@ Temperatures integrated(const ThermalModel& m, const Heating& h, Temperatures at
 }
 
 TEST(Thermal, ClosedFormIsTheEquationsSolution) {
-  for (const double copper_W : {0.0, 3.0, 11.0, 40.0, 400.0})  // the last one runs away
+  for (const double copper_W : {0.0, 3.0, 11.0, 40.0, 400.0})  // the last one is unstable
     for (const double seconds : {0.1, 5.0, 60.0, 900.0}) {
       if (copper_W == 400.0 && seconds > 60) continue;  // 1e40 degrees
       const Heating h{copper_W, 1.5, 30.0};
       const Temperatures start{55.0, 40.0};
       const Temperatures exact = design::temperatures_after(flat, h, start, seconds);
-      // Fourth order with steps of at most 1/40 of the fastest time constant: (1/40)^4/120 of the change.
+      // The error is of fourth order, with steps of at most 1/40 of the fastest time constant: (1/40)^4/120 of the change.
       const int steps = 200 + static_cast<int>(seconds * 40 * (1 + copper_W / 100) / 8.0);
       const Temperatures rk4 = integrated(flat, h, start, seconds, steps);
       const double change = std::fabs(exact.winding_degC - 55) + std::fabs(exact.housing_degC - 40) + 1;
@@ -75,7 +74,7 @@ design::Sheet ranged_sheet() {
   return s;
 }
 
-/// Each end is tried alone: none takes the winding farther than the ones that are called worse.
+/// Each end is tested alone: none heats the winding more than the ends called worse.
 TEST(ThermalRanges, TheWorseEndsWarmTheWindingMost) {
   const design::Sheet sheet = ranged_sheet();
   const auto worse = design::at_worse_ends(sheet);
@@ -110,7 +109,8 @@ TEST(ThermalRanges, ARangeWithoutAWorseEndIsNone) {
   EXPECT_FALSE(design::at_worse_ends(sheet));
 }
 
-/// Resistances k times, capacities 1/k times: the same time constants, k times the rise for the same constant loss.
+/// The network has k times the resistances and 1/k times the capacities: the same time constants, and k times the rise for the same
+/// constant loss.
 TEST(ThermalRanges, ANetworkScaledAllOverRisesByThatMuchMore) {
   const ThermalModel scaled{4.5 * 1.3, 4.25 * 1.3, 16.6, 212, 125};
   EXPECT_NEAR(design::greater_rise(flat, scaled), 1.3, 1e-12);
@@ -118,11 +118,11 @@ TEST(ThermalRanges, ANetworkScaledAllOverRisesByThatMuchMore) {
 }
 
 TEST(Thermal, CoolingIsTheTextbooksTwoExponentials) {
-  // Without loss: s^2 + s (1/T_w + 1/T_h + C_w/C_h/T_w) + 1/(T_w T_h) = 0 for the two rates.
+  // The two rates without loss are the roots of s^2 + s (1/T_w + 1/T_h + C_w/C_h/T_w) + 1/(T_w T_h) = 0.
   const long double T_w = 16.6L, T_h = 212.0L, ratio = (16.6L / 4.5L) / (212.0L / 4.25L);
   const long double sum = 1 / T_w + 1 / T_h + ratio / T_w, product = 1 / (T_w * T_h);
   const long double fast = sum / 2 + std::sqrt(sum * sum / 4 - product), slow = product / fast;
-  // x_w(0) = 80, x_h(0) = 20, dx_w/dt(0) = -(80 - 20)/T_w.
+  // The initial values are x_w(0) = 80, x_h(0) = 20, dx_w/dt(0) = -(80 - 20)/T_w.
   const long double slope = -60 / T_w, part = (slope + 80 * slow) / (slow - fast);
   for (const double t : {0.0, 1.0, 17.0, 100.0, 1000.0}) {
     const long double x = part * std::exp(-fast * t) + (80 - part) * std::exp(-slow * t);
@@ -154,7 +154,7 @@ TEST(Thermal, ContinuousLossTakesTheWindingToItsLimit) {
     const double copper = design::continuous_copper_W(flat, 1.0, ambient);
     EXPECT_NEAR(design::steady_temperatures(flat, {copper, 1.0, ambient})->winding_degC, 125.0, 1e-11);
   }
-  // maxon's own formula: I^2 R (1 + a (T_max - 25)) (R_wh + R_ha) = T_max - T_a.
+  // The loss satisfies maxon's own formula: I^2 R (1 + a (T_max - 25)) (R_wh + R_ha) = T_max - T_a.
   EXPECT_NEAR(design::continuous_copper_W(flat, 0.0, 25.0), 100 / (4.5 + 4.25) / (1 + 0.393), 1e-13);
   EXPECT_EQ(design::continuous_copper_W(flat, 0.0, 125.0), 0.0);
   EXPECT_EQ(design::continuous_copper_W(flat, 50.0, 25.0), 0.0) << "50 W of friction alone are too much";
@@ -169,8 +169,8 @@ TEST(Thermal, ShortTimeLossReachesTheLimitJustThen) {
     EXPECT_GT(copper, design::continuous_copper_W(flat, 1.0, 40.0));
     before = copper;
   }
-  // In no time at all only the winding's own heat capacity counts: P t/C_w, copper warming on the way:
-  // ln(1 + a dT)/a instead of dT.
+  // A very short time involves only the winding's own heat capacity: P t/C_w, with ln(1 + a dT)/a instead of dT, because the copper's
+  // resistance rises meanwhile.
   const double C_w = 16.6 / 4.5, t = 1e-3;
   EXPECT_NEAR(design::short_time_copper_W(flat, 0.0, 25.0, t) * t / C_w, std::log1p(0.00393 * 100) / 0.00393,
               0.01);

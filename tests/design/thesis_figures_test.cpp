@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The thesis's chapter 6 with its own rounding, number by number, and beside it the same rule evaluated
-// exactly.
+// The thesis's chapter 6 with its own rounding, number by number, and the same rule evaluated exactly.
 #include "sixstep/design/thesis/thesis_figures.hpp"
 
 #include <gtest/gtest.h>
@@ -30,8 +29,8 @@ TEST(ThesisFigures, ThePrintedGainsFollowFromThePrintedPoles) {
     const ZohPlant plant{printed(loop, "a0"), printed(loop, "b0")};
     const double re = printed(loop, "Re z"), im = printed(loop, "Im z");
     const PiGains gains = gains_for_poles(plant, re, im);
-    // z is printed to 0.5e-4, a0 and b0 to half of their last digit: what that moves d1 and d0 by, and their
-    // own digits.
+    // The printed z is rounded to 0.5e-4, a0 and b0 to half of their last digit: the tolerance is their effect on d1 and d0, plus the
+    // digits of those.
     const bool is_speed = loop == std::string_view("speed");
     const double z = 0.5e-4, a0 = is_speed ? 0.5e-5 : 0.5e-4, b0 = (is_speed ? 0.5e-3 : 0.5e-4) / plant.b0;
     EXPECT_NEAR(gains.d1, printed(loop, "d1"), (2 * z + a0) / plant.b0 + std::fabs(gains.d1) * b0 + half_d1);
@@ -42,8 +41,8 @@ TEST(ThesisFigures, ThePrintedGainsFollowFromThePrintedPoles) {
 }
 
 TEST(ThesisFigures, ItsGainsBelongToAFasterPole) {
-  // model.md 13: w0 = 5504 rad/s, xi = 0.908, T_reg = 0.92 ms are what 4.5 and -4.04 place. Back from the
-  // closed polynomial z^2 + c1 z + c0 to s = log(z)/T.
+  // The gains 4.5 and -4.04 place w0 = 5504 rad/s, xi = 0.908, T_reg = 0.92 ms (model.md 13). The test goes back from the closed polynomial
+  // z^2 + c1 z + c0 to s = log(z)/T.
   const double a0 = printed("current", "a0"), b0 = printed("current", "b0");
   const double c1 = b0 * 4.5 + a0 - 1.0, c0 = b0 * -4.04 - a0;
   const std::complex<double> z{-c1 / 2, std::sqrt(c0 - c1 * c1 / 4)}, s = std::log(z) / period_s;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The thesis's matrices against model.md 1 written out, against each other, and against the energy they must
-// balance; the signs as printed (model.md 13) break that balance.
+// The thesis's matrices against the explicit equations of model.md 1, against each other, and against the energy balance. The printed signs
+// (model.md 13) violate that balance.
 #include "sixstep/design/thesis/thesis_models.hpp"
 
 #include <gtest/gtest.h>
@@ -26,8 +26,7 @@ struct State {
   double K() const { return machine.K_e_V_s; }
 };
 
-/// A star's state and pole voltages at random; every fourth machine is a sine, every third has another flat
-/// width.
+/// A random state of a star with random pole voltages; every fourth machine is a sine, every third has another flat width.
 State random_state(std::mt19937_64& random, int n) {
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   State s;
@@ -46,7 +45,7 @@ State random_state(std::mt19937_64& random, int n) {
   return s;
 }
 
-/// model.md (5) with all legs connected: u_n = mean of u_k - e_k.
+/// The star voltage with all legs connected is the mean of u_k - e_k (model.md (5)).
 double star_voltage(const State& s) {
   return (s.u_a + s.u_b + s.u_c - s.K() * s.w * (s.f.a + s.f.b + s.f.c)) / 3.0;
 }
@@ -60,7 +59,7 @@ TEST(ThesisModels, PhaseVoltageFormIsModelOne) {
     const auto rate = phase_voltage_model(m, s.shaft, s.angle())
                           .derivative({s.i_a, s.i_b, s.i_c, s.w, s.theta_m},
                                       {s.u_a - u_n, s.u_b - u_n, s.u_c - u_n, s.T_load});
-    const double scale = (48 + 31 * m.R_ohm + 900 * m.K_e_V_s) / m.L_H;  // of the terms that are summed
+    const double scale = (48 + 31 * m.R_ohm + 900 * m.K_e_V_s) / m.L_H;  // scale of the summed terms
     EXPECT_NEAR(rate[0], (s.u_a - u_n - m.R_ohm * s.i_a - s.K() * s.w * s.f.a) / m.L_H, 8 * eps * scale);
     EXPECT_NEAR(rate[1], (s.u_b - u_n - m.R_ohm * s.i_b - s.K() * s.w * s.f.b) / m.L_H, 8 * eps * scale);
     EXPECT_NEAR(rate[2], (s.u_c - u_n - m.R_ohm * s.i_c - s.K() * s.w * s.f.c) / m.L_H, 8 * eps * scale);
@@ -91,8 +90,7 @@ TEST(ThesisModels, TerminalVoltageFormIsTheSameMachine) {
   }
 }
 
-/// Rate of stored energy, (L/2) sum i^2 + (J/2) w^2, plus the losses, minus what comes in: zero for a
-/// machine.
+/// Rate of stored energy, (L/2) sum i^2 + (J/2) w^2, plus the losses, minus the input power: zero for a machine.
 double unbalanced_W(const StateSpace<5, 4>& model, const State& s) {
   const double u_n = star_voltage(s);
   const auto r = model.derivative({s.i_a, s.i_b, s.i_c, s.w, s.theta_m},
@@ -109,7 +107,7 @@ TEST(ThesisModels, PowerBalancesAndThePrintedSignsDoNot) {
   double printed_sign = 0.0, printed_speed_row = 0.0, printed_factor = 0.0;
   for (int n = 0; n < 2000; ++n) {
     const State s = random_state(random, n);
-    // sum e_k i_k = T_e w: what leaves the circuit arrives at the shaft.
+    // The power sum e_k i_k = T_e w leaves the circuit and enters the shaft.
     const double e_i =
         s.K() * s.w * s.f.a * s.i_a + s.K() * s.w * s.f.b * s.i_b + s.K() * s.w * s.f.c * s.i_c;
     EXPECT_NEAR(e_i, electromagnetic_torque(s.machine, s.f, {s.i_a, s.i_b, s.i_c}) * s.w, 16 * eps * 1500);
@@ -131,9 +129,8 @@ TEST(ThesisModels, PowerBalancesAndThePrintedSignsDoNot) {
 }
 
 TEST(ThesisModels, EigenvaluesAreTheTimeConstantsOfTheMachine) {
-  // At a fixed angle: -R/L for every current pattern without torque, and for the pattern f the two roots of
-  // lambda^2 + (R/L + B/J) lambda + (R B + K_e^2 |f|^2)/(L J) = 0, with eigenvector (f, 0) and w = -(L lambda
-  // + R)/K_e.
+  // The eigenvalues at a fixed angle are -R/L for every current pattern without torque, and for the pattern f the two roots of lambda^2 +
+  // (R/L + B/J) lambda + (R B + K_e^2 |f|^2)/(L J) = 0, with eigenvector (f, 0) and w = -(L lambda + R)/K_e.
   const State s;
   const auto& m = s.machine;
   for (const double theta_m : {0.0, 0.02, 0.1, 0.3, 0.77}) {

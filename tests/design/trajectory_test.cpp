@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The thesis's two models, driven with the engine's terminal voltages, find the engine's trajectory: the
-// plant and the textbook are two pieces of code, and share no line.
+// The thesis's two models, driven with the engine's terminal voltages, reproduce the engine's trajectory. Plant and models share no code.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +12,7 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-/// Voltages are smooth between two events, so each of the engine's segments is integrated on its own.
+/// Voltages are smooth between two events, so each of the engine's segments is integrated separately.
 constexpr int steps_per_segment = 8;
 
 template <std::size_t States, class Rate>
@@ -30,7 +29,7 @@ std::array<double, States> rk4(const std::array<double, States>& x, double t, do
   return y;
 }
 
-/// Runs both thesis models beside the engine.
+/// Runs both thesis models in parallel with the engine.
 class Beside {
  public:
   explicit Beside(const Board& board) : board_(board) {
@@ -80,11 +79,10 @@ class Beside {
   double current_error_ = 0, speed_error_ = 0, angle_error_ = 0;
 };
 
-/// RK4 misses (h/tau)^5/120 of the scale per step and forgets over tau: (h/tau)^4/120 in all. Segments are at
-/// most half the fastest time constant long (`useful_length`), so h/tau <= 1/16 and the bound is 1.3e-7;
-/// with chopping segments last at most 15 us: h/tau <= 15/(8 * 555), and the bound is 1.1e-12. The angle at
-/// which a model looks up its shape differs by its own error, and a kink within a step costs h more: a tenth
-/// of a percent of a step's rounding is not resolved here, hence the factor 10.
+/// The error of RK4 is (h/tau)^5/120 of the scale per step and decays over tau: (h/tau)^4/120 in all. Segments are at most half the fastest
+/// time constant long (`useful_length`), so h/tau <= 1/16 and the bound is 1.3e-7. With chopping segments last at most 15 us: h/tau <=
+/// 15/(8 * 555), and the bound is 1.1e-12. A model's own angle error shifts its shape, and a kink within a step costs a factor of h more.
+/// The factor 10 covers these errors.
 void expect_beside(const Board& board, double length_s, double h_over_tau) {
   auto rig = board.rig();
   Beside beside(board);
@@ -131,7 +129,7 @@ TEST(ThesisModels, TorqueIsTheEnginesTorque) {
     }
   } torque{b};
   ASSERT_EQ(run_to(rig, 0.1, torque), sim::Stop::end);
-  // The angle is known to eps of its size (some 235 electrical rad), a ramp has a slope of 2 per 60 degrees.
+  // The angle's error is eps of its size (some 235 electrical rad); a ramp has a slope of 2 per 60 degrees.
   const double shape_error = 4 * eps * 240 * 2 / base::sector_rad;
   EXPECT_LE(torque.worst, 3 * b.machine.K_e_V_s * 23.3 * shape_error + 64 * eps);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sampled systems against closed forms of first and second order, stability against roots that are known.
+// Sampled systems against closed forms of first and second order, stability against known roots.
 #include "sixstep/design/loops/transfer.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ TEST(Sampled, FirstOrderIsTheZohPlant) {
     rl.B[0] = 1.0 / 0.572e-3;
     const Transfer t = sampled(rl, 0, period_s);
     const ZohPlant exact = current_plant(R, 0.572e-3, period_s);
-    // The exponent's rounding is what differs: R T/L (up to 2.6) times eps, and a dozen terms.
+    // The exponent's rounding makes the difference: R T/L (up to 2.6) times eps, and a dozen terms.
     EXPECT_NEAR(t.den[0] / (1.0 + exact.a0), 1.0, 16 * eps + 2 * eps / (1.0 + exact.a0));
     EXPECT_NEAR(t.num[0] / exact.b0, 1.0, 16 * eps);
   }
@@ -40,7 +40,7 @@ TEST(Sampled, DoubleIntegratorHasHalfTheSquareOfThePeriod) {
 }
 
 TEST(Sampled, TheStepResponseOfTwoLagsIsTheExponentials) {
-  // 1/((s + a)(s + b)) held: step response 1/(ab) (1 - (b e^-at - a e^-bt)/(b - a)).
+  // The system 1/((s + a)(s + b)) with a hold has the step response 1/(ab) (1 - (b e^-at - a e^-bt)/(b - a)).
   const double a = 300.0, b = 1800.0, T = 1e-4;
   Linear lags{.states = 2, .A = {}, .B = {}};
   lags.A[0] = {-b, 0.0, 0.0, 0.0};
@@ -70,7 +70,7 @@ TEST(Stable, IsWhereAllRootsAreInside) {
     }
     if (std::fabs(largest - 1.0) < 1e-6) continue;
     EXPECT_EQ(is_stable(p), largest < 1.0) << largest;
-    // Two pairs near each other lose half of the digits.
+    // Two close pairs of roots lose half of the digits.
     EXPECT_NEAR(1.0 - slowest_decay(p), largest, 1e-4 * largest);
   }
 }
@@ -80,7 +80,7 @@ TEST(Stable, TheSlowestDecayIsThatOfTheSlowestRootHoweverSlow) {
     EXPECT_NEAR(slowest_decay({decay, 1.0}), decay, 4 * eps * std::fabs(decay));
     EXPECT_NEAR(slowest_decay({-decay, -1.0}), decay, 4 * eps * std::fabs(decay));
   }
-  // Four roots around 1e-5 beside z = 1: in powers of z their product would be 1e-20 of the coefficients.
+  // The four roots are about 1e-5 from z = 1: in powers of z their product would be 1e-20 of the coefficients.
   const Polynomial slow = product(product({1e-5, 1.0}, {2e-5, 1.0}), product({3e-5, 1.0}, {5e-5, 1.0}));
   EXPECT_TRUE(is_stable(slow));
   EXPECT_NEAR(slowest_decay(slow), 1e-5, 1e-12);

@@ -13,7 +13,7 @@ using control::Mode;
 
 constexpr double thesis_d1 = 0.017225, thesis_d0 = -0.01707;  // of the speed loop
 
-/// The figures that go through roots, integrals and square roots of the trajectory.
+/// Figures that need roots, integrals and square roots of the trajectory.
 Scenario judged(Scenario s) {
   for (const MetricKind kind :
        {MetricKind::final_value, MetricKind::mean, MetricKind::rms, MetricKind::maximum, MetricKind::minimum})
@@ -55,7 +55,7 @@ Scenario hysteresis(HysteresisOn on, Chopping chopping, Comparator comparator = 
   return s;
 }
 
-/// Current PI by pole placement: exp, cos and sqrt decide the gains.
+/// Current PI by pole placement: exp, cos and sqrt determine the gains.
 Scenario designed_current(double settle_s, double damping) {
   Scenario s = current_square();
   s.control.current.d1 = s.control.current.d0 = std::nullopt;
@@ -107,7 +107,7 @@ Scenario rectifier() {
 
 Scenario with_sine(Scenario s) {
   s.sheet.back_emf = design::BackEmfShape::sine;
-  s.sheet.torque_constant_mNm_A = std::nullopt;  // it means another K_e where the shape is a sine
+  s.sheet.torque_constant_mNm_A = std::nullopt;  // a sine shape would give another K_e
   s.sheet.back_emf_mV_s = base::Quantity{16.75, "phase", ""};
   return s;
 }
@@ -136,7 +136,7 @@ Scenario friction_and_load() {
   return s;
 }
 
-/// As small chips do it: centred, edges on timer counts, commutation at the sample, one period late.
+/// A small chip's timing: centred, edges on timer counts, commutation at the sample, one period late.
 Scenario small_chip(Scenario s) {
   s.pwm.alignment = Alignment::centre;
   s.pwm.timer_Hz = 16e6;
@@ -158,7 +158,7 @@ Scenario narrow_flat() {
   return s;
 }
 
-/// A drive of a [[spread]]. Its normally distributed R and L depend on the random generator's bits, log, cos and sqrt.
+/// A drive of a [[spread]]. The normally distributed R and L depend on the random generator's bits, log, cos and sqrt.
 Scenario series_drive() {
   Scenario s = current_square();
   for (const char* key : {"motor_override.resistance_ohm", "motor_override.inductance_mH"}) {
@@ -171,7 +171,7 @@ Scenario series_drive() {
   return varied(s, 1, 17);
 }
 
-/// Counts, their noise, and currents from one shunt, in 16 bits.
+/// Current counts with noise, from one shunt, in 16 bits.
 Scenario one_shunt_q15() {
   Scenario s = designed_current(1e-3, 0.9);
   s.control.arithmetic = Arithmetic::q15;
@@ -184,7 +184,7 @@ Scenario one_shunt_q15() {
   return s;
 }
 
-/// What is flashed: calibration, alignment, speed from Hall edges, and a line that breaks.
+/// The firmware as flashed: calibration, alignment, speed from Hall edges, and a broken line.
 Scenario product(Arithmetic arithmetic) {
   Scenario s = product_scenario(Mode::speed, 100.0);
   s.duration_s = 0.3;
@@ -205,7 +205,7 @@ Scenario with_extras(Scenario s) {
   return s;
 }
 
-// What the general kernel runs.
+// The cases below need the general kernel.
 Scenario delta() {
   Scenario s = duty(0.5, 50e-3);
   s.sheet.connection = design::WindingConnection::delta;
@@ -243,7 +243,7 @@ Scenario igbts_and_chopper() {
   s.supply.brake_off_V = 28;
   return s;
 }
-/// Mirrored from the start, straight again in the middle, with an amplifier that drifts.
+/// Wires mirrored from the start and corrected in the middle, with an amplifier that drifts.
 Scenario crossed_wires() {
   Scenario s = small_chip(current_square());
   s.bridge.phases = rig::WireOrder::bac;
@@ -259,7 +259,7 @@ Scenario crossed_wires() {
   return s;
 }
 
-/// Made one by one: forty literals in one function are a megabyte of stack, all that WebAssembly is given.
+/// Each case is made by its own function: forty literals in one need a megabyte of stack, which is all of WebAssembly's.
 struct Row {
   const char* name;
   Scenario (*scenario)();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints name, digest of the trajectory, digest of the figures and number of segments of each case. Needs the
-// library and nothing else, so that any compiler and any target can be asked for its bits.
+// Prints name, digest of the trajectory, digest of the figures and number of segments of each case. It needs only the library, so that any
+// compiler and target can print its bits.
 #include <cstdio>
 
 #include "sixstep/base/hash.hpp"
@@ -14,7 +14,7 @@ namespace {
 
 using namespace sixstep;
 
-/// What is computed from the trajectory, and the gains it ran with.
+/// The figures computed from the trajectory, and the gains of the run.
 std::uint64_t figures(const study::Outcome& out) {
   base::Hash hash;
   for (const study::ComparisonResult& c : out.comparisons) hash.number(c.measured);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// read_scenarios FILE..: reads scenarios from their texts, as a page in a browser does, runs them, and prints name,
-// digest of the trajectory and number of segments. Needs sixstep/ and what of text/ reads, and no file system in
-// either: the texts are handed in from here.
+// read_scenarios FILE..: reads scenarios from their texts, as a page in a browser does, runs them, and prints name, digest of the
+// trajectory and number of segments. It needs sixstep/ and the readers of text/, without a file system: this program passes the texts.
 #include <cstdio>
 #include <memory>
 #include <optional>

@@ -9,7 +9,7 @@ namespace {
 using namespace study;
 using control::Mode;
 
-/// What is refused shows in the digest: it is another one then.
+/// A refused change alters the digest.
 void tell(Session& session, double at_s, const At& at) {
   session.advance(at_s);
   (void)session.change(at);

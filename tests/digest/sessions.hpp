@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sessions of the digest table: opened, changed while they run, closed; and what they wrote, run anew.
+// Sessions of the digest table: opened, changed during the run and closed; and the run of the scenario that they wrote.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,7 +11,7 @@ namespace sixstep::testing {
 struct LivedCase {
   std::string name;
   base::Result<study::Outcome> outcome;
-  study::Scenario written;  ///< whose run has the same digest
+  study::Scenario written;  ///< its run has the same digest
 };
 
 std::vector<LivedCase> lived_cases();

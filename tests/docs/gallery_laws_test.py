@@ -64,7 +64,7 @@ def made_up(settle, damping, full_torque, steps, end):
 
 
 FLOATING = 2 / 3 * K_E * 100 * 0.75 * T / L_S  # largest pulse of the free phase
-FLOATING_LATE = 2 / 3 * (2 * K_E * 100 / SECTOR) * T**2 / 2 / L_S  # of a gap that passes the middle of the sector
+FLOATING_LATE = 2 / 3 * (2 * K_E * 100 / SECTOR) * T**2 / 2 / L_S  # of an off-time that contains the middle of the sector
 BURST = (K_T * 1.25 - 0.02) * 0.02 / J
 BRAKE = (K_T * 100 - 2 * R) / U  # duty that holds 2 A of braking current at 100 rad/s
 IN_BAND = 1e-9 / 0.4
@@ -137,7 +137,7 @@ def mains(pulses):
     """Limits behind a rectifier of so many pulses per period, duty 0.2 on the held rotor, 4.7 mF."""
     d, period = 0.2, 1 / 50 / pulses
     fall = (d**2 * TOPS / R * period + d * (1 - d) * d * TOPS / R * T) / 4.7e-3
-    feeds = acos((TOPS - fall + 2 * 0.8) / (sqrt(2) * 18)) / pi / 50  # at most so long
+    feeds = acos((TOPS - fall + 2 * 0.8) / (sqrt(2) * 18)) / pi / 50  # at most this time
     off, least = period - feeds, d * (TOPS - fall) / R
     return [(None, TOPS), (d * least * off / 4.7e-3, fall), (least * sqrt(d * off / period * (1 + d * off / feeds)), None)]
 
@@ -156,7 +156,7 @@ CLOSES = PUMP_J / WATER * log((0.06 + 300 * B) / (0.004 + 100 * B))
 C_W, C_H, R_WH = 17.7 / 4.5, 212 / 4.25, 4.5
 HOT = C_W * (100 + 0.00393 * 100**2 / 2) * R / 12**2
 BUILD = 2 * L / (U - K_T * 20) / (pi / 3 / PAIRS / 20)  # part of a sector in which 2 A come up at 20 rad/s
-PASSES = 1.5 * 2 * L / U / (pi / 3 / PAIRS / 20)  # and in which they go to another phase
+PASSES = 1.5 * 2 * L / U / (pi / 3 / PAIRS / 20)  # and in which they change to another phase
 
 
 def pulse(sign):
@@ -179,7 +179,7 @@ def losses(period):
 
 def weakened(w):
     """Effective phase current whose voltage is 0.95 of the circle at a speed that friction alone brakes, by halving of i_d."""
-    turns = w * PAIRS * T / 2  # of a vector that stands for a period while the rotor turns by twice that, sin(x)/x counts
+    turns = w * PAIRS * T / 2  # for a vector constant over a period while the rotor turns by twice that, the factor is sin(x)/x
     circle, i_q, low, high = 0.95 * U / sqrt(3) * sin(turns) / turns, B * w / (1.5 * K_E_SINE), -K_E_SINE / PAIRS / L_S, 0.0
     for _ in range(100):
         i_d = (low + high) / 2
@@ -193,7 +193,7 @@ HELD = hypot(R / 2 * 5.5 + 20 * K_E_SINE, 20 * PAIRS * L_S * 5.5) * T / 4 / L_S
 
 F_1 = 4 / pi * sin(pi / 6) / (pi / 6)  # of the trapezoid with a flat top of 120 degrees
 SHAPED = 1.5 * K_E * F_1 * 4  # torque of 4 A
-# Of the torque, the shape's largest vector 4/3 in both: what a quarter of a period of the voltage that holds the current leaves.
+# The torque change for the shape's largest vector, 4/3, in both: a quarter of a period of the holding voltage.
 LEFT = 1.5 * K_E * 4 / 3 * hypot(R / 2 * 4 + 20 * K_E * 4 / 3, 20 * PAIRS * L_S * 4) * T / 4 / L_S
 COPPER = 1.5 * R / 2 * 4**2
 

@@ -47,7 +47,7 @@ class OwnControllerPage(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.path = pathlib.Path(cls.folder.name)
-        for part in ("sixstep", "data"):  # what the commands name, as in a checkout
+        for part in ("sixstep", "data"):  # files that the commands name, as in a checkout
             (cls.path / part).symlink_to(REPOSITORY / part)
         for block in HOWTO.blocks:
             if block.word == "write":
@@ -120,7 +120,7 @@ class OwnControllerPage(unittest.TestCase):
         self.assertEqual(len(rows), 6, rows)
         shutil.copy(self.path / "mine.so", self.path / "kept.so")
         with open(self.path / "mine.so", "ab") as file:
-            file.write(b"\0")  # compiled anew
+            file.write(b"\0")  # compiled again
         try:
             told = self.run_program("run", "mine.toml", "--vary", vary, "--store", "own.db", "--resume", code=2)
             self.assertIn("own.db", told.stderr)

@@ -30,10 +30,10 @@ COMMAND = re.compile(r"^\$ (.*)\n", re.M)
 
 class Block(typing.NamedTuple):
     line: int
-    word: str    # how it is tested
+    word: str    # kind of the test
     detail: str  # what follows the word
     text: str
-    span: tuple  # of the text, within the page
+    span: tuple  # place in the page's text
 
 
 class Page:
@@ -61,7 +61,7 @@ class Desk:
             shutil.copytree(REPOSITORY / name, self.folder / name)
         for name in ("build/release", "bin"):
             (self.folder / name).mkdir(parents=True)
-        for name in ("build/release/sixstep", "bin/sixstep", "run"):  # the real ./run installs and builds first
+        for name in ("build/release/sixstep", "bin/sixstep", "run"):  # the real ./run first installs and builds
             (self.folder / name).symlink_to(program)
         (self.folder / "build/dev").symlink_to(program.parent)
         for name in ("tests", "sixstep"):

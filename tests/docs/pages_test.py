@@ -110,7 +110,7 @@ def renew(name):
             if now is not None:
                 text += [it.text[at:block.span[0]], now]
                 at = block.span[1]
-    except AssertionError as failure:  # as where a program is not built
+    except AssertionError as failure:  # for example where a program is not built
         print(f"{name}: the rest is left as it is, after {failure}", file=sys.stderr)
     it.file.write_text("".join(text) + it.text[at:], encoding="utf-8")
     desk.close()

@@ -12,9 +12,9 @@ def late(degrees):
 
 
 SEEN_LATE = PAIRS * 300 * 100e-6 * 180 / pi  # an edge behind a filter of 100 us
-PASSED_LATE = PAIRS * 300 * 3 * 2 * L_S / (U + 2 * K_E * 300) * 180 / pi  # until the current has passed to the next phase
-SWING = 2 * pi * sqrt(J / (PAIRS * K_T * 1.5 * I_N))  # about a pair's pull
-SLOWEST, RAMP = 0.05 * U / K_T, (K_T * I_N * (1.5 - 0.5) - 0.01) / (2 * J)  # rad/s handed over, rad/s^2
+PASSED_LATE = PAIRS * 300 * 3 * 2 * L_S / (U + 2 * K_E * 300) * 180 / pi  # until the current has commutated to the next phase
+SWING = 2 * pi * sqrt(J / (PAIRS * K_T * 1.5 * I_N))  # about the pair's rest angle
+SLOWEST, RAMP = 0.05 * U / K_T, (K_T * I_N * (1.5 - 0.5) - 0.01) / (2 * J)  # rad/s at the hand-over, rad/s^2
 LONGEST_RAMP = 2 * 2 * SLOWEST / RAMP + 12 * pi / 3 / PAIRS / SLOWEST
 LISTENED = 6 * L_S * 2.5 * I_N / U + 2 * T + 2 * pi / 3 / PAIRS / SLOWEST  # for a rotor that turns already
 
@@ -92,7 +92,7 @@ def pole_noise():
     return squares
 
 
-LOOK = sqrt(6) * 0.05 / (2 * K_E * 60 / 30) * sqrt(26) / 4  # degrees of a commutation by single looks at 60 rad/s
+LOOK = sqrt(6) * 0.05 / (2 * K_E * 60 / 30) * sqrt(26) / 4  # degrees of a commutation by single samples at 60 rad/s
 E_20 = pi / 3 / PAIRS / 20  # a sector at 20 rad/s
 CHIP_LAG = degrees(atan(1e4 * PAIRS * 2e-6**2 / tracking(200, 2e-6)[1]))
 PERIOD = PAIRS * T * 180 / pi  # degrees per rad/s
@@ -100,7 +100,7 @@ ROUNDS = degrees(sqrt(2) / 2 * 5 / 4096 / 2) + 360 / 65536
 COUNT = 360 / 16384
 
 
-RUBBED = 60 / PAIRS * 0.01 / (K_T * 1.99)  # degrees about where a pair pulls no more
+RUBBED = 60 / PAIRS * 0.01 / (K_T * 1.99)  # degrees about the angle where a pair has no torque
 
 
 def ramp(part):
@@ -133,7 +133,7 @@ LAWS = {
     "sensorless-luenberger": [(None, LOOK / 0.88 * sqrt(pole_noise()))],
     "sensorless-sliding-mode": [near(60, T * 60 * PAIRS * 3 / pi + 0.004)],
     "sensorless-flux-linkage": [around(30 * (1 / sqrt(0.88) - 1), 60 * PERIOD / 2)],
-    # Late by less than a pause, beside the comparators' low-pass, which the lead takes off.
+    # The delay is below an off-time; the lead compensates the comparators' low-pass.
     "sensorless-comparators": [(None, 60 * PERIOD)],
     "hall-glitch": [near(100, T / SECTOR + 0.004)],
     "hall-60": [near(100, T / SECTOR + 0.004)],
@@ -143,7 +143,8 @@ LAWS = {
     "hall-misplaced": [(LOOP_GAIN * 100 * (60 / 55 - 60 / 66), None),
                        (None, K_T / J * LOOP_GAIN * 100 * (60 / 55 - 60 / 66) * SECTOR)],
     "hall-misplaced-six": [(None, K_T / J * (LOOP_GAIN * 100 * (1 - 60 / 66) * SECTOR / 10 + 0.6 * 2 * T)), near(100, T / SECTOR + 0.004)],
-    # Places to two ticks of 1 us, times to one more, at either end of the narrowest sector, and both ways; believed for the widest.
+    # The bound: places to two ticks of 1 us, times to one more, at either end of the narrowest sector, in both directions, and held for the
+    # widest.
     "hall-calibrated": [(None, K_T / J * (LOOP_GAIN * 100 * 4 * 3e-6 / (SECTOR * 55 / 60) * SECTOR * 66 / 60 + 0.6 * 2 * T)), near(100, T / SECTOR + 0.004)],
     "encoder": [(450 - 2 * 360 / 4096, 450 + 2 * 360 / 4096)],
     "absolute-encoder": [(1000 - 2 * 360 / 2**14, 1000 + 2 * 360 / 2**14), (None, 2 * 360 / 2**14)],

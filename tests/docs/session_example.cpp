@@ -11,11 +11,11 @@ int main() {
   if (!session) return 2;
   const auto speed = static_cast<std::size_t>(study::ColumnId::speed);
 
-  session->advance(5e-3);  // nothing is cut: the bits are those of the run in one go
+  session->advance(5e-3);  // the bits equal those of one uninterrupted run
   const study::Session saved = *session;
   std::printf("%.4f ms: %.4f rad/s\n", 1e3 * session->present().t_s, session->present().signals[speed]);
 
-  study::At change;  // what [[at]] can say
+  study::At change;  // the keys of [[at]]
   change.control.mode = study::AtMode::current;
   change.control.current.settle_s = 1e-3;
   change.reference = study::Reference{.value = 2.0};

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Firmware and simulation use the same bits: what the exported headers define against what a run computes
-// with.
+// Firmware and simulation use the same bits: the exported headers' definitions are compared with the run's values.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -64,7 +63,7 @@ requires std::is_enum_v<Whole> || std::is_integral_v<Whole> std::int64_t bits(Wh
   return static_cast<std::int64_t>(x);
 }
 
-/// Every member (tests/design/fields_test.cpp).
+/// The bits of every member (tests/design/fields_test.cpp).
 struct Bits {
   std::vector<std::int64_t> all;
   static constexpr bool when_run(bool) { return true; }
@@ -105,7 +104,7 @@ TEST(ExportHeader, FloatingPointIsWhatTheRunComputesWith) {
   EXPECT_EQ(bits_of(exported_position_float::drive), bits_of(study::in_arithmetic<float>(position)));
 }
 
-/// Drive and bases as design::scaled gives them over the range that the header was asked for.
+/// Drive and bases equal those of design::scaled over the header's range.
 template <class S>
 void expect_scaled(const DriveConfig<S>& drive, const Units<S>& units, const char* name,
                    std::optional<design::OperatingRange> stated = {}) {
@@ -181,7 +180,7 @@ study::Scenario salient() {
   return s;
 }
 
-/// The constants against the run's, and their answers step by step: a chip's own, whatever it is given.
+/// The constants and the responses step by step equal the run's, for any input of the chip.
 template <class S>
 void expect_field(const FieldDriveConfig<S>& header, const study::Scenario& s) {
   const auto run = study::field_in<S>(compiled(s));
@@ -273,7 +272,7 @@ TEST(ExportHeader, ExtrasComeAlong) {
   EXPECT_EQ(bits_of(extras_q31()), bits_of(design::scaled<Q31>(extras::drive(), extras::range)->config));
 }
 
-// Constants of a board by the header's units are those that scaled_product proves.
+// Constants converted with the header's units equal those that scaled_product proves.
 TEST(ExportHeader, UnitsGiveTheBitsOfTheProductsScaling) {
   constexpr auto u = exported_speed_stated::units;
   ProtectedConfig<double> product;
@@ -307,7 +306,7 @@ TEST(ExportHeader, UnitsCountPositionAsTheProductsScaling) {
   ASSERT_TRUE(scaled) << to_string(scaled.problems()[0]);
   EXPECT_EQ(bits(scaled->config.position.per_sector), bits(u.hall_position(8).per_sector));
   EXPECT_EQ(bits(scaled->config.position.per_fraction), bits(u.hall_position(8).per_fraction));
-  constexpr Units<float> si;  // floating point means what it says
+  constexpr Units<float> si;  // floating point uses SI units
   EXPECT_EQ(si.hall_position(8).per_sector, 7.5f);
   EXPECT_EQ(si.amperes(15.5), 15.5f);
   EXPECT_EQ(si.amperes_per_count(0.25), 0.03125f);
@@ -333,7 +332,7 @@ TEST(ExportHeader, WhatDoesNotFitIsNamed) {
   EXPECT_TRUE(header_of(s, study::Arithmetic::float64));
 }
 
-// A PI whose zero cancels the plant's pole leaves that pole, -a0, and one at 1 - b0 d1.
+// A PI that cancels the plant's pole keeps that pole, -a0, and adds one at 1 - b0 d1.
 TEST(ExportHeader, GivenGainsAreToldWithTheirOwnPoles) {
   study::Scenario s = shipped("current-square");
   const design::ZohPlant plant = design::current_plant(1.03, 0.572e-3, s.pwm.period_s);
@@ -360,7 +359,7 @@ TEST(ExportHeader, NamespacesAreNames) {
     EXPECT_FALSE(header_of(s, study::Arithmetic::float64, bad)) << bad;
 }
 
-// A title must not reach the compiler: no line ends within the comment, none continues, nothing is reordered.
+// A title must not reach the compiler: the comment has no line end, no continuation and no reordering characters.
 TEST(ExportHeader, TextsStayInTheirComment) {
   study::Scenario s = shipped("thesis/7.5-position");
   s.title = "a\nint b;\r*/ \u202e\u2066 gr\u00fcn \\";

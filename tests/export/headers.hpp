@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the build has exported.
+// The headers exported by the build.
 #pragma once
 #include "current.hpp"
 #include "current_q15.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// write_extras double|q31 FILE: the exporter's lines for a drive with every extra.
+// write_extras double|q31 FILE: writes the exporter's lines for a drive with every extra function.
 #include <fstream>
 #include <string>
 

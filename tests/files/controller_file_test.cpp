@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Controllers of one's own out of shared objects: those of data/ run in scenarios as they say, and what is none is told as such.
+// Controllers from shared objects: those of data/ run in scenarios with their documented behaviour, and other files are refused with the
+// reason.
 #include "files/controller_file.hpp"
 
 #include <gtest/gtest.h>
@@ -68,7 +69,7 @@ double final_of(const study::Scenario& given, study::MetricKind metric, study::S
   return out ? out->comparisons[0].measured : NAN;
 }
 
-/// A current of 3 A, and a speed: to the integers' steps, mA and what half the PWM's ripple hides from a sample.
+/// The drive holds a current and a speed to the integers' steps, mA, and half the PWM's ripple, which a sample does not show.
 TEST(ControllerFile, IntegersHoldCurrentAndSpeed) {
   for (const double wanted : {3.0, -2.0}) {
     const auto current = read("pi_in_integers.so",
@@ -85,8 +86,8 @@ TEST(ControllerFile, IntegersHoldCurrentAndSpeed) {
   EXPECT_NEAR(final_of(*speed, study::MetricKind::mean, study::Signal::speed, 0.015), 100.0, 0.5);
 }
 
-/// Locked at angle 0 the winding is all there is: half the bus times the duty over R across the magnet, which points 150 degrees behind
-/// phase a's axis there.
+/// A rotor locked at angle 0 leaves the winding alone: the current across the magnet is half the bus times the duty over R. The magnet is
+/// 150 degrees behind phase a's axis.
 TEST(ControllerFile, ThreeLegsMakeAVectorAcrossTheMagnet) {
   const auto s =
       read("sine_voltage.so",
@@ -119,7 +120,7 @@ TEST(ControllerFile, ScenariosTellWhatTheyCannotHave) {
       "control.own sine voltage has no loop: set control.mode = \"duty\"; change the scenario or the controller's numbers");
 }
 
-/// Its bytes are among what was read: a store tells when a controller was compiled anew.
+/// The controller's bytes count as read: a store detects a recompiled controller.
 TEST(ControllerFile, ItsBytesCountAsRead) {
   const auto digest = [](const std::string& controller) {
     files::ReadLog log;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands in a store stands there, whatever became of the program; and plain SQL reads it.
+// Rows in a store survive the end of the program, and plain SQL reads them.
 #include "files/store/plan_store.hpp"
 
 #include <gmock/gmock.h>
@@ -132,7 +132,7 @@ TEST_F(Store, TakesNoRowOfOtherColumns) {
   EXPECT_TRUE(store->failed());
 }
 
-/// A label acts neither in the terminal that prints the store nor in the spreadsheet that opens what SQLite exports of it.
+/// A label has no effect in a terminal that prints the store or in a spreadsheet that opens SQLite's export.
 TEST_F(Store, ShowsWhatActsInNames) {
   const std::string evil = "=1+1 \x1b[31m\n\xe2\x80\xae";
   StoredPlan odd = plan();
@@ -160,7 +160,7 @@ TEST_F(Store, ShowsWhatActsInNames) {
   EXPECT_NE(bytes.find("\"'=1+1 \\u001b[31m\\u000a\\u202e [A]\""), std::string::npos);
 }
 
-/// What rows() has counted is there after a kill -9, and the store goes on.
+/// Rows that rows() has counted survive a kill -9, and the store can be continued.
 TEST_F(Store, KeepsWhatItHasCountedThroughKills) {
   std::size_t told = 0;
   for (int kill = 0; kill < 10; ++kill) {

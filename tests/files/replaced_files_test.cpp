@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an output does to what is there already: whose it is, who may read it, links, names, pipes.
+// An output's effect on an existing file: owner, permissions, links, names, pipes.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <poll.h>
@@ -41,7 +41,7 @@ class ReplacedFiles : public ::testing::Test {
   std::size_t entries() const {
     return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
   }
-  /// Empty where it was written, else what is told.
+  /// Empty after success, else the message.
   static std::string told_writing(const Destination& to, const std::string& text) {
     base::Result<AtomicFile> file = AtomicFile::create(to);
     if (!file) return to_string(file.problems().at(0));
@@ -121,7 +121,7 @@ TEST_F(ReplacedFiles, WhatAKilledProgramLeftIsInNobodysWay) {
     ASSERT_TRUE(first && second);
     EXPECT_NE(first->temporary(), second->temporary()) << "nor do two at once share a name";
   }
-  // In a container every program has the same number, and what one left that was killed met the next one.
+  // Every program in a container has the same process number, so that a killed program's file has the next one's name.
   for (int count = 0; count < 64; ++count)
     with(".a.csv.tmp" + std::to_string(::getpid()) + "-" + std::to_string(count), "");
   EXPECT_EQ(told_writing(at("a.csv"), ours), "");
@@ -183,13 +183,13 @@ extern "C" void take_note(int) {}
 TEST_F(ReplacedFiles, WhoWaitsForAPipesOtherEndHearsASignal) {
   struct sigaction ask {
   }, before{};
-  ask.sa_handler = take_note;  // without SA_RESTART, as the program has it
+  ask.sa_handler = take_note;  // without SA_RESTART, as in the program
   ::sigaction(SIGUSR1, &ask, &before);
   const std::string pipe = at("pipe");
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   const ::pthread_t here = ::pthread_self();
   const auto signalled = [&](const auto& work) {
-    const std::jthread caller([&](const std::stop_token& stop) {  // again and again: one may come too early
+    const std::jthread caller([&](const std::stop_token& stop) {  // repeated: one may come too early
       while (!stop.stop_requested()) {
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
         ::pthread_kill(here, SIGUSR1);
@@ -205,7 +205,7 @@ TEST_F(ReplacedFiles, WhoWaitsForAPipesOtherEndHearsASignal) {
   const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
   base::Result<AtomicFile> file = AtomicFile::create(pipe);
   ASSERT_TRUE(file);
-  // More than the pipe holds, in one piece: a reader that takes nothing holds it up within the write.
+  // The write exceeds the pipe's capacity: without a reader it blocks.
   signalled([&] { file->write(std::string(1 << 20, 'x')); });
   EXPECT_TRUE(file->failed());
   EXPECT_TRUE(file->commit().empty()) << "whoever asked to end needs no complaint";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the examples write on a serial line, and what they take from it.
+// The examples' output on a serial line, and the commands that they accept.
 #include "faces/firmware/example/log.hpp"
 
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ std::string written(const firmware::Instant& t) {
   return out;
 }
 
-/// 2^31 us are 36 minutes, 2^32 counts of 72 MHz one: neither is an end.
+/// A time of 2^31 us (36 minutes) or 2^32 counts of 72 MHz (one minute) is not the end.
 TEST(Log, AnInstantIsItsMicrosecondsHoweverLate) {
   EXPECT_EQ(written(firmware::Instant{}), "0");
   EXPECT_EQ(written({.seconds = 0, .microseconds = 999'999}), "999999");
@@ -119,7 +119,7 @@ TEST(Commands, ASetpointInThousandths) {
   }
 }
 
-/// Told at once and at Enter; the next line is whole again.
+/// The message appears at once and at Enter; the next line is valid again.
 TEST(Commands, WhatIsNoNumberIsDroppedAsAWhole) {
   using Kind = firmware::Command::Kind;
   for (const std::string typed : {"1,5",
@@ -171,7 +171,8 @@ TEST(Commands, AStopCountsAnywhereAndNothingElseInASpoiledLine) {
   }
 }
 
-/// What the main loop finds in a ring that the interrupt filled with `typed`, all at once, of which the line lost those at `missing`.
+/// The commands that the main loop reads from a ring that the interrupt filled at once with `typed`; the line lost the characters in
+/// `missing`.
 std::vector<firmware::Command> obeyed(const std::string& typed, const std::string& missing = "") {
   firmware::Ring<16> ring;
   firmware::Commands commands;

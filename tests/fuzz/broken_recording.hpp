@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A recording of a motor on a bench, broken: by an exporter, by a full disk, by someone who edited it, or by someone
-// who means it.
+// A damaged recording of a motor on a bench: by an exporter, a full disk, an editing error or an attacker.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -8,11 +7,11 @@
 namespace sixstep::testing {
 
 struct BrokenRecording {
-  const char* kind;  ///< of the last thing that was done to it
+  const char* kind;  ///< of the last damage
   std::string text;
 };
 
-/// The seed decides all of it.
+/// The seed determines everything.
 BrokenRecording broken_recording(std::uint64_t seed);
 
 }  // namespace sixstep::testing

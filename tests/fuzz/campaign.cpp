@@ -18,13 +18,13 @@
 namespace sixstep::testing {
 namespace {
 
-/// Of a thread's own time: on a busy machine nothing honest takes that long either.
+/// CPU time of a thread, which a busy machine does not stretch: no valid case takes that long.
 constexpr double hung_s = 60.0;
 constexpr std::size_t most_broken = 200;
 
 struct Worker {
   std::atomic<std::uint64_t> seed{0};
-  std::atomic<double> since_s{0.0};  ///< of its own time
+  std::atomic<double> since_s{0.0};  ///< its CPU time at the start of the case
   std::atomic<bool> done{false};
   std::thread thread;
   CampaignResult result;
@@ -33,7 +33,7 @@ struct Worker {
 thread_local std::uint64_t seed_at_hand = 0;
 const char* campaign_at_hand = "";
 
-/// Says which seed it was, with nothing that a broken process could not do any more.
+/// Prints the seed, with async-signal-safe calls only.
 [[maybe_unused]] void on_crash(int signal) {
   char text[64];
   char* at = text + sizeof text;
@@ -48,9 +48,9 @@ const char* campaign_at_hand = "";
 }
 
 #if defined(__SANITIZE_ADDRESS__)
-void catch_crashes() {}  // the sanitizer says more
+void catch_crashes() {}  // the sanitizer prints more
 #else
-/// On a stack of its own: a stack that overflows has none left.
+/// The handler has its own stack, because an overflown stack has no space left.
 void catch_crashes() {
   static thread_local std::unique_ptr<char[]> stack(new char[1 << 16]);
   const stack_t own{.ss_sp = stack.get(), .ss_flags = 0, .ss_size = 1 << 16};
@@ -79,7 +79,7 @@ void work(const Campaign& c, std::atomic<std::uint64_t>& next, Worker& own) {
   own.done = true;
 }
 
-/// The workers are joined by who calls: until then each has its clock.
+/// The caller joins the workers afterwards: until then each thread's clock exists.
 void watch(const Campaign& c, std::vector<Worker>& workers) {
   for (bool busy = true; busy;) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));

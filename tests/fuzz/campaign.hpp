@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Many cases on many threads, and what came of them.
+// Many cases on many threads, and their results.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -41,10 +41,10 @@ struct CampaignResult {
   void add(const CampaignResult& other);
 };
 
-/// A case that lasts for minutes, or a crash, ends the program with its seed.
+/// A case of minutes or a crash ends the program and prints the seed.
 CampaignResult carry_out(const Campaign& campaign);
 
-/// As tables in Markdown: counts, kinds, and how much of each law was used.
+/// Markdown tables of counts, kinds, and the used part of each law.
 std::string as_markdown(const Campaign& campaign, const CampaignResult& result);
 
 }  // namespace sixstep::testing

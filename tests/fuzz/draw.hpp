@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random numbers of one drawn case: a seed, and nothing else, decides all of it.
+// Random numbers of one drawn case, determined by a seed alone.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -8,14 +8,13 @@
 
 namespace sixstep::testing {
 
-/// Own mappings onto intervals: the standard library's distributions differ between libraries, a seed must
-/// not.
+/// The mappings onto intervals are the project's own: distributions of standard libraries differ, and a seed must not.
 class Draw {
  public:
   explicit Draw(std::uint64_t seed) : random_(seed) {}
   double unit() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
   double between(double low, double high) { return low + (high - low) * unit(); }
-  /// Every decade is as likely as the next.
+  /// Every decade is equally likely.
   double decades(double low, double high) { return low * std::pow(high / low, unit()); }
   bool chance(double p) { return unit() < p; }
   int one_of(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
@@ -31,8 +30,7 @@ inline std::uint64_t environment(const char* name, std::uint64_t otherwise) {
   return text && *text ? std::strtoull(text, nullptr, 10) : otherwise;
 }
 
-/// Which seeds a test runs: SIXSTEP_FUZZ_SEED=n is exactly that one, SIXSTEP_FUZZ_COUNT how many from there
-/// on.
+/// The seeds of a test: SIXSTEP_FUZZ_SEED=n selects exactly that one, SIXSTEP_FUZZ_COUNT the number of seeds.
 struct Seeds {
   std::uint64_t first, count;
 };

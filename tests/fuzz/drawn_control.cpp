@@ -11,7 +11,7 @@ using control::Mode;
 
 namespace {
 
-/// Gains in one of their three ways; `natural` is a proportional gain that is neither dull nor wild.
+/// Gains in one of their three ways; `natural` is a proportional gain of ordinary size.
 template <class Loop>
 void draw_gains(Draw& draw, Loop& loop, double natural, double period_s, double slowest_periods) {
   const double d1 = natural * draw.decades(0.1, 1.5), ratio = draw.between(-1.0, -0.6);
@@ -56,7 +56,7 @@ void draw_limits(Draw& draw, Scenario& s, const Scales& of) {
     s.control.regeneration.limit_V = draw.between(1.05, 1.5) * of.U_V;
 }
 
-/// The speed loop's full output is a torque; a natural gain asks for it at a tenth of the top speed.
+/// The speed loop's full output is a torque; a natural gain reaches it at a tenth of the top speed.
 void draw_speed_loop(Draw& draw, Scenario& s, const Scales& of) {
   SpeedLoop& loop = s.control.speed;
   if (draw.chance(0.2)) loop.output = SpeedOutput::duty;
@@ -69,7 +69,7 @@ void draw_speed_loop(Draw& draw, Scenario& s, const Scales& of) {
   if (loop.derivative_s && draw.chance(0.5)) loop.derivative_filter_s = *loop.derivative_s * draw.unit();
 }
 
-/// A start and what follows it, with or without probes beside it.
+/// A sensorless start and the run after it, with or without Hall probes.
 void draw_sensorless(Draw& draw, Scenario& s) {
   s.control.drive = FirmwareKind::sensorless;
   s.pwm.alignment = Alignment::centre;
@@ -162,7 +162,7 @@ void draw_sensors(Draw& draw, Scenario& s, const Scales& of) {
                           static_cast<Level01>(draw.one_of(2))};
 }
 
-/// Thresholds that plain running does not reach, and that the converters' ends do not hide.
+/// Thresholds that ordinary running does not reach, and that lie within the converters' range.
 void draw_protection(Draw& draw, Scenario& s, const Scales& of) {
   Protection& p = s.protection;
   const bool loop = s.control.mode != Mode::off && s.control.mode != Mode::duty &&
@@ -176,7 +176,7 @@ void draw_protection(Draw& draw, Scenario& s, const Scales& of) {
   p.voltage_samples = 1 + draw.one_of(10);
   if (draw.chance(0.4)) {
     p.stall_current_A = draw.between(0.2, 0.7) * *p.over_current_A;
-    // Above what the speed loop may ask for it would never trip.
+    // A threshold above the speed loop's limit would never trip.
     if (loop && s.control.mode != Mode::current)
       p.stall_current_A = std::min(*p.stall_current_A, 0.5 * of.kept_A);
     p.stall_s = draw.between(5.0, 200.0) * s.pwm.period_s;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A whole drive drawn at random: machine, devices, supply, load, board, controller, start. Parameters are
-// drawn as ratios to the machine's own scales (stall current, no-load speed, PWM period), so that they span
-// decades without most drives being dull.
+// A whole drive drawn at random: machine, devices, supply, load, board, controller, start. Parameters are drawn as ratios to the machine's
+// scales (stall current, no-load speed, PWM period), so that they span decades and most drives still run.
 #pragma once
 #include <algorithm>
 #include <sstream>
@@ -59,7 +58,7 @@ struct DrawnDrive : Board {
                  draw.chance(0.7) ? draw.decades(1e-3, 0.3) * machine.R_ohm : 0.0};
     start.bus_V = supply.V_0_V;
     if (!draw.chance(0.4)) return;
-    // A capacitor that takes the winding's energy at stall without swinging below the negative rail.
+    // The capacitor absorbs the winding's energy at stall, so that the bus does not fall below the negative rail.
     const double least = machine.L_H / (machine.R_ohm * machine.R_ohm);
     supply.R_b_ohm = draw.decades(1e-2, 0.5) * machine.R_ohm;
     supply.C_F = draw.decades(1.0, 300.0) * least;
@@ -92,7 +91,7 @@ struct DrawnDrive : Board {
     drive.current = {d1, d1 * draw.between(-1.1, -0.5), supply.V_0_V};
     if (draw.chance(0.5)) {
       drive.current_control = CurrentControl::hysteresis;
-      // The band is crossed in this many periods at full voltage.
+      // The current crosses the band in this number of periods at full voltage.
       drive.hysteresis.band_A = draw.decades(0.1, 10.0) * period_s() / L_tt() * supply.V_0_V;
       drive.hysteresis.watch = static_cast<Watch>(draw.one_of(3));
       if (drive.hysteresis.watch != Watch::none) board.delayed = false;
@@ -156,7 +155,7 @@ struct DrawnDrive : Board {
   }
 };
 
-/// For the message of a failure: how to see it again, and what was drawn.
+/// The message of a failure: the command that repeats it, and the drawn values.
 inline std::string reproduce(std::uint64_t seed, const DrawnDrive& d) {
   const rig::ModulatorConfig& m = d.board.modulator;
   std::ostringstream s;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The field-oriented drive: of some lean ones, with what only six-step has taken off. Drawn behind all else, so that a seed
-// that does not become one draws what it did.
+// The field-oriented drive: some lean drives become one, without the keys of six-step. It is drawn last, so that a seed's other values stay
+// the same.
 #include "sixstep/design/loops/field_current.hpp"
 #include "sixstep/design/sheet/parameters.hpp"
 #include "tests/fuzz/drawn_parts.hpp"
@@ -12,7 +12,7 @@ using control::Mode;
 
 namespace {
 
-/// Three legs in the middle of the period, and loops that hold currents.
+/// Three legs centred in the period, and loops that control currents.
 void leave_six_step(Draw& draw, Scenario& s, const Scales& of) {
   Control& c = s.control;
   c.arithmetic = draw.chance(0.5) ? Arithmetic::float64 : Arithmetic::float32;
@@ -52,7 +52,8 @@ void draw_keys(Draw& draw, Scenario& s, const design::MotorModel& motor) {
         draw.between(0.05, 0.99) * design::most_weakening_A(design::field_machine(motor, s.sheet));
 }
 
-/// Nothing senses the rotor: a salient one that saturates is pulsed, any other one is turned until it is seen.
+/// A drive without a rotor sensor: pulses find the angle of a salient rotor that saturates, other rotors are turned until the observer
+/// follows them.
 void leave_sensors(Draw& draw, Scenario& s, const Scales& of) {
   if (s.sensors.rotor != RotorSensing::ideal || s.control.mode == Mode::position || !draw.chance(0.3)) return;
   Field& f = s.control.field;
@@ -68,7 +69,7 @@ void leave_sensors(Draw& draw, Scenario& s, const Scales& of) {
   if (draw.chance(0.2)) f.angle_bandwidth_Hz = draw.decades(2e-3, 0.05) / s.pwm.period_s;
 }
 
-/// The shape's currents, the choice among the legs' states. Drawn behind the keys above, so that a seed draws of those what it did.
+/// Harmonic currents and the selection of the legs' states. They are drawn after the keys above, so that a seed keeps those.
 void draw_more_keys(Draw& draw, Scenario& s) {
   Field& f = s.control.field;
   if (!design::is_salient(s.sheet) && draw.chance(0.4)) f.harmonic_current = true;
@@ -87,7 +88,7 @@ void draw_more_keys(Draw& draw, Scenario& s) {
   if (draw.chance(0.2)) f.delay_compensation = false;
 }
 
-/// Of a board's sensors those that tell an angle and three currents.
+/// Sensors that give an angle and three currents.
 void keep_angles(Draw& draw, Scenario& s) {
   Sensors& x = s.sensors;
   if (x.currents == rig::CurrentMeasurement::dc_link) x.currents = rig::CurrentMeasurement::phases;
@@ -97,7 +98,7 @@ void keep_angles(Draw& draw, Scenario& s) {
   x.shaft = SensorShaft::motor;
 }
 
-/// Some of what is asked is of what it holds.
+/// Some figures use the axes' signals.
 void ask_of_axes(Draw& draw, Scenario& s) {
   static constexpr Signal signals[] = {Signal::direct_current,
                                        Signal::quadrature_current,

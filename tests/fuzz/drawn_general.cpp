@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What only the general kernel runs: drawn last, so that a seed draws the rest as it did.
+// Keys that need the general kernel: drawn last, so that a seed's other values stay the same.
 #include <algorithm>
 #include <numbers>
 
@@ -124,7 +124,7 @@ void draw_shaft_sensor(Draw& draw, Scenario& s) {
   x.resolver.noise_V = draw.decades(1e-5, 1e-2);
 }
 
-/// Drawn behind all else that a seed draws: who reads the sensor, where it stands, and how it fails.
+/// The shaft sensor's reader, place and faults, drawn after all other values of a seed.
 void draw_shaft_faults(Draw& draw, Scenario& s) {
   Sensors& x = s.sensors;
   if (s.control.drive == FirmwareKind::product || x.rotor == RotorSensing::ideal) return;

@@ -17,7 +17,7 @@ namespace {
 void draw_supply(Draw& draw, Scenario& s, const design::MotorModel& motor) {
   s.supply.voltage_V = motor.nominal_voltage_V * draw.decades(0.4, 1.5);
   if (!draw.chance(0.35)) return;
-  // A capacitor that takes the winding's energy at stall without swinging below the negative rail.
+  // The capacitor absorbs the winding's energy at stall, so that the bus does not fall below the negative rail.
   const double R = motor.machine.R_ohm, least = motor.machine.L_H / (R * R);
   s.supply.resistance_ohm = draw.decades(1e-2, 0.5) * R;
   s.supply.capacitance_F = draw.decades(1.0, 300.0) * least;
@@ -87,7 +87,7 @@ void draw_spread(Draw& draw, Scenario& s) {
 
 void draw_parts(Draw& draw, Scenario& s) {
   const auto motor = design::motor_model(s.sheet);
-  if (!motor) return;  // and the check says why
+  if (!motor) return;  // the check reports the reason
   draw_supply(draw, s, *motor);
   const double U = s.supply.voltage_V, R = 2 * motor->machine.R_ohm, K_t = motor->K_t_Nm_A;
   Scales of{U,
@@ -102,7 +102,7 @@ void draw_parts(Draw& draw, Scenario& s) {
   draw_pwm(draw, s, of);
   draw_bridge(draw, s, motor->machine.R_ohm);
   draw_control(draw, s, of);
-  const bool product = s.control.drive == FirmwareKind::product;  // measures its offsets for 64 periods first
+  const bool product = s.control.drive == FirmwareKind::product;  // the first 64 periods measure its offsets
   s.duration_s = s.pwm.period_s * (product ? draw.between(90.0, 400.0) : draw.between(10.0, 150.0));
   draw_load(draw, s, of);
   draw_start(draw, s, of);

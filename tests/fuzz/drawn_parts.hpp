@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of a drawn scenario, each drawn on the scale that the motor and the supply give it.
+// The parts of a drawn scenario, on the scales of motor and supply.
 #pragma once
 #include "sixstep/study/scenario/scenario.hpp"
 #include "tests/fuzz/draw.hpp"
 
 namespace sixstep::testing {
 
-/// Fills everything but title, motor and sheet, which are there.
+/// Fills everything except title, motor and sheet, which are already set.
 void draw_parts(Draw& draw, study::Scenario& s);
 
-/// What is natural for this motor at this supply.
+/// The natural scales of this motor at this supply.
 struct Scales {
   double U_V, R_tt_ohm, L_tt_H, K_t_Nm_A, stall_A, top_rad_s, stall_Nm, sector_rad;
-  double kept_A;  ///< current that the drive is asked for at most
+  double kept_A;  ///< largest current that the drive requests
 };
 
 void draw_control(Draw& draw, study::Scenario& s, Scales& of);
 void draw_sensors(Draw& draw, study::Scenario& s, const Scales& of);
 void draw_protection(Draw& draw, study::Scenario& s, const Scales& of);
-/// `left_s`: how long it can last.
+/// `left_s`: the remaining time.
 study::Reference drawn_reference(Draw& draw, const study::Scenario& s, const Scales& of, double left_s);
 void draw_events(Draw& draw, study::Scenario& s, const Scales& of);
 void draw_measures(Draw& draw, study::Scenario& s);
-/// What needs the general kernel, of some.
+/// Gives some scenarios keys that need the general kernel.
 void draw_general(Draw& draw, study::Scenario& s, const Scales& of);
-/// Makes some field-oriented.
+/// Makes some scenarios field-oriented.
 void draw_field(Draw& draw, study::Scenario& s, const Scales& of);
 /// Gives some six-step drives other loops and another PWM.
 void draw_six_step(Draw& draw, study::Scenario& s);

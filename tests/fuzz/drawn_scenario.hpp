@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scenario drawn at random as an engineer might write one: any motor of the library or one that is drawn,
-// every mode, sensor, firmware, arithmetic and kind of event, each key with the sense that its check asks
-// for.
+// A random scenario of the kind that an engineer writes: any motor of the library or a drawn one, every mode, sensor, firmware, arithmetic
+// and kind of event. Each key is within the limits of its check.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -12,10 +11,10 @@ namespace sixstep::testing {
 
 struct DrawnScenario {
   study::Scenario scenario;
-  std::string text;  ///< as a file says it, the drawn motor's values among its overrides
+  std::string text;  ///< a file's text, with the drawn motor's values among its overrides
 };
 
-/// The seed decides all of it.
+/// The seed determines everything.
 DrawnScenario drawn_scenario(std::uint64_t seed);
 
 }  // namespace sixstep::testing

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a six-step drive has beside the PI and the upper switch: PWM patterns, deadbeat current, the staying phase's current, laws
-// of the speed loop; and the profile of any drive's position loop. Drawn behind all else, so that a seed that gets none of them
-// draws what it did.
+// Optional parts of a six-step drive: PWM patterns, deadbeat current, the staying phase's current, laws of the speed loop; and the profile
+// of any drive's position loop. They are drawn last, so that a seed without them keeps its other values.
 #include <algorithm>
 #include <iterator>
 
@@ -24,7 +23,7 @@ bool never(const Scenario& s, Has has) {
   return std::none_of(s.at.begin(), s.at.end(), has);
 }
 
-/// Hard, at first or from an event on.
+/// Hard chopping, from the start or from an event on.
 bool chops_both(const Scenario& s) {
   const bool hard = s.pwm.chopping == control::Chopping::hard && !s.control.smooth_chopping.on;
   return hard || !never(s, [](const At& at) { return at.pwm.chopping == AtChopping::hard; });
@@ -74,8 +73,8 @@ void draw_six_step(Draw& draw, Scenario& s) {
   draw_law(draw, s);
 }
 
-/// Values that are not drawn follow from the drive. An event that lowers the torque or speed limit could put a given value
-/// above it.
+/// Values that are not drawn follow from the drive, because an event that lowers the torque or speed limit could put a given value above
+/// it.
 void draw_profile(Draw& draw, Scenario& s) {
   Control& c = s.control;
   const bool floats = c.arithmetic == Arithmetic::float64 || c.arithmetic == Arithmetic::float32;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole drives at random: each run ends where it should, in numbers, by the laws of model.md 5, and without
-// getting stuck.
+// Random complete drives: each run ends at its duration with finite values and within the laws of model.md 5.
 #include <gtest/gtest.h>
 
 #include "tests/fuzz/drawn_drive.hpp"
@@ -11,7 +10,7 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-/// Laws, and a count that no honest run of these lengths reaches: time that crawls is a hang too.
+/// Checks the laws, and counts segments: no valid run of these lengths reaches the limit, which detects a run that hardly advances.
 class Watchdog {
  public:
   template <class System>
@@ -42,7 +41,7 @@ void run_one(std::uint64_t seed) {
   EXPECT_EQ(run_to(rig, drive.length_s, watchdog), sim::Stop::end)
       << "at " << rig.now().seconds() << " fault " << int(rig.fault());
   EXPECT_TRUE(finite(rig.plant().state()));
-  // A tenth of what is asked of every run: of 100 000 drives none missed 1e-13.
+  // The tolerance is a tenth of that for every run: none of 100 000 drives exceeded 1e-13.
   watchdog.laws.expect_all(1e-12);
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is written where a value should stand.
+// Literals that replace a value.
 #pragma once
 
 namespace sixstep::testing {
 
-/// Numbers at the ends of what a double holds, and beyond; words that are none; values of every other type.
+/// Numbers at the limits of a double and beyond; words that are not numbers; values of every other type.
 inline constexpr const char* hostile_literals[] = {"1e308",
                                                    "-1e308",
                                                    "1.7976931348623157e308",

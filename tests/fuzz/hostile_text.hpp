@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scenario's text, broken: by someone who mistypes, by a program that writes nonsense, by a full disk, or
-// by someone who means it.
+// A damaged scenario text: by typing errors, a faulty program, a full disk or an attacker.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -8,11 +7,11 @@
 namespace sixstep::testing {
 
 struct BrokenText {
-  const char* kind;  ///< of the last thing that was done to it
+  const char* kind;  ///< of the last damage
   std::string text;
 };
 
-/// The seed decides all of it.
+/// The seed determines everything.
 BrokenText broken_text(std::uint64_t seed);
 
 }  // namespace sixstep::testing

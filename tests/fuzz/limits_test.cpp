@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A limit is a promise: whatever motor of the library, chopping, sample instant, delay, arithmetic, sensor
-// and drive, current, speed and bus stay within what design/loops/limit_bounds.hpp derives, or the scenario
-// is refused.
+// Limits hold: for every motor of the library, chopping, sample instant, delay, arithmetic, sensor and drive, current, speed and bus stay
+// within the bounds of design/loops/limit_bounds.hpp, or the scenario is refused.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +25,7 @@ using study::MetricKind;
 using study::Scenario;
 using study::Signal;
 
-/// Sheets of which a motor can be made.
+/// Sheets that give a motor model.
 const std::vector<design::Sheet>& motors() {
   static const std::vector<design::Sheet> all = [] {
     std::vector<design::Sheet> out;
@@ -42,7 +41,7 @@ const std::vector<design::Sheet>& motors() {
 constexpr Arithmetic arithmetics[] = {Arithmetic::float64, Arithmetic::float32, Arithmetic::q15,
                                       Arithmetic::q14,     Arithmetic::q31,     Arithmetic::q30};
 
-/// A drive with limits, told to go one way and then the other.
+/// A drive with limits, whose reference goes first in one direction and then in the other.
 struct DrawnLimits {
   explicit DrawnLimits(std::uint64_t seed);
   void draw_board(Draw& draw);
@@ -89,7 +88,7 @@ void DrawnLimits::draw_limits(Draw& draw) {
   s.control.speed.settle_s = draw.between(5e-3, 50e-3);
   s.control.speed.damping = 0.9;
   s.control.speed.torque_limit_Nm = draw.between(1.0, 1.5) * current_A * motor.K_t_Nm_A;
-  // From rest to top speed in 4 to 20 ms, as far as the rotor alone is not slower.
+  // The acceleration to top speed takes 4 to 20 ms, or longer if the rotor alone is slower.
   const double way = draw.between(4e-3, 20e-3) * current_A * motor.K_t_Nm_A / top_rad_s;
   s.load.inertia_kg_m2 = std::max(0.0, way - motor.shaft.J_kg_m2);
   s.duration_s = 50e-3;
@@ -104,9 +103,9 @@ void DrawnLimits::draw_limits(Draw& draw) {
   s.supply.resistance_ohm = draw.between(0.02, 0.2) * R;
   const double headroom_V = draw.between(0.05, 0.4) * bus_V;
   s.control.regeneration.limit_V = bus_V + headroom_V;
-  // About what the windings' energy asks for.
+  // The capacitance is about the one that the windings' energy needs.
   s.supply.capacitance_F = draw.decades(0.7, 30) * L * std::pow(2 * current_A / headroom_V, 2);
-  // A rotor that has more to give than the headroom takes.
+  // The rotor's energy exceeds the headroom's.
   const double enough = 6 * s.supply.capacitance_F * bus_V * headroom_V / (top_rad_s * top_rad_s);
   s.load.inertia_kg_m2 = std::max(s.load.inertia_kg_m2, enough);
 }
@@ -160,14 +159,14 @@ void ask(Scenario& s) {
   add(MetricKind::maximum, Signal::bus_voltage);
 }
 
-/// What a sensor may be off by: half a count, half a digit of 16 bits of a range that holds differences.
+/// A sensor's largest error: half a count, or half a digit of 16 bits over a range that holds differences.
 double digits(const Scenario& s, double largest) {
   const bool narrow = s.control.arithmetic == Arithmetic::q15 || s.control.arithmetic == Arithmetic::q14;
   return largest *
          ((narrow ? 0x1p-12 : 0.0) + 0x1p-10 * (s.sensors.currents != rig::CurrentMeasurement::ideal));
 }
 
-/// How often a limit was reached, and the most that was used of what it may be passed by.
+/// The count of reached limits, and the largest used part of the allowed overshoot.
 struct Counts {
   int runs = 0, refused = 0, currents = 0, speeds = 0, buses = 0;
   double current = 0, speed = 0, bus = 0;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Double against long double on drawn drives. How far rounding may grow is the drive's own matter (a
-// comparator that just misses its level, a rotor that just breaks away), so it is measured: a third run, in
-// long double with parameters off by 1e-13, shows what such a drive makes of so little. Double may differ by
-// four times that much (it is one direction of many), and by 1e-11 of the machine's scales.
+// Double against long double on drawn drives. The growth of rounding errors depends on the drive (a comparator that just misses its level,
+// a rotor that just breaks away). A third run in long double, with parameters off by 1e-13, measures it. Double may differ by four times
+// that (it is one direction of many), and by 1e-11 of the machine's scales.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -25,7 +24,7 @@ DrawnDrive nearly(DrawnDrive d) {
   return d;
 }
 
-/// Currents and speed against the machine's scales.
+/// Currents and speed relative to the machine's scales.
 using Point = std::array<double, 4>;
 
 template <class Rig>
@@ -42,19 +41,19 @@ double distance(const Point& a, const Point& b) {
 }
 
 struct Outcome {
-  bool tame = true;  ///< the parameters' 1e-13 stayed below 1e-11 throughout
-  double worst = 0;  ///< of double, while tame
+  bool tame = true;  ///< the effect of the parameters' 1e-13 stayed below 1e-11
+  double worst = 0;  ///< error of double, while tame
 };
 
-/// A current that is asked to be zero and is: the sign of its last bit decides whether soft chopping leaves
-/// it or brakes (model.md 4b). Nothing can be compared there.
+/// A zero current with a zero setpoint: the sign of its last bit decides whether soft chopping coasts or brakes (model.md 4b). No
+/// comparison is possible there.
 bool asks_for_nothing(const DrawnDrive& d) {
   return std::any_of(d.timeline.begin(), d.timeline.end(), [](const rig::Action& a) {
     return a.kind == rig::ActionKind::setpoint && a.value == 0.0;
   });
 }
 
-/// Looked at until the perturbed run has parted: from there on each may go where it likes.
+/// The comparison ends once the perturbed run has diverged: from there on both may differ.
 Outcome compare(std::uint64_t seed) {
   const DrawnDrive drive(seed), other = nearly(drive);
   if (drive.drive.mode != control::Mode::duty && asks_for_nothing(drive)) return {.tame = false};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What holds for every scenario, however it was drawn or broken: a list of laws, each of which says how much
-// of what it allows a case used. A new law is one line in scenario_laws.cpp.
+// Laws that hold for every scenario, drawn or damaged: each gives the used part of its tolerance. A new law is one line in
+// scenario_laws.cpp.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -10,27 +10,26 @@ namespace sixstep::testing {
 
 struct LawUsed {
   const char* law;
-  double part;  ///< 1 is all that is allowed
+  double part;  ///< 1 is the whole tolerance
   bool broken() const { return !(part <= 1.0); }
 };
 
 struct Examined {
-  std::string kind;  ///< what was drawn: firmware and arithmetic, or how the text was broken
+  std::string kind;  ///< the drawn firmware and arithmetic, or the kind of damage
   bool accepted = false;
-  std::string refused_at;  ///< the first key or place that was complained about
-  std::string ended;       ///< how the run of an accepted one ended
+  std::string refused_at;  ///< first refused key or place
+  std::string ended;       ///< end of an accepted scenario's run
   std::vector<LawUsed> laws;
-  std::string words;  ///< what was said that should not have been, for a reader of a failure
+  std::string words;  ///< the offending message, for the report of a failure
 };
 
-/// One scenario as an engineer might write it: written, read back, checked, run, run watched, and run from
-/// snapshots.
+/// One scenario of the kind that an engineer writes: written, read back, checked, run, run watched, and run from snapshots.
 Examined examine_drawn(std::uint64_t seed);
 
-/// One text that is broken in some way: read, checked, and where it is accepted after all, run for a while.
+/// One damaged text: read, checked, and run for a while if it is accepted.
 Examined examine_hostile(std::uint64_t seed);
 
-/// The text of either, for a closer look.
+/// The text of either, for inspection.
 std::string drawn_text(std::uint64_t seed);
 std::string hostile_text(std::uint64_t seed);
 

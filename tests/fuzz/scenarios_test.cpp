@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The gate's share of the drawn scenarios: the same seeds every time. New ones are drawn by ctest --preset
-// long.
+// The standard tests' part of the drawn scenarios: the same seeds every time. ctest --preset long draws new ones.
 #include <gtest/gtest.h>
 
 #include "tests/fuzz/campaign.hpp"
@@ -31,7 +30,7 @@ TEST(DrawnScenarios, KeepTheLawsInEveryFirmwareAndArithmetic) {
   EXPECT_EQ(result.kinds.size(), 26u) << "four firmwares in six arithmetics, the field-oriented one in two";
 }
 
-/// Both ways are walked, or the test would see one half of the reader only.
+/// Both outcomes occur; otherwise the test would cover only half of the reader.
 TEST(HostileScenarios, AreRefusedWithWordsOrRunToNumbers) {
   const CampaignResult result = all_hold("hostile", examine_hostile, hostile_count);
   if (std::getenv("SIXSTEP_FUZZ_SEED")) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A loop is measured where the scenario ends: with the chip that the events have made there, and on a drive that has come to rest.
+// The measurement starts where the scenario ends: in the mode that the events have set, with the drive settled.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ using namespace sixstep;
 using namespace sixstep::testing;
 using analysis::BodeStudy;
 
-/// The largest |L/L' - 1| of two measurements over the points that `one` has between a third and five.
+/// The largest |L/L' - 1| of two measurements, over the points where the gain of `one` is 0.3 to 5.
 double apart(const BodeStudy& one, const BodeStudy& other) {
   double worst = 0.0;
   EXPECT_EQ(one.points.size(), other.points.size());
@@ -42,7 +42,7 @@ study::At change(double time_s, double reference) {
   return at;
 }
 
-/// A current that accelerates, then a speed that is held: the speed loop is measured, beside the designed speed loop.
+/// The drive first controls a current, then the speed: the measured and the designed loop are the speed loop.
 TEST(BodeAtTheEnd, TheLoopIsThatOfTheLastMode) {
   const study::Scenario from_the_start = both_ways();
   study::Scenario later = from_the_start;
@@ -59,7 +59,7 @@ TEST(BodeAtTheEnd, TheLoopIsThatOfTheLastMode) {
   EXPECT_LT(apart(*one, *other), 0.02);
 }
 
-/// Gains that an event brings are those of the designed loop, too.
+/// The designed loop uses the gains that an event sets.
 TEST(BodeAtTheEnd, TheDesignedLoopHasTheLastGains) {
   study::Scenario later = both_ways();
   later.at.push_back(change(0.01, later.reference.value));
@@ -79,7 +79,7 @@ std::string problem_of(const study::Scenario& s) {
   return b ? "measured" : b.problems()[0].where + ": " + b.problems()[0].limit;
 }
 
-/// What an event brings hides the loop as what stands there from the start.
+/// A slew or ramp that an event sets hides the loop like one set from the start, and is refused.
 TEST(BodeAtTheEnd, AnEventsSlewAndRampAreRefused) {
   study::Scenario slewed = both_ways();
   slewed.at.push_back(change(0.01, slewed.reference.value));
@@ -102,7 +102,7 @@ TEST(BodeAtTheEnd, AnEventsSlewAndRampAreRefused) {
   EXPECT_EQ(problem_of(ramp), "measured");
 }
 
-/// The multisine's first period is not looked at, and is thirty periods of the crossover long: a step dies away in it.
+/// The evaluation skips the multisine's first period, which lasts thirty periods of the crossover: a step decays in it.
 TEST(BodeAtTheEnd, AStepJustBeforeTheEndChangesNothing) {
   study::Scenario rested = both_ways();
   rested.at.push_back(change(0.02, 120.0));
@@ -114,8 +114,8 @@ TEST(BodeAtTheEnd, AStepJustBeforeTheEndChangesNothing) {
   EXPECT_LT(apart(*one, *other), 0.02);
 }
 
-/// A ramp that gets there with the run's end lags behind by what a step would, and less: its loop is that of a drive at rest. One
-/// that would go on is refused, and the duration that is told for it is one that works.
+/// A ramp that ends with the run lags by less than a step would, so its loop equals that of a settled drive. A longer ramp is refused, and
+/// the duration that the message names works.
 TEST(BodeAtTheEnd, ARampThatEndsWithTheRunIsMeasured) {
   study::Scenario rested = both_ways();
   rested.reference.value = 200;
@@ -143,8 +143,8 @@ TEST(BodeAtTheEnd, ARampThatEndsWithTheRunIsMeasured) {
   }
 }
 
-/// J = 1e-2 kg m^2 and 0.195 N m, 2.5 times the nominal torque: 400 rad/s take 20 s. A straight way has the same lines in every
-/// period, so that the coherence is 1 and the curve is that of the way.
+/// J = 1e-2 kg m^2 takes 20 s to 400 rad/s at 0.195 N m, 2.5 times the nominal torque. A straight ramp has the same lines in every period,
+/// so that the coherence is 1 although the curve is the ramp's.
 TEST(BodeAtTheEnd, ADriveOnItsWayIsRefused) {
   study::Scenario s = both_ways();
   s.load.inertia_kg_m2 = 1e-2;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is measured on the switching simulation is the loop that was designed, as far as that is linear.
+// The loop measured on the switching simulation equals the designed one where the drive is linear.
 #include "sixstep/analysis/bode/bode_study.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ study::Scenario steady_current(bool locked) {
   return s;
 }
 
-/// The largest |L/(designed factor) - 1| where |L| is between the two.
+/// The largest |L/(designed factor) - 1| where |L| is between `least` and `most`.
 double off_by(const BodeStudy& b, double least, double most, double factor = 1.0) {
   double worst = 0;
   std::size_t looked_at = 0;
@@ -38,20 +38,20 @@ double off_by(const BodeStudy& b, double least, double most, double factor = 1.0
   return worst;
 }
 
-/// What a pulse that ends a little later adds to the current at the next sample, against a voltage held over the period: with
-/// x = R T/L and the pulse's end at d T it decays for (1 - d) T, the held voltage for half a period in the mean.
+/// The effect of a slightly longer pulse on the current at the next sample, relative to a voltage held over the period: with x = R T/L and
+/// the pulse's end at d T it decays for (1 - d) T, the held voltage on average for half a period.
 double pulse_over_held(double R_ohm, double L_H, double period_s, double duty) {
   const double x = R_ohm * period_s / L_H;
   return std::exp(-(1 - duty) * x) * x / -std::expm1(-x);
 }
 
-/// The duty of 5 A through the held rotor: d U, or (2 d - 1) U where both switches chop.
+/// The duty for 5 A through the locked rotor: the mean voltage is d U, or (2 d - 1) U where both switches chop.
 double steady_duty(control::Chopping chopping) {
   const double part = 5 * 1.03 / 24;
   return chopping == control::Chopping::hard ? (1 + part) / 2 : part;
 }
 
-/// A locked rotor leaves nothing but winding and PWM: the designed loop, times what the pulse's place in the period makes of it.
+/// A locked rotor has only winding and PWM: L is the designed loop times the factor of the pulse's place in the period.
 void expect_the_designed(study::Scenario s) {
   SCOPED_TRACE(static_cast<int>(s.pwm.chopping));
   const auto b = analysis::study_bode(s);
@@ -83,8 +83,8 @@ TEST(Bode, CurrentLoopOfALockedRotorIsTheDesigned) {
     }
 }
 
-/// Samples in the middle of centred pulses: half of what a change of the duty adds comes before the next sample and half behind it. Of
-/// a held voltage that is 1/2 (1 +- x/4) at once and 1/2 (1 -+ x/4) later, x = R T/L = 0.054: L differs by 1.4 % in the imaginary part.
+/// A duty's change acts half before the next sample and half after it, with samples in the middle of centred pulses: 1/2 (1 +- x/4) and 1/2
+/// (1 -+ x/4) of a held voltage, x = R T/L = 0.054. L differs by 1.4 % in the imaginary part.
 TEST(Bode, ASampleInTheMiddleIsHalfAPeriodLater) {
   for (const int delay : {0, 1}) {
     study::Scenario s = steady_current(true);
@@ -97,7 +97,7 @@ TEST(Bode, ASampleInTheMiddleIsHalfAPeriodLater) {
     ASSERT_TRUE(b->designed && b->figures && b->measured.phase_rad);
     EXPECT_LT(off_by(*b, 0.3, 30), 0.02) << delay;
     EXPECT_NEAR(*b->measured.phase_rad, *b->figures->phase_rad, 5e-3);
-    // Pulses that begin with the period are seen whole below a duty of a half: no line of this loop.
+    // Pulses that begin with the period end before the sample below a duty of 1/2, so that the loop is not linear.
     s.pwm.alignment = study::Alignment::edge;
     const auto edge = analysis::study_bode(s);
     ASSERT_TRUE(edge) << to_string(edge.problems()[0]);
@@ -106,22 +106,22 @@ TEST(Bode, ASampleInTheMiddleIsHalfAPeriodLater) {
   }
 }
 
-/// As the current chooses it: above its levels soft, and the gains are those of one switch, whatever pwm.chopping says.
+/// The current selects the chopping: above its levels it is soft, with the gains of one switch, independent of pwm.chopping.
 TEST(Bode, SmoothChoppingIsTheDesignedToo) {
   study::Scenario s = steady_current(true);
   s.control.smooth_chopping.on = true;
   expect_the_designed(s);
 }
 
-/// z^-1, or z^-2 behind a delay. A pulse's place makes f = pulse_over_held of the voltage, of which the prediction's correction
-/// leaves what is fast: L is between the designed one and f times it.
+/// L is z^-1, or z^-2 with a delay. The pulse's place multiplies the voltage by f = pulse_over_held; the prediction corrects only slow
+/// errors. L therefore lies between the designed loop and f times it.
 TEST(Bode, ADeadbeatLoopIsADelay) {
   for (const int delay : {0, 1, 2}) {
     study::Scenario s = steady_current(true);
     s.pwm.delay_periods = delay % 2;
     s.pwm.chopping = delay == 2 ? control::Chopping::hard : control::Chopping::complementary;
     s.control.current.type = study::CurrentLoopType::deadbeat;
-    // 19 V per ampere and period: more would ask for more than the bus.
+    // The gain is 19 V per ampere and period: a larger amplitude would need more than the bus voltage.
     const auto b = analysis::study_bode(s, {.amplitude = 0.02});
     ASSERT_TRUE(b) << to_string(b.problems()[0]);
     ASSERT_TRUE(b->designed);
@@ -133,13 +133,13 @@ TEST(Bode, ADeadbeatLoopIsADelay) {
   }
 }
 
-/// Chopped both ways the current may reverse, and the speed loop is linear but for commutation. The torque follows the mean of
-/// the current and not its sample: a per cent or two of gain near the crossover that the linear loop does not know.
+/// The current may reverse with both switches chopped, so that the speed loop is linear apart from commutation. The torque follows the
+/// current's mean instead of its sample: the gain near the crossover differs by 1 to 2 % from the linear loop.
 TEST(Bode, SpeedLoopIsTheDesigned) {
   for (const auto chopping : {control::Chopping::complementary, control::Chopping::hard}) {
     study::Scenario s = cascade(0.1);
     s.pwm.chopping = chopping;
-    // Hard chopping lets no current flow backwards: with a load it has no gaps.
+    // Hard chopping prevents a reverse current; a load keeps the current continuous.
     if (chopping == control::Chopping::hard) s.load.torque_Nm = 0.1;
     const auto b = analysis::study_bode(s);
     ASSERT_TRUE(b) << to_string(b.problems()[0]);
@@ -150,8 +150,8 @@ TEST(Bode, SpeedLoopIsTheDesigned) {
   }
 }
 
-/// Each law has the bandwidth of its rule, T = (1 - p)/(z - p): a loop L = (1 - p)/(z - 1) that crosses over at 2 asin((1 - p)/2)/T_s, where
-/// the current were not late; and with that it is the linear one that stands beside.
+/// Each law has the bandwidth of its rule, T = (1 - p)/(z - p): without the current's delay L = (1 - p)/(z - 1) crosses over at 2 asin((1 -
+/// p)/2)/T_s. With the delay it equals the linear loop.
 TEST(Bode, SpeedLawsHaveTheBandwidthOfTheirRule) {
   for (const study::SpeedLaw law : {study::SpeedLaw::state_feedback, study::SpeedLaw::disturbance_rejection,
                                     study::SpeedLaw::sliding_mode, study::SpeedLaw::pi}) {
@@ -174,8 +174,8 @@ TEST(Bode, SpeedLawsHaveTheBandwidthOfTheirRule) {
   }
 }
 
-/// A sine machine turning in the field: the bandwidth that the rule claims is found, T(z) = z_1 (1 - z_1)/(z^2 - z + z_1 (1 - z_1)).
-/// Three legs' pulses stand in the middle of the period, so that the held voltage is what the winding sees.
+/// A sine machine with field-oriented control has the bandwidth of its rule, T(z) = z_1 (1 - z_1)/(z^2 - z + z_1 (1 - z_1)). The three
+/// legs' pulses lie in the middle of the period, so that the winding has the held voltage.
 TEST(Bode, FieldOrientedCurrentHasTheBandwidthOfItsRule) {
   study::Scenario s = maxon_scenario(control::Mode::current, 4.0);
   s.sheet.back_emf = design::BackEmfShape::sine;
@@ -193,7 +193,7 @@ TEST(Bode, FieldOrientedCurrentHasTheBandwidthOfItsRule) {
   EXPECT_LT(off_by(*b, 0.1, 10), 0.02);
 }
 
-/// Its speed loop, over the axis across the magnet: no commutation stands between.
+/// Its speed loop acts by the q current, without commutation.
 TEST(Bode, FieldOrientedSpeedLoopIsTheDesigned) {
   study::Scenario s = cascade(0.1);
   s.sheet.back_emf = design::BackEmfShape::sine;
@@ -216,7 +216,7 @@ TEST(Bode, FieldOrientedSpeedLoopIsTheDesigned) {
   EXPECT_EQ(salient->not_linear, "a salient rotor's torque is not proportional to its current");
 }
 
-/// Where a band holds the current there is no linear loop to lay beside, and the measurement says what there is.
+/// A hysteresis band has no linear loop for comparison; the study reports only the measurement.
 TEST(Bode, ABandHasNoLinearLoop) {
   study::Scenario s = cascade(0.1);
   s.control.current = {.type = study::CurrentLoopType::hysteresis, .band_A = 0.2};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A multisine has its power where it says, and what a system makes of it is what the system is.
+// A multisine has power only at its lines, and the measured response of a known system equals that system.
 #include "sixstep/analysis/bode/multisine.hpp"
 
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ TEST(Multisine, PeaksAtItsAmplitudeAndLowerThanSinesInStep) {
     square += x * x / static_cast<double>(r.size());
   }
   EXPECT_NEAR(peak, 0.25, 1e-15);
-  // 32 sines in step have a crest of sqrt(2 32) = 8; Schroeder's phases stay below half of it.
+  // A crest factor of sqrt(2 32) = 8 belongs to 32 sines in phase; Schroeder's phases keep it below half of that.
   EXPECT_LT(peak / std::sqrt(square), 4.0);
 }
 
@@ -79,7 +79,7 @@ TEST(Multisine, AnswerIsTheSystems) {
   }
 }
 
-/// What the square of the input adds stands at even lines; what noise adds makes periods unlike.
+/// The square of the input appears at even lines; noise makes the periods differ.
 TEST(Multisine, SquaresFallBesideAndNoiseCostsCoherence) {
   const Multisine signal{512, analysis::odd_lines(100, 16), 1.0};
   const std::vector<double> r = samples_of(signal);
@@ -98,17 +98,17 @@ TEST(Multisine, SquaresFallBesideAndNoiseCostsCoherence) {
     EXPECT_NEAR(even.lines[k].gain.re, 3.0, 1e-12);
     EXPECT_NEAR(even.lines[k].gain.im, 0.0, 1e-12);
     const double off = std::hypot(rough.lines[k].gain.re - 3, rough.lines[k].gain.im) / 3;
-    strayed += off * off / 2;  // one direction of two
+    strayed += off * off / 2;  // one of two directions
     scatter += rough.lines[k].scatter * rough.lines[k].scatter / 2;
     EXPECT_LT(rough.lines[k].coherence, 1.0);
     EXPECT_GT(rough.lines[k].coherence, 0.8);
   }
-  EXPECT_NEAR(std::sqrt(strayed / scatter), 1.0, 0.35);  // the scatter that is told is the one there is
+  EXPECT_NEAR(std::sqrt(strayed / scatter), 1.0, 0.35);  // the reported scatter is the true one
 }
 
-/// Margins read off the points of a loop that is known.
+/// Margins are computed from points of a known loop.
 TEST(MeasuredLoop, MarginsAreTheLoops) {
-  // L = k/(z (z - 1)): crossover and margins by design's own scan.
+  // L = k/(z (z - 1)); design's own scan gives crossover and margins.
   const design::Transfer loop = design::series({{0.1}, {0.0, 1.0}}, design::delay(1));
   const double period_s = 50e-6;
   const design::LoopFigures figures = design::loop_figures(loop, period_s);

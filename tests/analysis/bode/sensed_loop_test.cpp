@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A loop whose speed or position comes from a sensor: what goes round it is what the controller is told.
+// A loop whose speed or position comes from a sensor includes that sensor's delay.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using analysis::LoopPoint;
 
 constexpr double degree = base::pi / 180;
 
-/// Under a load the current has no gaps, however the legs are chopped.
+/// The load keeps the current continuous with each kind of chopping.
 study::Scenario speed_by(study::RotorSensing rotor) {
   study::Scenario s = cascade(0.2);
   s.control.speed.settle_s = 37e-3;
@@ -46,8 +46,8 @@ BodeStudy study_of(const study::Scenario& s) {
   return b ? *b : BodeStudy{};
 }
 
-/// The true speed answers with T, and L H = T H/(1 - T H) goes round: with H = (k + 1)/2 sectors the measurement is the designed
-/// loop, from where T is 1 to where the edges tell next to nothing.
+/// The true speed responds with T, and the loop is L H = T H/(1 - T H). With H = (k + 1)/2 sectors the measurement equals the designed
+/// loop, up to the frequency that the edges no longer resolve.
 TEST(SensedLoop, ASpeedFromASensorIsMeasuredAsTheControllerIsTold) {
   for (const auto rotor :
        {study::RotorSensing::ideal, study::RotorSensing::hall, study::RotorSensing::encoder}) {
@@ -67,7 +67,7 @@ TEST(SensedLoop, ASpeedFromASensorIsMeasuredAsTheControllerIsTold) {
   }
 }
 
-/// An edge a sector costs its delay: the lag is (1 + 1)/2 sectors, and so much phase less than a speed that is known.
+/// One edge per sector delays by (1 + 1)/2 sectors: the phase is smaller by that delay than with the true speed.
 TEST(SensedLoop, TheSensorCostsItsDelay) {
   const BodeStudy ideal = study_of(speed_by(study::RotorSensing::ideal)),
                   hall = study_of(speed_by(study::RotorSensing::hall));
@@ -88,7 +88,7 @@ double between(const std::vector<LoopPoint>& points, double w_rad_s) {
   return 0.0;
 }
 
-/// A position on Hall probes strays by its steps, and its lowest line's phase is noise: no turn of it is carried along.
+/// A position from Hall probes has steps, and its lowest line's phase is noise, from which no whole turns may carry over.
 TEST(SensedLoop, PhasesStandWithinATurnAndTheMarginIsOfThem) {
   for (const study::Scenario& s :
        {position_by(study::RotorSensing::hall), speed_by(study::RotorSensing::hall)}) {
@@ -116,7 +116,7 @@ TEST(SensedLoop, PhasesStandWithinATurnAndTheMarginIsOfThem) {
   }
 }
 
-/// Whole turns are no part of a margin.
+/// Whole turns of phase do not change a margin.
 TEST(SensedLoop, MarginsAreTheSameATurnFurther) {
   std::vector<LoopPoint> points;
   for (const double w : {10.0, 20.0, 40.0, 80.0})

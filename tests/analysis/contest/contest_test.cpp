@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The course that controllers are compared on, and what their figures are made of.
+// The course on which controllers are compared, and the composition of its figures.
 #include "sixstep/analysis/contest/contest.hpp"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ TEST(Contest, WindowsLieInTheirOrderAndHoldTenElectricalTurns) {
     const double turn_rad = 2 * std::numbers::pi / bench->design.motor.machine.pole_pairs;
     EXPECT_GE(c.calm_s * c.high_rad_s, 10 * turn_rad);
     EXPECT_GE(c.slow_calm_s * c.slow_rad_s, 10 * turn_rad);
-    // The bus drives the full load at the high speed, K_t w + R i < U, with two fifths of that speed to spare.
+    // The bus drives the full load at the high speed, K_t w + R i < U, with a margin of two fifths in speed.
     const design::MotorModel& m = bench->design.motor;
     EXPECT_LE(
         c.high_rad_s,
@@ -73,7 +73,7 @@ TEST(Contest, ABoardIsTakenAndItsSwitchesCostWhatIsUsualWhereItNamesNothing) {
 TEST(Contest, FiguresAreSumsOfGauges) {
   GaugeValues gauges{};
   for (std::size_t n = 0; n < gauges.size(); ++n)
-    gauges[n] = std::pow(2.0, double(n));  // no two sums are alike
+    gauges[n] = std::pow(2.0, double(n));  // no two sums are equal
   const auto gauge = [&](Gauge g) { return gauges[static_cast<std::size_t>(g)]; };
   const ContestValues values = contest_values_of(gauges);
   EXPECT_EQ(values[loss_figure], gauge(Gauge::copper) + gauge(Gauge::conduction) + gauge(Gauge::switching));
@@ -82,13 +82,13 @@ TEST(Contest, FiguresAreSumsOfGauges) {
     if (contest_figures[f].less != Gauge::least_torque) continue;
     EXPECT_EQ(values[f], gauge(Gauge::mean_torque) - gauge(Gauge::least_torque));
   }
-  // Each gauge stands where its name says.
+  // Each gauge has the position that its name indexes.
   EXPECT_EQ(contest_gauges[static_cast<std::size_t>(Gauge::turn_ons)].signal, study::Signal::gate_T1);
   EXPECT_EQ(contest_gauges[static_cast<std::size_t>(Gauge::brake_peak)].part, CoursePart::brake);
   EXPECT_EQ(static_cast<std::size_t>(Gauge::none), std::size(contest_gauges));
 }
 
-/// A course whose runs are made up: two contestants that spread three values, as contest_entries() has them.
+/// A course with made-up runs: two contestants that spread three values, as in contest_entries().
 struct MadeUp {
   Contest contest;
 
@@ -101,7 +101,7 @@ struct MadeUp {
     const std::span<const Contestant> who = contestants();
     contest = contest_of(*bench, {{&who[0], {}, scenario}, {&who[1], {}, scenario}}, 2, 1);
   }
-  /// Requirements held, and each gauge a power of two: no two figures are alike.
+  /// The requirements hold, and each gauge is a power of two, so that all figures differ.
   study::Outcome outcome() const {
     const study::Scenario& s = *contest.entries[0].scenario;
     study::Outcome o;
@@ -120,7 +120,7 @@ struct MadeUp {
   }
 };
 
-/// Values that stray come first in a row, and the figures keep their names all the same.
+/// Spread values come first in a row, and each figure keeps its name.
 TEST(Contest, AFigureIsFoundByItsNameWhateverStandsBeforeIt) {
   MadeUp made;
   EXPECT_EQ(made.contest.columns->strayed.size(), 3U);
@@ -180,7 +180,7 @@ TEST(Contest, TheWorstOfDrivesIsTheLargestAndNoValueIsWorse) {
   EXPECT_EQ(row.drives, 2U);
   EXPECT_EQ(row.held, 1U);
   EXPECT_EQ(made.contest.rows[0].drives, 0U);
-  take_drive(made.contest, made.drive(4, o));  // of no controller
+  take_drive(made.contest, made.drive(4, o));  // no controller has this number
   EXPECT_EQ(row.drives, 2U);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is built is measured, and what no machine can be is refused with its likely cause: in units of time and voltage that were
-// taken for others, in pole pairs and in the probe's factor.
+// Recordings of machines that exist are measured. Values of no possible machine are refused with the likely cause: a wrong unit of time or
+// voltage, wrong pole pairs or a wrong probe factor.
 #include "sixstep/analysis/identification/built_machines.hpp"
 
 #include <gmock/gmock.h>
@@ -41,7 +41,7 @@ std::string measured(const EmfTruth& t, std::optional<int> pole_pairs) {
   return found ? "" : told(found.problems());
 }
 
-/// V s per rad between two lines, peak; rpm; pole pairs.
+/// K_e in V s per rad between two lines, peak; speed in rpm; pole pairs.
 struct Machine {
   const char* name;
   double line_V_s, rpm;
@@ -67,7 +67,7 @@ TEST(BuiltMachines, WhatIsBuiltIsMeasured) {
 }
 
 TEST(BuiltMachines, WhatIsBuiltByNobodyIsRefused) {
-  // 5e-6 V per 1000 rpm at 1e5 rad/s of the shaft.
+  // The values are 5e-6 V per 1000 rpm and 1e5 rad/s of the shaft.
   const double krpm = 1000.0 * base::pi / 30.0, w = 1e5;
   EXPECT_THAT(
       measured(at(w / base::turn_rad, 5e-6 / krpm), 1),
@@ -108,7 +108,7 @@ TEST(BuiltMachines, TheBoundsAreThoseThatAreStated) {
   }
 }
 
-/// The cause that a message names leads back: the same recording in the right unit is measured.
+/// The named cause is the true one: the same recording in the right unit is measured.
 TEST(BuiltMachines, ATimeInTheWrongUnitIsNamedAndItsCureHolds) {
   const EmfTruth right = at(50.0, 2e-3);
   EXPECT_EQ(measured(right, 1), "");
@@ -124,7 +124,7 @@ TEST(BuiltMachines, ATimeInTheWrongUnitIsNamedAndItsCureHolds) {
   }
 }
 
-/// Logs of Hall lines are held to the same: by their edges alone for the speed, with voltages for the constant.
+/// Logs of Hall lines have the same limits: the edges alone give the speed, voltages give the constant.
 TEST(BuiltMachines, ALogOfHallLinesInAWrongUnitIsRefused) {
   HallTruth truth = drilled();
   EXPECT_TRUE(analysis::identify(drawn_log(truth).log));
@@ -132,7 +132,7 @@ TEST(BuiltMachines, ALogOfHallLinesInAWrongUnitIsRefused) {
   const analysis::HallLog right = drawn_log(truth).log;
   ASSERT_TRUE(analysis::identify(right));
   analysis::HallLog log = right;
-  for (double& t : log.t_s) t *= 1e-4;  // ten electrical turns a second, and then a hundred thousand
+  for (double& t : log.t_s) t *= 1e-4;  // ten electrical turns a second become a hundred thousand
   EXPECT_THAT(told(analysis::identify(log).problems()),
               AllOf(HasSubstr("100000 Hz"), HasSubstr("unit of time")));
   log = right;

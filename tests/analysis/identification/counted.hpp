@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How often an interval held what it was meant to hold.
+// Counts how often an interval contains the true value.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 namespace sixstep::testing {
 
-/// Drawn cases: few in every run of the tests, a thousand where the environment says so.
+/// Number of drawn cases: `usual`, or the count in SIXSTEP_BENCH_LOGS.
 inline int drawn_count(int usual) {
   const char* const wanted = std::getenv("SIXSTEP_BENCH_LOGS");
   return wanted ? std::atoi(wanted) : usual;
@@ -29,8 +29,8 @@ class HeldOften {
   }
   double part() const { return held_ / all_; }
 
-  /// 95 of 100 hold, as far as so many draws can tell: in full a thousand and more within 93 and 97, else within four
-  /// deviations of the binomial distribution. `cases` where answers of one case are not independent.
+  /// 95 % of the intervals hold the truth, within the accuracy of the count: 93 to 97 % for a thousand cases or more, else four standard
+  /// deviations of the binomial distribution. `cases` is for answers that are not independent within a case.
   void expect_95(double cases = 0.0) const {
     const double n = cases > 0.0 ? cases : all_;
     const double width = width_of(n);
@@ -38,7 +38,7 @@ class HeldOften {
                 100.0 * part(), missed_.c_str());
     EXPECT_NEAR(part(), 0.95, width) << what_;
   }
-  /// No fewer than that.
+  /// At least 95 %, within the same accuracy.
   void expect_at_least_95(double cases = 0.0) const {
     const double n = cases > 0.0 ? cases : all_;
     const double width = width_of(n);
@@ -47,7 +47,7 @@ class HeldOften {
   }
 
  private:
-  /// The binomial distribution's deviation, 2.9 of which are 2 in 100 of a thousand; what is promised is no less than that.
+  /// The binomial standard deviation; 2.9 of it are 2 % of a thousand cases, which is the narrowest promised width.
   static double width_of(double n) {
     const double deviation = std::sqrt(0.05 * 0.95 / n);
     return in_full() ? std::fmax(2.9 * deviation, 0.02) : 4.0 * deviation;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recordings of open-circuit voltages as an oscilloscope makes them, drawn at random, with what is true of
-// them. Written anew from the conventions of docs/reference/notation.md: it shares nothing with what is tested.
+// Recordings of open-circuit voltages as an oscilloscope makes them, drawn at random, with their true values. The code follows
+// docs/reference/notation.md and shares nothing with the tested code.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -20,7 +20,7 @@ struct EmfTruth {
   double periods = 5.0;
   double rows_per_period = 2000.0;
   double flux_Vs = 5e-3;              ///< peak of a phase's fundamental
-  std::array<double, 26> cos_part{};  ///< by order, of the fundamental: cos n (theta - 60 deg)
+  std::array<double, 26> cos_part{};  ///< part of the fundamental by order: cos n (theta - 60 deg)
   std::array<double, 26> sin_part{};
   int channels = 1;
   bool star = false, backward = false;
@@ -28,7 +28,7 @@ struct EmfTruth {
   std::array<double, 3> offset_V{};
 };
 
-/// Phase a over theta, fundamental 1.
+/// The voltage shape of phase a over theta, with fundamental 1.
 inline double phase_shape(const EmfTruth& t, double theta) {
   double sum = 0.0;
   for (std::size_t n = 1; n < t.cos_part.size(); ++n) {
@@ -38,18 +38,18 @@ inline double phase_shape(const EmfTruth& t, double theta) {
   return sum;
 }
 
-/// A trapezoid with that flat top, by its Fourier series, so that the truth of each order is known.
+/// A trapezoid with this flat top, from its Fourier series, so that each order's true value is known.
 inline void make_trapezoid(EmfTruth& t, double flat_deg) {
   const double ramp = (180.0 - flat_deg) / 2.0 * std::numbers::pi / 180.0;  // from zero to the top
   const double first = std::sin(ramp);
   for (std::size_t n = 1; n < t.cos_part.size(); n += 2) {
     const auto order = static_cast<double>(n);
-    // Middle of the top at theta = 60 degrees: sin n x of the usual series is cos n y up to its sign there.
+    // The middle of the top is at theta = 60 degrees: sin n x of the usual series becomes cos n y up to its sign there.
     t.cos_part[n] = std::sin(order * ramp) / (order * order) / first * (n % 4 == 1 ? 1.0 : -1.0);
   }
 }
 
-/// The largest value of something periodic.
+/// The largest value of a periodic function.
 template <class Shape>
 double largest(Shape shape) {
   double most = 0.0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Logs of a motor that someone turned, drawn at random, with what is true of them. It shares nothing with
-// what is tested but the conventions of docs/reference/notation.md: motion, probes, wires and noise are written anew,
-// and the shaft obeys a torque, not the smoothness that identification assumes.
+// Logs of a motor turned by hand or drill, drawn at random, with their true values. The code shares only the conventions of
+// docs/reference/notation.md with the tested code: motion, probes, wires and noise are its own, and the shaft obeys a torque instead of the
+// smoothness that identification assumes.
 #pragma once
 #include <array>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace sixstep::testing {
 
 enum class Turning { hand, strokes, drill, coast, to_and_fro };
 
-/// What a log is of.
+/// The true values of a log.
 struct HallTruth {
   std::uint64_t seed = 0;
   Turning turning = Turning::hand;
@@ -24,11 +24,11 @@ struct HallTruth {
   double offset_deg = 0.0, hysteresis_deg = 0.0, jitter_deg = 0.1, delay_s = 0.0;
   std::array<double, 6> own_deg{};  ///< sum 0
   int pole_pairs = 1;
-  std::array<double, 8> scattered_deg{};  ///< all edges of each pole pair of the shaft
+  std::array<double, 8> scattered_deg{};  ///< every edge of each pole pair of the shaft
   std::array<int, 3> probe_at_pin{0, 1, 2};
   int inverted = 0;  ///< as bits of a code
   bool spaced_60 = false;
-  bool backward = false;       ///< the hand turns against positive angles
+  bool backward = false;       ///< the hand turns the shaft in the negative direction
   double turns = 20.0;         ///< electrical
   double usual_turns_s = 5.0;  ///< electrical
   double glitches_s = 0.0;     ///< single rows with one line wrong
@@ -37,8 +37,8 @@ struct HallTruth {
   analysis::RecordedVoltages voltages = analysis::RecordedVoltages::none;
   int channels = 3;
   double flux_Vs = 5e-3;                ///< peak of a phase's fundamental
-  std::array<double, 3> harmonics{};    ///< 5th, 7th, 11th as parts of it
-  double noise_V = 0.01, step_V = 0.0;  ///< white, and of the converter
+  std::array<double, 3> harmonics{};    ///< 5th, 7th, 11th relative to it
+  double noise_V = 0.01, step_V = 0.0;  ///< white noise; the converter's step
   std::array<double, 3> channel_offset_V{};
 };
 
@@ -58,7 +58,7 @@ inline int pin_code(const HallTruth& t, int sector) {
   return pins ^ t.inverted;
 }
 
-/// Speed in electrical turns per second, by a torque on a shaft with friction.
+/// Speed in electrical turns per second of a shaft with torque and friction.
 class Shaft {
  public:
   Shaft(const HallTruth& t, Draw& draw)
@@ -77,7 +77,7 @@ class Shaft {
     double wanted = usual;
     double rate = 4.0;
     switch (t_.turning) {
-      case Turning::hand:  // a hand that turns on and off, a new wish now and then
+      case Turning::hand:  // a hand that speeds up and slows down, with a new target at random times
         if (time_ > next_) {
           wish_ = draw_.between(0.1, 1.8) * usual;
           next_ = time_ + draw_.decades(0.1, 1.0);
@@ -111,7 +111,7 @@ class Shaft {
         rate = 6.0;
         break;
     }
-    // The torque itself moves smoothly: a hand is a spring with a mass.
+    // The torque itself changes smoothly: a hand acts as a spring with a mass.
     force_ += dt * 25.0 * (rate * (wanted - speed_) - force_);
     speed_ += dt * force_;
   }
@@ -124,8 +124,7 @@ class Shaft {
   bool pushing_ = false;
 };
 
-/// Probes as they switch: an edge stands where it stands, farther by half the hysteresis and by a new jitter
-/// each time, and is seen a delay later.
+/// Switching of the probes: an edge has its place, shifted by half the hysteresis and by a new jitter each time. Its signal is delayed.
 class Probes {
  public:
   Probes(const HallTruth& t, Draw& draw, double angle_deg) : t_(t), draw_(draw) {
@@ -135,7 +134,7 @@ class Probes {
     draw_again();
   }
   int sector() const { return sector_; }
-  /// Times at which sectors change within a step from one angle to the next.
+  /// Times of the changes of sector within a step from one angle to the next.
   void move(double from_s, double from_deg, double to_s, double to_deg,
             std::vector<std::pair<double, int>>& changes) {
     for (;;) {
@@ -157,7 +156,7 @@ class Probes {
           to_deg == from_deg ? 1.0 : std::min(1.0, std::max(0.0, (at - from_deg) / (to_deg - from_deg)));
       changes.emplace_back(from_s + part * (to_s - from_s) + t_.delay_s, sector_);
       draw_again();
-      // A probe that has switched does not switch back before the rotor turns back.
+      // A probe that has switched switches back only after the rotor has reversed.
       if (moved > 0)
         down_ = std::min(down_, at - 1e-9 - (place(sector_) - 0.5 * t_.hysteresis_deg));
       else
@@ -181,7 +180,7 @@ class Probes {
   double up_ = 0.0, down_ = 0.0;
 };
 
-/// A contact that is loose now and then: for a while one line reads wrong in every other row, by chance.
+/// A contact that is loose at times: then one line is wrong in every other row, at random.
 class LooseContact {
  public:
   explicit LooseContact(const HallTruth& t) : t_(t), draw_(t.seed ^ 0x9e3779b9u) {}
@@ -274,7 +273,7 @@ inline DrawnLog drawn_log(const HallTruth& truth) {
   return out;
 }
 
-/// A log as benches give them: anything may be wrong with wires and probes, rows are dense or sparse.
+/// A log with the faults of a bench: any wires and probes may be wrong, and rows are dense or sparse.
 inline HallTruth drawn_truth(std::uint64_t seed, bool with_voltages) {
   Draw draw(seed);
   HallTruth t;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A log that leaves nothing to be asked.
+// A log without uncertainty.
 #pragma once
 #include "tests/analysis/identification/drawn_hall_log.hpp"
 
 namespace sixstep::testing {
 
-/// Six electrical turns of a drill, forty rows in a sector.
+/// Six electrical turns by a drill, forty rows per sector.
 inline HallTruth drilled() {
   HallTruth t;
   t.turning = Turning::drill;

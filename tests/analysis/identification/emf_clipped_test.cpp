@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tops that the converter cut off: a sine of known peak is refused, or its constants' bounds hold what was cut.
+// Peaks clipped by the converter: a sine of known peak is refused, or the constants' bounds contain the true peak.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -19,9 +19,9 @@ constexpr double frequency_Hz = 50.0, peak_V = 3.0;
 constexpr double true_peak = peak_V / (2 * std::numbers::pi * frequency_Hz);
 
 struct Cut {
-  double part = 0.0;  ///< of the peak that is lost
+  double part = 0.0;  ///< lost part of the peak
   double step_V = 0.0, noise_V = 0.0;
-  bool both = true;  ///< ends, else the upper one alone
+  bool both = true;  ///< both ends, else the upper one alone
 };
 
 analysis::EmfRequest recorded(const Cut& cut) {
@@ -40,7 +40,7 @@ analysis::EmfRequest recorded(const Cut& cut) {
   return out;
 }
 
-/// 12 and 8 bits of 8 V, without noise and with half a step of it: from three steps on it is refused, noise or not.
+/// A converter of 12 or 8 bits over 8 V, without noise and with up to half a step: a loss of three steps is refused in each case.
 TEST(EmfClipped, WhatLacksThreeStepsIsRefused) {
   for (const double step_V : {8.0 / 4096, 8.0 / 256})
     for (const double noise : {0.0, 0.3, 0.5})
@@ -53,7 +53,7 @@ TEST(EmfClipped, WhatLacksThreeStepsIsRefused) {
         }
 }
 
-/// What is cut less than a step can tell is in the bounds of peak and fundamental, or the top is refused.
+/// A smaller loss lies within the bounds of peak and fundamental, or is refused as clipped.
 TEST(EmfClipped, WhatIsLeftIsWithinTheBounds) {
   for (const double step_V : {8.0 / 256, 8.0 / 64})
     for (const double noise : {0.3, 0.5})
@@ -67,7 +67,7 @@ TEST(EmfClipped, WhatIsLeftIsWithinTheBounds) {
       }
 }
 
-/// A whole sine is none, however coarse the steps that its tops stand on.
+/// A complete sine is not taken for clipped, even with coarse steps.
 TEST(EmfClipped, AWholeSineIsMeasured) {
   for (const double step_V : {8.0 / 4096, 8.0 / 256, 8.0 / 64, 8.0 / 32})
     for (const double noise : {0.0, 0.1, 0.3, 0.5, 2.0}) {
@@ -76,7 +76,7 @@ TEST(EmfClipped, AWholeSineIsMeasured) {
     }
 }
 
-/// Nor are a trapezoid's tops, of any width, which are flat by themselves.
+/// A trapezoid's flat tops of any width are not taken for clipped.
 TEST(EmfClipped, TheTopsOfATrapezoidAreItsOwn) {
   for (const double flat_deg : {60.0, 90.0, 120.0, 140.0})
     for (const double part_of_peak : {1.0 / 1000, 1.0 / 100, 1.0 / 30})

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Edges that come in bursts, of a contact that is loose for a moment or an edge that bounces: one event each, whatever rows
-// they fill.
+// Edges in bursts, from a contact that is loose for a moment or an edge that bounces, count as one event each, in any number of rows.
 #include <gmock/gmock.h>
 
 #include "sixstep/analysis/identification/hall/hall_edges.hpp"
@@ -38,21 +37,21 @@ void expect_same_way(const HallLog& clean, const HallLog& broken) {
   }
 }
 
-/// 36 times 000, which probes 120 degrees apart never show, beside 12 times 010 and 101: counted one by one they would be
-/// probes 60 degrees apart.
+/// Code 000 is impossible with probes 120 degrees apart. It occurs 36 times, against 12 times 010 and 101: a count of single edges would
+/// give probes 60 degrees apart.
 TEST(HallBursts, ImpossibleCodesOfALooseContactCountOncePerBurst) {
   const HallLog clean = drawn_log(drilled()).log;
   expect_same_way(clean, loose(clean, 0b100, 3));
 }
 
-/// 96 changes of H1 beside 24 of a good line: the good ones are not dead for that.
+/// H1 changes 96 times and a good line 24 times, which must not make the good line dead.
 TEST(HallBursts, ABurstOnOneLineMakesNoOtherOneDead) {
   HallLog broken = drawn_log(drilled()).log;
   for (int n = 0; n < 2; ++n) broken = loose(broken, n == 0 ? 0b100 : 0b110, 5);
   expect_same_way(drawn_log(drilled()).log, broken);
 }
 
-/// What only swings over one edge has one line that changes, and two that never do.
+/// A rotor that swings over one edge changes one line; the two others are constant.
 TEST(HallBursts, LinesThatNeverChangeAreToldHoweverOftenTheThirdDoes) {
   HallLog log = drawn_log(drilled()).log;
   for (std::size_t n = 0; n < log.codes.size(); ++n) log.codes[n] = n / 20 % 2 == 0 ? 0b100 : 0b110;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Voltages beside Hall lines that are not those of one motor: a divider or a unit of one column makes a constant of no motor, and so does a
-// probe the wrong way round; a motor's own few per cent do not.
+// Voltages recorded with Hall lines that contradict one motor: a wrong divider or unit of one column gives a constant of no motor, and so
+// does a reversed probe. A motor's own few per cent do not.
 #include <gmock/gmock.h>
 
 #include "sixstep/analysis/identification/hall/identify.hpp"
@@ -22,7 +22,7 @@ HallLog between_lines(int channels) {
   return drawn_log(t).log;
 }
 
-/// Against terminal b, which is as good a point as any: u_a = u_ab, u_b = 0, u_c = -u_bc.
+/// Terminal b is the reference: u_a = u_ab, u_b = 0, u_c = -u_bc.
 HallLog against_b() {
   HallLog log = between_lines(2);
   log.voltages = RecordedVoltages::terminals;
@@ -50,7 +50,7 @@ TEST(IdentifyAlike, AFactorOfOneColumnIsRefused) {
   for (const std::size_t column : {0, 2}) expect_told(against_b(), column);
 }
 
-/// u_ab and -u_bc are 60 degrees apart: the third of their triangle is sqrt(3) times as long.
+/// The voltages u_ab and -u_bc are 60 degrees apart: the third side of their triangle is sqrt(3) times as long.
 TEST(IdentifyAlike, AProbeTheWrongWayRoundIsRefused) {
   for (const std::size_t column : {0, 1}) {
     HallLog log = between_lines(2);

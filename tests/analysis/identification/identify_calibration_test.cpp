@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What identify() says it is sure of: over drawn logs, 95 % intervals hold the truth in 93 to 97 of 100, and answers
-// of probability p are right as often.
+// The certainty of identify(): over drawn logs, 95 % intervals hold the truth in 93 to 97 of 100, and answers of probability p are right as
+// often.
 #include "sixstep/analysis/identification/hall/identify.hpp"
 #include "tests/analysis/identification/counted.hpp"
 #include "tests/analysis/identification/drawn_hall_log.hpp"
@@ -12,7 +12,7 @@ using namespace sixstep::testing;
 using analysis::HallIdentity;
 using analysis::Interval;
 
-/// The codes at the pins, as the log's own probes show them.
+/// The codes at the pins from the log's true wiring.
 analysis::PinCodes true_codes(const HallTruth& t, int turned_sectors = 0) {
   analysis::PinCodes codes{};
   for (int sector = 0; sector < 6; ++sector)
@@ -20,8 +20,8 @@ analysis::PinCodes true_codes(const HallTruth& t, int turned_sectors = 0) {
   return codes;
 }
 
-/// What all edges share in the direction that the log shows: with one direction, half the hysteresis and the way during the
-/// delay are in it.
+/// The common offset of all edges in the log's direction: with one direction it contains half the hysteresis and the rotation during the
+/// delay.
 double shown_offset_deg(const DrawnLog& drawn, const HallIdentity& found) {
   const HallTruth& t = drawn.truth;
   if (found.place->hysteresis_deg) return t.offset_deg;
@@ -31,7 +31,7 @@ double shown_offset_deg(const DrawnLog& drawn, const HallIdentity& found) {
 
 double whole_sectors(double deg) { return std::floor((deg + 30.0) / 60.0); }
 
-/// The truth of the edge between two codes, by what the pins show on either side of it.
+/// The true place of the edge between two codes, from the pins' codes on either side of it.
 double true_own_deg(const HallTruth& t, std::uint8_t before, std::uint8_t after, bool& mirrored) {
   for (int n = 0; n < 6; ++n) {
     const int behind = pin_code(t, n - 1), ahead = pin_code(t, n);
@@ -95,8 +95,8 @@ TEST(IdentifyCalibration, PlacesOfLogsWithVoltages) {
   EXPECT_NEAR(right, expected, 4.0 * std::sqrt(variance) + 1.0);
 }
 
-/// Only who turns to and fro tells hysteresis from offset: such logs alone, for there are few among all. What jitter decides at
-/// the turns is no fair sample of it, so that many turns and much jitter are the hard ones.
+/// Only rotation in both directions separates hysteresis from offset; few of all logs have it. Jitter at the reversals biases the sample,
+/// so that many reversals and much jitter are the hard cases.
 TEST(IdentifyCalibration, HysteresisOfLogsThatTurnBothWays) {
   const int count = drawn_count(40);
   HeldOften hysteresis("hysteresis, to and fro"), offset("offset, to and fro"), delay("delay, to and fro");
@@ -105,7 +105,7 @@ TEST(IdentifyCalibration, HysteresisOfLogsThatTurnBothWays) {
     HallTruth truth = drawn_truth(static_cast<std::uint64_t>(n) + 400'000, true);
     truth.turning = Turning::to_and_fro;
     const auto found = analysis::identify(drawn_log(truth).log);
-    if (!found || !found->place->hysteresis_deg) continue;  // too slow to turn far enough
+    if (!found || !found->place->hysteresis_deg) continue;  // too slow for a reversal over enough degrees
     const analysis::IdentifiedPlace& place = *found->place;
     const double turned = whole_sectors(truth.offset_deg);
     if (place.codes != true_codes(truth, static_cast<int>(turned))) continue;
@@ -116,14 +116,14 @@ TEST(IdentifyCalibration, HysteresisOfLogsThatTurnBothWays) {
     if (place.delay_s) delay.count(place.delay_s->holds(truth.delay_s), truth.seed);
   }
   for (const HeldOften* held : {&hysteresis, &offset, &delay}) held->expect_95();
-  // As often too wide as too narrow: who misses on one side only is biased.
+  // Intervals miss on both sides equally often: a miss on one side only would be a bias.
   std::printf("hysteresis below its bounds in %.0f, above them in %.0f\n", missed_by_lower, missed_by_upper);
   const double missed = missed_by_lower + missed_by_upper;
   EXPECT_NEAR(missed_by_lower, 0.5 * missed, 2.0 * std::sqrt(missed) + 1.0);
 }
 
-/// Edges that come in clusters: a contact that is loose for up to a third of a sector, now and then, is one event for all the
-/// edges that it makes. Codes that are impossible, and places, stay as sure as they are said to be.
+/// A contact that is loose for up to a third of a sector makes a cluster of edges, which counts as one event. Impossible codes and places
+/// keep their stated certainty.
 TEST(IdentifyCalibration, BurstsOfALooseContact) {
   const int count = drawn_count(60);
   HeldOften own("own place of an edge, with bursts");
@@ -153,7 +153,7 @@ TEST(IdentifyCalibration, BurstsOfALooseContact) {
   EXPECT_NEAR(right, expected, 4.0 * std::sqrt(variance) + 1.0);
 }
 
-/// Where an offset is close to half a sector, which sector is meant is a toss-up, and the answer says so.
+/// An offset close to half a sector leaves the sector uncertain, and the stated probability shows it.
 TEST(IdentifyCalibration, AnOffsetOfHalfASectorIsAsDoubtfulAsItSays) {
   const int count = std::min(drawn_count(60), 400);
   double right = 0.0, expected = 0.0, variance = 0.0, doubtful = 0.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every way to wire three probes is told apart, and what is no log is told why.
+// Every wiring of three probes is identified, and an unusable log is refused with the reason.
 #include "sixstep/analysis/identification/hall/identify.hpp"
 
 #include <gmock/gmock.h>
@@ -47,7 +47,7 @@ TEST(HallWires, EveryOrderOfCodesHasOneWayOfProbes120DegreesApart) {
   EXPECT_TRUE(analysis::wires_behind({1, 1, 1, 1, 1, 1}).empty());
 }
 
-/// 000 and 111 never occur of probes 120 degrees apart, none or all inverted, and the plainest wires say no other thing than these codes do.
+/// Probes 120 degrees apart, none or all inverted, never show 000 and 111; the plainest wires agree with these codes.
 TEST(HallWires, TheCodesThatNeverOccurAndTheSpacingAgree) {
   for (const bool spaced_60 : {false, true})
     for (int order = 0; order < 6; ++order)
@@ -76,7 +76,7 @@ TEST(HallWires, TheGeneratorsProbesAreTheDrives) {
   }
 }
 
-/// docs/reference/notation.md, the table of sectors.
+/// The table of sectors is that of docs/reference/notation.md.
 TEST(HallWires, StraightWiresGiveTheDrivesOwnTable) {
   const auto table = analysis::commutation_of(analysis::codes_behind({}));
   ASSERT_EQ(table.size(), 6u);
@@ -88,8 +88,8 @@ TEST(HallWires, StraightWiresGiveTheDrivesOwnTable) {
   EXPECT_EQ(table[0].pair, (control::Pair{control::Leg::c, control::Leg::a}));
 }
 
-/// 6 orders, 8 inversions, 2 spacings, forward and backward, lines and terminals in turn: the codes of every sector, and among
-/// the wires that make them those that were drawn.
+/// The test has 6 orders, 8 inversions, 2 spacings, both directions, lines and terminals in turn. It finds the codes of every sector; the
+/// drawn wires are among those with these codes.
 TEST(Identify, EveryWiringIsFoundWithVoltages) {
   int n = 0;
   for (const bool spaced_60 : {false, true})
@@ -113,14 +113,13 @@ TEST(Identify, EveryWiringIsFoundWithVoltages) {
         for (const analysis::IdentifiedEdge& e : found->edges) edges += e.seen;
         EXPECT_EQ(edges, found->forward + found->backward) << "case " << n;
         EXPECT_NEAR(place.offset_deg.value, t.offset_deg, 0.75)
-            << "case " << n;  // half of what lies between two rows
+            << "case " << n;  // half the angle between two rows
         EXPECT_GT(place.probability, 0.9999) << "case " << n;
         EXPECT_EQ(place.wires.front(), analysis::wires_behind(place.codes).front());
       }
 }
 
-/// A drill whose turns take a whole number of rows: every edge falls between its rows at the same place, and however many
-/// there are, no more is known than where the rows are.
+/// Each turn has a whole number of rows: every edge lies at the same place between its rows, so that more turns do not narrow the interval.
 TEST(Identify, RowsInStepWithTheRotorLeaveTheirDoubt) {
   int held = 0, all = 0;
   double sum = 0.0;
@@ -151,7 +150,7 @@ TEST(Identify, RowsInStepWithTheRotorLeaveTheirDoubt) {
   EXPECT_LT(sum / all, 0.9);
 }
 
-/// Without voltages codes tell which two never occur, and nothing of where the rotor is.
+/// A log without voltages shows the two codes that never occur, but no rotor angle.
 TEST(Identify, CodesAloneTellWhichOnesNeverOccur) {
   for (int inverted = 0; inverted < 8; ++inverted) {
     HallTruth t = drilled();
@@ -167,7 +166,7 @@ TEST(Identify, CodesAloneTellWhichOnesNeverOccur) {
   }
 }
 
-/// A magnet that is not like the others: only the shaft's own turn tells.
+/// An irregular magnet: only a whole turn of the shaft shows it.
 TEST(Identify, EdgesOfEachPolePairOfTheShaft) {
   HallTruth t = with_voltages(drilled());
   t.turns = 42.0;
@@ -198,7 +197,7 @@ TEST(Identify, EdgesOfEachPolePairOfTheShaft) {
   EXPECT_THAT(to_string(blind.problems()[0]), HasSubstr("pole_pairs = 7 needs voltages"));
 }
 
-/// A logic analyzer exports changes only.
+/// A logic analyzer exports only the rows with a change.
 TEST(Identify, RowsThatAreChanges) {
   HallTruth t = drilled();
   t.own_deg = {2, -1, 0, 1, -2, 0};
@@ -218,7 +217,7 @@ TEST(Identify, RowsThatAreChanges) {
     EXPECT_NEAR(found->edges[n].own_deg.value, from_all->edges[n].own_deg.value, 0.02);
 }
 
-/// Spikes on a line, an edge that bounces, a contact that is off for a while: the way is the same.
+/// Spikes on a line, a bouncing edge and a lost contact leave the motion unchanged.
 TEST(Identify, GlitchesDoNotMoveTheWay) {
   const HallLog clean = drawn_log(drilled()).log;
   const auto edges = analysis::hall_edges(clean);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A board's log over a simulation: numbers that are known beforehand.
+// A board's log against a simulation, with figures known beforehand.
 #include "sixstep/analysis/identification/log/trace_comparison.hpp"
 
 #include <gmock/gmock.h>
@@ -43,7 +43,7 @@ TEST(TraceComparison, NothingMeetsNothing) {
   EXPECT_EQ(best_shift_s(simulated, trace({{"t_s", {5, 6}}, {"duty", {0, 1}}}), 1.0, 0.1), 0.0);
 }
 
-/// A ripple with a slope beneath it, looked at by a clock that is off.
+/// The signal is a ripple on a slope, sampled by a clock with an offset.
 TEST(TraceComparison, FindsTheShiftOfARipple) {
   constexpr double period = 1e-4, off = 2.327e-4;
   const auto wave = [](double t) { return 40 * t + std::abs(std::fmod(t, period) / period - 0.5); };
@@ -64,7 +64,8 @@ TEST(TraceComparison, FindsTheShiftOfARipple) {
   EXPECT_GT(trace_comparison(simulated, log, 0.0)[0].rms, 5e-2);
 }
 
-/// A slow column that says nothing of the clock stands first; the quick one decides. The log is the run itself, rounded: it stays.
+/// The first column is slow and does not show the clock's offset; the second, fast one does. The log is the rounded run itself: its shift
+/// is 0.
 TEST(TraceComparison, AllColumnsDecideTheShiftAndNothingIsGainedByNone) {
   study::Trace simulated = trace({{"t_s", {}}, {"speed_rad_s", {}}, {"i_m_A", {}}}), log = simulated,
                late = simulated;
@@ -94,7 +95,7 @@ TEST(TraceComparison, AClockThatStartedLongBeforeCountsFromItsFirstRow) {
   EXPECT_EQ(start_shift_s(simulated, trace({{"t_s", {-1, 0.5}}, {"duty", {0, 1}}})), 0.0);
 }
 
-/// Of one row each difference may be 0, and says nothing.
+/// The difference over a single row may be 0 and proves nothing.
 TEST(TraceComparison, AHandfulOfRowsAtTheLeast) {
   const study::Trace simulated = trace({{"t_s", {0, 1}}, {"duty", {0, 1}}, {"i_q_A", {NAN, NAN}}});
   const auto of = [&](std::vector<double> t_s) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points of a plan: each way to lay them out by the law that names it.
+// Points of a plan: the law of each design's name judges them.
 #include "sixstep/analysis/plan/plan.hpp"
 
 #include <gmock/gmock.h>

@@ -28,14 +28,14 @@ std::vector<double> asked(const Function& f, std::size_t keys, std::size_t rows,
   return figures;
 }
 
-/// sin x1 + 7 sin^2 x2 + 0.1 x3^4 sin x1, each over -pi to pi (T. Ishigami and T. Homma, 1990).
+/// The function is sin x1 + 7 sin^2 x2 + 0.1 x3^4 sin x1, each over -pi to pi (T. Ishigami and T. Homma, 1990).
 double ishigami(const std::vector<double>& u) {
   const auto x = [&](std::size_t k) { return base::pi * (2 * u[k] - 1); };
   const double s = std::sin(x(0)), t = std::sin(x(1));
   return s + 7 * t * t + 0.1 * std::pow(x(2), 4) * s;
 }
 
-/// The product of (|4 u - 2| + a)/(1 + a): Sobol's g. Partial variances 1/(3 (1 + a)^2).
+/// Sobol's g is the product of (|4 u - 2| + a)/(1 + a). Its partial variances are 1/(3 (1 + a)^2).
 constexpr double g_of[] = {0.0, 1.0, 4.5, 9.0};
 double sobol_g(const std::vector<double>& u) {
   double f = 1.0;
@@ -82,8 +82,8 @@ void expect_truth(const Function& f, const Truth& truth, std::size_t rows, doubl
 TEST(Sensitivity, IshigamisFunctionHasItsIndices) { expect_truth(ishigami, of_ishigami(), 16384, 0.005); }
 TEST(Sensitivity, SobolsFunctionHasItsIndices) { expect_truth(sobol_g, of_g(), 16384, 0.005); }
 
-/// Rows of chance, for which the bootstrap is meant: 95 % of the intervals hold the truth, within what 200 draws of each
-/// index can tell (three deviations of a binomial: 4.6 %).
+/// Random rows suit the bootstrap: 95 % of the intervals hold the truth, within three standard deviations of a binomial for 200 draws (4.6
+/// %).
 TEST(Sensitivity, IntervalsHoldTheTruthAsOftenAsTheySay) {
   const Truth truth = of_g();
   const std::size_t keys = truth.first.size();

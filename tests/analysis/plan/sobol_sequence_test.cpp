@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sobol's sequence against the law that makes it one, and against published points.
+// Sobol's sequence against its defining law, and against published points.
 #include "sixstep/analysis/plan/sobol_sequence.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 
-/// Joe and Kuo's first ten points in three dimensions (their sobol.cc prints them).
+/// The values are Joe and Kuo's first ten points in three dimensions (their sobol.cc prints them).
 TEST(SobolSequence, BeginsAsPublished) {
   const double points[10][3] = {{0, 0, 0},
                                 {0.5, 0.5, 0.5},
@@ -29,7 +29,7 @@ TEST(SobolSequence, BeginsAsPublished) {
       EXPECT_EQ(analysis::sobol_bits(d, n) * 0x1p-32, points[n][d]) << n << " " << d;
 }
 
-/// 2^m points put exactly one into each of 2^m equal parts, in every dimension, from any multiple of 2^m on.
+/// Each block of 2^m points has exactly one in each of 2^m equal parts, in every dimension, from any multiple of 2^m on.
 TEST(SobolSequence, EveryDimensionIsEven) {
   for (std::size_t d = 0; d < analysis::sobol_dimensions; ++d)
     for (const std::uint32_t from : {0u, 1024u, 1024u * 77u}) {
@@ -39,7 +39,7 @@ TEST(SobolSequence, EveryDimensionIsEven) {
     }
 }
 
-/// Of the first two dimensions: one point in every elementary rectangle of 2^-a by 2^-(m-a).
+/// The first two dimensions have one point in every elementary rectangle of 2^-a by 2^-(m-a).
 TEST(SobolSequence, TheFirstTwoDimensionsAreANet) {
   for (int a = 0; a <= 8; ++a) {
     std::set<std::uint32_t> parts;
@@ -66,7 +66,7 @@ TEST(SobolSequence, ShiftedPointsAreAsEven) {
   EXPECT_NE(analysis::sobol(0, 5, 1), analysis::sobol(0, 5, 2));
 }
 
-/// The integral of a product of (1 + (x - 1/2)) over six dimensions is 1: 4096 points miss it by less than chance would.
+/// The integral of a product of (1 + (x - 1/2)) over six dimensions is 1: the error of 4096 points is below that of random points.
 TEST(SobolSequence, IntegratesBetterThanChance) {
   double sum = 0.0;
   const int count = 4096;

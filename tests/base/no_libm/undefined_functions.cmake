@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# No function of the C library's <math.h> whose last digit differs between platforms may be asked of the linker
-# by anything that can influence a trajectory, however it got there: by a header, a builtin, an optimisation.
-# Exact ones are free to use: sqrt, floor, fabs, fmin, fmax, fmod and their like.
+# Code that can influence a trajectory must not link a function of <math.h> whose last digit differs between platforms.
+# The cause may be a header, a builtin or an optimisation. Exact functions are allowed: sqrt, floor, fabs, fmin, fmax,
+# fmod and similar ones.
 #   cmake -DNM=nm -DOBJECTS=a.o,b.a -P undefined_functions.cmake
 string(REPLACE "," ";" OBJECTS "${OBJECTS}")
 if(NOT OBJECTS)

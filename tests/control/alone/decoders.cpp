@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The decoders alone for a chip, in fixed point: without floating-point registers where the compiler can be told
-// so.
+// The decoders alone for a chip, in fixed point: compiled without floating-point registers where the compiler has such an option.
 #include "tests/control/alone/decoders.hpp"
 
 namespace firmware {

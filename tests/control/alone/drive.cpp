@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiles alone, for a chip: freestanding, without exceptions and RTTI.
+// This file compiles alone for a chip: freestanding, without exceptions and RTTI.
 #include "sixstep/control/drive.hpp"
 
-// What firmware would link: both entries in single precision. No library function may be needed.
+// Firmware links both entries in single precision. They need no library function.
 namespace firmware {
 
 using namespace sixstep::control;

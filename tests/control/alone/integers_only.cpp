@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The product's drive in fixed point, compiled without floating-point registers where the compiler can be
-// told so: a floating-point operation left for run time would not compile, and on a chip would call a
-// library.
+// The product's drive in fixed point, compiled without floating-point registers where the compiler has such an option: a floating-point
+// operation at run time would not compile, and on a chip would call a library.
 #include "sixstep/control/derivative.hpp"
 #include "sixstep/control/gates.hpp"
 #include "sixstep/control/pi_positional.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiles alone, for a chip: freestanding, without exceptions and RTTI.
+// This file compiles alone for a chip: freestanding, without exceptions and RTTI.
 #include "sixstep/control/protected_drive.hpp"
 
-// What firmware would link: both entries of the product's drive in single precision.
+// Firmware links both entries of the product's drive in single precision.
 namespace firmware {
 
 using namespace sixstep::control;

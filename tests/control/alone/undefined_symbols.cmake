@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Freestanding is proved by symbols: -ffreestanding alone accepts any header. Objects of the controller may
-# ask the linker for nothing but the memory functions that a compiler itself inserts.
+# The symbols prove that the code is freestanding: -ffreestanding alone accepts any header. Objects of the controller
+# may have no undefined symbols except the memory functions that a compiler itself inserts.
 string(REPLACE "," ";" OBJECTS "${OBJECTS}")
 if(NOT OBJECTS)
   message(FATAL_ERROR "no objects given")

@@ -14,7 +14,7 @@ using namespace sixstep::control;
 
 constexpr double pi = 3.14159265358979323846;
 
-/// Between the legs stands the vector, in every direction; a part of 2^20 of the bus for each of six roundings.
+/// The voltages between the legs are the vector, in every direction, to six roundings of 2^-20 of the bus.
 template <class Scalar>
 void expect_vector(double digit) {
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
@@ -54,7 +54,7 @@ TEST(FieldVector, ACurrentIsSeenAlongAndAcross) {
       eighths[k] = static_cast<std::int32_t>(std::lround(along * std::cos(at) - across * std::sin(at)));
     }
     const FieldVector seen = seen_along(eighths, angle);
-    // Half an eighth in each of three, and half a unit in each of four products.
+    // The error is half an eighth in each of three currents, and half a unit in each of four products.
     EXPECT_NEAR(seen.along, 3 * along, 4.0) << seed;
     EXPECT_NEAR(seen.across, 3 * across, 4.0) << seed;
   }
@@ -77,7 +77,7 @@ TEST(VectorAngle, IsTheArcTangent) {
     const auto x = static_cast<std::int64_t>(size * std::cos(rad)),
                y = static_cast<std::int64_t>(size * std::sin(rad));
     const double due = std::atan2(static_cast<double>(y), static_cast<double>(x)) * (2147483648.0 / pi);
-    // 24 steps rounded to half a unit, and the last step's angle.
+    // The error is half a unit in each of 24 steps, and the last step's angle.
     EXPECT_NEAR(way_between(static_cast<BinaryAngle>(static_cast<std::int64_t>(due)), vector_angle(x, y)), 0,
                 12 + 81 + 1)
         << seed;

@@ -16,7 +16,7 @@ using namespace sixstep::control;
 
 static_assert(std::is_trivially_copyable_v<HallSurveyState>);
 
-/// Probe k is high over half a turn, 120 k or 60 k degrees behind the first (model.md 3); pins take probes in an order.
+/// Probe k is high over half a turn, 120 k or 60 k degrees behind the first (model.md 3); the order assigns probes to pins.
 struct Mounted {
   std::array<int, 3> order{0, 1, 2};
   unsigned inverted = 0;
@@ -26,7 +26,7 @@ struct Mounted {
     unsigned code = 0;
     for (int pin = 0; pin < 3; ++pin) {
       const int lag = order[static_cast<std::size_t>(pin)] * (spaced_60 ? 1 : 2);
-      const int since = ((sector - lag + 1) % 6 + 6) % 6;  // the first one rises into sector 5
+      const int since = ((sector - lag + 1) % 6 + 6) % 6;  // the first probe rises at the start of sector 5
       code |= (since < 3 ? 1u : 0u) << (2 - pin);
     }
     return static_cast<std::uint8_t>(code ^ inverted);
@@ -38,7 +38,7 @@ struct Turn {
   std::array<double, 6> own_deg{};
   int turns = 2, first = 0;
 
-  /// Turns of the field there and back; the field's angle is that of the d axis, lag ahead of it.
+  /// Turns of the field in both directions; the field's angle is that of the d axis, plus the lag.
   HallSurveyState survey(const HallSurveyConfig& config, const Mounted& mounted) const {
     HallSurveyState state;
     int sector = first;
@@ -59,7 +59,7 @@ struct Turn {
 constexpr std::array<std::array<int, 3>, 6> orders = {
     {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
 
-/// Every order, every inversion, both spacings, any lag: the table, the lines by name, where each edge stands to two units.
+/// Every order, inversion, spacing and lag: the survey finds the table, the lines by name, and each edge to two units.
 TEST(HallSurvey, FindsEveryWiring) {
   const HallSurveyConfig config;
   for (const bool spaced_60 : {false, true})
@@ -90,8 +90,8 @@ TEST(HallSurvey, FindsEveryWiring) {
         }
 }
 
-/// A table is no use to one that hall.hpp can decode by itself: of 96 wirings these are as many as there are arrangements, and
-/// each of them is decoded as the table has it.
+/// A wiring that hall.hpp decodes directly needs no table: `plain` marks the four of 96 wirings for which this holds, and both decodings
+/// agree.
 TEST(HallSurvey, PlainOnesAreThoseThatHallDecodes) {
   const HallSurveyConfig config;
   int plain = 0;
@@ -105,7 +105,7 @@ TEST(HallSurvey, PlainOnesAreThoseThatHallDecodes) {
         for (int s = 0; s < 6; ++s)
           EXPECT_EQ(sector_of_hall(as_120_degrees(found.config.arrangement, mounted.pins(s))), s);
       }
-  EXPECT_EQ(plain, 4);  // either arrangement, and the other one's with a line inverted and two crossed
+  EXPECT_EQ(plain, 4);  // either arrangement, plain or as the other one with a line inverted and two crossed
 }
 
 TEST(HallSurvey, NamesWhatIsWrong) {

@@ -26,7 +26,7 @@ template <class Scalar>
 class FieldBlocks : public ::testing::Test {};
 TYPED_TEST_SUITE(FieldBlocks, SensingScalars);
 
-/// Gains of order 1 in parts of the bases, as a scaled drive has them.
+/// Gains of order 1 relative to the bases, as in a scaled drive.
 template <class Scalar>
 FieldCurrentConfig<Scalar> decoupled(VoltageLimit limit) {
   FieldCurrentConfig<Scalar> c;
@@ -52,7 +52,7 @@ TYPED_TEST(FieldBlocks, TurningMakesTheVoltagesOfTheEquations) {
       }
 }
 
-/// With no error the answer is e alone.
+/// The output without an error is e alone.
 TYPED_TEST(FieldBlocks, WithoutAnErrorTheAnswerIsWhatTurningMakes) {
   const FieldCurrentConfig<TypeParam> c = decoupled<TypeParam>(VoltageLimit::circle);
   FieldCurrentState<TypeParam> state;
@@ -74,11 +74,11 @@ TYPED_TEST(FieldBlocks, TheVectorStaysWithinTheCircleAndDComesFirst) {
     EXPECT_LE(std::hypot(number(v.d), number(v.q)), circle + 4 * digit<TypeParam>());
   }
   EXPECT_NEAR(number(state.voltage.d), -circle, 4 * digit<TypeParam>()) << "all of it holds the field down";
-  // A digit of d, where the circle is upright, leaves q the root of two digits.
+  // The circle is vertical there: an error of a digit in d gives one of the root of two digits in q.
   EXPECT_NEAR(number(state.voltage.q), 0.0, 3 * std::sqrt(digit<TypeParam>()));
 }
 
-/// A bound that the other axis moves, and the PI keeps what is left: the first error of the other sign leaves the end at once.
+/// The other axis moves the bound, and the PI keeps the limited value: the first error of the other sign leaves the limit at once.
 TYPED_TEST(FieldBlocks, NoAxisWindsUp) {
   for (const VoltageLimit limit : {VoltageLimit::axes, VoltageLimit::circle}) {
     const FieldCurrentConfig<TypeParam> c = decoupled<TypeParam>(limit);
@@ -104,7 +104,7 @@ TYPED_TEST(FieldBlocks, EachAxisStaysWithinItsOwnLimit) {
   EXPECT_EQ(state.voltage.q, c.q.limit);
 }
 
-/// |v| above the part m of the circle: i_d falls by K times what it is above, and comes back alike.
+/// The voltage |v| above the part m of the circle lowers i_d by K times the excess, and a voltage below it raises i_d to 0 in the same way.
 TYPED_TEST(FieldBlocks, WeakeningFallsByWhatTheVoltageLacks) {
   const FieldWeakeningConfig<TypeParam> c{Gain<TypeParam>(0.1), Gain<TypeParam>(0.9), TypeParam(0.5)};
   FieldWeakeningState<TypeParam> state;
@@ -121,7 +121,8 @@ TYPED_TEST(FieldBlocks, WeakeningFallsByWhatTheVoltageLacks) {
   EXPECT_EQ(field_weakening_step(FieldWeakeningConfig<TypeParam>{}, state, v, TypeParam(0.9)), TypeParam{});
 }
 
-/// Whatever is asked for, w p L_q i_q stays within the part m of the circle; below that, and where nothing is weakened, it is all.
+/// The voltage w p L_q i_q stays within the part m of the circle for any request. A smaller request, and any without weakening, is
+/// unchanged.
 TYPED_TEST(FieldBlocks, AWeakenedFieldBoundsWhatIsAskedForByTheVoltage) {
   const FieldCurrentConfig<TypeParam> c = decoupled<TypeParam>(VoltageLimit::circle);
   const FieldWeakeningConfig<TypeParam> weakens{Gain<TypeParam>(0.1), Gain<TypeParam>(0.5), TypeParam(0.5)};
@@ -130,14 +131,14 @@ TYPED_TEST(FieldBlocks, AWeakenedFieldBoundsWhatIsAskedForByTheVoltage) {
   for (const double w : {-0.9, -0.5, 0.0, 0.7})
     for (const double most : {0.1, 0.5, 0.9}) {
       const double asked_V = std::fabs(w) * most * 0.5, allowed = asked_V > V ? most * V / asked_V : most;
-      // asked_V is known to two digits, 0.14 at least where it bounds.
+      // asked_V is accurate to two digits, and is at least 0.14 where it limits.
       EXPECT_NEAR(number(voltage_bound(weakens, c, TypeParam(w), bus, TypeParam(most))), allowed,
                   16 * digit<TypeParam>());
       EXPECT_EQ(voltage_bound({}, c, TypeParam(w), bus, TypeParam(most)), TypeParam(most));
     }
 }
 
-/// On the curve of most torque per ampere a turn of the current vector changes no torque; either side of it has less.
+/// The torque is stationary along the current circle at the curve of maximum torque per ampere; on either side of it the torque is smaller.
 TYPED_TEST(FieldBlocks, ThereIsNoMoreTorquePerAmpere) {
   const double saliency = 1.6;  // (L_q - L_d)/psi per ampere
   const TorquePerAmpereConfig<TypeParam> c{Gain<TypeParam>(saliency / 2)};
@@ -157,7 +158,7 @@ TYPED_TEST(FieldBlocks, ThereIsNoMoreTorquePerAmpere) {
 TYPED_TEST(FieldBlocks, TheMagnetPoints150DegreesBehindAndTurnsOnWithTheSpeed) {
   const FieldAdvanceConfig<TypeParam> c{Gain<TypeParam>(0.8)};
   constexpr double pi = std::numbers::pi;
-  // sine.hpp: 3.1e-7, and two digits in 16 bits; the angle's cut-off is far below.
+  // The tolerance is 3.1e-7 from sine.hpp, and two digits in 16 bits; the angle's truncation is far smaller.
   const double allowed = 4e-7 + 3 * digit<TypeParam>();
   for (int n = 0; n < 24; ++n)
     for (const double w : {-0.9, 0.0, 0.6}) {

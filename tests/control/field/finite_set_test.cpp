@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The choice among the states of three legs, against one that solves the winding's equation step by step and sorts.
+// The selection among the states of three legs, against a stepwise solution of the winding's equation and a sort.
 #include "sixstep/control/field/finite_set.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ using namespace sixstep::control;
 
 constexpr double pi = std::numbers::pi;
 
-/// A drone's motor with a salient rotor, at 20 kHz.
+/// The motor of a drone with a salient rotor, at 20 kHz.
 struct Machine {
   double R = 0.1, L_d = 60e-6, L_q = 90e-6, p = 7, psi = 2e-3, T = 50e-6;
 };
@@ -42,8 +42,8 @@ FiniteSetConfig<Scalar> config_of(const Machine& m) {
   return c;
 }
 
-/// Currents in the frame of the magnet, by Runge and Kutta's method in many small steps, of legs that stand: nothing is rotated by
-/// halves, nothing decays by an exponential.
+/// Currents in the magnet's frame by Runge-Kutta in many small steps, with constant leg states: a second way without half rotations and
+/// exponentials.
 Dq<double> solved(const Machine& m, Dq<double> i, unsigned legs, double bus_V, double magnet, double w) {
   const int steps = 50;
   const double h = m.T / steps, w_e = m.p * w;
@@ -94,7 +94,7 @@ FiniteSetInput<Scalar> input_of(const Machine& m, const Case& x) {
           .e_next = e};
 }
 
-/// The eight currents, of which the choice is made, by the solver.
+/// The eight candidate currents, by the solver.
 std::array<Dq<double>, 8> currents(const Machine& m, const Case& x, bool foretells) {
   Dq<double> i = x.measured;
   double magnet = x.magnet;
@@ -109,8 +109,8 @@ std::array<Dq<double>, 8> currents(const Machine& m, const Case& x, bool foretel
 
 double distance(const Dq<double>& a, const Dq<double>& b) { return std::hypot(a.d - b.d, a.q - b.q); }
 
-/// What the model with a middle is off by, of a period that turns by x = w_e T: voltage and e by x^2/24, and half of what the
-/// current changes in what saliency makes of it. A period changes it by D at most.
+/// The model's error with a mid-period angle, for a period that turns by x = w_e T: voltage and e by x^2/24, and half of the current's
+/// change in the saliency term. A period changes the current by D at most.
 double model_A(const Machine& m, const Case& x, bool foretells) {
   const double turn = std::fabs(m.p * x.w * m.T), b = m.T / m.L_d,
                D = b * (2 * x.bus_V / 3 + std::fabs(x.w) * m.p * m.psi);
@@ -140,7 +140,7 @@ TYPED_TEST(FiniteSet, ForetellsTheCurrentOfTheWindingsEquation) {
     }
 }
 
-/// None of the eight comes nearer, but by what the model is off by.
+/// None of the eight is nearer by more than the model's error.
 TYPED_TEST(FiniteSet, NoOtherStateComesNearer) {
   const Machine m;
   std::mt19937 random(8);
@@ -161,7 +161,7 @@ TYPED_TEST(FiniteSet, NoOtherStateComesNearer) {
   EXPECT_GT(changed, 500);
 }
 
-/// The same by sorting: cost by cost, from the block's own forecast of each state alone.
+/// A sort gives the same state: cost by cost, from the block's own prediction of each state alone.
 TYPED_TEST(FiniteSet, IsTheFirstOfAllStatesSorted) {
   const Machine m;
   std::mt19937 random(9);
@@ -192,7 +192,7 @@ TYPED_TEST(FiniteSet, IsTheFirstOfAllStatesSorted) {
     std::sort(all.begin(), all.end());
     FiniteSetState<TypeParam> state{x.legs, {}};
     const LegBits legs = finite_set_step(c, state, in);
-    // Two that are alike to rounding may change places: the one found is as good as the first.
+    // Two equal states may change places by rounding: the selected one is as good as the first.
     const auto own =
         *std::find_if(all.begin(), all.end(), [&](const auto& a) { return std::get<3>(a) == legs; });
     const double rounding = 4000 * 64 * std::numeric_limits<TypeParam>::epsilon() + 4000 * 4e-7;
@@ -207,7 +207,7 @@ TYPED_TEST(FiniteSet, IsTheFirstOfAllStatesSorted) {
   EXPECT_GT(kept, 300);
 }
 
-/// Within the hexagon that the bus reaches no current is further than the triangles' radius.
+/// The distance to a current within the bus's hexagon is at most the triangles' radius.
 TYPED_TEST(FiniteSet, ComesWithinTheRadiusOfTheTriangles) {
   Machine m;
   m.L_q = m.L_d;
@@ -273,7 +273,7 @@ TYPED_TEST(FiniteSet, TheDriveAnswersLegsThatStandForAPeriod) {
   EXPECT_FALSE(field_drive_step(c, state, in, Setpoint<TypeParam>{}, telemetry).enabled);
 }
 
-/// In both floats the same choice, but where two states are alike.
+/// Both floating-point types select the same state, unless two are equal.
 TEST(FiniteSets, DoubleAndFloatAgree) {
   const Machine m;
   std::mt19937 random(11);

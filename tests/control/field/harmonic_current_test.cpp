@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Currents along the shape of a back-EMF, against the closed form of the trapezoid with a flat top of 120 degrees.
+// Currents along the shape of a back-EMF, against the closed form of a trapezoid with 120 degrees flat.
 #include "sixstep/control/field/harmonic_current.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ double trapezoid(double x) {
   return std::clamp((pi / 2 - x) / (pi / 6), -1.0, 1.0);
 }
 
-/// g of the three phases where the magnet's direction is `magnet`: phase a's top lies a quarter turn before it.
+/// The shape g of the three phases at the magnet's direction `magnet`: phase a's top is a quarter turn before it.
 Dq<double> exact(double magnet) {
   const Abc<double> f{trapezoid(magnet + pi / 2), trapezoid(magnet + pi / 2 - 2 * pi / 3),
                       trapezoid(magnet + pi / 2 - 4 * pi / 3)};
@@ -38,7 +38,7 @@ template <class Scalar>
 HarmonicCurrentConfig<Scalar> of_the_trapezoid() {
   HarmonicCurrentConfig<Scalar> c;
   c.on = true;
-  // Between the corners the vector runs along the side of a hexagon: its inradius.
+  // The vector moves along a hexagon's side between the corners: the least length is the inradius.
   c.least = static_cast<Scalar>(2 / std::numbers::sqrt3 / fundamental);
   for (int n = 0; n < shape_points; ++n) {
     const Dq<double> g = exact(n * pi / 3 / shape_points);
@@ -52,7 +52,7 @@ class HarmonicCurrent : public ::testing::Test {};
 using Floats = ::testing::Types<double, float>;
 TYPED_TEST_SUITE(HarmonicCurrent, Floats);
 
-/// Of straight lines between points D apart that lie on g to D^2/8 times the largest |g''|, which is 1.6 here.
+/// Straight lines between points D apart differ from g by at most D^2/8 times the largest |g''|, which is 1.6 here.
 constexpr double met = 1.6 * (pi / 96) * (pi / 96) / 8;
 
 template <class Scalar>
@@ -73,8 +73,8 @@ TYPED_TEST(HarmonicCurrent, TheTableMeetsTheShapeEverywhere) {
   }
 }
 
-/// T = 3/2 p psi (g . i): that of I at every angle. A g that is off by so much changes the torque by it over |g| and, as it turns
-/// out of g's line by no more, nothing else to the first order.
+/// The torque T = 3/2 p psi (g . i) equals that of I at every angle. A table error in g changes the torque by itself over |g|; the error's
+/// rotation of g has no effect of first order.
 TYPED_TEST(HarmonicCurrent, TheTorqueIsTheSameAtEveryAngleAndTheCurrentTheShortest) {
   const auto c = of_the_trapezoid<TypeParam>();
   const double I = 4.0;
@@ -89,14 +89,14 @@ TYPED_TEST(HarmonicCurrent, TheTorqueIsTheSameAtEveryAngleAndTheCurrentTheShorte
     EXPECT_NEAR(std::hypot(d, q), shortest, shortest * (2 * met + 8 * eps<TypeParam>));
     square += (d * d + q * q) / angles;
   }
-  // f_1^2 times the mean of 1/|f|^2 over x = -1..1, |f|^2 = 4/3 + 4 x^2/9, is f_1^2 sqrt 3 pi/8: 0.55 % more copper loss than
-  // the constant i_q of the same mean torque has.
+  // The copper loss is f_1^2 times the mean of 1/|f|^2 over x = -1..1, |f|^2 = 4/3 + 4 x^2/9: f_1^2 sqrt 3 pi/8, 0.55 % more than with the
+  // constant i_q of the same mean torque.
   const double copper = fundamental * fundamental * std::numbers::sqrt3 * pi / 8;
   EXPECT_NEAR(copper, 1.0055, 1e-4);
   EXPECT_NEAR(square / (I * I), copper, 4 * met + 8 * eps<TypeParam>);
 }
 
-/// A constant i_q swings as g_q does: from the middle of a side of the hexagon to its corner, 2/sqrt 3 to 4/3.
+/// The torque of a constant i_q varies as g_q: from the middle of a hexagon's side to its corner, 2/sqrt 3 to 4/3.
 TYPED_TEST(HarmonicCurrent, WithoutItTheTorqueSwingsAsTheShapeDoes) {
   const auto c = of_the_trapezoid<TypeParam>();
   double least = 2.0, most = 0.0;
@@ -120,7 +120,7 @@ TYPED_TEST(HarmonicCurrent, ASineGetsWhatItHadWithoutIt) {
   }
 }
 
-/// Weakening goes across g: no torque of it, and both together within the limit that `least` keeps.
+/// The weakening current is perpendicular to g: it makes no torque, and the sum of both stays within the limit that `least` keeps.
 TYPED_TEST(HarmonicCurrent, AWeakenedFieldChangesNoTorque) {
   const auto c = of_the_trapezoid<TypeParam>();
   const double limit = 5.0, weakening = -3.0;
@@ -138,7 +138,7 @@ TYPED_TEST(HarmonicCurrent, AWeakenedFieldChangesNoTorque) {
   EXPECT_NEAR(along, weakening, 0.01 * std::fabs(weakening)) << "the turn of g takes up to 0.6 % of it";
 }
 
-/// The angle that counts is that of `lead` later, either way round.
+/// The angle used is the one `lead` later, in both directions of rotation.
 TYPED_TEST(HarmonicCurrent, TheAngleIsThatOfTheCurrentToCome) {
   auto c = of_the_trapezoid<TypeParam>();
   c.lead_rad_s = static_cast<TypeParam>(2e-3);
@@ -155,7 +155,7 @@ TYPED_TEST(HarmonicCurrent, TheAngleIsThatOfTheCurrentToCome) {
   }
 }
 
-/// In both floats the same answer, to float's rounding.
+/// Both floating-point types give the same current, to float's rounding.
 TEST(HarmonicCurrents, DoubleAndFloatAgree) {
   const auto wide = of_the_trapezoid<double>();
   const auto narrow = of_the_trapezoid<float>();
@@ -167,7 +167,7 @@ TEST(HarmonicCurrents, DoubleAndFloatAgree) {
   }
 }
 
-/// What the magnet makes is fed forward by its shape where the answer acts, and a current as asked for meets no more.
+/// The back-EMF's shape at the time of action is fed forward, so that a current at its reference needs no other voltage.
 TYPED_TEST(HarmonicCurrent, TheDriveFeedsTheShapeForward) {
   FieldDriveConfig<TypeParam> c;
   c.drive.mode = Mode::current;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What tells where the magnet points, each against its equation: a winding of L_d and L_q that is pulsed, iron that saturates, and the
-// flux of a magnet that turns.
+// The estimators of the magnet's direction, each against its equation: a pulsed winding of L_d and L_q, iron that saturates, and the flux
+// of a rotating magnet.
 #include "sixstep/control/field/magnet_estimator.hpp"
 
 #include <gtest/gtest.h>
@@ -31,14 +31,14 @@ Direction<Scalar> along(double rad) {
 constexpr double L_d = 0.24e-3, L_q = 0.34e-3, T = 50e-6, V = 3.0;
 constexpr double Y_S = (1 / L_d + 1 / L_q) / 2, Y_D = (1 / L_d - 1 / L_q) / 2;
 
-/// A period's change of current by a voltage along `at`, of a rotor whose magnet points along `magnet`; R = 0.
+/// Change of current over a period by a voltage along `at`, for a magnet along `magnet`; R = 0.
 AlphaBeta<double> change(double v, double at, double magnet) {
   const double d = v * std::cos(at - magnet), q = v * std::sin(at - magnet);
   const double i_d = d * T / L_d, i_q = q * T / L_q;
   return {i_d * std::cos(magnet) - i_q * std::sin(magnet), i_d * std::sin(magnet) + i_q * std::cos(magnet)};
 }
 
-/// h after some periods, of an answer that comes `late`, beside a current that runs along a parabola.
+/// The value h after some periods, with an answer `late` periods later, added to a current along a parabola.
 template <class Scalar>
 Dq<Scalar> pulsed(double axis, double magnet, std::uint8_t late, double parabola_A) {
   const InjectionConfig<Scalar> c{static_cast<Scalar>(V), Scalar(1)};
@@ -90,14 +90,14 @@ NorthState<Scalar> looked(double saturation, double current_A) {
   NorthState<Scalar> state;
   for (int n = 0; n < 100; ++n) {
     const double i_d = static_cast<double>(north_current(c, state)) * saturation;
-    // What settles tells nothing yet: it is wrong on purpose.
+    // The first, settling periods are ignored: their h is wrong on purpose.
     const double h = state.ticks < 5 ? 100.0 : V * T / (L_d * (1 - i_d / 40.0));
     north_step(c, state, static_cast<Scalar>(h));
   }
   return state;
 }
 
-/// (h+ - h-)/(h+ + h-) = I/I_sat, to the digit; the other way round where the frame is.
+/// The ratio (h+ - h-)/(h+ + h-) equals I/I_sat, to the digit; its sign reverses with the frame.
 TYPED_TEST(MagnetEstimator, SaturationTellsNorth) {
   for (const double I : {2.0, 8.0}) {
     const NorthState<TypeParam> found = looked<TypeParam>(1, I), opposite = looked<TypeParam>(-1, I);
@@ -111,7 +111,7 @@ TYPED_TEST(MagnetEstimator, SaturationTellsNorth) {
   EXPECT_EQ(looked<TypeParam>(0.3, 8.0).phase, NorthPhase::unseen);
 }
 
-/// A magnet that turns by 0.05 rad a period, currents along both axes; u is what (R, flux) ask for, to the trapezoid.
+/// A magnet that turns by 0.05 rad a period, with currents along both axes; u is the voltage that (R, flux) need, by the trapezoidal rule.
 template <class Scalar>
 struct Turning {
   double R = 0.5, psi = 2e-3, i_d = -1.0, i_q = 3.0, angle = 0.3;
@@ -128,7 +128,7 @@ struct Turning {
     a = i_d * c - i_q * s;
     b = i_d * s + i_q * c;
   }
-  /// Turns on by a period; its mean voltage.
+  /// Turns by a period and returns its mean voltage.
   AlphaBeta<Scalar> period() {
     const Turning before = *this;
     angle += 0.05;
@@ -155,7 +155,7 @@ TYPED_TEST(MagnetEstimator, TheActiveFluxPointsAlongTheMagnet) {
   }
 }
 
-/// In the magnet's own frame what is off fades by 1 - g each period.
+/// An error in the magnet's own frame decays by 1 - g each period.
 TYPED_TEST(MagnetEstimator, AnOffsetOfTheFluxFades) {
   Turning<TypeParam> m;
   m.put();
@@ -188,7 +188,7 @@ TYPED_TEST(MagnetEstimator, BehindTheMagnetTheWayBackIsShown) {
   }
 }
 
-/// Injection below w_low, the flux above w_high, and a straight line between them; whichever there is where there is one.
+/// The estimate is injection below w_low, the flux above w_high, and a linear blend between them; if only one exists, it is that one.
 TYPED_TEST(MagnetEstimator, SpeedSaysWhichOneIsFollowed) {
   EstimatorConfig<TypeParam> c{};
   c.injection.voltage_V = TypeParam(1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The currents that a voltage can hold, against their definition: held they need no more than there is, inside nothing moves, and
-// none is further from what was asked for than it must be.
+// The currents that a voltage can hold, against their definition: they need at most the available voltage, reachable ones are unchanged,
+// and others are as near to the reference as possible.
 #include "sixstep/control/field/reachable_current.hpp"
 
 #include <cmath>
@@ -22,7 +22,7 @@ template <class Scalar>
 class ReachableCurrent : public ::testing::Test {};
 TYPED_TEST_SUITE(ReachableCurrent, SensingScalars);
 
-/// Parts of the bases; R and w p L below 1.
+/// Values relative to the bases; R and w p L are below 1.
 template <class Scalar>
 FieldCurrentConfig<Scalar> machine() {
   FieldCurrentConfig<Scalar> c;
@@ -37,7 +37,7 @@ double length_of(const FieldCurrentConfig<double>& c, const Dq<double>& i, doubl
   return std::hypot(v.d, v.q);
 }
 
-/// Products of numbers below 1 are off by a digit each; divided by |Z|^2 >= 0.04 and by |v| they are some hundred digits at most.
+/// The error of products of numbers below 1 is a digit each; divided by |Z|^2 >= 0.04 and by |v| it is some hundred digits at most.
 TYPED_TEST(ReachableCurrent, ItNeedsNoMoreVoltageThanThereIs) {
   const auto c = machine<TypeParam>();
   const auto exact = machine<double>();
@@ -57,7 +57,7 @@ TYPED_TEST(ReachableCurrent, ItNeedsNoMoreVoltageThanThereIs) {
       }
 }
 
-/// Beyond the bus something flows, (|E| - V)/|Z| at least, and at no reference that is all.
+/// A back-EMF above the bus makes a current of at least (|E| - V)/|Z|; with a zero reference the current equals that.
 TYPED_TEST(ReachableCurrent, BeyondTheBusTheLeastCurrentFlows) {
   for (const double w : {-0.9, 0.7}) {
     const Dq<TypeParam> i =
@@ -89,8 +89,8 @@ Drawn drawn(std::mt19937& random) {
   return x;
 }
 
-/// A projection brings no two points further apart, so that |i'| <= |i| + the least current. What drives the rotor is given up at
-/// the same i_d, and is never turned round.
+/// A projection increases no distance between two points, so that |i'| <= |i| + the least current. At an unchanged i_d the torque-producing
+/// current shrinks but never changes sign.
 TEST(ReachableCurrentLaw, ItIsNoLongerThanTheReferenceAndTheLeastCurrentTogether) {
   const unsigned seed = 20261127;
   SCOPED_TRACE("seed " + std::to_string(seed));
@@ -114,7 +114,7 @@ TEST(ReachableCurrentLaw, ItIsNoLongerThanTheReferenceAndTheLeastCurrentTogether
   EXPECT_GT(beyond, 1000);
 }
 
-/// A braked round rotor gets the nearest current of all: none of a fine polar grid of the disc is nearer.
+/// A braked round rotor gets the nearest current of all: no point of a fine polar grid of the disc is nearer.
 TEST(ReachableCurrentLaw, ABrakedRotorGetsTheNearestCurrent) {
   std::mt19937 random(7);
   int tried = 0;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// A field-oriented drive that is turned beyond the bus, on a winding that is solved in the rotor's frame beside it: R, L and a
-// magnet, the voltage of its three duties held over each period in the stator's frame.
+// A field-oriented drive turned beyond the bus voltage, on a winding solved in the rotor's frame: R, L and a magnet. The voltage of its
+// three duties is constant over each period in the stator's frame.
 //
-// The law: whatever is asked for, the current stays within the reference and the least current that flows inside the circle of the
-// voltage, (|E| - V)/|Z|, together, and a margin: what the whole voltage changes the current by in the control periods that pass until
-// the next answer acts, (n + 1) T V/L. Asked for is i_q and, where a field is weakened, weakening_A at most.
+// The law for any request: the current stays within the sum of the reference, the least current inside the voltage circle, (|E| - V)/|Z|,
+// and a margin. The margin is the change by the whole voltage until the next answer acts, (n + 1) T V/L. The reference is i_q and, with
+// field weakening, at most weakening_A.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ using Complex = std::complex<double>;
 
 struct Case {
   double R = 1, L = 1e-3, psi = 1e-2, pole_pairs = 1, bus_V = 24, period_s = 50e-6;
-  int delay = 0;  ///< periods from a sample to the one that it is answered in
+  int delay = 0;  ///< periods from a sample to its answer
   double bandwidth_rad_s = 1000, i_q = 0, weakening_A = 0;
   double from_rad_s = 0, to_rad_s = 0, ramp_s = 0.1, held_s = 0.1;
   bool decouples = true, axes = false;
@@ -38,7 +38,7 @@ struct Case {
   double margin_A() const { return (delay + 1) * period_s * circle_V() / L; }
 };
 
-/// As design/loops/field_current.hpp has it.
+/// The design of design/loops/field_current.hpp.
 FieldDriveConfig<double> config_of(const Case& x) {
   FieldDriveConfig<double> c;
   const double z = std::exp(-x.bandwidth_rad_s * x.period_s), a0 = -std::exp(-x.R * x.period_s / x.L),
@@ -59,7 +59,7 @@ FieldDriveConfig<double> config_of(const Case& x) {
 }
 
 struct Seen {
-  double peak_A = 0, end_A = 0;  ///< of the whole run, and of the last half of what is held
+  double peak_A = 0, end_A = 0;  ///< of the whole run; of the last half of the held speed
 };
 
 class Winding {
@@ -68,8 +68,8 @@ class Winding {
   Complex current() const { return i_ * std::polar(1.0, angle_); }
   double length() const { return std::abs(i_); }
   double angle() const { return angle_; }
-  /// di/dt = (v e^(-j theta) - R i - j w (L i + psi))/L, over a piece short of both its constants: exact but for the turn of v
-  /// within the piece, which is taken at its middle.
+  /// The derivative di/dt = (v e^(-j theta) - R i - j w (L i + psi))/L over a piece shorter than both its constants: exact apart from the
+  /// rotation of v within the piece, which has its middle angle.
   void go(const Complex& stator_V, double w, double dt) {
     const double w_e = w * x_.pole_pairs;
     const Complex rate(x_.R / x_.L, w_e), v = stator_V * std::polar(1.0, -(angle_ + w_e * dt / 2));
@@ -132,7 +132,7 @@ Seen turned(const Case& x) {
   return seen;
 }
 
-/// 7 pole pairs, 5.12 mWb, 22.3 uH on 60 V: the magnet takes the whole circle at 966 rad/s.
+/// A motor of 7 pole pairs, 5.12 mWb, 22.3 uH on 60 V: the back-EMF reaches the voltage circle at 966 rad/s.
 Case hand_brake() {
   return {.R = 0.0187,
           .L = 22.3e-6,
@@ -145,7 +145,7 @@ Case hand_brake() {
           .to_rad_s = 1000};
 }
 
-/// It had been 460 A at every one of them, 2 psi/L: the current of terminals that are shorted at once.
+/// The current without this limitation was 460 A in each case, 2 psi/L: that of a sudden short circuit.
 TEST(ShortBus, AHandBrakeThatIsTurnedBeyondTheBusIsHeld) {
   for (const double i_q : {0.0, 80.0, -80.0, -20.0})
     for (const double weakening_A : {0.0, 5.0, 40.0, 150.0})
@@ -154,7 +154,7 @@ TEST(ShortBus, AHandBrakeThatIsTurnedBeyondTheBusIsHeld) {
         x.i_q = i_q;
         x.weakening_A = weakening_A;
         x.bandwidth_rad_s = 2 * std::numbers::pi * bandwidth_Hz;
-        // What is asked for along the magnet is what the voltage lacks of 95 % of the circle: 20 A of the 150.
+        // The requested d current is the one that lowers the voltage to 95 % of the circle: 20 A of the 150.
         const double most = std::hypot(i_q, std::min(weakening_A, 20.0)) + x.least_A(1000);
         const Seen seen = turned(x);
         EXPECT_LT(seen.peak_A, most + 5.0) << i_q << ' ' << weakening_A << ' ' << bandwidth_Hz;
@@ -162,7 +162,7 @@ TEST(ShortBus, AHandBrakeThatIsTurnedBeyondTheBusIsHeld) {
   EXPECT_NEAR(hand_brake().least_A(1000), 7.6, 0.1);
 }
 
-/// Without decoupling, or each axis within half the bus, whose circle is smaller.
+/// The limit also holds without decoupling, or with each axis within half the bus, whose circle is smaller.
 TEST(ShortBus, OtherLimitsHoldItToo) {
   for (const double i_q : {0.0, 80.0, -80.0})
     for (const bool axes : {false, true}) {
@@ -180,7 +180,7 @@ Case drawn(std::mt19937_64& random) {
   const auto decades = [&](double a, double b) { return a * std::pow(b / a, between(0, 1)); };
   Case x;
   x.delay = between(0, 1) < 0.5;
-  // Up to 0.4 rad of the magnet in a period where the bus ends, 0.8 at twice the speed: the angle's advance is cut off at 1 rad.
+  // The magnet turns up to 0.4 rad a period at the bus's limit, 0.8 at twice that speed: the angle's advance is limited to 1 rad.
   const double w_0 = decades(0.01, x.delay > 0 ? 0.25 : 0.4) / x.period_s;
   x.psi = x.bus_V / std::numbers::sqrt3 / w_0;
   x.L = decades(0.3, 30) * x.R / w_0;
@@ -214,8 +214,8 @@ TEST(ShortBus, ItIsHeldWhateverIsAskedForUpToTwiceTheSpeedWithoutALoad) {
   }
 }
 
-/// Begun beyond the bus without a current the whole voltage is not enough to keep it at what can be held: it swings about that by no
-/// more than it began away from it, and comes to rest there.
+/// A start beyond the bus voltage without a current: the whole voltage is too small for the holdable current at first. The current swings
+/// about that one by at most the initial difference, and settles there.
 TEST(ShortBus, BegunBeyondTheBusItSwingsOnce) {
   const unsigned seed = 20261128;
   SCOPED_TRACE("seed " + std::to_string(seed));

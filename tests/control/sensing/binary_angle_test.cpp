@@ -68,7 +68,7 @@ TEST(BinaryAngle, PartsOfATurnAreRightToTwoUnits) {
     const std::uint32_t part = drawn.below(whole);
     const double exact = static_cast<double>(part) / whole * static_cast<double>(turn);
     const BinaryAngle angle = angle_of_parts(turn_in_parts(whole), part);
-    // 2 of the reciprocal, 1/2 of rounding here and 1e-6 of the double
+    // 2 of the reciprocal, 1/2 of rounding and 1e-6 of the double
     ASSERT_LE(std::fabs(std::remainder(angle - exact, static_cast<double>(turn))), 2.5 + 1e-6)
         << part << "/" << whole << " of seed " << drawn.seed;
     const std::uint8_t bits = static_cast<std::uint8_t>(1 + drawn.below(31));
@@ -118,7 +118,7 @@ TYPED_TEST(BinaryAngleIn, HalfTurnsAndWholeNumbersAreRoundedOnce) {
         << drawn.seed;
     const auto x = static_cast<std::int32_t>(drawn.word()) >> drawn.below(31);
     const double gain = 0.9 / (std::fabs(x) + 1.0) * drawn.unit();
-    // a gain and a number are rounded to 2^-15 or 2^-31 of themselves, but a gain no finer than 2^-30 or 2^-62
+    // a gain and a number are rounded to 2^-15 or 2^-31 of themselves, a gain at least to 2^-30 or 2^-62
     const double storage = is_fixed<S> ? std::ldexp(1.0, sizeof(S) == 2 ? -15 : -31) : digit<S>();
     const double least = is_fixed<S> ? std::ldexp(digit<S>(), sizeof(S) == 2 ? -30 : -62) / 2 : 0.0;
     ASSERT_NEAR(
@@ -149,7 +149,7 @@ TYPED_TEST(BinaryAngleIn, SmallAnglesInRadBecomeUnits) {
   using S = TypeParam;
   for (double rad = -1; rad <= 1; rad += 0.0117) {
     const double units = static_cast<double>(static_cast<S>(rad)) * 4294967296.0 / (2 * std::numbers::pi);
-    // 31 bits behind the point, rounded towards 0, and the product to a unit
+    // 31 fractional bits, rounded towards 0, and the product to a unit
     EXPECT_NEAR(angle_of_rad(static_cast<S>(rad)), units, 1.5) << rad;
   }
   EXPECT_EQ(angle_of_rad(one<S>), -angle_of_rad(-one<S>)) << "both directions alike";
@@ -158,9 +158,9 @@ TYPED_TEST(BinaryAngleIn, SmallAnglesInRadBecomeUnits) {
 TYPED_TEST(BinaryAngleIn, SineAndCosineAreRightToTheStatedError) {
   using S = TypeParam;
   const double cubic = std::pow(std::numbers::pi / 256, 3) / 6;
-  // Fixed: table, two products and the shrinking round half a digit each, which the format's end below 1 makes a
-  // digit more; what is rounded before a gain adds a hundredth. Floating: the table and
-  // two sums round at most a quarter of a digit each.
+  // The roundings are half a digit each in fixed point, of table, two products and range adjustment; formats that end below 1 make that a
+  // digit more, and rounding before a gain adds a hundredth. In floating point the table and two sums round at most a quarter of a digit
+  // each.
   const double digits = is_fixed<S> ? 2.1 + (static_cast<double>(one<S>) < 1 ? 0.6 : 0.0) : 1.0;
   const double bound = cubic + 1e-9 + digits * digit<S>();
   double worst = 0;

@@ -17,7 +17,7 @@ using namespace sixstep::control;
 
 static_assert(std::is_trivially_copyable_v<GrayState>);
 
-/// Each code by its definition as a reflected list: the codes of n-1 bits, then these backwards with bit n-1.
+/// The code by its definition as a reflected list: the codes of n-1 bits, then these backwards with bit n-1.
 std::uint32_t reflected(std::uint32_t place, std::uint8_t bits) {
   if (bits == 0) return 0;
   const std::uint32_t half = 1u << (bits - 1);
@@ -56,7 +56,7 @@ template <class Scalar>
 class GrayIn : public ::testing::Test {};
 TYPED_TEST_SUITE(GrayIn, SensingScalars);
 
-/// At constant speed: turns and angle below the code's own step, speed to that step over the span.
+/// The rotor has a constant speed: turns and angle are right below the code's step, the speed to that step over the span.
 TYPED_TEST(GrayIn, FollowsManyTurns) {
   using S = TypeParam;
   const double base = is_fixed<S> ? 2500.0 : 1.0;
@@ -74,7 +74,7 @@ TYPED_TEST(GrayIn, FollowsManyTurns) {
           if (n < span) {
             ASSERT_EQ(static_cast<double>(r.speed), 0.0);
           } else {
-            // One step of the code, and the format's: the gain and the way to 2^-15, 2^-31 or a digit of themselves.
+            // The error is one step of the code, and the format's: gain and angle to 2^-15, 2^-31 or a digit of themselves.
             const double own = is_fixed<S> ? std::ldexp(1.0, sizeof(S) == 2 ? -14 : -30) : 2 * digit<S>();
             const double bound = 2 * std::numbers::pi * step / (span * period) * (1 + own) +
                                  std::fabs(w) * own + (is_fixed<S> ? digit<S>() * base / 2 : 0.0);
@@ -86,8 +86,7 @@ TYPED_TEST(GrayIn, FollowsManyTurns) {
       }
 }
 
-/// A track that breaks to a fixed level while the rotor turns some counts per tick: the first jump names it, or
-/// none, and never another one.
+/// A track breaks to a fixed level while the rotor turns some counts per tick: the first jump names that track or none, never another one.
 TEST(Gray, ABrokenTrackIsNamed) {
   constexpr std::uint8_t bits = 12;
   int named = 0, untold = 0, never = 0, coarse = 0;
@@ -112,7 +111,7 @@ TEST(Gray, ABrokenTrackIsNamed) {
         else
           ++(r.track == no_track ? untold : named);
         ASSERT_TRUE(r.track == track || r.track == no_track) << int{track} << " of seed " << seed;
-        // The mirror of track 0 moves by one count, that of track 1 by three at most: within the tolerance.
+        // The mirrored code differs by one count for track 0, by three at most for track 1: within the tolerance.
         ASSERT_TRUE(r.jump || track < 2) << int{track} << " of seed " << seed;
         ASSERT_TRUE(r.track == no_track || track > 2) << "its mirror, of 7 counts, is within four tolerances";
       }
@@ -121,7 +120,7 @@ TEST(Gray, ABrokenTrackIsNamed) {
   EXPECT_GT(named, 0.6 * coarse);
 }
 
-/// A single wrong code is bridged by what was foretold; the position afterwards is the true one.
+/// The prediction replaces a single wrong code; the position afterwards is the true one.
 TEST(Gray, AWrongCodeIsBridged) {
   constexpr std::uint8_t bits = 12;
   GrayState state;
@@ -135,7 +134,7 @@ TEST(Gray, AWrongCodeIsBridged) {
     if (wrong) {
       EXPECT_EQ(r.track, 10) << n;
     }
-    // foretold from two codes: each within a step, the later one twice
+    // predicted from two codes: each within a step, the later one counts twice
     EXPECT_NEAR(r.position.turns + r.position.angle / 4294967296.0, turns - step / 2,
                 step * (wrong ? 1.5 : 0.5) + 1e-9)
         << n;
@@ -143,7 +142,7 @@ TEST(Gray, AWrongCodeIsBridged) {
   EXPECT_EQ(state.faults, 40u);
 }
 
-/// Put elsewhere for good, it is believed after so many codes as patience has, the turn by the shorter way.
+/// A permanent jump is accepted after `patience` codes; the turn changes by the shorter way.
 TEST(Gray, AJumpThatStaysIsBelieved) {
   GrayState state;
   const auto c = config<double>(12, 1);

@@ -43,7 +43,7 @@ double off_deg(BinaryAngle angle, double degrees) {
   return std::remainder(angle * (360 / 4294967296.0) - degrees, 360.0);
 }
 
-/// At constant speed `deg_per_s` from 0 on, looked at four times per sector; what is found, to a function.
+/// A rotor at constant speed `deg_per_s` from 0 on, read four times per sector; the results go to a function.
 template <class S, class Look>
 void turning(const HallAngleConfig<S>& c, const HallProbes& probes, double deg_per_s, Look look) {
   HallAngleState state;
@@ -58,7 +58,7 @@ void turning(const HallAngleConfig<S>& c, const HallProbes& probes, double deg_p
       look(n, hall_angle(c, state, ticks_at(t)), std::floor(t * timer_Hz) / timer_Hz * deg_per_s);
     const SeenEdge e = seen(probes, m, direction, passed);
     hall_angle_edge(c, state, e.sector, e.direction, e.time);
-    // At once, behind its capture.
+    // A reading directly after the capture.
     look(n, hall_angle(c, state, e.time), std::floor(is_seen * timer_Hz) / timer_Hz * deg_per_s);
   }
 }
@@ -67,7 +67,7 @@ template <class Scalar>
 class HallAngleIn : public ::testing::Test {};
 TYPED_TEST_SUITE(HallAngleIn, SensingScalars);
 
-/// Probes misplaced, with hysteresis and delay, all of it known: angle and speed to ticks of the timer.
+/// Known misplacement, hysteresis and delay of the probes: angle and speed are right to ticks of the timer.
 TYPED_TEST(HallAngleIn, IsRightToTicksAtConstantSpeed) {
   using S = TypeParam;
   const double base = is_fixed<S> ? 1000.0 : 1.0;
@@ -80,8 +80,8 @@ TYPED_TEST(HallAngleIn, IsRightToTicksAtConstantSpeed) {
         const HallAngleConfig<S> c = config<S>(misplaced, span, base);
         turning(c, misplaced, deg_per_s, [&](int n, const HallAngle<S>& found, double truth) {
           if (n <= 2) return;
-          // The edge's time is cut to a tick. One more over k sectors of at least 55 degrees, and half of one in a
-          // turn, are drawn out over at most one of 66 and the delay's way. Widths are rounded to units.
+          // The edge's time is truncated to a tick. One more tick over k sectors of at least 55 degrees, and half a tick per turn, extend
+          // over at most a sector of 66 degrees and the delay. Widths are rounded to units.
           const int k = std::min(n - 2, int{span});
           const double ticks = 55 * k / deg_per_tick, half_tick = 0.5 / (360 / deg_per_tick);
           const double drawn_out = 66 + misplaced.delay_s * std::fabs(deg_per_s);
@@ -101,7 +101,7 @@ TYPED_TEST(HallAngleIn, IsRightToTicksAtConstantSpeed) {
   EXPECT_GT(worst, 0.5);
 }
 
-/// Taken for evenly placed, the same probes give wrong angles and a speed that ripples.
+/// Misplaced probes taken for evenly placed give wrong angles and a speed with ripple.
 TEST(HallAngle, WhatIsNotCalibratedIsWrong) {
   const double w = 60, deg_per_s = w * pole_pairs * 180 / std::numbers::pi;
   HallAngleConfig<double> plain = config<double>(misplaced, 1);
@@ -113,12 +113,12 @@ TEST(HallAngle, WhatIsNotCalibratedIsWrong) {
     worst_deg = std::max(worst_deg, std::fabs(off_deg(found.angle, truth)));
     worst_speed = std::max(worst_speed, std::fabs(found.speed / w - 1));
   });
-  // Offset 5, hysteresis 2, own 3, delay 1.65: together behind edge 1, by the law.
+  // The sum is offset 5, hysteresis 2, own 3 and delay 1.65 behind edge 1, by the law.
   EXPECT_GT(worst_deg, 5 + 2 + 3 + 120e-6 * deg_per_s - 0.1);
   EXPECT_NEAR(worst_speed, 60 / 55.0 - 1, 0.001) << "the narrowest sector, of 55 degrees";
 }
 
-/// Any times of edges: the definition in double, and never beyond the next edge and the margin.
+/// The estimate for any edge times equals the definition in double, and never exceeds the next edge plus the margin.
 TEST(HallAngle, IsItsDefinitionForAnyTimes) {
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     Drawn drawn{seed};
@@ -141,7 +141,7 @@ TEST(HallAngle, IsItsDefinitionForAnyTimes) {
         const HallAngle<double> found = hall_angle(c, state, now + since);
         if (known < 1) {
           ASSERT_EQ(found.speed, 0.0);
-          // The middle of the sector, wherever its edges are.
+          // The middle of the sector between its actual edges.
           const int low = direction > 0 ? m : m - 1;
           ASSERT_LE(std::fabs(off_deg(found.angle, (misplaced.at(low) + misplaced.at(low + 1)) / 2)), 1e-6);
           continue;
@@ -151,7 +151,7 @@ TEST(HallAngle, IsItsDefinitionForAnyTimes) {
         const double to_next = std::fabs(misplaced.at(m + direction) - misplaced.at(m));
         const double way = std::min(width * since / ticks, to_next + margin) + width * 120 / ticks;
         const double expected = switches(misplaced, m, direction) + direction * way;
-        // A turn's ticks are whole: half of one in them, over the way.
+        // The ticks of a turn are whole: their error is half a tick, over the angle.
         const double turn_ticks = ticks * 360 / width;
         ASSERT_LE(std::fabs(off_deg(found.angle, expected)), 0.5 / (turn_ticks - 0.5) * way + 1e-6)
             << "seed " << seed;
@@ -166,8 +166,8 @@ TEST(HallAngle, IsItsDefinitionForAnyTimes) {
   }
 }
 
-/// Through hall_step, as firmware has it: a reversal, an impossible code and a time-out end what is known, and
-/// the angle is the sector's middle, at most 30 degrees from anywhere in it.
+/// The decoder runs through hall_step, as in firmware: a reversal, an impossible code and a time-out discard the history. The angle is then
+/// the sector's middle, within 30 degrees of any place in it.
 TEST(HallAngle, ReversalFaultAndTimeOutBeginAnew) {
   const HallProbes even;
   const HallAngleConfig<double> c = config<double>(even, 6);

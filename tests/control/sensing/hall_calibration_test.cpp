@@ -19,9 +19,9 @@ using namespace sixstep::control;
 static_assert(std::is_trivially_copyable_v<HallCalibrationState>);
 
 const HallProbes planted{{0, 3, -2, 1, -4, 2}, 7, 2, 100e-6};
-constexpr double hz = 50;  // electrical
+constexpr double hz = 50;  // electrical frequency
 
-/// A run whose angle comes at `when` (s of degrees turned); times jitter by `jitter_deg` of the mean speed.
+/// A run that passes each angle at `when` (s as a function of degrees); times jitter by `jitter_deg` of the mean speed.
 HallCalibrationState run(const HallCalibrationConfig& config, const HallProbes& probes, int direction,
                          int first, const std::function<double(double)>& when, double jitter_deg,
                          Drawn& drawn) {
@@ -38,8 +38,8 @@ HallCalibrationState run(const HallCalibrationConfig& config, const HallProbes& 
 }
 double steadily(double degrees) { return degrees / 360 / hz; }
 
-/// What is planted comes back below 0.1 degrees; the error is that of the mean of n jittered times, less the part
-/// that all six have in common: sigma sqrt(5/6/n).
+/// The planted places are found to 0.1 degrees; the error is that of the mean of n jittered times, minus the common part of all six: sigma
+/// sqrt(5/6/n).
 TEST(HallCalibration, FindsWhatWasPlanted) {
   const HallCalibrationConfig config{.turns = 256, .steady = 32};
   const double sigma = 0.2;
@@ -62,11 +62,11 @@ TEST(HallCalibration, FindsWhatWasPlanted) {
   }
   const double rms = std::sqrt(squares / count), law = sigma * std::sqrt(5.0 / 6 / config.turns);
   std::printf("largest %.4f degrees, rms %.4f, by the law %.4f\n", worst, rms, law);
-  // 250 independent squares: their root mean to 4.5 %, five times that.
+  // The tolerance is five times the standard error of an rms over 250 independent values, 4.5 %.
   EXPECT_NEAR(rms, law, 0.23 * law);
 }
 
-/// Without jitter nothing but the timer's tick is left.
+/// The error without jitter is the timer's tick.
 TEST(HallCalibration, IsRightToATick) {
   const double tick_deg = 360 * hz / timer_Hz;
   Drawn drawn{1};
@@ -80,7 +80,7 @@ TEST(HallCalibration, IsRightToATick) {
       }
 }
 
-/// What all edges have in common leaves no trace in their times: it is said, and with both directions it parts.
+/// The edges' times do not show a common offset, which is given separately; two directions separate it from the hysteresis.
 TEST(HallCalibration, OffsetAndHysteresisPartWhereBothDirectionsAreGiven) {
   Drawn drawn{2};
   const HallCalibrationConfig config;
@@ -94,14 +94,14 @@ TEST(HallCalibration, OffsetAndHysteresisPartWhereBothDirectionsAreGiven) {
   for (int n = 0; n < 6; ++n)
     EXPECT_NEAR(degrees_of(way_between(binary_degrees(planted.at(n)), edges.at[n])), 0, near) << n;
   EXPECT_NEAR(degrees_of(static_cast<std::int32_t>(edges.half_hysteresis)), late_deg, 1e-6);
-  // One direction, with what the data sheet says.
+  // One direction has the hysteresis of the data sheet.
   const HallEdges one = hall_edges(forward, static_cast<std::int32_t>(binary_degrees(7)), binary_degrees(2));
   for (int n = 0; n < 6; ++n)
     EXPECT_NEAR(degrees_of(way_between(binary_degrees(planted.at(n)), one.at[n])), 0, near) << n;
   EXPECT_EQ(one.half_hysteresis, binary_degrees(2));
 }
 
-/// Each edge has a hysteresis of its own: the mean of both directions is free of it.
+/// Each edge has its own hysteresis, which cancels in the mean of both directions.
 TEST(HallCalibration, HysteresesThatDifferCancelInTheMeanOfBothDirections) {
   HallProbes forward = planted, backward = planted;
   const double more[6] = {0.5, -0.3, 0.2, -0.6, 0.1, 0.1};
@@ -117,13 +117,13 @@ TEST(HallCalibration, HysteresesThatDifferCancelInTheMeanOfBothDirections) {
                 1.5 * 360 * hz / timer_Hz);
 }
 
-/// A drift of the turn's time by the part d over n turns bends angles by at most d/(8 n) turns, and by that much.
+/// A drift of the turn's time by the part d over n turns shifts angles by d/(8 n) turns at most, and reaches that.
 TEST(HallCalibration, DriftBendsByItsLaw) {
   Drawn drawn{4};
   const HallProbes even;
   const HallCalibrationConfig config{.turns = 32, .steady = 64};
   const double d = 0.9 / 64, n = config.turns;
-  // t = x T (1 + d x/(2 n)) over x turns: each takes d/n of T longer than the one before
+  // The time is t = x T (1 + d x/(2 n)) over x turns: each turn takes d/n of T longer than the one before.
   const auto drifting = [&](double degrees) {
     const double x = degrees / 360;
     return x / hz * (1 + d * x / (2 * n));
@@ -162,17 +162,17 @@ TEST(HallCalibration, RefusesAReversalAndAMissedEdge) {
   }
 }
 
-/// Days of turns: sums of more than 32 bits.
+/// Days of turns: the sums have more than 32 bits.
 TEST(HallCalibration, LongRunsDoNotOverflow) {
   HallCalibrationState state;
   const HallCalibrationConfig config{.turns = 65535};
   std::uint32_t t = 0;
-  const std::uint32_t sector = 100000000;  // a turn of 6e8 ticks, all in all 3.9e13
+  const std::uint32_t sector = 100000000;  // a turn of 6e8 ticks, 3.9e13 in total
   for (std::uint32_t n = 0; state.result == HallCalibration::running && n < 400000; ++n, t += sector)
     hall_calibrate(config, state, static_cast<std::uint8_t>(n % 6), 1, t + (n % 6 == 3 ? sector / 10 : 0));
   ASSERT_EQ(state.result, HallCalibration::done);
   const HallDeviations found = hall_deviations(state);
-  // 6 degrees of one edge, of which the mean of six is taken: 5 and -1; sums keep 32 bits of a turn, and round down
+  // One edge is 6 degrees off, and the mean of six is subtracted: 5 and -1; sums keep 32 bits of a turn, rounded down.
   for (int n = 0; n < 6; ++n) EXPECT_NEAR(degrees_of(found.at[n]), n == 3 ? 5 : -1, 4 * 360 / 4294967296.0);
 }
 

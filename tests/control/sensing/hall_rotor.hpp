@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hall edges of a rotor by their definition (model.md 3 and 10): edge n at 60 n degrees, an offset and its own
-// misplacement, half the hysteresis further in the direction of motion, seen a delay later.
+// Hall edges of a rotor by their definition (model.md 3 and 10): edge n at 60 n degrees plus an offset, its own misplacement and half the
+// hysteresis in the direction of motion, detected after a delay.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -28,14 +28,14 @@ inline std::uint32_t ticks_at(double s) {
   return static_cast<std::uint32_t>(static_cast<std::uint64_t>(s * timer_Hz) + 0xffff0000u);
 }
 
-/// Edge number m (of any turn) passed at `passed_s`.
+/// The detection of edge m (of any turn), passed at `passed_s`.
 inline SeenEdge seen(const HallProbes& probes, int m, int direction, double passed_s) {
   const int sector = direction > 0 ? m : m - 1;
   return {static_cast<std::uint8_t>(((sector % 6) + 6) % 6), static_cast<std::uint8_t>(((m % 6) + 6) % 6),
           static_cast<std::int8_t>(direction), ticks_at(passed_s + probes.delay_s)};
 }
 
-/// Where a rotor turning in `direction` switches edge m, degrees.
+/// The angle at which a rotor turning in `direction` switches edge m, in degrees.
 inline double switches(const HallProbes& probes, int m, int direction) {
   return probes.at(m) + direction * probes.half_hysteresis_deg;
 }

@@ -27,15 +27,14 @@ PulseSpeedConfig<S> config(double base = 1.0) {
   return {static_cast<TickRatio<S>>(timer_Hz / counts_per_rad / base), 200000};
 }
 
-/// An encoder at a place (counts) that is a monotonous function of time between two ticks of the control: all
-/// its edges, each at the timer's count in which it falls.
+/// An encoder whose place (counts) is a monotonic function of time between two control ticks: all its edges, each at its timer count.
 class Encoder {
  public:
   explicit Encoder(std::function<double(double)> place) : place_(std::move(place)) {
     at_ = std::floor(place_(0));
   }
 
-  /// Up to time t; edges are found by bisection, to 1e-10 of a second.
+  /// Advances to time t; bisection finds edges to 1e-10 of a second.
   void run(PulseSpeedState& state, double t) {
     const double end = std::floor(place_(t));
     for (; at_ < end; ++at_) pulse_edge(state, 1, 1, ticks(passing(at_ + 1, t)));
@@ -66,7 +65,7 @@ template <class Scalar>
 class PulseSpeed : public ::testing::Test {};
 TYPED_TEST_SUITE(PulseSpeed, SensingScalars);
 
-/// From 1 to 10000 rad/s, both ways: the speed to a tick in T, where T spans the period less a count, or a count.
+/// The speed is right to a tick in T, from 1 to 10000 rad/s in both directions; T is at least the period minus a count, or a count.
 TYPED_TEST(PulseSpeed, IsRightToATickOfTheTimer) {
   using S = TypeParam;
   const double base = is_fixed<S> ? 10400.0 : 1.0, period = 1e-3;
@@ -81,10 +80,10 @@ TYPED_TEST(PulseSpeed, IsRightToATickOfTheTimer) {
         const double t = n * period;
         encoder.run(state, t);
         const double found = static_cast<double>(pulse_speed(c, state, Encoder::ticks(t))) * base;
-        if (t < 2 * (period + count_s)) continue;  // two ticks that saw an edge
+        if (t < 2 * (period + count_s)) continue;  // two ticks with an edge
         const double T_ticks = timer_Hz * std::max(count_s, period - count_s);
-        // Times are cut to ticks: T to one, and `since`, which bounds the speed, as well. The ratio of a format
-        // has half a digit over the product of M = 1.
+        // Times are truncated to ticks: T to one, and `since`, which bounds the speed, too. The ratio of a format has half a digit over the
+        // product of M = 1.
         const double ratio = is_fixed<S> ? 0.5 * digit<S>() * base / (timer_Hz / counts_per_rad) : digit<S>();
         const double bound = w * (1 / (T_ticks - 1) + ratio) + digit<S>() * (is_fixed<S> ? base : w);
         ASSERT_NEAR(found, sign * w, bound) << w << " at " << n;
@@ -95,7 +94,7 @@ TYPED_TEST(PulseSpeed, IsRightToATickOfTheTimer) {
   EXPECT_GT(worst_part, 0.5) << "the bound is no wider than it must be";
 }
 
-/// A rotor that comes to rest: the speed falls no slower than an edge that does not come allows, then to 0.
+/// A rotor stops: the speed falls at least as fast as the missing edge implies, then to 0.
 TEST(PulseSpeedLaw, AStandstillIsBoundedAndTimesOut) {
   const auto c = config<double>();
   Encoder encoder([](double t) { return 400.0 * counts_per_rad * std::min(t, 0.05); });
@@ -119,7 +118,7 @@ TEST(PulseSpeedLaw, AStandstillIsBoundedAndTimesOut) {
   }
 }
 
-/// Edges at 1000 and 1500, cut to ticks: 2000 ticks behind the last one a rotor may have needed 1999 and more.
+/// The edges are at 1000 and 1500, truncated to ticks: 2000 ticks after the last one the true interval may be 1999 or more.
 TEST(PulseSpeedLaw, TheBoundGrantsATick) {
   const PulseSpeedConfig<double> c{1e6, 100000};
   PulseSpeedState state;
@@ -129,12 +128,12 @@ TEST(PulseSpeedLaw, TheBoundGrantsATick) {
   EXPECT_EQ(pulse_speed(c, state, 1510), 1e6 / 500);
   EXPECT_EQ(pulse_speed(c, state, 2001), 1e6 / 500) << "still due";
   EXPECT_EQ(pulse_speed(c, state, 3500), 1e6 / 1999);
-  pulse_edge(state, -3, -1, 4500);  // the last edge is passed back, and two more
+  pulse_edge(state, -3, -1, 4500);  // the rotor passes the last edge backwards, and two more
   EXPECT_EQ(pulse_speed(c, state, 4510), -2e6 / 3000);
 }
 
-/// Through a reversal the speed is the way by the rotor's own law over the time between the last edges of two
-/// ticks, or what an edge that does not come allows: an edge passed back adds nothing.
+/// The speed during a reversal is the rotor's true movement over the time between the last edges of two ticks, or the limit from a missing
+/// edge. An edge passed backwards adds nothing.
 TEST(PulseSpeedLaw, AReversalIsTheMeanOverItsTime) {
   const auto c = config<double>();
   const auto place = [](double t) { return 1000.5 - 4e5 * (t - 0.1003) * (t - 0.1003); };
@@ -155,7 +154,7 @@ TEST(PulseSpeedLaw, AReversalIsTheMeanOverItsTime) {
     const double T_ticks = (to - from) * timer_Hz, since_ticks = (t - to) * timer_Hz;
     const double mean = (place(to) - place(from)) / counts_per_rad / (to - from);
     const double allowed = timer_Hz / counts_per_rad / (since_ticks + 1);
-    // T is known to a tick; places are found to 1e-10 s.
+    // T is accurate to a tick; places are accurate to 1e-10 s.
     EXPECT_LE(std::fabs(w), std::fabs(mean) * (1 + 1 / (T_ticks - 1)) + 1e-4) << t;
     EXPECT_GE(std::fabs(w), std::fmin(std::fabs(mean) * (1 - 1 / T_ticks), allowed) - 1e-4) << t;
     EXPECT_GE(w * mean, 0) << t;
@@ -167,7 +166,7 @@ TEST(PulseSpeedLaw, AReversalIsTheMeanOverItsTime) {
   EXPECT_GT(bounded, 0);
 }
 
-/// Dithering about one edge is no speed, however often it is passed.
+/// Oscillation about one edge gives no speed, at any number of passes.
 TEST(PulseSpeedLaw, DitherAboutAnEdgeIsStandstill) {
   const auto c = config<double>();
   PulseSpeedState state;
@@ -184,11 +183,11 @@ TEST(PulseSpeedLaw, DitherAboutAnEdgeIsStandstill) {
   }
 }
 
-/// Every 37th edge is missed, 1000 ticks of the timer from one to the next, and a control tick moves on by one of the timer's
-/// against them: every phase comes as often. What the mean is lowered by stands in the header, 2 - ln 2 - 1/(M (M + 1)) of the share.
+/// Every 37th edge is missing. Edges are 1000 timer ticks apart, and a control tick shifts by one timer tick against them, so that every
+/// phase occurs equally. The header gives the mean's reduction: 2 - ln 2 - 1/(M (M + 1)) of the missing fraction.
 TEST(PulseSpeedLaw, MissedEdgesLowerTheMeanByTheirShareAndByTheBound) {
   for (const int M : {1, 2, 3, 5, 9}) {
-    const PulseSpeedConfig<double> c{1000.0, 1000000};  // an edge each 1000 ticks is a speed of 1
+    const PulseSpeedConfig<double> c{1000.0, 1000000};  // one edge per 1000 ticks is a speed of 1
     PulseSpeedState state;
     std::uint32_t now = 500, edge = 0, number = 0;
     double sum = 0.0, counted = 0.0, ticks = 0.0;
@@ -208,7 +207,7 @@ TEST(PulseSpeedLaw, MissedEdgesLowerTheMeanByTheirShareAndByTheBound) {
       ticks += to - from;
     }
     const double share = 1.0 / 37, law = 2 - std::log(2.0) - 1.0 / (M * (M + 1));
-    // The bound grants a tick of 1000, and a thousandth of the control ticks sees an edge more than M.
+    // The tolerance is a tick of 1000 in the bound, and a thousandth of the control ticks with one edge more than M.
     EXPECT_NEAR(sum / (readings - 2) / share, law, 0.004) << M;
     EXPECT_NEAR(1000 * counted / ticks, 1 - share, 1.0 / (readings * M))
         << "over its own windows, but for a miss at their ends";

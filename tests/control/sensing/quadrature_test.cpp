@@ -41,7 +41,7 @@ TEST(Quadrature, FollowsARandomWalkExactly) {
     bool index_passed = false;
     step(config, state, place);
     for (int n = 0; n < 50000; ++n) {
-      const double ahead = n / 5000 % 2 ? 0.55 : 0.4;  // to and fro, over many turns
+      const double ahead = n / 5000 % 2 ? 0.55 : 0.4;  // reversals over many turns
       const double u = drawn.unit();
       place += u < ahead ? 1 : u < 0.9 ? -1 : 0;
       moved += step(config, state, place);
@@ -76,8 +76,7 @@ TEST(Quadrature, BothLinesAtOnceAreIllegalAndCountTwoOn) {
   }
 }
 
-/// A disturbance makes the count wrong by n. Each index after it, in either direction, says by how much, and the
-/// angle is right from there on.
+/// A disturbance makes the count wrong by n. The next index, in either direction, reports n, and the angle is right from there on.
 TEST(Quadrature, AnIndexReportsAndMendsMissedCounts) {
   const QuadratureConfig config = quadrature_of_lines(16);
   for (const int direction : {1, -1})
@@ -91,7 +90,7 @@ TEST(Quadrature, AnIndexReportsAndMendsMissedCounts) {
       turn();
       ASSERT_TRUE(state.referenced);
       const std::int32_t turns = state.turns;
-      quadrature_moved(config, state, -lost);  // as many too few
+      quadrature_moved(config, state, -lost);  // the same number too few
       while (state.corrections == 0 && place != 30 + 128 * direction) step(config, state, place += direction);
       EXPECT_EQ(state.direction, direction) << "of the rotor, not of the mending";
       while (place != 30 + 128 * direction) step(config, state, place += direction);
@@ -105,7 +104,7 @@ TEST(Quadrature, AnIndexReportsAndMendsMissedCounts) {
     }
 }
 
-/// An index whose edges come less than two counts early or late beside the lines is still judged at its place.
+/// An index whose edges are less than two counts early or late is still evaluated at its place.
 TEST(Quadrature, AnIndexMayBeLessThanTwoCountsOff) {
   const QuadratureConfig config = quadrature_of_lines(16);
   for (const int direction : {1, -1})
@@ -118,7 +117,7 @@ TEST(Quadrature, AnIndexMayBeLessThanTwoCountsOff) {
           const Lines l = lines_at(in_turn, 64);
           quadrature_step(config, state, l.a, l.b, signed_place >= rises && signed_place < 4 + falls);
         }
-        // Judged at the third count alone: Z must be high there, and low four counts before and after.
+        // The index is evaluated only at the third count: Z must be high there, and low four counts before and after.
         const bool sound = rises > -2 && rises <= 2 && falls > -2 && falls <= 2;
         const auto place = static_cast<std::uint32_t>((direction * 399 % 64 + 64) % 64);
         EXPECT_EQ(state.referenced && state.corrections == 0 && state.in_turn == place, sound)

@@ -20,7 +20,7 @@ using namespace sixstep::control;
 static_assert(std::is_trivially_copyable_v<ResolverState>);
 
 constexpr double pi = std::numbers::pi, turn = 4294967296.0;
-constexpr double amplitude = 0.6;  // of the chip's signals
+constexpr double amplitude = 0.6;  // relative to the chip's signals
 
 /// Windings and converter by their definition (model.md 10): k V_R in counts, a, q, the converter's offsets.
 struct Windings {
@@ -49,7 +49,7 @@ ResolverConfig<S> config(const Windings& w, const SecondOrder& loop) {
           .lost_after = 3};
 }
 
-/// The angle found at rest at phi, in rad off; the loop starts at `from`.
+/// Error in rad of the angle found at rest at phi; the loop starts at `from`.
 template <class S>
 double error_at(double phi, const Windings& w, const ResolverConfig<S>& c, Drawn& drawn, int samples = 400) {
   ResolverState state;
@@ -61,8 +61,8 @@ double error_at(double phi, const Windings& w, const ResolverConfig<S>& c, Drawn
   return std::remainder(r.angle / turn * 2 * pi - phi, 2 * pi);
 }
 
-/// How far rounding turns the vector, rad: half a count in each winding's difference halved (two half counts), and
-/// of the format four digits in each signal and in the two products of the detector, table included.
+/// The vector's rotation by rounding, in rad: half a count in each winding's halved difference (two half counts), and four digits of the
+/// format in each signal and in the two products of the detector, table included.
 template <class S>
 double static_bound(const Windings& w) {
   const double digits = is_fixed<S> ? 8 * digit<S>() / amplitude : 8 * digit<S>();
@@ -73,7 +73,7 @@ template <class Scalar>
 class Resolver : public ::testing::Test {};
 TYPED_TEST_SUITE(Resolver, SensingScalars);
 
-/// Imbalance, skew and offsets that are known are gone, all around the turn; not known they are not.
+/// Known imbalance, skew and offsets are removed over the whole turn; unknown ones remain.
 TYPED_TEST(Resolver, TheAngleIsRightAllAroundAndOnlyCorrected) {
   using S = TypeParam;
   const SecondOrder loop(0.15, 0.8);
@@ -90,12 +90,12 @@ TYPED_TEST(Resolver, TheAngleIsRightAllAroundAndOnlyCorrected) {
   }
   std::printf("largest error %.3g rad, bound %.3g\n", worst, static_bound<S>(w));
   EXPECT_LE(worst, static_bound<S>(w));
-  // a/2 sin 2 phi and q (1 + cos 2 phi)/2 at their worst: q/2 + sqrt((a/2)^2 + (q/2)^2), to a tenth of second order
+  // The law is the largest a/2 sin 2 phi + q (1 + cos 2 phi)/2: q/2 + sqrt((a/2)^2 + (q/2)^2), to a tenth for the second order.
   const double law = w.q / 2 + std::hypot(w.a / 2, w.q / 2);
   EXPECT_NEAR(worst_plain, law, 0.1 * law);
 }
 
-/// What a demodulated signal still has of an offset is a constant too.
+/// The offset that remains in a demodulated signal is constant too.
 TYPED_TEST(Resolver, ConstantOffsetsOfTheSignalsAreTakenAway) {
   using S = TypeParam;
   const SecondOrder loop(0.15, 0.8);
@@ -116,7 +116,7 @@ TYPED_TEST(Resolver, ConstantOffsetsOfTheSignalsAreTakenAway) {
   EXPECT_NEAR(static_cast<double>(x.s), 0.40, half_count + own);
 }
 
-/// From anywhere, half a turn off and exactly on it included, the loop comes to the rotor.
+/// The loop locks to the rotor from any angle, including exactly half a turn off.
 TYPED_TEST(Resolver, LocksFromAnywhere) {
   using S = TypeParam;
   const SecondOrder loop(0.1, 0.8);
@@ -127,12 +127,12 @@ TYPED_TEST(Resolver, LocksFromAnywhere) {
       ResolverConfig<S> c = config<S>(w, loop);
       c.normalise = normalise;
       const double phi = 2 * pi * k / 64;
-      // The loop's own frequency is less by the amplitude where it is taken for 1.
+      // The loop's natural frequency falls with the amplitude if that is not normalised.
       EXPECT_LE(std::fabs(error_at(phi, w, c, drawn, 1000)), static_bound<S>(w)) << k << ' ' << normalise;
     }
 }
 
-/// A turning rotor is found where it was in the middle between both samples, a quarter of a period ago.
+/// The angle of a turning rotor is that of the middle between both samples, a quarter of a period ago.
 TYPED_TEST(Resolver, AtSpeedTheAngleIsThatOfTheMiddle) {
   using S = TypeParam;
   const SecondOrder loop(0.15, 0.8);
@@ -146,7 +146,7 @@ TYPED_TEST(Resolver, AtSpeedTheAngleIsThatOfTheMiddle) {
       const auto r = resolver_step(c, state, w.at(phi, n % 2 == 0, drawn), n % 2 == 0);
       if (n < 300) continue;
       const double off = std::remainder(r.angle / turn * 2 * pi - (phi - per_sample / 2), 2 * pi);
-      // The loop foretells: rounding of the samples before, weighted by its step's answer, adds to none twice.
+      // The loop predicts: earlier rounding errors, weighted by its step response, add at most twice.
       const double tail = 1 + loop.K_p() + loop.K_i();
       ASSERT_LE(std::fabs(off), 2 * tail * static_bound<S>(w)) << per_sample;
       ASSERT_NEAR(r.speed / turn * 2 * pi, per_sample, 4 * (loop.K_p() + loop.K_i()) * static_bound<S>(w));
@@ -154,14 +154,14 @@ TYPED_TEST(Resolver, AtSpeedTheAngleIsThatOfTheMiddle) {
   }
 }
 
-/// Small steps decay as the linear loop's do: the detector's tangent is at most e^3/3 above e.
+/// Small steps decay as in the linear loop: the detector's tangent exceeds e by at most e^3/3.
 TYPED_TEST(Resolver, FollowsAsTheLinearLoop) {
   using S = TypeParam;
   const SecondOrder loop(0.1, 0.6);
   Windings w{.counts = 28000, .cos_offset = 32768, .sin_offset = 32768, .most = 65535};
   const double step = 0.06;
   Drawn drawn{4};
-  for (const double part : {1.0, 0.7}) {  // normalised, the amplitude counts for nothing
+  for (const double part : {1.0, 0.7}) {  // with normalisation the amplitude has no effect
     const ResolverConfig<S> c = config<S>(w, loop);
     Windings weaker = w;
     weaker.counts *= part;
@@ -172,7 +172,7 @@ TYPED_TEST(Resolver, FollowsAsTheLinearLoop) {
       const bool positive = n % 2 == 0;
       const auto r = resolver_step(c, state, weaker.at(1, positive, drawn), positive);
       const double off = r.angle / turn * 2 * pi - 1;
-      double answers = 0;  // each tick's error of the detector, as often as the loop answers it
+      double answers = 0;  // each tick's error of the detector, weighted by the loop's response
       for (int k = 1; k <= n; ++k) answers += std::fabs(loop.error(k) - loop.error(k - 1));
       const double detector = static_bound<S>(weaker) / part + step * step * step / 3;
       ASSERT_NEAR(off, step * loop.error(n), answers * detector + 1e-9) << n << " at " << part;
@@ -180,7 +180,7 @@ TYPED_TEST(Resolver, FollowsAsTheLinearLoop) {
   }
 }
 
-/// Constant acceleration: alpha/K_a, by which angle and truth part for good.
+/// The angle lags at constant acceleration by alpha/K_a.
 TEST(ResolverLaw, ConstantAccelerationLeavesAlphaByKa) {
   const SecondOrder loop(0.05, 0.7);
   Windings w{.counts = 28000, .cos_offset = 32768, .sin_offset = 32768, .most = 65535};
@@ -191,7 +191,7 @@ TEST(ResolverLaw, ConstantAccelerationLeavesAlphaByKa) {
   double mean = 0;
   const int from = 500, to = 1500;
   for (int n = 0; n < to; ++n) {
-    const double at = n - 0.5;  // the middle; the law of a chord is that of its middle to alpha/8
+    const double at = n - 0.5;  // the middle; the chord's angle equals that of its middle to alpha/8
     const auto r = resolver_step(c, state, w.at(alpha * n * n / 2, n % 2 == 0, drawn), n % 2 == 0);
     if (n >= from)
       mean += std::remainder(alpha * at * at / 2 - r.angle / turn * 2 * pi, 2 * pi) / (to - from);
@@ -213,12 +213,11 @@ TEST(ResolverLaw, TheAmplitudeTakenForOneMakesTheLoopSlower) {
     resolver_step(c, state, w.at(0.02, true, drawn), true);
     first[normalise] = state.loop.error;
   }
-  // to half a count in each of both
+  // The tolerance is half a count in each of both.
   EXPECT_NEAR(first[0] / first[1], amplitude, 2 * std::sqrt(0.5) / w.counts / 0.02);
 }
 
-/// A broken excitation, a broken winding where the rotor stands for it, and a short raise the alarm after three
-/// results, and noise does not.
+/// A broken excitation, a broken winding at its peak, and a short circuit raise the alarm after three results; noise does not.
 TYPED_TEST(Resolver, LossOfSignalIsTold) {
   using S = TypeParam;
   const SecondOrder loop(0.1, 0.8);
@@ -240,7 +239,7 @@ TYPED_TEST(Resolver, LossOfSignalIsTold) {
   EXPECT_EQ(lost_after({4095, 4095}, {0, 0}), 4) << "both at their ends";
 }
 
-/// Two results outside and one inside, again and again, are no three in a row.
+/// Two results outside and one inside, repeatedly, are never three in a row.
 TEST(ResolverLaw, SingleDisturbancesAreNoLoss) {
   const SecondOrder loop(0.1, 0.8);
   const Windings w;
@@ -250,7 +249,7 @@ TEST(ResolverLaw, SingleDisturbancesAreNoLoss) {
   ResolverState state;
   int outside = 0;
   for (int n = 0; n < 300; ++n) {
-    // A sample missing spoils two results: that with the sample before it and that with the one after.
+    // A missing sample spoils two results: those with the sample before it and after it.
     const bool missing = n % 3 == 2;
     const auto r = resolver_step(
         c, state, missing ? ResolverCounts{2048, 2048} : w.at(0.5, n % 2 == 0, drawn), n % 2 == 0);
@@ -260,7 +259,7 @@ TEST(ResolverLaw, SingleDisturbancesAreNoLoss) {
   EXPECT_GT(outside, 150);
 }
 
-/// Without signals there is no direction to go in.
+/// The angle stays without signals.
 TEST(ResolverLaw, ADeadResolverDoesNotTurn) {
   const SecondOrder loop(0.1, 0.8);
   const ResolverConfig<Q15> c = config<Q15>(Windings{}, loop);

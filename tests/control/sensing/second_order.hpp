@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The linear loop that a tracking loop is, by its poles exp(s T): independent of the design's formulas.
+// The linear equivalent of a tracking loop, from its poles exp(s T): independent of the design's formulas.
 #pragma once
 #include <cmath>
 #include <complex>
@@ -10,7 +10,7 @@ namespace sixstep::control {
 
 class SecondOrder {
  public:
-  /// x = w_n T; damping up to 1, where the poles are kept a little apart.
+  /// x = w_n T; damping up to 1, where the poles are kept slightly apart.
   SecondOrder(double x, double damping)
       : z_(std::exp(
             std::complex<double>(-damping * x, x * std::sqrt(std::fmax(1 - damping * damping, 1e-8))))) {}
@@ -19,11 +19,11 @@ class SecondOrder {
   double K_i() const { return std::norm(1.0 - z_); }
   TrackingConfig config() const { return {FixedGain<std::int32_t>(K_p()), FixedGain<std::int32_t>(K_i())}; }
 
-  /// n ticks behind a step of 1: e[0] = 1, e[1] = 1 - K_p - K_i, e[n] = Re(b z^n).
+  /// The error n ticks after a step of 1: e[0] = 1, e[1] = 1 - K_p - K_i, e[n] = Re(b z^n).
   double error(int n) const { return (start() * std::pow(z_, n)).real(); }
 
-  /// What rounding can move the error by, in units: each tick half of one in the speed's part and half in the
-  /// error's, each decaying as a step does; and the speed by 2^-17, which adds up until the loop answers.
+  /// The largest effect of rounding on the error, in units: each tick adds half a unit in the speed's part and half in the error's, each
+  /// decaying as a step does; and 2^-17 in the speed, which accumulates until the loop corrects it.
   double rounding() const {
     double sum = 0, speed_sum = 0, moved = 0;
     std::complex<double> z = 1;

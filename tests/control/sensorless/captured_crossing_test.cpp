@@ -13,7 +13,7 @@ using namespace sixstep::testing;
 constexpr ZeroCrossingConfig crossing{NeutralSeen::on_time, 96, 20, 20, 0};
 constexpr std::uint32_t tick = 480, sector_ticks = 16 * tick;
 
-/// One sector, sampled each tick; an edge of the floating leg's line each time `edges` says so.
+/// One sector, sampled each tick; the line of the floating leg has an edge at each time in `edges`.
 struct Sector {
   std::uint8_t sector = 0;
   double emf = 400.0;
@@ -47,12 +47,12 @@ TEST(CapturedCrossing, IsWhereTheEdgeWasWhicheverWayTheBackEmfGoes) {
   }
 }
 
-/// The freewheel's edges say nothing; the one that comes behind it does, even where no sample saw the line before it.
+/// Edges during freewheeling are ignored. The edge after it counts, even if no sample showed the line before that edge.
 TEST(CapturedCrossing, TheFreewheelsEdgesAreNotTheBackEmfs) {
   Sector s;
   capture_lines(s.captured, s.before(), 0xfffff000u);
   s.begin(0);
-  capture_lines(s.captured, s.after(), 30);  // the diode pulls it down
+  capture_lines(s.captured, s.after(), 30);  // the diode holds it low
   const auto freewheel = [&](std::uint32_t t) {
     TerminalSample sample = driven_sample(0, 60.0 * t / sector_ticks, 400, t);
     sample.u[floating_leg(0)] = 0;
@@ -69,7 +69,7 @@ TEST(CapturedCrossing, TheFreewheelsEdgesAreNotTheBackEmfs) {
   EXPECT_EQ(seen.at, 8 * tick + 50);
 }
 
-/// A line that has not come back tells nothing: the samples do, told as late as an edge would be.
+/// A line that has not returned gives no edge: the samples give the crossing, delayed like an edge.
 TEST(CapturedCrossing, WhileTheLineHasNotComeBackTheSamplesTell) {
   Sector s;
   s.config.lag_ticks = 200;
@@ -98,7 +98,8 @@ TEST(CapturedCrossing, ASampleIsToldAsLateAsAnEdge) {
   EXPECT_EQ(at(200), at(0) + 200);
 }
 
-/// Against half the bus: in the pulse an edge is the crossing; in the pause it is the pulse's own, whose middle is taken.
+/// The comparators' reference is half the bus: in the pulse an edge is the crossing. In the pause the edge is the pulse's own, and the
+/// pause's middle replaces it.
 TEST(CapturedCrossing, AgainstHalfTheBusThePausesMiddleStandsForItsEdges) {
   const auto at = [](std::uint32_t edge, std::uint32_t on_ticks) {
     Sector s;
@@ -121,7 +122,7 @@ TEST(CapturedCrossing, AgainstHalfTheBusThePausesMiddleStandsForItsEdges) {
   EXPECT_EQ(at(now - 300, tick), now - 300) << "there is no pause";
 }
 
-/// Before it could have crossed nothing counts; then the earliest instant does.
+/// Edges before the earliest possible crossing do not count at once; then the crossing is at that earliest time.
 TEST(CapturedCrossing, AnEdgeTooEarlyCountsWhenItMay) {
   Sector s;
   capture_lines(s.captured, s.before(), 0xfffff000u);

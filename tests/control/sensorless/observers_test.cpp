@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Back-EMF observers against closed forms: poles where they were placed, lags of a ramp, the level of the flux linkage.
-// The phase is stepped by the exact solution of L di/dt = w - R i - g; nothing of the design's formulas is used.
+// Back-EMF observers against closed forms: placed poles, lags of a ramp, the level of the flux linkage. The exact solution of L di/dt = w -
+// R i - g steps the phase, without the design's formulas.
 #include "sixstep/control/sensorless/observer.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ constexpr double R = 0.5, L = 0.3e-3, T = 30e-6, p = 0.3, k = 24.0, share = 0.5;
 const double a = std::exp(-R * T / L), b = (1 - a) / R;
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-/// Bases: 20 A, 30 V.
+/// The bases are 20 A, 30 V.
 constexpr double ampere = 20.0, volt = 30.0;
 
 template <class Scalar>
@@ -52,7 +52,7 @@ SlidingModeConfig<Scalar> sliding() {
           gain<Scalar>(share)};
 }
 
-/// From one sample to the next.
+/// The current at the next sample.
 double next_current(double i, double w, double g) { return a * i + b * (w - g); }
 
 TEST(Luenberger, ItsErrorFollowsTheTwoPolesThatWerePlaced) {
@@ -61,7 +61,7 @@ TEST(Luenberger, ItsErrorFollowsTheTwoPolesThatWerePlaced) {
   double i = 0.7;
   std::vector<double> error;
   for (int n = 0; n < 30; ++n) {
-    const double w = n % 3 == 0 ? 9.0 : -4.0;  // whatever drives it
+    const double w = n % 3 == 0 ? 9.0 : -4.0;  // an arbitrary voltage
     i = next_current(i, w, g);
     error.push_back(luenberger_step(luenberger<double>(), state, w, i) - g);
   }
@@ -70,7 +70,7 @@ TEST(Luenberger, ItsErrorFollowsTheTwoPolesThatWerePlaced) {
   EXPECT_LT(std::fabs(error.back()), 1e-12);
 }
 
-/// A leg without current whose back-EMF is a ramp: its mean is that of the period's middle.
+/// A leg without current and with a ramp as back-EMF: its mean is the value at the period's middle.
 template <class Step>
 double lag_of_a_ramp(Step&& step) {
   const double per_period = 0.1;
@@ -120,11 +120,11 @@ TEST(SlidingMode, OutsideTheLayerItIsDrivenInByTheWholeGain) {
     EXPECT_LT(state.error_A, before) << "it only shrinks: k is above the back-EMF";
     before = state.error_A;
   }
-  // Each period takes b (k - g) off, and the decay a some more.
+  // Each period removes b (k - g), and the decay some more.
   EXPECT_LE(periods, 40 * k / (k - g) + 2);
 }
 
-/// Either estimate in the scalar at hand, of a current and a voltage in SI that it is told rounded.
+/// Either estimate in the given scalar, with current and voltage in SI as rounded inputs.
 template <class Scalar>
 class Observers : public ::testing::Test {};
 using ObserverScalars = ::testing::Types<float, Q15, Q14, Q31, Q30>;
@@ -138,8 +138,8 @@ TYPED_TEST(Observers, FollowTheOnesOfDoubleWithinTheirRounding) {
   SlidingModeState<double> sliding_double;
   SlidingModeState<S> sliding_state;
   double i = 0;
-  // Each period rounds i, w, i^ and two products, by half a digit and for float by a few, which the gain takes to V;
-  // double poles at p keep the sum of it within 1/(1 - p)^2, the low-pass within 1.
+  // The rounding per period is half a digit of i, w, i^ and two products, and a few for float; the gain converts it to V. Double poles at p
+  // keep the sum within 1/(1 - p)^2, the low-pass within 1.
   const double per_A = a / b * A;
   const double bound = 8 * d * (per_A + V) / ((1 - p) * (1 - p));
   for (int n = 0; n < 400; ++n) {
@@ -156,8 +156,8 @@ TYPED_TEST(Observers, FollowTheOnesOfDoubleWithinTheirRounding) {
   }
 }
 
-/// Flux linkage in levels of 1/4 for a trapezoid of peak E at `ticks` periods a sector: psi_c = E T ticks/6 V s, the area
-/// under 2/3 E theta/30 degrees over half a sector.
+/// Flux linkage in levels of 1/4 for a trapezoid of peak E and `ticks` periods per sector: psi_c = E T ticks/6 V s, the area under 2/3 E
+/// theta/30 degrees over half a sector.
 template <class Scalar>
 FluxLinkageConfig<Scalar> flux(double level_V_ticks) {
   const double A_per_V = base_of<Scalar>(volt) / base_of<Scalar>(ampere);
@@ -167,8 +167,8 @@ FluxLinkageConfig<Scalar> flux(double level_V_ticks) {
 
 template <class S>
 void expect_level_at_thirty_degrees(double ticks, double growth) {
-  // The angle x in sectors from the crossing, x(t) = t/ticks (1 + growth t/ticks); psi = E ticks f(x), whose fall is what an
-  // integral over the angle says at any speed: E ticks (2/3) x^2 for e = (4/3) E x w/w_0.
+  // The angle x in sectors from the crossing is x(t) = t/ticks (1 + growth t/ticks). The flux psi = E ticks f(x) falls by the integral over
+  // the angle at any speed: E ticks (2/3) x^2 for e = (4/3) E x w/w_0.
   const double E = 6.0, level = E * ticks / 6.0;
   const FluxLinkageConfig<S> config = flux<S>(level);
   FluxLinkageState<S> state;
@@ -176,13 +176,13 @@ void expect_level_at_thirty_degrees(double ticks, double growth) {
   const auto psi = [&](double t) { return -E * ticks * (2.0 / 3.0) * x_of(t) * x_of(t); };
   double t = -0.45 * ticks + 0.37;
   for (int n = 0; n < 1000; ++n, t += 1) {
-    const double g = psi(t + 1) - psi(t);  // mean of the period, V
+    const double g = psi(t + 1) - psi(t);  // mean over the period, V
     flux_linkage_step(config, state, S(static_cast<S>(g / base_of<S>(volt))), S{});
     S part{};
     if (!flux_level_comes(config, state, part)) continue;
     const double at = t + 1 + static_cast<double>(part), error_deg = 60 * (x_of(at) - 0.5);
-    // psi's greatest value lies between two samples: at most 1/8 of the slope of e is missed, of a fall of (ticks/2)^2/2 of
-    // it; the line within the last period; and rounding of so many periods by half a digit.
+    // The peak of psi lies between two samples: the error is at most 1/8 of the slope of e, relative to a fall of (ticks/2)^2/2 of it. The
+    // interpolation within the last period and the rounding by half a digit per period add to it.
     const double missed = 1.0 / (ticks * ticks) + 0.5 / (ticks * ticks);
     const double rounded = is_fixed<S> ? ticks * digit<S>() / 0.25 : 1e-5;
     EXPECT_LT(std::fabs(error_deg), 30 * (missed + rounded) + 0.02) << ticks << " periods, growth " << growth;
@@ -200,7 +200,7 @@ TEST(FluxLinkage, AnUnknownPeriodGoesOnAlongTheLine) {
   const FluxLinkageConfig<double> config = flux<double>(20);
   FluxLinkageState<double> seen, missed;
   for (int n = 0; n < 30; ++n) {
-    const double g = 0.5 * (9.5 - n);  // crosses between the periods 9 and 10
+    const double g = 0.5 * (9.5 - n);  // crosses zero between the periods 9 and 10
     flux_linkage_step(config, seen, g, 0.0);
     if (n < 16)
       flux_linkage_step(config, missed, g, 0.0);
@@ -210,7 +210,7 @@ TEST(FluxLinkage, AnUnknownPeriodGoesOnAlongTheLine) {
   EXPECT_NEAR(missed.top - missed.psi, seen.top - seen.psi, 1e-9);
 }
 
-/// Terminals of a sector as terminals.hpp has them, 3200 counts of 24 V.
+/// Terminals of a sector as in terminals.hpp, with 3200 counts for 24 V.
 constexpr FloatingVoltageConfig<double> voltages{24.0 / bus_counts / 3, 60, true};
 
 TEST(FloatingVoltage, IsTheBackEmfWithoutCurrentAndTheRailWithOne) {
@@ -221,7 +221,7 @@ TEST(FloatingVoltage, IsTheBackEmfWithoutCurrentAndTheRailWithOne) {
     const FloatingVoltage<double> v = floating_voltage(voltages, s, 2, true, command, 24.0);
     EXPECT_TRUE(v.known);
     EXPECT_FALSE(v.held);
-    // 2/3 of the trapezoid, falling through zero at 30 degrees; terminals are counts.
+    // The value is 2/3 of the trapezoid, falling through zero at 30 degrees; terminals are in counts.
     EXPECT_NEAR(v.w_V, 2.0 / 3.0 * E * (30 - deg) / 30, 2 * 24.0 / bus_counts) << deg;
   }
   TerminalSample s = driven_sample(0, 20.0, counts, 0);
@@ -245,7 +245,7 @@ TEST(Observer, TheDefaultFollowsTheTerminalsOwnCrossings) {
   EXPECT_FALSE(o.follows);
 }
 
-/// While the old current runs out nothing is taken for a crossing; what comes free behind it had crossed unseen.
+/// No crossing counts while the old current decays; one during that time is reported afterwards as passed.
 TEST(Observer, IsBlindUntilTheOldCurrentHasRunOut) {
   for (const Follow which : {Follow::luenberger, Follow::sliding_mode, Follow::flux}) {
     ObserverConfig<double> config;
@@ -276,7 +276,7 @@ TEST(Observer, IsBlindUntilTheOldCurrentHasRunOut) {
   }
 }
 
-/// Through all six sectors, both ways: y falls in each from 2 E to -2 E, in the counts of the crossing finder.
+/// The rotor passes all six sectors in both directions: y falls in each from 2 E to -2 E, in the counts of the crossing finder.
 TEST(Observer, GoesOverFromLegToLeg) {
   for (const Follow which : {Follow::luenberger, Follow::sliding_mode, Follow::flux})
     for (const int way : {1, -1}) {
@@ -300,7 +300,7 @@ TEST(Observer, GoesOverFromLegToLeg) {
         command.pair = way > 0 ? positive_pair(sector) : swapped(positive_pair(sector));
         const TerminalSample s = driven_sample(sector, deg, way * E, static_cast<std::uint32_t>(n));
         const Observed o = observer_step(config, state, s, command, {.bus_V = 24.0}, sector);
-        // Where both poles have forgotten the sector before: the true y of a lag ago.
+        // The poles' response to the previous sector has decayed: y equals the true one, delayed by the lag.
         const double since = std::fmod(n + 0.25, ticks);
         if (n < ticks || since < 8) continue;
         const double y = 2 * E * (1 - 2 * (since - lag) / ticks);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole drive in every arithmetic, in front of a rotor that turns as it is told: what it makes of the same counts is
-// the same, but for currents and speeds in their own digits.
+// The whole drive in every arithmetic, with a rotor of prescribed motion: the answers to the same counts are equal, apart from currents and
+// speeds in their own digits.
 #include "sixstep/control/sensorless/sensorless_drive.hpp"
 
 #include <gtest/gtest.h>
@@ -18,9 +18,9 @@ using namespace sixstep::testing;
 static_assert(std::is_trivially_copyable_v<SensorlessDriveState<double>>);
 static_assert(std::is_trivially_copyable_v<SensorlessDriveState<Q15>>);
 
-constexpr std::uint32_t tick = 500;  // of the timer, per control period
+constexpr std::uint32_t tick = 500;  // timer counts per control period
 
-/// Bases: 10 A, 25 V, 1000 rad/s; gains of no motor, the rotor does not hear of them.
+/// The bases are 10 A, 25 V, 1000 rad/s; the gains are arbitrary, because the rotor's motion is prescribed.
 template <class Scalar>
 SensorlessDriveConfig<Scalar> chip() {
   SensorlessDriveConfig<Scalar> c;
@@ -55,7 +55,7 @@ struct Seen {
   bool operator==(const Seen&) const = default;
 };
 
-/// A rotor that spins already when the drive is asked for half the duty, is blocked at 60 sectors, and turns again later.
+/// A rotor that already turns at the request of half the duty, is blocked from tick 900 to 1200, and turns again.
 template <class Scalar>
 std::vector<Seen> ridden(double sense) {
   const SensorlessDriveConfig<Scalar> config = chip<Scalar>();
@@ -116,7 +116,7 @@ TEST(SensorlessDrive, TheDefaultNeverDrives) {
   }
 }
 
-/// From the ramp to a duty: no jump, then so much a tick.
+/// The duty after the ramp: it has no jump, then changes by a fixed step per tick.
 TEST(SensorlessDrive, ApproachesADutyFromWhereTheStartLeavesIt) {
   const SensorlessDriveConfig<double> config = chip<double>();
   SensorlessDriveState<double> state;

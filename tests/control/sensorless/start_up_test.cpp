@@ -10,7 +10,7 @@ namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep::control;
 
-/// Control ticks at which the field goes on by itself.
+/// Control ticks at which the field advances by itself.
 std::vector<double> field_steps(const StartUpConfig<double>& config, int count) {
   StartUpState state;
   ramp_begin(config, state, 0);
@@ -20,7 +20,7 @@ std::vector<double> field_steps(const StartUpConfig<double>& config, int count) 
       at.push_back(n);
       const std::uint32_t angle = state.angle;
       ramp_commutated(state);
-      state.angle = angle;  // what has turned beyond the sector
+      state.angle = angle;  // the angle beyond the sector's end
     }
   return at;
 }
@@ -75,7 +75,7 @@ TEST(StartUp, CountsCrossingsThatFollowEachOther) {
   EXPECT_EQ(state.trusted, 0) << "the field had to go on by itself";
 }
 
-/// A swing without friction: current low while its speed grows, full while it shrinks.
+/// An oscillation without friction: the current is low while the speed grows, full while it falls.
 TEST(StartUp, TheSwingsSpeedIsToldToGrowOrToShrink) {
   const StartUpConfig<double> config{.swing_shift = 4, .swing_threshold = 20};
   StartUpState state;
@@ -83,7 +83,7 @@ TEST(StartUp, TheSwingsSpeedIsToldToGrowOrToShrink) {
   for (int n = 0; n < 4000; ++n) {
     const double phase = 2 * 3.14159265358979 * n / 800;
     align_swing(config, state, {.visible = true, .y = static_cast<std::int32_t>(600 * std::sin(phase))});
-    if (std::fabs(std::sin(phase)) < 0.1 || std::fabs(std::cos(phase)) < 0.2) continue;  // it turns round
+    if (std::fabs(std::sin(phase)) < 0.1 || std::fabs(std::cos(phase)) < 0.2) continue;  // near a reversal
     const bool grows = std::sin(phase) * std::cos(phase) > 0;
     (state.falls == grows ? right : wrong)++;
   }

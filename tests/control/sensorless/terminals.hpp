@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Terminals of a rotor that turns as it is told, as a converter counts them: written from model.md 1 and 2, not from the
-// code under test.
+// Terminal voltages of a rotor with prescribed motion, in the converter's counts: written from model.md 1 and 2, independent of the tested
+// code.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace sixstep::testing {
 
 inline constexpr std::uint16_t bus_counts = 3200;
 
-/// The trapezoid of 120 degrees of phase k.
+/// The trapezoid of phase k with 120 degrees flat.
 inline double emf_shape(double electrical_deg, int k) {
   const double from_top = std::remainder(electrical_deg - 120.0 * k - 60.0, 360.0);
   return std::fmax(-1.0, std::fmin(1.0, (90.0 - std::fabs(from_top)) / 30.0));
@@ -22,7 +22,7 @@ inline std::uint16_t held_to_rails(double counts) {
       std::fmin(static_cast<double>(bus_counts), std::fmax(0.0, std::floor(counts + 0.5))));
 }
 
-/// The pair of a sector at the rails, the third leg floating; `emf`: counts of e on the flat, signed by the rotation.
+/// The pair of a sector at the rails, the third leg floating; `emf` is e on the flat in counts, signed by the rotation.
 inline control::TerminalSample driven_sample(std::uint8_t sector, double electrical_deg, double emf,
                                              std::uint32_t at) {
   constexpr int pairs[6][2] = {{0, 1}, {0, 2}, {1, 2}, {1, 0}, {2, 0}, {2, 1}};
@@ -38,7 +38,7 @@ inline control::TerminalSample driven_sample(std::uint8_t sector, double electri
   return s;
 }
 
-/// With the bridge off.
+/// All legs floating with the bridge off.
 inline control::TerminalSample coasting_sample(double electrical_deg, double emf, std::uint32_t at) {
   control::TerminalSample s;
   s.bus = bus_counts;

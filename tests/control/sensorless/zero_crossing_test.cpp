@@ -33,7 +33,7 @@ TEST(ZeroCrossing, LiesInTheMiddleOfEverySectorBothWaysWhateverTheSamplesPhase) 
       if (r.crossing == Crossing::none) continue;
       seen = true;
       EXPECT_EQ(r.crossing, Crossing::seen);
-      // A line between two samples of a line: off by the counts' rounding, 2 of 4 |emf| per sector, and whole ticks.
+      // The interpolation of a straight line has the counts' rounding, 2 of 4 |emf| per sector, and whole ticks as its error.
       EXPECT_NEAR(static_cast<double>(r.at - origin), T / 2, 2 + 2.0 * T / (4 * std::fabs(emf)))
           << "seed " << seed << " draw " << n;
     }
@@ -41,7 +41,7 @@ TEST(ZeroCrossing, LiesInTheMiddleOfEverySectorBothWaysWhateverTheSamplesPhase) 
   }
 }
 
-/// Sector 0 falls: the old current of leg c holds it at the lower rail, which looks like "crossed".
+/// Sector 0 falls: the old current of leg c holds it at the lower rail, which resembles a crossing.
 TEST(ZeroCrossing, WaitsForTheOldCurrentAndMeasuresIt) {
   ZeroCrossingState state;
   zero_crossing_begin(state, 0, 0, 1000);
@@ -63,7 +63,7 @@ TEST(ZeroCrossing, WaitsForTheOldCurrentAndMeasuresIt) {
 
 TEST(ZeroCrossing, OneThatTheOldCurrentHidHadPassed) {
   ZeroCrossingState state;
-  zero_crossing_begin(state, 1, 0, 0);  // sector 1 rises: the upper rail looks like "crossed"
+  zero_crossing_begin(state, 1, 0, 0);  // sector 1 rises: the upper rail resembles a crossing
   TerminalSample s = driven_sample(1, 70, 800, 100);
   s.u[1] = bus_counts;
   EXPECT_EQ(zero_crossing_step(config, state, s, true).crossing, Crossing::none);
@@ -91,8 +91,8 @@ TEST(ZeroCrossing, NoneBeforeTheEarliestTime) {
   EXPECT_EQ(zero_crossing_step(config, state, driven_sample(0, 55, 800, 600), true).crossing, Crossing::seen);
 }
 
-/// The old current ends before 200: no crossing counts within the margin behind the sample that shows it, and what lay in there
-/// is told at the first sample behind it.
+/// The old current ends before 200: no crossing counts within the margin after the sample that shows this. One within the margin is
+/// reported at the first sample after it.
 TEST(ZeroCrossing, NoneWithinTheMarginBehindTheFreewheelsEnd) {
   for (const std::uint32_t margin : {0u, 1u, 100u, 101u, 250u}) {
     ZeroCrossingConfig c = config;
@@ -110,14 +110,14 @@ TEST(ZeroCrossing, NoneWithinTheMarginBehindTheFreewheelsEnd) {
   }
 }
 
-/// A filter still shows the pair before: neither the freewheel's end nor a crossing is taken from it.
+/// The filter still shows the previous pair: it gives neither the freewheel's end nor a crossing.
 TEST(ZeroCrossing, NothingIsLookedAtBeforeTheFiltersHaveSettled) {
   for (const std::uint32_t settle : {0u, 50u, 51u}) {
     ZeroCrossingConfig c = config;
     c.settle_ticks = settle;
     ZeroCrossingState state;
     zero_crossing_begin(state, 0, 0, 1000);
-    // On its way from the upper rail to the lower one, where its diode holds it from now on.
+    // The filtered voltage falls from the upper rail to the lower one, where the diode now holds it.
     zero_crossing_step(c, state, driven_sample(0, 40, 800, 1050), true);
     TerminalSample held = driven_sample(0, 5, 800, 1150);
     held.u[2] = 0;
@@ -127,7 +127,7 @@ TEST(ZeroCrossing, NothingIsLookedAtBeforeTheFiltersHaveSettled) {
   }
 }
 
-/// Off part of soft chopping: both legs at the lower rail, u_f = 3/2 e_f where positive, else a diode holds it.
+/// The off-time of soft chopping: both legs are at the lower rail, u_f = 3/2 e_f if positive, else a diode holds it.
 TerminalSample soft_freewheel(double e_f, std::uint32_t at) {
   TerminalSample s;
   s.bus = bus_counts;
@@ -139,7 +139,7 @@ TerminalSample soft_freewheel(double e_f, std::uint32_t at) {
 TEST(ZeroCrossing, AFreewheelOfSoftChoppingIsSeenOnlyWhereAskedFor) {
   ZeroCrossingConfig off = config;
   off.seen = NeutralSeen::freewheel;
-  off.below = -1;  // a terminal at its rail is all there is
+  off.below = -1;  // only a terminal at its rail is available
   for (const bool asked : {false, true}) {
     ZeroCrossingState state;
     zero_crossing_begin(state, 0, 0, 0);
@@ -156,7 +156,7 @@ TEST(ZeroCrossing, CountsSamplesThatContradictTheCommand) {
   ZeroCrossingState state;
   zero_crossing_begin(state, 0, 0, 0);
   TerminalSample dead = driven_sample(0, 10, 800, 100);
-  dead.u[0] = 0;  // the source's divider
+  dead.u[0] = 0;  // the source's divider fails
   for (std::uint8_t n = 1; n < 5; ++n) {
     zero_crossing_step(config, state, dead, true);
     EXPECT_EQ(state.unlike, n);

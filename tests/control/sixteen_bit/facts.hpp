@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fixed-point facts decided while compiling, so that a compiler whose int has 16 bits can be asked without a
-// chip to run on: the same bits as on the host, where fixed_test.cpp holds them to exact arithmetic.
+// Fixed-point facts decided at compile time, so that a compiler with 16-bit int can check them without a chip: the same bits as on the
+// host, where fixed_test.cpp compares them with exact arithmetic.
 #pragma once
 #include <cstdint>
 
@@ -10,7 +10,7 @@
 
 namespace sixstep::control::facts {
 
-/// Every operation on a grid of numbers that holds both ends and both sides of 0, mixed into 32 bits.
+/// Every operation on a grid of numbers with both ends and both sides of 0, mixed into 32 bits.
 template <class F>
 constexpr std::uint32_t digest() {
   using T = ScalarTraits<F>;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Facts of the decoders decided while compiling, as facts.hpp: one digest for hosts and for chips whose int has 16
-// bits. Gains are whole numbers here, as an export writes them.
+// Facts of the decoders decided at compile time, as in facts.hpp: one digest for hosts and for chips with 16-bit int. Gains are whole
+// numbers, as in an export.
 #pragma once
 #include <cstdint>
 

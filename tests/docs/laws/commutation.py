@@ -46,12 +46,12 @@ def judge_run(test, spot, command, rows):
     (torque, dip), (sampled, spike), (peak, rise) = (rows[name] for name in sorted(rows))
     for value, against, deviation in ((torque, K_T * I, dip), (sampled, I, spike), (peak, I, rise)):
         test.assertLess(abs(100 * (value / against - 1) - deviation), 0.06, told)
-    # The loop holds the ripple's foot at the reference: the torque dips below K_t I only at commutations, and no loop lets more of
-    # it go than a duty that stays, but for the wait of a sample and a period.
+    # The loop holds the ripple's minimum at the reference. The torque falls below K_t I only at commutations, and by at most the dip of a
+    # constant duty, apart from the delay of a sample and a period.
     floor = left_at_a_fixed_duty(emf, "pattern=upper" in command) - ripple(emf, I, period) / 2
     test.assertLess(K_T * floor, torque, told)
     test.assertLess(torque, K_T * I, told)
-    # The rows differ by the ripple at the peak. There the duty is that of the peak's current, or still on its way down to it.
+    # The rows differ by the ripple at the peak. The duty there is that of the peak's current, or still falls to it.
     apart = (peak - sampled) / ripple(emf, sampled, period)
     test.assertTrue(0.7 < apart < 1.1, f"{told}: {apart} ripples apart")
     test.assertLess(I, sampled, told)
@@ -66,7 +66,7 @@ def judge(test, spot):
     def of(*words, but=()):
         return next((x for command, x in found.items() if all(w in command for w in words) and not any(w in command for w in but)), None)
 
-    plain = (K_T * I * (1 - 0.185), I * 1.128)  # as the page's first run tells in words
+    plain = (K_T * I * (1 - 0.185), I * 1.128)  # as the page's text gives for its first run
     if twice := of("duration_s=130e-3"):
         for a, b in zip(twice, plain):
             test.assertLess(abs(a / b - 1), 3e-3, str(spot))

@@ -62,7 +62,7 @@ def loops(test, spot):
         return
     for n, f in enumerate(rows["crossover"]):
         at_once, late = (rows[f"phase margin, {when}"][n][0] for when in ("no computation delay", "one period late"))
-        if n == 0:  # of outer loops the delay acts within the inner one
+        if n == 0:  # an outer loop has its delay within the inner one
             close(test, spot, "phase margin, one period late", late, at_once - 360 * f[0] * T, 0, 0.2)
             close(test, spot, "delay margin", rows["delay margin, one period late"][n][0], late / 360 / f[0], 1e-2)
         peak = rows["peak of sensitivity, one period late"][n][0]
@@ -91,12 +91,12 @@ def hall(test, spot):
     m = re.search(r"w_low +([\d.]+) rad/s.*\n +T +([\d.]+) ms +\(pi/3\)/\(p w_low\)", spot.text)
     if m:
         close(test, spot, "T", float(m.group(2)) * 1e-3, pi / 3 / 8 / float(m.group(1)), 1e-4)
-    for line in spot.text.splitlines():  # a slower rotor never lets a loop be faster
+    for line in spot.text.splitlines():  # the loop is never faster with a slower rotor
         cells = re.split(r" {2,}", line.strip())
         if cells[0].startswith("Hall, ") and len(cells) == 4:
             times = [quantity(c)[0] for c in cells[1:]]
             test.assertEqual(times, sorted(times, reverse=True), f"{spot}: {line}")
-            # The longest delay (k + 1)/2 sectors falls with the speed; the loop by no more than that.
+            # The longest delay, (k + 1)/2 sectors, falls with the speed; the settling time falls by at most the same ratio.
             test.assertLessEqual(times[0] / times[2], 5.05, f"{spot}: {line}")
 
 
@@ -121,7 +121,7 @@ def sensors(test, spot):
         close(test, spot, "2 D/w_n", s["2 D/w_n"], 2e6 / s["w_n"], 1e-4)
         close(test, spot, "delay", s["delay"], s["2 D/w_n"] + s["t_l"], 1e-4)
         close(test, spot, "t_l", s["t_l"], T * 1e6, 1e-6)
-    if "dw_high" in s:  # far above the lowest speed: the same step, and what both loops make of it at once
+    if "dw_high" in s:  # far above the lowest speed: the same step, and the immediate response of both loops
         w, dw, I_N, full = s["w_high"], s["dw_high"], 2.33, 2.5 * 2.33
         test.assertTrue(0.89 * (U - R * I_N) / K_T < w < 0.9 * (U - R * I_N) / K_T * 1.001, f"{spot}: w_high")
         if "(2 pi/4N)/w_low" in text:

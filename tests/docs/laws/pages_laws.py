@@ -5,7 +5,7 @@ import re
 from laws import bench, capacitor, commutation, contest, curve, design, drives, run_output, series, tables
 from page import REPOSITORY
 
-# What a reader writes or runs is no result.
+# Blocks of a reader's input are no results.
 INPUT = {"run", "write", "file", "chip", "host", "programs", "python"}
 
 TEST_NAMED = re.compile(r"`(\w+)\.\*`|`(tests/[\w/*.]+|\w+_test\.cpp|\w+_tests|\w+_test\.py)`")
@@ -175,13 +175,13 @@ BY_TEXT = [
     ("docs/howto/design-", "", design.judge),
     ("docs/reference/keys/", "| key |", default_in_range),
 ]
-# Messages of the program, which repeat what was given or what is allowed.
+# Messages of the program, which repeat the input or the allowed values.
 MESSAGES = [("docs/start/tour-bench-and-chip.md", "tells the drive currents"), ("docs/howto/measure-the-back-emf.md", "short.csv: "), ("docs/howto/find-the-hall-order.md", "short.csv: "),
             ("docs/start/sheet-questions.md", "coil.toml:4"), ("docs/start/sheet-questions.md", "motor show kv.toml | grep pole"),
             ("docs/start/tour.md", "dampng"), ("docs/start/tour.md", "relations hold"), ("docs/start/tour.md", "line_"), ("docs/start/tour.md", "help control.current.damping"),
             ("docs/explanation/accuracy.md", "'mean current  '"), ("docs/start/tour-bench-and-chip.md", "hot-plug.toml | head"),
             ("docs/howto/size-a-capacitor.md", "grep ripple")]
-# Pages and tables that define: names, formulas, commands, exit codes, and pages of code.
+# Pages and tables of definitions: names, formulas, commands, exit codes, and pages of code.
 DEFINES = ("docs/architecture.md", "docs/contracts.md", "docs/contributing.md", "docs/reference/model", "docs/reference/notation.md",
            "docs/reference/figures.md", "docs/reference/results.md", "docs/reference/command-line.md", "docs/reference/keys/")
 DEFINING = [("README.md", "| task |"), ("docs/reference/glossary.md", "| term |"),
@@ -195,7 +195,7 @@ DEFINING = [("README.md", "| task |"), ("docs/reference/glossary.md", "| term |"
             ("docs/reference/plan-file.md", "title = "), ("docs/howto/find-the-best-point.md", "minimise = "), ("docs/howto/run-many.md", "sixstep run data/scenarios"),
             ("docs/howto/steer-a-run-from-cpp.md", "| change |"), ("docs/howto/steer-a-run-from-cpp.md", "| refused change |"), ("docs/howto/find-a-wiring-fault.md", "| in a cell |"), ("docs/howto/choose-a-controller.md", "| column |"),
             ("docs/howto/choose-a-rotor-sensor.md", "| you need |"), ("docs/howto/write-a-controller.md", "$ "), ("docs/howto/write-a-controller.md", "| field |"), ("docs/howto/write-a-controller.md", "| the controller |"), ("docs/howto/compare-a-log.md", "| log of |")]
-# Tables whose every row a named test measures and holds to a law of its own.
+# Tables with a named test that measures every row and has its own law.
 HELD_BY_TESTS = [("docs/reference/", "| result |"), ("docs/reference/fixed-point.md", "| experiment |"), ("docs/reference/sensorless-drive.md", "| board |"),
                  ("docs/reference/loops.md", "| loop | told |"), ("docs/reference/commutation.md", "| pattern | begins to"),
                  ("docs/reference/loops.md", "| law | a step")]

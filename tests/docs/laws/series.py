@@ -19,7 +19,7 @@ def statistics(test, spot, line, drives):
     least, low, median, high, most, mean, deviation = [v[0] for v in values]
     test.assertEqual(sorted([least, low, median, high, most]), [least, low, median, high, most], f"{spot}: {line}")
     test.assertTrue(least <= mean <= most, f"{spot}: {line}")
-    # Of numbers within [least, most] with that mean no deviation is larger (Bhatia and Davis).
+    # The deviation of numbers within [least, most] with that mean is bounded (Bhatia and Davis).
     test.assertLessEqual(deviation, sqrt((most - mean) * (mean - least)) * 1.01, f"{spot}: {line}")
     held, drawn = map(int, re.match(r"(\d+) of (\d+)", holds).groups())
     test.assertEqual(drives, drawn, f"{spot}: {line}")
@@ -62,7 +62,7 @@ def judge_plan(test, spot):
                 test.assertFalse(cell.endswith("!"), f"{spot}: {line}: nothing is asked of [{n + 1}]")
                 continue
             bound = quantity(re.search(r"at (?:most|least) (.*)$", asked[str(n + 1)]).group(1))
-            if value[0] != bound[0]:  # printed alike: either may be
+            if value[0] != bound[0]:  # equal in print: either is possible
                 test.assertEqual(not meets(value[0], asked[str(n + 1)]), cell.endswith("!"), f"{spot}: {line}")
             misses += cell.endswith("!")
         if cells[-1] != "FAULT":

@@ -7,7 +7,7 @@ from page import BLOCK, REPOSITORY
 
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 TABLE = re.compile(r"^\|.*\|\n\|[-|: ]+\|\n((?:\|.*\n)+)", re.M)
-FEWEST = 2  # numbers that make a block one that somebody has to judge
+FEWEST = 2  # number of values from which a block needs a law
 
 
 class Spot(typing.NamedTuple):

@@ -140,7 +140,7 @@ def motor_list(test, spot):
             if x != "-" and name != "example-linear":
                 test.assertTrue(least <= float(x) <= most, line)
         if constant not in ("-", "linear") and volts != "-" and name != "example-linear" and "no_load_speed_rpm" in sheet:
-            # An ideal motor turns U/K_t; a printed no-load speed is within a fifth of it.
+            # An ideal motor turns at U/K_t; a printed no-load speed is within a fifth of that.
             rpm = float(volts) / float(constant) * 1e3 * 9.5493
             test.assertTrue(0.8 < value(sheet["no_load_speed_rpm"]) / rpm < 1.2, line)
 
@@ -166,7 +166,7 @@ def trust(test, spot):
     if "accepted" in spot.head():
         if spot.heading == "valid":  # each is of one kind
             test.assertEqual([accepted, refused], [sum(int(c[n]) for c in spot.rows()) for n in (1, 2)], str(spot))
-        else:  # several changes may meet in one
+        else:  # several changes may coincide in one
             for cells in spot.rows():
                 test.assertTrue(int(cells[1]) <= accepted and int(cells[2]) <= refused, f"{spot}: {cells}")
     else:

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* One that was compiled as for a chip. */
+/* A controller compiled as for a chip. */
 #ifndef SIXSTEP_REAL
 #define SIXSTEP_REAL float
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* One that was compiled with another interface. */
+/* A controller compiled with another interface version. */
 #include "sixstep/control/own/own_controller.h"
 
 const sixstep_controller* sixstep_own_controller(void) {

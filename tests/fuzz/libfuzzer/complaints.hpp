@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the readers' fuzzers ask of every answer.
+// Checks of each answer in the readers' fuzzers.
 #pragma once
 #include <cstdlib>
 
@@ -8,14 +8,14 @@
 
 namespace fuzzing {
 
-/// Nothing is refused without words.
+/// A refusal has words.
 inline void must_say_something(const sixstep::base::Problems& problems) {
   if (problems.empty()) std::abort();
   for (const sixstep::base::Problem& problem : problems)
     if (problem.where.empty() || problem.limit.empty()) std::abort();
 }
 
-/// What was accepted compiles, or says why not; and so do the drives of the series that it describes.
+/// An accepted scenario compiles or is refused with words; so do the drives of its series.
 inline void must_compile(const sixstep::study::Scenario& scenario) {
   const auto compiled = sixstep::study::compile(scenario);
   if (!compiled && compiled.problems().empty()) std::abort();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A whole folder into the scenario reader: x.toml and what it may name, base.toml, own.toml (a motor) and
-// rows.csv. One input holds them all, parted by lines "#### NAME"; what stands before the first is x.toml.
+// A whole folder into the scenario reader: x.toml and the files that it may name, base.toml, own.toml (a motor) and rows.csv. One input
+// holds all of them, separated by lines "#### NAME"; x.toml is the text before the first.
 #include <stdlib.h>
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Made once and left to the system: the fuzzer ends where it likes. In memory, where there is such a place.
+/// The folder is made once and never removed, because the fuzzer may end anywhere. It is in memory where the system has such a place.
 const fs::path& folder() {
   static const fs::path made = [] {
     std::error_code none;

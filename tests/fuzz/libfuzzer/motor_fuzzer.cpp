@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes into the motor file's reader: a sheet, or problems that say something. A sheet that is accepted is
-// held against itself, shown, made a model and, where that works, a first scenario.
+// Bytes into the motor file's reader: the result is a sheet, or problems with words. An accepted sheet is checked for consistency, shown,
+// made a model and, where possible, a first scenario.
 #include <unistd.h>
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes into the scenario reader: it answers with a scenario or with problems that say something, never with
-// a crash. What it accepts must also compile, or say why not.
+// Bytes into the scenario reader: the result is a scenario or problems with words, never a crash. An accepted scenario must compile or be
+// refused with words.
 #include <cstdint>
 
 #include "tests/fuzz/libfuzzer/complaints.hpp"
