@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the general kernel solves, where it has a closed form (model.md 7 to 9). No formula here is one of the kernel's.
+// The general kernel equals closed forms (model.md 7 to 9). No formula here is one of the kernel's.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ using namespace sixstep::testing;
 
 constexpr double digits = 1e-12;
 
-/// No gate, no friction, no load: what moves, moves by itself.
+/// No gate, friction or load acts on the rotor.
 GeneralSetup free_rotor(double speed_rad_s) {
   GeneralSetup s;
   s.shaft.B_Nm_s = 0;
@@ -207,8 +207,8 @@ TEST(GeneralClosedForms, AWireThatBreaksWhileItCarriesCurrentOpensAtTheNextZero)
   for (int k = 0; k < 3; ++k) EXPECT_EQ(held.plant().state().i[k], 0);
 }
 
-// One behind a broken wire has no rails, whatever its back-EMF: the two that are left stand midway between theirs, and the third lies
-// where the windings put it.
+// A terminal behind a broken wire has no rails. The other two are symmetric about the middle of theirs, and
+// the windings' EMFs determine the third.
 TEST(GeneralClosedForms, AStarBehindABrokenWireHangsMidwayBetweenTheOthersRails) {
   for (unsigned broken = 0; broken < 3; ++broken) {
     HeldGeneral held(free_rotor(300));
