@@ -151,7 +151,7 @@ TEST(SensorlessScenario, SaysWhatItCannotDo) {
   refused(s, "control.sensorless");
 }
 
-/// The filter takes at least 7 time constants in 30 us lowest_part.
+/// A time of 30 us lowest_part has at least 7 of the filter's time constants.
 TEST(SensorlessScenario, RunsBehindAFilterThatIsFastEnough) {
   Scenario s = sensorless(Mode::speed, 300.0);
   s.control.sensorless.lowest_part = 0.2;
