@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One period of a recorded run, as bytes of a fixed layout, lowest first: what the firmware was given at a
-// control tick or in a Hall interrupt. The host writes them; every core reads them.
+// One period of a recorded run, as bytes of a fixed layout, lowest first: the firmware's inputs at a control
+// tick or in a Hall interrupt. The host writes them; every core reads them.
 //
 //   all       kind 1 (0 tick, 1 Hall), pins 1
 //   lean      i_a, i_b, i_c, speed, position, bus, setpoint: a scalar each
@@ -39,7 +39,7 @@ struct Bits<Fixed<std::int32_t, FractionBits>> {
   static constexpr Scalar from(Unsigned bits) { return Scalar::from_raw(static_cast<std::int32_t>(bits)); }
 };
 
-/// Moves a field between a record and its bytes, both ways by one list of fields.
+/// Moves a field between a record and its bytes, in both directions by one list of fields.
 struct Reader {
   const std::uint8_t* at;
   template <class Unsigned>
@@ -90,7 +90,7 @@ struct LeanRecord {
   }
 };
 
-/// What the lean drive is told, and an angle; no Hall edge asks anything of it.
+/// The lean drive's inputs and an angle; no entry is called at a Hall edge.
 template <class Scalar>
 struct FieldRecord : LeanRecord<Scalar> {
   static constexpr std::uint8_t bytes = LeanRecord<Scalar>::bytes + 4;
