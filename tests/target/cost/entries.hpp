@@ -20,7 +20,7 @@ using Answer = LegCommands<Scalar>;
 #else
 using Answer = BridgeCommand<Scalar>;
 #endif
-extern const Answer* answer;  ///< what the last entry told the bridge
+extern const Answer* answer;  ///< the last entry's command to the bridge
 
 #if TARGET_PRODUCT
 using Record = ProductRecord<Scalar>;
