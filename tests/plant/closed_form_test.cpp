@@ -55,7 +55,7 @@ TEST(CoastDown, SpeedFallsExponentiallyWithViscousFriction) {
   EXPECT_EQ(laws.highest_current_A(), 0.0);
 }
 
-/// A snapshot within a segment, where the state still stands at its beginning.
+/// A snapshot within a segment, while the state is that of its beginning.
 struct Between {
   double worst = 0.0;
   void segment(const Held<>& bench, double s) {

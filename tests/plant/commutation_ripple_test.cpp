@@ -29,7 +29,7 @@ template <>
 Held<> bench<Held<>>(double R_ohm) {
   Drivetrain s;
   s.machine = {.R_ohm = R_ohm, .L_H = L, .K_e_V_s = K_e, .pole_pairs = 8, .flat_deg = 150};
-  s.shaft = {.J_kg_m2 = 1e12};  // the speed stands
+  s.shaft = {.J_kg_m2 = 1e12};  // the speed is constant
   s.supply = {.V_0_V = charging_V};
   s.start = {.speed_rad_s = speed, .angle_rad = at_electrical_deg(116), .bus_V = charging_V};
   return {s, pair(0, 2)};

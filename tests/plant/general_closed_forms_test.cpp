@@ -55,7 +55,7 @@ TEST(GeneralClosedForms, TheLoopCurrentOfADeltaIsAnRLCircuitOnTheThirdHarmonic) 
                .M_H = M,
                .pole_pairs = 8,
                .shape = {.harmonics = {{1, 1.0}, {3, c3}}}};
-  s.shaft.J_kg_m2 = 1e12;  // the speed stands
+  s.shaft.J_kg_m2 = 1e12;  // the speed is constant
   HeldGeneral held(s);
   // 0 = R S + (L + 2 M) dS/dt + 3 c3 K w cos(3 (theta + 30 - 60 deg)), which is 3 c3 K w sin 3 theta, from S = 0.
   const double rate = 3 * 8 * w, X = (L + 2 * M) * rate, e = 3 * c3 * K * w, Z2 = R * R + X * X;
