@@ -149,7 +149,7 @@ TEST(Sensorless, GivesUpAfterSoManyLossesAndIsClearedBySettingNothing) {
   EXPECT_EQ(phase(rig), SensorlessPhase::running);
 }
 
-/// With Hall probes, begun on `source`.
+/// The bench has Hall probes and begins with `source`.
 SensorlessBench with_probes(const SensorlessMotor& motor, control::RotorSource source) {
   SensorlessBench bench(motor);
   bench.chip.source = {.has_hall = true, .wanted = source};
