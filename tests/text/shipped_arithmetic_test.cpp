@@ -9,10 +9,10 @@
 //   phase    Another rounding moves the ripple against the window. A ripple of height h and period T_r adds
 //            at most h/2 T_r/2 to the integral over a window, in either run: h T_r/(2 window). Where the loops
 //            amplify a rounding to another ripple altogether (tests/study/conditioning_test.cpp) this is
-//            amplify a rounding to another ripple altogether (tests/study/conditioning_test.cpp) this is
 //            the only bound, for float too: the last test here shows how far the problem amplifies a
 //            change. PWM runs with the samples: its ripple has one phase.
 //   samples  A PI holds its samples, and the mean between them has an error of a part of the ripple that varies
+//            with the duty, which the digits bound: less than one digit.
 #include <gtest/gtest.h>
 
 #include <cmath>
