@@ -65,8 +65,8 @@ struct BesideProducts {
   struct Worst {
     double supplied = 0, copper = 0, devices = 0, air_gap = 0, viscous = 0, travel = 0;
   } worst;
-  std::array<int, 4> connected{};  ///< segments by how many legs were connected
-  int other_bits = 0;              ///< than here, where this file's compiler has no AVX
+  std::array<int, 4> connected{};  ///< segments by their number of connected legs
+  int other_bits = 0;              ///< bits that differ from this file's compilation without AVX
 
   template <class System>
   void segment(const System& system, double s) {

@@ -56,7 +56,7 @@ TEST(GeneralShaft, AGearWithLossesTakesMoreFromTheSideThatDrives) {
   s.shaft.load_J_kg_m2 = J2;
   s.shaft.load.torque_Nm = load;
   HeldGeneral held(s);
-  // The load's own inertia drives it until it stands; then the load torque drives it backwards.
+  // The load's own inertia drives it to standstill; then the load torque drives it backwards.
   const double slows = load / n / eta / (J + J2 / (n * n) / eta), stands = 12 / slows;
   ASSERT_EQ(run_to(held, stands / 2), sim::Stop::end);
   EXPECT_NEAR(held.plant().state().w, 6, 1e-9);

@@ -89,7 +89,7 @@ TEST(Pitfall07_NoProgress, ARotorAtRestOnAnEdgeThatIsDrivenBackFromEitherSideGoe
 /// The order in which a mode's guards are evaluated: at one instant the first one is the event.
 struct Order {
   bool snap_after_another = false;
-  int standstill_with_rail = 0, current_with_rail = 0;  ///< segments that ask both
+  int standstill_with_rail = 0, current_with_rail = 0;  ///< segments that have both guards
   template <class Rig>
   void segment(const Rig& rig, double) {
     bool other = false, rail = false, current = false, standstill = false;
