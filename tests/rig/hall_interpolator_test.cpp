@@ -38,7 +38,7 @@ struct Probes {
 };
 
 struct Errors {
-  double position_deg = 0, speed_rad_s = 0;  ///< largest, of the mechanical angle and speed
+  double position_deg = 0, speed_rad_s = 0;  ///< largest error of mechanical angle and speed
   int samples = 0, wrong_sectors = 0;
 };
 

@@ -49,7 +49,7 @@ TEST(Sensorless, BrakesARotorThatSpinsTheOtherWayAndTurnsItRound) {
 struct Lost {
   LockLoss named = LockLoss::none;
   int commutations = 0;
-  double sectors = 0.0;  ///< of time
+  double sectors = 0.0;  ///< the time in sectors
 };
 
 template <class Firmware = rig::SensorlessDrive<double>>

@@ -17,7 +17,7 @@ using control::SensorlessPhase;
 
 struct Lost {
   LockLoss named = LockLoss::none;
-  bool caused = false;   ///< before it was named
+  bool caused = false;   ///< before the loss was named
   int commutations = 0;  ///< since the cause
 };
 
