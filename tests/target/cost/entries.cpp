@@ -21,7 +21,7 @@ inline void hall() { answer = &protected_on_hall(exported::product, state, input
 FieldDriveState<Scalar> state;
 Telemetry<Scalar> telemetry;
 FieldDriveInput<Scalar> input;
-BinaryAngle electrical;  ///< a decoder's
+BinaryAngle electrical;  ///< the decoder's angle
 
 inline void tick() {
   input.magnet = field_directions(exported::field.advance, electrical, input.measured.speed_rad_s);

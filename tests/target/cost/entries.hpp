@@ -30,7 +30,7 @@ using Record = FieldRecord<Scalar>;
 using Record = LeanRecord<Scalar>;
 #endif
 
-void give(const Record& record);  ///< puts into the inputs what the next entry finds there
+void give(const Record& record);  ///< writes the inputs of the next entry
 
 }  // namespace target
 

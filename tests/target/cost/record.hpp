@@ -73,7 +73,7 @@ template <class Scalar>
 struct LeanRecord {
   static constexpr std::uint8_t bytes = 2 + 7 * sizeof(typename Bits<Scalar>::Unsigned);
   std::uint8_t kind = 0;
-  Measurement<Scalar> measured{};  ///< of a Hall edge the code alone
+  Measurement<Scalar> measured{};  ///< a Hall edge sets the code alone
   Setpoint<Scalar> setpoint{};
 
   template <class Way>
@@ -107,7 +107,7 @@ template <class Scalar>
 struct ProductRecord {
   static constexpr std::uint8_t bytes = 16 + sizeof(typename Bits<Scalar>::Unsigned);
   std::uint8_t kind = 0;
-  BoardInput input{};  ///< of a Hall edge pins and counter alone
+  BoardInput input{};  ///< a Hall edge sets pins and counter alone
   Request request{};
   Setpoint<Scalar> setpoint{};
 

@@ -54,9 +54,9 @@ enum class Amiss : std::uint8_t { nothing, amplifier, open_wire, no_voltage_betw
 /// The current covers half of its distance to the vector in each tick; the rotor turns with the field.
 struct CommissionedMotor {
   Amiss amiss = Amiss::rotor_locked;
-  std::int32_t eighths = 0;       ///< of the current along the field, counts
-  std::int32_t ohm = 80;          ///< parts of the bus to an eighth of a count
-  std::int32_t flux = 400;        ///< speed to a part of the bus
+  std::int32_t eighths = 0;       ///< eighths of a count of the current along the field
+  std::int32_t ohm = 80;          ///< part of the bus per eighth of a count
+  std::int32_t flux = 400;        ///< speed per part of the bus
   std::uint8_t probes_ahead = 0;  ///< 2^-8 turn
 
   void draw(Random& r) {

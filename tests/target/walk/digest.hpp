@@ -10,7 +10,7 @@
 namespace target {
 
 #ifdef TARGET_SIGHTS
-void saw(const char* what, bool it_is);  ///< counts how often an input reached what it is meant to reach
+void saw(const char* what, bool it_is);  ///< counts how often an input reached its purpose
 #else
 constexpr void saw(const char*, bool) {}
 #endif

@@ -11,7 +11,7 @@
 
 namespace target {
 
-inline constexpr std::uint16_t zero_counts = 2048;  ///< of a current converter of 12 bits
+inline constexpr std::uint16_t zero_counts = 2048;  ///< zero of a current converter of 12 bits
 
 constexpr std::int32_t signed_bits(Random& r, std::uint8_t right) {
   return static_cast<std::int32_t>(r.long_bits()) / (std::int32_t{1} << right);
@@ -61,7 +61,7 @@ struct LevelStepsWalk {
   LevelStepsConfig config{};
   LevelStepsState state{};
   std::int32_t low = 0, high = 0, current = 0;
-  std::int32_t per_part = 1;  ///< 2^-8 of a 24th of a count to a part of the bus
+  std::int32_t per_part = 1;  ///< 2^-8 of a 24th of a count per part of the bus
   std::uint8_t slow = 2, noise = 1;
   bool begun = false;
 
