@@ -35,7 +35,7 @@ using study::Signal;
 struct Format {
   const char* word;
   Arithmetic arithmetic;
-  double digit;  ///< of 1
+  double digit;  ///< for a signal of size 1
 };
 
 template <class Scalar>
@@ -54,7 +54,7 @@ struct Window {
 struct Case {
   const char* file;
   Signal signal;
-  double ripple_s;  ///< of a ripple that is free to move: the chopping of a hysteresis, a sector; 0: none
+  double ripple_s;  ///< period of a free ripple: the chopping of a hysteresis, a sector; 0: none
   std::vector<Window> windows;
 };
 
