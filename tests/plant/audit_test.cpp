@@ -66,7 +66,7 @@ struct BesideProducts {
     double supplied = 0, copper = 0, devices = 0, air_gap = 0, viscous = 0, travel = 0;
   } worst;
   std::array<int, 4> connected{};  ///< segments by their number of connected legs
-  int other_bits = 0;              ///< bits that differ from this file's compilation without AVX
+  int other_bits = 0;              ///< segments whose bits differ from this file's build without AVX
 
   template <class System>
   void segment(const System& system, double s) {
