@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A core that does not do what it should, played by fake_core.cpp; real ones run under ./test --target (tests/target/loop.py).
+// fake_core.cpp plays an emulated core with a fault. The real cores run under ./test --target
+// (tests/target/loop.py).
 #include "faces/loop/emulator.hpp"
 
 #include <gmock/gmock.h>
@@ -15,7 +16,7 @@ using Command = sixstep::control::BridgeCommand<double>;
 
 Core playing(const char* how) { return {"fake", "Fake", {}, {FAKE_CORE, how}, "", "", {}}; }
 
-/// A drive that answers "off", so that the host's answers are those of the fake.
+/// A drive that commands the bridge off, so that the host's answers equal the fake's.
 struct Asked {
   Core core;
   std::unique_ptr<Emulator> emulator;
@@ -24,7 +25,7 @@ struct Asked {
   explicit Asked(const char* how)
       : core(playing(how)), emulator(std::move(*Emulator::start(core, "image"))), beside(emulator->port()) {}
   Command answer(std::int64_t tick) { return beside.held(rig::LeanCall<double>{}, Command{}, {tick, 0.0}); }
-  /// How many calls went well, and what came then.
+  /// The number of calls without a fault before the first one with a fault, at most `most`.
   int well_answered(int most) {
     for (int n = 0; n < most; ++n)
       if (answer(n).fault) return n;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// fake_core HOW IMAGE: stands in for an emulator. It greets as faces/loop/core/main.cpp does, answers three calls of a lean drive with a
-// bridge that is off, and then does what HOW says; as "chip" and what follows it, for faces/loop/avr/board.cpp, whose gates never move.
+// fake_core HOW IMAGE replaces an emulator. It greets as faces/loop/core/main.cpp does, answers three calls
+// of a lean drive with the bridge off, and then does what HOW says. If HOW begins with "chip", it replaces
+// faces/loop/avr/board.cpp, and its gates never switch.
 #include <unistd.h>
 
 #include <cstring>
@@ -16,7 +17,7 @@ using Call = rig::LeanCall<double>;
 using Answer = rig::CoreAnswer<double>;
 constexpr int calls = 3, answers = 4;
 
-/// The bridge off, as the host's own answer in the test is.
+/// The bridge is off, as in the host's own answer in the test.
 Answer off() { return rig::answer_of(sixstep::control::BridgeCommand<double>{}); }
 
 template <class T>
@@ -29,7 +30,7 @@ bool heard() {
   return ::read(calls, &call, sizeof call) == sizeof call;
 }
 
-/// Three stretches, each to its end, and then what it says.
+/// The function answers three runs, each to its end, and then hangs or returns.
 int play_chip(bool means_other, bool hangs) {
   say(rig::ChipGreeting{.answer_bytes = means_other ? 8u : std::uint32_t{sizeof(rig::ChipAnswer)},
                         .clock_Hz = 16'000'000});

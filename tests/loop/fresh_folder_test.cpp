@@ -30,7 +30,7 @@ TEST(FreshFolder, IsGoneWithAllThatIsInItAndNoTwoAreOne) {
   EXPECT_FALSE(fs::exists(path));
 }
 
-/// Whoever holds it is killed: nobody's destructor runs.
+/// The program is killed, so that no destructor runs.
 TEST(FreshFolder, IsGoneTooWhereItsProgramIsKilled) {
   int ends[2];
   ASSERT_EQ(::pipe(ends), 0);

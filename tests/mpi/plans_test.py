@@ -22,10 +22,10 @@ from program import PROGRAM, SHORT, SOURCE, ProgramTest  # noqa: E402
 
 KILLS = int(os.environ.get("SIXSTEP_KILLS", "10"))
 SPREAD = '[[spread]]\nkey = "motor_override.resistance_ohm"\nrelative = 0.1\n'
-# In a container the user is root, and there are fewer cores than ranks: Open MPI is to run all the same.
+# Open MPI must run although a container's user is root and has fewer cores than ranks.
 ENVIRONMENT = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_btl": "self,vader,tcp",
                             "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
-                            "HWLOC_HIDE_ERRORS": "2"}  # what Open MPI says of a machine without /sys is not the program's
+                            "HWLOC_HIDE_ERRORS": "2"}  # a machine without /sys gives messages of Open MPI, not of the program
 
 
 def mpirun(ranks, *words):
@@ -121,7 +121,7 @@ class Mpi(ProgramTest):
                 return set()
 
     def table(self, file):
-        return (self.path / file).read_text().splitlines()[3:]  # behind the lines that tell the command
+        return (self.path / file).read_text().splitlines()[3:]  # after the lines with the command
 
     def wait_for_runs(self, count, job, store="s.sqlite", seconds=60):
         """Until the store's file has grown by so many rows: nobody may look into it while it is written."""
@@ -146,7 +146,7 @@ class Mpi(ProgramTest):
                 for figure, measured in figures.items():
                     self.assertEqual(row[figure], measured)
                 U, R = row["drive: supply.voltage_V [V]"], row["drive: motor_override.resistance_ohm [ohm]"]
-                self.assertAlmostEqual(row["current [A]"], U / R, delta=1e-9 * U / R)  # the law of a held rotor
+                self.assertAlmostEqual(row["current [A]"], U / R, delta=1e-9 * U / R)  # the current of a held rotor is U/R
 
     def test_rows_are_those_of_one_process(self):
         file = self.held()
@@ -233,13 +233,13 @@ class Mpi(ProgramTest):
         before = self.children_s()
         self.run_program(*words, code=1)
         alone = self.children_s() - before
-        # mpirun does not count what its processes took: a shell around each of them does.
+        # mpirun does not count its processes' time: a shell around each of them does.
         counted = ["bash", "-c", '"$0" "$@"; times >cpu.$OMPI_COMM_WORLD_RANK', PROGRAM, *words]
         subprocess.run([*mpirun(4)[:-1], *counted], cwd=self.path, env=ENVIRONMENT, timeout=300, check=True)
         took = [sum(60 * float(m) + float(s) for m, s in re.findall(r"(\d+)m([\d.]+)s", (self.path / f"cpu.{rank}").read_text()))
                 for rank in range(4)]
         print(f"{alone:.2f} s of work; on four ranks {took}")
-        # Who waits busily takes as much as who works, and two of four wait.
+        # A rank that waits busily takes as much time as one that works, and two of four wait.
         self.assertGreater(sum(took), 0.5 * alone)
         for waited in sorted(took)[:2]:
             self.assertLess(waited, 0.1 * alone + 0.3)
@@ -258,7 +258,7 @@ class Mpi(ProgramTest):
         slurm = ENVIRONMENT | {"PATH": f"{tools}:{os.environ['PATH']}", "SLURM_JOB_ID": "7", "SLURM_CPUS_PER_TASK": "2"}
         with subprocess.Popen(script, cwd=self.path, env=slurm, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as job:
             self.wait_for_runs(100, job, "p.sqlite")
-            for pid in self.ranks_below(job.pid):  # as Slurm does, each process and not the launcher
+            for pid in self.ranks_below(job.pid):  # Slurm too ends each process, not the launcher
                 os.kill(pid, signal.SIGTERM)
             job.wait(timeout=60)
         self.assertEqual(job.returncode, 143)
@@ -292,7 +292,7 @@ class Mpi(ProgramTest):
                 hung += self.ended(job, pids)
                 self.all_end(pids)
             if job.returncode in (0, 1):
-                (self.path / "s.sqlite").unlink()  # it was finished: begin anew
+                (self.path / "s.sqlite").unlink()  # the run was complete: start again
                 before = set()
                 continue
             kills += 1

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the energy balance is measured against.
+// The audit compares the energy balance with the energy that moved.
 #include "sixstep/plant/audit.hpp"
 
 #include <gtest/gtest.h>
@@ -16,8 +16,8 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-/// Found by the fuzzer: a load that turns the shaft up and brings it back to rest has given nothing in the
-/// sum, and the rounding of what went to and fro was then divided by (almost) nothing.
+/// The fuzzer found it: the load accelerates the shaft and brakes it to rest, so that the sum of its energy
+/// is zero. The balance then divided the rounding of both parts by almost nothing.
 TEST(Audit, ALoadThatTakesBackWhatItGaveIsAYardstickStill) {
   Board b = Board::duty(0.0);
   b.drive.mode = control::Mode::off;
@@ -34,7 +34,7 @@ TEST(Audit, ALoadThatTakesBackWhatItGaveIsAYardstickStill) {
   laws.expect_all(1e-11);
 }
 
-/// Found by the fuzzer: pulses of 1e-22 s moved 1e-34 J, of which not one digit is known.
+/// The fuzzer found it: pulses of 1e-22 s moved 1e-34 J, of which no digit is known.
 TEST(Audit, LessEnergyThanANoiseCurrentHoldsIsNotBalanced) {
   Drivetrain setup;
   setup.start.angle_rad = 0.02;
@@ -46,9 +46,8 @@ TEST(Audit, LessEnergyThanANoiseCurrentHoldsIsNotBalanced) {
   laws.expect_all(1e-11);
 }
 
-/// Found by the fuzzer: a diode that took up less than the noise since its switch opened is let go with it.
-/// That is 1e-12 A, but beside a light current, in a motor that stalls at a thousand times as much, every
-/// period.
+/// The fuzzer found it: the plant drops a diode's current that is below the noise when its switch opens. It
+/// is 1e-12 A, but a motor at a thousandth of its stall current lost it in every period.
 TEST(Audit, WhatACurrentBelowTheNoiseTookAlongIsKnown) {
   Board b = Board::duty(0.008, control::Chopping::complementary);
   b.board.modulator.dead_ticks = 90'000;
@@ -60,13 +59,14 @@ TEST(Audit, WhatACurrentBelowTheNoiseTookAlongIsKnown) {
   laws.expect_all(1e-13);
 }
 
-/// Each segment's integrals beside those of the whole products, all terms of degree 2 n taken.
+/// Each segment's integrals are compared with the integrals of the whole products, with all terms up to
+/// degree 2 n.
 struct BesideProducts {
   struct Worst {
     double supplied = 0, copper = 0, devices = 0, air_gap = 0, viscous = 0, travel = 0;
   } worst;
-  std::array<int, 4> connected{};  ///< segments by how many legs were connected
-  int other_bits = 0;              ///< than here, where this file's compiler has no AVX
+  std::array<int, 4> connected{};  ///< segments by their number of connected legs
+  int other_bits = 0;              ///< segments whose bits differ from this file's build without AVX
 
   template <class System>
   void segment(const System& system, double s) {
@@ -114,8 +114,8 @@ struct BesideProducts {
   }
 };
 
-/// Rounding of values, products and sums stays below 64 eps of scale on both sides. A trapezoid or a sine, a
-/// stiff bus or one behind R and C, real devices throughout.
+/// The rounding of values, products and sums is below 64 eps of the scale on both sides. The back-EMF is a
+/// trapezoid or a sine, the bus is stiff or has R and C, and the devices are real.
 TEST(SegmentEnergy, IsThatOfTheWholeProducts) {
   std::array<int, 4> connected{};
   for (int n = 0; n < 8; ++n) {
@@ -146,8 +146,8 @@ TEST(SegmentEnergy, IsThatOfTheWholeProducts) {
   EXPECT_GT(connected[3], 1000);
 }
 
-/// Beside the audit's own sums at both ends: Kirchhoff's law of the three currents' series order by order, and nothing in a leg that
-/// floats.
+/// Kirchhoff's law holds for each order of the three currents' series, not only for the audit's sums at both
+/// ends. A floating leg has no current in any order.
 struct SumsOfSeries {
   double worst_A = 0, floating_A = 0;
   int of_legs[4] = {};
@@ -174,8 +174,8 @@ TEST(Audit, CurrentsSumToZeroOrderByOrder) {
   EXPECT_GT(sums.of_legs[3], 100);
 }
 
-/// Beyond the instant at which a diode's current ends its series goes on with the wrong sign. A watch that
-/// sees nothing there would see nothing anywhere.
+/// Beyond the instant at which a diode's current ends, its series continues with the wrong sign. The check
+/// must report an error there, or it would never report one.
 TEST(Audit, SeesADiodeThatConductsBackwards) {
   for (const bool high : {true, false}) {
     Drivetrain setup;
@@ -183,7 +183,8 @@ TEST(Audit, SeesADiodeThatConductsBackwards) {
     setup.start.angle_rad = 0.02;
     Held<> bench(setup, a_to_b());
     ASSERT_EQ(bench.run_to(10e-6), sim::Stop::end);
-    // One diode beside a switch against the whole bus: into b's upper one, or out of a's lower one.
+    // The current flows through one diode and one switch against the bus: into b's upper diode, or out of a's
+    // lower one.
     bench.plant().set_gates(high ? gates({}, {true, false, false}) : gates({false, true, false}, {}));
     const double i_0 = bench.state().i[0], length = bench.plant().expand(30e-6);
     const double exact =

@@ -49,7 +49,7 @@ TEST(Circuit, FloatingTerminalShowsTheStarPointAndItsEmf) {
 }
 
 TEST(Circuit, FreeStarPointLiesSymmetrically) {
-  // With no leg connected conduction starts when max e - min e exceeds U_s + 2 V_f: both rails are reached
+  // Conduction without a connected leg starts when max e - min e exceeds U_s + 2 V_f: both rails are reached
   // together.
   const PerLeg<double> e{20.0, -12.0, 3.0};
   const PerLeg<double> u =

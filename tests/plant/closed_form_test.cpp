@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the plant must do where mathematics knows the answer: stall, coast, brake, diode decay, bus.
+// The plant equals closed solutions: stall, coast, brake, diode decay, bus.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -55,7 +55,7 @@ TEST(CoastDown, SpeedFallsExponentiallyWithViscousFriction) {
   EXPECT_EQ(laws.highest_current_A(), 0.0);
 }
 
-/// A snapshot within a segment, where the state still stands at its beginning.
+/// A snapshot within a segment, while the state is that of its beginning.
 struct Between {
   double worst = 0.0;
   void segment(const Held<>& bench, double s) {
@@ -102,7 +102,7 @@ struct Decay {
   double i_0;
 };
 
-/// Locked rotor; current from a to b (to b and c) for 0.3 ms, then all gates off.
+/// The rotor is locked. A current flows from a to b (to b and c) for 0.3 ms, then all gates are off.
 Decay start_decay(const plant::Devices& devices, const plant::Gates& first) {
   Drivetrain setup;
   setup.shaft.locked = true;
@@ -149,7 +149,7 @@ TEST(DiodeDecay, ThreeCurrentsMayVanishTogether) {
 }
 
 TEST(DiodeDecay, FreewheelingInALoopNeverCrossesZero) {
-  // Locked rotor, the lower switch of b stays on: the loop through a's lower diode has no source.
+  // The rotor is locked and the lower switch of b stays on: the loop through a's lower diode has no source.
   Decay d = start_decay({}, a_to_b());
   d.bench.plant().set_gates(gates({}, {false, true, false}));
   ASSERT_EQ(d.bench.run_to(5e-3), Stop::end);
@@ -190,7 +190,7 @@ TEST(Bus, RegenerationLiftsABusThatCannotGiveBack) {
     ASSERT_EQ(bench.run_to(20e-3, laws), Stop::end);
     laws.expect_all();
     if (sinks) continue;
-    // Nothing leaves the capacitor: its energy is what the bridge returned.
+    // Nothing discharges the capacitor: its energy equals the energy that the bridge returned.
     const double U = bench.state().bus;
     EXPECT_GT(U, 25.0);
     const double gained = 0.5 * 1e-3 * (U * U - 24.0 * 24.0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Torque while the current goes from one phase to the next (Carlson, 1992): flat tops, ideal devices, soft chopping that is
-// off until the new phase carries the current. model.md 5 derives the closed form; no line of it is one of the kernels'.
+// The torque during commutation equals Carlson's closed form (1992): flat tops, ideal devices, soft chopping
+// that stays off until the new phase carries the current. model.md 5 derives the form, which shares no line
+// with the kernels.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +13,8 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-/// Flat tops of 150 degrees: all three back-EMFs stand still for 15 degrees on either side of the edge at 120.
+/// Flat tops of 150 degrees: all three back-EMFs are constant for 15 degrees on either side of the edge at
+/// 120.
 constexpr double K_e = 0x1p-6, speed = 256.0, E = K_e * speed, L = 0.286e-3, charging_V = 40.0;
 
 plant::Gates pair(int high, int low) {
@@ -27,7 +29,7 @@ template <>
 Held<> bench<Held<>>(double R_ohm) {
   Drivetrain s;
   s.machine = {.R_ohm = R_ohm, .L_H = L, .K_e_V_s = K_e, .pole_pairs = 8, .flat_deg = 150};
-  s.shaft = {.J_kg_m2 = 1e12};  // the speed stands
+  s.shaft = {.J_kg_m2 = 1e12};  // the speed is constant
   s.supply = {.V_0_V = charging_V};
   s.start = {.speed_rad_s = speed, .angle_rad = at_electrical_deg(116), .bus_V = charging_V};
   return {s, pair(0, 2)};
@@ -68,13 +70,13 @@ struct Commutation {
     return plant.at(0).torque;
   }
   double current(int k) const { return held.plant().state().i[static_cast<std::size_t>(k)]; }
-  /// When a's current is gone: i_a = I + (I + A) expm1(-t R/L).
+  /// The time at which a's current reaches zero: i_a = I + (I + A) expm1(-t R/L).
   double gone_s() const { return L / R * std::log1p(3 * R * I / (U + 2 * E)); }
-  /// When b carries I: i_b = -D expm1(-t R/L).
+  /// The time at which b carries I: i_b = -D expm1(-t R/L).
   double risen_s() const { return -L / R * std::log1p(-1.5 * R * I / (U - E)); }
 };
 
-/// Of the torque before, at the end of what the bus alone decides.
+/// The torque's relative change when the part that depends on the bus alone ends.
 double exact_change(double U, double I, double R) {
   const double left = U - 4 * E - 3 * R * I;
   return left >= 0 ? left / (2 * (U - E)) : left / (U + 2 * E + 3 * R * I);
@@ -82,7 +84,7 @@ double exact_change(double U, double I, double R) {
 double carlsons_change(double ratio) {
   return ratio >= 4 ? (ratio - 4) / (2 * (ratio - 1)) : (ratio - 4) / (ratio + 2);
 }
-/// What the kernels take for no current, and what it makes of the torque.
+/// The bound on errors from currents that the kernels take for zero.
 double noise(double R, double U, double I) { return 1e-11 + 64 * eps * std::fmax(U, charging_V) / R / I; }
 
 template <class Bench>
@@ -131,7 +133,8 @@ TYPED_TEST(CarlsonsRipple, AtTwiceTheBackEmfTheNewCurrentNeverRisesAgain) {
   }
 }
 
-/// From where the new phase carries I its chopping holds it there: the torque falls with what is left in the old one.
+/// From the instant at which the new phase carries I, chopping holds it there: the torque falls with the old
+/// phase's current.
 TYPED_TEST(CarlsonsRipple, IsAtItsPeakWhenChoppingBegins) {
   Commutation<TypeParam> c(8.0, 1e-4);
   c.run_until(c.begin.plus_seconds(c.risen_s()));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// When diodes begin: rails, the free star, and sector edges at which two things happen at once.
+// Diodes begin to conduct at the rails, at the free star, and at sector edges with two events at once.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,15 +13,15 @@ using namespace sixstep;
 using namespace sixstep::testing;
 using sim::Stop;
 
-/// When the first event with an id in [from, to) happened.
+/// The time of the first event with an id in [from, to).
 double first_s(const Held<>& bench, int from, int to) {
   for (const auto& e : bench.events)
     if (e.id >= from && e.id < to) return e.at.seconds();
   return -1.0;
 }
 
-/// Turning freely from 270 degrees with a's lower switch on: e_a is the lowest until 300 degrees, where b's
-/// bottom begins and a's ends.
+/// The rotor turns freely from 270 degrees with a's lower switch on. e_a is the lowest until 300 degrees,
+/// where b's flat bottom begins and a's ends.
 Drivetrain towards_300_deg() {
   Drivetrain setup;
   setup.shaft.B_Nm_s = 0.0;
@@ -59,8 +59,8 @@ TEST(Rail, RealDiodeConductsWhereTheEmfReachesItsDrop) {
               32 * eps * at_electrical_deg(330.0) / 400.0);
 }
 
-/// a's lower switch holds a, whose EMF is the lowest, while b's top stands at 2 K_e w: b stays where it is
-/// and the rail comes down to it, U_s = V_0 + (U_s(0) - V_0) exp(-t/(R_b C)).
+/// a's lower switch connects a, whose EMF is the lowest, while b's EMF is at its top, 2 K_e w. b's voltage is
+/// constant and the rail falls to it: U_s = V_0 + (U_s(0) - V_0) exp(-t/(R_b C)).
 TEST(Rail, AFallingRailMeetsTheTerminalAtTheClosedFormInstant) {
   Drivetrain setup;
   setup.shaft = {.J_kg_m2 = 1e9};
@@ -77,13 +77,13 @@ TEST(Rail, AFallingRailMeetsTheTerminalAtTheClosedFormInstant) {
               2 * noise_V * RC / left_V + 16 * eps * exact);
 }
 
-/// The third leg stands beyond the rail by half of the diode's drop: it floats from the first, and nothing
-/// has to be found out by an event.
+/// The third terminal is beyond the rail by half of the diode's drop: the leg floats from the start, without
+/// an event.
 TEST(Rail, ATerminalWithinTheDropFloatsAtOnce) {
   for (const bool high : {true, false}) {
     Drivetrain setup;
     setup.devices.V_f_V = 0.7;
-    // c on its top against the mean of a's bottom and b's zero (or mirrored): 1.5 K_e w beyond the rail.
+    // c at its top against the mean of a's bottom and b's zero (or mirrored) is 1.5 K_e w beyond the rail.
     setup.start = {.speed_rad_s = 0.35 / (1.5 * setup.machine.K_e_V_s),
                    .angle_rad = at_electrical_deg(high ? 270.0 : 90.0),
                    .bus_V = 24.0};
@@ -97,7 +97,7 @@ TEST(Rail, ATerminalWithinTheDropFloatsAtOnce) {
 }
 
 TEST(FloatingStar, ConductsOnlyAboveTheBus) {
-  // 2 K_e w against U_s + 2 V_f, a part in 1e9 below and above.
+  // 2 K_e w is a part in 1e9 below and above U_s + 2 V_f.
   for (const double V_f : {0.0, 0.7}) {
     for (const double side : {-1e-9, 1e-9}) {
       Drivetrain setup;
@@ -130,7 +130,7 @@ TEST(Rectifier, BrakesTheRotorToTheSpeedOfTheBusAndFeedsIt) {
   for (int k = 0; k < 3; ++k) EXPECT_EQ(bench.state().i[k], 0.0);
 }
 
-/// Legs that had no current and now have a diode, counted from segment to segment.
+/// Counts the legs that had no current in one segment and a conducting diode in the next.
 struct Starts {
   plant::Legs before{};
   int low = 0, high = 0;
@@ -161,13 +161,13 @@ TEST(Rectifier, BackwardsItDoesTheSame) {
   setup.start.speed_rad_s = 900.0;
   setup.start.angle_rad = at_electrical_deg(17.0);
   Held<> ahead(setup, all_off());
-  // theta -> 300 degrees - theta, w -> -w, b and c change places: the same circuit.
+  // theta -> 300 degrees - theta, w -> -w, and b and c exchanged give the same circuit.
   setup.start.speed_rad_s = -900.0;
   setup.start.angle_rad = at_electrical_deg(283.0);
   Held<> back(setup, all_off());
   ASSERT_EQ(ahead.run_to(20e-3), Stop::end);
   ASSERT_EQ(back.run_to(20e-3), Stop::end);
-  // Two trajectories that start eps apart in angle; the solver's own accuracy bounds what that becomes.
+  // Two trajectories start eps apart in angle; the solver's accuracy bounds their distance later.
   EXPECT_NEAR(back.state().w, -ahead.state().w, 1e-12 * 900.0);
   EXPECT_NEAR(back.state().i[0], ahead.state().i[0], 1e-10 * 10.0);
   EXPECT_NEAR(back.state().i[1], ahead.state().i[2], 1e-10 * 10.0);
@@ -176,8 +176,8 @@ TEST(Rectifier, BackwardsItDoesTheSame) {
 }
 
 TEST(Standstill, FreeLegOnTheRailDoesNotConduct) {
-  // Ideal devices, at rest: the third leg lies exactly on the star point's voltage, between the rails; with
-  // one leg low it lies exactly on the rail. Equality floats.
+  // The devices are ideal and the rotor is at rest: the third leg is exactly at the star point's voltage,
+  // between the rails. With one leg low it is exactly at the rail. A leg at equality floats.
   Drivetrain setup;
   for (const plant::Gates& g :
        {gates({}, {true, false, false}), gates({true, false, false}, {}), all_off()}) {
@@ -191,7 +191,7 @@ TEST(Standstill, FreeLegOnTheRailDoesNotConduct) {
 
 TEST(Pitfall03_RestartOnABoundary, RotorStartingOnASectorEdgeLeavesOnce) {
   for (int sector = 0; sector < 6; ++sector) {
-    // Gates of the positive pair of the sector being entered: theta ~ t^3.
+    // The gates are those of the positive pair of the sector that the rotor enters: theta ~ t^3.
     static constexpr int pair[6][2] = {{0, 1}, {0, 2}, {1, 2}, {1, 0}, {2, 0}, {2, 1}};
     plant::Gates g;
     g.high[pair[sector][0]] = g.low[pair[sector][1]] = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoders and resolver, against their equations in long double.
+// Encoders and resolver equal their equations in long double.
 #include "sixstep/plant/encoder.hpp"
 
 #include <gtest/gtest.h>
@@ -35,14 +35,14 @@ TEST(Encoder, CountsQuarterLinesOverAllTurns) {
     const std::int64_t lines = static_cast<std::int64_t>(draw() % 5000) + 1;
     const long double exact = 4 * lines * turns(at);
     if (std::fabs(exact - std::round(exact)) < 1e-9L)
-      continue;  // an edge: the angle itself is not known so well
+      continue;  // an edge: the angle's rounding decides the side
     EXPECT_EQ(plant::parts_of_turn(at, 4 * lines), static_cast<std::int64_t>(std::floor(exact)))
         << "draw " << n;
   }
 }
 
 TEST(Encoder, CountsEveryEdgeThatFallsOnASectorExactly) {
-  // 3 p lines: each sector is two quarter lines, whatever the turn.
+  // With 3 p lines each sector has two quarter lines, at any number of turns.
   for (std::int64_t sector = -1000; sector < 1000; ++sector)
     EXPECT_EQ(plant::parts_of_turn(Angle{sector, 0.0, 8}, 4 * 24), 2 * sector);
 }
@@ -98,7 +98,7 @@ TEST(Resolver, AgreesWithItsEquation) {
         two_pi_l * static_cast<long double>(r.excitation_Hz) * static_cast<long double>(t_ps) * 1e-12L;
     const long double angle = two_pi_l * turns(at) * r.pole_pairs;
     const auto [v1, v2] = plant::resolver_V(r, at, t_ps);
-    // A carrier of up to 16 000 turns is known to 16 000 x 2^-53 of one: 1e-11 rad.
+    // The rounding of a carrier of up to 16 000 turns is 16 000 x 2^-53 of a turn: 1e-11 rad.
     EXPECT_NEAR(v1, static_cast<double>(2 * sinl(carrier + r.phase_1_rad) * cosl(angle)), 4e-11)
         << "draw " << n;
     EXPECT_NEAR(v2,

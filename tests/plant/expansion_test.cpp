@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long a series is: until its terms are nothing, not until one of them happens to be. And that it is the
-// same whatever instructions it is compiled to.
+// A series ends where its terms are negligible, not at a single term that is zero. It has the same bits with
+// every instruction set.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,10 +16,10 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-/// Hardly any resistance, and a torque that begins with zero at the edge where b's bottom begins and a's
-/// ends: a load pulls, x ~ t^2, i ~ t, and torque and EMF bring i and w the orders 1, 4, 7, 10 alone. Taken in
-/// slices of 1 us all but the first begin with a current: what a series left out that took zeros for its end,
-/// 3e-7 of the speed, they do not.
+/// The resistance is almost zero, and the torque begins with zero at the edge where b's bottom begins and a's
+/// ends. A load pulls: x ~ t^2, i ~ t, and i and w have the orders 1, 4, 7, 10 alone. A series that ended at
+/// the zeros between them would miss 3e-7 of the speed. In slices of 1 us all but the first begin with a
+/// current and have no such zeros.
 TEST(Series, ASymmetrysZeroIsNotTheirEnd) {
   Drivetrain setup;
   setup.machine = {.R_ohm = 1e-9, .L_H = 1e-3, .K_e_V_s = 0.01, .pole_pairs = 1};
@@ -36,7 +36,7 @@ TEST(Series, ASymmetrysZeroIsNotTheirEnd) {
   laws.expect_all();
 }
 
-/// Locked rotor: i ~ 1 - exp(-t/tau), asked for over more than one series can hold.
+/// The rotor is locked: i ~ 1 - exp(-t/tau) over a time longer than one series can cover.
 TEST(Series, OneThatIsTooLongIsHalvedUntilItsLastTwoTermsAreNothing) {
   Drivetrain setup;
   setup.shaft.locked = true;
@@ -50,8 +50,8 @@ TEST(Series, OneThatIsTooLongIsHalvedUntilItsLastTwoTermsAreNothing) {
   for (double taus = 0.5; taus < 8.0; taus += 1.0 / 512) {
     plant::Expansion<double> y{};
     plant::expand(c, rotor.state(), mode, taus * setup.tau(), y);
-    // Nothing: what follows is, both legs together, below one part in 2^53 of the natural scale; of this
-    // exponential each term is h/(n tau) of the one before.
+    // The next term, of both legs together, is below 2^-53 of the natural scale. Each term of this
+    // exponential is h/(n tau) of the one before.
     const auto size = [&](int n) { return 2 * std::fabs(y.i[0][n]) * c.amp_limit; };
     EXPECT_LE(size(y.degree) * y.h / setup.tau() / (y.degree + 1), 1.0) << taus;
     if (y.h == taus * setup.tau()) continue;
@@ -63,7 +63,7 @@ TEST(Series, OneThatIsTooLongIsHalvedUntilItsLastTwoTermsAreNothing) {
   EXPECT_GT(halved, 0);
 }
 
-/// A shaft with every torque there is, so that none can be lost on one of the ways.
+/// A shaft with every kind of torque, so that neither method can omit one.
 plant::Plant<double> braked(std::mt19937_64& random, bool stiff) {
   std::uniform_real_distribution<double> part(0.1, 1);
   Drivetrain setup;
@@ -76,7 +76,7 @@ plant::Plant<double> braked(std::mt19937_64& random, bool stiff) {
   return out;
 }
 
-/// The same recurrence with no term negative: what the rounding of an order is measured by.
+/// The same recurrence with no negative term bounds the rounding of an order.
 struct Majorant {
   series::Coefficients<double> i{}, w{}, bus{};
   Majorant(const plant::Constants<double>& c, const plant::LegsLaw<double>& law, double emf, bool turns,
@@ -96,8 +96,8 @@ struct Majorant {
   }
 };
 
-/// FlatPair multiplies the laws of winding and shaft out two orders at a time; the plain recurrence takes
-/// them as they stand. An order of either rounds less than a dozen times.
+/// FlatPair multiplies out the equations of winding and shaft, two orders at a time; the plain recurrence
+/// does not. An order of either has less than a dozen roundings.
 TEST(Series, APairOnItsFlatTopsIsThePlainRecurrence) {
   std::mt19937_64 random{20261122};
   std::uniform_real_distribution<double> any(-1, 1);
@@ -105,7 +105,7 @@ TEST(Series, APairOnItsFlatTopsIsThePlainRecurrence) {
     const plant::Plant<double> rotor = braked(random, n % 2 == 0);
     const plant::Constants<double>& c = rotor.constants();
     plant::Mode mode{.motion = static_cast<plant::Motion>(random() % 5)};
-    // In sector 0 a and b stand on their tops, c on a ramp.
+    // In sector 0 a and b are at their flat tops, c is on a ramp.
     for (unsigned k = 0; k < 2; ++k) mode.legs[k] = static_cast<plant::Connection>(1 + random() % 4);
     const plant::EmfPiece<double>& piece = c.emf[0].piece[0];
     ASSERT_EQ(piece.beta[0], piece.beta[1]);
@@ -157,7 +157,7 @@ void expect_same_bits(const plant::Constants<double>& c, const plant::Mode& mode
       << "state " << n;
 }
 
-/// All connections, both shapes, a stiff bus and one that moves.
+/// The test covers all connections, both shapes, and a stiff and a varying bus.
 TEST(Series, BothBuildsGiveTheSameBits) {
   if (!__builtin_cpu_supports("avx")) GTEST_SKIP() << "this processor runs one of them only";
   std::mt19937_64 random{20261122};

@@ -20,7 +20,7 @@ struct Differences {
   double current = 0, speed = 0, peak_current = 0, top_speed = 0;
 };
 
-/// Half duty from rest, engine against the textbook simulator, on a grid.
+/// Compares the engine with the textbook simulator on a grid, at half duty from rest.
 Differences against_naive(double step_s) {
   const Board board = Board::duty(0.5);
   auto engine = board.rig();
@@ -55,7 +55,7 @@ TEST(SoftChopping, TheDifferenceIsNotTheNaiveSimulatorsStep) {
   EXPECT_NEAR(coarse.speed, fine.speed, 1e-3 * fine.speed);
 }
 
-/// Legs that had no current and now have a diode, counted from segment to segment.
+/// Counts the legs that had no current in one segment and a conducting diode in the next.
 struct Starts {
   plant::Legs before{};
   int count = 0;
@@ -82,7 +82,7 @@ TEST(SoftChopping, FloatingPhaseConductsAsOftenAsInTheReference) {
   EXPECT_EQ(starts.count, 1600);
 }
 
-/// The worst current of the free phase: of a leg outside the pair whose current, once gone, has come back.
+/// The largest current of the free phase: of a leg outside the pair whose current has been zero before.
 struct FreePhase {
   double worst_A = 0;
   std::array<bool, 3> was_free{};
@@ -100,9 +100,10 @@ struct FreePhase {
   }
 };
 
-/// What PWM-ON-PWM is for: the gaps of half a sector lay the star point at the lower rail, those of the other half at the upper
-/// one, and the free phase's back-EMF sends no current through its diodes but in the gap that passes the middle, in which it
-/// changes its sign: by 2 K_e w in a sector, L di/dt = -2/3 e. Each of the other patterns has a half in which it does.
+/// PWM-ON-PWM puts the star point at the lower rail while off in one half of the sector, at the upper rail in
+/// the other. The free phase's back-EMF then drives current through its diodes only in the off-time in which
+/// it changes its sign: by 2 K_e w in a sector, L di/dt = -2/3 e. Each other pattern has a half sector in
+/// which it does.
 TEST(PwmPattern, OnlyPwmOnPwmLeavesTheFreePhaseWithoutCurrent) {
   using control::PwmPattern;
   constexpr double T = 30e-6;

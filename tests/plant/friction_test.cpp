@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dry friction (model.md 1, 4b): sticking, breakaway in the direction of the excess, stopping for good.
+// Dry friction (model.md 1, 4b): sticking, breakaway in the direction of the larger torque, and a final stop.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -63,8 +63,8 @@ TEST(Pitfall08_Sticking, BreakawayInstantIsInClosedForm) {
   }
 }
 
-/// At rest with all legs on switches there is nothing to settle but the motion: a load beyond the friction
-/// moves the rotor at once, and no breakaway is left to be located.
+/// At rest with all legs on switches only the motion is undecided: a load above the friction moves the rotor
+/// at once, without a breakaway event.
 TEST(Pitfall08_Sticking, ALoadBeyondItIsNoEvent) {
   for (const double load : {0.05, -0.05}) {
     Held<> bench(dry(0.005), all_low());
@@ -110,7 +110,7 @@ TEST(Friction, RotorStopsAtTheClosedFormInstantAndStays) {
       if (e.id == plant::guard::standstill) stopped = e.at.seconds(), ++stops;
     EXPECT_EQ(stops, 1);
     const double exact = 50.0 * setup.shaft.J_kg_m2 / 0.005;
-    // w is known to the guard's noise, 64 eps of the speed scale, over T_c/J.
+    // The error of w is the guard's noise, 64 eps of the speed scale; that of the time is it over T_c/J.
     EXPECT_NEAR(stopped, exact, 64 * eps * 766.4 * setup.shaft.J_kg_m2 / 0.005);
     const double way = 50.0 * exact / 2;
     EXPECT_NEAR(bench.angle() - 0.02, w > 0 ? way : -way, 1e-12 * way);
@@ -140,9 +140,9 @@ TEST(Friction, LockedRotorNeedsNone) {
   EXPECT_TRUE(bench.events.empty());
 }
 
-/// Found by the fuzzer: a rotor that a load pushed for a picosecond makes an EMF of a few rounding errors.
-/// Which leg conducts could then only be told with widened noise, in which the speed vanished too: it neither
-/// turned nor stood.
+/// The fuzzer found it: a rotor that a load accelerates for a picosecond has an EMF of a few rounding errors.
+/// The plant found the conducting leg only with a wider noise, and that noise set the speed to zero too: the
+/// rotor neither turned nor stood.
 TEST(Pitfall05_SnapFirst, ARotorThatHardlyTurnsStillTurns) {
   for (int decade = -130; decade <= -60; ++decade)
     for (const double sign : {1.0, -1.0})

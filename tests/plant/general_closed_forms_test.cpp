@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the general kernel solves, where it has a closed form (model.md 7 to 9). No formula here is one of the kernel's.
+// The general kernel equals closed forms (model.md 7 to 9). No formula here is one of the kernel's.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ using namespace sixstep::testing;
 
 constexpr double digits = 1e-12;
 
-/// No gate, no friction, no load: what moves, moves by itself.
+/// No gate, friction or load acts on the rotor.
 GeneralSetup free_rotor(double speed_rad_s) {
   GeneralSetup s;
   s.shaft.B_Nm_s = 0;
@@ -55,7 +55,7 @@ TEST(GeneralClosedForms, TheLoopCurrentOfADeltaIsAnRLCircuitOnTheThirdHarmonic) 
                .M_H = M,
                .pole_pairs = 8,
                .shape = {.harmonics = {{1, 1.0}, {3, c3}}}};
-  s.shaft.J_kg_m2 = 1e12;  // the speed stands
+  s.shaft.J_kg_m2 = 1e12;  // the speed is constant
   HeldGeneral held(s);
   // 0 = R S + (L + 2 M) dS/dt + 3 c3 K w cos(3 (theta + 30 - 60 deg)), which is 3 c3 K w sin 3 theta, from S = 0.
   const double rate = 3 * 8 * w, X = (L + 2 * M) * rate, e = 3 * c3 * K * w, Z2 = R * R + X * X;
@@ -207,8 +207,8 @@ TEST(GeneralClosedForms, AWireThatBreaksWhileItCarriesCurrentOpensAtTheNextZero)
   for (int k = 0; k < 3; ++k) EXPECT_EQ(held.plant().state().i[k], 0);
 }
 
-// One behind a broken wire has no rails, whatever its back-EMF: the two that are left stand midway between theirs, and the third lies
-// where the windings put it.
+// A terminal behind a broken wire has no rails. The other two are symmetric about the middle of theirs, and
+// the windings' EMFs determine the third.
 TEST(GeneralClosedForms, AStarBehindABrokenWireHangsMidwayBetweenTheOthersRails) {
   for (unsigned broken = 0; broken < 3; ++broken) {
     HeldGeneral held(free_rotor(300));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the lean kernel can run too, both kernels say the same: they share no recurrence, no settling and no guard of a leg.
+// Both kernels give the same trajectory where the lean kernel can run: they share no recurrence, no mode
+// search and no guard of a leg.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +12,7 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-/// Of phase currents over the largest one; speed likewise.
+/// The largest difference over the largest value: of the phase currents, and of the speed.
 struct Apart {
   double current = 0, speed = 0;
 };

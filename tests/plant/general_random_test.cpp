@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drawn machines, shafts, bridges and supplies of the general kernel under drawn duties: it goes on to the end, its books
-// close, no diode conducts backwards, no floating leg carries a current. A failure prints its seed; SIXSTEP_DRAWS draws more.
+// Random machines, shafts, bridges and supplies of the general kernel run with random duties. The run reaches
+// its end, its energy balance closes, no diode conducts backwards, and no floating leg carries a current. A
+// failure prints its seed; SIXSTEP_DRAWS sets the number of draws.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The general kernel against trajectories that an independent brute-force solver computed in float128 (tests/reference/G*):
-// machines, shafts, bridges and supplies that the lean kernel lacks, half duty under soft chopping unless said. A column's
-// largest difference over its largest value: 1e-10, speed and angle 1e-12.
+// The general kernel equals trajectories that an independent brute-force solver computed in float128
+// (tests/reference/G*). Their machines, shafts, bridges and supplies are those that the lean kernel lacks;
+// unless stated, the duty is one half with soft chopping. A column's largest difference over its largest
+// value is at most 1e-10, of speed and angle 1e-12.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -36,7 +37,7 @@ Columns trajectory(const std::string& name) {
   return all;
 }
 
-/// By the name of the trajectory's column.
+/// The rig's value of the trajectory's column with this name.
 double value_of(const std::string& column, const GeneralRig& rig) {
   const auto& plant = rig.plant();
   const auto& s = plant.state();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loads and gears of the general kernel where they have a closed form (model.md 7). No formula here is one of the kernel's.
+// Loads and gears of the general kernel equal closed forms (model.md 7). No formula here is one of the
+// kernel's.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,7 +36,7 @@ TEST(GeneralShaft, ATorqueOverTheSpeedIsALineBetweenItsPoints) {
   GeneralSetup s = free_rotor(50);
   s.shaft.load.over_speed = {{-10, -1e-4}, {10, 1e-4}, {30, 5e-4}};
   HeldGeneral held(s);
-  // Above 30 rad/s level; from 30 to 10 with a slope of 2e-5, through zero with 1e-5.
+  // The load is constant above 30 rad/s; from 30 to 10 rad/s its slope is 2e-5, through zero 1e-5.
   const double level = 20 * J / 5e-4, sloped = J / 2e-5 * std::log(5e-4 / 1e-4);
   for (const double t : {level / 2, level, level + sloped / 3, level + sloped}) {
     ASSERT_EQ(run_to(held, t), sim::Stop::end);
@@ -55,7 +56,7 @@ TEST(GeneralShaft, AGearWithLossesTakesMoreFromTheSideThatDrives) {
   s.shaft.load_J_kg_m2 = J2;
   s.shaft.load.torque_Nm = load;
   HeldGeneral held(s);
-  // Its own inertia drives the load until it stands; then the load drives it backwards.
+  // The load's own inertia drives it to standstill; then the load torque drives it backwards.
   const double slows = load / n / eta / (J + J2 / (n * n) / eta), stands = 12 / slows;
   ASSERT_EQ(run_to(held, stands / 2), sim::Stop::end);
   EXPECT_NEAR(held.plant().state().w, 6, 1e-9);
@@ -78,8 +79,9 @@ TEST(GeneralShaft, AGearWithLossesHoldsALoadThatCannotDriveIt) {
   EXPECT_NEAR(held.plant().state().w, -(4e-3 / 5 * 0.5 - 3e-4) / J * 0.1, 1e-9);
 }
 
-/// A load of next to nothing drives for picoseconds, then the motor does. What the rotor at rest is tried with there is not what
-/// a turning one goes on with: the two gave one instant the gear's two signs by turns, for ever.
+/// A load of almost zero drives the shaft for picoseconds, then the motor does. The trial state of a rotor at
+/// rest once had another sign of the gear's loss than the turning one, so that both alternated at one instant
+/// without end.
 TEST(GeneralShaft, ALossyGearStartsAgainstNextToNoLoad) {
   for (const double load : {-1e-6, -1e-8, -1e-10, 1e-8}) {
     GeneralSetup s;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Supplies of the general kernel where they have a closed form (model.md 9). No formula here is one of the kernel's.
+// Supplies of the general kernel equal closed forms (model.md 9). No formula here is one of the kernel's.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ using namespace sixstep::testing;
 
 constexpr double digits = 1e-12;
 
-/// The rotor held; what the bus feeds is a resistor that is on from the start.
+/// The rotor is held; the bus supplies a resistor that is on from the start.
 GeneralSetup loaded(const general::Supply& supply, double bus_V, double load_ohm) {
   GeneralSetup s;
   s.shaft.locked = true;
@@ -50,7 +50,7 @@ TEST(GeneralSupply, ASourceTakesBackNoMoreThanItsLimit) {
     s.supply = {.V_0_V = 24, .R_b_ohm = 0.5, .C_F = 1e-3, .R_C_ohm = R_C, .sinks = false, .sink_A = 4};
     s.start.bus_V = 30;
     HeldGeneral held(s);
-    // 4 A until U_s = 24 + 0.5 * 4, then an exponential.
+    // The current is 4 A until U_s = 24 + 0.5 * 4, then it is an exponential.
     const double U_C = 26 + R_C * 4, level = (30 - U_C) * 1e-3 / 4, tau = (0.5 + R_C) * 1e-3;
     ASSERT_EQ(run_to(held, level / 2), sim::Stop::end);
     EXPECT_NEAR(held.plant().state().bus, 30 - 4 * level / 2 / 1e-3 - R_C * 4, digits * 30);
@@ -109,7 +109,8 @@ TEST(GeneralSupply, ABatterySagsAndRecoversAsItsCircuitDoes) {
   EXPECT_LT(held.plant().more().charge.value, 0.5) << "the middle point was passed";
 }
 
-/// U_s behind a rectifier that conducts a sine of amplitude V, less `drop`, from `t_on` on: by the answer of RC to a sine.
+/// U_s behind a rectifier that conducts a sine of amplitude V, less `drop`, from `t_on` on: the RC circuit's
+/// response to a sine.
 struct Conducting {
   double V, w, drop, R_b, R, C;
   double steady(double t) const {
@@ -148,7 +149,7 @@ TEST(GeneralSupply, ARectifierChargesAtTheTopsAndLeavesTheRestToTheCapacitor) {
     const double U_off = law.at(t_off - shift, t_on - shift, U);
     t_on = root(t_off + 1e-5, shift + 15e-3,
                 [&](double t) { return U_off * std::exp(-(t - t_off) / (R * C)) - open(t); });
-    // Between the pulses' feet the open voltage is below the bus: the root above is the last before the top.
+    // Between two pulses the open voltage is below the bus: the root above is the last one before the peak.
     ASSERT_EQ(run_to(held, t_after), sim::Stop::end);
     EXPECT_NEAR(held.plant().state().bus, U_off * std::exp(-(t_after - t_off) / (R * C)), 1e-10) << pulse;
     U = U_off * std::exp(-(t_on - t_off) / (R * C));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Saturation, warm copper and failing switches of the general kernel (model.md 7 and 8), against closed forms and against
-// runs that reach the same another way.
+// Saturation, warm copper and failing switches of the general kernel (model.md 7 and 8) equal closed forms or
+// runs that reach the same state in another way.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,7 +34,7 @@ TEST(GeneralWinding, APulseAlongTheMagnetTellsNorthFromSouth) {
     const double a = sign * 2 / std::sqrt(3.0) / I_sat, log = std::log(1 - 2 * R * i / U);
     return 2 * L * (-log / (2 * R) + a * (i / (2 * R) + U * log / (4 * R * R)));
   };
-  // theta_d = theta_e - 150 deg stands along the pair's axis, at -30 deg, for theta_e = 120 deg.
+  // The direction theta_d = theta_e - 150 deg lies along the pair's axis, at -30 deg, for theta_e = 120 deg.
   double reached[2] = {};
   for (const double sign : {1.0, -1.0}) {
     HeldGeneral held(saturating(sign > 0 ? 120 : 300, I_sat), a_to_b());
@@ -89,7 +89,7 @@ TEST(GeneralWinding, AMagnetThatIsWarmerIsWeaker) {
   s.start.speed_rad_s = 100;
   HeldGeneral held(s);
   held.plant().set_warmth(1.0, 0.8);
-  held.plant().set_warmth(1.1, 0.9);  // of the cold, not of what it was
+  held.plant().set_warmth(1.1, 0.9);  // a factor of the cold value, not of the present one
   ASSERT_EQ(run_to(held, 1e-3), sim::Stop::end);
   EXPECT_NEAR(held.plant().at(0.0).emf[0], 0.9 * 0.01675 * 100, 1e-12);
 }

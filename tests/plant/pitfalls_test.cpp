@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pitfalls of the event-exact plant that no other test of this room has for its subject: the tangential
-// start, snaps first, and guards made of the very polynomials that carry the state.
+// Pitfalls of the event-exact plant that no other test in this folder covers: the tangential start, the order
+// of snapping events, and guards made of the polynomials that carry the state.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -33,8 +33,8 @@ TEST(Pitfall04_TangentialStart, ADiodeThatStartsTangentiallyGoesOnWithoutChatter
       const long double tau_part =
           setup.tau() * x * x / 2 * (1 - x / 3 * (1 - x / 4 * (1 - x / 5 * (1 - x / 6))));
       const double exact = static_cast<double>(emf_rate / setup.R_tt() * tau_part);
-      // The instant is a whole picosecond, and the start is found to the rounding of an angle of 300 degrees;
-      // what drives the current is zero to the guards' noise.
+      // The instant is a whole picosecond, and the start is exact to the rounding of an angle of 300 degrees.
+      // The driving voltage is zero to the guards' noise.
       const double late_s = 0.5e-12 + 32 * eps * at_electrical_deg(300.0) / 400.0;
       const double noise_V = plant::noise_of(bench.plant().constants().volt_scale, 1.0);
       const double bound = (emf_rate * after_s * late_s + noise_V * after_s) / setup.L_tt();
@@ -52,7 +52,8 @@ TEST(Pitfall04_TangentialStart, ADiodeThatStartsTangentiallyGoesOnWithoutChatter
   }
 }
 
-/// Six-step that follows the sectors at once, and in each of them wants the rotor back in the other.
+/// A six-step drive that follows the sectors at once and in each of them drives the rotor back into the
+/// other.
 struct TornAtAnEdge : Held<> {
   explicit TornAtAnEdge(const Drivetrain& setup) : Held<>(setup, all_off()) { drive(); }
   void apply(int id) {
@@ -65,8 +66,8 @@ struct TornAtAnEdge : Held<> {
   }
 };
 
-/// At rest on the edge torque is zero on both sides, and the third derivative of the angle points to the edge
-/// from either: without friction nothing makes the rotor leave, and time must go on all the same.
+/// The torque is zero on both sides of the edge at rest, and the third derivative of the angle is towards the
+/// edge from either side. Without friction the rotor cannot leave, but time must advance.
 TEST(Pitfall07_NoProgress, ARotorAtRestOnAnEdgeThatIsDrivenBackFromEitherSideGoesOnInTime) {
   for (const double C_F : {0.0, 1e-3}) {
     Drivetrain setup;
@@ -85,10 +86,10 @@ TEST(Pitfall07_NoProgress, ARotorAtRestOnAnEdgeThatIsDrivenBackFromEitherSideGoe
   }
 }
 
-/// In what order the guards of a mode are asked: at one instant the first one wins.
+/// The order in which a mode's guards are evaluated: at one instant the first one is the event.
 struct Order {
   bool snap_after_another = false;
-  int standstill_with_rail = 0, current_with_rail = 0;  ///< segments that ask both
+  int standstill_with_rail = 0, current_with_rail = 0;  ///< segments that have both guards
   template <class Rig>
   void segment(const Rig& rig, double) {
     bool other = false, rail = false, current = false, standstill = false;
@@ -113,7 +114,7 @@ TEST(Pitfall05_SnapFirst, EventsThatSnapAStateAreAskedBeforeAllOthers) {
   ASSERT_EQ(run_to(rig, 50e-3, order), sim::Stop::end);
   Drivetrain fast;
   fast.start.speed_rad_s =
-      720.0;  // hardly above no load: the diodes' current ends while the next leg nears its rail
+      720.0;  // slightly above no load: the diodes' current ends while the next leg nears its rail
   Held<> coasting(fast, all_off());
   ASSERT_EQ(coasting.run_to(20e-3, order), sim::Stop::end);
   EXPECT_GT(order.standstill_with_rail, 0);
@@ -179,7 +180,7 @@ TEST(Pitfall06_GuardsShareThePolynomials, EachGuardIsTheQuantityItWatches) {
   }
   Drivetrain spinning;
   for (const double speed :
-       {500.0, 715.0}) {  // at 715 a free star's EMF all but reaches the bus: no bound clears it
+       {500.0, 715.0}) {  // at 715 a free star's EMF almost reaches the bus: no bound excludes an event
     spinning.start.speed_rad_s = speed;
     for (const plant::Gates& g :
          {gates({true, false, false}, {}), gates({false, true, false}, {}), all_off()}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scalar type is a template: long double is the free cross-check of double.
+// The scalar type is a template parameter: the results in long double check those in double.
 #include <gtest/gtest.h>
 
 #include <cmath>

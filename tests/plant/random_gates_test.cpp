@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any gates at any time: no modulator would, but the plant must find its one consistent mode and keep the
-// laws.
+// The gates switch at random, as no modulator would. The plant must still find its one consistent mode and
+// satisfy the laws.
 #include <gtest/gtest.h>
 
 #include <random>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Below the last bit: the remainders of the running sums, and states so small that they could be taken for
-// noise.
+// Values below the last bit: the remainders of the running sums, and states so small that the plant could
+// take them for noise.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,11 +14,11 @@ using namespace sixstep::testing;
 
 Drivetrain rectifying() {
   Drivetrain setup;
-  setup.start.speed_rad_s = 900.0;  // 2 K_e w = 30.15 V: two and three diodes by turns
+  setup.start.speed_rad_s = 900.0;  // 2 K_e w = 30.15 V: two and three diodes in turn
   return setup;
 }
 
-/// What the currents' remainders add up to, beside what one rounding of their sum explains.
+/// The sum of the currents' remainders beyond the rounding of that sum.
 struct Sums {
   double beyond_rounding = 0, largest = 0;
   int with_three = 0;
@@ -41,7 +41,7 @@ TEST(Remainders, OfTheCurrentsSumToZeroAsTheCurrentsDo) {
   EXPECT_LE(sums.beyond_rounding, 0.0);
 }
 
-/// The angle behind each edge that was passed.
+/// Checks that the angle is zero after each edge that the rotor passed.
 struct Edges {
   int passed = 0;
   std::size_t seen = 0;
@@ -63,8 +63,8 @@ TEST(Remainders, AnEdgeSetsTheAngleAndLeavesNone) {
   EXPECT_GT(edges.passed, 10);
 }
 
-/// A current through switches may be as small as it likes: only where a diode could take it is less than the
-/// noise nothing.
+/// A current through switches may be arbitrarily small: the plant takes a current below the noise for zero
+/// only where a diode could carry it.
 TEST(Remainders, ACurrentThroughSwitchesIsNeverTakenForNone) {
   Drivetrain setup;
   setup.start.angle_rad = 0.02;
@@ -76,7 +76,7 @@ TEST(Remainders, ACurrentThroughSwitchesIsNeverTakenForNone) {
     const double exact = -24.0 / setup.R_tt() * std::expm1(-t / setup.tau());
     ASSERT_LT(exact, plant::noise_of(bench.plant().constants().amp_scale, 1.0));
     EXPECT_NEAR(bench.state().i[0], exact, 8 * eps * exact);
-    bench.plant().set_load(0.0);  // the mode is asked for again
+    bench.plant().set_load(0.0);  // the plant determines the mode again
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a run starts.
+// The sector and angle in which a run starts.
 #include <gtest/gtest.h>
 
 #include "tests/support/maxon.hpp"
@@ -9,8 +9,9 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-/// Found by the fuzzer: degrees to radians and through the pole pairs, a start on an edge came out a rounding
-/// error beside it. At rest the rotor leaves as t^3, so that 2e-16 rad made the commutation nanoseconds late.
+/// The fuzzer found it: the conversion from degrees to radians and by the pole pairs moved a start off its
+/// edge by a rounding error. At rest the rotor leaves as t^3, so that 2e-16 rad delayed the commutation by
+/// nanoseconds.
 TEST(Start, AnAngleOnASectorEdgeIsOnIt) {
   for (int pole_pairs = 1; pole_pairs <= 21; ++pole_pairs)
     for (int edge = -14; edge <= 14; ++edge) {
@@ -24,7 +25,8 @@ TEST(Start, AnAngleOnASectorEdgeIsOnIt) {
     }
 }
 
-/// The edge is behind it, forwards and backwards; at rest the sector is the one ahead (model.md 4b).
+/// The rotor starts with the edge behind it, forwards and backwards; at rest the sector is the one ahead
+/// (model.md 4b).
 TEST(Start, OnASectorEdgeTheRotorIsInTheSectorItTurnsInto) {
   for (const double flat_deg : {120.0, 100.0})  // one piece of back-EMF per sector, and three
     for (int edge = -7; edge <= 7; ++edge)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All 54 rows of the thesis's tables 4 and 5 follow from the circuit law (model.md 2), but for one misprint,
-// which is found.
+// All 54 rows of the thesis's tables 4 and 5 follow from the circuit law (model.md 2), except one misprint,
+// which the test finds.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -54,8 +54,8 @@ constexpr std::array<DrivenPair, 6> pairs{{{0, 1}, {0, 2}, {1, 2}, {1, 0}, {2, 0
 
 Connection free_leg(char sign) { return connection_of(false, false, sign == '+' ? 1 : sign == '-' ? -1 : 0); }
 
-/// Table 4: both driven switches conduct. Table 5: only the sink's lower one, the source is free as the third
-/// leg is.
+/// In table 4 both driven switches conduct. In table 5 only the sink's lower one conducts; the source is
+/// free, as the third leg is.
 Legs legs_of(const TableRow& row) {
   const DrivenPair pair = pairs[static_cast<std::size_t>(row.sector)];
   Legs legs{};

@@ -14,7 +14,7 @@ import sixstep
 from package import SOURCE
 
 FACE = SOURCE / "faces" / "python" / "sixstep"
-# What no short call shows: errors, a measurement that only a controller gets, and studies that take many seconds (run_test.py has them).
+# Names without a short example: errors, a measurement that only a controller gets, and studies of many seconds (run_test.py has them).
 WITHOUT = {"Interrupted", "Measured", "ProgramError", "__version__", "compare", "wiring"}
 
 

@@ -31,7 +31,7 @@ class Bits(unittest.TestCase):
                 try:
                     scenario["duration_s"] = duration
                 except sixstep.ScenarioError:
-                    continue  # a window or a change lies beyond so short a run
+                    continue  # a window or a change is after the end of this short run
                 told = program_summary(file, *words)
                 self.assertEqual(sixstep.run(scenario).digest, told["digest"])
                 session = sixstep.Session(scenario)
@@ -86,7 +86,7 @@ class Columns(unittest.TestCase):
         self.assertTrue((np.diff(t) >= 0).all())
         self.assertTrue((np.diff(t) == 0).any())
         i = np.interp(r.time, t, r.events["i_a_A"])
-        self.assertLess(np.abs(i - r.i_a).max(), 0.2)  # between events currents are curves, here drawn as lines
+        self.assertLess(np.abs(i - r.i_a).max(), 0.2)  # currents are curves between events, but lines here
 
     def test_verdicts_are_those_of_the_figures(self):
         r = sixstep.run(current(require=[{"metric": "max", "signal": "i_a", "max": 100}, {"metric": "max", "signal": "i_a", "max": 0.001}]))
@@ -195,7 +195,7 @@ class Process(unittest.TestCase):
         before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
         for _ in range(count):
             sixstep.run(scenario)
-        self.assertLess(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before, 2048)  # KiB: a kilobyte a run would be all of it
+        self.assertLess(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before, 2048)  # KiB: this allows less than a kilobyte per run
 
     def test_a_fork_runs_on(self):
         expected = sixstep.run(current()).digest

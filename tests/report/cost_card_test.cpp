@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run cost, of runs of the engine: counts are held against the modulator's, the loss against the figure of that name.
+// The cost of a run: its counts equal the modulator's, and its loss equals the figure of that name.
 #include "report/cost_card.hpp"
 
 #include <gmock/gmock.h>
@@ -20,7 +20,7 @@ using sixstep::testing::measure;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// A rotor that is held at a duty: one pair is driven all the time.
+/// A held rotor at a constant duty: one pair is driven all the time.
 study::Scenario held_at(double duty, double duration_s) {
   study::Scenario s = maxon_scenario(control::Mode::duty, duty);
   s.duration_s = duration_s;

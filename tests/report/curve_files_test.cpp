@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The curve as text: table, columns, JSON and page say the same numbers.
+// The curve's table, columns, JSON and page have the same numbers.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -128,7 +128,7 @@ TEST(CurvePage, ShowsTheUsableCornerAndWhatItAllows) {
       << "some room above ten seconds";
   for (const char* region : {"\"continuous\"", "\"short-time\""})
     EXPECT_NE(page().find(region), std::string::npos) << region;
-  // Nobody says what the winding stands: the nominal torque tells how the motor is used, or all is shown.
+  // Without thermal data the nominal torque sets the page's range; without both the page shows all.
   m.curve.thermal.reset();
   m.curve.thermal_missing = {{.where = "lines", .limit = "are missing"}};
   EXPECT_NE(page().find("\"corner\":2"), std::string::npos);

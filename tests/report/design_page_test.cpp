@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page of a design: whole, harmless, the same bytes for the same input, with every part of the design.
+// The page of a design is whole and harmless, has every part of the design, and has the same bytes for the
+// same input.
 #include "report/design_page.hpp"
 
 #include <gmock/gmock.h>
@@ -73,7 +74,7 @@ TEST(DesignPage, ShowsWhatDecidesFirstAndFoldsTheRest) {
   EXPECT_THAT(page, HasSubstr("<span class=\"unit\">dB</span>"));
 }
 
-/// What the text says of the speed's sensor, and of a drive that has none, the page says too: folded, with the other steps.
+/// The page has the text's lines on the speed's sensor and on sensorless drives, folded with the other steps.
 TEST(DesignPage, TellsHowTheSpeedIsKnown) {
   analysis::DesignStudy s = studied(Mode::speed);
   s.design.sensing = {{"w_min", "slowest speed that does not read as 0", 12.5, "rad/s"}};

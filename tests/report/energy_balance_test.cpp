@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the accounts miss, on the page and in the JSON, is what their rows miss.
+// The balance's residuals on the page and in the JSON equal the differences of their rows.
 #include "report/energy_balance.hpp"
 
 #include <gmock/gmock.h>
@@ -18,7 +18,7 @@ using sixstep::testing::maxon_scenario;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// A wheel that turns already: next to what it has, little moves.
+/// A turning wheel has much stored energy and moves little.
 study::Scenario flywheel(double inertia_kg_m2) {
   study::Scenario s = maxon_scenario(control::Mode::duty, 0.3);
   s.load.inertia_kg_m2 = inertia_kg_m2;
@@ -38,7 +38,7 @@ TEST(Ledger, residuals_are_parts_of_the_scale_and_the_page_says_what_that_is) {
     const double electrical = of("supplied") - of("copper") - of("devices") - of("air_gap") - of("magnetic");
     const double mechanical = of("air_gap") - of("friction") - of("load") - of("kinetic");
     const auto expect = [&](double joule, const char* residual) {
-      // Divided and multiplied again: two roundings.
+      // The residual was divided and is multiplied again: two roundings.
       EXPECT_NEAR(e[residual].get<double>() * of("scale"), joule, std::abs(joule) * 5e-16) << inertia;
     };
     expect(electrical, "electrical_residual");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which step and which current a report tells of, of runs of the engine.
+// The step and the current that a report shows for runs of the engine.
 #include "report/held_current.hpp"
 
 #include <gmock/gmock.h>
@@ -38,7 +38,7 @@ Ran ran(const study::Scenario& s) {
   return {*outcome, kept.trace()};
 }
 
-/// Pulled into place, ramped, handed over at some 0.3 s.
+/// The rotor is pulled into place and ramped; the handover is at some 0.3 s.
 study::Scenario sensorless(double duration_s) {
   study::Scenario s = maxon_scenario(control::Mode::speed, 100.0);
   s.duration_s = duration_s;
@@ -82,7 +82,7 @@ TEST(HeldCurrent, of_a_sensorless_drive_is_the_largest_of_the_phases) {
              &m = *find_column(run.trace, "i_m_A");
   std::size_t apart = 0;
   for (std::size_t n = 0; n < largest->size(); ++n) {
-    // The three add up to nothing: the largest is half of all.
+    // The three currents add up to zero: the largest is half of the sum of magnitudes.
     ASSERT_NEAR((*largest)[n], (std::abs(a[n]) + std::abs(b[n]) + std::abs(c[n])) / 2, 1e-12) << t[n];
     ASSERT_GE((*largest)[n] + 1e-12, std::abs(m[n])) << t[n];
     apart += (*largest)[n] > 1.5 * std::abs(m[n]) + 0.1;
@@ -93,7 +93,7 @@ TEST(HeldCurrent, of_a_sensorless_drive_is_the_largest_of_the_phases) {
   EXPECT_NEAR(*current->asked_A, 1.5 * 2.33, 1e-9) << "1.5 times the nominal current pull it";
 }
 
-/// Probes at other pins: the board drives another pair than the rotor's.
+/// The probes are at other pins: the board drives another pair than the rotor's.
 TEST(HeldCurrent, of_a_drive_whose_probes_are_elsewhere_too) {
   study::Scenario s = maxon_scenario(control::Mode::duty, 1.0);
   s.duration_s = 300e-6;
@@ -130,7 +130,7 @@ TEST(HeldCurrent, what_was_asked_for_has_the_sign_and_the_time_of_the_peak) {
               HasSubstr("(" + computed(*current->asked_A, "A") + " asked for then)"));
 }
 
-/// The mean behind the step, as the gauge takes it.
+/// The mean after the step equals the measured mean from the same time on.
 TEST(HeldCurrent, the_mean_behind_a_step_is_from_the_moment_told_on) {
   study::Scenario s = maxon_scenario(control::Mode::current, 2.0);
   s.control.current.settle_s = 1e-3;
@@ -149,7 +149,7 @@ TEST(HeldCurrent, the_mean_behind_a_step_is_from_the_moment_told_on) {
                         computed(*current->then_mean_A, "A") + " on average"));
 }
 
-/// Its loop takes over a shaft that turns.
+/// The drive's loop begins with a shaft that turns.
 TEST(HeldCurrent, of_an_observers_drive_the_step_begins_at_the_speed_that_is_taken_over) {
   study::Scenario s;
   s.control.mode = control::Mode::speed;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rows of a report in bounded memory: what is left of them keeps every peak, the latest events and the
-// largest step, and nothing is concluded from what an envelope stands for.
+// A report keeps its rows in bounded memory: they hold every peak, the latest events and the largest step.
+// The report concludes nothing from an envelope.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,8 +28,8 @@ constexpr double gap_s = 1e-5;
 
 std::size_t place(ColumnId column) { return static_cast<std::size_t>(column); }
 
-/// A current that swings, a gate that switches each row, one narrow peak and one narrow dip, and a step of
-/// what is asked for.
+/// A current that oscillates, a gate that switches in each row, one narrow peak, one narrow dip, and a step
+/// of the reference.
 std::vector<double> row(std::size_t n, std::size_t step_at) {
   std::vector<double> out(column_count, 0.0);
   out[place(ColumnId::t)] = static_cast<double>(n) * gap_s;
@@ -58,7 +58,7 @@ KeptRows filled(const Scenario& s, std::size_t count, std::size_t step_at) {
   return kept;
 }
 
-/// Each row that stands is one that was added, and within what is whole none is missing.
+/// Each kept row equals one that was added, and no row is missing in the intervals marked whole.
 void expect_whole_where_it_says(const Trace& t, std::size_t count, std::size_t step_at) {
   std::size_t last = 0;
   for (std::size_t n = 0; n < t.values[0].size(); ++n) {
@@ -94,7 +94,7 @@ TEST(KeptRows, OfALongRunStayInTheirMemoryAndLoseNoPeak) {
   const std::vector<double>& i_a = t.values[place(ColumnId::i_a)];
   EXPECT_EQ(*std::ranges::max_element(i_a), row(777, 1000)[place(ColumnId::i_a)]);
   EXPECT_EQ(*std::ranges::min_element(i_a), row(7777, 1000)[place(ColumnId::i_a)]);
-  // The latest: more than a quarter of the memory.
+  // The latest whole rows fill more than a quarter of the memory.
   const double last_s = t.values[0].back();
   EXPECT_GT((last_s - whole_from_s(t)) / gap_s, most_rows / 4.0);
   EXPECT_FALSE(is_whole(t, {0.0, last_s}));

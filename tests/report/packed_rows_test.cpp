@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Packed rows as the page's script unpacks them: planes of differences out of one stream of zlib's.
+// Packed rows equal the rows given after the page script's unpacking: planes of differences from one zlib
+// stream.
 #include "report/packed_rows.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +24,7 @@ std::string planes_of(const PackedRows& packed) {
   return planes;
 }
 
-/// Differences of as many planes as they have bytes, from the plane `first` on.
+/// Each difference has one plane per byte, from the plane `first` on.
 template <class Count>
 std::vector<Count> differences_of(const std::string& planes, std::size_t rows, std::size_t first) {
   std::vector<Count> out(rows);
@@ -38,7 +39,7 @@ std::vector<Count> differences_of(const std::string& planes, std::size_t rows, s
 struct Rows {
   std::vector<double> time, wave, noise;
 };
-/// More than zlib sees at a time, so that its way of going about them changes between planes.
+/// The data are larger than zlib's window, so that its method changes between planes.
 Rows some_rows() {
   Rows out;
   std::uint32_t random = 1;
@@ -81,7 +82,7 @@ TEST(PackedRows, ComeBackWithinHalfAStep) {
   expect_back(*packed, rows);
 }
 
-/// What would be too large by the quick way is tried by the thorough one before it is left out.
+/// The rows that are too large with quick compression are compressed thoroughly before they are left out.
 TEST(PackedRows, AreLeftOutOnlyWhereNoWayIsSmallEnough) {
   const Rows rows = some_rows();
   const auto quick = packed_rows(rows.time, {&rows.wave, &rows.noise}, 1'000'000);

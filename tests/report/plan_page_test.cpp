@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plan's page: what it is drawn from is what the rows say, the worst runs are the worst, names are text, and the same
-// plan gives the same bytes.
+// A plan's page draws the rows' values, its worst runs are the worst, its names are text, and the same plan
+// gives the same bytes.
 #include "report/plan_page.hpp"
 
 #include <gmock/gmock.h>
@@ -137,7 +137,7 @@ TEST(PlanPage, TheWorstRunsAreTheWorst) {
   ASSERT_EQ(worst.size(), 3u);
   EXPECT_TRUE(worst[2].empty()) << "nothing is required of it";
   for (std::size_t f = 0; f < 2; ++f) {
-    // The law by sorting everything there is.
+    // The worst runs are the first ones after a sort by margin.
     const auto& column = made.columns->figures[f];
     std::vector<std::pair<double, std::size_t>> sorted;
     for (const auto& row : made.rows) {
@@ -208,7 +208,7 @@ TEST(PlanPage, HoldsNamesAsText) {
   EXPECT_EQ(data_of(page)["plans"][0]["columns"][3]["name"], bad);
 }
 
-/// The card's values are the terminal's: its words have u for µ, and a space that breaks.
+/// The card's values equal the terminal's, which have u for µ and a space that breaks.
 TEST(PlanPage, values_of_an_axis_are_told_as_the_terminal_tells_them) {
   const std::vector<std::string> written{"2e-07", "1e-06", "0.0035", "12", "\"ideal\""};
   SyntheticPlan made =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Several runs, or a run and a board's log, on one page.
+// One page shows several runs, or a run and a board's log.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>

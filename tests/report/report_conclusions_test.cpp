@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a report concludes from the rows of a run, and from those of several.
+// The conclusions that a report draws from the rows of one run and of several.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ using ::testing::HasSubstr;
 
 std::string page(const SyntheticRun& run) { return glance_section(run.scenario, run.outcome, run.trace); }
 
-/// Rows at times that need no rounding: a speed step, a current that rises, stays and falls.
+/// The rows' times need no rounding: a speed step, a current that rises, stays and falls.
 SyntheticRun stepped_run() {
   SyntheticRun run = synthetic_run(0.001);
   run.scenario.control.mode = sixstep::control::Mode::speed;
@@ -92,12 +92,12 @@ TEST(Highlights, a_current_step_ends_where_commutations_of_a_steady_current_begi
   ASSERT_TRUE(current);
   EXPECT_EQ(current->peak_A, 4.2);
   EXPECT_EQ(current->peak_after_s, 3.0);
-  // Without edges all that leaves the goal is the step's.
+  // Without edges every deviation from the goal belongs to the step.
   run.trace.values[3] = {4, 4, 4, 4, 4, 4, 4, 4};
   EXPECT_EQ(step_current(run.trace, *largest_step(run.trace, run.scenario))->peak_A, 5.0);
 }
 
-/// Gives each quantity of a sheet a value.
+/// Sets every quantity of a sheet to a value.
 class AllQuantities final : public sixstep::base::Visitor {
  public:
   std::size_t count = 0;
@@ -122,7 +122,7 @@ TEST(Parameters, each_line_of_the_data_sheet_has_its_row) {
   EXPECT_EQ(rows, given.count);
 }
 
-/// Of a field-oriented drive the step is i_q's, which it holds, and the page shows what it holds.
+/// The step of a field-oriented drive is that of i_q, the controlled current, and the page shows it.
 TEST(Highlights, a_field_oriented_drive_steps_across_the_magnet) {
   SyntheticRun run = stepped_run();
   run.scenario.control.mode = sixstep::control::Mode::current;
@@ -151,7 +151,7 @@ TEST(Highlights, a_field_oriented_drive_steps_across_the_magnet) {
   EXPECT_EQ(std::ranges::find(others.charts, "rotor-currents", &Group::id), others.charts.end());
 }
 
-/// Each controller is called by its name.
+/// The page names each controller.
 TEST(Setup, names_the_controllers_that_run) {
   using namespace sixstep::study;
   const auto told = [](const Control& control) {
@@ -195,8 +195,8 @@ TEST(Conduction, a_leg_without_a_gate_carries_by_the_diode_its_current_opens) {
   for (const char* name :
        {"t_s", "i_a_A", "i_b_A", "i_c_A", "gate_T1", "gate_T2", "gate_T3", "gate_T4", "gate_T5", "gate_T6"})
     trace.columns.push_back({name, "", "", ""});
-  // T1 and T4 drive a to b; T1 goes off and a's lower diode takes over until nothing flows; c's upper diode
-  // last.
+  // T1 and T4 drive a to b; T1 switches off and a's lower diode conducts until no current flows; c's upper
+  // diode conducts last.
   trace.values = {{0, 1, 1, 2, 2, 3, 3, 4},  {0, 2, 2, 0, 0, 0, 0, 0}, {0, -2, -2, 0, 0, 0, 0, 1},
                   {0, 0, 0, 0, 0, 0, 0, -1}, {1, 1, 0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0, 0, 0},
                   {0, 0, 0, 0, 0, 0, 1, 1},  {1, 1, 1, 1, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0, 0, 0},
@@ -224,7 +224,8 @@ TEST(Conduction, a_leg_carries_the_current_of_the_phase_that_hangs_at_it) {
   for (const char* name :
        {"t_s", "i_a_A", "i_b_A", "i_c_A", "gate_T1", "gate_T2", "gate_T3", "gate_T4", "gate_T5", "gate_T6"})
     trace.columns.push_back({name, "", "", ""});
-  // No gate. Phase a feeds and b returns; phases b, c, a hang at legs a, b, c: leg a carries b's by its upper diode, c a's.
+  // No gate is on. Phase a feeds and b returns; phases b, c, a are at legs a, b, c: leg a carries b's current
+  // through its upper diode, c carries a's.
   trace.values = {{0, 1}, {2, 2}, {-2, -2}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}};
   EXPECT_THAT(conduction(trace).code, ::testing::ElementsAre(4 + 5 * 3));
   EXPECT_THAT(conduction(trace, false, {1, 2, 0}).code, ::testing::ElementsAre(3 + 25 * 4));
@@ -260,7 +261,7 @@ TEST(PackedRows, keep_the_range_in_65533_steps_with_zero_on_one_and_refuse_what_
   EXPECT_FALSE(packed_rows(time, {&held, &moving}, 10));
 }
 
-/// A saw of `turns` teeth from -1 to 1 in one second, its rows at the jumps alone.
+/// A sawtooth with `turns` teeth from -1 to 1 in one second; its rows are at the jumps alone.
 struct Saw {
   std::vector<double> time, values;
 };
@@ -275,8 +276,8 @@ Saw saw(int turns) {
 }
 
 TEST(Spectrum, of_a_saw_is_the_fourier_series) {
-  // 37 teeth: no power of two, so that no tooth and no jump keeps to the cells. Harmonic n has the amplitude
-  // 2/(pi n).
+  // 37 teeth are no power of two, so that teeth and jumps do not align with the cells. Harmonic n has the
+  // amplitude 2/(pi n).
   constexpr int turns = 37, cells = 4096;
   const Saw s = saw(turns);
   const Lines lines = lines_of(s.time, s.values, {0, 1}, 1.0 / cells);
@@ -285,10 +286,10 @@ TEST(Spectrum, of_a_saw_is_the_fourier_series) {
   ASSERT_EQ(lines.amplitude.size(), cells / 8 + 1u);
   for (int n = 1; n * turns + 1 < cells / 8; ++n) {
     const auto k = static_cast<std::size_t>(n * turns);
-    // What the cells fold onto a line is the harmonics at m cells -+ k, m = 1, 2 ..; a cell's mean leaves
-    // k/(m cells -+ k) of each, and the correction divides by the same for k. Their amplitude is at most 2/pi
-    // turns/(m cells - k), so their sum is below 2/pi turns k/cells^2 times twice the sum of 1/(m - 1/8)^2,
-    // which is less than 4.
+    // The cells fold the harmonics at m cells -+ k, m = 1, 2 .., onto a line. A cell's mean keeps k/(m cells
+    // -+ k) of each, and the correction divides by the same for k. Their amplitude is at most 2/pi turns/(m
+    // cells - k), so their sum is below 2/pi turns k/cells^2 times twice the sum of 1/(m - 1/8)^2, which is
+    // less than 4.
     const double folded = 4 * 2 / M_PI * turns * (n * turns) / (static_cast<double>(cells) * cells);
     EXPECT_NEAR(lines.amplitude[k], 2 / (M_PI * n), folded + 1e-12) << n;
     EXPECT_NEAR(lines.amplitude[k + 1], 1 / (M_PI * n), folded + 1e-12) << "Hann: half of it beside the line";
@@ -299,7 +300,8 @@ TEST(Spectrum, of_a_saw_is_the_fourier_series) {
     EXPECT_NEAR(lines.tones[n].line, turns * (static_cast<double>(n) + 1), 1e-3);
 }
 
-/// The stretch is no whole number of teeth: every harmonic lies between two lines, and has its place and amplitude all the same.
+/// The interval is no whole number of teeth: every harmonic lies between two lines and still has its
+/// frequency and amplitude.
 TEST(Spectrum, a_tone_between_two_lines_has_its_own_amplitude_and_frequency) {
   const Saw s = saw(37);
   for (const double end : {0.9871, 0.9932, 0.9999}) {
@@ -360,7 +362,7 @@ TEST(Spectrum, is_taken_over_whole_electrical_turns_of_the_last_setpoint) {
   EXPECT_EQ(found->turns, 2);
   EXPECT_NEAR(found->time.from, 9 - 2 / 0.6, 8 * 9 * 2.3e-16);  // a few roundings of numbers up to 9
   EXPECT_EQ(found->time.to, 9.0);
-  run.scenario.pwm.period_s = 0.1;  // 40 periods tell nothing
+  run.scenario.pwm.period_s = 0.1;  // 40 periods are too few for a spectrum
   EXPECT_FALSE(steady_stretch(run.trace, run.scenario, 2));
 }
 
@@ -374,7 +376,7 @@ TEST(Spectrum, lines_are_called_by_what_they_come_from) {
   EXPECT_EQ(origin_of(65, 10, 1000), "");
   EXPECT_EQ(origin_of(65, 0, 0), "");
   EXPECT_EQ(origin_of(10, 10, 1000), "electrical, the fundamental");
-  // Three turns, 2.5 lines away from the PWM: no side line of the electrical frequency, which is at 3.
+  // Three turns, 2.5 lines away from the PWM, are no side line of the electrical frequency, which is at 3.
   EXPECT_EQ(origin_of(1002.5, 3, 1000), "");
   EXPECT_EQ(origin_of(1003.1, 3, 1000), "PWM + electrical");
 }

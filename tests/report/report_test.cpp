@@ -189,7 +189,7 @@ TEST(Thinning, every_bucket_keeps_its_extremes) {
   EXPECT_FALSE(result.complete);
   EXPECT_LE(result.rows.size(), 2000u);
   EXPECT_THAT(result.rows, ::testing::IsSupersetOf({0u, 7u, 31234u, 49999u}));
-  // Between two kept rows no value lies outside what a neighbourhood of a bucket shows.
+  // The largest value drawn in each bucket equals the largest value there.
   for (std::size_t from = 0; from + 1000 <= time.size(); from += 1000) {
     double high = -1.0, drawn = -1.0;
     for (std::size_t n = from; n < from + 1000; ++n) high = std::max(high, wave[n]);
@@ -240,7 +240,7 @@ TEST(Index, names_every_experiment_and_its_verdict) {
       {{"One & two", "a.html", &good.outcome}, {"Three", "b.html", &bad.outcome}}, "sixstep run", "0.1.0");
   EXPECT_THAT(html, HasSubstr("1 of 2 experiments pass"));
   EXPECT_THAT(html, HasSubstr("<a href=\"a.html\">One &amp; two</a>"));
-  // All at a glance first, each line leading to its section.
+  // The overview is first, and each of its lines links to its section.
   const std::size_t overview = html.find("<table class=\"overview\">");
   ASSERT_NE(overview, html.npos);
   EXPECT_LT(overview, html.find("<section class=\"experiment"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The drawing of a run's energy says what its book says: bands as wide as what flows, in at a node as much as
-// out of it.
+// The drawing of a run's energy equals its energy balance: a band's width is the energy, and a node's inflow
+// equals its outflow.
 #include "report/sankey.hpp"
 
 #include <fmt/format.h>
@@ -44,7 +44,7 @@ double height(const std::string& svg) {
   return h;
 }
 
-/// Of what the law says a book is: the balance closes.
+/// A balance that closes: the energies satisfy the law.
 EnergyBook book(double copper, double devices, double magnetic, double friction, double load,
                 double kinetic) {
   EnergyBook b{.copper = copper,
@@ -105,7 +105,7 @@ TEST(Sankey, a_locked_rotor_has_no_air_gap_to_show) {
   EXPECT_THAT(svg, Not(HasSubstr("rotor and shaft")));
 }
 
-/// Any signs: what gives stands on the left, what takes on the right, bands meet their nodes, and labels,
+/// The signs are arbitrary: sources are on the left, sinks on the right, bands meet their nodes, and labels,
 /// which are 36 high, do not touch.
 TEST(Sankey, any_book_that_closes_is_drawn_whole) {
   for (std::uint64_t n = 0; n < 300; ++n) {

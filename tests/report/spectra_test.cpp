@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a spectrum says where nothing oscillates.
+// The text of a spectrum where nothing oscillates.
 #include "report/spectra.hpp"
 
 #include <gmock/gmock.h>
@@ -50,7 +50,8 @@ TEST(Spectra, of_a_drift_alone_no_line_stands_out) {
   EXPECT_THAT(html, Not(HasSubstr("<table")));
 }
 
-/// Two pole pairs, turned by 0.38 of an electrical turn in the later half of the run; then by none, and by a whole one.
+/// Two pole pairs turn by 0.38 of an electrical turn in the later half of the run, then by none, and by more
+/// than a whole one.
 TEST(Spectra, less_than_an_electrical_turn_is_told) {
   for (const double turned : {0.38, 0.0, 1.2}) {
     sixstep::study::Trace trace = trace_of(rounding, tone);

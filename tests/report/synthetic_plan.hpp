@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plan whose rows are made up: many kinds of columns, values and ends, and as many runs as a test likes.
+// A plan with synthetic rows: many kinds of columns, values and ends, and any number of runs.
 #pragma once
 #include <cstddef>
 #include <cstdint>

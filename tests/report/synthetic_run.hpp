@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run that looks like one, without the engine: a coarse fixed-step six-step drive with a current PI, good
-// enough to look at and to test faces with. Nothing of its physics is relied upon.
+// A synthetic run without the engine: a coarse fixed-step six-step drive with a current PI, for tests of
+// outputs. No test relies on its physics.
 #pragma once
 #include <algorithm>
 #include <array>

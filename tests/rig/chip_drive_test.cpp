@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A chip that keeps its own time on the board (rig/chip_drive.hpp), played by one whose gates are known: what it drives is what the board's
-// own timer drives with the same pulses, and it is shown what it is to see, when it is to see it.
+// A synthetic chip with known gates keeps its own time on the board (rig/chip_drive.hpp). It drives what the
+// board's own timer drives with the same pulses, and it receives its samples and pins at the right instants.
 #include "sixstep/rig/chip_drive.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,8 @@ constexpr std::uint32_t clock_Hz = 16'000'000;
 constexpr std::uint64_t period = 1600;  // cycles: 100 us
 constexpr double range_A = 50.0, setpoint_range = 2.0;
 
-/// Half the period's pulse in its middle, by the pair that the pins show; a sample of channel 0 where a period begins.
+/// The chip drives a pulse of half a period, centred, with the pair of the pins; it samples channel 0 where a
+/// period begins.
 struct PlayedChip {
   std::uint64_t cycle = 0, bad_from = ~std::uint64_t{0}, silent_from = bad_from,
                 samples_again_from = bad_from;
@@ -162,7 +163,8 @@ TEST(ChipDrive, OneThatSamplesNoLongerHasStalled) {
   EXPECT_NEAR(chip.now().seconds(), 0.9e-3 + 30e-3, 0.1e-3);
 }
 
-/// An AVR's shortest watchdog bites after 16 ms, of an oscillator that may be a tenth slow; then the chip begins anew.
+/// An AVR's shortest watchdog resets the chip after 16 ms, of an oscillator that may be 10 % slow; then the
+/// chip restarts.
 TEST(ChipDrive, OneThatAWatchdogResetGoesOn) {
   OnChip on;
   on.chip.silent_from = 16000;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two things at one instant, one test per pair of: scenario step, control tick, PWM edge, comparator, sector
-// edge, current zero. Both must happen, once, with the effect of model.md 4b's order (pitfall 1: a lost
-// tick passes every energy balance). Here: the pairs with a scenario step or a control tick.
-// "Once" is counted: an edge done before its tick, which should have replaced it, shows in the counts alone.
+// Each test has two events at one instant, one test per pair of: scenario step, control tick, PWM edge,
+// comparator, sector edge, current zero. Both must happen, once, with the effect of model.md 4b's order
+// (pitfall 1: a lost tick passes every energy balance). This file has the pairs with a scenario step or a
+// control tick. The counts show whether an edge was done before the tick that should have replaced it.
 #include <gtest/gtest.h>
 
 #include "tests/support/coinciding.hpp"
@@ -52,7 +52,7 @@ TEST(Pitfall01_CoincidentInstants, StepAndPwmEdge) {
 
 TEST(Pitfall01_CoincidentInstants, StepAndComparator) {
   Board b = locked(Board::hysteresis(10.0, 0.25, Chopping::soft));
-  b.setpoint(123'456'789, 1.0);  // the current lies between: the comparator trips at that very instant
+  b.setpoint(123'456'789, 1.0);  // the current is in between: the comparator trips at that very instant
   auto rig = b.rig();
   ASSERT_EQ(run_to(rig, 123.456788 * us), sim::Stop::end);
   ASSERT_TRUE(rig.modulator().source_on());
@@ -97,8 +97,9 @@ TEST(Pitfall01_CoincidentInstants, StepAndCurrentZero) {
 }
 
 TEST(Pitfall01_CoincidentInstants, TickAndPwmEdgeBothHappen) {
-  // Centre-aligned, half duty, dead time of a quarter period: the lower switch's turn-on falls on the tick.
-  // Edges: 7.5 us (end of the first dead time, and on), 15, 22.5 (off), 30 us (end of its dead time).
+  // The PWM is centre-aligned at half duty with a dead time of a quarter period: the lower switch's turn-on
+  // falls on the tick. The edges are at 7.5 us (end of the first dead time, on), 15, 22.5 (off), 30 us (end
+  // of its dead time).
   for (const double next : {0.5, 1.0}) {
     Board b = locked(Board::duty(0.5, Chopping::complementary));
     b.board.modulator.centre_aligned = true;
@@ -111,7 +112,7 @@ TEST(Pitfall01_CoincidentInstants, TickAndPwmEdgeBothHappen) {
     ASSERT_EQ(run_to(rig, 30 * us), sim::Stop::end);
     EXPECT_EQ(rig.event_count(EventKind::tick), 2);
     EXPECT_EQ(rig.telemetry().duty, next);
-    // Full duty: the tick comes first, turns on, and the dead time that would have ended begins anew.
+    // At full duty the tick comes first and turns on; the dead time that would have ended begins anew.
     EXPECT_EQ(rig.event_count(EventKind::pwm_edge), next < 1.0 ? 4 : 3);
     EXPECT_EQ(rig.plant().gates().low[0], next < 1.0);
     EXPECT_FALSE(rig.plant().gates().high[0]);
@@ -119,8 +120,8 @@ TEST(Pitfall01_CoincidentInstants, TickAndPwmEdgeBothHappen) {
 }
 
 TEST(Pitfall01_CoincidentInstants, TickAndPwmEdgeTheTickComesFirst) {
-  // Dead time of half a period: at each tick a dead time would end just when the new one begins. The tick
-  // replaces that edge; done before the tick it would be counted.
+  // The dead time is half a period: at each tick one dead time would end as the next begins. The tick
+  // replaces that edge; an edge before the tick would be counted.
   Board b = locked(Board::duty(0.5, Chopping::complementary));
   b.board.modulator.dead_ticks = 15e6;
   auto rig = b.rig();
@@ -173,7 +174,7 @@ TEST(Pitfall01_CoincidentInstants, TickAndSectorEdge) {
     EXPECT_EQ(rig.event_count(EventKind::tick), 2);
     EXPECT_EQ(rig.telemetry().duty, 0.25);
     EXPECT_EQ(rig.plant().sector(), 1);
-    // Commutation at the sample: rounding may put the edge just behind this one.
+    // With commutation at the sample, rounding may put the edge just behind this sample.
     ASSERT_EQ(run_to(rig, at_sample ? 60 * us : 31 * us), sim::Stop::end);
     EXPECT_EQ(source_leg(rig), 0);
     EXPECT_EQ(sink_leg(rig), 2);
@@ -181,8 +182,8 @@ TEST(Pitfall01_CoincidentInstants, TickAndSectorEdge) {
 }
 
 TEST(Pitfall01_CoincidentInstants, TickAndSectorEdgeAtTheStartBackwards) {
-  // Exactly: on the edge at t = 0 and turning back, the tick of t = 0 falls on the edge. It comes behind: the
-  // run begins in the sector that is entered.
+  // The rotor starts on the edge and turns back, so that the tick of t = 0 falls exactly on the edge. The
+  // tick comes after it: the run begins in the sector that the rotor enters.
   Board b = turning(Board::duty(0.5), 30 * us);
   b.start.angle_rad = 0.0;
   b.start.speed_rad_s = -100.0;
@@ -204,7 +205,7 @@ TEST(Pitfall01_CoincidentInstants, TickAndCurrentZero) {
   ASSERT_EQ(run_to(rig, 30 * us + ns, laws), sim::Stop::end);
   EXPECT_EQ(rig.event_count(EventKind::tick), 2);
   EXPECT_TRUE(rig.plant().gates().high[0]);
-  // Within rounding the current was zero at the tick: the second period is the first again.
+  // The current was zero at the tick within rounding: the second period equals the first.
   const double exact = 24.0 * ns / b.L_tt();
   EXPECT_NEAR(rig.plant().state().i[0], exact, 1e-5 * exact);
   ASSERT_EQ(run_to(rig, 60 * us + ns, laws), sim::Stop::end);

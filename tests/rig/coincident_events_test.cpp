@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two things at one instant, one test per pair of: scenario step, control tick, PWM edge, comparator, sector
-// edge, current zero. Both must happen, once, with the effect of model.md 4b's order (pitfall 1: a lost
-// tick passes every energy balance). Here: the pairs of PWM edge, comparator, sector edge, current zero.
+// Each test has two events at one instant, one test per pair of: scenario step, control tick, PWM edge,
+// comparator, sector edge, current zero. Both must happen, once, with the effect of model.md 4b's order
+// (pitfall 1: a lost tick passes every energy balance). This file has the pairs of PWM edge, comparator,
+// sector edge, current zero.
 #include <gtest/gtest.h>
 
 #include "tests/support/coinciding.hpp"
@@ -15,8 +16,8 @@ using control::Chopping;
 using rig::EventKind;
 
 TEST(Pitfall01_CoincidentInstants, PwmEdgeAndComparator) {
-  // Complementary with a dead time of 1 us: off by a step at 500 us; the leg's dead time ends just when the
-  // next step wants it on again.
+  // The chopping is complementary with a dead time of 1 us. A step turns the leg off at 500 us; its dead time
+  // ends exactly when the next step turns it on again.
   Board b = locked(Board::hysteresis(20.0, 0.25, Chopping::complementary));
   b.board.modulator.dead_ticks = 1e6;
   b.setpoint(500'000'000, 1.0);
@@ -51,7 +52,7 @@ TEST(Pitfall01_CoincidentInstants, PwmEdgeAndSectorEdge) {
 }
 
 TEST(Pitfall01_CoincidentInstants, PwmEdgeAndCurrentZero) {
-  // Centre-aligned: the gap from off edge to the next on edge is the period less the on-time.
+  // The PWM is centre-aligned: from the off edge to the next on edge it takes the period less the on-time.
   Board b = locked(Board::duty(0.0, Chopping::hard));
   b.board.modulator.centre_aligned = true;
   b.timeline.clear();
@@ -75,7 +76,8 @@ struct UntilDiodeStops {
   }
 };
 
-/// Runs to `at_s` with a comparator that waits for more than any current, and says what it would see there.
+/// Runs to `at_s` with a comparator level above any current, and returns the current that the comparator
+/// measures there.
 double current_at(Board b, double at_s) {
   b.timeline[0].value = 1e3;
   auto rig = b.rig();
@@ -85,8 +87,8 @@ double current_at(Board b, double at_s) {
   return w[0] * i[0] + w[1] * i[1] + w[2] * i[2];
 }
 
-/// Levels a few last bits to either side of `level`: whichever event rounding puts first, the same must come
-/// of it. The setpoint is 0.25 A below, a distance that a double has no trouble with.
+/// The levels are up to four last bits on either side of `level`: the result must not depend on the event
+/// that rounding puts first. The setpoint is 0.25 A below, which a double represents exactly enough.
 template <class Check>
 void at_levels_around(double level, Board b, Check&& check) {
   for (int bits = -4; bits <= 4; ++bits) {
@@ -98,8 +100,8 @@ void at_levels_around(double level, Board b, Check&& check) {
 }
 
 TEST(Pitfall01_CoincidentInstants, ComparatorAndSectorEdgeBothHappen) {
-  // On the phase: a is the source before and after the edge, so its current does not jump there, and its
-  // comparator trips at the edge, once, whatever comes first.
+  // The comparator measures the phase: a is the source before and after the edge, so that its current does
+  // not jump. The comparator trips at the edge, once, in either order.
   const double edge_s = 70 * us;
   Board b = turning(Board::hysteresis(5.0, 0.25, Chopping::soft), edge_s);
   b.drive.hysteresis.watch = control::Watch::phase;
@@ -112,7 +114,7 @@ TEST(Pitfall01_CoincidentInstants, ComparatorAndSectorEdgeBothHappen) {
     EXPECT_EQ(rig.event_count(EventKind::comparator), 1);
     EXPECT_FALSE(rig.modulator().source_on());
     EXPECT_EQ(rig.plant().gates(), gates({}, {false, false, true}));
-    // Rounding may keep the switch on for 64 eps of the stall current, the guard's noise, longer.
+    // Rounding may keep the switch on longer by 64 eps of the stall current, the guard's noise.
     if (first == 0.0) first = rig.plant().state().i[0];
     EXPECT_NEAR(rig.plant().state().i[0], first, 2 * 64 * eps * rig.plant().constants().amp_scale);
     laws.expect_all();
@@ -120,8 +122,9 @@ TEST(Pitfall01_CoincidentInstants, ComparatorAndSectorEdgeBothHappen) {
 }
 
 TEST(Pitfall01_CoincidentInstants, ComparatorAndSectorEdgeWhereTheEdgeTakesTheCauseAway) {
-  // On the motor: at the edge i_m becomes another mean, half as large, so both cannot happen. The edge first:
-  // nothing to trip. The comparator first (rounding): it is judged again at once behind the edge, and is on.
+  // The comparator measures the motor current: at the edge i_m becomes another mean, half as large. If the
+  // edge is first, nothing trips. If the comparator is first (rounding), it is evaluated again just behind
+  // the edge and is on.
   const double edge_s = 70 * us;
   const Board b = turning(Board::hysteresis(5.0, 0.25, Chopping::soft), edge_s);
   const double level = current_at(b, edge_s - 1e-12) / (1 - 1e-12 / edge_s);
@@ -136,8 +139,8 @@ TEST(Pitfall01_CoincidentInstants, ComparatorAndSectorEdgeWhereTheEdgeTakesTheCa
 }
 
 TEST(Pitfall01_CoincidentInstants, ComparatorAndCurrentZeroBothHappen) {
-  // Behind a Hall edge the old sink's current dies away in a diode while the source's rises: the comparator
-  // waits for just the level at which that current ends.
+  // After a Hall edge the old sink's current decays in a diode while the source's rises: the comparator's
+  // level is the one at which that current ends.
   const Board b = turning(Board::hysteresis(5.0, 0.25, Chopping::hard), 70 * us);
   Board free = b;
   free.timeline[0].value = 1e3;
@@ -152,7 +155,7 @@ TEST(Pitfall01_CoincidentInstants, ComparatorAndCurrentZeroBothHappen) {
     EXPECT_EQ(rig.event_count(EventKind::comparator), 1);
     EXPECT_FALSE(rig.modulator().source_on());
     EXPECT_EQ(rig.plant().gates(), all_off());
-    // The current ends, by its own event or, the comparator first, within rounding of it; and for good.
+    // The current ends for good, by its own event or, with the comparator first, within rounding of it.
     EXPECT_LE(rig.event_count(EventKind::diode_off), 1);
     EXPECT_EQ(rig.plant().state().i[1], 0.0);
     EXPECT_TRUE(plant::is_floating(rig.plant().mode().legs[1]));
@@ -161,7 +164,7 @@ TEST(Pitfall01_CoincidentInstants, ComparatorAndCurrentZeroBothHappen) {
 }
 
 TEST(Pitfall01_CoincidentInstants, AComparatorThatWaitsForZeroDoesNotTripThere) {
-  // The lower level is zero itself: the current vanishes there, exactly, and is not strictly below it.
+  // The lower level is zero: the current reaches exactly zero, which is not strictly below it.
   Board b = locked(Board::hysteresis(0.5, 0.5, Chopping::hard));
   auto rig = b.rig();
   LawChecker<> laws;
@@ -192,8 +195,7 @@ TEST(Pitfall01_CoincidentInstants, SectorEdgeAndCurrentZero) {
   laws.expect_all();
 }
 
-/// A comparator is judged again at once wherever its current jumps: never a segment that begins beyond its
-/// level.
+/// A comparator is evaluated again wherever its current jumps, so that no segment begins beyond its level.
 struct NeverBeyond {
   int beyond = 0, segments_of_edges = 0, last_sector = 0;
   void segment(const rig::LeanRig<double>& rig, double s) {
@@ -209,7 +211,8 @@ struct NeverBeyond {
 };
 
 TEST(Pitfall08_Sticking, TheComparatorIsJudgedAgainAfterASectorEdge) {
-  // At an edge the motor current is another mean of phases: it jumps, and the comparator follows at once.
+  // The motor current becomes another mean of phases at an edge: it jumps, and the comparator follows at
+  // once.
   Board b = Board::hysteresis(5.0, 0.2, Chopping::soft);
   auto rig = b.rig();
   NeverBeyond watch;

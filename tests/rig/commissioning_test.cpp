@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commissioning on the virtual board: what the chip finds of three motors of the library, against what they are.
+// Commissioning on the virtual board finds the values of three motors of the library.
 #include "tests/support/commissioning.hpp"
 #include "tests/support/in_part.hpp"
 
@@ -19,7 +19,7 @@ control::Commissioned<double> in_si(const CommissioningBench& bench,
   return control::commissioned<double>(control::commissioning_scale<double>(bench.facts), found);
 }
 
-/// What the converters' rounding alone may do, as parts (level_steps.hpp, flux_turn.hpp).
+/// The relative errors that the converters' rounding allows (level_steps.hpp, flux_turn.hpp).
 struct Allowed {
   double R, L, flux;
 
@@ -27,7 +27,7 @@ struct Allowed {
     const double apart = (found.winding.higher - found.winding.lower) / 24.0;
     const double bus = 0.5 * bench.facts.V_per_count / bench.at.bus_V;
     R = 4.0 / 3.0 / apart + bus;
-    // The current that a period's ripple hides: by (T/tau)^2/4 of the step at most.
+    // A period's ripple hides at most (T/tau)^2/4 of the current's step.
     const double x = 65536.0 / found.winding.tau;
     L = R + std::log(2 * apart) / apart + x * x / 4;
     // R i is at most v.
@@ -53,7 +53,7 @@ void expect_found(const CommissioningBench& bench, const control::CommissioningS
   EXPECT_LT(std::fabs(of_flux), allowed.flux) << name;
 }
 
-/// In brackets: what rounding alone may do.
+/// The values in brackets are the errors that rounding allows.
 TEST(Commissioning, FindsResistanceInductanceAndFluxLinkage) {
   InPart some;
   for (const CommissionedMotor& motor : commissioned_motors)
@@ -62,7 +62,8 @@ TEST(Commissioning, FindsResistanceInductanceAndFluxLinkage) {
       CommissioningBench bench(motor);
       double R = bench.machine.R_ohm[0];
       if (!ideal) {
-        // Amplifiers off by 12 counts and as noisy as one, channels of a tenth of the phase, diodes, dead time.
+        // The amplifiers have an offset of 12 counts and one count of noise, channels drop a tenth of the
+        // phase, and diodes and dead time are present.
         const double dead_s = 0.5e-6, in_diode = 2 * dead_s / bench.facts.period_s;
         bench.board.sensors.current.offset = 12.3 * bench.facts.A_per_count;
         bench.board.sensors.current.noise = 1.0 * bench.facts.A_per_count;
@@ -75,7 +76,8 @@ TEST(Commissioning, FindsResistanceInductanceAndFluxLinkage) {
     }
 }
 
-/// What the trapezoid's field leaves, degrees: 1.12 at rest (hall_survey.hpp), more as the ripple comes near the swing.
+/// The error in degrees from the trapezoid's field: 1.12 at rest (hall_survey.hpp), more as the ripple's
+/// frequency nears the swing's.
 double of_shape_deg(const CommissioningBench& bench) {
   const double p = bench.machine.pole_pairs;
   const double swing =
@@ -84,9 +86,9 @@ double of_shape_deg(const CommissioningBench& bench) {
   return 1.12 / (1 - ripple * ripple / (swing * swing));
 }
 
-/// Edges each at its place, hysteresis, and friction of a tenth of the test current's torque. Of a sine nothing is left but
-/// the capture timer's count, of both ways, and what swings; of the trapezoid its shape, and a twentieth of that for what
-/// friction does to the swing.
+/// Each edge has its own angle, a hysteresis, and friction of a tenth of the test current's torque. The error
+/// with a sine is the capture timer's count in both directions and the swing; with a trapezoid it is the
+/// shape's, and a twentieth more for the friction's effect on the swing.
 TEST(Commissioning, FindsWhereEachHallEdgeStands) {
   InPart some;
   for (const CommissionedMotor& motor : commissioned_motors)
@@ -117,14 +119,14 @@ TEST(Commissioning, FindsWhereEachHallEdgeStands) {
 constexpr WireOrder orders[] = {WireOrder::abc, WireOrder::bca, WireOrder::cab,
                                 WireOrder::acb, WireOrder::cba, WireOrder::bac};
 
-/// The trapezoid of 120 degrees of a phase, in its mean over a sector (model.md 1).
+/// The mean over a sector of a phase's trapezoid of 120 degrees (model.md 1).
 double in_sector(int sector, std::size_t phase) {
   constexpr double of_a[6] = {1, 1, 0, -1, -1, 0};
   return of_a[(sector + 6 - 2 * static_cast<int>(phase)) % 6];
 }
 
-/// Through the pair that the table names flows, in each of the rotor's sectors, what makes most torque: of wires crossed in an
-/// odd number the other way round, for the board's own forward is the motor's backward then.
+/// The pair of the table makes the largest torque in each of the rotor's sectors. With an odd permutation of
+/// the wires the pair is reversed, because the board's forward is then the motor's backward.
 void expect_right_table(const CommissioningBench& bench, const control::HallLines& lines) {
   for (int sector = 0; sector < 6; ++sector) {
     const std::uint8_t probes =
@@ -138,7 +140,7 @@ void expect_right_table(const CommissioningBench& bench, const control::HallLine
   }
 }
 
-/// All 36 ways to plug both in, the eight ways to invert lines taking turns, both spacings.
+/// The test has all 36 orders of both plugs, the eight inversions of lines in turn, and both spacings.
 TEST(Commissioning, FindsEveryWiring) {
   InPart some;
   int plain = 0;
@@ -170,7 +172,7 @@ TEST(Commissioning, FindsEveryWiring) {
   EXPECT_LT(plain, 36);
 }
 
-/// And runs by it, as fast as its duty says but for friction, the way that is the board's forward.
+/// The drive runs by the table in the board's forward direction, at the duty's speed less friction.
 TEST(Commissioning, DrivesByTheTableThatItFound) {
   for (const rig::Wiring& wires : {rig::Wiring{}, rig::Wiring{WireOrder::bca, WireOrder::acb, 5},
                                    rig::Wiring{WireOrder::cba, WireOrder::cab, 2}})
@@ -195,7 +197,7 @@ TEST(Commissioning, SaysWhatIsWrong) {
   const control::CommissioningState& line = commission(dead_rig);
   EXPECT_EQ(line.probes.verdict, HallSurvey::dead_line);
   EXPECT_EQ(line.probes.dead_pins, 0b010);
-  EXPECT_EQ(line.phase, CommissioningPhase::done);  // the rest is found all the same
+  EXPECT_EQ(line.phase, CommissioningPhase::done);  // the rest is found nevertheless
 
   CommissioningBench open(commissioned_motors[0]);
   open.timeline.push_back({{}, rig::ActionKind::wire_break, 0.0});

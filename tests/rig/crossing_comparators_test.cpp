@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Comparators at the filtered terminals, with a rotor whose speed stays: a sine's zero crossings come atan(w tau)/w late
-// behind a lag, and offset and hysteresis shift them by an arc sine.
+// Comparators at the filtered terminals of a rotor at constant speed: a lag delays a sine's zero crossings by
+// atan(w tau)/w, and offset and hysteresis shift them by an arc sine.
 #include "sixstep/rig/crossing_comparators.hpp"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ using CapturingRig = rig::Rig<double, Capturing>;
 
 constexpr double tau = 50e-6, w = 250.0, w_e = 8 * w;
 
-/// A flywheel without friction: 250 rad/s for ever.
+/// A flywheel without friction: 250 rad/s without end.
 Board flywheel(const rig::CrossingComparators& comparators) {
   Board board = Board::duty(0.4);
   board.machine.back_emf = plant::BackEmf::sine;
@@ -50,8 +50,8 @@ std::vector<Edge> edges_of(const Board& board, double end_s) {
 
 double amplitude() { return 0.01675 * w / std::hypot(1, w_e * tau); }
 
-/// Of the edges from 2 ms, when the start is forgotten (40 time constants): each is one of `line`'s that the rotor reaches at
-/// angle_deg past the rising crossing of e_a at -30 degrees, each other line's a third of a turn later.
+/// Each edge from 2 ms on, when the start has decayed (40 time constants), is at its closed-form angle. Line
+/// a rises late after the crossing of e_a at -30 degrees, and each other line a third of a turn later.
 void expect_edges(const std::vector<Edge>& edges, double rises_late_rad, double falls_late_rad) {
   std::uint8_t before = 0;
   int seen = 0;
@@ -65,7 +65,7 @@ void expect_edges(const std::vector<Edge>& edges, double rises_late_rad, double 
     const double lag = std::atan(w_e * tau) + (rises ? rises_late_rad : falls_late_rad);
     const double at = base::pi / 180 * (-30 + 120 * leg + (rises ? 0 : 180)) + lag;
     const double off = std::remainder(w_e * edge.at_s - at, 2 * base::pi);
-    // Of a turn, what rounding of the voltage, 24 V, is at a slope of `amplitude` a radian.
+    // The bound in radians is the rounding of the voltage, 24 V, over the slope `amplitude`.
     EXPECT_LT(std::fabs(off), 1e-12 * 24 / amplitude()) << leg << rises << " " << edge.at_s;
     ++seen;
   }
@@ -85,16 +85,17 @@ TEST(CrossingComparators, OffsetAndHysteresisShiftTheEdges) {
   expect_edges(edges_of(board, 20e-3), rise, -fall);
 }
 
-/// Against the mean of all three the star point itself drops out, chopped or not, and with it the bus: what is left of a leg
-/// that floats is e_k less the mean of e, which a sine has none of.
+/// The mean of all three cancels the star point, chopped or not, and with it the bus: a floating leg shows
+/// e_k less the mean of e, which a sine does not have.
 TEST(CrossingComparators, ChoppingIsNotSeenAgainstTheVirtualStar) {
   Board board = flywheel({.lag_s = tau, .hysteresis_V = 0.1});
   board.start.speed_rad_s = 0;
   board.shaft.locked = true;
-  EXPECT_TRUE(edges_of(board, 20e-3).size() <= 2);  // of the driven pair, once
+  EXPECT_TRUE(edges_of(board, 20e-3).size() <= 2);  // of the driven pair, once each
 }
 
-/// Against half the bus it is: a floating leg at u_n = 0 or U/2 in turn means d U/2 and swings about that.
+/// Half the bus as reference does not cancel it: a floating leg at u_n = 0 or U/2 has the mean d U/2 and the
+/// ripple about it.
 TEST(CrossingComparators, HalfTheBusIsPassedAtEveryChopWhereTheRippleReachesIt) {
   Board board = flywheel({.lag_s = tau, .against = rig::CrossingReference::half_bus});
   board.shaft.locked = true;
@@ -103,7 +104,8 @@ TEST(CrossingComparators, HalfTheBusIsPassedAtEveryChopWhereTheRippleReachesIt) 
   board.timeline.clear();
   board.setpoint(0, 0.5);
   const std::vector<Edge> edges = edges_of(board, 3e-3);
-  // Terminal a, chopped at d = 1/2, has the steady state U/2 +- (U/2) tanh(T/(4 tau)): it passes U/2 in the middle of each half.
+  // Terminal a, chopped at d = 1/2, has the steady state U/2 +- (U/2) tanh(T/(4 tau)): it passes U/2 once in
+  // each half.
   double on = 0, off = 0;
   std::uint8_t before = 0;
   for (const Edge& edge : edges) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dead time over whole runs: reversals, full duty, Hall edges, every way to command the bridge.
+// The dead time holds over whole runs: reversals, full duty, Hall edges, every way to command the bridge.
 #include <gtest/gtest.h>
 
 #include "sixstep/rig/lean_rig.hpp"
@@ -19,7 +19,7 @@ struct GatesWatch {
   void segment(const rig::LeanRig<double>& rig, double) { watch.look(rig.plant().gates(), rig.now()); }
 };
 
-/// Steps of +-5 A while the rotor runs up, and a reversal at full voltage in between.
+/// Steps of +-5 A during the run-up, with a reversal at full voltage in between.
 Board reversing(Board b) {
   for (int n = 1; n < 6; ++n) b.setpoint(n * 3'000'000'000LL, n == 3 ? -40.0 : n % 2 == 0 ? 5.0 : -5.0);
   b.start.speed_rad_s = 400.0;
@@ -52,7 +52,7 @@ TEST(DeadTime, HoldsInEveryLegOverWholeRuns) {
         }
 }
 
-/// The leg that the current enters and the one it leaves by: both turn-ons of a commutation.
+/// A commutation has two turn-ons: of the leg that the current enters and of the leg that it leaves by.
 TEST(DeadTime, AtCommutationDelaysSourceAndSinkAlsoAtTheSampleAndOnlyWhereItIsAskedFor) {
   for (const bool at_sample : {false, true})
     for (const bool asked : {false, true}) {

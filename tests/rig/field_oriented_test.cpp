@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A field-oriented current controller on three legs against a trajectory of an independent brute-force solver
+// A field-oriented current controller on three legs equals a trajectory of an independent brute-force solver
 // in float128 (tests/reference/G15.csv): sine machine from rest, i_q* = +-4 A, PWM and control period 50 us,
-// centred, space vector, answered one period later.
+// centred, space vector, one period of delay.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ struct FieldOriented {
     const control::Dq<double> i =
         park(control::clarke(control::Abc<double>{s.i[0], s.i[1], s.i[2]}), direction(theta_d));
     const control::Dq<double> v{d.step(-i.d), q.step(i_q - i.q)};
-    // Its middle of effect lies a period and a half after the sample.
+    // The middle of the interval in which the voltage acts is a period and a half after the sample.
     return space_vector(inverse_clarke(inverse_park(v, direction(theta_d + 1.5 * T * w_e))), bus_V);
   }
 };
@@ -80,7 +80,7 @@ TEST(FieldOriented, FollowsTheReferenceTrajectory) {
     }
   }
   EXPECT_EQ(rows, 401);
-  // The rule of the reference: 1e-10 of a current's peak, 1e-12 of the others'.
+  // The bounds are the reference's: 1e-10 of a current's peak, 1e-12 of the others'.
   for (std::size_t k = 0; k < 5; ++k)
     EXPECT_LE(worst[k], (k < 3 ? 1e-10 : 1e-12) * peak[k]) << "column " << k + 1;
 }

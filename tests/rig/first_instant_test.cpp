@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What happens at the first instant of a run: dead time, the sector of a rotor on an edge, a setpoint that
-// slews.
+// The first instant of a run: dead time, the sector of a rotor on an edge, a setpoint that slews.
 #include <gtest/gtest.h>
 
 #include "sixstep/control/commutation.hpp"
@@ -12,7 +11,7 @@ using namespace sixstep;
 using namespace sixstep::testing;
 using control::Chopping;
 
-/// Current PI of the reference cases.
+/// The current PI of the reference cases.
 Board current_pi(double i_ref) {
   Board b;
   b.drive.mode = control::Mode::current;
@@ -33,12 +32,12 @@ TEST(FirstInstant, TheFirstTurnOnWaitsTheDeadTimeWithDutyPiAndHysteresis) {
       EXPECT_EQ(rig.plant().state().i[0], 0.0);
       ASSERT_EQ(run_to(rig, 2.5 * us), sim::Stop::end);
       EXPECT_EQ(rig.plant().gates(), a_to_b());
-      // 24 V for 0.5 us into 0.572 mH, less than 1e-3 of it lost in the resistance.
+      // The current equals 24 V for 0.5 us over 0.572 mH; the resistance takes less than 1e-3 of it.
       EXPECT_NEAR(rig.plant().state().i[0], 24.0 * 0.5 * us / b.L_tt(), 1e-3 * 24.0 * 0.5 * us / b.L_tt());
     }
 }
 
-/// The first samples see the sector that the rotor turns into: at 0 deg and backwards that is 5, c to b.
+/// The first samples show the sector that the rotor turns into: backwards at 0 deg it is 5, c to b.
 TEST(FirstInstant, OnASectorEdgeTurningBackwardsTheFirstTickUsesTheSectorThatIsEntered) {
   for (int edge = 0; edge < 6; ++edge)
     for (const double speed : {300.0, -300.0}) {
@@ -58,7 +57,8 @@ TEST(FirstInstant, OnASectorEdgeTurningBackwardsTheFirstTickUsesTheSectorThatIsE
     }
 }
 
-/// 2000 A/s: 0.06 A per tick from what is measured, and no more for a setpoint that jumps between two ticks.
+/// The setpoint slews at 2000 A/s: 0.06 A per tick from the measured current, also after a jump between two
+/// ticks.
 TEST(FirstInstant, ASetpointOfAnEventHysteresisSlewsOncePerTick) {
   Board b = locked(Board::hysteresis(4.0, 0.02, Chopping::soft));
   b.drive.extras.on = b.drive.extras.slews_setpoint = true;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The board's analogue front end in whole runs. The held motor: closed forms of what a first-order lag makes of exponentials.
-// The turning one, with its freewheeling and its floating leg: the lag's own integral, by quadrature over what the plant says of
-// each instant. Both kernels, crossed wires, delays.
+// The board's analogue front end in whole runs. With a held motor the outputs equal closed forms of a
+// first-order lag of exponentials. With a turning motor, its freewheeling and its floating leg, they equal
+// the lag's integral, by quadrature of the plant's values. Both kernels, crossed wires and delays are tested.
 #include "sixstep/rig/front_end.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-/// A drive with converters that is shown the terminals.
+/// A drive with converters that stores the terminal voltages it receives.
 struct Looking : rig::SensedDrive<double> {
   using SensedDrive::SensedDrive;
   plant::PerLeg<double> terminal_V{};
@@ -41,13 +41,13 @@ LookingRig rig_of(const Board& board) {
   return LookingRig(board.plant(), board.drive, board.board, board.timeline);
 }
 
-/// What a lag at x makes of the input a + b exp(-t/T).
+/// The output of a lag from x for the input a + b exp(-t/T).
 double lagged(double x, double a, double b, double T, double tau, double t) {
   const double particular = b / (1 - tau / T);
   return a + particular * std::exp(-t / T) + (x - a - particular) * std::exp(-t / tau);
 }
 
-/// 1e-12 of the largest value there is.
+/// The bound is 1e-12 of the largest value.
 constexpr double amp = 1e-12 * 24 / 1.03, volt = 1e-12 * 24;
 
 TEST(FrontEnd, AnAmplifierFollowsTheHeldMotorsCurrent) {
@@ -95,7 +95,7 @@ TEST(FrontEnd, ALinksAmplifierSeesPulses) {
   for (int n = 1; n <= 200; ++n) {
     x = lagged(x, I, i - I, T, tau, on_s);
     i = I + (i - I) * std::exp(-on_s / T);
-    x *= std::exp(-off_s / tau);  // freewheeling stays away from the link
+    x *= std::exp(-off_s / tau);  // freewheeling current does not flow through the link
     i *= std::exp(-off_s / T);
     ASSERT_EQ(run_to(rig, n * period_s), sim::Stop::end);
     EXPECT_NEAR(rig.front_end().reading().dc_link_A, x, amp) << n;
@@ -108,7 +108,7 @@ TEST(FrontEnd, DividersAverageAChoppedTerminal) {
   LookingRig rig = rig_of(held(duty, {.divider_s = tau}));
   const double on = std::exp(-duty * period_s / tau), off = std::exp(-(1 - duty) * period_s / tau);
   ASSERT_EQ(run_to(rig, period_s), sim::Stop::end);
-  // Before the run all three legs float between the rails.
+  // All three legs float between the rails before the run.
   EXPECT_NEAR(rig.front_end().reading().terminal_V[0], (24 + (12.0 - 24) * on) * off, volt);
   EXPECT_NEAR(rig.front_end().reading().terminal_V[1], 12 * on * off, volt);
   ASSERT_EQ(run_to(rig, 200 * period_s), sim::Stop::end);  // 60 time constants later
@@ -118,13 +118,13 @@ TEST(FrontEnd, DividersAverageAChoppedTerminal) {
   EXPECT_NEAR(seen.terminal_V[1], 0, volt);
   EXPECT_NEAR(seen.terminal_V[2], low / 2, volt);  // c floats at the mean of a and b
   EXPECT_EQ(seen.bus_V, 24);
-  // That is what the drive's tick was given.
+  // The drive's tick received the same value.
   ASSERT_EQ(run_to(rig, 200 * period_s + 1e-6), sim::Stop::end);
   EXPECT_NEAR(rig.firmware().terminal_V[2], low / 2, volt);
 }
 
-/// The lag's integral over whole segments: x exp(-z) + z int exp(-z (1 - r)) u(r) dr, of what plant.at() says, by ten pieces of
-/// five points; for z < 1 as here its error lies below rounding.
+/// The lag's integral over whole segments: x exp(-z) + z int exp(-z (1 - r)) u(r) dr, with u from plant.at(),
+/// in ten pieces of five points. For z < 1, as here, its error is below rounding.
 struct Quadrature {
   double tau;
   plant::PerLeg<double> x{}, i{};
@@ -236,13 +236,13 @@ TEST(FrontEnd, BelongsToTheBoardsLegs) {
   const rig::FrontEndReading& seen = rig.front_end().reading();
   const auto& i = rig.plant().state().i;
   for (std::size_t leg = 0; leg < 3; ++leg) EXPECT_NEAR(seen.i_A[leg], i[crossed.phase(leg)], amp) << leg;
-  EXPECT_NEAR(seen.i_A[0], -seen.i_A[1], amp);  // legs a and b are driven, whatever hangs at them
+  EXPECT_NEAR(seen.i_A[0], -seen.i_A[1], amp);  // legs a and b are driven, whichever phases they feed
   EXPECT_GT(seen.i_A[0], 1);
   EXPECT_NEAR(seen.terminal_V[0], 24, volt);
   EXPECT_NEAR(seen.terminal_V[1], 0, volt);
 }
 
-/// A board without lags is told what is, to the bit.
+/// A board without lags gives the drive the true values, bit for bit.
 TEST(FrontEnd, WithoutAnyItIsNotThere) {
   LookingRig rig = rig_of(held(0.5, {}));
   ASSERT_EQ(run_to(rig, 1e-3), sim::Stop::end);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Speed, position and sector from the angle between Hall edges, over rotors whose motion and probes are known in closed form.
+// Speed, position and sector from the angle between Hall edges equal the closed-form motion of rotor and
+// probes.
 #include "sixstep/rig/hall_interpolator.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +27,7 @@ rig::SensorsConfig reading(HallAngleFrom from, int edges) {
   return config;
 }
 
-/// Probes as mounted, and how late their lines are.
+/// The probes' mounting and their lines' delay.
 struct Probes {
   bool stray = true;
   double hysteresis_deg = 0, delay_s = 0;
@@ -37,17 +38,17 @@ struct Probes {
 };
 
 struct Errors {
-  double position_deg = 0, speed_rad_s = 0;  ///< largest, of the mechanical angle and speed
+  double position_deg = 0, speed_rad_s = 0;  ///< largest error of mechanical angle and speed
   int samples = 0, wrong_sectors = 0;
 };
 
-/// theta(t) in electrical degrees, monotonous in `direction`. Samples from `from_s` on are judged.
+/// theta(t) in electrical degrees, monotonous in `direction`. The test judges samples from `from_s` on.
 struct Bench {
   std::function<double(double)> theta_deg, w_rad_s;
   Probes probes{};
   int direction = 1;
 
-  /// When the rotor passes the angle: by halving.
+  /// The time at which the rotor passes the angle, by bisection.
   double passes_s(double angle_deg, double end_s) const {
     double low = 0, high = end_s;
     for (int n = 0; n < 60; ++n) {
@@ -94,8 +95,8 @@ rig::HallInterpolator<double> interpolator(const rig::SensorsConfig& config) {
 /// Electrical degrees in a tick of the timer.
 double tick_deg(double w) { return p * std::fabs(w) * 180 / base::pi / capture_Hz; }
 
-// A place is known to a tick at either end of its turn; the angle since an edge has its own tick, and the sector that its slope
-// comes of two ends, each to a tick of time and two of place.
+// The learned angle of an edge has an error of a tick at either end of its turn, the time since an edge one
+// tick, and the slope's sector two ends with a tick of time and two of angle each.
 TEST(HallInterpolator, LearnsWhereTheEdgesAreAndThenSeesTheTrueAngle) {
   for (const double w : {100.0, -100.0, 300.0}) {
     rig::SensorsConfig config = reading(HallAngleFrom::learned_edges, 6);
@@ -107,7 +108,7 @@ TEST(HallInterpolator, LearnsWhereTheEdgesAreAndThenSeesTheTrueAngle) {
     EXPECT_LT(learned.speed_rad_s, std::fabs(w) * 2 * (1 + 2) * tick_deg(w) / 55) << w;
     EXPECT_LE(learned.wrong_sectors, learned.samples * ticks * tick_deg(w) / 60) << w;
 
-    // Those places taken for granted: as wrong as the probes are, and a speed by 60/55 and 60/66.
+    // Assumed angles are as wrong as the probes, and the speed is wrong by 60/55 and 60/66.
     auto trusting = interpolator(reading(HallAngleFrom::angle, 1));
     const Errors trusted = steady(w).drive(trusting, 0.1, 0.2);
     EXPECT_GT(trusted.position_deg, 3.9 / p);
@@ -115,13 +116,13 @@ TEST(HallInterpolator, LearnsWhereTheEdgesAreAndThenSeesTheTrueAngle) {
   }
 }
 
-// Six edges are a turn, over which what they stray cancels.
+// Six edges are a turn, over which their angle errors cancel.
 TEST(HallInterpolator, SpeedOverSixEdgesNeedsNoPlaces) {
   auto six = interpolator(reading(HallAngleFrom::angle, 6));
   EXPECT_LT(steady(100).drive(six, 0.1, 0.2).speed_rad_s, 100 * 2 * tick_deg(100) / 360 + 100 * 0.1);
 }
 
-// Known from the data sheet they are taken off: the angle runs ahead of the lines.
+// The interpolator subtracts the data sheet's hysteresis and delay: its angle leads the lines.
 TEST(HallInterpolator, TakesOffHysteresisAndDelay) {
   for (const double w : {200.0, -200.0}) {
     rig::SensorsConfig config = reading(HallAngleFrom::angle, 1);
@@ -134,7 +135,7 @@ TEST(HallInterpolator, TakesOffHysteresisAndDelay) {
   }
 }
 
-// 5 % faster from turn to turn is no run to learn from; once it turns evenly the next eight turns are.
+// A speed that rises by 5 % per turn is unfit for learning; at constant speed the next eight turns are fit.
 TEST(HallInterpolator, LearnsNothingOfARotorThatSpeedsUp) {
   const double a = 400, until = 0.25, top = 20 + a * until;
   Bench bench;

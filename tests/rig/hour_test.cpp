@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A long time in open loop on an exact time base: one simulated second by default, SIXSTEP_SIMULATED_S of
-// them where that is set (the long tests: 3600, one hour).
+// A long run in open loop on an exact time base: one simulated second by default, or SIXSTEP_SIMULATED_S
+// seconds (the long tests: 3600, one hour).
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -21,7 +21,7 @@ std::int64_t seconds() {
 }
 constexpr std::int64_t second_ticks = 1'000'000'000'000;
 
-/// The shaft's way once more, as the integral of its speed.
+/// The shaft's angle as the integral of its speed.
 class Way {
  public:
   template <class Rig>
@@ -45,8 +45,8 @@ struct WayAndEnergy {
   }
 };
 
-/// Angle by sector count against the integral. The count knows each edge, which is found to 64 eps of a
-/// sector, the guard's noise, at worst: all of them to the same side would be 64 eps of the way.
+/// The angle by sector count equals the integral. Each edge is located to at worst 64 eps of a sector, the
+/// guard's noise: errors on the same side add up to 64 eps of the angle.
 template <class Rig>
 void expect_angle(const Rig& rig, double way_rad) {
   const auto& s = rig.plant().state();
@@ -78,7 +78,8 @@ TEST(OneHour, OfChoppingCountsEveryPeriod) {
   const sim::Instant end{seconds() * second_ticks, 0.0};
   ASSERT_EQ(sim::run(rig, end, way).stop, sim::Stop::end);
   EXPECT_EQ(rig.now(), end);
-  // What is due at the end is done: a tick on it, the off edge of a period that ends in its second half.
+  // The actions due at the end are done: a tick at it, and the off edge of a period that ends in its second
+  // half.
   const std::int64_t whole = end.ticks / period_ticks, rest = end.ticks % period_ticks;
   EXPECT_EQ(rig.event_count(EventKind::tick), whole + 1);
   EXPECT_EQ(rig.event_count(EventKind::pwm_edge), whole + (rest >= period_ticks / 2));

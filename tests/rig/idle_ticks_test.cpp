@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Open loop with a steady bridge skips control ticks; nobody may notice.
+// Open loop with a steady bridge skips control ticks without a change of the result.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-/// Full voltage from a current loop that is saturated throughout: every tick is simulated.
+/// Full voltage from a current loop that is always saturated: every tick is simulated.
 Board saturated() {
   Board b = Board::duty(0.0);
   b.timeline.clear();
@@ -33,8 +33,7 @@ TEST(IdleTicks, SkippingThemChangesRoundingOnly) {
   EXPECT_EQ(a.event_count(rig::EventKind::sector_edge), b.event_count(rig::EventKind::sector_edge));
 }
 
-/// Steps of the duty on ticks and between them: full, then half a period's worth less than full (never
-/// steady).
+/// The duty steps on ticks and between them, from full duty and from slightly less than full (never steady).
 void expect_steps_seen(std::int64_t at_ticks) {
   Board skipping = Board::duty(1.0), busy = Board::duty(1.0 - 1e-15);
   for (Board* b : {&skipping, &busy}) {
@@ -45,7 +44,7 @@ void expect_steps_seen(std::int64_t at_ticks) {
   ASSERT_EQ(run_to(a, 12e-3), sim::Stop::end);
   ASSERT_EQ(run_to(b, 12e-3), sim::Stop::end);
   EXPECT_EQ(a.modulator().command().duty, 0.25);
-  // A gap of 3e-8 ps per period more or less.
+  // The off-time of 3e-8 ps per period is the only difference.
   EXPECT_NEAR(a.plant().state().w, b.plant().state().w, 1e-12 * 700.0);
   EXPECT_NEAR(a.plant().state().i[0], b.plant().state().i[0], 1e-10 * 23.3);
 }

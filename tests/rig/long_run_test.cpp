@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Time and angle over very many PWM periods: 10^5 by default, SIXSTEP_PWM_PERIODS of them where that is set
-// (the long tests: 10^7, five minutes of simulated time).
+// Time and angle over many PWM periods: 10^5 by default, or SIXSTEP_PWM_PERIODS (the long tests: 10^7, five
+// minutes of simulated time).
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -23,22 +23,21 @@ void run_periods(Rig& rig, std::int64_t count) {
   sim::NoObserver none;
   ASSERT_EQ(sim::run(rig, sim::Instant{count * period_ticks, 0.0}, none).stop, sim::Stop::end);
   EXPECT_EQ(rig.now(), (sim::Instant{count * period_ticks, 0.0}));
-  EXPECT_EQ(rig.event_count(EventKind::tick), count + 1);  // the end's own tick is due at it
+  EXPECT_EQ(rig.event_count(EventKind::tick), count + 1);  // the tick at the end is due
 }
 
 TEST(Pitfall02_TimeAndAngleAreCounted, TimeDoesNotDriftWhileTheRotorIsLocked) {
-  // A duty whose off edge falls between the picoseconds, and what repeats from period to period repeats
-  // exactly.
+  // The duty's off edge falls between the picoseconds, and a periodic run repeats exactly.
   Board b = locked(Board::duty(1.0 / 3.0));
   auto rig = b.rig();
   run_periods(rig, periods());
   EXPECT_EQ(rig.event_count(EventKind::pwm_edge), periods());
   EXPECT_EQ(rig.modulator().turn_ons(), periods() + 1);
-  // The ripple's foot in closed form: i(0) = i(T), on over T/3 towards U/R_tt, off by the diodes' loop
-  // towards 0.
+  // The ripple's minimum has the closed form i(0) = i(T): on over T/3 towards U/R_tt, off through the diodes'
+  // loop towards 0.
   const double T = 30e-6, on = std::exp(-T / 3 / b.tau()), off = std::exp(-2 * T / 3 / b.tau());
   const double foot = 24.0 / b.R_tt() * (1 - on) * off / (1 - on * off);
-  // The compensated sums forget a rounding error after tau, some twenty periods: nothing adds up.
+  // A rounding error in the compensated sums decays with tau, some twenty periods: errors do not add up.
   EXPECT_NEAR(rig.plant().state().i[0], foot, 64 * eps * 24.0 / b.R_tt());
 }
 
@@ -54,9 +53,9 @@ TEST(Pitfall02_TimeAndAngleAreCounted, AngleDoesNotDriftAtASpeedThatNoTorqueChan
   EXPECT_EQ(s.w, 300.0);
   const long double turned = (static_cast<long double>(s.sector) * base::sector_rad + s.x) / 8;
   const long double exact = 300.0L * 30e-6L * static_cast<long double>(periods());
-  // Each edge is set exactly, and is found to 64 eps of a sector at worst: errors of one sector do not enter
-  // the next one's angle, only its time. They add up at random or not at all; 1e-12 would be 4e5 of them in a
-  // row.
+  // Each edge sets the angle exactly and is located to at worst 64 eps of a sector: an error in one sector
+  // changes the next one's time, not its angle. The errors add up at random at most; 1e-12 would be 4e5 of
+  // them in a row.
   EXPECT_NEAR(static_cast<double>(turned / exact), 1.0, 1e-12);
   const auto edges = static_cast<std::int64_t>(exact * 8 / base::sector_rad);
   EXPECT_NEAR(static_cast<double>(rig.event_count(EventKind::sector_edge)), static_cast<double>(edges), 1.0);

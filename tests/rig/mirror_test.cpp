@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Symmetries of motor, bridge and commutation: mirrored runs give mirrored results.
+// The symmetries of motor, bridge and commutation hold: mirrored runs give mirrored results.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,11 +12,12 @@ using namespace sixstep;
 using namespace sixstep::testing;
 using control::Chopping;
 
-/// What the solver may make of two starts that differ by rounding: its own accuracy (model.md 12, 6.5e-12 of
-/// currents).
+/// The bound on the difference of two runs whose starts differ by rounding is the solver's accuracy (model.md
+/// 12, 6.5e-12 of currents).
 constexpr double current_part = 1e-11, speed_part = 1e-12;
 
-/// theta -> 300 degrees - theta, w -> -w, d -> -d, T_load -> -T_load, b and c change places: same currents.
+/// theta -> 300 degrees - theta, w -> -w, d -> -d, T_load -> -T_load, and b and c exchanged give the same
+/// currents.
 Board mirrored(Board b) {
   b.start.angle_rad = at_electrical_deg(300.0) - b.start.angle_rad;
   b.start.speed_rad_s = -b.start.speed_rad_s;
@@ -24,7 +25,7 @@ Board mirrored(Board b) {
   return b;
 }
 
-/// A third of a turn: phases move on by one, a -> b -> c -> a.
+/// The motor turns by a third of a turn: the phases rotate, a -> b -> c -> a.
 Board rotated(Board b) {
   b.start.angle_rad += at_electrical_deg(120.0);
   return b;
@@ -73,7 +74,7 @@ TEST(Mirror, EveryPhaseIsLikeTheOthers) {
 }
 
 TEST(Mirror, HardChoppingDoesNotKnowTheRails) {
-  // theta -> theta + 180 degrees turns every current and EMF around; both switches of the pair chop together.
+  // theta -> theta + 180 degrees reverses every current and EMF; both switches of the pair chop together.
   const Board b = drive(Chopping::hard, false);
   Board half = b;
   half.start.angle_rad += at_electrical_deg(180.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// When six-step's switches wait for each other, edge by edge, and what a Hall edge hands over (model.md 3, 11). Ticks
-// are picoseconds, the period is 30 us.
+// The dead times of six-step's switches, edge by edge, and the state that a Hall edge passes on (model.md 3,
+// 11). Ticks are picoseconds, the period is 30 us.
 #include <gtest/gtest.h>
 
 #include "tests/support/maxon.hpp"
@@ -37,7 +37,7 @@ TEST(Modulator, APulseShorterThanTheDeadTimeNeverTurnsOn) {
   EXPECT_EQ(on(m), "a-b-");
 }
 
-/// model.md 11: the first command of a run is a change, of every leg, whatever gave it.
+/// The first command of a run changes every leg, whatever its source (model.md 11).
 TEST(Modulator, TheFirstTurnOnOfARunWaitsInEveryChoppingForDutyAndHysteresis) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
     for (const double duty : {0.5, 1.0})
@@ -52,7 +52,7 @@ TEST(Modulator, TheFirstTurnOnOfARunWaitsInEveryChoppingForDutyAndHysteresis) {
       }
 }
 
-/// Nothing within the leg was told to turn off.
+/// No switch of the leg received a turn-off command.
 TEST(Modulator, LaterTurnOnsOfSoftAndHardChoppingNeedNoDeadTime) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard}) {
     SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
@@ -78,8 +78,8 @@ TEST(Modulator, WithoutAChangeOfTheLegsCommandThereIsNoDeadTime) {
     }
 }
 
-/// 0.3 us of gap: the lower switch, told to turn on and off again, never came on; its turn-off counts all the
-/// same.
+/// The off-time is 0.3 us: the lower switch received on and off commands and never turned on, but its
+/// turn-off starts the dead time nevertheless.
 TEST(Modulator, AGapShorterThanTheDeadTimeKeepsTheUpperSwitchWaitingForAllOfIt) {
   SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
   m.start_period(at(0), command(0.99, Chopping::complementary));
@@ -104,7 +104,7 @@ TEST(Modulator, AReversalWaitsWhereTheSourceWasTheSink) {
   }
 }
 
-/// On-time of 98 % around the middle begins 0.3 us into the period, within the dead time of 1 us.
+/// A centred on-time of 98 % begins 0.3 us into the period, within the dead time of 1 us.
 TEST(Modulator, ACentredOnTimeWaitsAtAReversalToo) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard}) {
     SixStepModulator m{ModulatorConfig{.centre_aligned = true, .dead_ticks = 1e6}};
@@ -133,7 +133,7 @@ TEST(Modulator, AnotherChoppingWaitsForTheLowerSwitch) {
   }
 }
 
-/// The current of a passes from its upper to its lower switch: that is a change of a's command too.
+/// The current of a moves from its upper to its lower switch, which changes a's command too.
 TEST(Modulator, AReversalWaitsWhereTheSinkWasTheSource) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
     for (const double duty : {0.98, 1.0}) {
@@ -143,8 +143,7 @@ TEST(Modulator, AReversalWaitsWhereTheSinkWasTheSource) {
       while (m.next_edge() < at(period)) do_next(m);
       m.start_period(at(period), command(1.0, chopping, {Leg::b, Leg::a}));
       EXPECT_FALSE(m.gates().low[0]);
-      const std::int64_t off =
-          duty < 1.0 ? 29'400'000 : period;  // when a's upper switch was told to turn off
+      const std::int64_t off = duty < 1.0 ? 29'400'000 : period;  // the turn-off command of a's upper switch
       Instant now{};
       while (!m.gates().low[0]) now = do_next(m);
       EXPECT_EQ(now, at(off + 1'000'000));
@@ -225,7 +224,8 @@ TEST(Modulator, DeadTimeAtCommutationDelaysTheNewTurnOnsOnly) {
   EXPECT_EQ(on(m), "b+c-");
 }
 
-/// commutation = "sample": the pair moves on with a period's command. Leg a hands its state to b, c goes on.
+/// With commutation = "sample" the pair changes with a period's command. Leg a passes its state to b; c is
+/// unchanged.
 TEST(Modulator, ACommutationAtTheSampleMovesTheStateAsItIs) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
     for (const double duty : {0.5, 1.0}) {
@@ -234,7 +234,8 @@ TEST(Modulator, ACommutationAtTheSampleMovesTheStateAsItIs) {
       m.start_period(at(0), command(duty, chopping, {Leg::a, Leg::c}));
       while (m.next_edge() < at(period)) do_next(m);
       m.start_period(at(period), command(duty, chopping, {Leg::b, Leg::c}));
-      // Low until now, as in any period of complementary chopping: that is a change within the leg.
+      // The leg was low until now, as in any period of complementary chopping: the turn-on is a change within
+      // the leg.
       const bool waits = chopping == Chopping::complementary && duty < 1.0;
       EXPECT_EQ(on(m), waits ? "c-" : "b+c-");
       if (waits) {

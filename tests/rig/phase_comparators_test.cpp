@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One comparator per driven phase under hard chopping: with two legs conducting i_p = -i_n, so both reach
-// their level at the same instant. Whether the second one switches too may not be a matter of rounding.
+// There is one comparator per driven phase under hard chopping: two conducting legs have i_p = -i_n, so that
+// both reach their level at the same instant. Rounding must not decide whether the second one switches too.
 #include <gtest/gtest.h>
 
 #include "tests/support/board.hpp"
@@ -11,7 +11,8 @@ using namespace sixstep;
 using namespace sixstep::testing;
 using control::Chopping;
 
-/// How often the pair's gates were both off, or only the source's, after both had been on.
+/// Counts the states after both gates of the pair were on: both off, only the source's off, only the sink's
+/// off.
 struct FirstStates {
   bool both_on = false;
   int both_off = 0, source_off = 0, sink_off = 0;

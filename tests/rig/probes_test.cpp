@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hall probes as they are mounted (model.md 10): every edge of a rotor at constant speed comes where its equation says, in both
-// directions, late by the delay; lines of probes 60 degrees apart; glitches.
+// Mounted Hall probes (model.md 10): every edge of a rotor at constant speed comes at its equation's instant
+// plus the delay, in both directions. The lines of probes 60 degrees apart and glitches are tested too.
 #include "sixstep/rig/probes.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ using namespace sixstep::testing;
 constexpr double p = 8, w = 120.0;  // rad/s, mechanical
 constexpr double deg_s = p * w * 180 / base::pi;
 
-/// Turned from outside at w or -w; the bridge is off. Stuck lines and wires are as they should be.
+/// An external drive turns the rotor at w or -w; the bridge is off. Stuck lines and wires are in order.
 GeneralRig turned(const rig::ProbeGiven& probes, double sign, rig::Timeline timeline = {}) {
   GeneralSetup setup;
   setup.shaft.dynamometer = true;
@@ -38,7 +38,8 @@ struct Edge {
   int sector;  // 0..5, from here on
 };
 
-/// By the definition alone: which edges a rotor from angle 0 meets, forward or backward, and what lies behind each.
+/// The edges that a rotor from angle 0 passes, forward or backward, and the sectors behind them, by the
+/// definition alone.
 std::vector<Edge> edges_of(const plant::HallPlacement& placed, double sign, double until_s) {
   std::vector<Edge> edges;
   const int count = placed.own_deg.empty() ? 1 : static_cast<int>(placed.own_deg.size());
@@ -49,7 +50,7 @@ std::vector<Edge> edges_of(const plant::HallPlacement& placed, double sign, doub
   for (int n = -2000; n <= 2000; ++n) {
     const double place = 60.0 * n + placed.offset_deg + own(n);
     const double met = place + sign * placed.hysteresis_deg / 2;
-    // Forward the first edge met is the first beyond 0 without hysteresis; backward the last at or below 0.
+    // Forward the first edge is the first beyond 0 without hysteresis; backward it is the last at or below 0.
     if (sign > 0 ? place <= 0 : place > 0) continue;
     const double at_s = sign * met / deg_s;
     if (at_s < until_s) edges.push_back({at_s, (((sign > 0 ? n : n - 1) % 6) + 6) % 6});
@@ -95,7 +96,7 @@ TEST(Probes, AreLateByTheirDelay) {
     expect_edges({.placement = {2.0, 1.0, {}}, .delay_ticks = 37'000'000}, sign);
 }
 
-// A sector takes 187 us at 5600 rad/s electrical: with 200 us two edges are on their way at once.
+// A sector takes 187 us at 5600 rad/s electrical: a delay of 200 us holds two edges at once.
 TEST(Probes, KeepEdgesThatAreOnTheirWay) {
   rig::MountedProbes<double> probes({.delay_ticks = 200}, {});
   ASSERT_TRUE(probes.mounted());
@@ -112,7 +113,7 @@ TEST(Probes, KeepEdgesThatAreOnTheirWay) {
 
 TEST(Probes, SixtyDegreesApartShowTheirOwnCodes) {
   expect_edges({.placement = {3.0, 0.0, {}}, .spaced_60 = true}, 1.0);
-  // Not mounted askew they change with the sectors; the decoder of the chip has a table of its own.
+  // Probes without mounting errors change with the sectors; the chip's decoder has a table of its own.
   const rig::MountedProbes<double> probes({.spaced_60 = true}, {});
   EXPECT_FALSE(probes.mounted());
   for (int sector = 0; sector < 6; ++sector) {
@@ -138,7 +139,7 @@ TEST(Probes, GlitchesTurnOneLineOver) {
   }
 }
 
-// A rotor that swings to and fro across an edge: shown h/2 late in either direction, and never twice.
+// The rotor oscillates across an edge: the line changes h/2 late in either direction, and never twice.
 TEST(Probes, HysteresisHoldsAgainstARotorThatTurnsBack) {
   GeneralSetup setup;
   setup.shaft.dynamometer = true;
@@ -146,7 +147,7 @@ TEST(Probes, HysteresisHoldsAgainstARotorThatTurnsBack) {
   setup.probes.placement.hysteresis_deg = 20;
   Board board = Board::duty(0.0);
   board.drive.mode = control::Mode::off;
-  // Forward 75 degrees, back 30, forward 30, back 75.
+  // The rotor turns forward 75 degrees, back 30, forward 30, back 75.
   double t = 0, sign = 1;
   for (const double way : {75.0, 30.0, 30.0, 75.0}) {
     t += way / deg_s;
@@ -160,7 +161,8 @@ TEST(Probes, HysteresisHoldsAgainstARotorThatTurnsBack) {
     const int sector = control::sector_of_hall(rig.pins());
     if (sectors.empty() || sectors.back() != sector) sectors.push_back(sector);
   }
-  // 0 to 75: past 70 forward. Back to 45: past 50. Forward to 75: past 70. Back to 0: past 50, and 0 is not -10.
+  // The lines change at 70 forward on the way from 0 to 75, at 50 back to 45, at 70 forward to 75, and at 50
+  // back to 0; 0 is not -10.
   EXPECT_EQ(sectors, (std::vector<int>{0, 1, 0, 1, 0}));
 }
 

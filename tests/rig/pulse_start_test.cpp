@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pulses that ask where the rotor stands, on the virtual board: a wheel's hub with the two inductances that its sheet names
-// and iron that saturates, and the round 251601, of which nothing can be seen.
+// Pulses that detect the rotor's angle, on the virtual board: a wheel hub motor with two inductances from its
+// sheet and iron that saturates, and the motor 251601, whose rotor cannot be detected.
 #include <cstdio>
 #include <random>
 
@@ -76,9 +76,9 @@ double off_deg(const PulsePositionReading& reading, double electrical_deg) {
   return std::remainder(reading.electrical * (360.0 / 4294967296.0) - electrical_deg, 360.0);
 }
 
-/// The finer angle is off by half of its second harmonic's noise, 1/(signal over noise) rad of 2 x with two parts as large,
-/// and by what saturation adds to that harmonic: with m = L_d I/(2 I_sat L_S), the current's own excess of m/4 times 3 m/8
-/// beside L_D/L_S. Five times the noise of all hundred.
+/// The error of the finer angle has two parts: half of its second harmonic's noise, 1/(signal over noise) rad
+/// of 2 x with two equal components, and saturation. With m = L_d I/(2 I_sat L_S) the latter adds m/4 of the
+/// current times 3 m/8 over L_D/L_S. The bound has five times the noise of all hundred.
 TEST(PulseStart, SeesARotorThatIsSalientAndSaturatesAtAnyAngle) {
   const unsigned seed = 20'261'123;
   std::mt19937 draw(seed);
@@ -100,7 +100,7 @@ TEST(PulseStart, SeesARotorThatIsSalientAndSaturatesAtAnyAngle) {
     const double m = 520e-6 * I_A * 2 / std::sqrt(3.0) / (2 * 40.0 * 585e-6), saliency = 65.0 / 585.0;
     const double allowed_deg = (5 * 16.0 / reading.axis_16 + m * m * 3 / 32 / saliency) / 2 * 180 / base::pi;
     EXPECT_LT(std::fabs(off), allowed_deg) << deg;
-    // The sector is the right one wherever the rotor stands farther from an edge than that.
+    // The sector is right where the rotor is farther from an edge than the error.
     const double into = std::fmod(deg, 60.0);
     if (reading.sector == static_cast<int>(deg / 60)) continue;
     ++beyond_edges;
@@ -111,7 +111,7 @@ TEST(PulseStart, SeesARotorThatIsSalientAndSaturatesAtAnyAngle) {
       beyond_edges, worst);
 }
 
-/// From pulses to running, both ways, without an alignment.
+/// The drive starts from the pulses and runs in both directions without an alignment.
 TEST(PulseStart, StartsFromTheSectorThatItSaw) {
   for (const double sign : {1.0, -1.0})
     for (const double deg : {5.0, 83.0, 160.0, 239.0, 301.0}) {
@@ -135,7 +135,7 @@ TEST(PulseStart, StartsFromTheSectorThatItSaw) {
     }
 }
 
-/// A round rotor shows nothing, with noise and without; the drive says so, aligns and starts.
+/// A round rotor cannot be detected, with or without noise; the drive reports it, aligns and starts.
 TEST(PulseStart, RefusesTheRound251601AndAlignsIt) {
   for (const double noise_counts : {0.0, 1.0})
     for (int n = 0; n < 12; ++n) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Board timing (model.md 3, 4): delay, commutation at the sample, Hall edges, statistics, faults.
+// The board's timing (model.md 3, 4): delay, commutation at the sample, Hall edges, statistics, faults.
 #include "sixstep/rig/lean_rig.hpp"
 
 #include <gtest/gtest.h>
@@ -34,8 +34,8 @@ TEST(Rig, DelayedCommandTakesEffectOnePeriodAfterItsSample) {
 }
 
 TEST(Rig, ADelayedHysteresisWaitsForItsSampleToo) {
-  // A step between two samples is seen at 60 us and takes effect at 90 us; only without delay is it followed
-  // at once.
+  // The sample at 60 us sees a step between two samples, and the step takes effect at 90 us; without delay it
+  // takes effect at once.
   for (const bool delayed : {true, false}) {
     Board b = Board::hysteresis(5.0, 0.2, Chopping::soft);
     b.board.delayed = delayed;
@@ -63,7 +63,7 @@ TEST(Rig, ThePositionCountsDegreesOfTheShaftOverTurns) {
   }
 }
 
-/// Steady speed with the first edge at 40 us, between two ticks.
+/// The speed is constant, with the first edge at 40 us, between two ticks.
 Board edge_between_ticks() {
   Board b = Board::duty(0.9);
   b.shaft.J_kg_m2 = 1e9;
@@ -92,7 +92,7 @@ TEST(Rig, OrAtTheNextSample) {
 }
 
 TEST(Rig, AHallEdgeKeepsTheSignInEffectWhileAReversalWaits) {
-  // Sampled at 30 us, a reversal takes effect at 60 us; the edge at 40 us still belongs to the old sign.
+  // A reversal sampled at 30 us takes effect at 60 us; the edge at 40 us still uses the old sign.
   Board b = edge_between_ticks();
   b.board.delayed = true;
   b.setpoint(15'000'000, -0.9);
@@ -104,12 +104,13 @@ TEST(Rig, AHallEdgeKeepsTheSignInEffectWhileAReversalWaits) {
 }
 
 TEST(Rig, DutyIsFeltAsTheMeanVoltage) {
-  // Locked, soft chopping, continuous current: mean current d U/R_tt at steady state, ripple around it.
+  // Locked rotor, soft chopping, continuous current: the steady state has the mean current d U/R_tt with a
+  // ripple.
   Board b = Board::duty(0.5);
   b.shaft.locked = true;
   b.start.angle_rad = 0.02;
   auto rig = b.rig();
-  ASSERT_EQ(run_to(rig, 20e-3 - 15e-6), sim::Stop::end);  // an off edge: the ripple's top
+  ASSERT_EQ(run_to(rig, 20e-3 - 15e-6), sim::Stop::end);  // an off edge: the ripple's maximum
   const double tau = b.tau(), full = 24.0 / b.R_tt();
   const double top = full * std::expm1(-15e-6 / tau) / std::expm1(-30e-6 / tau);
   const auto periods = static_cast<int>(20e-3 / 30e-6);
@@ -126,8 +127,8 @@ TEST(Rig, TicksAndEdgesAreCounted) {
   EXPECT_EQ(rig.modulator().turn_ons(), 101);
 }
 
-/// A statistic called "diode starts to conduct" must not depend on whether the start was located or fell on a
-/// PWM edge; the reference trajectory R3 counts 1600.
+/// The statistic "diode starts to conduct" must not depend on whether the start was located or fell on a PWM
+/// edge; the reference trajectory R3 counts 1600.
 TEST(Rig, CountsEveryStartOfADiode) {
   const Board b = Board::duty(0.5);
   auto rig = b.rig();
@@ -135,13 +136,13 @@ TEST(Rig, CountsEveryStartOfADiode) {
   EXPECT_EQ(rig.plant().diodes_started(), 1600);
 }
 
-/// Switchings of a comparator that a step of the reference or a sector edge makes due at once count too.
+/// The count includes switchings that a step of the reference or a sector edge causes at once.
 TEST(Rig, CountsEverySwitchingOfAComparator) {
   Board b = Board::hysteresis(5.0, 0.2, Chopping::soft);
   for (int n = 1; n < 4; ++n) b.setpoint(n * 5'000'000'000LL, n % 2 == 0 ? 5.0 : -5.0);
   auto rig = b.rig();
   ASSERT_EQ(run_to(rig, 20e-3 - 1e-12), sim::Stop::end);
-  // R7s: 332 switchings off; every one but the last few is followed by one on.
+  // R7s has 332 switchings off; every one but the last few is followed by one on.
   const std::int64_t off = 332;
   EXPECT_NEAR(static_cast<double>(rig.event_count(EventKind::comparator)), 2.0 * off, 1.0);
 }
@@ -163,7 +164,7 @@ TEST(Rig, HysteresisSwitchesAsOftenAsTheReference) {
   Offs offs;
   ASSERT_EQ(run_to(rig, 20e-3, offs), sim::Stop::end);
   EXPECT_EQ(offs.at_s.size(), 332u);
-  // R7s, as the mean distance of two switchings in each quarter: 19.65, 14.74, 19.70, 14.70 kHz.
+  // R7s has the mean switching frequencies 19.65, 14.74, 19.70, 14.70 kHz in its quarters.
   const double reference[] = {19.65e3, 14.74e3, 19.70e3, 14.70e3};
   for (int quarter = 0; quarter < 4; ++quarter) {
     double first = 0, last = 0;

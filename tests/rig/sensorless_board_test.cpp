@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sensorless drive on a board as one is built (support/sensorless_board.hpp): starts, speeds and throttle of three motors of the
-// library, both ways, chopped softly and complementarily, by crossings and by observers. In all of it the rotor is never lost.
+// The sensorless drive on a realistic board (support/sensorless_board.hpp): starts, speeds and throttle of
+// three motors of the library, in both directions, with soft and complementary chopping, by crossings and by
+// observers. The drive never loses the rotor.
 #include "tests/support/sensorless_board.hpp"
 
 #include <random>
@@ -36,7 +37,8 @@ TEST(SensorlessBoard, HoldsEverySpeedBothWays) {
       }
 }
 
-/// Full throttle and back to a tenth of the no-load speed, twice; what is asked for comes at once, and the chip slews it.
+/// Runs at full throttle and at a tenth of the no-load speed, twice; the setpoint steps, and the chip slews
+/// it.
 void expect_throttle(SensorlessBench& bench, int sign, const std::string& where) {
   const double low = tenth_of_no_load(bench), from_s = aligned_s(bench) + 0.6;
   bench.setpoint(0, sign * low);
@@ -47,7 +49,8 @@ void expect_throttle(SensorlessBench& bench, int sign, const std::string& where)
   const double fast = std::fabs(rig.plant().state().w);
   EXPECT_EQ(wrong_looks(rig, from_s + 1.6, 0.3e-3), 0) << where;
   EXPECT_EQ(rig.firmware().rotor().lock.last, LockLoss::none) << where;
-  // Full duty leaves the load's drop of the no-load speed; where a load or the bridge brakes, it has slowed down again.
+  // Full duty reaches the no-load speed less the load's drop; where a load or the bridge brakes, the rotor
+  // slows down again.
   const double R_tt = 2 * (bench.motor.machine.R_ohm + bench.devices.R_on_ohm);
   const double full =
       bench.no_load_rad_s() * (1 - bench.load_part * bench.nominal_A() * R_tt / bench.spec.bus_V);
@@ -81,7 +84,7 @@ TEST(SensorlessBoard, ObserversThrottleTheHub) {
     }
 }
 
-/// The chip slews the duty (sensorless_start.hpp): from a tenth to all of it by the closed form.
+/// The chip slews the duty (sensorless_start.hpp): from a tenth to full duty it takes the closed form's time.
 TEST(SensorlessBoard, TellsHowLongTheThrottleTakes) {
   for (const SensorlessMotor& motor : three_motors) {
     SensorlessBench bench(motor, Mode::duty);
@@ -102,8 +105,8 @@ TEST(SensorlessBoard, TellsHowLongTheThrottleTakes) {
   }
 }
 
-/// One count of noise in the amplifiers is several thresholds of a slow rotor's back-EMF behind L/T: where no current flows,
-/// none is taken.
+/// One count of noise in the amplifiers, times L/T, is several thresholds of a slow rotor's back-EMF: the
+/// observer takes a phase without current as zero.
 TEST(SensorlessBoard, ObserversHoldFivePercent) {
   int n = 0;
   for (const SensorlessMotor& motor : three_motors)
@@ -122,7 +125,8 @@ TEST(SensorlessBoard, ObserversHoldFivePercent) {
     }
 }
 
-/// A speed step from so much of the no-load speed to so much of it; how often the rotor was lost, and caught.
+/// The losses of the rotor during a speed step between two parts of the no-load speed; the drive catches the
+/// rotor again.
 int losses_of_step(SensorlessBench& bench, double from, double to, const std::string& where) {
   const double no_load = bench.no_load_rad_s(), step_s = aligned_s(bench) + 0.7;
   bench.setpoint(0, from * no_load);
@@ -136,7 +140,8 @@ int losses_of_step(SensorlessBench& bench, double from, double to, const std::st
   return rig.firmware().diagnosis().losses;
 }
 
-/// What the page says cannot be held: at the current's limit an old current may outlast a crossing. The rotor is caught again.
+/// The page excludes this case: at the current's limit an old current may outlast a crossing. The drive
+/// catches the rotor again.
 TEST(SensorlessBoard, ASpeedStepMayLoseTheRotorOnce) {
   for (const SensorlessMotor& motor : three_motors) {
     int up = 0, down = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sensorless drive by the captured edges of comparators at its filtered terminals: where their crossings lie, by the closed form,
-// and that it starts, holds its speeds and names its losses as by samples.
+// The sensorless drive by captured edges of comparators at its filtered terminals: the crossings are at the
+// closed form's angles, and the drive starts, holds its speeds and names its losses as by samples.
 #include "tests/support/sensorless_comparators.hpp"
 #include "tests/support/in_part.hpp"
 #include "tests/support/seen_crossings.hpp"
@@ -22,8 +22,9 @@ double slope_V_rad(const SensorlessBench& bench, CrossingReference against, doub
          base::sector_rad;
 }
 
-/// At full duty nothing chops: the lag, the offset of the leg that floats and half the hysteresis, and of the samples nothing. Two
-/// ticks of the timer are left, and 1e-3 of it for a speed that the torque's ripple moves.
+/// Full duty does not chop: an edge is late by the lag, the floating leg's offset and half the hysteresis,
+/// without a part from samples. The bound is two ticks of the timer, and 1e-3 of the delay for the torque
+/// ripple's effect on the speed.
 TEST(SensorlessComparators, AnEdgeComesLateByLagOffsetAndHysteresis) {
   SensorlessBench bench(three_motors[0], control::Mode::duty);
   bench.spec.capture_Hz = bench.board.sensors.capture_Hz = 64e6;
@@ -31,7 +32,7 @@ TEST(SensorlessComparators, AnEdgeComesLateByLagOffsetAndHysteresis) {
   bench.load_part = 0.3;
   for (const CrossingReference against : references) {
     comparators.against = against;
-    // Against half the bus no pulse is left at full duty that a filter would have to settle in.
+    // Full duty against half the bus has no pulse after which a filter would have to settle.
     capture_crossings(bench, comparators, against == CrossingReference::half_bus ? 0.8 : 0.3);
     bench.timeline.clear();
     bench.setpoint(0, 1);
@@ -48,8 +49,8 @@ TEST(SensorlessComparators, AnEdgeComesLateByLagOffsetAndHysteresis) {
   }
 }
 
-/// Hard chopping leaves the star point where it is, and an edge comes tau late. In soft and complementary chopping a diode hands a
-/// negative back-EMF on to the next pulse: up to a pause later.
+/// Hard chopping does not move the star point, and an edge is late by tau. With soft and complementary
+/// chopping a diode delays a negative back-EMF to the next pulse: by up to an off-time more.
 TEST(SensorlessComparators, ChoppingDelaysAnEdgeByAPauseAtMost) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
     for (const double part : {0.1, 0.3, 0.6}) {
@@ -70,7 +71,7 @@ TEST(SensorlessComparators, ChoppingDelaysAnEdgeByAPauseAtMost) {
     }
 }
 
-/// Samples of 8 bits lose up to half a step each; edges on the same board do not.
+/// Samples of 8 bits have errors of up to half a step each; edges on the same board do not.
 TEST(SensorlessComparators, CommutatesEvenlyWhereSamplesAreRounded) {
   const auto spread_deg = [](bool by_edges) {
     SensorlessBench bench(three_motors[0], control::Mode::speed, Chopping::hard);
@@ -106,7 +107,8 @@ TEST(SensorlessComparators, HoldsEverySpeedBothWays) {
   int n = 0;
   for (const SensorlessMotor& motor : three_motors)
     for (const CrossingReference against : references)
-      // What is hardest of each: the slowest speed, where the back-EMF is least, without a load, and a high one against it.
+      // The hardest cases are the slowest speed without a load, where the back-EMF is smallest, and a high
+      // speed against a load.
       for (const double load : {0.0, 0.5}) {
         const double slowest = against == CrossingReference::half_bus ? 0.3 : 0.06,
                      part = load > 0 ? 0.8 : slowest;
@@ -120,7 +122,7 @@ TEST(SensorlessComparators, HoldsEverySpeedBothWays) {
       }
 }
 
-/// So slow a control that a sector near the no-load speed has but three periods of it.
+/// The control is so slow that a sector near the no-load speed has only three periods.
 TEST(SensorlessComparators, ThreePeriodsASectorAreEnough) {
   for (const SensorlessMotor& motor : three_motors)
     for (const int sign : {1, -1}) {
@@ -141,7 +143,7 @@ TEST(SensorlessComparators, ThreePeriodsASectorAreEnough) {
     }
 }
 
-/// What is provoked at the plant has the name that the samples give it (sensorless_names_test.cpp).
+/// The loss has the same name as with samples (sensorless_names_test.cpp).
 LockLoss named(SensorlessBench& bench, double cause_s) {
   auto rig = bench.rig();
   run_until(rig, cause_s);
@@ -166,7 +168,7 @@ TEST(SensorlessComparators, NamesWhatWentWrong) {
       const double cause_s = aligned_s(held) + 0.6;
       held.act(cause_s, rig::ActionKind::shaft_locked, 1);
       EXPECT_EQ(named(held, cause_s), LockLoss::masked_crossing) << where;
-      if (against == CrossingReference::half_bus) continue;  // handed over at twice that speed
+      if (against == CrossingReference::half_bus) continue;  // its handover is at twice that speed
       SensorlessBench struck = bench_at(-0.1);
       const double blow_s = 4 * struck.spec.period_s;
       struck.act(cause_s, rig::ActionKind::load_torque,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dividers of the terminals that are not alike: by how much a crossing is seen beside its place, and that the threshold which
-// `mismatch` makes keeps the rotor.
+// Unequal dividers of the terminals shift a crossing by the closed form, and the threshold from `mismatch`
+// keeps the rotor.
 #include "tests/support/seen_crossings.hpp"
 
 namespace SIXSTEP_TEST_FILE {
@@ -10,7 +10,8 @@ using namespace sixstep::testing;
 
 constexpr double gain_error[] = {0.01, -0.006, 0.003};
 
-/// At the crossing u_f is U/2 and the legs stand at U and 0: y = U (g_f - g_high), and falls through 4 K_e w in a sector.
+/// The crossing has u_f = U/2 with the legs at U and 0: y = U (g_f - g_high), and y falls through 4 K_e w in
+/// a sector.
 double shift_rad(const SensorlessBench& bench, std::uint8_t sector, double w) {
   const std::size_t f = control::floating_leg(sector);
   const auto high = static_cast<std::size_t>(control::positive_pair(sector).source);
@@ -30,7 +31,7 @@ TEST(SensorlessDividers, ACrossingIsSeenBesideItsPlaceByMismatchTimesBusOverSlop
   const double step_rad = 2 * 30.0 / 4096 / (4 * bench.motor.machine.K_e_V_s * w) * base::sector_rad;
   for (std::uint8_t k = 0; k < 6; ++k) {
     ASSERT_GT(seen.count[k], 50);
-    // Of the mean a step of the converter is left, of each of the three legs at their rails.
+    // The mean's error is a step of the converter, of each of the three legs at their rails.
     EXPECT_NEAR(seen.late_rad[k], shift_rad(bench, k, w), step_rad) << int(k);
   }
 }

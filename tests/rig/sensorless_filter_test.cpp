@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sensorless drive behind low-passes on terminals and bus: through equal lags a crossing is seen tau late, and the design's
-// lead takes that off the commutation.
+// The sensorless drive behind low-passes on terminals and bus: equal lags delay a crossing by tau, and the
+// design's lead removes that delay from the commutation.
 #include "tests/support/sensorless.hpp"
 
 namespace SIXSTEP_TEST_FILE {
@@ -9,7 +9,8 @@ using namespace sixstep;
 using namespace sixstep::testing;
 using control::LockLoss;
 
-/// A converter and a timer fine enough to see what a filter does; the filter 1.1 times as fast as it has to be.
+/// The converter and the timer resolve a filter's effect; the filter's bandwidth is 1.1 times the required
+/// one.
 SensorlessBench bench_of(const SensorlessMotor& motor, bool filtered,
                          control::Chopping chopping = control::Chopping::soft) {
   SensorlessBench bench(motor, control::Mode::speed, chopping);
@@ -26,7 +27,8 @@ SensorlessBench bench_of(const SensorlessMotor& motor, bool filtered,
 
 constexpr int commutations = 600;
 
-/// Behind the sector's edge, in the mean of so many commutations at a speed that is held; ahead of it negative.
+/// The mean delay of the commutations behind the sector's edge at constant speed; ahead of it the value is
+/// negative.
 double mean_late_s(SensorlessBench bench, double w) {
   bench.setpoint(0, w);
   auto rig = bench.rig();
@@ -48,8 +50,9 @@ double mean_late_s(SensorlessBench bench, double w) {
   return sum_s / commutations;
 }
 
-/// What is left: 3 % of tau, for the legs are 3.5 tau behind their edge; a tick; and the mean of that many crossings, each of
-/// which is rounded by a step of the converter up or down, y falling through 4 K_e w in a sector.
+/// The remaining error: 3 % of tau, because the legs are 3.5 tau behind their edge; a tick; and the mean of
+/// the crossings' rounding, a step of the converter up or down each, with y falling through 4 K_e w in a
+/// sector.
 double remainder_s(const SensorlessBench& bench, double w) {
   const double lsb_V = 1.25 * bench.spec.bus_V / 4096, K_e = bench.motor.machine.K_e_V_s;
   const double sector_s = base::sector_rad / (bench.motor.machine.pole_pairs * w);
@@ -71,7 +74,7 @@ TEST(SensorlessFilter, TheLeadTakesTheFiltersLatenessOff) {
     }
 }
 
-/// The slowest filter that soft chopping stands, in both ways of chopping.
+/// The slowest filter that soft chopping allows, with both kinds of chopping.
 TEST(SensorlessFilter, StartsAndHoldsBehindTheSlowestFilter) {
   for (const SensorlessMotor& motor : three_motors)
     for (const control::Chopping chopping : {control::Chopping::soft, control::Chopping::hard})
@@ -89,7 +92,7 @@ TEST(SensorlessFilter, StartsAndHoldsBehindTheSlowestFilter) {
       }
 }
 
-/// What the blanking is for: a leg that has just been let go looks like one that has crossed.
+/// Without blanking a leg that has just been switched off looks like one that has crossed.
 TEST(SensorlessFilter, WithoutItsBlankingTheRotorIsLost) {
   SensorlessBench bench = bench_of(three_motors[0], true);
   bench.chip.sensorless.crossing.margin_ticks = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Losses of a sensorless drive and their names, rotors that spin already, and Hall probes beside it.
+// A sensorless drive's losses and their names, rotors that already spin, and Hall probes as a second source.
 #include "tests/support/sensorless.hpp"
 
 namespace SIXSTEP_TEST_FILE {
@@ -15,7 +15,8 @@ TEST(Sensorless, CatchesASpinningRotor) {
       SensorlessBench bench(motor);
       bench.at.speed_rad_s = part * bench.no_load_rad_s();
       bench.at.angle_rad = 1.0;
-      // Soft chopping cannot limit a braking current near the no-load speed: that one is held, the others are slowed down.
+      // Soft chopping cannot limit a braking current near the no-load speed: the test holds that speed and
+      // slows down the others.
       bench.setpoint(0, (std::fabs(part) > 0.8 ? 1.0 : 0.6) * part * bench.no_load_rad_s());
       auto rig = bench.rig();
       const double listen_s = bench.start.rotor.spin.listen_ticks / bench.spec.capture_Hz;
@@ -43,11 +44,12 @@ TEST(Sensorless, BrakesARotorThatSpinsTheOtherWayAndTurnsItRound) {
   }
 }
 
-/// Running at half the no-load speed when `cause` comes; what it was taken for, and after how many commutations.
+/// The rotor runs at half the no-load speed at the cause: the name of the loss, and the commutations until
+/// it.
 struct Lost {
   LockLoss named = LockLoss::none;
   int commutations = 0;
-  double sectors = 0.0;  ///< of time
+  double sectors = 0.0;  ///< the time in sectors
 };
 
 template <class Firmware = rig::SensorlessDrive<double>>
@@ -90,7 +92,7 @@ TEST(Sensorless, ALoadThatTurnsTheRotorBackIsSeenWithinTwoCommutations) {
     bench.act(cause_s, rig::ActionKind::load_torque, 10 * bench.nominal_A() * bench.motor.K_t_Nm_A);
     auto rig = bench.rig();
     run_until(rig, cause_s);
-    // As long as the rotor turns forward the drive may follow it; from then on two commutations.
+    // The drive may follow the rotor while it turns forward; from then on it has two commutations.
     ASSERT_GT(
         run_until_true(rig, cause_s + 0.3, bench.spec.period_s, [&] { return rig.plant().state().w <= 0; }),
         0);
@@ -147,7 +149,7 @@ TEST(Sensorless, GivesUpAfterSoManyLossesAndIsClearedBySettingNothing) {
   EXPECT_EQ(phase(rig), SensorlessPhase::running);
 }
 
-/// With Hall probes, begun on `source`.
+/// The bench has Hall probes and begins with `source`.
 SensorlessBench with_probes(const SensorlessMotor& motor, control::RotorSource source) {
   SensorlessBench bench(motor);
   bench.chip.source = {.has_hall = true, .wanted = source};
@@ -155,7 +157,7 @@ SensorlessBench with_probes(const SensorlessMotor& motor, control::RotorSource s
   return bench;
 }
 
-/// The chip is told another source.
+/// Changes the chip's rotor source.
 void choose(SensorlessBench& bench, rig::Rig<double, rig::SensorlessDrive<double>>::Tunings& tunings,
             double t_s, control::RotorSource source) {
   tunings.push_back({{.drive = bench.chip}, 1.0});
@@ -163,7 +165,7 @@ void choose(SensorlessBench& bench, rig::Rig<double, rig::SensorlessDrive<double
   bench.act(t_s, rig::ActionKind::retune, static_cast<double>(tunings.size() - 1));
 }
 
-/// Smallest and largest speed of a stretch.
+/// The smallest and the largest speed in an interval.
 template <class Rig>
 std::pair<double, double> speeds(Rig& rig, double to_s, double every_s) {
   double low = rig.plant().state().w, high = low;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a loss of the lock is called, provoked at the plant: an old current that outlasts the crossing, a rotor that is struck
-// and stands elsewhere, a rotor that is held, a divider that breaks. Both ways, by crossings and by an observer, in double and q15.
+// The names of losses that the plant provokes: an old current that outlasts the crossing, a rotor struck into
+// another sector, a held rotor, a broken divider. Both directions run by crossings in double and by an
+// observer in q15.
 #include "tests/support/sensorless_board.hpp"
 
 #include <array>
@@ -16,11 +17,11 @@ using control::SensorlessPhase;
 
 struct Lost {
   LockLoss named = LockLoss::none;
-  bool caused = false;   ///< before it was named
+  bool caused = false;   ///< before the loss was named
   int commutations = 0;  ///< since the cause
 };
 
-/// Runs on until the rotor is lost. `caused`: whether the plant shows the cause by now.
+/// Runs until the drive loses the rotor. `caused`: whether the plant shows the cause by then.
 template <class Rig, class Caused>
 Lost lost(Rig&& rig, const SensorlessBench& bench, double cause_s, Caused&& caused) {
   run_until(rig, cause_s);
@@ -41,7 +42,7 @@ Lost lost(Rig&& rig, const SensorlessBench& bench, double cause_s, Caused&& caus
   return found;
 }
 
-/// In double by the crossings, in q15 by flux linkage.
+/// The drive runs by the crossings in double, and by flux linkage in q15.
 template <class Caused>
 void expect_name(const SensorlessBench& bench, double cause_s, LockLoss name, const std::string& where,
                  Caused&& caused) {
@@ -73,8 +74,8 @@ bool crossing_is_hidden(const Rig& rig, double least_A) {
   return passed && std::fabs(state.i[control::floating_leg(rotor.sector)]) > least_A;
 }
 
-/// A winding with so much inductance that the current's limit takes half a sector at half the no-load speed to run out,
-/// L I = U t, is told to speed up.
+/// The inductance is so large that the limit's current decays over half a sector at half the no-load speed, L
+/// I = U t. The drive then speeds up.
 TEST(SensorlessNames, AnOldCurrentThatOutlastsTheCrossingIsALongDemagnetisation) {
   for (const SensorlessMotor& motor : three_motors)
     for (const int sign : {1, -1}) {
@@ -91,8 +92,8 @@ TEST(SensorlessNames, AnOldCurrentThatOutlastsTheCrossingIsALongDemagnetisation)
     }
 }
 
-/// A blow of four control periods, in any part of a sector, takes the rotor from a tenth of its no-load speed to seven tenths: it
-/// runs through sectors that the drive still waits for.
+/// A blow of four control periods, in any part of a sector, accelerates the rotor from a tenth of its no-load
+/// speed to seven tenths: it turns through sectors for which the drive still waits.
 TEST(SensorlessNames, ARotorThatIsStruckStandsInAWrongSector) {
   int n = 0;
   for (const SensorlessMotor& motor : three_motors)
@@ -122,9 +123,9 @@ TEST(SensorlessNames, AHeldRotorMasksItsCrossing) {
 
 constexpr double broken_s = 1.4;
 
-/// The divider of one leg breaks on the built board: it reads 0, which is wrong once the terminal stands elsewhere, and matters
-/// unless the leg floats behind its crossing. Where it floats ahead of one that falls, 0 is that crossing to the chip, and is
-/// right for the two sectors that follow.
+/// The divider of one leg breaks on the board and reads 0. The reading is wrong once the terminal has another
+/// voltage, and matters unless the leg floats behind its crossing. Ahead of a falling crossing the chip takes
+/// 0 for that crossing, which is right for the next two sectors.
 template <class Scalar, std::size_t leg>
 struct BrokenDivider : BuiltDrive<Scalar> {
   using BuiltDrive<Scalar>::BuiltDrive;
@@ -171,8 +172,8 @@ void expect_divider_named(const SensorlessMotor& motor, int sign, Follow followe
   EXPECT_LE(l.commutations, looks_crossed ? 3 : 2) << where;
 }
 
-/// Where the leg is driven high its reading contradicts the command: terminals. Where it floats, 0 is a diode's rail, which
-/// hides the crossing, or a back-EMF that does not come.
+/// A reading of a leg driven high contradicts the command: terminals. A floating leg's 0 is a diode's rail,
+/// which hides the crossing, or a back-EMF that does not come.
 TEST(SensorlessNames, ADividerThatBreaksIsOneOfThree) {
   int n = 0;
   for (const SensorlessMotor& motor : three_motors)

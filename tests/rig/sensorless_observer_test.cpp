@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Back-EMF observers in place of the crossing finder, on the virtual board with motors of the library: where they commutate
-// is held to where the rotor's sectors end, on motors whose R, L and K_e are not those that were designed for.
+// Back-EMF observers replace the crossing finder on the virtual board with motors of the library: their
+// commutations are compared with the ends of the rotor's sectors, on motors whose R, L and K_e differ from
+// the design's.
 #include "tests/support/in_part.hpp"
 #include "tests/support/observers.hpp"
 
@@ -32,8 +33,9 @@ TEST(SensorlessObserver, HoldsFromFivePercentOnAndCommutatesAtTheSectorsEdge) {
           const double w = part * bench.no_load_rad_s();
           bench.setpoint(0, w);
           auto rig = bench.rig();
-          // The hub passes its reference and comes back to it without a load: where its torque changes sign, at 0.8 s, one
-          // commutation of the sliding mode is 5 degrees off. What is held is looked at behind that.
+          // The hub overshoots its reference and returns to it without a load: where its torque changes sign,
+          // at 0.8 s, one commutation of the sliding mode is 5 degrees off. The test judges the commutations
+          // after that.
           run_until(rig, aligned_s(bench) + 1.0);
           EXPECT_EQ(phase(rig), SensorlessPhase::running);
           const double turn_s = 2 * base::pi / (bench.motor.machine.pole_pairs * w);
@@ -49,7 +51,7 @@ TEST(SensorlessObserver, HoldsFromFivePercentOnAndCommutatesAtTheSectorsEdge) {
         }
 }
 
-/// What a motor's R, L and K_e are, of what its sheet says.
+/// A motor's R, L and K_e over those of its sheet.
 struct Strayed {
   double R, L, K_e;
 };
@@ -58,7 +60,8 @@ constexpr Strayed strayed[] = {{1.3, 1, 1},     {0.7, 1, 1},     {1, 1.3, 1},   
                                {1.3, 0.7, 1.1}, {1.3, 0.7, 0.9}, {0.7, 1.3, 1.1}, {0.7, 1.3, 0.9},
                                {0.7, 0.7, 1.1}, {0.7, 0.7, 0.9}};
 
-/// From rest to 8 % and on, in steps of 5 %, to 70 % of the no-load speed: commutations at both, and whether the rotor was lost.
+/// The rotor runs from rest to 8 % and, in steps of 5 %, to 70 % of the no-load speed. The test judges the
+/// commutations at both and the losses.
 template <class Firmware, class Config>
 void expect_lock(SensorlessBench& bench, const Config& chip, double load, const std::string& where) {
   bench.load_part = load;
@@ -66,12 +69,13 @@ void expect_lock(SensorlessBench& bench, const Config& chip, double load, const 
   const double from_s = aligned_s(bench);
   bench.timeline.clear();
   bench.setpoint(0, slow);
-  // Not in one step: at the current's limit, L up and K_e down, the old current outlasts the crossing in two sectors in a
-  // row, which the observers name a long demagnetisation, and catch the rotor again.
+  // The speed rises in small steps: at the current's limit, with L up and K_e down, the old current outlasts
+  // the crossing in two successive sectors. The observers name this a long demagnetisation and catch the
+  // rotor again.
   for (int n = 1; n <= 13; ++n) bench.setpoint(from_s + 0.7 + 0.03 * n, slow + (fast - slow) * n / 13);
   rig::Rig<double, Firmware> rig(bench.plant(), {.drive = chip}, bench.board, bench.timeline);
   run_until(rig, from_s + 0.6);
-  // K_e off by 10 % moves the commutation by flux linkage by 1.5 degrees (flux_linkage.hpp).
+  // An error of 10 % in K_e moves the commutation by flux linkage by 1.5 degrees (flux_linkage.hpp).
   const double model_deg = 1.6;
   const CommutationError at_slow = watch_commutations(rig, from_s + 0.65, bench.spec.period_s);
   EXPECT_LT(at_slow.worst, model_deg + 1.0 + 0.5 * period_deg(bench, slow)) << where;
@@ -159,7 +163,8 @@ TEST(SensorlessObserver, ThrottleStepsKeepLock) {
     }
 }
 
-/// The design asks for less than the usual 5 %: how far down each follows a rotor against 30 % of its torque.
+/// The design is for less than the usual 5 %: the lowest speed to which each follows a rotor against 30 % of
+/// its torque.
 TEST(SensorlessObserver, TellsTheLowestSpeedThatItHolds) {
   for (int which = 0; which < 2; ++which)
     for (const Follow follower : every_follow) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hall probes beside the sensorless drive, and rotors that spin already, on a board as one is built: handed over and back, a line
-// that dies in flight or was dead before, both ways, at a steady speed and while it changes; caught under load.
+// Hall probes with the sensorless drive, and rotors that already spin, on a realistic board: the handover
+// there and back, and a line that dies in flight or was dead before, in both directions, at constant and at
+// changing speed. The drive catches rotors under load.
 #include "tests/support/sensorless_board.hpp"
 
 namespace SIXSTEP_TEST_FILE {
@@ -23,14 +24,14 @@ std::string at(const SensorlessMotor& motor, int sign, bool changes) {
          (changes ? ", speeding up" : ", steady");
 }
 
-/// The chip is told another source.
+/// Changes the chip's rotor source.
 void choose(SensorlessBench& bench, BuiltRig::Tunings& tunings, double t_s, RotorSource source) {
   tunings.push_back({{.drive = bench.chip}, 1.0});
   tunings.back().config.drive.source.wanted = source;
   bench.act(t_s, rig::ActionKind::retune, static_cast<double>(tunings.size() - 1));
 }
 
-/// Runs until `source` commutates, within so much time; and whether the rotor was followed up to there.
+/// Runs until `source` commutates, at most `most_s`; checks that the drive followed the rotor until then.
 void expect_source(BuiltRig& rig, RotorSource source, double most_s, const std::string& where) {
   const double t = run_until_true(rig, rig.now().seconds() + most_s, 1e-4,
                                   [&] { return rig.firmware().source().source == source; });
@@ -67,7 +68,7 @@ TEST(SensorlessSource, HandsOverAndBackBothWays) {
     }
 }
 
-/// Whether the back-EMF has taken over and holds the speed.
+/// Checks that the drive runs by back-EMF and holds the speed.
 void expect_taken_over(const BuiltRig& rig, double w, const std::string& where) {
   EXPECT_EQ(rig.firmware().source().source, RotorSource::back_emf) << where;
   EXPECT_EQ(phase(rig), SensorlessPhase::running) << where;
@@ -75,7 +76,8 @@ void expect_taken_over(const BuiltRig& rig, double w, const std::string& where) 
   EXPECT_NEAR(rig.plant().state().w, w, 0.1 * std::fabs(w)) << where;
 }
 
-/// Where the dead line hid an edge the drive takes over a sector behind; it may name that, and catches the rotor again.
+/// A dead line that hid an edge makes the handover a sector late; the drive may name that, and catches the
+/// rotor again.
 TEST(SensorlessSource, GoesOnWithoutALineThatDiesBothWays) {
   int n = 0, caught_again = 0;
   for (const SensorlessMotor& motor : three_motors)
@@ -96,7 +98,7 @@ TEST(SensorlessSource, GoesOnWithoutALineThatDiesBothWays) {
   std::printf("a Hall line dies: %d of %d go on, %d of them caught again\n", n, n, caught_again);
 }
 
-/// The code at power-up may be a good one all the same: then the first sectors tell.
+/// The code at power-up may be valid nevertheless: then the first sectors show the fault.
 TEST(SensorlessSource, StartsWithALineThatWasDeadBefore) {
   int n = 0;
   for (const SensorlessMotor& motor : three_motors)
@@ -116,7 +118,8 @@ TEST(SensorlessSource, StartsWithALineThatWasDeadBefore) {
     }
 }
 
-/// Near the no-load speed it is held, as soft chopping cannot limit what brakes there; slower ones are slowed down.
+/// Soft chopping cannot limit a braking current near the no-load speed: the test holds that speed and slows
+/// down the others.
 TEST(SensorlessSource, CatchesASpinningRotorUnderLoad) {
   int n = 0;
   for (const SensorlessMotor& motor : three_motors)
@@ -142,7 +145,8 @@ TEST(SensorlessSource, CatchesASpinningRotorUnderLoad) {
       }
 }
 
-/// Slow and against half of its torque, a rotor has stopped before it is caught: it is lost once, and started.
+/// A slow rotor against half of its torque stops before the drive catches it: the drive loses it once, and
+/// starts it.
 TEST(SensorlessSource, StartsARotorThatStoppedWhileItWasCaught) {
   SensorlessBench bench = on_built_board(three_motors[2]);
   bench.load_part = 0.5;

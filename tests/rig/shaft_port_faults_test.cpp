@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoders and resolvers that fail while they are looked at, over shafts whose motion is known in closed form: lines that stick,
-// an index that is lost or false, tracks and windings that break and are whole again, excitation that goes and comes.
+// Encoders and resolvers that fail during a run, over shafts whose motion is known in closed form: lines that
+// stick, an index that is lost or false, tracks and windings that break and recover, excitation that fails
+// and returns.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,13 +24,13 @@ ShaftPorts encoder(int lines, const Motion& m) {
                     m.shaft(0));
 }
 
-/// Of floor(4 N theta/2 pi).
+/// The quarter lines passed: floor(4 N theta/2 pi).
 std::int64_t quarters(const Motion& m, std::int64_t lines, double t) {
   return static_cast<std::int64_t>(std::floor(4 * static_cast<double>(lines) * m.theta(t) / (2 * base::pi)));
 }
 
-// With one of A and B stuck the other one's edges count to and fro, by one. Whole again, the count goes with the lines, so that
-// what is lost is a whole number of lines: all those passed, to one.
+// A stuck line A or B leaves the other one's edges, which count up and down by one. After the fault the count
+// follows the lines again, so that the loss is a whole number of lines: all those passed, to within one.
 TEST(StuckLine, LosesWholeLines) {
   constexpr std::int64_t lines = 1000;
   for (const int line : {line_A, line_B})
@@ -55,7 +56,8 @@ TEST(StuckLine, LosesWholeLines) {
         }
 }
 
-// Each edge of the other line looks like the one before passed back: of the same place, so that no way lies between them.
+// Each edge of the other line looks like a reversal over the same place, so that the measured distance is
+// zero.
 TEST(StuckLine, ReadsAsNoSpeedAtAll) {
   constexpr std::int64_t lines = 1000;
   const Motion m{0.1, 300, 0};
@@ -85,7 +87,7 @@ TEST(StuckLine, ReadsAsNoSpeedAtAll) {
   }
 }
 
-// The edge captured last is the free line's own.
+// The last captured edge is the free line's.
 TEST(StuckLine, CapturesTheOtherLinesEdges) {
   constexpr std::int64_t lines = 500;
   for (const int line : {line_A, line_B}) {
@@ -95,7 +97,7 @@ TEST(StuckLine, CapturesTheOtherLinesEdges) {
     for (int n = 1; n < 60; ++n) {
       m.show(ports, (n - 1) * 1e-4, n * 1e-4);
       const std::int64_t now = quarters(m, lines, n * 1e-4);
-      // A turns over where quarters 0 and 2 of a line begin, B where 1 and 3 do.
+      // A changes where quarters 0 and 2 of a line begin, B where 1 and 3 begin.
       const std::int64_t border = line == line_A ? now - (now % 2 == 0 ? 1 : 0) : now - now % 2;
       if (border <= quarters(m, lines, 0)) continue;
       const double at_s = (static_cast<double>(border) * 2 * base::pi / (4 * lines) - m.theta_0) / m.w;
@@ -138,7 +140,7 @@ TEST(FalseIndex, LatchesTheCountAtAWrongPlace) {
   m.show(ports, 0.02, 0.03);
   EXPECT_FALSE(ports.index_passed());
   EXPECT_EQ(ports.since_index(), quarters(m, 500, 0.03) - quarters(m, 500, 0.02));
-  // Where Z is high already, or its line is shorted, no pulse rises.
+  // A high Z or a shorted line gives no rising pulse.
   ports.stick_line(line_Z, true, sim::to_instant(0.03));
   EXPECT_TRUE(ports.index_passed());
   ports.pulse_index();
@@ -160,7 +162,7 @@ TEST(AbsolutePort, ATrackIsWholeAgain) {
   }
 }
 
-// V_1 and V_2 by the part of the excitation that is left; of a broken winding nothing; and whole again.
+// V_1 and V_2 scale with the excitation; a broken winding's is zero; after repair both are whole.
 TEST(ResolverPort, ShowsThePartOfItsExcitation) {
   const Motion m{0.7, 0, 0};
   ShaftPorts ports({.kind = rig::ShaftSensor::resolver,
@@ -205,7 +207,8 @@ double off_turns(const ShaftPorts& ports, double turns) {
   return off - std::floor(off + 0.5);
 }
 
-// The angle is a ratio: half the excitation shows the same. Without any there is no error to follow: it goes on at its speed.
+// The angle is a ratio: half the excitation gives the same. Without excitation there is no error signal: the
+// angle continues at its speed.
 TEST(ConverterChip, WithoutExcitationGoesOnAtItsSpeed) {
   const Motion m{0.4, 150, 0};
   ShaftPorts whole(converter(), capture_Hz, 0, m.shaft(0)), half = whole, none = whole;

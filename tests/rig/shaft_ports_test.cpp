@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoders and resolvers as a board's peripherals have them, over shafts whose motion is known in closed form: counts and the
-// time of the last edge, the latch of an absolute code, samples at the peaks of an excitation.
+// Encoders and resolvers as a board's peripherals, over shafts whose motion is known in closed form: counts
+// and the time of the last edge, the latch of an absolute code, samples at the peaks of an excitation.
 #include "sixstep/rig/shaft_ports.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ ShaftPorts encoder(int lines, const Motion& m) {
                     m.shaft(0));
 }
 
-/// Of floor(4 N theta/2 pi).
+/// The quarter lines passed: floor(4 N theta/2 pi).
 std::int64_t quarters(const Motion& m, std::int64_t lines, double t) {
   return static_cast<std::int64_t>(std::floor(4 * static_cast<double>(lines) * m.theta(t) / (2 * base::pi)));
 }
@@ -36,16 +36,16 @@ TEST(EncoderPort, CountsAndCapturesTheLastEdge) {
     m.show(ports, 0, 0.02);
     const std::int64_t n = quarters(m, 1000, 0.02);
     EXPECT_EQ(ports.quarters(), n);
-    // The border that this count begins at: its own forward, the next one backward.
+    // The edge at which this count begins: its own forward, the next one backward.
     const double border = static_cast<double>(w > 0 ? n : n + 1) * 2 * base::pi / 4000;
     EXPECT_NEAR(ports.edge_time(), (border - m.theta_0) / w * capture_Hz, 1.0) << w;
     EXPECT_EQ(ports.edge_direction(), w > 0 ? 1 : -1);
   }
 }
 
-// It turns round at t = w/|a|; the last edge of the way out is passed again on the way back.
+// The rotor reverses at t = w/|a|; it passes its last edge again on the way back.
 TEST(EncoderPort, ARotorThatTurnsRoundPassesItsEdgesAgain) {
-  const Motion m{0.5, 40, -8000};  // round at 5 ms, there 0.1 rad further
+  const Motion m{0.5, 40, -8000};  // reverses at 5 ms, 0.1 rad further
   ShaftPorts ports = encoder(1000, m);
   m.show(ports, 0, 4.99e-3);
   EXPECT_EQ(ports.quarters(), quarters(m, 1000, 4.99e-3));
@@ -54,7 +54,7 @@ TEST(EncoderPort, ARotorThatTurnsRoundPassesItsEdgesAgain) {
   EXPECT_EQ(ports.quarters(), n);
   EXPECT_EQ(ports.edge_direction(), -1);
   const double border = static_cast<double>(n + 1) * 2 * base::pi / 4000;
-  // theta = border on the way back: t = (w + sqrt(w^2 - 2 |a| (border - theta_0)))/|a|
+  // The edge on the way back is at t = (w + sqrt(w^2 - 2 |a| (border - theta_0)))/|a|.
   const double t = (m.w + std::sqrt(m.w * m.w + 2 * m.a * (border - m.theta_0))) / -m.a;
   EXPECT_NEAR(ports.edge_time(), t * capture_Hz, 2.0);
 }
@@ -70,7 +70,7 @@ TEST(EncoderPort, TellsOfItsIndexOnceATurn) {
   EXPECT_EQ(passed, 4) << "at 0, 2 pi, 4 pi and 6 pi";
 }
 
-// 7 edges are not counted: the counter is behind by 7, until it is held against where the index stood.
+// The counter misses 7 edges: it lags by 7, and the index then corrects the count since the index.
 TEST(EncoderPort, MissesEdgesAndLatchesItsCountAtTheIndex) {
   for (const double w : {100.0, -100.0}) {
     const Motion m{w > 0 ? -0.05 : 0.05, w, 0};
@@ -87,7 +87,7 @@ TEST(EncoderPort, MissesEdgesAndLatchesItsCountAtTheIndex) {
   }
 }
 
-// Edges missed across the index itself: what lies behind it and is not counted stays missing.
+// The missed edges span the index: those behind it stay missing from the count since the index.
 TEST(EncoderPort, EdgesMissedBehindTheIndexAreMissingFromItsCount) {
   const Motion m{-3.5 * 2 * base::pi / 2000, 100, 0};  // 4 edges to the index, the fourth its own
   ShaftPorts ports = encoder(500, m);
@@ -148,7 +148,7 @@ TEST(ResolverPort, IsSampledAtItsPeaks) {
   }
 }
 
-// Windings as MODEL has them: at a peak of the excitation one that leads by d shows cos d of its amplitude.
+// A winding that leads by d shows cos d of its amplitude at a peak of the excitation.
 TEST(ResolverPort, ShowsWhatItsWindingsAreUnlikeBy) {
   constexpr double rad = 180 / base::pi;
   const rig::Resolver r{.amplitude_V = 1.5,
@@ -196,7 +196,7 @@ TEST(ResolverPort, IsAsNoisyAsItIsSaidToBeAndTheSeedsOwn) {
     square += (x * x + y * y) / 2;
     product += x * y;
   }
-  // Rounding to counts adds 1/12; of 8000 values the deviation is known to 0.8 %, of 4000 products the mean to 1/63.
+  // Rounding to counts adds 1/12; 8000 values give the deviation to 0.8 %, 4000 products the mean to 1/63.
   const double wanted = 100 + 1.0 / 12;
   EXPECT_NEAR(std::sqrt(square / samples / wanted), 1, 5 * 0.008);
   EXPECT_NEAR(product / samples / wanted, 0, 5.0 / 63) << "the windings' noise is each one's own";
@@ -218,15 +218,15 @@ rig::ShaftSensorConfig converter(int bits, double latency_s = 0.0) {
   return given;
 }
 
-/// What the chip says less p_r theta(t), in turns, the shorter way.
+/// The chip's angle less p_r theta(t), in turns, by the shorter way.
 double off_turns(const ShaftPorts& ports, const Motion& m, double t) {
   const double turns = 2 * m.theta(t) / (2 * base::pi);
   const double off = ports.converter().angle() * 0x1p-32 - turns;
   return off - std::floor(off + 0.5);
 }
 
-// A loop of type 2 has no lag at constant speed, at its clocks: what is left is the count that it rounds down to, and the units of
-// 2^-48 turn by which its integrator rounds the speed, which K_i weighs against.
+// A loop of type 2 has no lag at constant speed at its clocks. The remaining error is the count that it
+// rounds down to, and the integrator's rounding of the speed to 2^-48 turn over K_i.
 TEST(ConverterChip, FollowsASteadyShaftToItsCount) {
   for (const int bits : {10, 12, 14, 16})
     for (const double w : {0.0, 150.0, -400.0}) {
@@ -240,7 +240,7 @@ TEST(ConverterChip, FollowsASteadyShaftToItsCount) {
     }
 }
 
-// The acceleration over K_a for good.
+// The lag stays at the acceleration over K_a.
 TEST(ConverterChip, LagsAnAccelerationByItOverKa) {
   const Motion m{0.1, 0, 40000};
   ShaftPorts ports(converter(16), capture_Hz, 0, m.shaft(0));
@@ -255,7 +255,7 @@ TEST(ConverterChip, LagsAnAccelerationByItOverKa) {
   EXPECT_GT(off, -lag_turns - 0x1p-16 - 1e-6);
 }
 
-// The angle stands until the next clock, and is then that one's.
+// The angle is constant until the next clock and then is that clock's.
 TEST(ConverterChip, HoldsTheAngleOfItsLastClock) {
   const Motion m{0.4, 300, 0};
   ShaftPorts ports(converter(16), capture_Hz, 0, m.shaft(0));
@@ -278,7 +278,7 @@ TEST(ConverterChip, IsReadAsItWasLatched) {
   EXPECT_NEAR(off_turns(now, m, 0.01) - off_turns(late, m, 0.01), behind, 0x1p-16 + step);
 }
 
-// Without its cosine only the sign of the sine is left.
+// Without its cosine only the sign of the sine remains.
 TEST(ConverterChip, WithoutItsCosineSaysAQuarterOfATurn) {
   for (const double theta : {0.2, 0.7, 1.2}) {  // p_r theta below half a turn
     const Motion m{theta, 0, 0};

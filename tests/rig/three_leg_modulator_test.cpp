@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three leg commands in, gates out, edge by edge (model.md 11). Ticks are picoseconds, the period is 30 us.
+// The gates follow three leg commands edge by edge (model.md 11). Ticks are picoseconds, the period is 30 us.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -81,7 +81,7 @@ TEST(ThreeLegModulator, EdgesOfTwoLegsAtOneInstantHappenTogether) {
   }
 }
 
-/// The pulse of b ends as the wait of a does.
+/// The pulse of b ends at the instant at which a's dead time ends.
 TEST(ThreeLegModulator, AnEdgeAndTheEndOfADeadTimeAtOneInstantBothHappen) {
   ThreeLegModulator m{ModulatorConfig{.dead_ticks = 1.5e6}};
   m.start_period(at(0), legs(pwm(0.25), pwm(0.3), high));
@@ -98,7 +98,8 @@ TEST(ThreeLegModulator, DeadTimeIsPerLegAndOnlyWhereItsCommandChanges) {
   EXPECT_EQ(edges(m, period), (Edges{{1.0, "a+b+c-"}, {15.0, "a+c-"}, {16.0, "a+b-c-"}}));
 }
 
-/// A gap shorter than the dead time: the lower switch never comes on, and the upper one waits all the same.
+/// The off-time is shorter than the dead time: the lower switch never turns on, and the upper one waits
+/// nevertheless.
 TEST(ThreeLegModulator, TheUpperSwitchWaitsFromTheTurnOffCommandOfTheLowerEvenIfThatNeverCameOn) {
   ThreeLegModulator m{ModulatorConfig{.dead_ticks = 1e6}};
   m.start_period(at(0), legs(pwm(0.98), low, low));
@@ -158,7 +159,7 @@ LegCommand<double> drawn_leg(std::mt19937_64& random) {
   }
 }
 
-/// Any legs after any others, with pulses and gaps down to nothing, and the bridge off now and then.
+/// Any legs follow any others, with pulses and off-times down to zero, and the bridge is off at times.
 TEST(ThreeLegModulator, NeverShootsThroughAndKeepsTheDeadTimeOverAnyCommands) {
   constexpr std::uint32_t seed = 1113;
   std::mt19937_64 random{seed};
@@ -191,7 +192,8 @@ TEST(ThreeLegModulator, NeverShootsThroughAndKeepsTheDeadTimeOverAnyCommands) {
   }
 }
 
-/// Six-step is one way to fill three leg commands: with the pair at rest the same gates at the same instants.
+/// Six-step is a special case of three leg commands: without a commutation it has the same gates at the same
+/// instants.
 TEST(ThreeLegModulator, SixStepAsLegsIsSixStep) {
   constexpr std::uint32_t seed = 6;
   std::mt19937_64 random{seed};
@@ -205,7 +207,8 @@ TEST(ThreeLegModulator, SixStepAsLegsIsSixStep) {
     ThreeLegModulator three{config};
     for (int k = 0; k < 200; ++k) {
       SCOPED_TRACE(::testing::Message() << "seed " << seed << " board " << board << " period " << k);
-      // A new pair hands a dead time over, which legs of their own do not: without one any pair may follow.
+      // A new pair takes over a dead time, which independent legs do not: any pair may follow only without a
+      // dead time.
       const bool reversed = random() % 4 == 0;
       Pair pair = reversed ? Pair{Leg::b, Leg::a} : Pair{Leg::a, Leg::b};
       if (!(config.dead_ticks > 0) && random() % 2 == 0) pair = {Leg::c, Leg::b};

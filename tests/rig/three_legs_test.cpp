@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Firmwares that answer three legs, on the virtual board: circuits in closed form, and six-step as three
+// Firmwares that command three legs, on the virtual board: circuits in closed form, and six-step as three
 // legs.
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ void expect_same_state(const Rig& one, const auto& two) {
   EXPECT_EQ(one.event_count(rig::EventKind::pwm_edge), two.event_count(rig::EventKind::pwm_edge));
 }
 
-/// What the pair of the present sector would be told, seen by a firmware that fills the legs itself.
+/// A firmware that fills the legs itself with the command of the present sector's pair.
 struct SixStepLegs {
   Chopping chopping;
 
@@ -41,8 +41,8 @@ struct SixStepLegs {
   }
 };
 
-/// Run up over 20 sectors, the pair moved on at the sample: the same bits, freewheeling floating legs
-/// included.
+/// The rotor runs up over 20 sectors with commutation at the sample: the results have the same bits,
+/// including freewheeling floating legs.
 TEST(ThreeLegs, SixStepAsThreeLegsHasTheBitsOfSixStep) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
     for (const bool centred : {false, true})
@@ -65,7 +65,7 @@ TEST(ThreeLegs, SixStepAsThreeLegsHasTheBitsOfSixStep) {
       }
 }
 
-/// Mean of i_a over whole periods, exactly, by the mean of its polynomials.
+/// The exact mean of i_a over whole periods, from the mean of its polynomials.
 struct MeanOfA {
   double ampere_s = 0.0, s = 0.0;
   void segment(const auto& rig, double part) {
@@ -76,7 +76,8 @@ struct MeanOfA {
   }
 };
 
-/// i_a in the steady state, over a hundred periods after 40 time constants, beyond which exp leaves nothing.
+/// i_a in the steady state, over a hundred periods after 40 time constants, when exp has decayed below
+/// rounding.
 double mean_of_a(const Board& b, const control::LegCommands<double>& legs) {
   auto rig = three_leg_rig(b, HeldLegs{legs});
   EXPECT_EQ(run_to(rig, 800 * T), sim::Stop::end);
@@ -99,8 +100,8 @@ TEST(ThreeLegs, TheMeanVoltageOfEachLegIsItsDuty) {
   }
 }
 
-/// In the dead time the current picks its diode: the low one where it flows into the motor, else the high
-/// one. It takes U t_d/T from the leg where i > 0 and gives as much where i < 0, whatever the duty.
+/// The current's sign selects the diode in the dead time: the low one where it flows into the motor, else the
+/// high one. The leg's voltage falls by U t_d/T where i > 0 and rises by as much where i < 0, at any duty.
 TEST(ThreeLegs, DeadTimeWorksAgainstTheCurrentOfEachLeg) {
   const double dead_s = 1e-6, lost = U * dead_s / T;
   for (const bool centred : {false, true})
@@ -109,7 +110,7 @@ TEST(ThreeLegs, DeadTimeWorksAgainstTheCurrentOfEachLeg) {
       Board b = locked_at(10.0);
       b.board.modulator.centre_aligned = centred;
       b.board.modulator.dead_ticks = dead_s * 1e12;
-      // Some amperes each way, more than the ripple of U T/(8 L_s) = 0.3 A.
+      // The currents are some amperes in each direction, more than the ripple of U T/(8 L_s) = 0.3 A.
       const double d = sign * 0.15;
       const double u_a = (0.5 + d) * U - sign * lost, u_bc = (0.5 - d) * U + sign * lost;
       EXPECT_NEAR(mean_of_a(b, complementary(0.5 + d, 0.5 - d, 0.5 - d)),
@@ -125,8 +126,8 @@ TEST(ThreeLegs, PulsesBelowTheMinimumChangeTheMeanVoltageAndNoOtherLegs) {
               amp_tolerance);
 }
 
-/// Two legs drive, the third is off and floats: (d_a - d_b) U over both phases, and nothing through c. At
-/// rest its terminal stays between the rails.
+/// Two legs drive, the third is off and floats: (d_a - d_b) U is over both phases, and no current flows in c.
+/// The terminal of c is between the rails at rest.
 TEST(ThreeLegs, ALegThatIsOffFloatsAndCarriesNothing) {
   Board b = locked_at(10.0);
   control::LegCommands<double> legs = complementary(0.6, 0.35, 0.0);
@@ -137,7 +138,7 @@ TEST(ThreeLegs, ALegThatIsOffFloatsAndCarriesNothing) {
   EXPECT_EQ(rig.plant().state().i[2], 0.0);
 }
 
-/// Ten periods, then off.
+/// Ten periods on, then off.
 struct TenPeriods {
   template <class Real>
   control::LegCommands<double> operator()(const rig::SampleInstant<Real>& instant, double) const {
@@ -145,7 +146,8 @@ struct TenPeriods {
   }
 };
 
-/// Let go by all legs the currents run back through the diodes: L di/dt = -U against both, until they end.
+/// After all legs turn off, the currents flow back through the diodes: L di/dt = -U against both, until they
+/// end.
 TEST(ThreeLegs, TurningOffLetsTheCurrentsEndInTheDiodes) {
   Board b = locked_at(10.0);
   auto rig = three_leg_rig(b, TenPeriods{});
@@ -175,7 +177,7 @@ TEST(ThreeLegs, PeriodZeroOfADelayedBoardHasNoVoltage) {
   EXPECT_EQ(silent.event_count(rig::EventKind::pwm_edge), 0);
 }
 
-/// Sampled in the middle: the answer of a period's middle acts from the next start.
+/// The sample is in the middle: the command from a period's middle acts from the next period's start.
 TEST(ThreeLegs, AnAnswerFromTheMiddleActsFromTheNextPeriod) {
   Board b = locked_at(10.0);
   b.board.sampled_in_middle = true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Open loop: a voltage vector that turns at constant speed, on the sine machine held at that speed, against
-// its phasor solution. The fundamental of a periodic current is that of the voltage over R + j w L.
+// A voltage vector rotates in open loop at constant speed on a sine machine held at that speed: the current
+// equals the phasor solution. The fundamental of a periodic current is that of the voltage over R + j w L.
 #include <gtest/gtest.h>
 
 #include <complex>
@@ -17,7 +17,7 @@ using namespace sixstep::testing;
 using Complex = std::complex<double>;
 
 constexpr double T = 30e-6, U = 24.0, pi = std::numbers::pi;
-constexpr int periods = 60;  // of the PWM in an electrical turn
+constexpr int periods = 60;  // PWM periods in an electrical turn
 constexpr double w = 2 * pi / (periods * T), start_deg = 20.0;
 
 /// The legs of sample n: a vector of length V, `phase_rad` ahead of phase a at n = 0.
@@ -37,7 +37,7 @@ struct TurningVector {
   }
 };
 
-/// A shaft of 1e9 kg m2: over the run the machine's torque changes its speed by parts in 1e13.
+/// A shaft of 1e9 kg m2: the machine's torque changes its speed by parts in 1e13 over the run.
 Board bench(bool centred) {
   Board b;
   b.machine.back_emf = plant::BackEmf::sine;
@@ -49,8 +49,8 @@ Board bench(bool centred) {
   return b;
 }
 
-/// (2/turn) integral of i_a exp(-j w t): Gauss' rule of five points a segment, which at w h <= 0.1 and orders
-/// of the current far below ten is exact to rounding.
+/// (2/turn) integral of i_a exp(-j w t): Gauss' rule of five points a segment, which is exact to rounding at
+/// w h <= 0.1 and orders of the current far below ten.
 struct Fundamental {
   Complex sum = 0.0;
   void segment(const auto& rig, double part) {
@@ -85,14 +85,14 @@ Complex back_emf(const Board& b) {
   return std::polar(b.machine.K_e_V_s * w / b.machine.pole_pairs, (start_deg - 60.0) * pi / 180.0);
 }
 
-/// The vector as the bridge makes it, without the pulses' shape: each sample stands for a period.
+/// The vector as the bridge makes it, without the pulses' shape: each sample holds for a period.
 Complex held(const TurningVector& v) {
   const double half = w * T / 2;
   return std::polar(v.V * std::sin(half) / half, v.phase_rad - half);
 }
 
-/// Of the very pulses, phase a against the star point: a pulse of length d T about t_c has (2/turn) U d T
-/// sinc(w d T/2) exp(-j w t_c).
+/// The fundamental of the actual pulses, phase a against the star point: a pulse of length d T about t_c has
+/// (2/turn) U d T sinc(w d T/2) exp(-j w t_c).
 Complex pulsed(const TurningVector& v, bool centred) {
   const auto leg = [&](int k) {
     Complex sum = 0.0;
@@ -106,12 +106,12 @@ Complex pulsed(const TurningVector& v, bool centred) {
   return leg(0) - (leg(0) + leg(1) + leg(2)) / 3.0;
 }
 
-/// A centred pulse of d T in place of one of T: its sinc is larger by (1 - d^2) (w T)^2/24. With x = d - 1/2,
-/// d (1 - d^2) = 3/8 + x/4 - 3/2 x^2 - x^3. The constant has no fundamental, nor has the square, since x only
+/// A centred pulse of d T instead of T has a sinc that is larger by (1 - d^2) (w T)^2/24. With x = d - 1/2, d
+/// (1 - d^2) = 3/8 + x/4 - 3/2 x^2 - x^3. The constant and the square have no fundamental, since x only
 /// changes its sign over half a turn; x/4 has V/(4 U), the cube at most 2/8.
 double pulse_shape_V(double V) { return (V + U) / 4 * w * T * w * T / 24; }
 
-/// Solver (6.5e-12 of full scale, model.md 12), quadrature and 45 time constants.
+/// The bound covers the solver (6.5e-12 of full scale, model.md 12), the quadrature and 45 time constants.
 constexpr double tolerance_A = 1e-10 * 23.3;
 
 TEST(VoltageVector, ItsCurrentIsThatOfThePhasorSolution) {
@@ -138,7 +138,7 @@ TEST(VoltageVector, ItsCurrentIsThatOfItsPulsesToRounding) {
       }
 }
 
-/// A period later: turned back by w T, and not a bit longer.
+/// A delay of one period turns the voltage back by w T exactly.
 TEST(VoltageVector, ADelayOfOnePeriodTurnsTheVoltageBackByOneSample) {
   const TurningVector v{12.0, 0.3};
   Board b = bench(true);
@@ -147,7 +147,8 @@ TEST(VoltageVector, ADelayOfOnePeriodTurnsTheVoltageBackByOneSample) {
   EXPECT_LE(std::abs(current(b, v) - (voltage - back_emf(b)) / impedance(b)), tolerance_A);
 }
 
-/// What the bridge makes of a vector of length V: undistorted up to U_s/2 and U_s/sqrt 3, short of it beyond.
+/// The amplitude that the bridge makes of a vector of length V: undistorted up to U_s/2 and U_s/sqrt 3, less
+/// beyond.
 TEST(VoltageVector, SpaceVectorReachesUOverRoot3AndSineTriangleHalfOfU) {
   const auto made = [](double V, bool space_vector) {
     const Board b = bench(true);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Crossed wires (model.md 7): all six orders of the phases with all six of the probes. What each must do follows from the
-// table of model.md 3 and the shape of the back-EMF, which stand here once more.
+// Crossed wires (model.md 7): all six orders of the phases with all six of the probes. Each result follows
+// from the table of model.md 3 and the shape of the back-EMF, which this file defines a second time.
 #include "sixstep/rig/wiring.hpp"
 
 #include <gtest/gtest.h>
@@ -42,14 +42,14 @@ std::array<int, 2> driven(const Wiring& wires, int sector) {
   return {};
 }
 
-/// Torque over K_e and current at an angle.
+/// The torque over K_e and current at an angle.
 double torque_factor(const Wiring& wires, double electrical_deg) {
   const auto [source, sink] = driven(wires, static_cast<int>(electrical_deg / 60));
   return shape(electrical_deg, source) - shape(electrical_deg, sink);
 }
 
 enum class Does { forward, backward, stands };
-/// One sign in every sector turns it; both signs hold it, for their mean over the turn is nothing.
+/// One sign in every sector turns the rotor; both signs hold it, because their mean over the turn is zero.
 Does expected(const Wiring& wires) {
   double least = 9, most = -9, sum = 0;
   for (int sector = 0; sector < 6; ++sector) {
@@ -125,7 +125,7 @@ Board phase_hysteresis() {
   return b;
 }
 
-/// The board's legs carry in both what they carry in either; the rotor of the second turns `way` times as the first's.
+/// Both runs have the same currents in the board's legs; the second rotor turns `way` times as the first.
 void expect_the_board_sees_no_difference(const Wiring& wires, double straight_deg, double crossed_deg,
                                          double way) {
   const Board boards[] = {Board::duty(0.5), Board::duty(0.7, control::Chopping::hard),
@@ -152,15 +152,16 @@ TEST(CrossedWires, ThatMoveOnTogetherRunAsIfTheyWereStraight) {
   expect_the_board_sees_no_difference({WireOrder::cab, WireOrder::cab}, 17, 240 + 17, 1);
 }
 
-/// With u_ab the pair of phases a and b has H1: who swaps a and b turns u_ab round, and makes u_ca of u_bc and H3 of H2. So the
-/// board sees a motor whose angle counts from the other side, and turns backwards.
+/// The pair of phases a and b has H1 with u_ab: to swap a and b reverses u_ab and exchanges u_bc with u_ca
+/// and H2 with H3. The board then sees a motor whose angle counts in the other direction, and which turns
+/// backwards.
 TEST(CrossedWires, OfTwoPhasesAndTheTwoProbesBesideThemRunTheMirroredMotor) {
   expect_the_board_sees_no_difference({WireOrder::bac, WireOrder::acb}, 17, 60 - 17, -1);
   expect_the_board_sees_no_difference({WireOrder::cba, WireOrder::bac}, 17, 180 - 17, -1);
   expect_the_board_sees_no_difference({WireOrder::acb, WireOrder::cba}, 17, 300 - 17, -1);
 }
 
-/// A pair with the code of three sectors on is the pair the other way round: what a negative command asks for.
+/// The pair with the code of three sectors later is the reversed pair, as for a negative command.
 TEST(CrossedWires, InvertedLinesAreANegativeCommand) {
   GeneralRig inverted = wired(Board::duty(0.5), {.inverted = 7}, 17);
   GeneralRig negative = wired(Board::duty(-0.5), {}, 17);
@@ -179,7 +180,8 @@ TEST(CrossedWires, OneInvertedLineMakesACodeThatCannotBe) {
   EXPECT_EQ(rig.pins(), 0);
 }
 
-/// Probe k (H1 is 0) shows 1 in the half turn of sectors (2k + 5), .., (2k + 7) of 6: each of the 48 ways to hang three lines.
+/// Probe k (H1 is 0) shows 1 in the half turn of sectors (2k + 5), .., (2k + 7) of 6: this holds for each of
+/// the 48 ways to connect three lines.
 TEST(CrossedWires, EachPinShowsItsProbeOrTheContrary) {
   for (const WireOrder order : orders)
     for (std::uint8_t inverted = 0; inverted < 8; ++inverted)
@@ -205,7 +207,7 @@ TEST(CrossedWires, MayBeCrossedAtAnyTime) {
   ASSERT_EQ(run_to(built, 10e-3), sim::Stop::end);
   EXPECT_EQ(told.plant().state().i, built.plant().state().i);
   EXPECT_EQ(told.plant().state().w, built.plant().state().w);
-  // Between two ticks: the edge on the pins moves the pair at once, and currents go on.
+  // The edge between two ticks commutates at once, and the currents are continuous.
   Board running = Board::duty(0.5);
   running.timeline.push_back(
       {{10'000'000'100, 0.0}, rig::ActionKind::wire_probes, static_cast<double>(WireOrder::bca)});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The exact lag against closed forms: step, ramp, sine, a chopped input in its steady state; and against the definition of
-// its weights by quadrature in long double.
+// The exact lag equals closed forms (step, ramp, sine, a chopped input in its steady state) and the
+// quadrature of its weights in long double.
 #include "sixstep/series/first_order_lag.hpp"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,8 @@ struct Lag {
 
 constexpr double eps = 0x1p-52;
 
-/// By Gauss-Legendre of 5 points on so many pieces that its own error, 4e-13 (30/pieces)^10, is below rounding.
+/// The weight by Gauss-Legendre of 5 points; the number of pieces keeps its error, 4e-13 (30/pieces)^10,
+/// below rounding.
 long double weight(long double z, int j) {
   constexpr long double at[] = {0.0L, 0.538469310105683091036314420700L, 0.906179845938663992797626878299L};
   constexpr long double of[] = {0.568888888888888888888888888889L, 0.478628670499366468041291514836L,
@@ -42,7 +43,8 @@ long double weight(long double z, int j) {
 }
 
 TEST(FirstOrderLag, WeightsAreTheirIntegral) {
-  // Each order is found by a damped recurrence: a few roundings of numbers below 1, relative to the weight itself.
+  // Each order follows from a damped recurrence: a few roundings of numbers below 1, relative to the weight
+  // itself.
   for (const double z : {1e-9, 1e-3, 0.2, 0.999, 1.0, 1.5, 2.0, 3.7, 7.0, 8.3, 11.9, 15.99, 16.0, 30.0})
     for (const int degree : {16, 9, 6, 1}) {
       const LagWeights w = lag_weights(z, degree);
@@ -95,7 +97,7 @@ Poly sine(double a, double b) {
 TEST(FirstOrderLag, SineComesThroughSmallerAndLater) {
   const double w = 2.0, h = 0.21;
   for (const double tau : {1e-4, 0.03, 0.5, 40.0}) {
-    // Begins on the steady answer, and must stay on it: 1/(1 + i w tau).
+    // The lag begins on its steady response and must stay on it: 1/(1 + i w tau).
     const double size = 1 / std::hypot(1, w * tau), later = std::atan(w * tau);
     Lag lag{.tau = tau, .x = {-size * std::sin(later), 0}};
     for (int n = 0; n < 3000; ++n) lag.follow(sine(w * h * n, w * h), max_degree, h);
@@ -120,7 +122,7 @@ TEST(FirstOrderLag, ChoppedInputInItsSteadyState) {
   const double on = std::exp(-duty * period / tau), off = std::exp(-(1 - duty) * period / tau);
   Lag lag{.tau = tau};
   double low = 0, high = 0;
-  for (int n = 0; n < 100; ++n) {  // 64 time constants: what is left of the start is below 1e-27
+  for (int n = 0; n < 100; ++n) {  // 64 time constants: the start's remainder is below 1e-27
     lag.follow({U}, 6, duty * period);
     high = lag.x.value;
     lag.follow({0.0}, 6, (1 - duty) * period);

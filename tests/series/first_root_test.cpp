@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// first_root against roots that were planted, against a naive grid, and at the boundaries that bite a
-// simulator: a start on the boundary, a root at the end, a tangent.
+// first_root equals constructed roots, the roots on a naive grid, and the critical cases of a simulator: a
+// start on the boundary, a root at the end, a tangent.
 #include "sixstep/series/first_root.hpp"
 
 #include <gtest/gtest.h>
@@ -177,7 +177,7 @@ TEST(FirstRoot, AgreesWithANaiveGrid) {
       ASSERT_GE(static_cast<double>(value_of(exact, degree, s)), -error) << s << " before " << end;
     }
   }
-  EXPECT_GT(found, 5000);  // the sample is worth something
+  EXPECT_GT(found, 5000);  // the sample is large enough
 }
 
 TEST(FirstRoot, NegativeStartIsNow) {
@@ -220,7 +220,7 @@ TEST(FirstRoot, RootAtTheEndCounts) {
 }
 
 TEST(FirstRoot, ATouchIsFoundOrPassedButNeverElsewhere) {
-  // (s - 1/2)^2 goes nowhere below zero; to rounding it may.
+  // (s - 1/2)^2 is nowhere negative, except by rounding.
   const auto touch = first_root<double>({0.25, -1.0, 1.0}, 2, 1.0, 1e-15);
   if (touch != no_root<double>) {
     EXPECT_NEAR(touch, 0.5, std::sqrt(4 * eps));

@@ -25,7 +25,7 @@ long double power_integral(int power) {
   return sum;
 }
 
-/// What the formula misses of s^(2 points): (points!)^4 / ((2 points + 1) ((2 points)!)^2).
+/// The formula's error for s^(2 points): (points!)^4 / ((2 points + 1) ((2 points)!)^2).
 long double first_error(int points) {
   long double root = 1;  // (points!)^2 / (2 points)!
   for (int k = 1; k <= points; ++k) root *= static_cast<long double>(k) / (points + k);
@@ -34,7 +34,8 @@ long double first_error(int points) {
 
 template <int points>
 void expect_gauss() {
-  // Literals of 21 digits are off by 5e-22 at most, a node of s^j j times that; sums of 8 terms, long double.
+  // Literals of 21 digits have errors of 5e-22 at most, a node of s^j j times that; sums have 8 terms in long
+  // double.
   const long double tolerance = 64 * 0x1p-63L;
   for (int j = 0; j < 2 * points; ++j)
     EXPECT_NEAR(static_cast<double>(power_integral<points>(j) * (j + 1) - 1), 0.0,
@@ -58,7 +59,8 @@ TEST(Gauss, IsExactUpToItsDegreeAndMissesTheNextByWhatTheoryKnows) {
 }
 
 TEST(Gauss, LiteralsAreTheDoublesNearestToThem) {
-  // A long double of 64 or 113 bits on its way to a double must not decide a bit: they are not near a tie.
+  // The rounding of a long double of 64 or 113 bits to a double must not depend on the last bit: the values
+  // are not near a tie.
   const auto far_from_tie = [](long double v) {
     const double d = static_cast<double>(v);
     const long double ulp = std::nextafter(d, 2.0) - d;
@@ -72,8 +74,8 @@ TEST(Gauss, LiteralsAreTheDoublesNearestToThem) {
     });
 }
 
-/// Taylor series of a solution: c_j = a_j x^j/j!, |a_j| <= 1, the last at rounding level, as the engine ends
-/// it.
+/// The Taylor series of a solution: c_j = a_j x^j/j!, |a_j| <= 1, the last at rounding level, as in the
+/// engine's series.
 Poly solution_series(std::mt19937_64& random, int degree) {
   std::uniform_real_distribution<double> any(-1, 1);
   double rate = 0x1p-53;
@@ -96,12 +98,14 @@ TEST(Gauss, AFewPointsAreEnoughForProductsOfSolutions) {
       const auto s = nodes_up_to<points>(to);
       return to * weighted_sum<points>(values_at<points>(a, degree, s), values_at<points>(b, degree, s));
     });
-    // Values to 4 eps each (terms fall quickly), products and sums as many again, against the scale 1.
+    // The values are exact to 4 eps each (terms fall quickly), products and sums to as much again, on the
+    // scale 1.
     EXPECT_NEAR(sum, product_integral(a, b, degree, to), 16 * eps) << "seed " << seed << " pair " << n;
   }
 }
 
-/// Even and odd powers apart, where the degree is one that wants so many points; of an odd one the highest even power is zero.
+/// Evaluates even and odd powers separately where the degree needs this number of points; an odd degree has a
+/// zero highest even power.
 template <int points, class Real>
 Real fitting_value(const Coefficients<Real>& c, int degree, Real x) {
   constexpr int most = 2 * points;
@@ -116,8 +120,8 @@ Real fitting_value(const Coefficients<Real>& c, int degree, Real x) {
   return even + odd * x;
 }
 
-/// Two numbers to an instruction, and each has the bits that it has alone; of an odd count the lane left over is in no
-/// sum.
+/// One instruction computes two numbers, and each has the bits of a separate computation. With an odd count
+/// the unused lane is in no sum.
 template <int points, class Real>
 void expect_bits_of_single_numbers(std::mt19937_64& random) {
   std::uniform_real_distribution<double> any(-1, 1);
@@ -142,13 +146,13 @@ void expect_bits_of_single_numbers(std::mt19937_64& random) {
   }
   EXPECT_EQ(weighted_sum<points>(v), sum) << points;
   EXPECT_EQ(weighted_sum<points>(v, u), products) << points;
-  // Weights sum up to one, and the values to 17 at most: a few roundings in another order.
+  // The weights sum up to one, and the values to 17 at most: the other order costs a few roundings.
   const auto w_v = weighted<points>(v);
   const auto w_vu = w_v * u;
   const Real rounding = 17 * 17 * points * std::numeric_limits<Real>::epsilon();
   EXPECT_LE(std::fabs(total(w_v) - sum), rounding) << points;
   EXPECT_LE(std::fabs(total(w_vu) - products), rounding) << points;
-  // Side by side each is what it is alone.
+  // Each total equals its separate computation.
   const auto two = totals(w_vu, w_v);
   EXPECT_EQ(two[0], total(w_vu)) << points;
   EXPECT_EQ(two[1], total(w_v)) << points;
@@ -176,7 +180,7 @@ TEST(Nodes, HaveTheBitsOfSingleNumbersInFloat) { expect_bits_of_single_numbers<f
 TEST(Nodes, HaveTheBitsOfSingleNumbersInLongDouble) { expect_bits_of_single_numbers<long double>(); }
 
 TEST(Gauss, OnePointFewerWouldNotDo) {
-  // cosh-like series without alternating signs, at degree 8: 3 points leave what 4 do not.
+  // The cosh-like series has no alternating signs: at degree 8, 3 points miss a remainder that 4 do not.
   Poly c{};
   double rate = std::pow(0x1p-53 * 40320, 1.0 / 8), term = 1;
   for (int j = 0; j <= 8; ++j, term *= rate / j) c[j] = term;

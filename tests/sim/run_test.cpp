@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The run loop on two systems with closed solutions: a bouncing ball (located events) and a switched RL
-// circuit (scheduled ones).
+// The run loop equals the closed solutions of two systems: a bouncing ball (located events) and a switched RL
+// circuit (scheduled events).
 #include "sixstep/sim/run.hpp"
 
 #include <gtest/gtest.h>
@@ -98,7 +98,7 @@ class Chopped {
   Instant now_{}, next_{};
 };
 
-/// The same in closed form, in long double.
+/// The closed form in long double.
 long double chopped_exact(int periods) {
   const long double tau = static_cast<long double>(Chopped::L) / Chopped::R;
   const long double full = Chopped::U / static_cast<long double>(Chopped::R);
@@ -153,7 +153,7 @@ TEST(Pitfall07_ZeroLengthSteps, AreLegal) {
   EXPECT_EQ(run.segments, 2);
 }
 
-/// Its only guard is below zero from the start, until so many events have been applied.
+/// The only guard is negative from the start until the given number of events has been applied.
 struct Stuttering {
   using Real = double;
   int left;
@@ -190,7 +190,7 @@ TEST(Run, KnownSwitchingsGiveTheClosedForm) {
   EXPECT_EQ(run.stop, Stop::end);
   EXPECT_EQ(circuit.switchings, 2 * periods + 1) << "what is due at the end is done";
   EXPECT_EQ(run.segments, 2 * periods);
-  // An error of eps/2 of full current per segment, remembered over L/R = 19 periods.
+  // Each segment adds an error of eps/2 of full current, which decays over L/R = 19 periods.
   EXPECT_NEAR(circuit.i, static_cast<double>(chopped_exact(periods)), 40 * eps * Chopped::U / Chopped::R);
 }
 
@@ -214,8 +214,8 @@ TEST(Run, AnObserverDoesNotChangeABit) {
   EXPECT_EQ(sampling.segments, a.segments);
 }
 
-/// A slice end is a restart of the expansion: it is invisible to the bit only where the system restarts
-/// anyway, at its own known instants. Everything due there is done once.
+/// A slice's end restarts the expansion. Its result has the same bits only if the slice ends at an instant
+/// where the system restarts anyway. Each action due there runs once.
 TEST(Run, StoppingAtKnownInstantsIsInvisible) {
   Chopped whole, sliced;
   sim::NoObserver none;
@@ -249,7 +249,7 @@ TEST(Run, AnEndThatHasPassedDoesNothingButWhatIsDue) {
   EXPECT_EQ(ball.acts, 1);
 }
 
-/// Refuses to act, or to expand.
+/// A system that fails to act or to expand.
 struct Broken : Ball {
   bool acts_well = true;
   bool act() { return acts_well; }
@@ -264,7 +264,7 @@ TEST(Run, FaultsAndUnsettledStatesEndTheRun) {
   EXPECT_EQ(sim::run(unsettled, sim::to_instant(1.0), none).stop, Stop::unsettled);
 }
 
-/// Two guards that reach zero together: the one visited first is the event.
+/// Two guards reach zero together: the one visited first is the event.
 struct TwoGuards : Ball {
   int applied = -1;
   template <class Visit>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fixed point in a scenario: bases that hold what the drive needs, and an answer where they cannot.
+// Fixed point in a scenario: the bases hold the drive's values, or check() refuses.
 #include "sixstep/study/compile/arithmetic.hpp"
 
 #include <gmock/gmock.h>
@@ -31,8 +31,8 @@ TEST(Arithmetic, FloatingPointComputesInSI) {
 }
 
 TEST(Arithmetic, TheProductsDriveIsTheOneThatIsExported) {
-  // drive_in() is what `sixstep export header` writes: in the bases of the product around it, which follow
-  // from its converters.
+  // drive_in() is the drive that `sixstep export header` writes: in the bases of its product, which follow
+  // from the product's converters.
   const Scenario s = product_scenario(control::Mode::speed, 100.0);
   const auto compiled = study::compile(s);
   const auto drive = study::drive_in<control::Q15>(s, *compiled);
@@ -46,16 +46,17 @@ TEST(Arithmetic, TheProductsDriveIsTheOneThatIsExported) {
 }
 
 TEST(Arithmetic, BasesHoldTwiceTheReferenceAgainstIt) {
-  // 10 A measured less a reference of -5 A; the end of Q31 is one digit below its base.
+  // The largest error is 10 A measured less a reference of -5 A; the end of Q31 is one digit below its base.
   const rig::Bases u = units<control::Q31>(current_square());
   EXPECT_NEAR(u.current_A, 15.0, 15.0 * 0x1p-30);
   EXPECT_NEAR(u.voltage_V, 24.0, 24.0 * 0x1p-30);
   EXPECT_EQ(u.setpoint, u.current_A);
-  // Two bits before the point: the same ends from half the base.
+  // Q30 has two bits before the point: half the base has the same ends.
   EXPECT_NEAR((units<control::Q30>(current_square()).current_A), 7.5, 7.5 * 0x1p-30);
 }
 
-/// Whatever speed trips the drive, above what the bus reaches (716 rad/s) or below: its threshold has room in each format.
+/// The drive's over-speed threshold fits each format, above the speed that the bus allows (716 rad/s) or
+/// below.
 TEST(Arithmetic, AnyOverSpeedFits) {
   for (const double over : {400.0, 716.0, 717.0, 800.0, 900.0})
     for (const auto arithmetic : {study::Arithmetic::q14, study::Arithmetic::q15, study::Arithmetic::q31}) {
@@ -126,8 +127,8 @@ TEST(Arithmetic, EveryModeRunsInEveryFormat) {
 }
 
 TEST(Arithmetic, FullDutyIsWholeWhereTheFormatHasIt) {
-  // Q1.14 has the 1: no off gap, so the very trajectory of double. Q15 ends one digit below: a gap per
-  // period.
+  // Q1.14 represents 1: it has no off-time, and so the trajectory of double. Q15 ends one digit below: one
+  // off-time per period.
   Scenario s = maxon_scenario(control::Mode::duty, 1.0);
   const auto wide = study::run(s);
   s.control.arithmetic = Arithmetic::q14;

@@ -10,7 +10,7 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-/// On either kernel: the general one has gears with losses.
+/// Each kernel runs the tests: only the general one has gears with losses.
 class Clamp : public ::testing::TestWithParam<bool> {
  protected:
   static study::Scenario coasting() {
@@ -24,7 +24,7 @@ class Clamp : public ::testing::TestWithParam<bool> {
 };
 INSTANTIATE_TEST_SUITE_P(Kernels, Clamp, ::testing::Bool());
 
-/// Found by a drawn scenario: no segment is clamped, and yet the kinetic energy is gone.
+/// A random scenario found it: no segment is clamped, but the kinetic energy is lost.
 TEST_P(Clamp, ThatLetsGoAtTheInstantItGripsHasTheKineticEnergyInTheBook) {
   study::Scenario s = coasting();
   s.initial.speed_rad_s = 60.0;
@@ -41,7 +41,7 @@ TEST_P(Clamp, ThatLetsGoAtTheInstantItGripsHasTheKineticEnergyInTheBook) {
   EXPECT_LT(std::fabs(outcome->energy->mechanical_residual), 1e-13);
 }
 
-/// Found by drawn scenarios: nothing has moved but the magnets, who gave what the clamp takes.
+/// Random scenarios found it: only the magnets did work, and the clamp takes that energy.
 TEST(ClampOnCogging, TakesWhatTheMagnetsGaveARotorFromRest) {
   study::Scenario s = maxon_scenario(control::Mode::off, 0.0);
   s.sheet.cogging_orders = {48};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The commutation error against what makes it: probes beside their place, probes that are late, samples between the edges.
+// The commutation error equals its cause: the probes' offset, their delay, or the time between an edge and
+// the sample.
 #include <gtest/gtest.h>
 
 #include "sixstep/base/angle.hpp"
@@ -16,7 +17,7 @@ using control::Mode;
 
 constexpr double pole_pairs = 8, deg = 180 / base::pi;
 
-/// Turned from outside over five electrical turns.
+/// An external drive turns the motor over five electrical turns.
 Scenario turned(double w_rad_s) {
   Scenario s = maxon_scenario(Mode::current, 1.0);
   s.load.dynamometer_times_s = {0.0};
@@ -62,8 +63,8 @@ TEST(CommutationError, IsTheAngleOfTheDelay) {
   EXPECT_NEAR(e.rms, e.worst, 1e-6);
 }
 
-// At samples it is anything between 0 and one period's angle; of an even spread the rms is that over the root of 3, with 30
-// commutations to a fifth of it.
+// The error at samples lies between 0 and the angle of one period. A uniform distribution has that angle over
+// the root of 3 as rms, which 30 commutations give to a fifth.
 TEST(CommutationError, IsSpreadOverAPeriodAtSamples) {
   Scenario s = turned(61);
   s.pwm.commutation = CommutationAt::sample;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The duty step at commutation on the switching motor: what it leaves of the dip that a duty which goes on makes by theory, and of the
-// torque's ripple behind a current loop.
+// The duty step at commutation on the switching motor removes the dip that theory gives for an unchanged
+// duty, and reduces the torque's ripple with a current loop.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,9 +22,9 @@ using study::MetricKind;
 using study::Scenario;
 using study::Signal;
 
-constexpr double K_t = 33.5e-3, R = 0.515, L = 0.286e-3, U = 24.0;  // of maxon_sheet(), a phase
+constexpr double K_t = 33.5e-3, R = 0.515, L = 0.286e-3, U = 24.0;  // per phase, of maxon_sheet()
 
-/// Complementary, turned from outside.
+/// An external drive turns the motor; the chopping is complementary.
 Scenario turned(CurrentCommutation commutation, PwmPattern pattern, double speed_rad_s, double current_A) {
   Scenario s = maxon_scenario(Mode::current, current_A);
   s.pwm.chopping = control::Chopping::complementary;
@@ -41,20 +41,21 @@ void ask_torque(Scenario& s, MetricKind metric, double from_s) {
   ask(s, figure);
 }
 
-/// The staying phase's current where the leaving one has died, with u between the entering phase and it (model.md 1, the leaving
-/// terminal at the lower rail).
+/// The staying phase's current when the leaving one has reached zero, with the voltage u between the entering
+/// phase and it (model.md 1, the leaving terminal at the lower rail).
 double after_commutation_A(double E, double I, double u) {
   const double leaving = (u + 2 * E) / (3 * R), staying = (4 * E - u) / (3 * R);
-  const double faded = leaving / (leaving + I);  // exp(-t R/L) where it has died
+  const double faded = leaving / (leaving + I);  // exp(-t R/L) when it is zero
   return (I + staying) * faded - staying;
 }
 
-/// Of the first commutation that is no start: the loop has settled, and holds its duty from then on.
+/// The least current at the first commutation after the start: the loop has settled, and its duty is constant
+/// from then on.
 double least_current_A(CurrentCommutation commutation, PwmPattern pattern, double speed_rad_s,
                        double current_A) {
   Scenario s = turned(commutation, pattern, speed_rad_s, current_A);
   const double sector_s = base::sector_rad / (8 * speed_rad_s);
-  s.sheet.flat_deg = 170;  // the leaving phase's lasts
+  s.sheet.flat_deg = 170;  // lasts over the leaving phase's decay
   s.pwm.period_s = 0.5e-6;
   s.control.current.settle_s = 0.3 * sector_s;
   s.duration_s = 1.9 * sector_s;
@@ -75,7 +76,7 @@ TEST(CommutationStep, LeavesNothingOfTheDipThatTheoryForetells) {
       for (const PwmPattern pattern : {PwmPattern::pwm_on, PwmPattern::upper}) {
         const double E = K_t * speed_rad_s / 2, ripple_A = U * 0.5e-6 / (4 * L);
         const double foretold =
-            after_commutation_A(E, current_A, 2 * E + 2 * R * current_A);  // the pair's, which goes on
+            after_commutation_A(E, current_A, 2 * E + 2 * R * current_A);  // the pair's duty, unchanged
         SCOPED_TRACE(::testing::Message() << speed_rad_s << " rad/s, " << current_A << " A");
         EXPECT_LT(foretold, 0.75 * current_A);
         EXPECT_NEAR(least_current_A(CurrentCommutation::plain, PwmPattern::pwm_on, speed_rad_s, current_A),
@@ -85,7 +86,7 @@ TEST(CommutationStep, LeavesNothingOfTheDipThatTheoryForetells) {
       }
 }
 
-/// Above 4 E + 3 R I = U: what a whole duty leaves, and what overlapping does.
+/// Above 4 E + 3 R I = U a full duty is too small, and overlapping holds the current.
 TEST(CommutationStep, OverlappingHoldsWhatAWholeDutyDoesNot) {
   for (const double speed_rad_s : {370.0, 430.0})
     for (const PwmPattern pattern : {PwmPattern::pwm_on, PwmPattern::upper, PwmPattern::on_pwm}) {
@@ -99,7 +100,7 @@ TEST(CommutationStep, OverlappingHoldsWhatAWholeDutyDoesNot) {
     }
 }
 
-/// Of the torque, behind the drive's own loop on its usual period.
+/// The torque's ripple with the drive's own loop at its usual period.
 double ripple_Nm(CurrentCommutation commutation, PwmPattern pattern, double speed_rad_s, double current_A,
                  int delay_periods, study::Arithmetic arithmetic = study::Arithmetic::float64) {
   Scenario s = turned(commutation, pattern, speed_rad_s, current_A);
@@ -111,7 +112,8 @@ double ripple_Nm(CurrentCommutation commutation, PwmPattern pattern, double spee
   return out ? out->comparisons[0].measured : 0.0;
 }
 
-/// Behind the loop, at speeds where a whole duty is too little: overlapping halves the ripple there too, as far as the bus goes.
+/// Overlapping also reduces the ripple with the loop at speeds where a full duty is too small, as far as the
+/// bus allows.
 TEST(CommutationStep, OverlappingTakesOnWhereADutyIsTooLittle) {
   for (const double speed_rad_s : {350.0, -400.0, 450.0, -500.0})
     for (const int delay_periods : {0, 1}) {
@@ -126,8 +128,8 @@ TEST(CommutationStep, OverlappingTakesOnWhereADutyIsTooLittle) {
     }
 }
 
-/// Where a commutation takes some periods it halves the ripple, where it takes one it leaves it about where it was, and a motor that
-/// is braked runs as without it.
+/// The step reduces the ripple where a commutation takes several periods, leaves it about equal where it
+/// takes one, and does not change a braked motor's run.
 TEST(CommutationStep, HalvesTheRippleBehindTheLoop) {
   using enum PwmPattern;
   for (const double speed_rad_s : {50.0, -150.0, 300.0})
@@ -145,7 +147,7 @@ TEST(CommutationStep, HalvesTheRippleBehindTheLoop) {
       }
 }
 
-/// The chip's arithmetic: as far from the double's run as without the step.
+/// The chip's arithmetic deviates from double's run no more than without the step.
 TEST(CommutationStep, InTheNumbersOfAChip) {
   for (const study::Arithmetic arithmetic :
        {study::Arithmetic::float32, study::Arithmetic::q15, study::Arithmetic::q31})
@@ -153,8 +155,9 @@ TEST(CommutationStep, InTheNumbersOfAChip) {
                 ripple_Nm(CurrentCommutation::duty_step, PwmPattern::pwm_on, 150.0, 3.0, 1), 0.02 * K_t);
 }
 
-/// Told exactly where the run is the plain one to the bit: the current of the leaving phase lasts L I/u at most, u = 2 E + 3 R I/2, and
-/// the drive leaves out what lasts no longer than the wait until its command acts; so does a braked motor, and one that stands.
+/// The remark appears exactly where the run equals the plain one bit for bit. The leaving phase's current
+/// lasts L I/u at most, u = 2 E + 3 R I/2; the drive skips commutations that are shorter than its command's
+/// delay, and those of a braked or resting motor.
 TEST(CommutationStep, TellsARunInWhichItNeverActs) {
   for (const double speed_rad_s : {0.0, 60.0, 300.0})
     for (const double current_A : {0.5, 3.0, -3.0})
@@ -182,7 +185,8 @@ TEST(CommutationStep, TellsARunInWhichItNeverActs) {
       }
 }
 
-/// A pattern that chops the staying leg leaves a larger peak and a deeper dip than PWM-ON, and a remark says so.
+/// A pattern that chops the staying leg has a larger peak and a deeper dip than PWM-ON, and a remark states
+/// it.
 TEST(CommutationStep, TellsAPatternThatChopsTheStayingLeg) {
   struct Seen {
     double least_Nm, most_A;
@@ -218,7 +222,7 @@ TEST(CommutationStep, TellsAPatternThatChopsTheStayingLeg) {
   }
 }
 
-/// What has no duty of its own, or no pair to hold it on, is told so.
+/// A drive without a duty of its own, or without a pair to hold it, is refused.
 TEST(CommutationStep, IsRefusedWhereNothingHolds) {
   const auto told = [](const Scenario& s) {
     const base::Problems problems = study::check(s);

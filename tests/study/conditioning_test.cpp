@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far apart two cascades drift whose motors differ by a part in 1e12: what a comparison with another
-// solver may ask of this problem at most.
+// The distance between two cascades whose motors differ by a part in 1e12 bounds what a comparison with
+// another solver can require.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,8 +26,8 @@ struct Rows {
   void segment(const rig::LeanRig<double>& rig, double s) { grid.segment(rig, s); }
 };
 
-/// The thesis's speed cascade from rest to 100 rad/s (reference case R8) by a motor whose K_e alone is
-/// changed: phase currents and speed.
+/// Phase currents and speed of the thesis's speed cascade from rest to 100 rad/s (reference case R8), with
+/// only K_e changed.
 std::vector<std::vector<double>> cascade(double K_e_factor) {
   Scenario s = maxon_scenario(control::Mode::speed, 100.0);
   s.duration_s = 0.2;
@@ -80,8 +80,8 @@ TEST(Pitfall13_Conditioning, TheSpeedCascadeAmplifiesATwelfthDigit) {
   // compared; two that compute in double from the same bits may not.
   EXPECT_GT(twelfth.current_A, 1e-9);
   EXPECT_LT(bit.current_A, 1e-9);
-  // It is the problem that amplifies, not the solver: ten times the change is ten times the distance, but for
-  // the rounding that one bit shows.
+  // The problem amplifies the difference, not the solver: ten times the change gives ten times the distance,
+  // except for the rounding that one bit shows.
   EXPECT_NEAR(eleventh.current_A / 10, twelfth.current_A, 2 * bit.current_A);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Deadbeat current control and the staying phase's current on the switching motor: how soon a step is there, and what is left of the
-// ripple that commutation makes.
+// Deadbeat current control and the staying phase's current on the switching motor: the periods of a step, and
+// the remaining ripple of commutation.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,8 +27,9 @@ double first_figure(const Scenario& s) {
   return out ? out->comparisons[0].measured : -1e9;
 }
 
-/// 1 A more into a held rotor, in as many periods as the wait and one, to what a pulse that stands at the begin of its period does less
-/// than a voltage held over it: (1 - f) of the step's voltage, L/T per ampere.
+/// A step of 1 A into a held rotor takes the delay and one period. Its error is that of a pulse at the
+/// beginning of its period against a voltage over the whole period: (1 - f) of the step's voltage, L/T per
+/// ampere.
 TEST(Deadbeat, AStepIsThereAPeriodAfterTheAnswerBegins) {
   for (const auto arithmetic : {study::Arithmetic::float64, study::Arithmetic::float32,
                                 study::Arithmetic::q15, study::Arithmetic::q31})
@@ -52,7 +53,7 @@ struct Torque {
   double most, least, ripple_rms;
 };
 
-/// Turned at 150 rad/s with 3 A, 0.1 N m, complementary.
+/// An external drive turns the motor at 150 rad/s with 3 A, 0.1 N m, complementary.
 Torque torque_of(CurrentLoopType type, CurrentFeedback feedback) {
   Scenario s = maxon_scenario(Mode::current, 3.0);
   s.pwm.chopping = control::Chopping::complementary;
@@ -72,8 +73,9 @@ Torque torque_of(CurrentLoopType type, CurrentFeedback feedback) {
              : Torque{};
 }
 
-/// A commutation halves the mean of the new pair's currents, and a loop that is told it pushes at once: within a period the deadbeat
-/// one, within its settling time the PI. The staying phase's current tells the torque as it is, and nothing of what comes.
+/// A commutation halves the mean of the new pair's currents, and a loop that measures it reacts at once: the
+/// deadbeat loop within a period, the PI within its settling time. The staying phase's current shows the
+/// present torque, and not the coming dip.
 TEST(Deadbeat, TakesOffTheRippleOfCommutation) {
   using enum CurrentFeedback;
   const Torque pi = torque_of(CurrentLoopType::pi, mean),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One trajectory, one digest: however often, by however many, watched or not, in one go or resumed.
+// One trajectory has one digest: in repeated runs, in several threads, with or without observers, in one run
+// or resumed.
 #include "sixstep/study/measure/digest.hpp"
 #include "sixstep/base/hash.hpp"
 
@@ -27,7 +28,7 @@ using control::Mode;
 using Rig = rig::LeanRig<double>;
 static_assert(std::is_copy_constructible_v<Rig>, "a copy of the rig is its snapshot");
 
-/// Settling-time design, bus behind R and C, dead time: much that a snapshot could forget.
+/// Settling-time design, bus behind R and C, dead time: states that a snapshot could omit.
 Scenario rich() {
   Scenario s = current_square();
   s.control.current.d1 = s.control.current.d0 = std::nullopt;
@@ -61,7 +62,7 @@ std::uint64_t digest_of(const Scenario& s, const Listeners& listeners = {}) {
 /// The end state alone, to compare runs with and without a digest.
 std::uint64_t end_state(const Rig& rig) { return Digest{}.after(rig); }
 
-/// Every place inside a snapshot's life: `each` is called at every control tick, after its event.
+/// Calls `each` at every control tick of a snapshot's life, after the tick's event.
 template <class Each>
 struct AtTicks {
   Digest digest;
@@ -141,8 +142,8 @@ TEST(Digest, GoesOnFromASnapshotAtAnyTick) {
   }
 }
 
-/// What a sensed and a product firmware could forget beside the plant: noise, offsets, edges that were
-/// captured, the one-shunt's memory, filters, fault counters, a reference that moves and events that come.
+/// The state of a sensed and a product firmware that a snapshot could omit: noise, offsets, captured edges,
+/// the one-shunt's memory, filters, fault counters, a changing reference and coming events.
 Scenario one_shunt() {
   Scenario s = current_square();
   s.control.current = {.settle_s = 1e-3, .damping = 0.9};
@@ -207,7 +208,7 @@ TEST(Hash, SeesEveryBitOfEveryWord) {
     const std::uint64_t one = std::uint64_t{1} << bit;
     EXPECT_NE(of(0, 0), of(one, 0));
     EXPECT_NE(of(0, 0), of(0, one));
-    EXPECT_NE(of(0, 0), of(one, one));  // two signs turned at once: what a plain product would miss
+    EXPECT_NE(of(0, 0), of(one, one));  // two signs change at once: a plain product would be equal
     EXPECT_NE(of(one, 0), of(0, one));
   }
 }

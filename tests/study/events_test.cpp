@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// [[at]]: what changes during a run does so at its instant, by the law, and is the same event by any name.
+// [[at]]: a change during a run acts at its instant, by the law, and under any of its names.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -66,8 +66,8 @@ TEST(Events, AStepOfAStiffSupplyDrivesTheHeldMotorFromThereOn) {
 }
 
 TEST(Events, ASourceBehindItsResistanceIsFollowedAndMayCeaseToSink) {
-  // Nothing drawn: the bus goes to the source with R C = 1 ms. While the source takes nothing back, a bus
-  // above it stays where it is.
+  // No current is drawn: the bus follows the source with R C = 1 ms. While the source cannot sink, a bus
+  // above it is constant.
   Scenario s = maxon_scenario(Mode::off, 0.0);
   s.duration_s = 5e-3;
   s.supply = {.voltage_V = 24.0, .resistance_ohm = 0.5, .capacitance_F = 2e-3};
@@ -102,7 +102,7 @@ TEST(Events, AClampTakesTheKineticEnergyAndLetsGoFromRest) {
   const study::Outcome out = outcome_of(s);
   ASSERT_TRUE(out.energy);
   EXPECT_LT(std::fabs(out.energy->mechanical_residual), 1e-12);
-  // What the load gave and what was stored has gone into friction and clamp, all but what turns at the end.
+  // The load's work and the stored energy go into friction and clamp, except the kinetic energy at the end.
   EXPECT_GT(out.energy->friction, 0.5 * J * 190.0 * 190.0);
 }
 
@@ -119,9 +119,10 @@ TEST(Events, AClearedFaultLetsTheProductDriveRunAgain) {
   const auto out = study::run(s, {.on_event = std::ref(again)});
   ASSERT_TRUE(out && out->trip);
   EXPECT_EQ(out->trip->reasons.at(0), "under-voltage");
-  // Back at the reference but for the ripple of a speed told by edges, a count of 1 MHz in 1309 us.
+  // The speed returns to the reference, except for the ripple of a speed by edges: a count of 1 MHz in 1309
+  // us.
   EXPECT_NEAR(again.last_speed, 100.0, 2.0);
-  s.at[2].request = study::DriveRequest::off;  // without clearing it stays off
+  s.at[2].request = study::DriveRequest::off;  // the drive stays off without clearing
   ASSERT_TRUE(study::run(s, {.on_event = std::ref(never)}));
   EXPECT_LT(never.off_for_good(), 0.201);
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What may go onto a chip: each thing that a run leaves unmeasured is refused where the drive reads it, and
-// only there.
+// The gate refuses each thing that a run leaves unmeasured, where the drive reads it and only there.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -30,7 +29,7 @@ std::vector<std::string> wheres(const base::Problems& problems) {
   return out;
 }
 
-/// A scenario that something is asked of, as a board would measure it.
+/// A scenario with a requirement and a board's measurements.
 Scenario on_a_board(Mode mode) {
   Scenario s = maxon_scenario(mode, mode == Mode::duty ? 0.5 : 3.0);
   s.sensors = board_sensors();
@@ -67,7 +66,7 @@ TEST(ExportGate, IdealSensorsAreRefusedWhereTheDriveReadsThem) {
   EXPECT_THAT(unmeasured(s), IsEmpty()) << "nothing is read";
 }
 
-/// What the first message says is all: with it done nothing else is refused, neither by the check nor by the gate.
+/// The first message names everything: after its cure neither the check nor the gate refuses anything.
 TEST(ExportGate, TheCureOfAnotherSensorIsAllThatHasToChange) {
   const Scenario usual = on_a_board(Mode::position);
   for (const study::RotorSensing rotor :
@@ -121,7 +120,7 @@ TEST(ExportGate, ComparatorsNeedNeitherConverterNorDelay) {
   EXPECT_THAT(unmeasured(s), ElementsAre("sensors.currents", "pwm.delay_periods"));
 }
 
-/// A reversal changes a leg over in every way of chopping.
+/// A reversal switches a leg over in every kind of chopping.
 TEST(ExportGate, ADriveWithoutDeadTimeIsRefused) {
   for (const Mode mode : {Mode::duty, Mode::current, Mode::speed, Mode::position})
     for (const auto chopping :
@@ -192,7 +191,7 @@ TEST(ExportGate, WhatTheRunMissedStandsAgainstItInDigitsThatTellItFromTheLimit) 
   EXPECT_EQ(missed->outcome.digest, held->outcome.digest);
 }
 
-/// 0.4 us on counts of 1 us is no dead time at all, 1.4 us is 1 us.
+/// A dead time of 0.4 us on counts of 1 us is zero, 1.4 us is 1 us.
 TEST(ExportGate, ADeadTimeThatTheTimerShortensIsRefused) {
   Scenario s = on_a_board(Mode::current);
   s.pwm.timer_Hz = 1e6;
@@ -210,21 +209,21 @@ TEST(ExportGate, ADeadTimeThatTheTimerShortensIsRefused) {
   }
 }
 
-/// A converter that ends below what flows: the lean drive has no fault that would tell.
+/// The converter's range ends below the current: the lean drive has no fault that would report it.
 TEST(ExportGate, WhatFlowsBeyondTheConverterStandsAgainstIt) {
   Scenario s = on_a_board(Mode::current);
   s.duration_s = 5e-3;
   const auto held = study::clear_for_export(s);
   ASSERT_TRUE(held && held->clear());
   EXPECT_TRUE(held->outcome.comparisons.empty()) << "what the gate looks at is not the scenario's";
-  s.sensors.current_range_A = 3.02;  // 3 A are asked for
+  s.sensors.current_range_A = 3.02;  // the reference is 3 A
   const auto blind = study::clear_for_export(s);
   ASSERT_TRUE(blind);
   ASSERT_THAT(wheres(blind->unheld), ElementsAre("sensors.current_range_A"));
   EXPECT_THAT(blind->unheld[0].limit, ::testing::HasSubstr("beyond which the drive sees nothing"));
 }
 
-/// A drive that takes a bus of 24 V for the 12 V at which its converter ends.
+/// The drive reads a bus of 24 V as the 12 V at which its converter ends.
 TEST(ExportGate, ABusBeyondItsConverterStandsAgainstIt) {
   Scenario s = on_a_board(Mode::current);
   s.duration_s = 5e-3;
@@ -240,7 +239,8 @@ TEST(ExportGate, ABusBeyondItsConverterStandsAgainstIt) {
     }
 }
 
-/// J/2 (600^2 - 100^2) goes into C/2 (U^2 - 24^2), less what the winding takes: a bus between 24 V and that.
+/// J/2 (500^2 - 71^2) goes into C/2 (U^2 - 24^2), less the winding's loss: the bus is between 24 V and that
+/// U.
 TEST(ExportGate, ABusThatBrakingRaisesStandsAgainstIt) {
   Scenario s = on_a_board(Mode::speed);
   s.reference = {};
@@ -287,8 +287,8 @@ TEST(ExportGate, ALimitOfTheBusBeyondItsConverterIsRefused) {
   }
 }
 
-/// Its scenario never lets the drive go, the first bench does: 0.6 J of the rotor go back into 0.1 mF, which takes 0.03 J up to the
-/// threshold, unless the supply takes them.
+/// The scenario never stops the drive, but the first test on the bench does: 0.6 J of the rotor return to 0.1
+/// mF, which takes 0.03 J up to the threshold, unless the supply sinks them.
 TEST(ExportGate, AStopThatEndsInAFaultStandsAgainstIt) {
   Scenario s = braking_onto_a_small_bus();
   for (const bool sinks : {true, false}) {
@@ -301,7 +301,7 @@ TEST(ExportGate, AStopThatEndsInAFaultStandsAgainstIt) {
     ASSERT_THAT(wheres(run->unheld), ElementsAre("protection.brake_current_A"));
     EXPECT_THAT(run->unheld[0].limit, ::testing::HasSubstr("run command is removed at 0.5 s: over-voltage"));
   }
-  s.protection.off_at_s = 0.4;  // shown, and judged as the run that it is
+  s.protection.off_at_s = 0.4;  // the run shows it, and its requirements judge it
   const auto shown = study::clear_for_export(s);
   ASSERT_TRUE(shown);
   EXPECT_TRUE(shown->outcome.trip);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Thresholds that never act, act too late, or stop what is in order: a run that does not meet them says nothing of them.
+// Thresholds that never act, act too late, or stop a sound run: the run does not reach them, so that only the
+// gate reports them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,7 +29,7 @@ std::vector<std::string> unmeasured(const Scenario& s) {
   return out;
 }
 
-/// May ask for 0.195 N m, which are 5.82 A.
+/// The torque limit is 0.195 N m, which is 5.82 A.
 Scenario limited_by_torque() {
   Scenario s = product_scenario(Mode::speed, 100.0);
   s.pwm.delay_periods = 1;
@@ -39,7 +40,7 @@ Scenario limited_by_torque() {
   return s;
 }
 
-/// A rotor that is held takes what the speed loop may ask for, 0.195 N m / 33.5 mNm/A of this one, and no more.
+/// A held rotor takes the speed loop's limit, 0.195 N m / 33.5 mNm/A, and no more.
 TEST(ExportProtection, AStallThatTheLimitHidesStandsAgainstIt) {
   Scenario s = limited_by_torque();
   s.protection.stall_s = 0.1;
@@ -50,17 +51,17 @@ TEST(ExportProtection, AStallThatTheLimitHidesStandsAgainstIt) {
     for (const base::Problem& p : told)
       EXPECT_THAT(to_string(p), ::testing::HasSubstr("5.82 A, control.speed.torque_limit_Nm over K_t"));
   }
-  s.control.current.limit_A = 10.0;  // the torque's limit is the lower one
+  s.control.current.limit_A = 10.0;  // the torque limit is the lower one
   s.protection.stall_current_A = 8.0;
   EXPECT_THAT(unmeasured(s), ElementsAre("protection.stall_current_A"));
-  s.control.mode = Mode::current;  // the reference is the most that is asked for
+  s.control.mode = Mode::current;  // the reference is the largest command
   s.reference.value = -7.0;
   EXPECT_THAT(unmeasured(s), ElementsAre("protection.stall_current_A"));
   s.reference.value = -9.0;
   EXPECT_THAT(unmeasured(s), IsEmpty());
 }
 
-/// What the drive may ask for is the least of its limits; a threshold below that stops what is in order.
+/// The drive's largest command is the smallest of its limits; a threshold below it stops a sound run.
 TEST(ExportProtection, AnOverCurrentBelowTheLimitThatBindsStandsAgainstIt) {
   Scenario s = limited_by_torque();
   s.protection.stall_current_A.reset();
@@ -82,8 +83,8 @@ TEST(ExportProtection, AnOverCurrentBelowTheLimitThatBindsStandsAgainstIt) {
   EXPECT_EQ(told(3.1), "");
 }
 
-/// The winding's time by the thermal model: at I it is heated by I^2 R, and stands that from cold to its limit for as long as the closed
-/// form says, which the sheet's own numbers bound: longer than without any cooling, shorter than for ever.
+/// The winding's time follows from the thermal model: I^2 R heats it from cold to its limit in the closed
+/// form's time. The sheet's values bound that time: it is longer than without any cooling, and finite.
 TEST(ExportProtection, AStallThatTheWindingDoesNotStandStandsAgainstIt) {
   Scenario s = product_scenario(Mode::current, 15.0);
   s.pwm.delay_periods = 1;
@@ -98,7 +99,7 @@ TEST(ExportProtection, AStallThatTheWindingDoesNotStandStandsAgainstIt) {
   const double capacity = thermal->winding_s / thermal->winding_housing_K_W;
   const double watts = 15.0 * 15.0 * 1.03;
   const double uncooled_s = capacity * (thermal->max_winding_degC - 25) / watts;
-  // Warm copper takes more: up to 1.4 times at 125 degC.
+  // Warm copper has more loss: up to 1.4 times at 125 degC.
   for (const double stall_s : {uncooled_s / 1.5, uncooled_s * 1.5}) {
     s.protection.stall_s = stall_s;
     if (stall_s < uncooled_s)

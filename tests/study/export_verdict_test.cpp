@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands against a header although every requirement of the run holds: its design's verdict, a loop that is unstable behind
-// a great inertia; and cures that cure.
+// Reasons against a header although the run meets every requirement: its design's verdict, or a loop that is
+// unstable behind a large inertia; and the cures remove them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,7 +33,8 @@ TEST(ExportVerdict, WhatItsDesignFoundStandsAgainstIt) {
   EXPECT_THAT(study::run(s)->remarks, Contains(HasSubstr("NOT USABLE: it never settles")));
 }
 
-/// The loop as a recurrence, sample by sample: i' = a i + (1 - a)/R u, u' = u + d1 e + d0 e_before, `late` periods behind.
+/// The loop as a recurrence, sample by sample: i' = a i + (1 - a)/R u, u' = u + d1 e + d0 e_before, with
+/// `late` periods of delay.
 bool grows(double d1, double d0, double R, double L, double T, int late) {
   const double a = std::exp(-R * T / L), b = (1 - a) / R;
   double i = 1.0, u = 0.0, e_before = 0.0, waits = 0.0, first = 0.0, last = 0.0;
@@ -67,7 +68,7 @@ TEST(ExportVerdict, ALoopIsUnstableWhereItsRecurrenceGrows) {
   EXPECT_LT(unstable, 13);
 }
 
-/// A speed that holds hides a current that swings.
+/// A steady speed hides an oscillating current.
 TEST(ExportVerdict, AnUnstableCurrentLoopStandsAgainstIt) {
   Scenario s = product_scenario(Mode::speed, 100.0);
   s.duration_s = 0.1;
@@ -90,7 +91,8 @@ TEST(ExportVerdict, AnUnstableCurrentLoopStandsAgainstIt) {
   }
 }
 
-/// Braking from 300 rad/s onto a bus that takes nothing: what is advised helps, and what is not would not.
+/// The drive brakes from 300 rad/s with a bus that cannot sink: the advised cures work, and the others would
+/// not.
 TEST(ExportVerdict, TheCureOfAStopThatRaisesTheBusHolds) {
   Scenario s = braking_onto_a_small_bus();
   s.supply.sinks = false;
@@ -110,7 +112,7 @@ TEST(ExportVerdict, TheCureOfAStopThatRaisesTheBusHolds) {
   EXPECT_THAT(unheld(s), IsEmpty());
 }
 
-/// Of a coarse converter what is advised is what the check itself asks for.
+/// The cure for a coarse converter equals the check's own requirement.
 TEST(ExportVerdict, TheCureOfAStallThatIsNeverPassedHolds) {
   for (const int bits : {12, 6, 5, 4}) {
     Scenario s = product_scenario(Mode::speed, 100.0);

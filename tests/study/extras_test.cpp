@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a product adds inside the loops (control/drive_extras.hpp), asked for by a scenario, in full switching
-// simulation of the reference motor: each test compares with the run without it.
+// A product's extras inside the loops (control/drive_extras.hpp), from a scenario, in full switching
+// simulation of the reference motor: each test compares with the run without them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -41,10 +41,10 @@ double K_i(const Scenario& s) {
 }
 
 TEST(Extras, MeasuredBusTakesTheFallOfTheBusFromTheLoop) {
-  // 5 A into the held rotor, u = R i = 5.15 V, on a bus that falls from 36 V to what 24 V keep behind 1 ohm:
-  // tau = 20 ms. With the nominal bus the loop must ask for u 24 V/U, which rises by u 24 V |U'|/U^2, and the
-  // integral follows a ramp with a lasting error of its slope T/K_i. At 5 ms, with 0.86 A drawn: U = 23.14 V
-  // + 12.86 V exp(-1/4).
+  // The current is 5 A into the held rotor, u = R i = 5.15 V. The bus falls from 36 V to 24 V less the drop
+  // over 1 ohm: tau = 20 ms. With the nominal bus the loop must command u 24 V/U, which rises by u 24 V
+  // |U'|/U^2, and the integral follows a ramp with a steady error of its slope T/K_i. At 5 ms, with 0.86 A
+  // drawn: U = 23.14 V + 12.86 V exp(-1/4).
   Scenario s = maxon_scenario(Mode::current, 5.0);
   s.load.locked = true;
   s.initial.angle_rad = 0.02;
@@ -65,8 +65,9 @@ TEST(Extras, MeasuredBusTakesTheFallOfTheBusFromTheLoop) {
 }
 
 TEST(Extras, BackEmfFeedForwardTakesTheRampOfTheSpeedFromTheLoop) {
-  // 5 A into the free rotor: the back-EMF rises by K_t^2 i/J, and the integral follows it K_t^2 i/J T/K_i
-  // late. Commutations, which saturate the loop, take more, but from both alike: seen in the samples' mean.
+  // The current is 5 A into the free rotor: the back-EMF rises by K_t^2 i/J, and the integral lags by K_t^2
+  // i/J T/K_i. Commutations saturate the loop and cost more, but equally in both runs: the samples' mean
+  // shows the difference.
   Scenario s = maxon_scenario(Mode::current, 5.0);
   s.duration_s = 30e-3;
   study::Measure mean = window(MetricKind::mean, Signal::current, 2e-3, 30e-3);
@@ -82,7 +83,7 @@ TEST(Extras, BackEmfFeedForwardTakesTheRampOfTheSpeedFromTheLoop) {
 
 TEST(Extras, ASlewedSetpointAsksForItsSlopeOfTorque) {
   // 1000 rad/s^2: J w' + B w, over the middle of the ramp. The speed follows within its ripple of some 0.5
-  // rad/s, over 60 ms 1 % of the slope at either end.
+  // rad/s, which is 1 % of the slope over 60 ms at either end.
   Scenario s = maxon_scenario(Mode::speed, 100.0);
   s.duration_s = 0.15;
   ask(s, window(MetricKind::mean, Signal::torque, 20e-3, 80e-3));
@@ -115,22 +116,22 @@ TEST(Extras, OwnTorqueDoesNotPassTheLimitOfSpeed) {
   ASSERT_TRUE(out);
   std::printf("speed %.6g, at most %.6g rad/s\n", out->comparisons[0].measured, out->comparisons[1].measured);
   const double K_K_t = J / 1e-3;
-  // The sample, which is held, lies up to half a ripple below the mean current, U T/(8 L): over K_t K.
+  // The loop holds the sample, which is up to half a ripple, U T/(8 L), below the mean current: over K_t K.
   const double half_ripple_A = 24.0 * T / (8 * L);
   EXPECT_NEAR(out->comparisons[0].measured, 100.0 * K_K_t / (K_K_t + B), half_ripple_A * K_t / K_K_t);
-  // The reference falls as the speed rises; what the current is late by, its settling time, it overshoots by
-  // less than full torque gives in that time.
+  // The reference falls as the speed rises; the current lags by its settling time and overshoots by less than
+  // full torque gives in that time.
   EXPECT_LT(out->comparisons[1].measured, 100.0 + K_t * 2.0 / J * 1e-3);
 }
 
-/// Mean current of a rotor held at 20 rad/s by its inertia, at a duty just on one side of zero.
+/// The mean current of a rotor held at 20 rad/s by its inertia, at a duty just above or below zero.
 double current_at(double duty, bool smooth) {
   Scenario s = maxon_scenario(Mode::duty, duty);
   s.duration_s = 80e-3;
   s.initial.speed_rad_s = 20.0;
   s.load.inertia_kg_m2 = 1.0;
   s.control.smooth_chopping.on = smooth;
-  // Ten sectors of (pi/24)/20 rad/s, 6.5 ms each.
+  // The window is ten sectors of (pi/24)/20 rad/s, 6.5 ms each.
   ask(s, window(MetricKind::mean, Signal::current, 10e-3, 10e-3 + 10 * M_PI / 24 / 20.0));
   return first_figure(s);
 }
@@ -140,11 +141,12 @@ TEST(Extras, SmoothChoppingHasNoStepAtDutyZero) {
   const double soft = current_at(d, false) - current_at(-d, false);
   const double smooth = current_at(d, true) - current_at(-d, true);
   std::printf("from -%g to %g: soft %.4g A, smooth %.4g A\n", d, d, soft, smooth);
-  // At each commutation the current comes in anew with tau = L/R, 0.085 of a sector, and is measured as half
-  // of two phases meanwhile. Soft: from no current to a short circuit of the windings (model.md 4b).
+  // The current rises anew at each commutation with tau = L/R, 0.085 of a sector, and the measured value is
+  // half of two phases meanwhile. Soft chopping changes from no current to a short circuit of the windings
+  // (model.md 4b).
   const double commutation = L / R / (M_PI / 24 / 20.0);
   EXPECT_NEAR(soft, K_t * 20.0 / R, commutation * K_t * 20.0 / R);
-  // Smooth: what 2 d U drives.
+  // Smooth chopping changes by the current of 2 d U.
   EXPECT_NEAR(smooth, 2 * d * 24.0 / R, commutation * 2 * d * 24.0 / R);
 }
 

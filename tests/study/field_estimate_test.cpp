@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The field-oriented drive without a sensor on its rotor: where it takes the magnet to point, beside where the motor's does.
+// The field-oriented drive without a sensor on its rotor: its angle of the magnet is compared with the
+// motor's.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +27,7 @@ using control::EstimatorPhase;
 using control::Mode;
 using ::testing::HasSubstr;
 
-/// A machine whose magnets lie inside: 251601's size, L_d 0.24, L_q 0.34 mH, iron that saturates.
+/// A machine with interior magnets: 251601's size, L_d 0.24, L_q 0.34 mH, iron that saturates.
 Scenario inner_magnets(Mode mode, double reference) {
   Scenario s = maxon_scenario(mode, reference);
   s.sheet.back_emf = design::BackEmfShape::sine;
@@ -93,7 +94,8 @@ double found_at_s(const std::vector<Look>& looks) {
   return INFINITY;
 }
 
-/// Whatever way the rotor stands, it is found, north and all, and has not moved by more than the pulses shake it.
+/// Injection finds the rotor's angle and north at any angle, and moves the rotor by no more than the pulses'
+/// oscillation.
 TEST(FieldEstimate, InjectionFindsAngleAndNorthFromAHundredRandomAngles) {
   constexpr unsigned seed = 20261126;
   SCOPED_TRACE("seed " + std::to_string(seed));
@@ -114,7 +116,7 @@ TEST(FieldEstimate, InjectionFindsAngleAndNorthFromAHundredRandomAngles) {
   }
 }
 
-/// With L_d above L_q the pulse's answer is the other way round.
+/// With L_d above L_q the pulse's response is reversed.
 TEST(FieldEstimate, InjectionFindsARotorWhoseFluxAxisIsTheLargerOne) {
   for (const double angle : {0.05, 0.4, 0.75}) {
     Scenario s = inner_magnets(Mode::current, 0.0);
@@ -125,7 +127,8 @@ TEST(FieldEstimate, InjectionFindsARotorWhoseFluxAxisIsTheLargerOne) {
   }
 }
 
-/// A speed loop over it: from standstill through the handover, back through standstill, and the other way round.
+/// A speed loop with the estimate: from standstill through the handover, back through standstill, and in the
+/// other direction.
 template <class Scalar>
 std::vector<Look> reverses(FieldAngle angle, bool real) {
   Scenario s = inner_magnets(Mode::speed, 0.0);
@@ -150,10 +153,10 @@ TEST(FieldEstimate, ItIsHandedFromInjectionToTheFluxAndBack) {
   for (const bool real : {false, true}) {
     const std::vector<Look> looks = reverses<double>(FieldAngle::injection_observer, real);
     ASSERT_FALSE(looks.empty());
-    // While it accelerates the angle is as far behind as the loop was laid out for, 5 degrees, and at the
-    // handover up to as much again. Dead time makes voltages that the
-    // observer is not told of, 4/3 U t_d/T = 0.32 V: at 200 rad/s, 3.35 V of back-EMF, another 5.5 degrees and the
-    // converters' noise. An angle that stays within that makes a mean speed over 50 ms right to 2 * 0.1 rad/(8 * 0.05 s).
+    // The angle lags by the loop's design value, 5 degrees, during acceleration, and by up to as much again
+    // at the handover. Dead time makes voltages that the observer does not measure, 4/3 U t_d/T = 0.32 V: at
+    // 200 rad/s, 3.35 V of back-EMF, this adds 5.5 degrees and the converters' noise. An angle within that
+    // bound gives a mean speed over 50 ms to 2 * 0.1 rad/(8 * 0.05 s).
     EXPECT_LT(worst_off_deg(looks, 0.09, 0.55), real ? 16.0 : 10.0) << real;
     for (const auto& [from_s, to_s, speed] :
          {std::tuple{0.2, 0.25, 200.0}, std::tuple{0.35, 0.4, -200.0}, std::tuple{0.5, 0.55, 20.0}}) {
@@ -174,7 +177,8 @@ TEST(FieldEstimate, FloatFollowsAsDoubleDoes) {
   EXPECT_LT(worst, 0.5);
 }
 
-/// A round rotor that stands anywhere, against friction: a current turns it, then its flux is followed, whichever way it is asked.
+/// A round rotor starts at any angle against friction: a current turns it, then the observer follows its
+/// flux, in either direction.
 TEST(FieldEstimate, TheObserverStartsARoundRotorFromEverywhere) {
   constexpr unsigned seed = 1126;
   SCOPED_TRACE("seed " + std::to_string(seed));
@@ -203,7 +207,7 @@ TEST(FieldEstimate, TheObserverStartsARoundRotorFromEverywhere) {
   }
 }
 
-/// The 251601 as it comes, with a winding that is warmer than the drive believes: the current is held, whatever R has become.
+/// The 251601 with a winding that is warmer than the drive's model: the loop holds the current at any R.
 Scenario observed_251601(double load_Nm, double warmer_K) {
   Scenario s = maxon_scenario(Mode::speed, 200.0);
   s.sheet.back_emf = design::BackEmfShape::sine;
@@ -226,7 +230,7 @@ Scenario observed_251601(double load_Nm, double warmer_K) {
   return s;
 }
 
-/// 3/2 p psi 2.33 A is 0.0585 N m, of which 0.6 are promised: 0.0351 N m.
+/// 3/2 p psi 2.33 A is 0.0585 N m; the drive guarantees 0.6 of it: 0.0351 N m.
 TEST(FieldEstimate, TheObserverStartsAgainstTheLoadThatIsPromisedWarmOrCold) {
   for (const double load_Nm : {0.03, 0.035})
     for (const double warmer_K : {0.0, 40.0})
@@ -240,7 +244,7 @@ TEST(FieldEstimate, TheObserverStartsAgainstTheLoadThatIsPromisedWarmOrCold) {
       }
 }
 
-/// More than the current makes: four starts, and it says so.
+/// The load exceeds the current's torque: the drive reports it after four starts.
 TEST(FieldEstimate, ARotorThatDoesNotFollowIsGivenUpAfterFourStarts) {
   Scenario s = observed_251601(0.06, 0.0);
   s.duration_s = 4.0;
@@ -252,7 +256,8 @@ TEST(FieldEstimate, ARotorThatDoesNotFollowIsGivenUpAfterFourStarts) {
   EXPECT_LT(out->simulated_s, 3.0);
 }
 
-/// A rotor that is braked on purpose was not lost in vain: it is turned again and again, and goes where it is asked to at last.
+/// A zero reference brakes the rotor on purpose: the drive starts it repeatedly, and it follows the later
+/// reference.
 TEST(FieldEstimate, ARotorThatIsAskedToStandIsNoneThatDoesNotFollow) {
   Scenario s = observed_251601(0.005, 0.0);
   s.reference = {};
@@ -265,7 +270,7 @@ TEST(FieldEstimate, ARotorThatIsAskedToStandIsNoneThatDoesNotFollow) {
   EXPECT_NEAR(looks.back().true_speed_rad_s, 200.0, 5.0);
 }
 
-/// Samples in the middle of the period, whose voltage is half of two answers.
+/// Samples in the middle of the period: the voltage there is half of two commands.
 TEST(FieldEstimate, TheObserverSeesFromTheMiddleOfThePeriodToo) {
   Scenario s = inner_magnets(Mode::speed, 200.0);
   s.control.field.angle = FieldAngle::observer;
@@ -318,7 +323,8 @@ TEST(FieldEstimate, WhatCannotWorkIsRefusedWithItsCure) {
                  "control.field.injection_V", "injected nowhere");
 }
 
-/// A motor whose iron does not saturate, behind a drive that was designed for one whose does: it says so, and ends.
+/// The iron of the motor does not saturate, although the drive was designed for iron that does: the drive
+/// reports it and stops.
 TEST(FieldEstimate, ADriveThatSeesNoNorthGivesUp) {
   Scenario s = inner_magnets(Mode::current, 1.0);
   s.designed_for = Nominal{s.sheet, s.supply, s.load};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The field-oriented drive as a scenario asks for it: the pole that was designed, what decoupling, circle, weakening and
-// torque per ampere promise, real sensors, and what is refused. A trajectory of an independent solver is
-// data/scenarios/reference/G15.toml's.
+// The field-oriented drive in a scenario: its poles are the designed ones, decoupling, circle, weakening and
+// torque per ampere equal their laws, with real sensors and refusals. data/scenarios/reference/G15.toml has a
+// trajectory of an independent solver.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ using namespace sixstep::study;
 using control::Mode;
 using ::testing::HasSubstr;
 
-/// The 251601 with a sine of the same peak, 20 kHz, an answer that comes a period late.
+/// The 251601 with a sine of the same peak, 20 kHz, a delay of one period.
 Scenario field_oriented(Mode mode, double reference) {
   Scenario s = maxon_scenario(mode, reference);
   s.sheet.back_emf = design::BackEmfShape::sine;
@@ -42,7 +42,7 @@ Scenario field_oriented(Mode mode, double reference) {
   return s;
 }
 
-/// What the drive had in hand at each of its ticks.
+/// The drive's values at each of its ticks.
 struct Tick {
   double t_s = 0.0, speed_rad_s = 0.0, bus_V = 0.0;
   control::Dq<double> measured, reference, voltage;
@@ -60,8 +60,8 @@ std::vector<Tick> ticks_of(const Scenario& s) {
   });
 }
 
-/// At the locked rotor the plant is R and L, and a voltage's pulses lie in the middle of each period. Held for the whole period it
-/// would give the same but for (T R/L)^2/24 of a change: 3e-4 of what a period does.
+/// The plant of a locked rotor is R and L, and a voltage's pulses are in the middle of each period. A voltage
+/// over the whole period would differ by (T R/L)^2/24 of a change: 3e-4 of a period's change.
 TEST(FieldOriented, ACurrentStepHasThePolesThatWereDesigned) {
   for (const int delay : {0, 1}) {
     Scenario s = field_oriented(Mode::current, 2.0);
@@ -102,10 +102,10 @@ double largest_i_d(bool decoupling) {
   return largest;
 }
 
-/// Without it the axes are one complex current: (L s + R + j w_e L) i = L w_b (s + R/L)/s (i* - i), whose step response has the
-/// poles of s^2 + (R/L + w_b + j w_e) s + w_b R/L. The delay counts as a part 1.5 T w_b. Decoupled, the voltage added is that
-/// of a period and a half before: what is left is 1.5 T times the slope of I w_e w_b/((s + R/L)(s + w_b)^2), and with
-/// s/(s + w_b)^2 at most 1/(e w_b) less than 1.5 T w_e I/e.
+/// Without decoupling the axes are one complex current: (L s + R + j w_e L) i = L w_b (s + R/L)/s (i* - i),
+/// whose step response has the poles of s^2 + (R/L + w_b + j w_e) s + w_b R/L. The delay adds a part 1.5 T
+/// w_b. With decoupling the added voltage is 1.5 periods old: the error is 1.5 T times the slope of I w_e
+/// w_b/((s + R/L)(s + w_b)^2), and with s/(s + w_b)^2 at most 1/(e w_b) less than 1.5 T w_e I/e.
 TEST(FieldOriented, DecouplingHoldsTheOtherAxisAtSpeed) {
   using Number = std::complex<double>;
   const double w_e = 8 * 400.0, w_b = 2 * base::pi * bandwidth_Hz, a = 0.515 / 0.286e-3, step_A = 6.0,
@@ -134,7 +134,8 @@ TEST(FieldOriented, TheVectorStaysWithinTheCircleOfTheBus) {
   EXPECT_NEAR(longest, 24 / std::numbers::sqrt3, 1e-9) << "and is used up";
 }
 
-/// Free and without load the speed is that at which the magnet's back-EMF takes the circle; weakened, beyond.
+/// A free rotor without load reaches the speed at which the magnet's back-EMF fills the circle; with
+/// weakening it exceeds it.
 TEST(FieldOriented, WeakeningTakesItBeyondTheSpeedOfTheBackEmf) {
   Scenario s = field_oriented(Mode::speed, 1100.0);
   s.duration_s = 0.4;
@@ -152,7 +153,8 @@ TEST(FieldOriented, WeakeningTakesItBeyondTheSpeedOfTheBackEmf) {
     EXPECT_LE(std::hypot(tick.reference.d, tick.reference.q), 20.0 * 1.001);
 }
 
-/// On a salient rotor the same i_q makes more torque with the current along the magnet, for no more of |i| than it says.
+/// A salient rotor gets more torque from the same i_q with the current along the magnet, with |i| as the law
+/// gives it.
 TEST(FieldOriented, ASalientRotorGetsMostTorquePerAmpere) {
   Scenario s = field_oriented(Mode::current, 12.0);
   s.sheet.inductance_mH = std::nullopt;
@@ -174,7 +176,7 @@ TEST(FieldOriented, ASalientRotorGetsMostTorquePerAmpere) {
   EXPECT_GT(with, 1.1 * without);
 }
 
-/// 3/2 p psi i_q, whatever the angle: no ripple but the switching's.
+/// The torque is 3/2 p psi i_q at any angle: its only ripple is the switching's.
 TEST(FieldOriented, TheSpeedCascadeReachesItsSpeedInBothFloats) {
   for (const Arithmetic a : {Arithmetic::float64, Arithmetic::float32}) {
     Scenario s = field_oriented(Mode::speed, 300.0);
@@ -217,7 +219,7 @@ TEST(FieldOriented, RunsOnWhatABoardMeasures) {
   }
 }
 
-/// What the drive had in hand at its last sample, row for row, and what a figure is taken of.
+/// The columns equal the drive's values at its last sample, row by row, and the figures are of them.
 TEST(FieldOriented, WhatItHoldsIsRecordedAndMeasured) {
   Scenario s = field_oriented(Mode::current, 0.0);
   s.reference = {};
@@ -253,7 +255,8 @@ TEST(FieldOriented, WhatItHoldsIsRecordedAndMeasured) {
     }
     EXPECT_NEAR(out->comparisons[k].measured, sum / 80, 1e-13 * 24) << s.record.columns[k];
   }
-  // Without a level i_q's is the setpoint's: the last sample beyond 2 % of a step holds for its whole period.
+  // Without a level i_q's level is the setpoint: the last sample beyond 2 % of a step holds for its whole
+  // period.
   double last_out_s = 0.0;
   for (const Tick& t : ticks)
     if (t.t_s >= 1e-3 && std::fabs(t.measured.q - 3.0) > 0.02 * 2.0) last_out_s = t.t_s + 50e-6 - 1e-3;
@@ -261,7 +264,8 @@ TEST(FieldOriented, WhatItHoldsIsRecordedAndMeasured) {
   EXPECT_NEAR(out->comparisons[6].measured, last_out_s, 1e-12);
 }
 
-/// A hand brake of 7 pole pairs, 5.12 mWb and 22.3 uH on 60 V, turned up to a speed where its magnet makes 35.84 V a phase.
+/// A hand brake with 7 pole pairs, 5.12 mWb and 22.3 uH on 60 V, driven to a speed at which its magnet makes
+/// 35.84 V a phase.
 Scenario hand_brake(double reference_A, std::optional<double> weakening_A) {
   Scenario s = field_oriented(Mode::current, reference_A);
   s.sheet.pole_pairs = 7;
@@ -278,7 +282,8 @@ Scenario hand_brake(double reference_A, std::optional<double> weakening_A) {
   return s;
 }
 
-/// With pulses, by the plant itself; short_bus_test.cpp has the law. Least is (35.84 - 34.64) V/|Z| = 7.6 A; it had been 460 A.
+/// The plant includes pulses; short_bus_test.cpp has the law. The least current is (35.84 - 34.64) V/|Z| =
+/// 7.6 A; it had been 460 A.
 TEST(FieldOriented, TurnedBeyondTheBusItHoldsItsCurrent) {
   for (const double reference_A : {0.0, 80.0, -80.0})
     for (const std::optional<double> weakening_A : {std::optional<double>{}, std::optional<double>{5.0}}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The choice among the states of three legs, as a scenario asks for it: how near the currents stay to their reference, how often
-// a switch turns on, how fast a step is followed, and what a late answer does to it.
+// The choice among the states of three legs, in a scenario: the currents' distance from their reference, the
+// turn-ons per second, the rise time of a step, and the effect of a delay.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,10 +27,11 @@ using namespace sixstep::study;
 using control::Mode;
 
 constexpr double T = 20e-6, U = 24.0, R = 0.515, L = 0.286e-3, K_e = 0.01675;
-/// A voltage's current after a period, and how far from the reference the nearest of the seven lies at most.
+/// The current of a voltage over a period, and the largest distance from any reference to the nearest of the
+/// seven.
 const double b = (1 - std::exp(-R * T / L)) / R, band_A = 2 / (3 * std::numbers::sqrt3) * b * U;
 
-/// The 251601 with a sine of the same peak, so heavy that its speed stays; 50 kHz.
+/// The 251601 with a sine of the same peak, and so much inertia that its speed is constant; 50 kHz.
 Scenario finite_set(double reference, double speed_rad_s, int delay) {
   Scenario s = maxon_scenario(Mode::current, reference);
   s.sheet.back_emf = design::BackEmfShape::sine;
@@ -59,7 +60,7 @@ std::vector<Seen> seen_of(const Scenario& s) {
   });
 }
 
-/// The farthest that a sample is from its reference, from 2 ms on.
+/// The largest distance of a sample from its reference, from 2 ms on.
 double farthest_A(const Scenario& s) {
   double most = 0.0;
   for (const Seen& x : seen_of(s))
@@ -68,13 +69,14 @@ double farthest_A(const Scenario& s) {
   return most;
 }
 
-/// What turning by x = w_e T within a period leaves of voltage and back-EMF, x^2/24.
+/// The error of voltage and back-EMF from the rotation by x = w_e T within a period, x^2/24.
 double turning_A(double speed_rad_s) {
   const double x = 8 * speed_rad_s * T;
   return x * x / 24 * b * U;
 }
 
-/// The triangles' radius bounds it while what holds the current, R I + w K_e, leaves the radius to the hexagon of the bus.
+/// The triangles' radius bounds the distance while the holding voltage R I + w K_e is below the bus's hexagon
+/// by that radius.
 TEST(FiniteSet, TheCurrentsStayWithinTheTrianglesOfTheBus) {
   for (const int delay : {0, 1})
     for (const double w : {-100.0, 20.0, 100.0}) {
@@ -92,7 +94,7 @@ TEST(FiniteSet, ADelayThatIsNotMadeUpForIsWorse) {
   EXPECT_GT(farthest_A(s), 1.5 * band_A);
 }
 
-/// There is no integral: the mean is somewhere within the band, and so is the torque's.
+/// The law has no integral: the mean current is only within the band, and so is the mean torque.
 TEST(FiniteSet, MeanCurrentAndTorqueAreThoseAskedForWithinTheBand) {
   for (const int delay : {0, 1}) {
     Scenario s = finite_set(4.0, 100.0, delay);
@@ -120,7 +122,7 @@ TEST(FiniteSet, NoSwitchIsFasterThanHalfTheSamples) {
   EXPECT_GT(fastest, 0.1 / T) << "it does switch";
 }
 
-/// Without a pulse the drive's switching is that of its three upper switches, in the mean.
+/// A law without pulses has the mean switching frequency of its three upper switches.
 TEST(FiniteSet, ItsFrequencyIsTheMeanOfTheLegs) {
   Scenario s = finite_set(4.0, 60.0, 1);
   for (const Signal what : {Signal::current, Signal::gate_T1, Signal::gate_T3, Signal::gate_T5})
@@ -130,7 +132,8 @@ TEST(FiniteSet, ItsFrequencyIsTheMeanOfTheLegs) {
   EXPECT_NEAR(f[0], (f[1] + f[2] + f[3]) / 3, 1e-9 / T);
 }
 
-/// A leg's weight s keeps legs where they are: fewer turn on, and the cost of the nearest, three legs at most, bounds the distance.
+/// A weight s on a leg reduces its turn-ons. The cost of the nearest state, three legs at most, bounds the
+/// distance.
 TEST(FiniteSet, AWeightOnSwitchingSlowsIt) {
   double last = 1 / T;
   for (const double weight : {0.0, 0.6, 1.2}) {
@@ -144,8 +147,9 @@ TEST(FiniteSet, AWeightOnSwitchingSlowsIt) {
   }
 }
 
-/// With the rotor locked the current rises by what the bus drives: in the direction of its least reach U/sqrt 3 less R i, in
-/// that of its farthest 2/3 U. A PI at a twentieth of the control frequency is slower.
+/// With the rotor locked the current rises by the bus voltage: between U/sqrt 3 less R i in the direction of
+/// the smallest reach and 2/3 U in that of the largest. A PI at a twentieth of the control frequency is
+/// slower.
 TEST(FiniteSet, AStepTakesWhatTheBusAllows) {
   const double I = 8.0;
   const auto rise_s = [&](FieldLaw law, int delay) {
@@ -179,7 +183,8 @@ TEST(FiniteSet, NoStateBeyondThePeakIsTakenWhileAnotherIsLeft) {
   EXPECT_GT(sum / n, 5.0 - 2 * band_A);
 }
 
-/// L_q = 2 L_d: the band is that of the smaller one; half of a period's change is not in what saliency makes of the current.
+/// L_q = 2 L_d: the band is that of the smaller inductance. The model omits half of a period's change by
+/// saliency.
 TEST(FiniteSet, ASalientRotorStaysWithinTheBandOfItsSmallerInductance) {
   Scenario s = finite_set(4.0, 60.0, 1);
   s.sheet.inductance_mH = std::nullopt;
@@ -190,7 +195,7 @@ TEST(FiniteSet, ASalientRotorStaysWithinTheBandOfItsSmallerInductance) {
   EXPECT_LE(farthest_A(s), designed.band_A + 2 * (turning_A(60) + salient));
 }
 
-/// The trapezoid's torque by the shape's current: what is left is the band's.
+/// The shape's current gives the trapezoid's torque, within the band.
 TEST(FiniteSet, FollowsTheShapeOfATrapezoid) {
   const double f1 = 4 / base::pi * 0.5 / (base::pi / 6);
   const auto torque = [&](bool harmonic) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The fit of a fundamental against Fourier sums in closed form, and against a QR decomposition in long double.
+// The fit of a fundamental equals Fourier sums in closed form and a QR decomposition in long double.
 #include "sixstep/study/measure/fundamental_fit.hpp"
 
 #include <gtest/gtest.h>
@@ -20,8 +20,8 @@ constexpr std::uint64_t seed = 20260417;
 constexpr long double pi = std::numbers::pi_v<long double>;
 constexpr int points = 8;
 
-/// Rows 1, cos, sin, signal by plane rotations (Golub, Van Loan 5.1.8): no square is ever formed, and nothing
-/// taken off another.
+/// Rows 1, cos, sin, signal by plane rotations (Golub, Van Loan 5.1.8), which form no squares and no
+/// differences.
 class RotatedRows {
  public:
   void add(std::array<long double, 4> row) {
@@ -46,7 +46,7 @@ class RotatedRows {
 
 using Curve = std::function<long double(long double)>;
 
-/// The signal over the phase from..to, at the nodes of its parts.
+/// Gives the fit the signal over the phase from..to, at the nodes of its parts.
 void see(FundamentalFit& fit, long double from, long double to, const Curve& signal) {
   FittedPart<points> part;
   for (int k = 0; k < points; ++k) {
@@ -58,7 +58,7 @@ void see(FundamentalFit& fit, long double from, long double to, const Curve& sig
   fit.add(phase_of(static_cast<double>(std::fmod(from, 2 * pi))), part);
 }
 
-/// The same by rotated rows in long double beside it.
+/// The fit, with rotated rows in long double as a second way.
 struct BothWays {
   FundamentalFit fit;
   RotatedRows rows;
@@ -77,13 +77,13 @@ TEST(Phase, KeepsItsDigitsWhereItIsSmall) {
   for (double p = 1e-12; p < 7.0; p *= 1.37) {
     const Phase found = phase_of(p);
     const long double half = std::sin(static_cast<long double>(p) / 2);
-    // cos is known to an ulp of 1 beyond a quarter of a turn; before that the quotient rounds four times
+    // cos has an error of an ulp of 1 beyond a quarter of a turn; before that the quotient rounds four times
     EXPECT_NEAR(found.versine, static_cast<double>(2 * half * half), 4 * eps * found.versine) << p;
     EXPECT_NEAR(found.sin, static_cast<double>(std::sin(static_cast<long double>(p))), eps) << p;
   }
 }
 
-/// As many terms as points are enough for turns that so many points are taken for.
+/// A small turn needs as many terms as its part has points.
 template <int terms>
 void expect_small_turns(double largest) {
   for (double x = largest; x > 1e-9; x *= -0.61) {
@@ -122,7 +122,7 @@ TEST(FundamentalFit, LeavesNothingOfASine) {
   }
 }
 
-/// However short the first part is: what follows is far longer, and must not be judged by what it led on to.
+/// The first part is much shorter than the others: its fit must not bound that of the long parts.
 TEST(FundamentalFit, LeavesNothingOfASineThatBeginsWithAnInstant) {
   for (const long double first : {1e-12L, 1e-9L, 1e-6L, 1e-3L}) {
     BothWays both;
@@ -155,7 +155,7 @@ TEST(FundamentalFit, DoesNotDriftOverTenThousandTurns) {
   EXPECT_NEAR(fit.distortion(), 1e-3, 8 * eps);
 }
 
-/// What chopping looks like, with jumps and pauses, over turns that need not be whole: what rotated rows say.
+/// A chopped signal has jumps and pauses, over turns that need not be whole: the fit equals rotated rows.
 TEST(FundamentalFit, AgreesWithRotatedRows) {
   std::mt19937_64 random{seed};
   std::uniform_real_distribution<double> any(-1, 1), unit(0, 1);
@@ -178,7 +178,7 @@ TEST(FundamentalFit, AgreesWithRotatedRows) {
   }
 }
 
-/// A step of the signal in the middle: the fit behind it is far from the one before.
+/// The signal steps in the middle: the fit after the step differs greatly from the one before.
 TEST(FundamentalFit, AgreesWithRotatedRowsAcrossASwing) {
   for (const double before : {0.0, 1e-6, 1.0, 1e6}) {
     BothWays both;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Speed, position and commutation from the angle between Hall edges, in whole runs, and what is refused of it.
+// Speed, position and commutation from the angle between Hall edges, in whole runs, and the refusals.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ using control::Mode;
 using rig::HallAngleFrom;
 using ::testing::HasSubstr;
 
-/// 100 rad/s by probes that stray by up to 4 degrees, and a speed over one sector.
+/// The speed is 100 rad/s, by probes with errors of up to 4 degrees, and measured over one sector.
 Scenario strayed(HallAngleFrom from) {
   Scenario s = cascade(0.25);
   s.control.speed = {.torque_limit_Nm = 0.78};
@@ -35,14 +35,14 @@ Scenario strayed(HallAngleFrom from) {
   return s;
 }
 
-// Readings of 60/55 and 60/66 of the truth shake the reference by the loop's gain; a learned place is known to two ticks of 1 us in
-// a sector of 1.2 ms or more, and its time to one more at either end.
+// Readings of 60/55 and 60/66 of the true speed move the reference by the loop's gain. A learned edge has an
+// error of two ticks of 1 us in a sector of 1.2 ms or more, and its time one more at either end.
 TEST(HallAngle, PlacesThatWereLearnedNoLongerShakeTheLoop) {
   const double gain_A = 1.582e-3 * 0.78 / 33.5e-3, w = 100;
   EXPECT_GT(outcome_of(strayed(HallAngleFrom::sectors)).comparisons[0].measured,
             gain_A * w * (60.0 / 55 - 60.0 / 66));
   const double ripple = outcome_of(strayed(HallAngleFrom::learned_edges)).comparisons[0].measured;
-  // Both ways, and what the shaft itself swings by.
+  // The bound has both directions and the shaft's own oscillation.
   EXPECT_LT(ripple, gain_A * (w * 2 * 2 * 3 / 1200.0 + 0.2));
 }
 
@@ -59,12 +59,12 @@ TEST(HallAngle, RunsACascadeInEveryArithmetic) {
       s.pwm.commutation = CommutationAt::sample;
       if (arithmetic == Arithmetic::q31) s.control.full_scale = {100, 80, 1600, 7200};
       ask(s, measure(MetricKind::final_value, Signal::speed));
-      // A tick of 1 us in a sector of 1.3 ms, and the 0.4 % by which the speed ripples within it.
+      // The bound is a tick of 1 us in a sector of 1.3 ms, and the speed's ripple of 0.4 % within it.
       EXPECT_NEAR(outcome_of(s).comparisons[0].measured, 100, 1.0) << static_cast<int>(arithmetic);
     }
 }
 
-/// Lines that come late, as behind a filter, at a speed where they are 14 degrees late.
+/// The lines are delayed, as by a filter, at a speed at which the delay is 14 degrees.
 double mean_torque_behind_a_filter(HallAngleFrom from, double delay_s) {
   Scenario s = maxon_scenario(Mode::current, 2.0);
   s.control.current = {.type = CurrentLoopType::hysteresis, .band_A = 0.01};
@@ -79,12 +79,13 @@ double mean_torque_behind_a_filter(HallAngleFrom from, double delay_s) {
   s.sensors.speed_edges = 1;
   s.sensors.hall_delay_s = delay_s;
   Measure m = measure(MetricKind::mean, Signal::torque);
-  m.from_s = 5.236e-3;  // eight turns from the second on
+  m.from_s = 5.236e-3;  // eight turns, without the first
   ask(s, m);
   return outcome_of(s).comparisons[0].measured;
 }
 
-// 100 us at 8 300 rad/s are 13.75 degrees, and 13.75^2/7200 of the torque; seen ahead by as much, next to nothing.
+// 100 us at 2 400 rad/s electrical are 13.75 degrees and cost 13.75^2/7200 of the torque; a known delay costs
+// almost nothing.
 TEST(HallAngle, ADelayThatIsKnownCostsNoTorque) {
   const double prompt = mean_torque_behind_a_filter(HallAngleFrom::sectors, 0);
   const double late = mean_torque_behind_a_filter(HallAngleFrom::sectors, 100e-6);

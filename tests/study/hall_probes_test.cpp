@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hall probes that are not where the sectors are, in whole runs: what torque it costs, what is the same as what, what the drive
-// makes of glitches, and which placements are refused.
+// Hall probes with placement errors in whole runs: the torque lost, equivalent placements, the drive's
+// reaction to glitches, and refused placements.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,8 +22,8 @@ using control::HallArrangement;
 using control::Mode;
 using ::testing::HasSubstr;
 
-/// Turned slowly from outside, over six electrical turns: i follows d U - e but for L/R = 0.56 ms behind each edge. Complementary
-/// chopping is linear: a slow one has the same means.
+/// An external drive turns the motor slowly over six electrical turns: i follows d U - e, except for L/R =
+/// 0.56 ms behind each edge. Complementary chopping is linear: a slow one has the same means.
 Scenario on_a_bench(double w_rad_s) {
   Scenario s = maxon_scenario(Mode::duty, 0.1);
   s.load.dynamometer_times_s = {0.0};
@@ -37,8 +37,9 @@ Scenario on_a_bench(double w_rad_s) {
 
 double mean_torque(Scenario s) { return outcome_of(s).comparisons[0].measured; }
 
-/// Over the sector that is driven while it is seen: the pair's back-EMF per K_e w, 2 on the flat tops; by x beyond the sector's
-/// end, or before its beginning, one phase is x/30 degrees down its ramp. Torque goes with f i, i with d U - f K_e w.
+/// The torque over a sector as driven: the pair's back-EMF per K_e w is 2 on the flat tops. At x beyond the
+/// sector's end, or before its beginning, one phase is x/30 degrees down its ramp. Torque is proportional to
+/// f i, i to d U - f K_e w.
 double torque_of(double offset_deg, double w_rad_s) {
   double sum = 0;
   constexpr int steps = 6000;
@@ -58,12 +59,13 @@ TEST(HallOffset, CostsWhatTheRampsTake) {
     s.sensors.hall_offset_deg = offset;
     EXPECT_TRUE(needs_general_plant(s));
     const double expected = torque_of(offset, w) / torque_of(0, w);
-    // L/R is 2e-3 of a sector; what a commutation itself costs differs by less than half of that.
+    // L/R is 2e-3 of a sector; the effect of a commutation differs by less than half of that.
     EXPECT_NEAR(mean_torque(s) / plain, expected, 1e-3) << offset;
   }
 }
 
-// At 90 degrees the sum over a sector is nothing; at 180 it drives backward, and the back-EMF helps its current.
+// At 90 degrees the sum over a sector is zero; at 180 degrees it drives backward, and the back-EMF increases
+// the current.
 TEST(HallOffset, TurnsTheTorqueRound) {
   const double plain = mean_torque(on_a_bench(0.5));
   Scenario s = on_a_bench(0.5);
@@ -74,11 +76,11 @@ TEST(HallOffset, TurnsTheTorqueRound) {
   EXPECT_NEAR(mean_torque(s) / plain, -(d_U + e) / (d_U - e), 1e-3);
 }
 
-// At constant speed a delay is an angle, and so is half of a hysteresis.
+// A delay is an angle at constant speed, and so is half of a hysteresis.
 TEST(HallDelay, IsAnOffsetAtConstantSpeed) {
   const double w = 200, delay_s = 50e-6, deg = 8 * w * delay_s * 180 / base::pi;
   Scenario late = on_a_bench(w);
-  late.initial.angle_rad = 40 * base::pi / 180 / 8;  // within sector 0, wherever its edge is seen
+  late.initial.angle_rad = 40 * base::pi / 180 / 8;  // within sector 0, with its edge at either angle
   Scenario askew = late, sticky = late;
   late.sensors.hall_delay_s = delay_s;
   askew.sensors.hall_offset_deg = deg;
@@ -89,7 +91,7 @@ TEST(HallDelay, IsAnOffsetAtConstantSpeed) {
   EXPECT_NEAR(mean_torque(sticky), torque, 1e-9);
 }
 
-/// The general kernel, with probes that stand where the sectors are: 1e-9 deg is 1e-14 s at 100 rad/s.
+/// The general kernel, with probes at the sectors' edges: 1e-9 deg is 1e-14 s at 100 rad/s.
 Scenario in_place(Scenario s) {
   s.sensors.hall_edges_deg = std::vector<double>(6, 0.0);
   return s;
@@ -126,7 +128,7 @@ TEST(HallGlitches, AreDrawnBySeedAndSeenByTheDrive) {
   EXPECT_EQ(first.digest, again.digest);
   s.sensors.seed = 1;
   EXPECT_NE(outcome_of(s).digest, first.digest);
-  // Taken in the interrupt a glitch is an impossible code or a jump; held for two samples it is nothing.
+  // A glitch read in the interrupt is an impossible code or a jump; two stable samples suppress it.
   ASSERT_TRUE(first.trip);
   s.sensors.hall_stable_samples = 2;
   EXPECT_FALSE(outcome_of(s).trip);

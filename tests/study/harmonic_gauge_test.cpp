@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Distortion against Fourier series in closed form.
+// The distortion equals Fourier series in closed form.
 #include "sixstep/study/measure/harmonic_gauge.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using control::Mode;
 
 constexpr double eps = 0x1p-52;
 
-/// Coasting without any friction, all gates off, slow enough for the diodes to stay dark: constant speed.
+/// The rotor coasts without friction, all gates off, too slow for the diodes to conduct: constant speed.
 Scenario coasting(design::BackEmfShape shape, double flat_deg, double speed) {
   Scenario s = maxon_scenario(Mode::off, 0.0);
   s.sheet.back_emf = shape;
@@ -27,7 +27,8 @@ Scenario coasting(design::BackEmfShape shape, double flat_deg, double speed) {
   return s;
 }
 
-/// Peak 1, flat over w: fundamental 4/pi sin(a)/a with a half the ramps' width, mean square (w + 2 a/3)/pi.
+/// Peak 1, flat over w: the fundamental is 4/pi sin(a)/a with a half the ramps' width, the mean square (w + 2
+/// a/3)/pi.
 double trapezoid_thd(double flat_deg) {
   const double w = flat_deg * base::pi / 180, a = (base::pi - w) / 2;
   const double fundamental = 4 / base::pi * std::sin(a) / a, square = (w + 2 * a / 3) / base::pi;
@@ -45,7 +46,7 @@ TEST(Distortion, OfASineIsNone) {
     Measure m = measure(MetricKind::thd, Signal::emf_c);
     m.frequency_Hz = 300.0 * 8 / (2 * base::pi);
     ask(s, m);
-    m.frequency_Hz = *m.frequency_Hz / 3;  // of a third of the frequency all is distortion
+    m.frequency_Hz = *m.frequency_Hz / 3;  // at a third of the frequency all is distortion
     ask(s, m);
     const std::vector<double> thd = figures_of(s);
     for (std::size_t n = 0; n < 5; ++n) EXPECT_LE(thd[n], rows * eps) << n << " at " << speed;
@@ -64,8 +65,8 @@ TEST(Distortion, OfATrapezoidIsItsSeries) {
     EXPECT_NEAR(thd[0], trapezoid_thd(flat), rows * eps) << flat;
     EXPECT_NEAR(thd[1], trapezoid_thd(flat), rows * eps) << flat;
   }
-  // Between two trapezoids of 120 deg the third harmonics cancel: the line voltage comes out as steps of 60
-  // deg, 1, 2, 1, -1, -2, -1 with ramps: its closed form by the same sum without the harmonics 3, 9, 15 ...
+  // The third harmonics of two trapezoids of 120 deg cancel: the line voltage has steps of 60 deg, 1, 2, 1,
+  // -1, -2, -1 with ramps. Its closed form is the same sum without the harmonics 3, 9, 15 ...
   Scenario s = coasting(design::BackEmfShape::trapezoid, 120.0, 250.0);
   ask(s, measure(MetricKind::thd, Signal::line_ab));
   double square = 0.0;  // harmonic n of the trapezoid over its first: sin(n a)/(sin(a) n^2), a = 30 deg

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Columns of what the plant solves beside its circuit: of the instant, whatever step it is solved in.
+// The columns of the plant's slow states show the row's instant, at any step of their solution.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,7 +37,7 @@ Scenario cools_down(double step_s) {
   return s;
 }
 
-/// Without a power each thermal step is exact, so that no step may be seen in what is recorded.
+/// Each thermal step without a power is exact, so that the record must not depend on the step.
 TEST(HeldColumns, TemperaturesWithoutAPowerDoNotDependOnTheThermalStep) {
   const auto fine = rows_of(cools_down(1e-3));
   ASSERT_EQ(fine.size(), 15u);
@@ -51,7 +51,7 @@ TEST(HeldColumns, TemperaturesWithoutAPowerDoNotDependOnTheThermalStep) {
   }
 }
 
-/// U through 2 R: while R stands the winding warms by the power of what has passed, within a step as at its end.
+/// U over 2 R: at constant R the winding warms by the power up to each instant, also within a step.
 TEST(HeldColumns, TemperaturesUnderAPowerAreThoseOfTheInstant) {
   const auto warmed = [](double step_s) {
     Scenario s = cools_down(step_s);
@@ -66,12 +66,13 @@ TEST(HeldColumns, TemperaturesUnderAPowerAreThoseOfTheInstant) {
   ASSERT_EQ(fine.size(), coarse.size());
   const double rise = fine.back()[1] - 25;
   EXPECT_GT(rise, 0.2);
-  // Copper warms by 0.4 % per K: the coarse step keeps R for its length, which changes the power by less than that.
+  // Copper's R rises by 0.4 % per K: the coarse step keeps R for its length, which changes the power by less
+  // than that.
   for (std::size_t n = 0; n < fine.size(); ++n)
     EXPECT_NEAR(coarse[n][1], fine[n][1], 0.00393 * rise * rise) << "row " << n;
 }
 
-/// C_1 dv_1/dt = i_src - v_1/R_1: what it ends at is what the source's current, which is recorded beside it, charges it to.
+/// C_1 dv_1/dt = i_src - v_1/R_1: its final value equals the charge from the recorded source current.
 TEST(HeldColumns, ABatterysRecoveringVoltageIsWhatItsCurrentMakesIt) {
   Scenario s = maxon_scenario(control::Mode::duty, 0.5);
   for (const AsksForGeneral& ask : asks_for_general)
@@ -87,7 +88,8 @@ TEST(HeldColumns, ABatterysRecoveringVoltageIsWhatItsCurrentMakesIt) {
   EXPECT_EQ(rows[0][2], 0.0);
   last_A = rows[0][1];
   for (std::size_t n = 1; n < rows.size(); ++n) {
-    // The trapezoidal rule: 1 us is short of R_1 C_1 = 5 ms, and of what the bus capacitor lets the current do.
+    // The trapezoidal rule suffices: 1 us is short against R_1 C_1 = 5 ms and against the change that the bus
+    // capacitor allows.
     const double mean_A = (last_A + rows[n][1]) / 2, tau_s = 5e-3, h = 1e-6;
     v += h * (mean_A / 0.05 - v / tau_s) / (1 + h / (2 * tau_s));
     last_A = rows[n][1];

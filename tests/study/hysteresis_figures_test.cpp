@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Excess over and shortfall below the band: nothing for a comparator on the board, a sample's worth for one
-// in the controller.
+// Excess above and shortfall below the band are zero for a comparator on the board, and up to a sample's
+// change for one in the controller.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,7 +34,7 @@ TEST(HysteresisFigures, EventComparatorsKeepTheBand) {
 }
 
 TEST(HysteresisFigures, SampledComparatorsHoldNoBand) {
-  // At standstill the current rises by 24 V * 30 us/0.572 mH = 1.26 A per sample: a figure of the band would
+  // The current at standstill rises by 24 V * 30 us/0.572 mH = 1.26 A per sample: a figure of the band would
   // mislead.
   Scenario s = current_square();
   s.control.current = {.type = CurrentLoopType::hysteresis, .band_A = 0.2, .comparator = Comparator::sampled};
@@ -44,7 +44,8 @@ TEST(HysteresisFigures, SampledComparatorsHoldNoBand) {
   EXPECT_EQ(out.problems().front().where, "compare[0].metric");
 }
 
-/// Held still between 4.8 and 5.2 A: up at U - R i, down at -R i, hard at -U - R i. One comparator or two switch as often.
+/// The held rotor's current is between 4.8 and 5.2 A: it rises at U - R i, falls at -R i, with hard chopping
+/// at -U - R i. One comparator and two switch at the same frequency.
 TEST(HysteresisFigures, TheFrequencyIsThatOfTheWindingInTheBand) {
   constexpr double U = 24, R = 1.03, L = 0.572e-3, low = 4.8, high = 5.2, from_s = 5e-3, to_s = 25e-3;
   for (const auto chopping : {control::Chopping::soft, control::Chopping::hard})

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run passes that the model does not hold is told with its numbers, and nothing is told of what stays within.
+// A remark names each limit of the model that the run exceeds, with its numbers, and none that it keeps.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// The number behind a word of the first remark that has it.
+/// The number after a word in the first remark that has it.
 double number_behind(const std::vector<std::string>& remarks, const std::string& word) {
   for (const std::string& text : remarks)
     if (const std::size_t at = text.find(word); at != std::string::npos)
@@ -30,7 +30,7 @@ double number_behind(const std::vector<std::string>& remarks, const std::string&
   return NAN;
 }
 
-/// Held still at 20 A, by a battery of so many ampere hours.
+/// The rotor is held at 20 A, with a battery of `Ah` ampere hours.
 Scenario on_battery(double Ah, double charge) {
   Scenario s = maxon_scenario(Mode::current, 20.0);
   s.load.locked = true;
@@ -45,7 +45,7 @@ Scenario on_battery(double Ah, double charge) {
   return s;
 }
 
-/// The instant is where the integral of the source's current is what the battery had, whatever flows in between.
+/// The instant is where the integral of the source's current equals the battery's charge, for any current.
 TEST(LimitRemarks, ABatteryIsEmptyWhenWhatItHadHasFlowed) {
   Scenario s = on_battery(1e-3, 0.5);
   const auto remarks = outcome_of(s).remarks;
@@ -57,7 +57,7 @@ TEST(LimitRemarks, ABatteryIsEmptyWhenWhatItHadHasFlowed) {
   EXPECT_THAT(outcome_of(on_battery(1.0, 0.5)).remarks, Not(Contains(HasSubstr("battery was"))));
 }
 
-/// A spinning rotor braked into a small battery.
+/// A spinning rotor brakes into a small battery.
 TEST(LimitRemarks, ABatteryIsFullWhereItIsGivenMore) {
   Scenario s = on_battery(1e-5, 0.9);
   s.load.locked = false;
@@ -83,7 +83,7 @@ TEST(LimitRemarks, ARotorFasterThanItsSheetAllows) {
   EXPECT_THAT(outcome_of(s).remarks, Not(Contains(HasSubstr("the sheet allows"))));
 }
 
-/// Braked into a capacitor alone: all of the kinetic energy cannot make more of it than C U^2/2 + J w^2/2.
+/// The rotor brakes into a capacitor alone: its energy is at most C U^2/2 + J w^2/2.
 TEST(LimitRemarks, ABusThatIsPumpedUp) {
   Scenario s = maxon_scenario(Mode::current, -5.0);
   s.pwm.chopping = control::Chopping::complementary;
@@ -113,13 +113,13 @@ TEST(LimitRemarks, ABusThatIsPumpedUp) {
   silent(chopper);
 }
 
-/// The same run with its motor warming up says when its winding passes the limit, current held: with R at the sheet's temperature a
-/// little later than the remark's, whose copper grows warm.
+/// The same run with a warming motor and held current shows when its winding passes the limit. The remark's
+/// copper grows warm, so that with R at the sheet's temperature the limit comes a little later.
 TEST(LimitRemarks, AWindingThatWouldNotStandIt) {
   Scenario s = maxon_scenario(Mode::current, 20.0);
   s.sheet = curve_sheet();
   s.sheet.nominal_current_A->frame = "terminal";
-  s.supply.voltage_V = 48;  // holds 20 A through a warm winding, too
+  s.supply.voltage_V = 48;  // holds 20 A also through a warm winding
   s.load.locked = true;
   s.duration_s = 2.0;
   const auto remarks = outcome_of(s).remarks;

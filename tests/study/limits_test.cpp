@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits of current, speed and bus in full switching simulation, and the ones that cannot hold: refused. That
-// they hold whatever is drawn is tests/fuzz/limits_test.cpp.
+// Limits of current, speed and bus hold in full switching simulation, and unreachable ones are refused.
+// tests/fuzz/limits_test.cpp tests them with random scenarios.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ std::string refusal(const Scenario& s) {
   return out ? "not refused" : to_string(out.problems()[0]);
 }
 
-/// Full current, where a valley that is sampled at 0 A leaves pulses that drive on.
+/// The current is full, and a ripple sampled at its minimum of 0 A leaves pulses that still drive.
 TEST(Limits, OwnTorqueStaysWithinTheLimitOfSpeedInEveryChopping) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary}) {
     Scenario s = maxon_scenario(Mode::current, 6.99);
@@ -52,7 +52,7 @@ TEST(Limits, OwnTorqueStaysWithinTheLimitOfSpeedInEveryChopping) {
   }
 }
 
-/// Braking at full current on a bus that takes nothing back.
+/// The rotor brakes at full current with a bus that cannot sink.
 Scenario braking(Chopping chopping) {
   Scenario s = maxon_scenario(Mode::current, -5.0);
   s.duration_s = 0.1;
@@ -71,12 +71,12 @@ TEST(Limits, TheBusStaysWithinItsBoundInEveryChopping) {
       s.pwm.delay_periods = delay;
       const double most = figure(s, MetricKind::maximum, Signal::bus_voltage);
       std::printf("limit 30 V, at most %.6g V\n", most);
-      // A coast from 6.25 A: sqrt((30 - 20)^2 + L I^2/C) - 10 V, and one period of it.
+      // The bound is a coast from 6.25 A, sqrt((30 - 20)^2 + L I^2/C) - 10 V, and one period of it.
       EXPECT_LE(most, 20 + std::sqrt(100 + 0.572e-3 * 6.25 * 6.25 / 10e-3) + 6.25 * 30e-6 / 10e-3);
     }
 }
 
-/// 145 V at a limit of 13.8 V: 220 uF hold 21 mJ at 13.8 V, a winding at 20 A as much again.
+/// 145 V at a limit of 13.8 V: 220 uF hold 21 mJ at 13.8 V, and a winding at 20 A holds as much again.
 TEST(Limits, ABusThatCannotHoldItsLimitIsRefusedWithWhatWould) {
   Scenario s = braking(Chopping::hard);
   s.supply.capacitance_F = 220e-6;
@@ -103,7 +103,8 @@ TEST(Limits, ACurrentThatOnePulsePassesIsRefused) {
   EXPECT_TRUE(study::run(s));
 }
 
-/// A salient rotor runs; what the bounds are not proved for is not promised of it, each limit by its name.
+/// A salient rotor runs, but the drive does not guarantee its limits, and names each: the bounds have no
+/// proof for it.
 TEST(Limits, OfASalientRotorAreNotPromised) {
   Scenario s = maxon_scenario(Mode::current, 3.0);
   s.sheet.inductance_mH.reset();
@@ -172,11 +173,11 @@ TEST(Product, AThresholdBeyondTheConverterIsRefused) {
   s.protection.over_voltage_V = 40.955;  // the last count is 40.95
   EXPECT_EQ(study::check(s).size(), 1u);
   s.protection.over_voltage_V = 35.0;
-  s.sensors.bus_offset_V = 10.0;  // as much as under_voltage_V
+  s.sensors.bus_offset_V = 10.0;  // equal to under_voltage_V
   EXPECT_EQ(study::check(s).size(), 1u);
 }
 
-/// While the windings are shorted no loop runs.
+/// No loop runs while the windings are shorted.
 TEST(Product, NoReferenceIsShownWhileTheWindingsAreShorted) {
   Scenario s = product_scenario(Mode::speed, 100.0);
   s.duration_s = 0.12;
@@ -189,8 +190,8 @@ TEST(Product, NoReferenceIsShownWhileTheWindingsAreShorted) {
   EXPECT_EQ(figure(s, MetricKind::maximum, Signal::speed_reference, 0.1002), 0.0);
 }
 
-/// The line breaks where its own edge has just passed: the sector that this ends is of no length, its speed
-/// of any. What is told is the line, not over-speed.
+/// The line breaks just after its own edge: the sector that this ends has no length, and so any speed. The
+/// fault is the line, not over-speed.
 TEST(Product, ABrokenHallLineIsNoOverSpeed) {
   Scenario s = product_scenario(Mode::speed, 100.0);
   s.protection.over_speed_rad_s = 300.0;
@@ -215,7 +216,7 @@ TEST(Product, ABrokenHallLineIsNoOverSpeed) {
   EXPECT_GT(named, runs * 9 / 10);
 }
 
-/// K e = 19 at the start, of a range that ends at 16 times the output.
+/// K e = 19 at the start, in a range that ends at 16 times the output.
 TEST(SpeedForm, FixedPointWindsUpNoMoreThanDouble) {
   Scenario s = maxon_scenario(Mode::speed, 0.0);
   s.duration_s = 0.15;
@@ -253,7 +254,7 @@ TEST(SpeedForm, ADerivativeAboveFullTorqueIsTheSameInFixedPoint) {
   s.control.speed.anti_windup = 0.0;
   EXPECT_THAT(refusal(s), HasSubstr("lets the integral grow without an end"));
   s.control.speed.anti_windup = std::nullopt;
-  s.sensors.rotor = study::RotorSensing::hall;  // whose speed may jump by all there is
+  s.sensors.rotor = study::RotorSensing::hall;  // its speed may change by the full range in one step
   EXPECT_THAT(refusal(s), HasSubstr("a longer filter of the derivative"));
 }
 

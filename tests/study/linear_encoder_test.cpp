@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scale with lines along a linear motor: what its drive makes of it, to a quarter of its pitch, and what is refused.
+// A scale with lines along a linear motor: its drive's position is exact to a quarter of a pitch; and the
+// refusals.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +24,7 @@ using ::testing::HasSubstr;
 
 constexpr double pitch_m = 20e-6, pole_pitch_m = 12e-3, p = base::pi / pole_pitch_m;
 
-/// The motor of the cascade unrolled, with magnets whose period of 24 mm is 1200 lines of the scale.
+/// The unrolled motor of the cascade, with magnets whose period of 24 mm has 1200 lines of the scale.
 Scenario on_a_scale(Scenario s) {
   s.sheet = unrolled(s.sheet, pole_pitch_m / (base::pi / 8));
   s.sheet.pole_pitch_mm->value = 1e3 * pole_pitch_m;
@@ -34,10 +35,11 @@ Scenario on_a_scale(Scenario s) {
   return s;
 }
 
-/// What a metre reads as: a degree of the turning motor's.
+/// The reading of a metre: a degree of the rotary motor.
 constexpr double deg = 180 / base::pi;
 
-// Sample by sample: the place is that of the quarter of a line, speed that between two edges, and the sector the magnets'.
+// In each sample the position is that of the quarter of a line, the speed that between two edges, and the
+// sector that of the magnets.
 TEST(LinearEncoder, TellsAPlaceToAQuarterOfItsPitch) {
   const Scenario s = on_a_scale(cascade());
   for (const double v : {0.11, -0.73}) {
@@ -62,12 +64,13 @@ TEST(LinearEncoder, TellsAPlaceToAQuarterOfItsPitch) {
       rig::ShaftPorts copy = ports;
       indexes += copy.index_passed();
       decoder.sense(m, sample, ports, static_cast<std::uint32_t>(std::floor(t * config.capture_Hz)));
-      // Angles are told in 2^-16 of a period, rounded down as the quarter is.
+      // Angles have steps of 2^-16 of a period, rounded down like the quarter.
       const double below = x - m.position_deg / deg, unit = 2 * pole_pitch_m / 65536;
       ASSERT_GT(below, -1e-12) << n;
       ASSERT_LT(below, pitch_m / 4 + unit + 1e-12) << n;
       if (n > 20) {
-        // By a tick of the timer in the time between the edges of two samples, which is a sample's less an edge's.
+        // The bound is a tick of the timer over the time between the edges of two samples, which is a
+        // sample's less an edge's.
         const double apart = h - pitch_m / 4 / std::fabs(v);
         if (apart > 0) {
           ASSERT_NEAR(m.speed_rad_s, v, std::fabs(v) * 2 / (apart * config.capture_Hz)) << n;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A linear motor is the turning one with pi/tau pole pairs, kg for kg m2 and N for N m: the same bits, in other words.
+// A linear motor equals the rotary one with pi/tau pole pairs, kg for kg m2 and N for N m: bit for bit, with
+// other words.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,7 +17,7 @@ using namespace sixstep;
 using namespace sixstep::testing;
 using study::Scenario;
 
-/// pi/8 m: pi/tau is 8 to the bit.
+/// The pole pitch is pi/8 m: pi/tau is exactly 8.
 Scenario on_a_line(Scenario s) {
   s.sheet.kind = design::MotorKind::linear;
   s.sheet.pole_pairs.reset();
@@ -50,7 +51,7 @@ TEST(LinearMotor, RunsTheBitsOfTheTurningOne) {
 }
 
 TEST(LinearMotor, NeedNotHaveAWholeNumberOfPolePairsInAMetre) {
-  // Unrolled at the radius r: v = r w, F = T/r, m = J/r^2. Powers of two, so that nothing is rounded anew.
+  // Unrolled at the radius r: v = r w, F = T/r, m = J/r^2. Powers of two add no rounding.
   const double r = 0x1p-6;
   Scenario turning = maxon_scenario(control::Mode::duty, 0.5), linear = on_a_line(turning);
   linear.sheet.pole_pitch_mm->value = 1e3 * (base::pi / 8) * r;

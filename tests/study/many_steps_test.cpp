@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A reference may step as often as it likes: a segment costs the figure of the step at hand, not of all.
+// A reference may have any number of steps: a segment costs the figure of the present step only.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,12 +20,12 @@ double cpu_seconds(const study::Scenario& s) {
   return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
 }
 
-/// Least of three: what else runs on the machine makes it longer, never shorter.
+/// The minimum of three: other load on the machine makes a run longer, never shorter.
 double least_cpu_seconds(const study::Scenario& s) {
   return std::min({cpu_seconds(s), cpu_seconds(s), cpu_seconds(s)});
 }
 
-// Asking all of 4000 gauges in each segment took forty times as long.
+// A call of all 4000 gauges in each segment took forty times as long.
 TEST(ManySteps, CostNoMoreThanTheRunBetweenThem) {
   study::Scenario s = maxon_scenario(control::Mode::current, 0.0);
   s.load.locked = true;

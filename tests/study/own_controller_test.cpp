@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A controller of one's own in a scenario: the library's drive by that door is the built-in one to the bit, numbers and board reach its
-// design, and what no timer does ends the run and is told.
+// A user's controller in a scenario: the library's drive through that interface equals the built-in one bit
+// for bit, numbers and board reach its design, and an answer that no timer can produce ends the run with a
+// message.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -72,7 +73,7 @@ TEST(OwnController, TheLibrarysDriveByThisDoorHasItsBits) {
   EXPECT_EQ(turned, 16);
 }
 
-/// What a test makes it answer, and what it was designed by.
+/// The answer that a test sets, and the design's inputs.
 sixstep_answer told{};
 sixstep_given last_given{};
 sixstep_measured last_seen{};
@@ -125,7 +126,7 @@ TEST(OwnController, IsDesignedByMotorBoardLoopsAndNumbers) {
             "control.own puppet cannot have five; change the scenario or the controller's numbers");
 }
 
-/// The magnet's direction is what the sensors know of it, no more: of Hall codes a sector of 60 degrees.
+/// The magnet's direction is as exact as the sensors: with Hall codes it is a sector of 60 degrees.
 TEST(OwnController, SeesTheMagnetAsItsSensorsDo) {
   told = {};
   const auto electrical_deg = [](study::RotorSensing rotor, rig::HallAngleFrom angle) {
@@ -146,7 +147,7 @@ TEST(OwnController, SeesTheMagnetAsItsSensorsDo) {
   EXPECT_NEAR(electrical_deg(study::RotorSensing::hall, rig::HallAngleFrom::angle), is, 0.5);
 }
 
-/// The first answer of each run is judged in step 1. The message has field and value as answered.
+/// The first answer of each run is checked in step 1. The message has field and value of the answer.
 TEST(OwnController, WhatNoTimerDoesEndsTheRun) {
   const auto fault = [](const sixstep_controller& is, const sixstep_answer& answer) {
     told = answer;
@@ -198,7 +199,7 @@ TEST(OwnController, WhatNoTimerDoesEndsTheRun) {
   EXPECT_EQ(fault(legs_puppet, wrong), answered("fault = 1 in step 1: it gave up"));
 }
 
-/// A remark is made from a quarter above the given limit on: with the rotor held the current is the duty times U/R.
+/// The remark begins a quarter above the given limit: with the rotor held the current is the duty times U/R.
 TEST(OwnController, ACurrentBeyondWhatItWasGivenIsRemarked) {
   const auto remarks = [](double duty, std::optional<double> range_A) {
     Scenario s = with(&pair_puppet, cascade());
@@ -271,7 +272,7 @@ TEST(OwnController, WhatItSaysOfItselfIsLookedAt) {
             (Places{"parameter[0].name", "parameter[1].meaning", "parameter[1].preset"}));
 }
 
-/// A copy of a session goes on alike: state and config are copied as bytes.
+/// A copied session continues equally: state and config are copied as bytes.
 TEST(OwnController, ASessionIsCutWhereOneLikes) {
   const Scenario s = with(sixstep_own_controller(), cascade());
   auto session = study::Session::open(s);

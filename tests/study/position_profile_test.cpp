@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The position loop with a profile on the simulated motor: what it lags by with and without being told ahead, how it lands,
-// what the shaft feels, what follows from the sheet, and what is refused.
+// The position loop with a profile on the simulated motor: its lag with and without feed-forward, its end,
+// the shaft's jerk, the defaults from the sheet, and the refusals.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ using ::testing::HasSubstr;
 
 constexpr double J = 1.35e-5, B = 7.3e-6, K_t = 0.0335, degrees = 180 / base::pi;
 constexpr double v = 100.0, a = 3000.0, smoothing = 5e-3, gain = 0.5, way_deg = 3600.0;
-/// v/a + a/j, then until v/a + a/j before the end of d/v + v/a + a/j.
+/// The cruise is from v/a + a/j to v/a + a/j before the end of d/v + v/a + a/j.
 constexpr double cruises_from_s = 0.0384, cruises_to_s = 0.628, lands_s = 0.6667;
 
 Scenario move(bool feed_forward, FirmwareKind drive = FirmwareKind::lean) {
@@ -57,7 +57,7 @@ Moved moved(Scenario s) {
   ask(s,
       over(MetricKind::mean, Signal::position_error, cruises_from_s + 0.36, cruises_to_s));  // 10/K_p later
   Measure error = over(MetricKind::mean, Signal::speed_error, 8e-3, 0.03);
-  error.sampled = true;  // a reference is held for a period, and the speed goes on
+  error.sampled = true;  // the reference holds for a period, while the speed changes
   ask(s, error);
   ask(s, over(MetricKind::mean, Signal::current, 8e-3, 0.03));
   ask(s, over(MetricKind::maximum, Signal::position, 0.0));
@@ -67,7 +67,8 @@ Moved moved(Scenario s) {
   return {f[0], f[1], f[2], f[3], f[4], f[5]};
 }
 
-/// A position P moves at v only where K_p times its error says so. Told ahead, what is left is what the sheet does not tell.
+/// A proportional position loop moves at v only with an error of v/K_p. With feed-forward the remaining error
+/// is from losses that the sheet omits.
 TEST(PositionProfile, ALagOfVOverTheGainWithoutFeedForwardAndNoneWithIt) {
   for (const FirmwareKind drive : {FirmwareKind::lean, FirmwareKind::field}) {
     const Moved without = moved(move(false, drive)), with = moved(move(true, drive));
@@ -84,7 +85,7 @@ TEST(PositionProfile, ALagOfVOverTheGainWithoutFeedForwardAndNoneWithIt) {
   }
 }
 
-/// The torque of J a + B w is there before the speed loop sees an error.
+/// The feed-forward gives the torque J a + B w before the speed loop has an error.
 TEST(PositionProfile, TheSpeedLoopIsLeftWithNothing) {
   const Moved without = moved(move(false)), with = moved(move(true));
   const double mean_w = 0.5 * a * (8e-3 + 0.03 - smoothing);
@@ -136,7 +137,8 @@ TEST(PositionProfile, TheShaftKeepsTheJerk) {
   EXPECT_GT(stepped, 10 * profiled);
 }
 
-/// In single precision, by the product drive with its registers, and with a duty in the place of a current.
+/// The profile runs in single precision, in the product drive with its registers, and with a duty instead of
+/// a current.
 TEST(PositionProfile, EveryDriveWithAPositionLandsThere) {
   Scenario single = move(true);
   single.control.arithmetic = Arithmetic::float32;
@@ -156,7 +158,8 @@ TEST(PositionProfile, EveryDriveWithAPositionLandsThere) {
   }
 }
 
-/// Four fifths of the torque limit; nine tenths of the speed at which the bus drives it; the speed loop's settling time.
+/// The defaults are four fifths of the torque limit, nine tenths of the speed that the bus allows at it, and
+/// the speed loop's settling time.
 TEST(PositionProfile, WhatIsNotGivenFollowsFromTheDrive) {
   Scenario s = move(true);
   s.control.position.profile = {};
@@ -178,7 +181,7 @@ TEST(PositionProfile, WhatIsNotGivenFollowsFromTheDrive) {
   EXPECT_FALSE(compile(s)->drive.extras.position.on) << "a speed is not its to shape";
 }
 
-/// Limits that change while it moves: neither position nor speed jumps, and it lands.
+/// The limits change during the move: position and speed do not jump, and the move reaches its end.
 TEST(PositionProfile, OtherLimitsInFlight) {
   Scenario s = move(true, FirmwareKind::field);
   s.control.position.profile.speed_rad_s.reset();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// When the product drive changes the pair: ahead of the Hall edge, at it, or as late as its filter asks; and
-// what its filter keeps out. In full switching simulation.
+// The product drive changes the pair ahead of the Hall edge, at it, or delayed by its filter, which
+// suppresses glitches. Full switching simulation.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,10 +22,10 @@ using ::testing::HasSubstr;
 
 constexpr double T = 30e-6, w = 500.0;
 constexpr double edge_s = base::pi / 24 / w;  // 8 pole pairs: a sector of the shaft
-constexpr double tick = T / edge_s;           // the way of a control period, in sectors
-constexpr double count = 1e-6 / edge_s;       // and of the capturing timer's
+constexpr double tick = T / edge_s;           // the angle of a control period, in sectors
+constexpr double count = 1e-6 / edge_s;       // the capturing timer's count, in sectors
 
-/// Full duty at a speed that a flywheel holds: gates change where the pair does, and nowhere else.
+/// A flywheel holds the speed at full duty: gates change with the pair only.
 Scenario flywheel() {
   Scenario s = product_scenario(Mode::duty, 1.0);
   s.initial.speed_rad_s = w;
@@ -34,8 +34,8 @@ Scenario flywheel() {
   return s;
 }
 
-/// Where the pair changed, in sectors after the Hall edge; ahead of it below 0. Without the first turn, which
-/// knows no direction yet.
+/// The position of the pair's changes, in sectors after the Hall edge, negative ahead of it. The first turn,
+/// whose direction is unknown, is left out.
 std::vector<double> changes(const Scenario& s) {
   static const std::size_t gates = column("gate_T1"), angle = column("angle_rad");
   std::vector<double> after;
@@ -60,9 +60,10 @@ TEST(ProductCommutation, WithoutAdvanceThePairChangesAtTheEdge) {
 }
 
 TEST(ProductCommutation, AdvanceIsTheAngleBeforeTheEdge) {
-  // 15 electrical degrees at every speed, 0.01 more per rad/s, at most 18: the first tick from there on. The
-  // way since the last edge is a ratio of counts, each of them a difference of two that were rounded down;
-  // 16-bit fixed point rounds it and the advance to a digit of 2^-14 each, and has the duty 1.
+  // The advance is 15 electrical degrees at every speed, 0.01 more per rad/s, at most 18: at the first tick
+  // from there on. The angle since the last edge is a ratio of counts, each a difference of two that were
+  // rounded down. 16-bit fixed point rounds it and the advance to a digit of 2^-14 each, and represents the
+  // duty 1.
   struct Case {
     double angle_deg, gain, limit_deg, expected_deg;
   };
@@ -72,7 +73,7 @@ TEST(ProductCommutation, AdvanceIsTheAngleBeforeTheEdge) {
       Scenario s = flywheel();
       s.control.arithmetic = a;
       s.control.advance = {c.angle_deg, c.gain, c.limit_deg};
-      // The gain is of the speed that was measured, w to a count in a sector.
+      // The gain multiplies the measured speed, which is w to a count in a sector.
       const double wanted = c.expected_deg / 60, of_speed = c.gain * w / 60 * count;
       const double error = 2 * count + of_speed + 0x1p-13;
       const std::vector<double> after = changes(s);
@@ -90,14 +91,14 @@ TEST(ProductCommutation, TheHallFilterDelaysAnEdgeByItsSamplesLessOne) {
     s.sensors.hall_stable_samples = samples;
     const std::vector<double> after = changes(s);
     EXPECT_GT(after.size(), 50u);
-    for (const double x : after) {  // the first sample behind the edge comes within a period
+    for (const double x : after) {  // the first sample after the edge is within a period
       EXPECT_GE(x, (samples - 1) * tick - 1e-9);
       EXPECT_LE(x, samples * tick + 1e-9);
     }
   }
 }
 
-/// 100 rad/s, and 50 us in which H1 reads high in sector 3: 111, which no sector gives.
+/// The speed is 100 rad/s, and H1 is high for 50 us in sector 3: 111, which is no sector's code.
 Scenario glitch(bool there, int samples) {
   Scenario s = product_scenario(Mode::speed, 100.0);
   s.duration_s = 0.2;
@@ -130,7 +131,7 @@ Scenario glitch(bool there, int samples) {
 }
 
 TEST(ProductCommutation, AGlitchShorterThanTheFilterIsNoEdge) {
-  // 50 us hold two samples at most.
+  // 50 us contain two samples at most.
   const auto taken = study::run(glitch(true, 1));
   ASSERT_TRUE(taken && taken->fault);
   EXPECT_THAT(taken->fault->limit, HasSubstr("Hall"));
@@ -143,8 +144,8 @@ TEST(ProductCommutation, AGlitchShorterThanTheFilterIsNoEdge) {
   ASSERT_FALSE(study::run(filtered, {.on_record = keep(with)})->fault);
   ASSERT_FALSE(study::run(whole, {.on_record = keep(without)})->fault);
   ASSERT_EQ(with.size(), without.size());
-  // The same but for rounding: the glitch's two edges end segments that else go on. 2e-13 of the largest
-  // value is what the reference cases keep to; a fault or a wrong pair makes amperes.
+  // The runs are equal except for rounding: the glitch's two edges split segments. 2e-13 of the largest value
+  // is the reference cases' bound; a fault or a wrong pair changes the currents by amperes.
   for (std::size_t c = 0; c < 5; ++c) {
     double largest = 0.0;
     for (const std::vector<double>& row : without) largest = std::max(largest, std::fabs(row[c]));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The product drive, registers in and command out, in full switching simulation.
+// The product drive, from registers to command, in full switching simulation.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ constexpr double T = 30e-6;
 // 64 samples of calibration behind the first tick, which finds the request to run.
 constexpr double calibrated_s = 64 * T;
 
-/// The run, watched; whatever happens, no leg ever has both switches on.
+/// Runs with a witness: no leg ever has both switches on.
 study::Outcome run_watched(const Scenario& s, Witness& w) {
   auto out = study::run(s, {.on_event = [&w](study::Row row) { w(row); }});
   if (!out) {
@@ -55,7 +55,8 @@ TEST(Product, StartsByCalibrationAndAlignmentAndHoldsTheSpeed) {
     EXPECT_FALSE(out.fault) << to_string(*out.fault);
     EXPECT_DOUBLE_EQ(w.first_on(), calibrated_s)
         << "off until the offsets are known, then the pair that pulls";
-    // As of the lean drive (sensors_test.cpp): one count in 1309 per sector, ripple within it.
+    // The bound is the lean drive's (sensors_test.cpp): one count in 1309 per sector, and the ripple within
+    // it.
     EXPECT_NEAR(out.comparisons[0].measured, 100.0, 100.0 * (1.0 / 1309 + 0.004));
   }
 }
@@ -77,7 +78,7 @@ TEST(Product, ARotorThatDoesNotComeWherePulledIsAFault) {
   EXPECT_NEAR(w.off_for_good(), calibrated_s + 5e-3, 2 * T);
 }
 
-/// Recorded at every tick: what controller and plant hold.
+/// The values of controller and plant at every tick.
 std::vector<double> recorded(const Scenario& s, double from_s) {
   std::vector<double> all;
   const auto out = study::run(s, {.on_record = [&](study::Row row) {
@@ -90,10 +91,10 @@ std::vector<double> recorded(const Scenario& s, double from_s) {
 }
 
 TEST(Product, WithoutAFaultItIsTheLeanDriveToTheLastBit) {
-  // From rest to 100 rad/s, then 102, once offsets are known. Until then one bridge is off, the other stands
-  // at duty 0 behind a rotor at rest: no current either way. Behind it both run the same loops on the same
-  // counts and captured edges; the only difference left would be a mistake in one of the two paths. (On the
-  // grid; the trace's bus voltage is stiff.)
+  // The speed steps from rest to 100 rad/s, then to 102, after the calibration of offsets. Until then one
+  // bridge is off, and the other is at duty 0 with a rotor at rest: both have no current. After it both run
+  // the same loops on the same counts and captured edges; only an error in one of the two paths could make a
+  // difference. (On the grid; the trace's bus voltage is stiff.)
   for (const Arithmetic a : {Arithmetic::float64, Arithmetic::float32}) {
     Scenario product = product_scenario(Mode::speed, 0.0);
     product.duration_s = 0.3;
@@ -112,9 +113,9 @@ TEST(Product, WithoutAFaultItIsTheLeanDriveToTheLastBit) {
 }
 
 TEST(Product, FollowsTheStepsOf74AsTheIdealDrive) {
-  // 100, 102, 104 and 102 rad/s, means behind each transient. Speed by edges is exact in the mean but for a
-  // count of the timer in a sector of 1309 (100 rad/s) and the ripple within a sector, as above; the current
-  // is one of 16 bits, 0.6 mA a count.
+  // The speeds are 100, 102, 104 and 102 rad/s, with means after each transient. Speed by edges has an exact
+  // mean except for a timer count in a sector of 1309 (100 rad/s) and the ripple within a sector, as above;
+  // the current has 16 bits, 0.6 mA a count.
   Scenario s = product_scenario(Mode::speed, 0.0);
   s.duration_s = 1.6;
   s.sensors.adc_bits = 16;
@@ -171,14 +172,14 @@ TEST(Product, OverCurrentOfAHeldRotorStopsTheBridge) {
     EXPECT_THAT(out.fault->limit, HasSubstr("over-current"));
     const double passes_s = 0.572e-3 / 1.03 * std::log(1 / (1 - 15.0 * 1.03 / 24.0));
     const double since = w.off_for_good() - w.first_on(), rise_A = (24.0 - 15.0 * 1.03) / 0.572e-3 * T;
-    // A reading rounds by half a count of 10 mA, which takes 1 us; then it waits for the next sample.
+    // A reading rounds by half a count of 10 mA, which is 1 us; the trip then waits for the next sample.
     EXPECT_GE(since, passes_s - 1e-6);
     EXPECT_LE(since, passes_s + T + 1e-6);
     EXPECT_LE(w.most_A, 15.005 + rise_A);
   }
 }
 
-/// A flywheel, braked from 600 rad/s on a bus whose source takes nothing back.
+/// A flywheel brakes from 600 rad/s with a bus whose source cannot sink.
 Scenario braking() {
   Scenario s = product_scenario(Mode::speed, 0.0);
   s.duration_s = 0.1;
@@ -201,8 +202,8 @@ TEST(Product, OverVoltageByRegenerationLetsTheMotorCoast) {
   const study::Outcome out = run_watched(s, w);
   ASSERT_TRUE(out.fault);
   EXPECT_THAT(out.fault->limit, HasSubstr("over-voltage"));
-  // Half a count of 10 mV and three samples in a row, into which 5 A with the overshoot of the design and the
-  // ripple of a period charge 10 mF. What the windings hold then, L i^2/2, goes to the bus too: C U dU.
+  // The bound has half a count of 10 mV and three samples, in which 5 A with the design's overshoot and a
+  // period's ripple charge 10 mF. The windings' energy then, L i^2/2, goes to the bus too: C U dU.
   const double i_A = 5.0 + 0.375 + (30.0 + 0.0335 * 600.0) / 0.572e-3 * T;
   const double late = 3 * T * i_A / 10e-3 + 0.005, rest = 0.572e-3 / 2 * i_A * i_A / (10e-3 * 30.0);
   EXPECT_GT(out.comparisons[0].measured, 30.0 - 0.005);
@@ -226,7 +227,7 @@ TEST(Product, UnderVoltageOfASaggingSourceStopsTheBridge) {
   ASSERT_TRUE(out.fault);
   EXPECT_THAT(out.fault->limit, HasSubstr("under-voltage"));
   EXPECT_LT(out.comparisons[0].measured, 20.0 + 0.005);
-  // Three samples at no more than 10 A + overshoot out of 1 mF, less than 15 A by the other threshold.
+  // Three samples take at most 10 A + overshoot from 1 mF, less than 15 A by the other threshold.
   EXPECT_GT(out.comparisons[0].measured, 20.0 - 3 * T * 15.0 / 1e-3 - 0.005);
 }
 
@@ -240,7 +241,8 @@ TEST(Product, StallIsToldWithinItsTime) {
   const study::Outcome out = run_watched(s, w);
   ASSERT_TRUE(out.fault);
   EXPECT_THAT(out.fault->limit, HasSubstr("stall"));
-  // 20 ms from the first sample above 3 A, which the current loop passes within its settling time.
+  // The time is 20 ms from the first sample above 3 A, which the current loop passes within its settling
+  // time.
   const double since = w.off_for_good() - w.first_on();
   EXPECT_GE(since, 20e-3 - T);
   EXPECT_LE(since, 20e-3 + 1e-3 + T);
@@ -263,7 +265,7 @@ TEST(Product, OverSpeedOfADrivingLoadStopsTheBridge) {
   for (const Witness::Instant& n : w.seen)
     if (n.any_gate) fastest = std::max(fastest, n.speed);
   EXPECT_GE(fastest, 150.0);
-  // Told by an edge, of the mean over the sector before it: one and a half sectors late, and a sample.
+  // An edge gives the mean speed over the sector before it: one and a half sectors and a sample late.
   const double rad_s2 = 0.3 / 1.35e-5;
   EXPECT_LE(fastest, 150.0 + rad_s2 * (1.5 * M_PI / 24 / 150.0 + T));
 }
@@ -284,8 +286,8 @@ TEST(Product, BrakesThenLetsGoWhenTheRequestEnds) {
   EXPECT_FALSE(out.fault);
   EXPECT_LT(out.comparisons[1].measured, -4.0) << "against the turning";
   EXPECT_NEAR(w.last_speed, 0.0, 1.0);
-  // 5 A down to the 154 rad/s at which the short circuit carries them, not longer than if they were held to
-  // standstill; then w' = -w/tau - c with tau = J R/K_t^2 and the friction's c; then the edges' time-out.
+  // The drive holds 5 A down to the 154 rad/s at which the short circuit carries them, at most to standstill.
+  // Then w' = -w/tau - c with tau = J R/K_t^2 and the friction's c, and then the edges' time-out.
   const double J = 1.135e-4, K_t = 0.0335, tau = J * 1.03 / (K_t * K_t), c = 0.002 / J,
                from = 5.0 * 1.03 / K_t;
   EXPECT_GT(w.off_for_good(), 0.4 + J * (200.0 - from) / (K_t * 5.0 + 0.002) + 0.05);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// No key of a reference is without effect: each either changes what is asked for over time, or is refused by name.
+// Every key of a reference has an effect: each changes the reference over time, or a message refuses it by
+// name.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,7 +35,7 @@ std::vector<Reference> one_of_each_shape() {
           {.shape = Shape::csv, .times_s = {0.0, 1e-3}, .values = {1.0, 2.0}}};
 }
 
-/// Walks the description: counts the keys, and gives the n-th another value that a run could have.
+/// Walks the description: counts the keys, and gives the n-th another valid value.
 class AnotherValue final : public base::Visitor {
  public:
   explicit AnotherValue(std::size_t wanted) : wanted_(wanted) {}
@@ -96,7 +97,7 @@ TEST(ReferenceKeys, EachChangesWhatIsAskedForOrIsRefusedByName) {
       AnotherValue walk(n);
       describe(walk, changed);
       keys = walk.n;
-      // What the file holds is read before this, and what the shape is decides about all others.
+      // The file's content is read before this, and the shape selects the other keys.
       if (walk.key == "shape" || (walk.key == "file" && good.shape == Shape::csv)) continue;
       const base::Problems problems = study::check(with(changed));
       SCOPED_TRACE(walk.key + " of " + std::string(base::word(study::shape_choices, good.shape)));
@@ -112,7 +113,7 @@ TEST(ReferenceKeys, EachChangesWhatIsAskedForOrIsRefusedByName) {
   }
 }
 
-/// A key that is new in the description has a row, or is nobody's.
+/// Each key of the description has a row.
 TEST(ReferenceKeys, TheTableHasAllOfThem) {
   std::vector<std::string> described, rows;
   for (std::size_t n = 0, keys = 1; n < keys; ++n) {

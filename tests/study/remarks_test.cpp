@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each remark comes where it is true, with the numbers that a hand calculation gives, and not beside it.
+// Each remark appears where it is true, with the numbers of a hand calculation, and nowhere else.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -30,14 +30,14 @@ std::vector<std::string> remarks_on(const Scenario& s) {
   return out->remarks;
 }
 
-/// Without the torque limit where there is no speed loop: it would be named.
+/// A torque limit without a speed loop would give a remark.
 Scenario drive_of(Mode mode, double reference) {
   Scenario s = maxon_scenario(mode, reference);
   if (mode != Mode::speed && mode != Mode::position) s.control.speed.torque_limit_Nm.reset();
   return s;
 }
 
-/// The maxon 251601 held still: 1.03 ohm and 0.572 mH between two terminals, 24 V, 30 us.
+/// The held maxon 251601: 1.03 ohm and 0.572 mH between two terminals, 24 V, 30 us.
 Scenario held(double amps) {
   Scenario s = drive_of(Mode::current, amps);
   s.load.locked = true;
@@ -74,7 +74,7 @@ TEST(Remarks, ValuesOfTheReferenceBehindTheEnd) {
   EXPECT_THAT(remarks_on(s), Contains(HasSubstr("2 of the 4 values")));
 }
 
-/// Held at 0.3 A, sampled in the middle of a centred pulse.
+/// The drive holds 0.3 A, sampled in the middle of a centred pulse.
 Scenario on_one_shunt() {
   Scenario s = held(0.3);
   s.pwm.alignment = study::Alignment::centre;
@@ -86,7 +86,7 @@ Scenario on_one_shunt() {
 
 TEST(Remarks, AShuntThatSeesNoPulse) {
   Scenario s = on_one_shunt();
-  // Visible above 2 us/30 us of duty: at rest 24 V/1.03 ohm/15 = 1.553 A.
+  // The current is visible above 2 us/30 us of duty: at rest 24 V/1.03 ohm/15 = 1.553 A.
   EXPECT_THAT(remarks_on(s),
               Contains(AllOf(HasSubstr("above a duty of 0.0667"), HasSubstr("that is 1.55 A"))));
   s.pwm.chopping = control::Chopping::complementary;
@@ -98,7 +98,7 @@ TEST(Remarks, AShuntThatSeesNoPulse) {
   EXPECT_THAT(remarks_on(s), IsEmpty());
 }
 
-/// What conducts of the bridge takes its part, and a reading that comes late needs a longer pulse.
+/// The bridge's conducting devices take a part of the voltage, and a delayed reading needs a longer pulse.
 TEST(Remarks, AShuntBehindARealBridge) {
   Scenario s = on_one_shunt();
   const double R = 1.03 / 2, d = 2e-6 / 30e-6;
@@ -125,8 +125,8 @@ TEST(Remarks, AShuntBehindARealBridge) {
   s.sensors.current_bandwidth_Hz.reset();
 }
 
-/// Complementary, the upper switch turns on a dead time later: of a pulse of 4 us around its sample 3 us are left, of which the last half,
-/// less a dead time, is the microsecond that the amplifier needs.
+/// Complementary chopping turns the upper switch on a dead time later: 3 us remain of a pulse of 4 us around
+/// its sample. Their last half, less a dead time, is the microsecond that the amplifier needs.
 TEST(Remarks, AShuntBehindADeadTime) {
   Scenario s = on_one_shunt();
   s.pwm.chopping = control::Chopping::complementary;
@@ -134,7 +134,7 @@ TEST(Remarks, AShuntBehindADeadTime) {
   EXPECT_NEAR(study::least_visible_duty(s), 4.0 / 30, 1e-15);
   const double hidden_A = study::unseen_at_rest_A(s, 1.03 / 2);
   EXPECT_NEAR(hidden_A, 24 * 3e-6 / 30e-6 / 1.03, 1e-12);
-  // What is above it is measured and so held, what is below it is not.
+  // A current above it is measured and so held; one below it is not.
   s.reference.value = 1.1 * hidden_A;
   EXPECT_THAT(remarks_on(s), Not(Contains(HasSubstr("the shunt"))));
   s.reference.value = 0.5 * hidden_A;
@@ -145,7 +145,8 @@ TEST(Remarks, AShuntBehindADeadTime) {
   EXPECT_NEAR(study::least_visible_duty(s), 2.0 / 30, 1e-15);
 }
 
-/// A pulse of 3 us is left out though its sample would count from 2 us on: half of 3 us is the settling time by which the drive knows.
+/// The drive omits a pulse of 3 us although its sample would be valid from 2 us on: half of 3 us is the
+/// settling time of its configuration.
 TEST(Remarks, SamplesThatTheDriveTakesTooSoon) {
   Scenario s = on_one_shunt();
   s.pwm.minimum_pulse_s = 3e-6;
@@ -161,7 +162,8 @@ TEST(Remarks, HallEdgesRarerThanTheTimeout) {
   Scenario s = drive_of(Mode::speed, 2.0);
   s.duration_s = 10e-3;
   s.sensors.rotor = study::RotorSensing::hall;
-  // Eight pole pairs: an edge each (pi/3)/(8 x 2) = 65.4 ms; slowest (pi/3)/8/50 ms = 2.618 rad/s.
+  // Eight pole pairs have an edge each (pi/3)/(8 x 2) = 65.4 ms; the slowest speed is (pi/3)/8/50 ms = 2.618
+  // rad/s.
   EXPECT_THAT(remarks_on(s), Contains(AllOf(HasSubstr("each 65.4 ms"), HasSubstr("timeout_s = 50 ms"),
                                             HasSubstr("slowest speed that is measured is 2.62 rad/s"))));
   s.reference.value = 5.0;
@@ -170,7 +172,7 @@ TEST(Remarks, HallEdgesRarerThanTheTimeout) {
 
 TEST(Remarks, GainsPerSecondTakenForGainsPerSample) {
   Scenario s = held(5.0);
-  // Per second as other tools give them: kp = L 1000/s, ki = R 1000/s.
+  // The gains are per second, as in other tools: kp = L 1000/s, ki = R 1000/s.
   s.control.current.kp = 0.572;
   s.control.current.ki = 1030.0;
   const std::vector<std::string> told = remarks_on(s);
@@ -204,8 +206,8 @@ TEST(Remarks, ASettlingTimeThatIsSlowerThanTheRotorItself) {
   EXPECT_THAT(remarks_on(s), IsEmpty());
 }
 
-/// Where a proportional gain makes the loop unstable, by hand: z - a + b kp = 0 at z = -1, kp = (1 + a)/b; one period late
-/// z^2 - a z + b kp = 0 has |z| = 1 at kp = 1/b.
+/// The proportional gain of instability by hand: z - a + b kp = 0 at z = -1 gives kp = (1 + a)/b; with one
+/// period of delay z^2 - a z + b kp = 0 has |z| = 1 at kp = 1/b.
 TEST(Remarks, TheGainAtWhichALoopBecomesUnstable) {
   const double R = 1.03, L = 0.572e-3, T = 30e-6, a = std::exp(-R * T / L), b = (1 - a) / R;
   for (const bool delayed : {false, true}) {
@@ -214,7 +216,7 @@ TEST(Remarks, TheGainAtWhichALoopBecomesUnstable) {
       Scenario s = held(5.0);
       s.pwm.delay_periods = delayed ? 1 : 0;
       s.control.current.d1 = part * edge;
-      s.control.current.d0 = -part * edge * (1 - 1e-6);  // hardly an integral
+      s.control.current.d0 = -part * edge * (1 - 1e-6);  // almost no integral
       const auto told = remarks_on(s);
       if (part > 1.0)
         EXPECT_THAT(told, Contains(HasSubstr("current loop is unstable"))) << delayed;
@@ -224,7 +226,7 @@ TEST(Remarks, TheGainAtWhichALoopBecomesUnstable) {
   }
 }
 
-/// Each key alone, on a drive that has nothing for it to act on; and none where it acts.
+/// Each key alone on a drive without use for it gives a remark, and none where it has an effect.
 TEST(Remarks, KeysWithoutEffectAreNamed) {
   const std::pair<const char*, void (*)(Scenario&)> keys[] = {
       {"sensors.current_noise_A (sensors.currents is ideal)",
@@ -262,7 +264,7 @@ TEST(Remarks, ABackEmfAboveTheBus) {
   Scenario s = drive_of(Mode::off, 0.0);
   s.duration_s = 2e-3;
   s.initial.speed_rad_s = 800.0;
-  // 33.5 mNm/A: 26.8 V between two terminals at 800 rad/s.
+  // 33.5 mNm/A give 26.8 V between two terminals at 800 rad/s.
   EXPECT_THAT(remarks_on(s), Contains(AllOf(HasSubstr("back-EMF of 26.8 V"), HasSubstr("bus of 24 V"))));
   s.initial.speed_rad_s = 700.0;
   EXPECT_THAT(remarks_on(s), IsEmpty());
@@ -283,7 +285,7 @@ TEST(Remarks, AWindingAboveItsLimit) {
   EXPECT_THAT(remarks_on(s), IsEmpty());
 }
 
-/// A winding near its limit by the values is beyond it by their ranges; one far below is not.
+/// A winding just below its limit by the values is beyond it by their ranges; one far below is not.
 TEST(Remarks, AWindingThatIsCoolByTheValuesAlone) {
   Scenario s = held(10.0);
   s.duration_s = 2.0;
@@ -295,7 +297,7 @@ TEST(Remarks, AWindingThatIsCoolByTheValuesAlone) {
   s.sheet.thermal_time_constant_motor_s = base::Quantity{200.0, "", ""};
   s.sheet.max_winding_temperature_degC = base::Quantity{125.0, "", ""};
   s.heat.motor = true;
-  // 10 A on 1.03 ohm, two seconds: 206 J into 2.5 J/K, or into 1 J/K.
+  // 10 A in 1.03 ohm over two seconds put 206 J into 2.5 J/K, or into 1 J/K.
   EXPECT_THAT(remarks_on(s), Contains(AllOf(HasSubstr("the winding stayed below 125 degC"),
                                             HasSubstr("thermal_time_constant_winding_s = 4"))));
   s.duration_s = 0.2;

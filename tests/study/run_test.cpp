@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenarios built in C++, from end to end.
+// Scenarios built in C++ run from end to end.
 #include "sixstep/study/run/run.hpp"
 
 #include <gtest/gtest.h>
@@ -109,7 +109,7 @@ TEST(Run, GridHasARowPerPointAndOneAtTheEnd) {
 }
 
 TEST(Run, GridRowsAreRightLimits) {
-  // A duty step on a grid point: the row there shows the gates after it.
+  // The duty steps on a grid point: the row there shows the gates after it.
   Scenario s = maxon_scenario(Mode::duty, 0.0);
   s.reference.shape = Shape::steps;
   s.reference.times_s = {0.0, 3e-3};
@@ -127,8 +127,8 @@ TEST(Run, GridRowsAreRightLimits) {
 }
 
 TEST(Run, AGridRowOnATickIsBehindItWhereverTheLastEdgeWas) {
-  // Edges fall between picoseconds, so that the way from them to the tick is rounded. The row at the tick
-  // shows its answer: each period begins with the upper switch on.
+  // Edges fall between picoseconds, so that the time from them to the tick is rounded. The row at the tick
+  // shows the tick's command: each period begins with the upper switch on.
   Scenario s = current_square();
   s.record.grid_s = s.pwm.period_s;
   s.record.columns = {"duty", "gate_T1", "gate_T3", "gate_T5"};
@@ -148,7 +148,8 @@ TEST(Run, SinglePrecisionControlFollowsDouble) {
   s.control.arithmetic = Arithmetic::float32;
   const auto narrow = run(s);
   ASSERT_TRUE(wide && narrow);
-  // 667 samples, each with a few roundings of 24 V in single precision; the loop forgets faster than that.
+  // 667 samples have a few roundings of 24 V in single precision each; an error in the loop decays faster
+  // than that.
   const double bound = 667 * 4 * 0x1p-23 * 24.0 / 1.03;
   EXPECT_NEAR(asked(*wide, 1), asked(*narrow, 1), bound);
   EXPECT_NEAR(asked(*wide, 2), asked(*narrow, 2), bound);
@@ -176,7 +177,7 @@ TEST(Run, StallFollowsTheClosedForm) {
 }
 
 TEST(Run, NoLoadSteadyStateIsTheReferences) {
-  // R2: means over [0.2, 0.3] s.
+  // The values are R2's means over [0.2, 0.3] s.
   Scenario s = maxon_scenario(Mode::duty, 1.0);
   s.duration_s = 0.3;
   for (const Signal signal : {Signal::speed, Signal::current_magnitude}) {
@@ -246,7 +247,8 @@ TEST(Run, APulseOrGapBelowTheMinimumIsNotSwitched) {
   }
 }
 
-/// A PWM reads its own frequency, of a pair and of three legs: the period that begins at the end is none of the run.
+/// The switching frequency of a pair and of three legs equals the PWM's: the period that begins at the run's
+/// end does not count.
 TEST(Run, APwmReadsItsOwnFrequency) {
   Scenario pair = maxon_scenario(control::Mode::duty, 0.5);
   pair.duration_s = 3e-3;  // 100 periods

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sensorless drive that asks by pulses how its rotor stands, as a scenario has it: a wheel's hub whose rotor is salient and
-// saturates, from many angles; the round 251601, of which nothing is seen; and what is refused.
+// The sensorless drive that detects its rotor by pulses, in a scenario: a wheel hub motor whose rotor is
+// salient and saturates, from many angles; the round 251601, which pulses cannot detect; and the refusals.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ using ::testing::HasSubstr;
 
 constexpr int pairs = 15;
 
-/// The library's hub with the two inductances that its sheet names, and iron that saturates at 40 A.
+/// The library's hub with the two inductances of its sheet, and iron that saturates at 40 A.
 Scenario hub(double electrical_deg, double speed_rad_s) {
   Scenario s;
   s.sheet.name = "hub";
@@ -80,8 +80,8 @@ void run_pulses(GeneralRig<Firmware>& rig) {
   FAIL() << "no pulses";
 }
 
-/// The design's own bounds: the angle by five times the noise, the turning by the sum of impulses, the signals by what the block
-/// measures.
+/// The bounds are the design's: the angle by five times the noise, the rotation by the sum of impulses, the
+/// signals by the block's measurement.
 TEST(SensorlessPulses, FindsTheRotorFromAnyAngleAndLeavesItWhereItStands) {
   double worst_off = 0, worst_turn = 0, most_off = 0, most_turn = 0;
   for (double deg = 2.5; deg < 360; deg += 7.5) {
@@ -105,7 +105,7 @@ TEST(SensorlessPulses, FindsTheRotorFromAnyAngleAndLeavesItWhereItStands) {
     EXPECT_LT(std::fabs(off), most_off + most_turn)
         << deg << ": it is asked over all the rounds, while it turns";
     EXPECT_LT(std::fabs(turned), most_turn) << deg;
-    // The chip measures its noise: 48 readings make that variance good to a fifth.
+    // The chip measures its noise: 48 readings give that variance to a fifth.
     EXPECT_NEAR(found.north_16 / 16.0, step_of(*compiled, "north"), 0.25 * step_of(*compiled, "north"))
         << deg;
     EXPECT_GE(found.north_16 / 16.0, 6.0);
@@ -114,8 +114,9 @@ TEST(SensorlessPulses, FindsTheRotorFromAnyAngleAndLeavesItWhereItStands) {
               worst_turn, most_turn);
 }
 
-/// At 25 rad/s, 0.3 of the no-load speed: at 12 the crossings of a hub so salient are lost, however it starts. From the pulses the ramp takes it along, either way, and it never stands farther back than the pulses may turn it and the angle
-/// be off: an alignment pulls it back by up to half a turn.
+/// The speed is 25 rad/s, 0.3 of the no-load speed: at 12 the drive loses the crossings of such a salient hub
+/// with any start. From the pulses the ramp moves the rotor in either direction. The rotor turns back by no
+/// more than the pulses' rotation and the angle's error; an alignment turns it back by up to half a turn.
 TEST(SensorlessPulses, StartsWithoutTurningBack) {
   for (const double way : {1.0, -1.0})
     for (const double deg : {1.0, 59.0, 95.0, 170.0, 242.0, 299.0}) {
@@ -131,7 +132,7 @@ TEST(SensorlessPulses, StartsWithoutTurningBack) {
       EXPECT_LT(back, step_of(*compiled, "turned")) << deg << " " << way;
       EXPECT_NEAR(out.comparisons[1].measured, way * 25.0, 0.02 * 25.0) << deg << " " << way;
     }
-  // What is asked for is not what comes anyway: the alignment's pair has its place at 120 degrees.
+  // An alignment fails that bound: its pair's angle is 120 degrees.
   Scenario aligned = hub(242.0, 25.0);
   aligned.control.sensorless.starts_by = StartsBy::alignment;
   ask(aligned, over(MetricKind::minimum, Signal::position, 0.0, 1.5));
@@ -152,7 +153,7 @@ TEST(SensorlessPulses, StartsInEveryArithmetic) {
   }
 }
 
-/// The round 251601 shows nothing: it is aligned, starts, and the note says why.
+/// Pulses cannot detect the round 251601: the drive aligns it and starts, and the note gives the reason.
 TEST(SensorlessPulses, AlignsWhatShowsNothingAndSaysSo) {
   Scenario s = maxon_scenario(Mode::speed, 100.0);
   s.sheet.nominal_current_A = {2.33, "terminal", ""};

@@ -21,7 +21,7 @@ using study::Scenario;
 using study::Signal;
 using ::testing::HasSubstr;
 
-/// 5 A into the held rotor: what the loop makes of its measurement, and nothing else.
+/// The drive holds 5 A in the held rotor: only the measurement changes the result.
 Scenario held_at_5_A() {
   Scenario s = maxon_scenario(Mode::current, 5.0);
   s.load.locked = true;
@@ -46,8 +46,8 @@ double mean_of(const Scenario& s) {
 }
 
 TEST(Sensors, ConverterHoldsTheCurrentWithinHalfACount) {
-  // The integral holds the mean reading at 5 A, which lies on a count; every reading is within half a count
-  // of its current.
+  // The integral holds the mean reading at 5 A, which is exactly a count; every reading is within half a
+  // count of its current.
   const double ideal = mean_of(held_at_5_A());
   for (const int bits : {8, 10, 12, 16}) {
     const double lsb = 2 * 20.48 / (1 << bits);
@@ -59,8 +59,8 @@ TEST(Sensors, AGainErrorIsTheCurrentsOwn) {
   Scenario s = with_phases(held_at_5_A(), 16);
   const double ideal = mean_of(held_at_5_A());
   s.sensors.current_gain_error = 0.05;
-  // A reading 5 % too large is held at 5 A: the sampled current is 5 A/1.05. The mean lies above the samples
-  // by half a ripple, which does not change with 2 % of its duty by more than 2 % of itself.
+  // The loop holds a reading that is 5 % too large at 5 A: the sampled current is 5 A/1.05. The mean is half
+  // a ripple above the samples, and 2 % of duty change that by at most 2 % of itself.
   EXPECT_NEAR(mean_of(s), ideal - 5.0 * (1 - 1 / 1.05), 0.05 * (ideal - 5.0) + 20.48 / (1 << 15));
 }
 
@@ -88,7 +88,7 @@ study::At drifts(double at_s, std::optional<double> offset_A, std::optional<doub
   return at;
 }
 
-/// The drive measured its zero before. So amplifiers that drift behind that read as those do whose zero nobody measured.
+/// The drive measured its zero before the drift. Its readings then equal those of an uncalibrated offset.
 TEST(Sensors, AnAmplifierThatDriftsShiftsEverySampleByJustThat) {
   for (Scenario drifted : {with_phases(held_at_5_A()), with_shunt(held_at_5_A())}) {
     Scenario never_measured = drifted;
@@ -107,9 +107,9 @@ TEST(Sensors, AnAmplifierThatDriftsShiftsEverySampleByJustThat) {
 TEST(Sensors, AnOffsetThatJumpsDuringTheRunMovesTheShuntsCurrentByIt) {
   Scenario s = with_shunt(held_at_5_A());
   s.sensors.adc_bits = 16;
-  s.sensors.current_offset_A = 0.2;  // this one it knows
+  s.sensors.current_offset_A = 0.2;  // the drive measured this one
   const double before = mean_of(s);
-  s.at.push_back(drifts(4e-3, 0.2 + 0.5, {}));  // and of this one 0.2 A
+  s.at.push_back(drifts(4e-3, 0.2 + 0.5, {}));  // and knows 0.2 A of this one
   EXPECT_NEAR(mean_of(s), before - 0.5, 2 * 20.48 / (1 << 15));
   s.at.push_back(drifts(7e-3, 0.2, {}));
   EXPECT_NEAR(mean_of(s), before, 2 * 20.48 / (1 << 15));
@@ -149,7 +149,8 @@ TEST(Sensors, ShuntsOffsetShowsUntilItIsCalibrated) {
 }
 
 TEST(Sensors, OneShuntHoldsTheCurrentOfPhaseSensing) {
-  // Held rotor, pulses long enough to see: the same sample by another way, to one count of the converter.
+  // The rotor is held, and the pulses are long enough to sample: both ways give the same sample to one count
+  // of the converter.
   Scenario ideal = held_at_5_A();
   ideal.pwm.alignment = study::Alignment::centre;
   ideal.pwm.sample = study::SampleAt::middle;
@@ -170,13 +171,13 @@ TEST(Sensors, IdealOnesLeaveTheRunAsItIs) {
   const std::uint64_t plain = study::run(s)->digest;
   s.sensors.seed = 5;
   s.sensors.adc_bits = 8;
-  s.sensors.current_noise_A = 1.0;  // of a converter that nothing goes through
+  s.sensors.current_noise_A = 1.0;  // of a converter without a signal
   EXPECT_EQ(study::run(s)->digest, plain);
 }
 
 TEST(Sensors, ErrorsOfTheBusConverterAreTheDutys) {
-  // The duty divides by what is read: 5 % too much and 1 V more take 5 % and 1/25.2 of the voltage, which the
-  // integral gives back, and the current stays.
+  // The duty divides by the bus reading: 5 % too much and 1 V more reduce the voltage by 5 % and 1/25.2,
+  // which the integral restores; the current is unchanged.
   Scenario s = with_phases(held_at_5_A(), 16);
   s.control.current.measured_bus_from_V = 10.0;
   s.sensors.bus = study::BusSensing::adc;
@@ -188,8 +189,8 @@ TEST(Sensors, ErrorsOfTheBusConverterAreTheDutys) {
   const double right = mean_of(s);
   s.sensors.bus_gain_error = 0.05;
   s.sensors.bus_offset_V = 1.0;
-  // On-time times U/L, less what R takes meanwhile: 30 us against 0.56 ms. Half a count of 16 bits, 0.3 mV,
-  // is nothing.
+  // The current is the on-time times U/L, less the part that R takes meanwhile: 30 us against 0.56 ms. Half a
+  // count of 16 bits, 0.3 mV, is negligible.
   EXPECT_NEAR(mean_of(s) / right, 24.0 / (24.0 * 1.05 + 1.0), 0.03);
 }
 
@@ -204,14 +205,15 @@ Scenario at_100_rad_s() {
 }
 
 TEST(Sensors, SpeedFromHallEdgesHoldsTheSpeed) {
-  // Soft: the exact placement is for a speed that is known at once, edges tell it an electrical turn late.
+  // The speed loop is soft: the exact placement assumes a speed without delay, but edges give it an
+  // electrical turn late.
   Scenario s = at_100_rad_s();
   s.control.speed.settle_s = 0.1;
   s.control.speed.damping = 0.9;
   s.sensors.rotor = study::RotorSensing::hall;
   s.sensors.speed_edges = 1;
-  // The mean of 1/T over sectors of one length is exact but for the timer's count: 1 in 1309 at 1 MHz. The
-  // integral holds the mean over time of the reading at 100; ripple within a sector, 0.4 %, is left.
+  // The mean of 1/T over equal sectors is exact except for the timer's count: 1 in 1309 at 1 MHz. The
+  // integral holds the time mean of the reading at 100; the ripple within a sector, 0.4 %, remains.
   EXPECT_NEAR(mean_of(s), 100.0, 100.0 * (1.0 / 1309 + 0.004));
 }
 
@@ -226,7 +228,7 @@ TEST(Sensors, CoarseTimerShowsInTheSpeed) {
 }
 
 TEST(Sensors, PositionFromHallEdgesComesToItsTarget) {
-  // The middle of a sector, 7.5 degrees wide: what a rotor at rest anywhere in it reads.
+  // The target is the middle of a sector, 7.5 degrees wide, which a rotor at rest anywhere in it reads.
   Scenario s = maxon_scenario(Mode::position, 363.75);
   s.duration_s = 0.6;
   s.control.speed.settle_s = 0.05;
@@ -236,8 +238,8 @@ TEST(Sensors, PositionFromHallEdgesComesToItsTarget) {
   ask(s, measure(MetricKind::final_value, Signal::position));
   const auto out = study::run(s);
   ASSERT_TRUE(out);
-  // Without friction it strays until an edge tells, and is turned back there: half a sector, and at most one
-  // more.
+  // Without friction the rotor drifts until an edge shows it, and turns back there: half a sector, and at
+  // most one more.
   EXPECT_NEAR(out->comparisons[0].measured, 363.75, 1.5 * 7.5);
 }
 
@@ -260,14 +262,14 @@ TEST(Sensors, ABrokenLineStopsTheBridgeAndIsNamed) {
       ASSERT_TRUE(out);
       ASSERT_TRUE(out->fault) << line;
       EXPECT_THAT(out->fault->limit, HasSubstr("line H" + std::to_string(line)));
-      // A line that breaks just behind its own edge takes that edge back; the next of its edges, three
-      // sectors on, is missing; one sector later another line makes the code impossible. Five sectors of
-      // 1.31 ms in all, at 100 rad/s less what the wrong pair takes.
+      // A line that breaks just after its own edge reverses that edge. Its next edge, three sectors later, is
+      // missing; one sector later another line makes the code impossible. These are five sectors of 1.31 ms
+      // at 100 rad/s, less the slowing by the wrong pair.
       EXPECT_LE(out->simulated_s, 0.1 + 5 * 1.31e-3 * 1.05);
     }
 }
 
-/// The longest time that a code of no sector stood on the pins while the run went on.
+/// The longest time with an impossible code on the pins while the run continued.
 double impossible_for(const Scenario& s) {
   std::size_t column = 0;
   while (study::all_columns()[column].name != "hall") ++column;

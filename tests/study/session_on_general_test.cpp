@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A session on the general kernel has the bits of the uncut run there, whatever asks for it.
+// A session on the general kernel has the bits of the uninterrupted run there, for each reason to use it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ TEST(SessionOnGeneral, SlicesHaveTheBitsOfTheUncutRun) {
       EXPECT_EQ(parts.energy->supplied, whole.energy->supplied);
       EXPECT_EQ(parts.energy->electrical_residual, whole.energy->electrical_residual);
       ASSERT_EQ(rows[0].size(), rows[1].size());
-      for (std::size_t n = 0; n < rows[0].size(); ++n)  // NaN where a column means nothing
+      for (std::size_t n = 0; n < rows[0].size(); ++n)  // NaN where a column does not apply
         ASSERT_TRUE(rows[0][n] == rows[1][n] || (rows[0][n] != rows[0][n] && rows[1][n] != rows[1][n])) << n;
     }
 }

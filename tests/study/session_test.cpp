@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A session: slices, looks and copies cost no bit; what it was told replays from its scenario.
+// A session's slices, reads and copies do not change a bit; its changes replay from its scenario.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -55,7 +55,7 @@ At gains(double settle_s) {
   return at;
 }
 
-/// A drive that its arithmetic cannot hold is refused by a run and a session alike.
+/// A run and a session both refuse a drive that its arithmetic cannot represent.
 bool can_run(const Scenario& s) {
   const auto session = Session::open(s);
   EXPECT_EQ(bool(session), bool(run(s)));
@@ -121,12 +121,12 @@ TEST(Session, ListenersHearTheSame) {
     into = &parts;
     sliced(s, listeners);
     ASSERT_EQ(parts.size(), whole.size());
-    for (std::size_t n = 0; n < whole.size(); ++n)  // NaN where a column means nothing
+    for (std::size_t n = 0; n < whole.size(); ++n)  // NaN where a column does not apply
       ASSERT_TRUE(parts[n] == whole[n] || (parts[n] != parts[n] && whole[n] != whole[n])) << n;
   }
 }
 
-/// What a grid records of the uncut run, at instants between any two events.
+/// The values equal the grid's record of the uninterrupted run, at instants between any two events.
 TEST(Session, ShowsTheInstantAskedForWithoutCuttingASegment) {
   Scenario s = cascade();
   s.record.grid_s = 7.301e-6;  // never on a PWM edge
@@ -177,7 +177,8 @@ TEST(Session, ACopyIsASavedState) {
   }
 }
 
-/// Open loop at full duty skips its ticks; polynomials look far ahead, and a change has to come behind them.
+/// Open loop at full duty skips its ticks: polynomials extend far ahead, and a change must act after their
+/// present segment.
 TEST(Session, AChangeAtSteadyDutyIsSeen) {
   for (const double after_s : {0.0, 1e-3, 3.33e-3}) {
     Session session = opened(full_duty());
@@ -298,7 +299,7 @@ TEST(Session, WhatIsRefusedChangesNothing) {
   EXPECT_EQ(closed(session).digest, outcome(s).digest);
 }
 
-/// The window that a limit gives the current is laid out for the largest reference of the run: one beyond it
+/// The window that a limit gives the current follows from the largest reference of the run: a larger one
 /// would have been another drive from the start.
 TEST(Session, TheLimitsThatWereFeltStay) {
   Scenario s = maxon_scenario(Mode::current, 4.0);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoders and resolvers that fail during a run, and sensors on the load's side of a shaft: what the drive then does, by laws.
+// Encoders and resolvers that fail during a run, and sensors on the load's side of a shaft: the drive's
+// reaction follows laws.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -41,7 +42,7 @@ Scenario positioned(double to_deg) {
   return s;
 }
 
-// What the counter does not count the shaft goes further, until its index tells.
+// The shaft turns further by the missed counts, until its index corrects them.
 TEST(EncoderFault, MissedEdgesShiftThePositionUntilTheIndexPasses) {
   Scenario s = positioned(180);
   s.at.push_back(event(0));
@@ -57,7 +58,8 @@ TEST(EncoderFault, MissedEdgesShiftThePositionUntilTheIndexPasses) {
   EXPECT_NEAR(out.comparisons[1].measured, 450, 2 * count_deg);
 }
 
-// As a Poisson process brings them: so many a second in the mean, to three of its deviations, and the same by the same seed.
+// The missed edges follow a Poisson process: the mean rate, to three of its deviations, and the same with the
+// same seed.
 TEST(EncoderFault, EdgesAreMissedAtTheRateAskedFor) {
   Scenario s = positioned(90);
   s.sensors.encoder.missed_Hz = 2000;
@@ -76,7 +78,8 @@ TEST(EncoderFault, EdgesAreMissedAtTheRateAskedFor) {
   EXPECT_TRUE(missed(7).empty());
 }
 
-/// 2 A into a rotor held at an electrical angle, from the middle of the run on behind a sensor that fails.
+/// The drive holds 2 A in a rotor held at an electrical angle, with a sensor that fails from the middle of
+/// the run on.
 Scenario held_at(double electrical_deg) {
   Scenario s = maxon_scenario(Mode::current, 2.0);
   s.duration_s = 10e-3;
@@ -91,7 +94,8 @@ Scenario held_at(double electrical_deg) {
   return s;
 }
 
-// Bit 10 of 14 over 8 pole pairs mirrors each electrical turn: 270 degrees read 90, three sectors on, and the torque turns round.
+// Bit 10 of 14 over 8 pole pairs mirrors each electrical turn: 270 degrees read 90, three sectors later, and
+// the torque reverses.
 TEST(AbsoluteFault, ABadTrackOfTheElectricalTurnBrakesWithFullTorque) {
   Scenario s = held_at(270);
   s.sensors.rotor = RotorSensing::absolute;
@@ -102,7 +106,8 @@ TEST(AbsoluteFault, ABadTrackOfTheElectricalTurnBrakesWithFullTorque) {
   EXPECT_NEAR(out.comparisons[1].measured, -2 * K_t, 0.01 * K_t);
 }
 
-// Without its cosine a resolver says 90 degrees of all from 0 to 180: at 150 that is a sector off, where one phase crosses zero.
+// A resolver without its cosine reads 90 degrees at all angles from 0 to 180: at 150 this is a sector off,
+// where one phase crosses zero.
 TEST(ResolverFault, ABrokenWindingLeavesHalfTheTorque) {
   for (const auto reading : {rig::ResolverReading::sampled, rig::ResolverReading::tracking}) {
     Scenario s = held_at(150);
@@ -127,7 +132,8 @@ Scenario tracked(Scenario s, int bits) {
   return s;
 }
 
-// A count of 10 bits is 2.8 electrical degrees here; the position rests within it, and one that may be missed.
+// A count of 10 bits is 2.8 electrical degrees here; the position rests within it, and one count that may be
+// missed.
 TEST(ConverterChip, HoldsAPositionToItsResolution) {
   for (const int bits : {10, 12, 16}) {
     Scenario s = tracked(cascade(0.8), bits);
@@ -141,7 +147,7 @@ TEST(ConverterChip, HoldsAPositionToItsResolution) {
   }
 }
 
-/// A load behind a gear and a coupling, whose position is told.
+/// A load behind a gear and a coupling, with a position reference.
 Scenario on_the_load(SensorShaft shaft, double torque_Nm) {
   Scenario s = positioned(90);
   s.sensors.rotor = RotorSensing::absolute;
@@ -160,9 +166,9 @@ Scenario on_the_load(SensorShaft shaft, double torque_Nm) {
   return s;
 }
 
-// At rest the coupling is twisted by T/k: the motor's encoder holds the motor, the load's holds the load, and the motor stands
-// ahead by the twist times the gear.
-// A speed below a count in eight samples reads as nothing or as that: the shaft hunts within what the position loop answers with it.
+// The coupling at rest is twisted by T/k: the motor's encoder holds the motor, the load's holds the load, and
+// the motor is ahead by the twist times the gear. A speed below a count in eight samples reads as zero or as
+// that: the shaft oscillates within the position loop's reaction to it.
 TEST(LoadSideSensor, HoldsTheLoadWhateverTwistsTheCoupling) {
   const double told_rad_s = 2 * base::pi / 0x1p20 / (8 * 30e-6),
                hunts_deg = 2 * 360 / 0x1p16 + told_rad_s / 0.3;

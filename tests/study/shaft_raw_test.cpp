@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What encoders and resolvers give, as columns of the trace and as logic lines: model.md 10 to the last digits, of the angle that
-// stands in the same row, and edges where a shaft that turns evenly has them.
+// The outputs of encoders and resolvers, as columns of the trace and as logic lines, equal model.md 10 to the
+// last digits, at the angle in the same row. The edges are at the instants of a uniform rotation.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -48,7 +48,7 @@ int for_each_row(const Scenario& s, Look&& look) {
   return rows;
 }
 
-/// Rows stand on the borders too, where the last digit of theta decides.
+/// Rows lie on the borders too, where the last digit of theta decides.
 bool near_border(double parts) { return std::fabs(parts - std::floor(parts + 0.5)) < 1e-9; }
 
 TEST(RawColumns, AnEncodersLinesAreThoseOfTheirEquation) {
@@ -75,7 +75,7 @@ TEST(RawColumns, AnAbsoluteCodeIsThatOfItsEquation) {
   });
 }
 
-// Excited so that a drive's samples stand on peaks, or from t = 0 on by a chip.
+// The excitation has its peaks at a drive's samples, or a chip starts it at t = 0.
 TEST(RawColumns, AResolversVoltagesAreThoseOfTheirEquations) {
   for (const auto reading : {rig::ResolverReading::sampled, rig::ResolverReading::tracking}) {
     Scenario s = turned(RotorSensing::resolver);
@@ -137,7 +137,7 @@ TEST(RawColumns, AreRecordedWhereTheSensorIsFitted) {
   EXPECT_EQ(names(RotorSensing::resolver), "resolver_cos_V resolver_sin_V ");
 }
 
-// A logic analyser sees each edge at its own picosecond, not at the next event: theta_0 + w t = n 2 pi/4N.
+// A logic analyser has each edge at its own picosecond, not at the next event: theta_0 + w t = n 2 pi/4N.
 TEST(LogicLines, AnEncodersEdgesStandWhereTheShaftPassesThem) {
   const Scenario s = turned(RotorSensing::encoder);
   std::int64_t n = static_cast<std::int64_t>(std::floor(2000 * theta_0 / two_pi));
@@ -151,7 +151,7 @@ TEST(LogicLines, AnEncodersEdgesStandWhereTheShaftPassesThem) {
                          if (pins != last && last != 8) {
                            ++edges;
                            ++n;
-                           // By a ps and the rounding of theta, 1e-15 of a few rad over w.
+                           // The bound is a ps and the rounding of theta, 1e-15 of a few rad over w.
                            EXPECT_NEAR(static_cast<double>(ps),
                                        (static_cast<double>(n) * two_pi / 2000 - theta_0) / w * 1e12, 3);
                          }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoders and resolvers in whole runs: the drive is told what its decoders make of them, and holds what it holds with ideal
-// sensors; what cannot be is refused.
+// Encoders and resolvers in whole runs: the drive uses their decoders' values and has the results of ideal
+// sensors; impossible scenarios are refused.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ TEST(ShaftSensors, ACascadeRunsOnEachAsOnIdealOnes) {
     const Outcome out = outcome_of(sensed(s, kind));
     EXPECT_NE(out.digest, ideal.digest);
     EXPECT_NEAR(out.comparisons[0].measured, ideal.comparisons[0].measured, 1.0) << static_cast<int>(kind);
-    // The 12 bits of the resolver's converter are heard in the current.
+    // The 12 bits of the resolver's converter add noise to the current.
     EXPECT_NEAR(out.comparisons[1].measured / ideal.comparisons[1].measured, 1, 0.35)
         << static_cast<int>(kind);
   }
@@ -78,7 +78,7 @@ TEST(ShaftSensors, AnEncoderWithoutItsIndexIsCommutatedByTheProbesUntilItPasses)
   EXPECT_NEAR(outcome_of(s).comparisons[0].measured, 100, 1.0);
 }
 
-// What the decoders say of a rotor at constant speed, sample by sample.
+// The decoders' values for a rotor at constant speed, sample by sample.
 TEST(RotorDecoders, TellSpeedAngleAndSectorOfASteadyRotor) {
   for (const RotorSensing kind : kinds)
     for (const double w : {20.0, -300.0}) {
@@ -120,12 +120,12 @@ TEST(RotorDecoders, TellSpeedAngleAndSectorOfASteadyRotor) {
         ports.follow(rig::ShaftMotion<double>{y, sample.shaft.sector, 8, 1.0, sim::to_instant(t),
                                               sim::to_instant(t + T), sim::to_instant(t + T)});
       }
-      // A sector's edge seen up to 0.2 degrees late: of a sector of 7.5 degrees.
+      // The decoders show a sector's edge up to 0.2 degrees late, of a sector of 7.5 degrees.
       EXPECT_LT(wrong_sectors, 1500 * 0.2 / 7.5) << static_cast<int>(kind) << " at " << w;
     }
 }
 
-/// Windings that are unlike show an angle beside the shaft's, in closed form; a drive that knows them takes it off.
+/// Unequal windings shift the angle by a closed form; a calibrated drive subtracts it.
 TEST(RotorDecoders, TakeOffWhatAResolverIsKnownToBeWrongBy) {
   constexpr double deg = base::pi / 180;
   for (const bool calibrated : {false, true})

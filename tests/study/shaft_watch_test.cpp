@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoders and resolvers that fail under a drive which looks: which fault is named, and when; and that a whole sensor, as unlike and
-// as noisy as it may be, is none. The shaft turns at a speed that is held from outside, so that angles are known in closed form.
+// A drive that monitors its encoder or resolver names the fault at the closed form's time, and reports none
+// for a sound sensor with any allowed errors and noise. An external drive turns the shaft at constant speed,
+// so that angles have a closed form.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +22,7 @@ using ::testing::HasSubstr;
 
 constexpr double w = turned_rad_s, theta_0 = turned_from_rad, deg = base::pi / 180;
 
-/// When the shaft is there, of its first turn.
+/// The time at which the shaft passes the angle in its first turn.
 double time_at(double angle_deg) { return (angle_deg * deg - theta_0) / w; }
 
 Scenario turned(RotorSensing rotor, double to_deg) {
@@ -48,7 +49,7 @@ constexpr rig::ResolverReading readings[] = {rig::ResolverReading::sampled, rig:
 
 std::string fault_of(const Outcome& out) { return out.fault ? to_string(*out.fault) : "none"; }
 
-// What is left of the sum of squares is the sine's alone: it falls below half of it 45 degrees before the sine's zero.
+// The remaining sum of squares is the sine's alone: it falls below half 45 degrees before the sine's zero.
 TEST(ShaftWatch, ABrokenWindingIsNamedWhereHalfTheSquareIsLost) {
   for (const auto reading : readings) {
     Scenario s = read_by(reading, 200);
@@ -56,7 +57,8 @@ TEST(ShaftWatch, ABrokenWindingIsNamedWhereHalfTheSquareIsLost) {
     s.at.back().sensors.broken_winding = Winding::cosine;
     const Outcome out = outcome_of(s);
     EXPECT_THAT(fault_of(out), HasSubstr("cosine winding nothing"));
-    // A count of the converter moves the square's border by as much; the second of two results, each told half a peak late.
+    // A count of the converter moves the square's border by as much; the fault is the second of two results,
+    // each half a peak late.
     EXPECT_NEAR(out.simulated_s, time_at(135), 2.5 * s.pwm.period_s + 1.25 / 2048 / w);
     s.at.back().sensors.broken_winding = Winding::sine;
     const Outcome sine = outcome_of(s);
@@ -71,7 +73,7 @@ TEST(ShaftWatch, ExcitationIsNamedByThePartThatIsLeft) {
     double part;
     const char* text;
   };
-  // Half of the square is an amplitude of 0.707, a quarter more 1.118.
+  // Half of the square is an amplitude of 0.707, a quarter more is 1.118.
   const Case cases[] = {{0.0, "excitation is lost"},
                         {0.5, "50 % of its amplitude, less"},
                         {0.69, "69 % of its amplitude, less"},
@@ -91,7 +93,7 @@ TEST(ShaftWatch, ExcitationIsNamedByThePartThatIsLeft) {
     }
 }
 
-// Its speed is told as the loop had it, and behind the gap its angle is that of the windings again.
+// The speed stays the loop's, and after the gap the angle is the windings' again.
 TEST(ShaftWatch, ADriveThatDoesNotLookGoesOn) {
   for (const auto reading : readings) {
     Scenario s = read_by(reading, 300);
@@ -110,7 +112,8 @@ TEST(ShaftWatch, ADriveThatDoesNotLookGoesOn) {
   }
 }
 
-// As unlike as the keys allow and noisy, over more than a turn: never lost; and lost where it breaks.
+// The resolver has the largest allowed errors and noise, over more than a turn: it is lost only where it
+// breaks.
 TEST(ShaftWatch, AWholeResolverIsNeverLost) {
   for (const auto reading : readings)
     for (const bool calibrated : {false, true}) {
@@ -137,7 +140,8 @@ int missing_of(const Outcome& out) {
   return at == std::string::npos ? 0 : std::atoi(text.c_str() + at + before.size());
 }
 
-// What passed since the line stuck is what the index finds missing, the shorter way round; it is seen by the next sample.
+// The index finds the counts missing since the line stuck, by the shorter way round; the next sample detects
+// it.
 TEST(ShaftWatch, AStuckLineIsNamedByTheNextIndex) {
   for (const EncoderLine line : {EncoderLine::A, EncoderLine::B})
     for (const double stuck_deg : {60.0, 250.0}) {
@@ -152,7 +156,8 @@ TEST(ShaftWatch, AStuckLineIsNamedByTheNextIndex) {
     }
 }
 
-// A disturbance makes the index come early by what is left of the turn; one within a sector's counts is mended, wrongly.
+// A disturbance gives an early index, by the rest of the turn; an error within a sector's counts is
+// corrected, wrongly.
 TEST(ShaftWatch, AFalseIndexIsNamedWhereItIsMoreThanASectorOff) {
   Scenario s = turned(RotorSensing::encoder, 340);
   s.at.push_back(at_angle(250));
@@ -163,7 +168,7 @@ TEST(ShaftWatch, AFalseIndexIsNamedWhereItIsMoreThanASectorOff) {
   s.at.back().sensors.false_index = true;
   s.duration_s = time_at(358);
   EXPECT_EQ(fault_of(outcome_of(s)), "none");
-  // The true one then finds as many too many.
+  // The true index then finds as many counts too many.
   s.duration_s = time_at(362);
   EXPECT_EQ(fault_of(outcome_of(s)), "none");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cheap bounds of a signal: what lets most segments go without a search for extremes.
+// The cheap bounds of a signal, with which most segments need no search for extremes.
 #include "sixstep/study/measure/signals.hpp"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ struct WithinBounds {
                                      b = signal_bounds(segment_view(rig), signal);
       ++segments;
       breaches += !(b.low <= e.low && e.high <= b.high);
-      // A straight line is bounded by itself and, on the other side, by its mirror image: twice as wide.
+      // The bounds of a straight line are itself and, on the other side, its mirror image: twice as wide.
       useful += b.high - b.low <= 2.5 * (e.high - e.low) + 1e-9;
     }
   }
@@ -63,7 +63,7 @@ TEST(SignalBounds, NoneForWhatHasNoneAtHand) {
   EXPECT_EQ(signal_bounds(segment_view(rig), Signal::torque).low, -std::numeric_limits<double>::infinity());
 }
 
-/// Every signal against what the snapshot of the same instant says, column by column and power by power.
+/// Compares every signal with the snapshot of the same instant, column by column and power by power.
 struct AgainstTheTrace {
   double worst = 0.0;  ///< difference over the signal's natural size
   std::string where;
@@ -106,7 +106,7 @@ struct AgainstTheTrace {
       }
     derived(rig, fact, value, s);
   }
-  /// What is no column.
+  /// The signals without a column.
   template <class Rig>
   void derived(const Rig& rig, const SignalFact& fact, double value, double s) {
     const auto& c = rig.plant().constants();
@@ -159,7 +159,7 @@ struct AgainstTheTrace {
 };
 
 TEST(Signals, AreWhatTheTraceShows) {
-  // Some 50 roundings of the signal's size on either way, and products left out below 2^-53.
+  // Each way has some 50 roundings of the signal's size, and omits products below 2^-53.
   constexpr double bound = 256 * 0x1p-53;
   const auto watched = [&](Board b, double to_s) {
     b.devices = {.R_on_ohm = 0.02, .V_f_V = 0.7, .r_d_ohm = 0.01};
@@ -193,7 +193,8 @@ TEST(Signals, AreWhatTheTraceShows) {
   EXPECT_GT(high_degrees, 10) << "segments whose products take two pieces";
 }
 
-/// Time, codes, and what leaves a rotor sensor: levels that change at edges of their own, which no segment has as a polynomial.
+/// Time, codes and a rotor sensor's outputs change at edges of their own, so that no segment has them as a
+/// polynomial.
 TEST(Signals, EveryColumnThatIsACurveHasOne) {
   const std::set<std::string_view> no_curves = {"t_s",           "hall",           "sector",
                                                 "encoder_A",     "encoder_B",      "encoder_Z",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The speed controller's two forms, its derivative, and the limit it knows of, in full switching simulation.
+// The speed controller's two forms, its derivative, and its torque limit, in full switching simulation.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ using ::testing::HasSubstr;
 
 constexpr double T = 30e-6, K_t = 0.0335, J = 1.35e-5, B = 7.3e-6;
 
-/// Speed at every tick: what two controllers do differently shows in it for good.
+/// The speed at every tick: any difference between two controllers persists in it.
 std::vector<double> course(Scenario s) {
   s.record.columns = {"speed_rad_s"};
   std::vector<double> all;
@@ -51,7 +51,7 @@ double first_figure(const Scenario& s) {
   return out ? out->comparisons[0].measured : -1e9;
 }
 
-/// 900 rad/s, which 24 V do not reach, then 300, with a torque of 0.1 N m: 2.985 A.
+/// The reference is 900 rad/s, which 24 V cannot reach, then 300, with a torque of 0.1 N m: 2.985 A.
 Scenario out_of_reach() {
   Scenario s = maxon_scenario(Mode::speed, 0.0);
   s.duration_s = 0.2;
@@ -63,8 +63,8 @@ Scenario out_of_reach() {
   return s;
 }
 
-// What two controllers may differ in that compute the same in another order: some ten roundings of 1.1e-16 a
-// tick, in at most 6700 ticks, did they all add up.
+// The bound on two controllers that compute the same in another order: some ten roundings of 1.1e-16 a tick,
+// in at most 6700 ticks, all with one sign.
 constexpr double rounding = 10 * 6700 * 1.1e-16;
 
 TEST(SpeedForm, ShortOfTheLimitBothFormsAreOneController) {
@@ -86,11 +86,11 @@ TEST(SpeedForm, AnIntegralThatFollowsAtOnceIsTheIncrementalForm) {
 }
 
 TEST(SpeedForm, AFreeIntegralMakesUpForEveryDegreeItLost) {
-  // The integral ends where it holds 300 rad/s, at B 300/0.1 N m of the torque; the sum of all errors is that
-  // over K_i, whatever was in between. Between two samples 0.1 N m change the speed by 0.1 T/J at most: the
+  // The integral ends at the value that holds 300 rad/s, B 300/0.1 N m of the torque; the sum of all errors
+  // is that over K_i, for any course. Between two samples 0.1 N m change the speed by 0.1 T/J at most: the
   // sum is the angle to half of that for 0.8 s.
   Scenario s = out_of_reach();
-  s.duration_s = 0.8;  // it swings until 0.5 s
+  s.duration_s = 0.8;  // it oscillates until 0.5 s
   s.control.speed.form = SpeedForm::positional;
   s.control.speed.anti_windup = 0.0;
   ask(s, measure(MetricKind::final_value, Signal::position));
@@ -108,7 +108,7 @@ TEST(SpeedForm, DerivativeTimeAddsToTheTimeConstantOfAP) {
   const double T_max = 0.78, K = J / 20e-3 / T_max, share = T_max * K / (T_max * K + B);
   Scenario s = maxon_scenario(Mode::speed, 300.0);
   s.duration_s = 0.1;
-  s.pwm.alignment = study::Alignment::centre;  // sampled in the middle: the mean current, whatever its ripple
+  s.pwm.alignment = study::Alignment::centre;  // sampled in the middle: the mean current, at any ripple
   s.pwm.sample = study::SampleAt::middle;
   s.control.speed.kp = K;
   s.control.speed.ki = 0.0;
@@ -128,8 +128,8 @@ TEST(SpeedForm, DerivativeTimeAddsToTheTimeConstantOfAP) {
 }
 
 TEST(SpeedForm, ALimitOfTheCurrentIsTheSpeedControllersOwn) {
-  // 0.1 N m as the torque at full output, or 0.1 N m/K_t as a limit below the stall torque's current: the
-  // design scales the gains by the torque, and both are one controller.
+  // The torque at full output is 0.1 N m, or the current limit is 0.1 N m/K_t, below the stall torque's
+  // current. The design scales the gains by the torque, so that both are one controller.
   Scenario by_torque = out_of_reach(), by_current = by_torque;
   by_current.control.speed.torque_limit_Nm = 0.78;
   by_current.control.current.limit_A = 0.1 / K_t;

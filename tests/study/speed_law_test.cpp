@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The speed controllers beside the PI in full switching simulation: each settles as its rule says and bears a load; and what is said of
-// keys that a law does not have.
+// The speed controllers other than the PI, in full switching simulation: each settles as its rule says and
+// holds a load; and the refusals of keys that a law does not have.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,13 +24,13 @@ constexpr double T = 30e-6, J = 1.35e-5, B = 7.3e-6, T_max = 0.1, settle = 20e-3
 constexpr SpeedLaw laws[] = {SpeedLaw::state_feedback, SpeedLaw::disturbance_rejection,
                              SpeedLaw::sliding_mode};
 
-/// 100 rad/s, from 0.05 s on 108, from 0.1 s on against 30 of the 100 mN m that it may ask for.
+/// The reference is 100 rad/s, from 0.05 s on 108; the load is 30 of the limit's 100 mN m from 0.1 s on.
 Scenario loaded(SpeedLaw law) {
   Scenario s = maxon_scenario(Mode::speed, 0.0);
   s.duration_s = 0.16;
   s.initial.speed_rad_s = 100;
   s.pwm.chopping = control::Chopping::complementary;
-  s.pwm.alignment = study::Alignment::centre;  // sampled in the middle: the mean current, whatever its ripple
+  s.pwm.alignment = study::Alignment::centre;  // sampled in the middle: the mean current, at any ripple
   s.pwm.sample = study::SampleAt::middle;
   s.reference = {.shape = study::Shape::steps, .times_s = {0.0, 0.05}, .values = {100.0, 108.0}};
   s.control.current.settle_s = 1e-3;
@@ -65,7 +65,7 @@ double largest_step(const Course& c, double from_s, double to_s, double level) {
   return apart;
 }
 
-/// The last instant at which the speed is further from 108 than a hundredth of the step.
+/// The last instant at which the speed deviates from 108 by more than a hundredth of the step.
 double settled_after(const Course& c) {
   double last = 0;
   for (std::size_t n = 0; n < c.t.size(); ++n)
@@ -73,8 +73,8 @@ double settled_after(const Course& c) {
   return last;
 }
 
-/// exp(-4.6 t/settle) of a step of 8 rad/s comes within 0.08 for good, as far as ripple lets it: what stood there before the step is
-/// taken for the ripple. The torque's lag comes to it.
+/// exp(-4.6 t/settle) of a step of 8 rad/s stays within 0.08, except for ripple: the deviation before the
+/// step bounds the ripple. The torque's lag adds to the time.
 void expect_settled_as_designed(const Course& c, double lag_s) {
   const double ripple = largest_step(c, 0.045, 0.05, 100), per_s = 4.6 / settle;
   EXPECT_LT(ripple, 0.03);
@@ -82,8 +82,8 @@ void expect_settled_as_designed(const Course& c, double lag_s) {
   EXPECT_LT(settled_after(c), std::log(8 / (0.08 - ripple)) / per_s + lag_s + T);
 }
 
-/// Mean over eight whole sectors: commutation's ripple is in it no more than as if one of them were missing.
-/// A number near 108 that each sample moves by (1 - p) of the error stands where that is below its last digit.
+/// The mean is over eight whole sectors: the commutation's ripple changes it at most like one missing sector.
+/// A number near 108 that each sample moves by (1 - p) of the error stops where that is below its last digit.
 void expect_no_error_left(const Course& c, double digit_rad_s = 0.0) {
   const double sectors_s = 8 * (3.14159265358979 / 3 / 8 / 108);
   double sum = 0, ripple = 0;
@@ -98,7 +98,8 @@ void expect_no_error_left(const Course& c, double digit_rad_s = 0.0) {
   EXPECT_NEAR(sum / count, 0.0, ripple / 8 + digit_rad_s / (1 - std::exp(-4.6 * T / settle)));
 }
 
-/// The same law on the linear drive: torque by a lag of M samples, the shaft held in between.
+/// The same law on the linear drive: torque by a lag of M samples, the shaft with its torque held between
+/// samples.
 double deepest_in_theory(const Scenario& s, double lag_periods) {
   const auto compiled = study::compile(s);
   const control::DriveConfig<double>& d = compiled->drive;
@@ -134,7 +135,7 @@ TEST(SpeedLaw, EachSettlesAsItsRuleSaysAndBearsALoad) {
   }
 }
 
-/// With float as with double; and in the field-oriented drive as in six-step's.
+/// The arithmetic is float or double, and the drive field-oriented or six-step.
 TEST(SpeedLaw, EachRunsInEveryDriveThatHasASpeedLoop) {
   for (const SpeedLaw law : laws)
     for (const bool field : {false, true}) {
@@ -149,13 +150,15 @@ TEST(SpeedLaw, EachRunsInEveryDriveThatHasASpeedLoop) {
       }
       const Course c = course(s);
       SCOPED_TRACE(std::to_string(static_cast<int>(law)) + (field ? " in the field" : " in six steps"));
-      // A twentieth of the control frequency, or 1 ms: the currents are never later than six periods.
+      // The lag is a twentieth of the control frequency, or 1 ms: the currents are never later than six
+      // periods.
       expect_settled_as_designed(c, 6 * T);
       expect_no_error_left(c, 0x1p-17);
     }
 }
 
-/// Out of the limit at once: full torque up to a speed that it does not reach, then less is asked for.
+/// The output leaves the limit at once: full torque up to a speed that it cannot reach, then a lower
+/// reference.
 TEST(SpeedLaw, NoneWindsUpAgainstItsLimit) {
   for (const SpeedLaw law : laws) {
     Scenario s = loaded(law);
@@ -167,7 +170,7 @@ TEST(SpeedLaw, NoneWindsUpAgainstItsLimit) {
     double least = 1e9;
     for (std::size_t n = 0; n < c.t.size(); ++n)
       if (c.t[n] > 0.06) least = std::fmin(least, c.w[n]);
-    // A hundredth of the 69 rad/s that it stood above 300 (0.1 N m for 50 ms), and of what a full step is.
+    // The bound is a hundredth of the 69 rad/s above 300 (0.1 N m for 50 ms), and of a full step.
     EXPECT_GT(least, 300 - 0.7) << static_cast<int>(law);
     EXPECT_LT(largest_step(c, 0.19, 0.2, 300), 0.1) << static_cast<int>(law);
   }

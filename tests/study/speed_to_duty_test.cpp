@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A speed PI that sets the duty itself (thesis 6.2.2): no current is measured, none is limited.
+// A speed PI that sets the duty itself (thesis 6.2.2) measures and limits no current.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -41,9 +41,9 @@ TEST(SpeedToDuty, PlacesThePolesOfTheWindingsFirstOrder) {
   EXPECT_NEAR(out->gains[0].d0, (magnitude_2 + a0) / b0, 1e-11 / b0);
 }
 
-/// An integral leaves no error, with load and without; forwards and backwards alike. What remains is the mean
-/// of a commutation's ripple over a window that cuts it: K_t i/J over a sector is below 1 rad/s, of which a
-/// window of 40 sectors cuts one.
+/// An integral leaves no error, with and without load, forwards and backwards. The remainder is the mean of a
+/// commutation's ripple over a window that cuts it: K_t i/J over a sector is below 1 rad/s, of which a window
+/// of 40 sectors cuts one.
 TEST(SpeedToDuty, HoldsTheSpeedUnderLoad) {
   for (const double reference : {200.0, -200.0}) {
     Scenario s = direct(reference, 0.4);

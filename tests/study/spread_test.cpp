@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drives of a series: what strays, what stays, and what is refused.
+// Drives of a series: the values that vary, those that do not, and the refusals.
 #include "sixstep/study/scenario/spread.hpp"
 
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@ using namespace sixstep::study;
 using control::Mode;
 
 constexpr std::uint64_t seed = 7;
-// Product, sum and quotient of numbers near 1: each half a bit off.
+// Product, sum and quotient of numbers near 1 have an error of half a bit each.
 constexpr double rounding = 4 * 0x1p-52;
 
 Spread relative(const char* key, double part, Distribution distribution = Distribution::uniform) {
@@ -101,8 +101,8 @@ TEST(Spread, StaysWithinItsWidthAndFillsIt) {
   EXPECT_GT(far, 2.5 * 0.2) << "1.2 % of a normal lie beyond 2.5 sigma";
 }
 
-/// At sigma the cut normal is flat enough to see the cut, and its variance is known:
-/// 1 - 2 phi(1)/(2 Phi(1) - 1) = 1 - 0.4839414/0.6826895 = 0.2911251.
+/// The cut at sigma changes the variance of the normal visibly: 1 - 2 phi(1)/(2 Phi(1) - 1) = 1 -
+/// 0.4839414/0.6826895 = 0.2911251.
 TEST(Spread, ACutNormalHasItsVariance) {
   constexpr int count = 20000;
   Scenario s = current_square();
@@ -121,7 +121,7 @@ TEST(Spread, ACutNormalHasItsVariance) {
 TEST(Spread, TheControllerStaysTheOneDesignedForTheNominalMotor) {
   for (const Mode mode : {Mode::current, Mode::speed, Mode::position}) {
     Scenario s = maxon_scenario(mode, 5.0);
-    s.sheet.stall_torque_mNm.reset();  // derived from K_t and R, both of which stray
+    s.sheet.stall_torque_mNm.reset();  // derived from K_t and R, which both vary
     s.spread = series().spread;
     const auto nominal = compile(s);
     const auto one = compile(varied(s, seed, 3));
@@ -156,7 +156,7 @@ TEST(Spread, FrictionDoesNotFollowTheTorqueConstant) {
   ASSERT_TRUE(nominal && one);
   EXPECT_GT(nominal->shaft.B_Nm_s, 0.0);
   EXPECT_EQ(nominal->shaft.B_Nm_s, one->shaft.B_Nm_s);
-  // Derived friction is a number like any other: it may stray itself.
+  // Derived friction is a number like any other: it may vary itself.
   s.spread = {relative("motor_override.viscous_friction_Nm_s", 0.4)};
   ASSERT_EQ(check(s), base::Problems{});
   EXPECT_NE(compile(varied(s, seed, 0))->shaft.B_Nm_s, nominal->shaft.B_Nm_s);
@@ -177,7 +177,7 @@ TEST(Spread, TorqueConstantAndBackEmfStayOneFact) {
 }
 
 TEST(Spread, StandardKeysStrayWhateverTheSheetPrints) {
-  // The torque constant as a flux linkage, the inductance as L_d = L_q.
+  // The torque constant is a flux linkage, the inductance L_d = L_q.
   Scenario s = current_square();
   s.sheet.torque_constant_mNm_A.reset();
   s.sheet.flux_linkage_mWb = base::Quantity{2.1, "", ""};
@@ -228,7 +228,8 @@ TEST(Spread, EachHallEdgeIsMountedByItself) {
     product += edges[0] * edges[1];
     squares += edges[0] * edges[0];
   }
-  // Uniform over +-3: a mean of 0 and a variance of 3, neighbours without correlation; bounds of five deviations.
+  // A uniform value over +-3 has the mean 0 and the variance 3, without correlation of neighbours; the bounds
+  // are five deviations.
   EXPECT_NEAR(sum / drives, 0.0, 5 * std::sqrt(6.0 / drives));
   EXPECT_NEAR(squares / drives, 3.0, 5 * std::sqrt(7.2 / drives));
   EXPECT_NEAR(product / drives, 0.0, 5 * std::sqrt(9.0 / drives));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a step starts from where the reference's own steps are looked at (docs/reference/figures.md), against windows
-// that say it.
+// The start of a reference's own step (docs/reference/figures.md) equals that of windows with a given start.
 #include <gtest/gtest.h>
 
 #include <algorithm>

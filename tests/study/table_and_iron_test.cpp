@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs whose back-EMF is a table, and the iron's share of what friction takes.
+// Runs whose back-EMF is a table, and the iron's part of the friction.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -73,7 +73,7 @@ TEST(TableRun, OfSampledHarmonicsApproachesTheirs) {
     value.push_back(base::cos(x) + 0.05 * base::cos(5 * x));
   }
   give_table(table, angle, value);
-  // The chords of 1.5 degrees miss the curve by 2e-4 of its peak at most.
+  // The chords of 1.5 degrees deviate from the curve by 2e-4 of its peak at most.
   EXPECT_LT(apart(rows_of(wave), rows_of(table)), 2e-3);
 }
 
@@ -94,14 +94,14 @@ TEST(TableRun, WithoutSymmetryKeepsItsBooksInStarAndDelta) {
   }
 }
 
-/// A rotor that coasts: the bridge is off, and what it held goes into friction.
+/// A rotor that coasts: the bridge is off, and its energy goes into friction.
 Scenario coasting(double viscous, double coulomb_mNm, double iron_viscous, double iron_coulomb_mNm) {
   Scenario s = maxon_scenario(control::Mode::off, 0.0);
   s.sheet.viscous_friction_Nm_s = base::Quantity{viscous, "", ""};
   s.sheet.coulomb_friction_mNm = base::Quantity{coulomb_mNm, "", ""};
   s.sheet.iron_viscous_Nm_s = base::Quantity{iron_viscous, "", ""};
   s.sheet.iron_coulomb_mNm = base::Quantity{iron_coulomb_mNm, "", ""};
-  s.initial.speed_rad_s = 300;  // below what would make the diodes conduct
+  s.initial.speed_rad_s = 300;  // below the speed at which the diodes conduct
   s.duration_s = 3.0;
   return s;
 }
@@ -124,7 +124,8 @@ TEST(IronDrag, TakesItsShareOfASpinDown) {
 }
 
 TEST(IronDrag, OfBothKindsIsWhatTheLawsOfASpinDownSay) {
-  // J w' = -(B w + T): w = (w_0 + T/B) exp(-t B/J) - T/B until it rests at t_1; iron: B_i w^2 + T_i w over that.
+  // J w' = -(B w + T): w = (w_0 + T/B) exp(-t B/J) - T/B until it rests at t_1; the iron takes B_i w^2 + T_i
+  // w over that time.
   const double J = 135e-7, B = 5e-6, T = 2e-3, w_0 = 300, B_i = 2e-6, T_i = 0.5e-3;
   const double rate = B / J, c = T / B, t_1 = base::log((w_0 + c) / c) / rate;
   const double e = base::exp(-rate * t_1), a = w_0 + c;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// [[at]] of gains, limits, mode, chopping and dead time: from when it acts, what it is the same as, what is
-// refused.
+// [[at]] of gains, limits, mode, chopping and dead time: the instant of the change, its equivalents, and the
+// refusals.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ Outcome outcome(const Scenario& s) {
   return out ? *out : Outcome{};
 }
 
-/// Changed at once, the run is that of a scenario that had it so from the start.
+/// A change at the start equals a scenario with those values.
 TEST(Tunings, AtTheStartTheyAreTheScenariosOwn) {
   for (const Arithmetic arithmetic : {Arithmetic::float64, Arithmetic::float32})
     for (Scenario plain : {cascade(12e-3), product_scenario(Mode::speed, 100.0)}) {
@@ -53,7 +53,7 @@ TEST(Tunings, AModeAtTheStartIsTheScenariosOwn) {
   EXPECT_EQ(outcome(told).digest, outcome(own).digest);
 }
 
-/// Between two samples nobody looks: the change is that of the next one. In the middle of a period too.
+/// A change between two samples acts at the next one, also in the middle of a period.
 TEST(Tunings, ActFromTheNextSampleOn) {
   for (const SampleAt sample : {SampleAt::start, SampleAt::middle}) {
     Scenario s = cascade(12e-3);
@@ -92,7 +92,7 @@ TEST(Tunings, EveryModeIsReachedFromEveryOther) {
     for (const auto& to : goals) {
       if (from.mode == to.mode) continue;
       Scenario s = cascade(12e-3);
-      s.load.viscous_Nm_s = 2e-4;  // a held current ends at a speed below the bus's
+      s.load.viscous_Nm_s = 2e-4;  // a held current's final speed is below the bus's
       s.control.mode = static_cast<Mode>(static_cast<int>(from.mode) - 1);
       s.reference.value = from.reference;
       s.duration_s = 1.0;
@@ -107,7 +107,7 @@ TEST(Tunings, EveryModeIsReachedFromEveryOther) {
       ask(s, m);
       const Outcome out = outcome(s);
       ASSERT_EQ(out.comparisons.size(), 1u);
-      if (to.mode == AtMode::duty) continue;  // where it ends is the friction's
+      if (to.mode == AtMode::duty) continue;  // the friction decides its end
       EXPECT_NEAR(out.comparisons[0].measured, to.expected, to.tolerance)
           << int(from.mode) << " to " << int(to.mode);
     }
@@ -183,7 +183,7 @@ TEST(Tunings, WhatCannotBeIsRefusedAtItsKey) {
   EXPECT_EQ(with([](Scenario&, At&) {}), "at[0].time_s");
 }
 
-/// What aligns and brakes needs a current loop in every mode that the run comes to.
+/// Alignment and brake need a current loop in every mode of the run.
 TEST(Tunings, AProductThatAlignsKeepsACurrentLoop) {
   Scenario s = product_scenario(Mode::speed, 100.0);
   s.protection.align.current_A = 3.0;
@@ -196,7 +196,7 @@ TEST(Tunings, AProductThatAlignsKeepsACurrentLoop) {
   EXPECT_EQ(refused_at(s), "protection.align.current_A");
 }
 
-/// In which mode a reference stands decides its unit and what it may be.
+/// The mode of a reference sets its unit and its limits.
 TEST(Tunings, AReferenceIsOfTheModeThatItStandsIn) {
   Scenario s = maxon_scenario(Mode::duty, 0.5);
   At faster;
@@ -208,7 +208,7 @@ TEST(Tunings, AReferenceIsOfTheModeThatItStandsIn) {
   speed.time_s = 0.5e-3;
   speed.control.mode = AtMode::speed;
   speed.reference = Reference{.value = 50.0, .unit = "rad/s"};
-  s.at = {faster, speed};  // the order in the file is no matter
+  s.at = {faster, speed};  // the order in the file is free
   EXPECT_EQ(refused_at(s), "");
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Crossed wires in whole runs: what converters, one shunt, columns, figures and logic say of them. Directions and torques stand
-// in tests/rig/wiring_test.cpp.
+// Crossed wires in whole runs: the values of converters, one shunt, columns, figures and logic.
+// tests/rig/wiring_test.cpp has directions and torques.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ Outcome outcome(const Scenario& s, const Listeners& listeners = {}) {
   return out ? *out : Outcome{};
 }
 
-/// On the general kernel, with its wires as they are.
+/// The general kernel, with straight wires.
 Scenario straight(Scenario s) {
   At at;
   at.bridge.phases = AtOrder::abc;
@@ -35,7 +35,7 @@ Scenario straight(Scenario s) {
   return s;
 }
 
-/// Phases and probes moved on by one, and the rotor by 120 degrees: the board sees no difference.
+/// Phases and probes move by one place, and the rotor by 120 degrees: the board has the same signals.
 Scenario moved_on(Scenario s) {
   s.bridge.phases = s.sensors.hall_lines = WireOrder::bca;
   s.initial.angle_rad = (120 + 17) * base::pi / 180 / 8;

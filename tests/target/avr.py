@@ -24,7 +24,7 @@ CHAPTER = build.REPOSITORY / "data" / "scenarios" / "thesis" / "avr"
 OWN = build.REPOSITORY / "faces" / "firmware" / "example" / "avr_c"
 FREE = build.REPOSITORY / "data" / "scenarios" / "firmware" / "avr.toml"  # its rotor turns
 TOO_SHORT = CHAPTER / "8b-30us.toml"
-LOGGED = CHAPTER / "8d.toml"  # whose rotor hardly turns: near a commutation the chip looks at a leg that the current has left
+LOGGED = CHAPTER / "8d.toml"  # its rotor hardly turns: near a commutation the chip samples a leg without current
 
 
 def run(file, *words, on="avr", **environment):
@@ -84,7 +84,7 @@ def check_overrun():
     return [] if "OVERRUN" in told else [f"30 us: no overrun is told\n{told}"]
 
 
-BAD = {  # what the chip does at its 100th control interrupt, and what is said of it
+BAD = {  # the chip's action at its 100th control interrupt, and the message
     "drives both switches of a leg": ("byte(atmega2560::PORTA) = 7; byte(atmega2560::DDRB) = 0xE0; set_on_time(0xFFFF);", "shoot-through"),
     "runs into an instruction that there is not": ('asm volatile(".word 0x0001");', "the core ended"),
     "jumps into erased flash": ('asm volatile("ldi r30,0xFF\\n ldi r31,0xFF\\n ijmp");', "the core ended"),
@@ -112,7 +112,7 @@ def check_bad():
     trouble = []
     for name, (what, said) in BAD.items():
         done, took_s = badly(what)
-        stops = 1 if "watchdog" in said else 3  # the drive stands, and its means are missed
+        stops = 1 if "watchdog" in said else 3  # the drive stops and misses its required means
         if done.returncode != stops or said not in done.stdout + done.stderr or took_s > 30:
             trouble.append(f"a chip that {name}: exit {done.returncode} after {took_s:.1f} s\n{(done.stdout + done.stderr)[-600:]}")
     print(f"{len(BAD) - len(trouble)} of {len(BAD)} chips with a bad program are told as such")
@@ -161,7 +161,7 @@ def check_own():
             if done.returncode != 0 or not summary(done)["passed"]:
                 found = summary(done)
                 trouble.append(f"{file.stem} by {OWN.name}: exit {done.returncode}, {found['fault']}, {found.get('require')}")
-        # What a scenario says of a controller is the host's.
+        # The host runs a scenario's own controller.
         other = run(CHAPTER / "8b.toml", "--quiet", "--set", "control.arithmetic=float", "--set", "pwm.alignment=edge",
                     on=str(folder / "map.toml"))
         if other.returncode != 0:

@@ -38,7 +38,7 @@ def mend(chip):
     chip.run_ms(20)
 
 
-# What breaks amid a drive, how, and what is said of it.
+# The part that breaks during a run, its failure, and the fault reported.
 def reads(counts, *legs):
     def broken(chip):
         for leg in legs:
@@ -71,7 +71,7 @@ BREAKS |= {"the source's transducer at its middle": (dead_source, "current-senso
            "Hall 000": (hall(0), "hall"), "Hall 111": (hall(7), "hall")}
 
 
-# Cycles: an interrupt that has begun and the Hall interrupt; three periods, of which each second one looks there. Else a millisecond.
+# Cycles: a running interrupt and the Hall interrupt; three periods, of which each second one checks the value. Else a millisecond.
 WITHIN = {"hall": 640, "over-current": 3 * 1600, "setpoint-wire": 3 * 1600}
 
 
@@ -144,7 +144,7 @@ def check_goes_on(elf):
 
 OPEN_STOP = ("standing.hpp", '  asm volatile("cli" ::: "memory");\n', "")
 GLITCH = 40  # cycles
-LAST = 170  # a Hall interrupt with its dead time, ahead of the stop
+LAST = 170  # a Hall interrupt with its dead time, before the stop
 
 
 def stopped_by_control(elf, begin, edge=None):
@@ -168,7 +168,7 @@ def trouble_of_stop(elf):
     """Hall interrupts at each cycle about the control interrupt's stop, which runs with interrupts on: none lets a gate out again."""
     for begin in range(200, 320, 10):
         moves, _, said = stopped_by_control(elf, begin)
-        if said == ["hall"] and moves[-1][0] > begin + GLITCH + 60:  # the Hall interrupt would have had it off by then
+        if said == ["hall"] and moves[-1][0] > begin + GLITCH + 60:  # the Hall interrupt would have turned it off by then
             off = moves[-1][0]
             break
     else:
@@ -198,7 +198,7 @@ def hanging(place, condition=""):
     return ("main.cpp", place, f"{CALLS}  {condition}{HANGS.strip()}\n{place}")
 
 
-# Programs with a fault planted: what is planted, what breaks amid the drive, how long gates may stay on, what is said in the end.
+# Programs with a deliberate fault: the fault, the part that breaks during the run, the longest time with gates on, the last message.
 PROGRAMS = {
     "a converter that starts no more": ([("converter.hpp", BOTTOM, f"{CALLS}  if (calls < 100) ++calls;\n  byte(ADCSRA) = calls < 100 ? "
                                           "converter_on | ADATE | ADIE | ADIF : converter_on;\n")], None, 1, "converter"),

@@ -19,10 +19,10 @@ SAMPLE_LATE = 32  # a conversion that BOTTOM starts holds its input two of the c
 # docs/reference/model.md, 3, by H1 H2 H3: the leg that the positive pair feeds from the bus, and the one that it pulls down.
 POSITIVE = {0b100: "ab", 0b110: "ac", 0b010: "bc", 0b011: "ba", 0b001: "ca", 0b101: "cb"}
 AMPERES_PER_COUNT, D1, K_I = 20 / 1024, 2.30464, 0.37978  # of its drive_config.hpp
-# From a Hall edge to the new pair: an interrupt that has begun, the way into the next one, the dead time. From TOP: the same, and a Hall
-# interrupt that was there first.
+# The delay from a Hall edge to the new pair: a running interrupt, the entry of the next one, the dead time. From TOP: the same, and a Hall
+# interrupt that came first.
 LATE_HALL, LATE_TOP = 650, 450
-AT_ONCE = 16  # a pin moves where the instruction or the way into an interrupt ends that runs: TOP may come before it
+AT_ONCE = 16  # a pin changes when the running instruction or interrupt entry ends: TOP may come before it
 
 
 def upper(leg):
@@ -50,8 +50,8 @@ class Walk:
 
     def __init__(self, chip, seed):
         self.chip, self.drawn = chip, random.Random(seed)
-        self.halls, self.signs = [(0, chip.hall)], []  # what counts from which cycle on
-        self.currents = []  # BOTTOM, and the counts that were given there
+        self.halls, self.signs = [(0, chip.hall)], []  # the values and the cycles from which they count
+        self.currents = []  # BOTTOM, and the counts given there
         self.negative, self.left, self.counts, self.sum = False, 0, 0, 0
 
     def sample(self, cycle, channel, is_control_sample):
@@ -62,7 +62,7 @@ class Walk:
             return
         if self.left == 0:
             self.negative = not self.negative
-            # What the integral gathers stays small beside what the proportional part says.
+            # The integral stays small against the proportional part.
             self.left = self.drawn.randint(1, 3) if (self.sum < 0) == self.negative else 1
         self.left -= 1
         self.counts = (1 if self.negative else -1) * self.drawn.randint(300, 400)
@@ -176,7 +176,7 @@ def walked(elf, seed, periods):
 
 PERIODS = 3000
 DELAY = '  asm volatile("ldi r24, 34\\n1:\\tdec r24\\n\\tbrne 1b" ::: "r24");\n'
-# Faults to be seen: what is changed in which file of the example, and what the test says of it.
+# Deliberate faults: the file of the example, the change, and the test's message.
 PLANTED = {
     "a dead time of one cycle less": ("gates.hpp", "loops = (dead_cycles - 1) / 3, rest = (dead_cycles - 1) % 3",
                                       "loops = (dead_cycles - 2) / 3, rest = (dead_cycles - 2) % 3", "shortest"),

@@ -31,7 +31,7 @@ def renew_bits():
     walk.renew()
 
 
-# What is asked each time, what in the long run, and what writes the table anew.
+# The usual checks, the long ones, and those that write the table anew.
 PARTS = {"proof": (proof.check, proof.check, None), "sights": (sights, sights, None),
          "bits": (functools.partial(walk.check, of=cores.USUAL), functools.partial(walk.check, whole=True), renew_bits),
          "costs": (functools.partial(cost.check, cost.USUAL), cost.check, cost.renew),

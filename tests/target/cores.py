@@ -9,15 +9,15 @@ REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 HERE = REPOSITORY / "tests" / "target"
 BARE_METAL = REPOSITORY / "faces" / "firmware" / "bare"
 OUT = REPOSITORY / "build" / "target"
-TABLES = REPOSITORY / "data" / "cores"  # what was counted: the program, the pages and the checks read it there
+TABLES = REPOSITORY / "data" / "cores"  # the counts, which the program, the pages and the checks read there
 
-# Everywhere. What decides about bits is -ffp-contract=off; the rest shows what the code keeps to.
+# The flags of every core. Only -ffp-contract=off changes bits; the others check the code's rules.
 COMMON = ["-std=c++20", "-fno-exceptions", "-fno-rtti", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion",
           "-Wno-sign-conversion", "-Werror", "-ffp-contract=off", "-O2", f"-I{REPOSITORY}"]
-# <cstdint> is the shim of faces/firmware/bare: no chip's C++ library is asked for. Nothing is thrown, so nothing needs
-# tables to unwind by.
+# <cstdint> is the shim of faces/firmware/bare: no chip's C++ library is needed. Nothing throws, so that unwind tables
+# are not needed.
 BARE = ["-ffreestanding", "-nostdinc++", "-fno-unwind-tables", "-fno-asynchronous-unwind-tables", f"-I{REPOSITORY}/faces/firmware/bare"]
-# A drive is flashed with its constexpr configuration: what is inlined is folded. g++ does so at -O3.
+# A flashed drive has a constexpr configuration: the compiler folds it into inlined code. g++ does so at -O3.
 INLINED = ("-O3",)
 SEMIHOSTING = ["-nographic", "-monitor", "none", "-serial", "none", "-chardev", "stdio,id=told", "-semihosting-config",
                "enable=on,target=native,chardev=told"]
@@ -26,16 +26,16 @@ SEMIHOSTING = ["-nographic", "-monitor", "none", "-serial", "none", "-chardev", 
 @dataclasses.dataclass(frozen=True)
 class Core:
     name: str
-    compile: tuple              # compiler with its flags, without what every core shares
-    run: tuple                  # stands before the program
+    compile: tuple              # compiler with its flags, without the common ones
+    run: tuple                  # the words before the program
     platform: tuple             # files below platform/, or where they are
     link: tuple = ()            # linker with its flags where it is not the compiler
     libraries: tuple = ()
     for_walk: tuple = ()        # more flags, for the walk of all blocks
-    for_part: dict = dataclasses.field(default_factory=dict, hash=False)  # others in its place, for a part of the walk
-    for_entries: tuple = ()     # and for the entries of one drive, as they are flashed
+    for_part: dict = dataclasses.field(default_factory=dict, hash=False)  # flags instead of it, for a part of the walk
+    for_entries: tuple = ()     # more flags, for the entries of one drive as flashed
     scalars: tuple = ("q15", "q14", "q31", "q30", "float")
-    unit: str = ""              # what is counted
+    unit: str = ""              # unit of the counts
     costs: tuple = ()           # scalars whose cost is measured
     nm: str = "nm"
     size: str = "size"
@@ -86,16 +86,16 @@ CHIPS = (
          ("qemu-system-riscv32", "-M", "virt", "-bios", "none", *SEMIHOSTING), bare_platform("riscv"),
          libraries=("-nostdlib", "-T", str(BARE_METAL / "riscv.ld"), "-Wl,--no-warn-rwx-segments", "-lgcc"), for_entries=INLINED,
          unit="instructions", costs=("q15",), nm="riscv64-unknown-elf-nm", size="riscv64-unknown-elf-size"),
-    # clang 14 to 16 miscompile for the AVR: proof.py. Only what is inlined takes up a constexpr configuration: at 5000 the
-    # product drive is five times as large and more than twice as slow as at 100000. All blocks at once would not fit so.
-    # Where not all is inlined clang 19 gets 32-bit formats wrong too (it passes their structs amiss, programs crash): no walk
-    # of q31 and q30. A drive that is inlined as a whole, as entries are, has the host's bits in them.
+    # clang 14 to 16 miscompile for the AVR: proof.py. Only inlined code uses a constexpr configuration: at 5000 the product
+    # drive is five times as large and more than twice as slow as at 100000, but all blocks together would not fit at 100000.
+    # Without full inlining clang 19 miscompiles 32-bit formats too (it passes their structs wrongly, programs crash): there is
+    # no walk of q31 and q30. A fully inlined drive, as the entries are, has the host's bits.
     Core("ATmega2560", ("clang++-19", "--target=avr", "-mmcu=atmega2560", "-DSIXSTEP_ANY_COMPILER"),
          (str(OUT / "avr_board"),), ("avr.cpp",), link=("avr-gcc", "-mmcu=atmega2560"),
          for_walk=("-mllvm", "-inline-threshold=5000"),
-         # At 5000 commissioning's phases become one function that clang 19's branches do not reach across; pulse_start
-         # is a part of its own.
-         # Of drives in float clang 19 hands the extras of their loops amiss where not all of it is inlined: wrong bits, or a crash.
+         # At 5000 commissioning's phases become one function that is too long for clang 19's branches; pulse_start is a
+         # part of its own.
+         # Without full inlining clang 19 passes the extras of float drives' loops wrongly: wrong bits, or a crash.
          for_part={part: ("-mllvm", "-inline-threshold=20000") for part in ("", "rotor", "pulses")} |
                   {"commissioning": ("-mllvm", "-inline-threshold=2000")},
          for_entries=("-mllvm", "-inline-threshold=100000"),
@@ -103,7 +103,7 @@ CHIPS = (
          nm="avr-nm", size="avr-size"),
 )
 
-# Who is asked for bits each time: the two chips that have an image to flash, and one host for a word in time where all differ. What the
-# emulated hosts, another compiler, the M0, the M3 and RV32 could tell alone is asked in the long run.
+# The usual checks compare the bits of the two chips with an image to flash, and of one host for a quick message where all differ. The long
+# checks add the emulated hosts, another compiler, the M0, the M3 and RV32.
 USUAL = tuple(core.name for core in (*HOSTS[:1], *CHIPS) if core.name in (HOSTS[0].name, "Cortex-M4F", "ATmega2560"))
 BY_NAME = {core.name: core for core in (*HOSTS, *CHIPS)}

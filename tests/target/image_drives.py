@@ -188,7 +188,7 @@ def check_drives(folder):
         trouble += check_drive(changed_image(folder, way, (chopping, f"c.chopping = Chopping::{way};")), way)
     long = TimedChip(changed_image(folder, "long", ("dead_time_ps = 500000;", "dead_time_ps = 2000000;")))
     long.hall(0b101)
-    long.start()  # its dead time is longer than the way from the last instant of a period to its end
+    long.start()  # its dead time is longer than the time from the last compare instant of a period to its end
     trouble += check_scripts(long, of_edges_at_once((0.95,), PAIRS[:1]), compares=False, dead=144)[1] + check_late_ticks(long, 144)
     short = changed_image(folder, "short", ("dead_time_ps = 500000;", "dead_time_ps = 486000;"))
     for way in WAYS:

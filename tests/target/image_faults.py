@@ -79,7 +79,7 @@ def check_sensors(folder):
             tick(chip, (*counts, AT_REST[3]))
         trouble += stands(chip, reason, f"currents of {counts} counts")
     chip = running(folder)
-    for n in range(300):  # one reading amiss, now and then
+    for n in range(300):  # one wrong reading at intervals
         tick(chip, (2048 + (400 if n % 3 == 0 else 0), 2048, 2048, AT_REST[3]))
     if all_off(chip):
         trouble.append("a single disturbed reading stops the drive")
@@ -182,7 +182,7 @@ def check_resets(folder):
     hall = chip.core.mem_read(images.RAM, 40 * 1024)
     chip = running(folder)
     quiet = chip.core.mem_read(images.RAM, 40 * 1024)
-    chip.interrupt(5)  # nobody serves it
+    chip.interrupt(5)  # no handler serves it
     program = chip.core.mem_read(images.RAM, 40 * 1024)
     for name, memory, cause, reason in (("hall", hall, 1 << 29, "hall"), ("nobody's interrupt", program, 1 << 29, "program"),
                                         ("no reason", quiet, 1 << 29, "watchdog")):

@@ -88,7 +88,7 @@ def check_words(folder):
     chip.interrupt(28)
     for _ in range(3):
         tick(chip)
-    chip.type("c")  # with its cause still there
+    chip.type("c")  # while its cause persists
     chip.go_on(60_000)
     tick(chip)
     told_now = told(chip)

@@ -14,7 +14,7 @@ import subprocess
 import sys
 import tempfile
 
-sys.path.append("/usr/lib/python3/dist-packages")  # where Debian puts it, whichever python3 comes first
+sys.path.append("/usr/lib/python3/dist-packages")  # Debian's folder, for any python3
 import unicorn
 from unicorn import arm_const as arm
 
@@ -155,7 +155,7 @@ def end_of_period(chip):
     if not chip.words.get(TIM1 + 0x0C, 0) & 1 << 4:
         return True
     chip.words[TIM1 + 0x10] = chip.words.get(TIM1 + 0x10, 0) | 1 << 4
-    chip.passing = True  # the counter it waits for goes on
+    chip.passing = True  # the awaited counter continues
     ended = chip.interrupt(27)
     chip.passing = False
     return ended
@@ -246,7 +246,7 @@ def check_end(chip):
 
 
 def check(whole=False):
-    import image_drives  # they are made of this file
+    import image_drives  # it uses this file
     import image_faults
     import image_line
     import image_load

@@ -20,12 +20,12 @@ CORES = ("cortex-m0", "cortex-m4", "riscv")
 SCALARS = ("q15", "float")
 CHAPTERS = build.REPOSITORY / "data" / "scenarios" / "thesis"
 USUAL = (*(CHAPTERS / f"{name}-exact-design.toml" for name in ("7.3.1-turning", "7.4-speed", "7.5-position")), build.scenario("product"),
-         build.REPOSITORY / "data/scenarios/gallery/gear.toml")  # the last by the general kernel
-# By an encoder, by an ideal sensor in a weakened field, by the state that is foretold best, and without a sensor: by the flux, by pulses.
+         build.REPOSITORY / "data/scenarios/gallery/gear.toml")  # the general kernel runs the last
+# The angle is from an encoder, from an ideal sensor with field weakening, with the finite set, and without a sensor from flux or pulses.
 FIELD = (build.scenario("field"), *(build.REPOSITORY / f"data/scenarios/gallery/{name}.toml"
                                    for name in ("field-weakened", "finite-set", "field-observer", "field-injection")))
 
-# Started by pulses; by comparators at the terminals; from Hall probes whose line breaks; by an observer.
+# The drives start by pulses, run by comparators at the terminals, by Hall probes with a line that breaks, or by an observer.
 SENSORLESS = [(build.REPOSITORY / f"data/scenarios/gallery/sensorless-{name}.toml", scalar, core) for name, scalar, core in
               (("pulses", "float", "cortex-m4"), ("comparators", "q15", "cortex-m0"), ("fallback", "q31", "riscv"), ("luenberger", "q15", "riscv"))]
 
@@ -63,7 +63,7 @@ def beside_the_host(case):
 
 def check_bits(files):
     cases = [(file, scalar, core) for file in files for scalar in SCALARS for core in CORES]
-    cases += [(file, "float", core) for file in FIELD for core in CORES]  # in floating point alone
+    cases += [(file, "float", core) for file in FIELD for core in CORES]  # floating point alone
     cases += SENSORLESS
     answers = build.side_by_side(beside_the_host, cases)
     trouble = [str(a) if isinstance(a, Failed) else a[0] for a in answers if isinstance(a, Failed) or a[0]]
@@ -107,7 +107,7 @@ def check_kills(times, seed):
     return []
 
 
-BAD = {  # what the core's program does in its hundredth call, and what is said of it
+BAD = {  # the core program's action in its hundredth call, and the message
     "hangs": ("for (;;) {}", "did not answer in time"),
     "writes where no memory is": ("*reinterpret_cast<volatile unsigned*>(0x90000000) = 1;", "the core ended"),
     "jumps into nowhere": ("reinterpret_cast<void (*)()>(0x90000001)();", "the core ended"),

@@ -15,8 +15,7 @@ from build import Failed
 HERE = cores.HERE / "own"
 IN_FLOAT = ("-DSIXSTEP_REAL=float", "-ffp-contract=off")
 CPP = (".cpp", ".cc", ".cxx")
-# A flag of the core's, or one that decides what a controller is flashed as. -fbuiltin: a chip without an operating system has sqrtf all
-# the same.
+# These flags belong to the core or determine the flashed code. -fbuiltin: a chip without an operating system has sqrtf too.
 ENTRIES = ("-ffunction-sections", "-fdata-sections", "-fbuiltin", "-Wdouble-promotion")
 DOUBLE = re.compile(r"^__aeabi_(c?d\w+|\w+2d)$|df\d?$|^__(extendsfdf2|truncdfsf2)$|df[sd]i$")
 
@@ -87,7 +86,7 @@ def compiled(core, controller):
     folder.mkdir()
     entries = folder / "entries.o"
     bare = cores.BARE if controller.is_cpp else [flag for flag in cores.BARE if flag != "-nostdinc++"]
-    # C for the AVR is compiled by what firmware for it is made by; that one knows no C++20.
+    # The AVR's firmware compiler compiles C; it has no C++20.
     command = core.link if core.link and not controller.is_cpp else (*core.compile, *core.for_entries)
     said = controller.compile(command[0], HERE / "entries.c", entries, "-O2", *command[1:], *bare, *ENTRIES)
     return folder, entries, said
@@ -150,7 +149,7 @@ def answered(core, text, said):
                  "design": "its design says there, and not on this machine: {}"}
         raise Failed(f"{core.name}: {words[wrong[1]].format(wrong[2])}{said_of_double(said)}")
     own = re.search(r"^own (\d+) (\d+) (.*)$", text, re.M)
-    passes = 2 if core.unit == "cycles" else 1  # called, and as interrupts
+    passes = 2 if core.unit == "cycles" else 1  # as functions, and as interrupts
     if not own or len(re.findall(r"^answers [1-9]\d*$", text, re.M)) != passes:
         raise Failed(f"{core.name}: the program of the controller ended early")
     return own[3], (int(own[1]), int(own[2]))

@@ -15,7 +15,7 @@ HEAD = """# SPDX-License-Identifier: Apache-2.0
 # core, drive, scalar, bytes of flash, bytes of RAM without the stack: both entries with state, telemetry and answer, and what
 # they need of the compiler's library; no start code. Written by tools/check_target.sh --renew
 """
-# The page's names of what this folder calls otherwise; an M3 asks for nothing that an M4 does not.
+# The page's names, where this folder has others; an M3 needs nothing that an M4 does not.
 ON_THE_PAGE = {"Cortex-M3": "Cortex-M4", "Cortex-M4F": "Cortex-M4"}
 
 

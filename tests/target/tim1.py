@@ -20,12 +20,12 @@ class Tim1:
         self.late = late
         self.registers = {}
         self.t = 0
-        self.begun = None  # when CNT was 0
+        self.begun = None  # the time at which CNT was 0
         self.mode, self.enables, self.compare = [0] * 3, [0] * 3, [0] * 3
         self.reference, self.since = [False] * 3, [0] * 3
         self.gates = [[False, False] for _ in range(3)]
         self.edges = []  # (t, leg, gate, level)
-        self.let_go = False  # an output was let go while MOE stood
+        self.let_go = False  # an output was released while MOE was set
         self.match_4 = False
 
     def word(self, offset):
@@ -44,7 +44,7 @@ class Tim1:
             return dtg
         return 2 * (64 + (dtg & 63)) if dtg < 0xC0 else 8 * (32 + (dtg & 31)) if dtg < 0xE0 else 16 * (32 + (dtg & 31))
 
-    # What is written.
+    # Writes to registers.
 
     def write(self, offset, value):
         if offset == 0x14:
@@ -83,7 +83,7 @@ class Tim1:
     def take_compare(self):
         self.compare = [self.word(0x34 + 4 * x) & 0xFFFF for x in range(3)]
 
-    # What follows by itself.
+    # The timer's own actions.
 
     def new_reference(self, x, keeps=False):
         below = self.counter() < self.compare[x]

@@ -14,8 +14,8 @@ HEAD = """# SPDX-License-Identifier: Apache-2.0
 """
 
 
-# Programs of their own: all at once would not fit, and a block's count would move with its neighbours. A block is in the part
-# that names it most exactly.
+# Each part is a program of its own: all blocks together would not fit, and a block's count would depend on its neighbours. A block is in
+# the part that names it most exactly.
 PARTS = {"": (), "rotor": ("-DTARGET_OF_ROTOR",), "observers": ("-DTARGET_OF_OBSERVERS",),
          "commissioning": ("-DTARGET_OF_COMMISSIONING",), "pulses": ("-DTARGET_OF_PULSES",), "field": ("-DTARGET_OF_FIELD",)}
 BLOCKS = {"": "", "sensing/": "rotor", "sensorless/": "rotor", "commissioning/": "commissioning",

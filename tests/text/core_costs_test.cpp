@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a header says of cycles and memory: the counted rows of the drive of its kind, and what it has beside that drive.
+// A header's cycles and memory are the counted rows of its kind of drive; the text names the parts that this
+// drive has in addition.
 #include "text/export/core_costs.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ study::Compiled drive_of(control::Mode mode) {
   return c;
 }
 
-/// Worst tick and Hall interrupt of a drive, from the table itself.
+/// The worst tick and Hall interrupt of a drive, from the table itself.
 std::pair<std::string, std::string> counted(const std::string& begin) {
   std::ifstream table(SIXSTEP_SOURCE_DIR "/data/cores/drives.txt");
   std::pair<std::string, std::string> worst;
@@ -65,7 +66,7 @@ TEST(CoreCosts, AreThoseCountedOfTheDriveOfItsKind) {
   }
 }
 
-/// No Hall edge asks anything of it, and it has no fixed point.
+/// The field-oriented drive has no Hall entry and no fixed point.
 TEST(CoreCosts, AFieldOrientedDriveHasATickAlone) {
   auto field = drive_of(control::Mode::speed);
   field.field.emplace();
@@ -81,7 +82,8 @@ TEST(CoreCosts, AFieldOrientedDriveHasATickAlone) {
             std::string::npos);
 }
 
-/// The image's compiler refuses what the note calls too short; a period of the ATmega2560 is one of 16 MHz.
+/// The image's compiler refuses each period that the note calls too short; the ATmega2560's period is at 16
+/// MHz.
 TEST(CoreCosts, APeriodTooShortForAnImageIsToldAsTheImageHasIt) {
   std::ifstream board(SIXSTEP_SOURCE_DIR "/faces/firmware/example/cortex_m/board.hpp");
   const std::string source{std::istreambuf_iterator<char>(board), {}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decimals to doubles: the exact way that needs no library, and the one that is used, against the C++ library's.
+// The exact conversion of decimals to doubles without a library, and the one in use, equal the C++ library's.
 #include "text/keys/decimal_number.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ using Kind = DecimalNumber::Kind;
 
 std::uint64_t bits(double x) { return std::bit_cast<std::uint64_t>(x); }
 
-/// As the C++ library reads it.
+/// The C++ library's value.
 DecimalNumber by_library(const std::string& text) {
   double x = 0.0;
   const std::from_chars_result read = std::from_chars(text.data(), text.data() + text.size(), x);
@@ -39,7 +39,7 @@ void expect_as_library(const std::string& text) {
   ASSERT_EQ(bits(x.value), bits(wanted.value)) << text;
 }
 
-/// Digits and exponent of what to_chars writes, without the help of any reader.
+/// The exact double from digits and exponent of to_chars, without any reader.
 double by_whole_numbers(const std::string& scientific) {
   std::string digits;
   const std::size_t e = scientific.find('e');
@@ -98,7 +98,7 @@ TEST(DecimalNumber, LongOnesAreRoundedOnce) {
     expect_as_library(text);
 }
 
-/// Whole numbers alone give the double that the shortest and the longest decimals come from.
+/// Integers alone give the double from its shortest and its longest decimals.
 TEST(NearestDouble, ComesBackFromItsOwnDigits) {
   constexpr unsigned seed = 13;
   std::mt19937_64 random(seed);
@@ -113,8 +113,8 @@ TEST(NearestDouble, ComesBackFromItsOwnDigits) {
   }
 }
 
-/// The middle between two doubles is a decimal of finite length: it goes to the even one, a hair beside it to
-/// the nearer.
+/// The middle between two doubles is a decimal of finite length: it rounds to the even one, and a slightly
+/// different number to the nearer one.
 TEST(NearestDouble, TheMiddleGoesToTheEvenOne) {
   constexpr unsigned seed = 14;
   std::mt19937_64 random(seed);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What holds of every key because all of them come from one description.
+// Properties of every key that follow from the common description.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -20,7 +20,7 @@ namespace SIXSTEP_TEST_FILE {
 class Dump final : public base::Visitor {
  public:
   explicit Dump(bool change) : change_(change) {}
-  /// Lists come last: what follows a heading would belong to it.
+  /// Lists come last: the lines after a heading would belong to it.
   std::string whole() const { return text_ + lists_; }
 
  private:
@@ -128,7 +128,7 @@ void expect_round_trip() {
   read_root(*document, read, complaints);
   for (const base::Problem& problem : complaints.in_order()) ADD_FAILURE() << to_string(problem);
   EXPECT_EQ(dump(read, false), text);
-  // Every line of the changed text differs from the default's, or it would prove nothing.
+  // Every line of the changed text differs from the default's; an equal line would not be tested.
   const std::string plain = dump(unread, false);
   std::size_t begin = 0;
   for (std::size_t end = text.find('\n'); end != std::string::npos;
@@ -168,7 +168,8 @@ std::string letters(std::string_view text) {
 }
 
 TEST(DescribedKeys, EveryNumberCarriesItsUnitInItsNameOrHasNone) {
-  // Counts, ratios and gains, and what is meant in the unit of a mode or figure that another key names.
+  // The exceptions are counts, ratios, gains, and values in the unit of a mode or figure that another key
+  // names.
   const std::set<std::string> without = {"pole_pairs",
                                          "delay_periods",
                                          "hall_stable_samples",
@@ -242,7 +243,7 @@ TEST(DescribedKeys, EveryNumberCarriesItsUnitInItsNameOrHasNone) {
                         key.type == KeyType::numbers || key.type == KeyType::quantity;
     if (!number) continue;
     const std::string name = key.path.substr(key.path.rfind('.') + 1);
-    if (name == "ki_per_s") continue;  // a gain per second: of what its meaning says, as of kp and ki
+    if (name == "ki_per_s") continue;  // a gain per second; its meaning gives the unit, as for kp and ki
     EXPECT_EQ(key.about.unit.empty(), without.contains(name)) << key.path;
     EXPECT_EQ(letters(name.substr(without_unit(name).size())), letters(key.about.unit)) << key.path;
   }

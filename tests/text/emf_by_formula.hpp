@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// One motor as any instrument may write it down: 7 pole pairs, flux linkage 3.12 mWb, turned at 1000 rpm. All voltages are made by the
-// formula, so that each file has to say sqrt(3) 7 3.12 = 37.83 mV s/rad between lines.
+// The recording of one motor in the format of any instrument: 7 pole pairs, flux linkage 3.12 mWb, turned at
+// 1000 rpm. The formula gives all voltages, so that each file must yield sqrt(3) 7 3.12 = 37.83 mV s/rad
+// between lines.
 #pragma once
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -26,7 +27,7 @@ inline const double right_mV_s = std::sqrt(3.0) * pairs * flux_mWb,
 inline double u_ab(double t) { return peak_V * std::cos(w * t + 0.3); }
 inline double u_bc(double t) { return peak_V * std::cos(w * t + 0.3 - 2.0 * std::numbers::pi / 3.0); }
 
-/// Head and foot, and what `row` makes of the time and the two voltages.
+/// A file with its head, and a row from the time and the two voltages for each sample.
 inline std::string table(const std::string& head,
                          const std::function<std::string(int n, double t, double a, double b)>& row) {
   std::string out = head;
@@ -73,7 +74,8 @@ inline Seen seen(const std::string& bytes, const BenchColumns& columns = {}) {
 inline const BenchColumns between_lines{
     .hall = {}, .voltages = {}, .between = analysis::EmfBetween::lines, .interval_s = {}};
 
-/// An amplitude fitted to so many rows of a step is off by step/sqrt(12) sqrt(2/rows), one deviation; here at most six of them.
+/// A fit of an amplitude over the rows has the deviation step/sqrt(12) sqrt(2/rows); the bound is six of
+/// them.
 inline void expect_right(const std::string& bytes, double step_V = 1e-5,
                          const BenchColumns& columns = between_lines, std::size_t channels = 2) {
   const Seen found = seen(bytes, columns);

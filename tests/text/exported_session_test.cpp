@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The file of an exported session, which every face replays: tests/session/exported.toml. Its first line
-// tells the digest. SIXSTEP_RENEW=1 writes it anew.
+// The file of an exported session, which every face replays: tests/session/exported.toml. Its first line has
+// the digest. SIXSTEP_RENEW=1 writes the file anew.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -19,7 +19,7 @@ using namespace sixstep::study;
 
 const std::string source = SIXSTEP_SOURCE_DIR;
 
-/// Something of all that a session can be told.
+/// A session with one change of each kind.
 std::string exported() {
   const auto scenario = text::read_scenario_text(source + "/data/scenarios/opened.toml", R"(
 motor = "maxon-251601"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files made to hurt: numbers that overflow, text that nests or repeats without end. Each is told what is
-// wrong with it, in a message of a readable length and in steps that grow as the file does.
+// Hostile files: numbers that overflow, text that nests or repeats without end. Each gets a message of a
+// readable length, in a number of steps proportional to the file.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -85,7 +85,7 @@ TEST(HostileInput, MagnetsThatAreGoneAtTheStartAreRefusedAndLaterOnNoDefect) {
               ElementsAre(HasSubstr("heat.ambient_degC = 125 leaves the magnets a tenth at most")));
   EXPECT_THAT(told(motor("50") + "housing_degC = 116\n"),
               ElementsAre(HasSubstr("heat.housing_degC = 116 leaves")));
-  // The housing warms up beyond it, and the magnets stay at their tenth.
+  // The housing warms up beyond the limit, and the magnets stay at their tenth.
   const auto scenario = read_scenario_text(
       "x.toml",
       "motor = \"maxon-251601\"\nduration_s = 4\nmotor_override.magnet_loss_percent_K = 1\n"
@@ -140,7 +140,7 @@ TEST(HostileInput, ATorqueWithoutMeasureIsRefused) {
   EXPECT_THAT(told(head + "[load]\ntimes_s = [0, 1e-4]\ntorques_Nm = [0, 1e6]\n"), SizeIs(1));
 }
 
-/// Each number may be: together they throw the rotor out of all bounds.
+/// Each number is allowed alone: together they accelerate the rotor beyond all bounds.
 TEST(HostileInput, ARunThatRunsAwayEndsWithAFaultAndWritesNumbersOnly) {
   const auto scenario = read_scenario_text(
       "x.toml",
@@ -272,7 +272,7 @@ TEST(HostileInput, CellsOfTenMillionDigitsAreReadOrToldInAFewWords) {
 }
 
 }  // namespace SIXSTEP_TEST_FILE
-/// A lossy gear before a heavy load: the little that it hands on as its torque turns round is noise, and had a sign.
+/// A lossy gear drives a heavy load: the small torque at its reversal is noise, and once had a sign.
 TEST(HostileInput, AGearsTorqueThatTurnsRoundHasOneSign) {
   const auto scenario = read_scenario_text("x.toml", R"(motor = "maxon-397172"
 duration_s = 0.010190500697991007
@@ -296,8 +296,8 @@ speed_rad_s = -372.60553875793
   EXPECT_TRUE(outcome) << to_string(outcome.problems()[0]);
 }
 
-/// Two currents at the noise and one of twice it: the small one is zero, balancing brings the large one down
-/// to the noise, where it is zero too. It was left on a diode that no mode could have.
+/// Two currents are at the noise and one at twice it: the small one becomes zero, the balance reduces the
+/// large one to the noise, and it becomes zero too. It had stayed on a diode that no mode allows.
 TEST(HostileInput, CurrentsThatBalancingBringsToTheNoiseAreZero) {
   const auto scenario = read_scenario_text("x.toml", R"(title = "drawn"
 motor = "maxon-488607"

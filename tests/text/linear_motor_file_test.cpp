@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A linear motor's files: its words in, its words out, and the other kind's refused.
+// A linear motor's files read and write its own words, and refuse those of the other kind.
 #include <gmock/gmock.h>
 
 #include "sixstep/design/sheet/parameters.hpp"

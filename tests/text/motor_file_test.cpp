@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A motor file as a user types it: every spelling, every template filled in, every slip told once and where.
+// A motor file as a user types it: every spelling, every template filled in, and each error reported once
+// with its place.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -46,7 +47,7 @@ class MotorFile : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-/// A whole sheet; `changed` replaces the line of its key, or is added.
+/// A whole sheet in which `changed` replaces the line of its key, or is added.
 std::string sheet_with(const std::string& changed) {
   std::map<std::string, std::string> lines = {
       {"name", "\"m\""},
@@ -141,7 +142,7 @@ TEST_F(MotorFile, EverySpellingIsTheKeyInItsUnit) {
   for (const KeyEntry& key : sheet_keys())
     for (const base::Spelling& spelling : key.about.also) {
       SCOPED_TRACE(spelling.key);
-      if (key.type != KeyType::quantity) continue;  // a count: read by the template's test
+      if (key.type != KeyType::quantity) continue;  // a count: the template's test reads it
       base::Result<Document> document =
           Document::parse("m.toml", fmt::format("name = \"m\"\n{} = 2.50\n", spelling.key));
       ASSERT_TRUE(document);
@@ -210,7 +211,7 @@ TEST_F(MotorFile, AFreshTemplateAsksForEachNumber) {
 }
 
 TEST_F(MotorFile, TheTemplatesFilledInAreTheReferenceMotor) {
-  // The 251601 in the words of each trade. As a sine: K_e = K_t/1.65399 of the numbers below.
+  // The 251601 in the words of each trade, as a sine: K_e = K_t/1.65399 of the numbers below.
   const double K_e = 0.01675, K_t = 1.6539866862653762 * K_e;
   const std::map<std::string, std::map<std::string, std::string>> sheets = {
       {"maxon",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The motors that come with the program: each reads, agrees with itself or says where not, and simulates or
-// says why not.
+// The library's motors: each reads, is consistent or names its contradictions, and simulates or names the
+// reason why not.
 #include "text/motor/motor_library.hpp"
 
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@ namespace SIXSTEP_TEST_FILE {
 
 namespace fs = std::filesystem;
 
-/// Visits a sheet and calls on each value that it gives.
+/// Visits a sheet and calls a function for each given value.
 class EachQuantity final : public base::Visitor {
  public:
   using Call = std::function<void(std::string_view key, const base::Quantity& q, const base::About& about)>;
@@ -85,7 +85,7 @@ TEST_P(MotorLibrary, SimulatesOrSaysWhyNot) {
 
 TEST_P(MotorLibrary, WhatIsNotSimulatableLacksSomethingOrSaysItsDoubt) {
   if (sheet_.simulatable) return;
-  // A value in doubt is no missing value: these say in words what is doubted.
+  // A doubtful value is not a missing one: these files describe their doubt in words.
   const std::set<std::string> doubted = {"anaheim-blws235d", "anaheim-blz362s", "drone-blk2blade",
                                          "jk42bls01",        "gmcc-ksk89d53u",  "qs138-70h"};
   sheet_.simulatable = true;

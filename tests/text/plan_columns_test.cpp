@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the columns of a plan's table are called: no two alike, nothing in them acts, and CSV has them in the order of its cells.
+// The names of a plan's columns: all differ, none is active content, and CSV has them in the order of its
+// cells.
 #include "text/results/plan_columns.hpp"
 
 #include <gmock/gmock.h>

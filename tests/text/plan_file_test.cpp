@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plans as files and as words: what they say is what the plan holds, and each run's scenario is that of a file written for it.
+// Plans as files and as words: the plan holds their values, and each run's scenario equals a file written for
+// it.
 #include "text/plan/plan_file.hpp"
 
 #include <gmock/gmock.h>
@@ -143,7 +144,7 @@ TEST(PlanFile, IsTheSamePlanWhereEachRunIs) {
     return plan_identity(plan) != plan_identity(other);
   };
   analysis::Plan other = plan;
-  other.points = 6;  // of a grid it says nothing
+  other.points = 6;  // a grid ignores it
   EXPECT_FALSE(differs(other));
   other = plan;
   other.axes[0].points = 4;

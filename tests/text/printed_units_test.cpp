@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sheets of other trades typed in as they are printed: hertz that are electrical, ounces, kilograms that are weights, rms
-// amperes, and the words that makers have for the keys.
+// Sheets of other trades typed as printed: electrical hertz, ounces, kilograms as weights, rms amperes, and
+// the makers' words for the keys.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -14,7 +14,7 @@ namespace SIXSTEP_TEST_FILE {
 
 using ::testing::HasSubstr;
 
-/// A motor file that is nowhere but here.
+/// A motor file in memory alone.
 base::Result<design::Sheet> sheet_of(const std::string& text) {
   return read_sheet("m.toml", [&](const Naming&) -> base::Result<NamedText> {
     return NamedText{"m.toml", text};
@@ -163,7 +163,7 @@ TEST(PrintedUnits, AScenarioKnowsThePolePairsOfItsMotor) {
   EXPECT_NEAR(speed_rad_s, 20 * M_PI, 1e-14);
   EXPECT_THAT(scenario_told("initial.speed_rad_s = \"10 Hz\"\n", speed_rad_s),
               HasSubstr("hertz do not say of what"));
-  // 1e6 rad/s is the most: 8 times as many electrical ones.
+  // 1e6 rad/s is the largest value: 8 times as many electrical ones.
   EXPECT_THAT(scenario_told("initial.speed_rad_s = \"1e9 erpm\"\n", speed_rad_s),
               HasSubstr("must lie in -76394372.68410976 to 76394372.68410976, in erpm"));
 }
@@ -237,7 +237,7 @@ TEST(PrintedUnits, AWordWithoutAKeyIsToldWhereItBelongs) {
   EXPECT_THAT(scenario_told("gear_ratio = 10\n", unused), ::testing::Not(HasSubstr("load.gear in")));
 }
 
-/// Half of what lies between two terminals is what a drive identifies; a branch of the delta is 3/2 of it.
+/// A drive identifies half of the value between two terminals; a branch of the delta has 3/2 of it.
 TEST(PrintedUnits, OfADeltaBothValuesThatAPhaseCanMeanAreNamed) {
   const std::string all = told(std::string(sine) +
                                "pole_pairs = 2\nconnection = \"delta\"\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenarios that extend others: what holds, and where each mistake is told.
+// Scenarios that extend others: the values in effect, and the place of each mistake's message.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -28,7 +28,7 @@ TEST_F(Family, WhatThisFileSaysWinsAndTheRestIsTheBases) {
   EXPECT_EQ(s->supply.resistance_ohm, 0.1);
   EXPECT_EQ(s->control.mode, sixstep::control::Mode::current);
   EXPECT_EQ(s->reference.value, 3.0);
-  // The command line is stronger than all.
+  // The command line overrides all files.
   const auto set = read("extends = \"base.toml\"\nsupply.voltage_V = 36\n",
                         {.overrides = {{"supply.voltage_V", "48"}, {"reference.value", "1"}}});
   ASSERT_TRUE(set);
@@ -44,7 +44,7 @@ TEST_F(Family, OfSeveralBasesTheLaterIsStronger) {
   ASSERT_TRUE(s) << to_string(s.problems()[0]);
   EXPECT_EQ(s->supply.voltage_V, 20.0);
   EXPECT_EQ(s->pwm.period_s, 1e-5);
-  // Lists of tables add up, in this order; an empty one drops the bases'.
+  // Lists of tables add up, in this order; an empty one removes the bases'.
   ASSERT_EQ(s->require.size(), 3u);
   for (std::size_t n = 0; n < 3; ++n) EXPECT_EQ(*s->require[n].max, static_cast<double>(n) + 1);
   const auto none = read("extends = [\"a.toml\", \"b.toml\"]\nrequire = []\n");
@@ -79,12 +79,12 @@ TEST_F(Family, EmptyBracesDropATableOfTheBases) {
   const auto of_two = read("extends = [\"far.toml\", \"base.toml\"]\nload = {}\n");
   ASSERT_TRUE(of_two);
   EXPECT_EQ(of_two->load.viscous_Nm_s, 0.0);
-  // A loop whose table would ask for more is gone too; the tables beside it stay.
+  // A loop whose table would need more keys is removed too; the other tables stay.
   const auto current = read("extends = \"base.toml\"\n[control]\nmode = \"current\"\nspeed = {}\n");
   ASSERT_TRUE(current) << to_string(current.problems()[0]);
   EXPECT_EQ(current->load.torque_Nm, 0.05);
   EXPECT_EQ(*current->control.current.settle_s, 1e-3);
-  // In between it drops what is below, and what is above may say it anew.
+  // An empty table in the middle file removes those below, and the file above may define it anew.
   write("middle.toml", "extends = \"base.toml\"\nload = {}\n");
   const auto anew = read("extends = \"middle.toml\"\n[load]\ntorque_Nm = 0.02\n");
   ASSERT_TRUE(anew);
@@ -99,7 +99,7 @@ TEST_F(Family, NamesInABaseAreLookedForBesideIt) {
   const auto s = read("extends = \"bases/b.toml\"\n");
   ASSERT_TRUE(s) << to_string(s.problems()[0]);
   EXPECT_THAT(s->reference.values, ElementsAre(1.0, 2.0));
-  // What was run stands for itself: no base and no file is needed to read it again.
+  // The written scenario is self-contained: it reads again without base or other file.
   const auto again = files::read_scenario_text("elsewhere.toml", scenario_text(*s));
   ASSERT_TRUE(again);
   EXPECT_EQ(scenario_text(*again), scenario_text(*s));
@@ -117,7 +117,7 @@ TEST_F(Family, EachMistakeIsToldInTheFileThatHoldsIt) {
           "base.toml:4:13: supply.voltage_V = -3 must be above 0; it means: voltage of the source, in V",
           "base.toml:6:1: pwm.choping is not a key here; did you mean chopping?",
           ::testing::StartsWith("base.toml:7:1: require.metric is missing")));
-  // What two files contradict each other in is told where it stands too.
+  // The message of a contradiction between two files names its place too.
   write("gains.toml", head + "[control]\nmode = \"current\"\n[control.current]\nd1 = 4.5\nd0 = -4\n");
   EXPECT_THAT(
       complaints("extends = \"gains.toml\"\n[control.current]\nsettle_s = 1e-3\n"),
@@ -149,7 +149,7 @@ TEST_F(Family, ANameThatLeadsNowhereOrInACircleIsTold) {
       complaints(head, {.overrides = {{"extends", "a.toml"}}}),
       ElementsAre("--set extends = a.toml comes too late: the files are joined already; write extends in the "
                   "scenario"));
-  // Two names each, twenty files deep: a million files, were nobody to count.
+  // Two names each, twenty files deep, would be a million files without a limit.
   for (int n = 0; n < 20; ++n)
     write(fmt::format("d{}.toml", n), fmt::format("extends = [\"d{0}.toml\", \"d{0}.toml\"]\n", n + 1));
   write("d20.toml", head);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is written reads back as the same scenario: every shipped one, and strings that TOML must escape.
+// A written scenario reads back as the same one: every shipped one, and strings that TOML must escape.
 #include "text/scenario/scenario_text.hpp"
 
 #include <fmt/format.h>
@@ -28,7 +28,7 @@ study::Scenario read_back(const std::string& text) {
   return {};
 }
 
-/// Every described key of a scenario as text, the motor's sheet and what stands in tables and lists included.
+/// Every described key of a scenario as text, with the motor's sheet and the entries of tables and lists.
 class EveryKey final : public base::Visitor {
  public:
   std::vector<std::string> rows;
@@ -84,7 +84,7 @@ std::vector<std::string> every_key(study::Scenario s) {
   return keys.rows;
 }
 
-/// What was read from other files stands in what is written.
+/// The written text contains the values read from other files.
 void detach(study::Scenario& s) {
   const auto leave = [](study::Reference& r) {
     r.file.clear();
@@ -108,7 +108,7 @@ TEST(ScenarioText, EveryShippedScenarioComesBackToTheBit) {
     alone.extends.clear();
     detach(alone);
     EXPECT_EQ(every_key(read_back(text)), every_key(alone));
-    for (const bool full : {false, true})  // explained line by line it is the same scenario
+    for (const bool full : {false, true})  // the explained text is the same scenario
       EXPECT_EQ(scenario_text(read_back(starter_text(*scenario, {.file = "x.toml", .full = full}))), text);
     ++count;
   }
@@ -145,7 +145,7 @@ TEST(ScenarioText, WritesWhatOverridesTheMotorsSheet) {
   EXPECT_THAT(scenario_text(with("")), ::testing::Not(::testing::HasSubstr("motor_override")));
 }
 
-/// A line that sticks at low is line 1 at low where nothing else is said: the heading alone is the event.
+/// A line's usual event is line 1 at low: the heading alone is the event.
 TEST(ScenarioText, KeepsAnEventWhoseKeysAreAllTheUsualOnes) {
   const std::pair<const char*, const char*> events[] = {{"ideal", "[at.reference]"},
                                                         {"hall", "[at.sensors.hall_break]"},
@@ -165,7 +165,7 @@ TEST(ScenarioText, KeepsAnEventWhoseKeysAreAllTheUsualOnes) {
   }
 }
 
-/// TOML takes 132 for a number, and so does --set sensors.hall_lines=132.
+/// TOML reads 132 as a number, and so does --set sensors.hall_lines=132.
 TEST(ScenarioText, AWordOfDigitsNeedsNoQuotes) {
   const study::Scenario s = with("sensors = { hall_lines = 132, hall_inverted = 3 }");
   EXPECT_EQ(s.sensors.hall_lines, sixstep::rig::WireOrder::acb);
@@ -178,7 +178,7 @@ TEST(ScenarioText, WritesWhatDiffersFromTheDefaultsAlone) {
   s.motor = "maxon-251601";
   s.duration_s = 0.1;
   s.control.current.limit_A = 0.1 + 0.2;
-  study::Requirement r;  // its metric is the default, and must be written all the same
+  study::Requirement r;  // its metric is the default, but must be written
   r.max = 3.0;
   s.require.push_back(r);
   EXPECT_EQ(scenario_text(s, {"one line\nonly"}),

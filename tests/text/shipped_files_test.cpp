@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every motor and scenario in data/ reads without complaint and says what it must.
+// Every motor and scenario in data/ reads without a problem and has its required texts.
 #include <gmock/gmock.h>
 
 #include <filesystem>

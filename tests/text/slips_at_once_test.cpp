@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A motor's file and a scenario with several mistakes of several kinds: all are told at once, and nothing that only follows.
+// A motor's file and a scenario with several mistakes of several kinds: one run reports all, and no
+// consequence of another.
 #include <gmock/gmock.h>
 
 #include <string>
@@ -15,7 +16,7 @@ using ::testing::HasSubstr;
 
 class SlipsAtOnce : public ScenarioFolder {
  protected:
-  /// Of a motor's file alone.
+  /// The messages on a motor's file alone.
   std::vector<std::string> told(const std::string& text) {
     write("m.toml", text);
     const base::Result<design::Sheet> sheet = files::read_sheet((folder_ / "m.toml").string());
@@ -26,7 +27,7 @@ class SlipsAtOnce : public ScenarioFolder {
   }
 };
 
-/// What is wrong with a key alone, with a unit, and between two keys, in one go and in the order of the lines.
+/// Mistakes of a key alone, of a unit, and between two keys are reported together, in the order of the lines.
 TEST_F(SlipsAtOnce, AllSlipsAreToldAtOnce) {
   const std::string sheet =
       "name = \"m\"\npole_pairs = 8\npolar = 3\nresistance_ohm = 1.03\ninductance_mH = \"0.572 mF\"\n"
@@ -43,12 +44,13 @@ TEST_F(SlipsAtOnce, AllSlipsAreToldAtOnce) {
       HasSubstr(":11:15: cogging_mNm = 2 values needs one for each of the 1 cogging_orders; "),
   };
   EXPECT_THAT(told(sheet), ::testing::ElementsAreArray(all));
-  // What only follows is not told: with the misspelt key mended nothing is left of the axes.
+  // A consequence is not reported: with the misspelt key corrected the axes are complete.
   EXPECT_THAT(told("name = \"m\"\nd_axis_inductance_mH = 1\nq_axis_inductence_mH = 2\n"),
               ElementsAre(HasSubstr("q_axis_inductence_mH is not a key here; did you mean")));
 }
 
-/// A scenario tells its own mistakes beside those of its motor's file, and all of [motor_override].
+/// A scenario's own mistakes are reported together with those of its motor's file, and all of
+/// [motor_override].
 TEST_F(SlipsAtOnce, AScenarioTellsItsOwnSlipsBesideItsMotors) {
   write("bad.toml", "name = \"m\"\npolar = 3\nresistance_ohm = 1.03\n");
   EXPECT_THAT(complaints("motor = \"bad.toml\"\nduration_s = 0.02\n[bridge]\ndead_time_s = 1\n[[at]]\n"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of units against the definitions: 1 lb = 0.45359237 kg, 1 in = 25.4 mm, the standard weight of 1 kg is 9.80665 N
-// (BIPM, NIST SP 811), and a turn is 2 pi. The values here were computed from these in forty decimal digits elsewhere.
+// The table of units equals the definitions: 1 lb = 0.45359237 kg, 1 in = 25.4 mm, the standard weight of 1
+// kg is 9.80665 N (BIPM, NIST SP 811), and a turn is 2 pi. A separate computation in forty decimal digits
+// gave the values here.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -19,7 +20,7 @@ struct Row {
 };
 
 constexpr Row defined[] = {
-    // trade units of torque: an ounce's, a pound's and a kilogram's weight
+    // trade units of torque: the weights of an ounce, a pound and a kilogram
     {"1 oz-in", "N m", 7.06155181422604375e-3},
     {"1 ozf in", "N m", 7.06155181422604375e-3},
     {"1 lb-in", "N m", 0.1129848290276167},
@@ -119,7 +120,7 @@ constexpr Row defined[] = {
     {"1 oz. in.", "N m", 7.06155181422604375e-3},
     {"1 lb.-in.", "N m", 0.1129848290276167},
     {"1 Vs", "mWb", 1000.0},
-    {"1 mV/Hz", "mWb", 0.159154943091895336},  // of an electrical turn, whatever the pole pairs
+    {"1 mV/Hz", "mWb", 0.159154943091895336},  // per electrical turn, with any pole pairs
 };
 
 TEST(UnitTable, ConvertsByTheDefinitions) {
@@ -130,7 +131,7 @@ TEST(UnitTable, ConvertsByTheDefinitions) {
   }
 }
 
-/// Hertz and erpm count electrical turns: the pole pairs stand between them and the shaft's.
+/// Hertz and erpm count electrical turns: the pole pairs convert them to the shaft's.
 TEST(UnitTable, ElectricalTurnsConvertByThePolePairs) {
   constexpr Row with_two_pairs[] = {
       {"4.5 mV/Hz", "V/krpm", 0.15},  // 1000 rpm are 33.3 Hz
@@ -199,7 +200,7 @@ TEST(UnitTable, RmsAndPeakBelongToTheFrame) {
   EXPECT_THAT(refused("5 oz-in/Arms", "Nm/A"), ::testing::HasSubstr("no rms value belongs here"));
 }
 
-/// Of a file that is all unit each sign is looked at a few times, not as often as there are signs.
+/// The reader of a file that is all unit reads each sign a few times, not as often as there are signs.
 TEST(UnitTable, AnEndlessUnitIsNone) {
   for (const char* part : {"µ", "A ", "10-9 ", "A/", "(", "1 oz-in", "rms", "."}) {
     std::string endless;
@@ -208,7 +209,7 @@ TEST(UnitTable, AnEndlessUnitIsNone) {
   }
 }
 
-/// Units by kind: those of one convert into each other, those of two never do.
+/// Units by kind: those of one kind convert into each other, those of two kinds never do.
 const std::map<std::string, std::vector<std::string>>& kinds() {
   static const std::map<std::string, std::vector<std::string>> all = {
       {"number", {"%"}},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the terminal says of a run: short numbers, but never a miss that looks like a hit.
+// The terminal's table of a run has short numbers, but never shows a miss as a hit.
 #include "text/results/verdict_table.hpp"
 
 #include <gmock/gmock.h>
@@ -47,7 +47,7 @@ TEST(VerdictTable, OneLineEachWithItsNumbersInOnePrefix) {
             "  overshoot            0 A       0.37497 A          none wanted\n");
 }
 
-/// Nothing is required of a compared figure, and the head says so.
+/// A compared figure has no requirement, and the head shows it.
 TEST(VerdictTable, AColumnOfComparisonsAloneIsWhatIsExpected) {
   study::Outcome outcome;
   outcome.comparisons = {{"overshoot", "A", 0.4, 0.5, "hand"}};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The 36 ways to plug a motor in as text and as JSON: every wiring in its place, the words of a linear motor, what differs.
+// The 36 ways to connect a motor as text and as JSON: every wiring in its place, the words of a linear motor,
+// the differences.
 #include "text/results/wiring_text.hpp"
 
 #include <gmock/gmock.h>
@@ -28,7 +29,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// Cells of the row that begins so, in the n-th table that has one.
+/// The cells of the row with this beginning, in the n-th table that has one.
 std::vector<std::string> row(const std::string& text, const std::string& begin, int table) {
   for (const std::string& line : lines_of(text)) {
     if (!line.starts_with("  " + begin + "  ") || table-- > 0) continue;
@@ -135,7 +136,7 @@ TEST(WiringWords, TellMovesAsTheyAreMade) {
   EXPECT_EQ(text::cure_text({.pins = {2, 1, 0}}), "swap the Hall lines H1 and H3");
 }
 
-/// The words of each step do what analysis::next_step() does.
+/// Each step's words agree with analysis::next_step().
 TEST(WiringWords, OfTheRecipeAreItsSteps) {
   const auto steps = text::recipe_steps();
   ASSERT_EQ(steps.size(), 3u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a wrong file is told: place, value, limit and cure, word for word.
+// The message on a wrong file: place, value, limit and cure, word for word.
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -24,7 +24,7 @@ class WrongInput : public ::testing::Test {
     std::ofstream(folder_ / name) << text;
     return (folder_ / name).string();
   }
-  /// The complaints about a file, each without the folder in front.
+  /// The messages on a file, each without the folder's path.
   std::vector<std::string> complaints(const std::string& text, const files::ReadOptions& options = {}) {
     const base::Result<study::Scenario> result = files::read_scenario(write("x.toml", text), options);
     if (result) return {};
@@ -223,7 +223,7 @@ TEST_F(WrongInput, SyntaxIsToldWithItsPlace) {
                   "'m'; end the line behind the value: its unit is in the key"));
 }
 
-/// Where a name must begin the parser took for granted that one does.
+/// The parser assumed that a name begins after a bracket.
 TEST_F(WrongInput, ABracketWithoutANameIsToldAsSyntax) {
   for (const char* line : {"[# no name", "[", "[[", "[=", "a = {# no name", "a = {,"})
     EXPECT_THAT(complaints(head + line), ElementsAre(HasSubstr("x.toml:3:"))) << line;
@@ -275,7 +275,7 @@ TEST_F(WrongInput, SyntaxIsAnsweredWithWhatWasProbablyMeant) {
 }
 
 TEST_F(WrongInput, AStepOfASignalThatIsNotControlledNeedsItsLevel) {
-  // The reference is a duty here: taken as a level in ampere it would give a number without meaning.
+  // The reference is a duty here: as a level in ampere it would give a number without meaning.
   EXPECT_THAT(
       complaints(head + "[control]\nmode = \"duty\"\n[reference]\nvalue = 0.5\n[[require]]\nmetric = "
                         "\"overshoot\"\nsignal = \"current\"\nmax = 1\n"),
@@ -329,7 +329,7 @@ TEST_F(WrongInput, AFolderIsNoFile) {
               HasSubstr("cannot be read: Is a directory; name a file in it"));
 }
 
-/// Found by the fuzzer: behind a key the parser took every letter from U+00A1 to U+0499 for unreachable.
+/// The fuzzer found it: after a key the parser treated every letter from U+00A1 to U+0499 as unreachable.
 TEST_F(WrongInput, ALetterBesideAKeyIsASyntaxErrorOnly) {
   for (const std::string letter : {"\u00d6", "\u00e9", "\u03b1", "\u3001", "\ufdf0"}) {
     const std::vector<std::string> told = complaints(head + "title" + letter + " = 1\n");

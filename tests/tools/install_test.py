@@ -30,7 +30,7 @@ share/sixstep/sixstep_control.hpp""".splitlines()
 FOLDERS = ["data/controllers", "data/motors", "data/plans", "data/recordings", "data/scenarios", "docs", "faces/firmware",
            "faces/loop/core", "sixstep/control"]
 DRIVES = ["LEAN", "PRODUCT", "SENSORLESS", "FIELD", "SENSORLESS_FIELD"]
-# zsh as it calls a function that it reads from its file at the first Tab.
+# zsh calls the function after it reads its file at the first Tab.
 ZSH = """
 compadd() {
   while (( $# )); do case $1 in (-S|-d) shift 2;; (-a) print -l -- ${(P)2}; shift 2;; (*) shift;; esac; done
@@ -50,7 +50,7 @@ class Installed(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         cls.prefix = pathlib.Path(folder.name).resolve() / "a prefix"
         subprocess.run(["cmake", "--install", BUILD, "--prefix", cls.prefix], check=True, capture_output=True)
-        # Moved: it looks from where it lies.
+        # The moved program finds its files relative to itself.
         cls.prefix = cls.prefix.rename(cls.prefix.with_name("another prefix"))
         cls.share = cls.prefix / "share/sixstep"
 
@@ -73,7 +73,7 @@ class Installed(unittest.TestCase):
     def test_files_are_where_they_are_looked_for(self):
         for name in FILES:
             self.assertTrue((self.prefix / name).is_file(), name)
-        for name in FOLDERS:  # all that git has there
+        for name in FOLDERS:  # all of git's files there
             listed = subprocess.run(["git", "ls-files", name], cwd=ROOT, capture_output=True, text=True, check=False).stdout.split("\n")
             for file in filter(None, listed):
                 if pathlib.Path(file).name not in ("CMakeLists.txt", ".clang-tidy"):
@@ -119,7 +119,7 @@ class Installed(unittest.TestCase):
         self.assertIn("all 58 requirements hold", self.call("sixstep", "run", *thesis).stdout)
         self.call("sixstep", "run", scenarios / "current-square-board.toml")
         self.call("sixstep", "motor", "check", self.share / "data/motors/maxon-251601.toml")
-        # Its scenario is named from where the plan lies.
+        # The plan names its scenario relative to itself.
         self.call("sixstep", "run", self.share / "data/plans/which-pwm.toml", "--only", "1")
 
     def test_controllers_of_ones_own(self):

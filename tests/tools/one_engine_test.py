@@ -13,7 +13,7 @@ import sys
 import unittest
 
 BUILD = pathlib.Path(sys.argv.pop())
-# What runs once a segment or oftener. A plant's set-up, made once before a run, may be anywhere.
+# Code that runs at least once a segment. A plant's set-up, once before a run, may be anywhere.
 ENGINE = re.compile(r"sixstep::(sim::run<|rig::Rig<|plant::(general::)?(Plant<\w+>::(?!Plant\()|mode_guards|expand)|series::(first_root|detail::))")
 
 

@@ -16,7 +16,7 @@ PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve()) if len(sys.argv) > 1 else
 VERSION = re.search(r"(?m)^project\(sixstep VERSION (\d+\.\d+\.\d+) ", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))[1]
 CHANGELOG = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
 HEADINGS = re.findall(r"(?m)^## (.*)$", CHANGELOG)
-# Citation File Format 1.2.0, the keys at the root.
+# The keys at the root of Citation File Format 1.2.0.
 CITATION_KEYS = set("abstract authors cff-version commit contact date-released doi identifiers keywords license license-url message "
                     "preferred-citation references repository repository-artifact repository-code title type url version".split())
 

@@ -25,7 +25,7 @@ class SingleHeader(unittest.TestCase):
         self.header = self.folder / "sixstep_control.hpp"
         subprocess.run([sys.executable, REPOSITORY / "tools" / "single_header.py", "--out", self.header], check=True)
         self.parts = sorted(p.relative_to(REPOSITORY).as_posix() for p in (REPOSITORY / "sixstep/control").rglob("*.hpp")
-                            if p.parent.name != "own")  # no firmware passes that door
+                            if p.parent.name != "own")  # firmware does not use that interface
 
     def compile(self, name, source, *flags, include):
         file = self.folder / name

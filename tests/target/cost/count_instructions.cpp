@@ -3,11 +3,11 @@
 //
 //   -plugin FILE,told=OUT,NAME=FROM-UNTIL,..,next=A
 //
-// addresses in hexadecimal; a name for each row of counts. With next=, the rows are told there too, and begin anew:
-// block after block of a walk.
+// The addresses are hexadecimal; each row of counts has a name. At next= the plugin prints the rows and
+// clears them: once per block of a walk.
 //
-// Debian has no header of the plugin interface (version 1): the few functions that are called are declared
-// here, as QEMU's documentation of the interface states them.
+// Debian has no header of the plugin interface (version 1). The called functions are declared here as QEMU's
+// documentation of the interface states them.
 #include <cstdlib>
 #include <cstring>
 #include <deque>
@@ -37,7 +37,7 @@ struct Marked {
   bool runs = false;
   target::Counts counts{};
 };
-// Never destroyed: QEMU's last callback comes after the destructors of static objects.
+// These objects are never destroyed: QEMU's last callback comes after the destructors of static objects.
 auto& marked = *new std::deque<Marked>;
 auto& told = *new std::string;
 std::uint64_t executed = 0, next = ~std::uint64_t{0};
@@ -63,8 +63,8 @@ void tell_and_go_on(unsigned, void*) {
   std::fclose(file);
 }
 
-/// The callbacks come before the instruction counts itself: from the first one inclusive to the label
-/// exclusive.
+/// The callbacks come before the instruction counts itself: the count is from the first instruction inclusive
+/// to the label exclusive.
 void translated(Id, qemu_plugin_tb* block) {
   for (std::size_t n = 0; n < qemu_plugin_tb_n_insns(block); ++n) {
     qemu_plugin_insn* instruction = qemu_plugin_tb_get_insn(block, n);

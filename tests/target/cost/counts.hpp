@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each call cost, and what is told of them all.
+// The cost of each call, and the statistics over all calls.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace target {
 class Counts {
  public:
   void add(std::uint64_t count) { all_.push_back(count); }
-  /// Name, calls, mean to the nearest, the count that 99.9 % of the calls do not pass, the worst.
+  /// Prints name, calls, the rounded mean, the count that 99.9 % of the calls do not exceed, and the worst.
   void tell(std::FILE* to, const char* name) {
     if (all_.empty()) return;
     std::sort(all_.begin(), all_.end());

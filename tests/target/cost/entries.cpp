@@ -21,7 +21,7 @@ inline void hall() { answer = &protected_on_hall(exported::product, state, input
 FieldDriveState<Scalar> state;
 Telemetry<Scalar> telemetry;
 FieldDriveInput<Scalar> input;
-BinaryAngle electrical;  ///< a decoder's
+BinaryAngle electrical;  ///< the decoder's angle
 
 inline void tick() {
   input.magnet = field_directions(exported::field.advance, electrical, input.measured.speed_rad_s);
@@ -66,7 +66,8 @@ __attribute__((noinline, used)) void entry_tick() { target::tick(); }
 __attribute__((noinline, used)) void entry_hall() { target::hall(); }
 
 #if defined __AVR__ && !defined TARGET_NO_INTERRUPTS
-// The same as interrupts, saving what they use: INT0 is vector 1 of the ATmega2560, INT1 vector 2.
+// The same entries as interrupts, which save the registers they use: INT0 is vector 1 of the ATmega2560, INT1
+// vector 2.
 void __vector_1() __attribute__((signal, used));
 void __vector_2() __attribute__((signal, used));
 void __vector_1() { target::tick(); }

@@ -20,7 +20,7 @@ using Answer = LegCommands<Scalar>;
 #else
 using Answer = BridgeCommand<Scalar>;
 #endif
-extern const Answer* answer;  ///< what the last entry told the bridge
+extern const Answer* answer;  ///< the last entry's command to the bridge
 
 #if TARGET_PRODUCT
 using Record = ProductRecord<Scalar>;
@@ -30,7 +30,7 @@ using Record = FieldRecord<Scalar>;
 using Record = LeanRecord<Scalar>;
 #endif
 
-void give(const Record& record);  ///< puts into the inputs what the next entry finds there
+void give(const Record& record);  ///< writes the inputs of the next entry
 
 }  // namespace target
 

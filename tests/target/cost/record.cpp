@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// record SCENARIO.toml ARITHMETIC RECORDS: runs a scenario and writes what its firmware was given, tick by tick and Hall
-// edge by Hall edge (record.hpp), and prints `run DIGEST` of the run and `answers CALLS DIGEST` of what the firmware told.
+// record SCENARIO.toml ARITHMETIC RECORDS: runs a scenario and writes its firmware's inputs, tick by tick and
+// Hall edge by Hall edge (record.hpp). It prints `run DIGEST` of the run and `answers CALLS DIGEST` of the
+// firmware's answers.
 //
-// The firmwares here do what rig/firmware.hpp's do, by the same parts, and write down what passes; that the run has the
-// digest of study::run shows that they do nothing else.
+// The firmwares here have the parts of rig/firmware.hpp's and record their inputs. The run's digest equals
+// that of study::run, which shows that they do nothing else.
 #include <cinttypes>
 #include <cstdio>
 #include <cstring>
@@ -22,7 +23,7 @@ namespace {
 
 using namespace sixstep;
 
-/// What one run leaves. The rig makes its firmware itself, so that it cannot be handed in.
+/// The results of one run. The rig makes its firmware itself, so that a caller cannot pass it in.
 struct Tape {
   std::vector<std::uint8_t> bytes;
   std::uint32_t calls = 0;
@@ -149,7 +150,7 @@ class FieldRecorder {
  public:
   using Number = Scalar;
   using Command = LegCommands<Scalar>;
-  using Config = SensorlessFieldConfig<Scalar>;  // as the rig's; its angle is sensed
+  using Config = SensorlessFieldConfig<Scalar>;  // the rig's; a sensor gives its angle
   static constexpr bool fault_ends_run = true;
 
   FieldRecorder(const Config& config, const rig::BoardConfig& board, const rig::PowerUp& up)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One period of a recorded run, as bytes of a fixed layout, lowest first: what the firmware was given at a
-// control tick or in a Hall interrupt. The host writes them; every core reads them.
+// One period of a recorded run, as bytes of a fixed layout, lowest first: the firmware's inputs at a control
+// tick or in a Hall interrupt. The host writes them; every core reads them.
 //
 //   all       kind 1 (0 tick, 1 Hall), pins 1
 //   lean      i_a, i_b, i_c, speed, position, bus, setpoint: a scalar each
@@ -39,7 +39,7 @@ struct Bits<Fixed<std::int32_t, FractionBits>> {
   static constexpr Scalar from(Unsigned bits) { return Scalar::from_raw(static_cast<std::int32_t>(bits)); }
 };
 
-/// Moves a field between a record and its bytes, both ways by one list of fields.
+/// Moves a field between a record and its bytes, in both directions by one list of fields.
 struct Reader {
   const std::uint8_t* at;
   template <class Unsigned>
@@ -73,7 +73,7 @@ template <class Scalar>
 struct LeanRecord {
   static constexpr std::uint8_t bytes = 2 + 7 * sizeof(typename Bits<Scalar>::Unsigned);
   std::uint8_t kind = 0;
-  Measurement<Scalar> measured{};  ///< of a Hall edge the code alone
+  Measurement<Scalar> measured{};  ///< a Hall edge sets the code alone
   Setpoint<Scalar> setpoint{};
 
   template <class Way>
@@ -90,7 +90,7 @@ struct LeanRecord {
   }
 };
 
-/// What the lean drive is told, and an angle; no Hall edge asks anything of it.
+/// The lean drive's inputs and an angle; no entry is called at a Hall edge.
 template <class Scalar>
 struct FieldRecord : LeanRecord<Scalar> {
   static constexpr std::uint8_t bytes = LeanRecord<Scalar>::bytes + 4;
@@ -107,7 +107,7 @@ template <class Scalar>
 struct ProductRecord {
   static constexpr std::uint8_t bytes = 16 + sizeof(typename Bits<Scalar>::Unsigned);
   std::uint8_t kind = 0;
-  BoardInput input{};  ///< of a Hall edge pins and counter alone
+  BoardInput input{};  ///< a Hall edge sets pins and counter alone
   Request request{};
   Setpoint<Scalar> setpoint{};
 

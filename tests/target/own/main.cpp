@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gives a controller of one's own what the tape says (tape.hpp), and prints
+// Gives a user's controller the inputs of the tape (tape.hpp), and prints
 //
-//   own CONFIG STATE NAME bytes of both on this core, and what it calls itself
-//   answers CALLS         how many there were, each as on the host
-//   differs CALL          or the first that was not, from 1
-//   room BYTES            or config or state want more than that
-//   design WORDS          or what is wrong with what it is given, on this core alone
+//   own CONFIG STATE NAME sizes of both on this core in bytes, and the controller's name
+//   answers CALLS         number of calls, all with the host's answers
+//   differs CALL          or the first call with another answer, from 1
+//   room BYTES            or the size of a config or state that is too large
+//   design WORDS          or the refusal of the inputs, on this core alone
 //
-// Who counts is outside: avr_board.cpp, count_instructions.cpp.
+// The counters are outside: avr_board.cpp, count_instructions.cpp.
 #include "tests/target/own/entries.h"
 #include "tests/target/own/tape.hpp"
 #include "tests/target/platform/platform.hpp"
@@ -16,7 +16,7 @@
 extern "C" {
 void call_tick();  ///< calls.S, or below
 void call_hall();
-// What the smallest board has room for.
+// The sizes fit the smallest board.
 #ifdef __AVR__
 std::uint64_t own_config[128], own_state[256];
 #else

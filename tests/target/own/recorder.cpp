@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A controller of one's own, for the program in double, that asks one compiled in float and writes down what that was given and what it
-// answered (tape.hpp) into the file that SIXSTEP_OWN_TAPE names. What runs in the loop is so the very arithmetic of the chip. Unlike a
-// controller it remembers more than its state: the tape. It is for one run at a time.
+// A user's controller for the program in double. It calls the same one compiled in float and writes that
+// one's inputs and answers (tape.hpp) into the file that SIXSTEP_OWN_TAPE names, so that the loop runs in the
+// chip's own arithmetic. The tape is memory outside its state: only one run at a time can use it.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -12,7 +12,7 @@
 #include "sixstep/control/own/own_controller.h"
 #include "tests/target/own/tape.hpp"
 
-// The same header once more, in float.
+// The same header a second time, in float.
 #undef SIXSTEP_CONTROL_OWN_OWN_CONTROLLER_H
 #undef SIXSTEP_REAL
 #undef SIXSTEP_OWN_INTERFACE
@@ -28,7 +28,8 @@ namespace {
 using target::Call, target::Digest;
 constexpr std::uint32_t most_values = 64;
 
-/// Stands before the controller's config and state; both keep the alignment that the program gives.
+/// This struct is in memory before the controller's config and state; both keep the alignment that the
+/// program gives.
 struct alignas(16) Designed {
   chip::sixstep_given given;
   std::uint32_t count;
@@ -50,7 +51,7 @@ void* behind(void* front) {
 
 class Tape {
  public:
-  /// A config that was not the last one is told first: a timeline may change it.
+  /// A changed config is written first: a timeline may change it.
   void begin(Call call, const void* config) {
     const auto& now = *static_cast<const Designed*>(config);
     if (std::memcmp(&now, &last_, sizeof now) != 0) {

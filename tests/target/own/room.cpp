@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Memory of a controller of one's own to the byte, for its size alone. The config stands in flash, as a drive's constants do:
-// entries.h has it as what design may write.
+// The memory of a user's controller to the byte, to measure its size alone. The config is in flash, as a
+// drive's constants are; entries.h declares it writable for the design.
 #include <cstdint>
 
 #include "sixstep/control/own/own_controller.h"

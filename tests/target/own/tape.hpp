@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a controller of one's own was given in a run, call by call, as bytes, lowest first. The recorder writes them on the host,
-// every core reads them.
+// The inputs of a user's controller in a run, call by call, as bytes, lowest first. The recorder writes them
+// on the host; every core reads them.
 //
 //   design   0, mode, delay_periods, sampled_in_middle, chopping, the numbers of sixstep_given, how many values 1, the values
 //   start    1
 //   step     2, hall 1, the numbers of sixstep_measured, setpoint, answers 4
 //   hall     3, hall 1, answers 4
 //
-// A number is a float. `answers` is the digest of all answers since the tape began, this call's among them.
+// A number is a float. `answers` is the digest of all answers since the tape began, this call's included.
 #pragma once
 #include <cstdint>
 
@@ -35,7 +35,7 @@ void numbers_of_measured(Measured& m, Take take) {
   take(m.bus_V), take(m.magnet_cos), take(m.magnet_sin);
 }
 
-/// Every member: what the controller does not use stays as it was.
+/// Every member counts: a member that the controller does not set keeps its value.
 template <class Answer>
 void mix_answer(Digest& mix, const Answer& a) {
   mix(a.enabled, a.fault, a.source, a.sink, a.chopping, a.chopped, a.duty, a.overlap);

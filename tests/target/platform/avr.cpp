@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ATmega2560: everything by the three general-purpose registers, which the board's program watches
-// (avr_board.cpp). avr-libc's start code makes memory ready. Registers by the data sheet's addresses.
+// The ATmega2560 communicates through the three general-purpose registers, which the board's program monitors
+// (avr_board.cpp). avr-libc's start code initialises memory. Registers have the data sheet's addresses.
 #include "tests/target/platform/platform.hpp"
 
 namespace target {
@@ -14,7 +14,7 @@ constexpr std::uint16_t DDRD = 0x2A, PORTD = 0x2B, EIMSK = 0x3D, EICRA = 0x69;
 }  // namespace target
 
 extern "C" {
-/// Where the next bytes go, and how many are wanted; the board answers with how many came.
+/// The address of the next bytes and their number; the board writes the number that it delivered.
 struct {
   std::uint8_t* to;
   std::uint16_t bytes;
@@ -35,8 +35,8 @@ std::uint16_t refill(const char*, std::uint8_t* to, std::uint16_t bytes) {
   return refill_request.bytes;
 }
 
-/// GPIOR1 says whether as an interrupt: a pin that is an output asks for it at its change (ATmega2560 data
-/// sheet, External Interrupts).
+/// GPIOR1 selects a call by interrupt: a change of an output pin requests it (ATmega2560 data sheet, External
+/// Interrupts).
 void call_entry(bool hall, void (*entry)()) {
   if (register_at(GPIOR1) == 0) return entry();
   const std::uint8_t pin = hall ? 2 : 1;
@@ -48,7 +48,7 @@ void call_entry(bool hall, void (*entry)()) {
 
 extern "C" int main() {
   using namespace target;
-  register_at(EICRA) = 5;  // INT0 and INT1: any change; before the pins, whose level would ask at once
+  register_at(EICRA) = 5;  // INT0 and INT1: any change; before the pins, whose level would request at once
   register_at(DDRD) = 3;
   register_at(EIMSK) = 3;
   asm volatile("sei");

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// avr_board FIRMWARE.elf                                           prints what the firmware tells
+// avr_board FIRMWARE.elf                                           prints the firmware's output
 // avr_board FIRMWARE.elf RECORDS REQUEST TICK HALL                 also counts the cycles of the entries at these
 //                                                                  addresses, and of INT0 and INT1 in a second run
 // avr_board FIRMWARE.elf NEXT ENDS BEGINS..                        counts the cycles from each of these addresses to ENDS,
 //                                                                  block after block: NEXT is reached between two
 //
-// An ATmega2560 of simavr: what it writes into GPIOR0 is a character, 255 in GPIOR1 the end, GPIOR2 asks for records.
-// A program of its own: libsimavr is GPL-3, and nothing else here is linked with it.
+// An ATmega2560 of simavr: a write to GPIOR0 is a character, 255 in GPIOR1 the end, a write to GPIOR2
+// requests records.
+// It is a program of its own, because libsimavr is GPL-3 and nothing else here is linked with it.
 #include <cstdio>
 #include <cstdlib>
 #include <vector>
@@ -21,8 +22,8 @@ extern "C" {
 
 namespace {
 
-// Data sheet, Reset and Interrupt Handling: five cycles from the request to the first instruction of the vector,
-// which simavr does not count.
+// The hardware takes five cycles from the request to the first instruction of the vector (data sheet, Reset
+// and Interrupt Handling), which simavr does not count.
 constexpr std::uint64_t interrupt_response = 5;
 
 struct Board {
@@ -32,7 +33,7 @@ struct Board {
   std::uint16_t request = 0;  ///< address of the firmware's refill_request
 };
 
-/// A call from its first instruction to its return: until the stack is shorter by the return address.
+/// A call from its first instruction to its return, when the stack is shorter by the return address.
 struct Watched {
   const char* name;
   std::uint32_t at = 0;
@@ -99,7 +100,7 @@ int go(Board& board, Watched (&watched)[2]) {
   return 0;
 }
 
-/// From a mark to the one that ends them all: a block's call (walk/counted.hpp).
+/// Counts from a mark to the mark that ends all of them: a block's call (walk/counted.hpp).
 int go_by_blocks(Board& board, std::uint32_t next, std::uint32_t ends, std::vector<Watched>& blocks) {
   while (!board.done) {
     const int state = avr_run(board.avr);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What Cortex-M and RISC-V share: characters and files by semihosting.
+// The common part of Cortex-M and RISC-V: characters and files by semihosting.
 #include "faces/firmware/bare/semihosting.hpp"
 #include "tests/target/platform/platform.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a program of this folder asks of the machine that it runs on, and the machine of it. One file per
-// machine answers, and has the main.
+// The functions that a program of this folder needs from its machine, and the one that it provides. Each
+// machine has one file with these functions and the main.
 #pragma once
 #include <cstdint>
 
@@ -9,15 +9,15 @@ namespace target {
 void run();  ///< the program
 
 void put(char c);
-/// The next bytes of a file of records, less than wanted at its end.
+/// Reads the next bytes of a file of records, fewer than `bytes` at its end.
 std::uint16_t refill(const char* file, std::uint8_t* to, std::uint16_t bytes);
-/// Calls an entry of a drive; the ATmega2560 as an interrupt, where it is told so.
+/// Calls an entry of a drive; on the ATmega2560 as an interrupt, if GPIOR1 says so.
 void call_entry(bool hall, void (*entry)());
 
-/// Of a walk: told to a host's program, fixed on a chip.
+/// The steps of a walk: an argument on a host, a constant on a chip.
 std::uint32_t steps_wanted();
 
-/// Where inputs are counted (digest.hpp), by block.
+/// Begins a block of the counts of inputs (digest.hpp).
 #ifdef TARGET_SIGHTS
 void begins(const char* block);
 #else

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The blocks of sensing/ that answer with signals: angle and speed from Hall edges, pulses, a Gray code, a resolver.
+// The blocks of sensing/ that return signals: angle and speed from Hall edges, pulses, a Gray code, a
+// resolver.
 #pragma once
 #include "sixstep/control/sensing/gray.hpp"
 #include "sixstep/control/sensing/hall_angle.hpp"
@@ -31,7 +32,7 @@ struct HallAngleWalk {
     config.span = static_cast<std::uint8_t>(1 + r.below(6));
     pace = static_cast<std::uint16_t>(20 + (r.bits() & 2047));
     if (r.one_in(2)) direction = static_cast<std::int8_t>(-direction);
-    if (r.one_in(8)) now += 30000;  // stands
+    if (r.one_in(8)) now += 30000;  // standstill
   }
   void step(Random& r, Digest& mix) {
     now += (static_cast<std::uint32_t>(pace) + r.bits() % (pace / 16 + 1u)) / 4;
@@ -66,7 +67,7 @@ struct PulseSpeedWalk {
     config = {Number<Scalar>::ratio(r.bits()), std::uint32_t{20000}};
     pace = r.one_in(3) ? std::uint8_t{0} : static_cast<std::uint8_t>(1 + r.below(40));
     if (r.one_in(2)) back = !back;
-    if (r.one_in(4)) now += 30000;  // stands
+    if (r.one_in(4)) now += 30000;  // standstill
   }
   void step(Random& r, Digest& mix) {
     now += 500;
@@ -152,7 +153,7 @@ struct ResolverWalk {
   bool positive_peak = false;
 
   void draw(Random& r) {
-    // An amplitude of about 1/2 at 1000 counts, which two neighbouring peaks are twice apart.
+    // The amplitude is about 1/2 at 1000 counts; two neighbouring peaks differ by twice that.
     config.cos_per_count = per_count<Scalar>(static_cast<std::int16_t>(16700 + r.below(128)));
     config.sin_per_count = per_count<Scalar>(static_cast<std::int16_t>(16700 + r.below(128)));
     config.cos_offset = Number<Scalar>::part(static_cast<std::int32_t>(r.bits()) * 512);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commissioning as a whole: a motor in whole numbers that is measured from the offsets of its converters to its flux
-// linkage, with what may be amiss; and what came out, in SI.
+// Commissioning of a motor in integers, from the offsets of its converters to its flux linkage, with possible
+// faults; and the results in SI.
 #pragma once
 #include "sixstep/control/commissioning/commissioning_result.hpp"
 #include "tests/target/walk/legs.hpp"
@@ -48,15 +48,15 @@ struct CommissioningResultWalk {
   }
 };
 
-/// In turn: each motor is commissioned to the end.
+/// The walk commissions one motor after another, each to its end, with these faults in turn.
 enum class Amiss : std::uint8_t { nothing, amplifier, open_wire, no_voltage_between_levels, rotor_locked };
 
-/// The current follows the vector with half of what it lacks in each tick; the rotor turns with the field.
+/// The current covers half of its distance to the vector in each tick; the rotor turns with the field.
 struct CommissionedMotor {
   Amiss amiss = Amiss::rotor_locked;
-  std::int32_t eighths = 0;       ///< of the current along the field, counts
-  std::int32_t ohm = 80;          ///< parts of the bus to an eighth of a count
-  std::int32_t flux = 400;        ///< speed to a part of the bus
+  std::int32_t eighths = 0;       ///< eighths of a count of the current along the field
+  std::int32_t ohm = 80;          ///< part of the bus per eighth of a count
+  std::int32_t flux = 400;        ///< speed per part of the bus
   std::uint8_t probes_ahead = 0;  ///< 2^-8 turn
 
   void draw(Random& r) {

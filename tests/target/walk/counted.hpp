@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A block's call in a walk. Where costs are counted (TARGET_COUNTED) it is a call that nothing is inlined around, between
-// two marks of platform/marks.S, and its name is told at the end of the walk: up to three functions a walk.
+// A block's call in a walk. With TARGET_COUNTED nothing is inlined around the call, which is between two
+// marks of platform/marks.S. The end of the walk prints its name: up to three functions a walk.
 #pragma once
 #include "tests/target/platform/print.hpp"
 
@@ -40,7 +40,7 @@ __attribute__((always_inline)) inline auto counted(const char* name, const Call&
   }
 }
 
-/// `counted BLOCK SLOT NAME` of each.
+/// Prints `counted BLOCK SLOT NAME` for each.
 inline void tell_counted(const char* block) {
   count_next();
   for (std::uint8_t slot = 0; slot < 3; ++slot) {

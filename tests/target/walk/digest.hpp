@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a walk answers with: 32 bits over every bit of every output (FNV-1a, byte by byte from the lowest, so
-// that the order of bytes in memory does not count). Any not-a-number counts as one: IEEE 754 leaves its sign
-// and its digits to the processor.
+// The digest of a walk: 32 bits over every bit of every output (FNV-1a, byte by byte from the lowest, so that
+// the order of bytes in memory does not count). All not-a-numbers count as one: IEEE 754 leaves their sign
+// and digits to the processor.
 #pragma once
 #include <cstdint>
 
@@ -10,7 +10,7 @@
 namespace target {
 
 #ifdef TARGET_SIGHTS
-void saw(const char* what, bool it_is);  ///< counts how often an input reached what it is meant to reach
+void saw(const char* what, bool it_is);  ///< counts how often an input reached its purpose
 #else
 constexpr void saw(const char*, bool) {}
 #endif

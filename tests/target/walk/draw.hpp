@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inputs drawn as whole numbers, so that every processor gets the same bits: signals over their whole range,
-// often at an end of it or near 0, gains, sums and ratios. Floating point gets the dyadic numbers that the
-// fixed formats hold. No call draws two of its arguments: their order is the compiler's.
+// Random inputs are drawn as integers, so that every processor gets the same bits: signals over their whole
+// range, often at an end of it or near 0, gains, sums and ratios. Floating point gets the dyadic numbers of
+// the fixed formats. No call draws two of its arguments, because the compiler chooses their order.
 #pragma once
 #include <cstdint>
 
@@ -12,7 +12,8 @@ namespace target {
 
 using namespace sixstep::control;
 
-/// A linear congruence (Knuth, Numerical Recipes), of which only the better upper half is used.
+/// A linear congruence (Knuth, Numerical Recipes), of which only the upper half with its longer period is
+/// used.
 struct Random {
   std::uint32_t state = 12345;
 
@@ -30,7 +31,7 @@ struct Random {
 };
 
 template <class Scalar>
-struct Number;  // how a format is drawn
+struct Number;  // the way to draw a format
 
 template <class Storage, int FractionBits>
 struct Number<Fixed<Storage, FractionBits>> {
@@ -91,7 +92,7 @@ struct Number<float> {
   static constexpr float ratio(std::uint16_t n) { return static_cast<float>(n) * two_to(-9); }
 };
 
-/// A signal: an end, 0, one digit, something small, anything.
+/// A signal: an end of the range, 0, one digit, a small value, or any value.
 template <class Scalar>
 constexpr Scalar signal(Random& random) {
   const std::uint8_t kind = random.below(16);
@@ -103,7 +104,7 @@ constexpr Scalar signal(Random& random) {
   return Number<Scalar>::part(any);
 }
 
-/// A part of the range as a quantity of an exported drive, which floating point has in SI.
+/// A part of the range as a quantity of an exported drive, in SI for floating point.
 template <class Scalar>
 constexpr Scalar in_si(Scalar part, [[maybe_unused]] std::uint16_t whole) {
   if constexpr (__is_same(Scalar, float))
@@ -112,14 +113,14 @@ constexpr Scalar in_si(Scalar part, [[maybe_unused]] std::uint16_t whole) {
     return part;
 }
 
-/// One that is not negative, at most `most` 32767ths of the range.
+/// A positive signal or zero, at most `most` 32767ths of the range.
 template <class Scalar>
 constexpr Scalar positive(Random& random, std::uint16_t most = 32767) {
   const std::uint32_t n = static_cast<std::uint32_t>(random.bits()) * most >> 16;
   return Number<Scalar>::part(static_cast<std::int32_t>(n << 16));
 }
 
-/// Up to 2^-least, either sign: a mantissa is never the least number (fixed.hpp).
+/// A gain up to 2^-least, of either sign: a mantissa is never the most negative number (fixed.hpp).
 template <class Scalar>
 constexpr Gain<Scalar> gain(Random& random, std::int8_t least, std::uint8_t spread = 8) {
   const auto m = static_cast<std::int16_t>(random.bits() & 0x7fff);

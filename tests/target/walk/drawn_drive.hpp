@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lean drive with every part of its configuration drawn, and taken over while it runs: what no single
-// exported drive has, in all combinations.
+// The lean drive with every part of its configuration random and changed during the run: all combinations,
+// which no single exported drive has.
 #pragma once
 #include "sixstep/control/drive.hpp"
 #include "sixstep/control/retune.hpp"
@@ -60,7 +60,7 @@ struct DrawnDriveWalk {
 
   void draw(Random& r) {
     DriveConfig<Scalar> next = drawn_drive<Scalar>(r);
-    // Drives with probes alone have these two.
+    // Only drives with probes have the next two.
     next.extras.pwm = {static_cast<PwmPattern>(r.below(pwm_patterns)), positive_gain<Scalar>(r, 0)};
     next.extras.staying_phase = r.one_in(2);
     next.extras.steps_commutation = r.one_in(2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The blocks of sensing/ that know no scalar: the Hall edges' places, an encoder's lines, the tracking loop.
+// The blocks of sensing/ without a scalar: the Hall edges' angles, an encoder's lines, the tracking loop.
 #pragma once
 #include "sixstep/control/sensing/hall_calibration.hpp"
 #include "sixstep/control/sensing/quadrature.hpp"
@@ -18,7 +18,7 @@ inline void mix_edges(Digest& mix, const HallEdges& edges) {
 struct HallCalibrationWalk {
   HallCalibrationConfig config{};
   HallCalibrationState state{};
-  HallDeviations before{};  ///< of the run before
+  HallDeviations before{};  ///< deviations of the run before
   std::uint32_t now = 0, pace = 1000, width[6]{};
   std::uint8_t edge = 0;
   std::int8_t direction = 1;
@@ -59,7 +59,7 @@ struct HallCalibrationWalk {
 struct QuadratureWalk {
   QuadratureConfig config{};
   QuadratureState state{}, timer{};
-  std::uint32_t count = 0;  ///< of the lines, 0..config.counts-1
+  std::uint32_t count = 0;  ///< count of the lines, 0..config.counts-1
   bool back = false;
 
   void draw(Random& r) {
@@ -75,10 +75,7 @@ struct QuadratureWalk {
   void step(Random& r, Digest& mix) {
     if (r.one_in(32)) back = !back;
     const std::uint8_t kind = r.below(64);
-    move(kind < 4   ? 0
-         : kind < 6 ? 2
-         : kind < 8 ? 4
-                    : 1);  // a line's whole period is missed by nobody but the index
+    move(kind < 4 ? 0 : kind < 6 ? 2 : kind < 8 ? 4 : 1);  // only the index detects a missed line period
     const std::uint32_t quarter = count & 3;
     const bool a = quarter < 2, b = quarter == 1 || quarter == 2, z = count < 4 || r.one_in(256);
     const std::int8_t moved =
@@ -98,7 +95,7 @@ struct QuadratureWalk {
     saw("an index that mends", state.corrections > 0);
     saw("turns back", state.turns < 0);
   }
-  /// Less than a turn.
+  /// An angle of less than a turn.
   std::int32_t drawn_way(Random& r) const {
     const auto way = static_cast<std::int32_t>(r.long_bits() % config.counts);
     return r.one_in(2) ? -way : way;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the field-oriented drive has in floating point alone: where the magnet points without a sensor of it, currents along a shape,
-// the choice among the legs' states. And the position profile, which is floating too.
+// The field-oriented drive's parts in floating point alone: the magnet's angle without a sensor, currents
+// along a shape, the choice among the legs' states. The position profile, also in floating point, is here
+// too.
 #pragma once
 #include "sixstep/control/field/sensorless_field_drive.hpp"
 #include "sixstep/control/jerk_profile.hpp"
@@ -14,7 +15,7 @@ AlphaBeta<Scalar> drawn_vector(Random& r) {
   return {alpha, signal<Scalar>(r)};
 }
 
-/// A direction of an angle, as a chip has it.
+/// The direction of an angle in the chip's form.
 template <class Scalar>
 Direction<Scalar> drawn_direction(Random& r) {
   return direction_of<Scalar>(r.long_bits());
@@ -138,7 +139,7 @@ EstimatorConfig<Scalar> drawn_estimator(Random& r) {
   return c;
 }
 
-/// Loops and all, begun anew with each configuration.
+/// The whole drive with its loops; each configuration restarts it.
 template <class Scalar>
 struct SensorlessFieldWalk {
   SensorlessFieldConfig<Scalar> config{};

@@ -28,7 +28,7 @@ FieldWeakeningConfig<Scalar> drawn_weakening(Random& r) {
   return c;
 }
 
-/// Up to 0.7 in magnitude at full current.
+/// The values are up to 0.7 in magnitude at full current.
 template <class Scalar>
 TorquePerAmpereConfig<Scalar> drawn_per_ampere(Random& r) {
   const auto m = static_cast<std::int16_t>(r.bits() % 22937);
@@ -138,7 +138,7 @@ struct TorquePerAmpereWalk {
   }
 };
 
-/// Loops and all, taken over while it runs.
+/// The whole drive with its loops; the configuration changes during the run.
 template <class Scalar>
 struct FieldDriveWalk {
   FieldDriveConfig<Scalar> config{};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The blocks of the loops: arithmetic, controllers, setpoints. A walk draws a configuration and then steps
-// it; its state goes on between draws.
+// The blocks of the loops: arithmetic, controllers, setpoints. A walk draws a configuration and then runs
+// steps; the state continues between draws.
 #pragma once
 #include "sixstep/control/commutation_step.hpp"
 #include "sixstep/control/deadbeat.hpp"
@@ -176,7 +176,7 @@ struct SmoothChoppingWalk {
   }
 };
 
-/// A rotor that mostly goes on, driven or braked.
+/// The rotor mostly turns in one direction, driven or braked.
 template <class Scalar>
 struct PwmPatternWalk {
   PwmPatternConfig<Scalar> config{};
@@ -204,7 +204,7 @@ struct PwmPatternWalk {
   }
 };
 
-/// A rotor that mostly goes on, its leaving current dying away.
+/// The rotor mostly turns in one direction, and its leaving current decays.
 template <class Scalar>
 struct CommutationStepWalk {
   CommutationStepConfig<Scalar> config{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of the field-oriented drive what knows no scalar.
+// The field-oriented drive's blocks without a scalar.
 #pragma once
 #include "sixstep/control/field/field_direction.hpp"
 #include "tests/target/walk/counted.hpp"

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walks every block of sixstep/control, and the drives that scenarios export, through drawn inputs, and
-// prints a digest of all their outputs: the same source for every processor. One program per scalar:
-// TARGET_SCALAR q15, q14, q31, q30, float, or whole for the blocks without one. With TARGET_OF_ROTOR it is the blocks of
-// sensing/ and sensorless/ instead, with TARGET_OF_OBSERVERS the back-EMF observers, with TARGET_OF_COMMISSIONING those of
-// commissioning/ but for the pulses, which TARGET_OF_PULSES has, with TARGET_OF_FIELD those of field/: programs of their own, so
-// that the rest is compiled alike with them and without.
+// Runs every block of sixstep/control, and the exported drives of scenarios, through random inputs, and
+// prints a digest of all their outputs: the same source for every processor. There is one program per scalar:
+// TARGET_SCALAR q15, q14, q31, q30, float, or whole for the blocks without one. TARGET_OF_ROTOR selects the
+// blocks of sensing/ and sensorless/ instead, TARGET_OF_OBSERVERS the back-EMF observers,
+// TARGET_OF_COMMISSIONING those of commissioning/ without the pulses, TARGET_OF_PULSES the pulses,
+// TARGET_OF_FIELD those of field/. They are separate programs, so that they do not change how the rest is
+// compiled.
 #include "tests/target/platform/print.hpp"
 #include "tests/target/walk/names.hpp"
 
@@ -60,7 +61,7 @@ void tell(const char* block, std::uint32_t steps, std::uint32_t digest) {
   print("\n");
 }
 
-/// A new configuration every 64 steps. A long walk begins with the short one.
+/// Draws a new configuration every 64 steps. A long walk begins with the short one.
 template <class Block>
 __attribute__((noinline)) void walk(const char* name) {
   static Block block{};
@@ -76,7 +77,7 @@ __attribute__((noinline)) void walk(const char* name) {
   tell_counted(name);
 }
 
-/// What the marks and the call themselves take.
+/// The cost of the marks and the call themselves.
 struct NothingWalk {
   void draw(Random&) {}
   void step(Random&, Digest&) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The back-EMF observers of sensorless/: each alone on a phase whose leg floats, and all behind the choice between them, at
-// the terminals of a rotor that turns.
+// The back-EMF observers of sensorless/: each alone on a phase whose leg floats, and all behind the choice
+// between them, at the terminals of a turning rotor.
 #pragma once
 #include "sixstep/control/sensorless/observer.hpp"
 #include "tests/target/walk/counted.hpp"
@@ -30,17 +30,17 @@ struct DrawnWinding {
   constexpr std::int32_t over_b(std::int32_t x) const { return x * 1024 / b; }
 };
 
-/// Both poles at p, p^2 < a: (1 - l) a = p^2, h b = (1 - p)^2.
+/// Both poles are at p, p^2 < a: (1 - l) a = p^2, h b = (1 - p)^2.
 template <class Scalar>
 LuenbergerConfig<Scalar> drawn_luenberger(Random& r, const DrawnWinding& winding) {
   const std::int32_t p = r.bits() % 22000, square = p * p / q15_one;
-  const std::int32_t apart = (q15_one - p) / 2;  // squared below: 32 bits
+  const std::int32_t apart = (q15_one - p) / 2;  // the square below fits 32 bits
   return {gain_15<Scalar>(winding.a), gain_15<Scalar>(winding.b),
           gain_15<Scalar>(q15_one - square * 1024 / (winding.a / 32)),
           gain_15<Scalar>(winding.over_b(apart * apart / q15_one * 4), 5)};
 }
 
-/// z = a e behind one period: slope a/b.
+/// The slope a/b gives z = a e behind one period.
 template <class Scalar>
 SlidingModeConfig<Scalar> drawn_sliding_mode(Random& r, const DrawnWinding& winding) {
   SlidingModeConfig<Scalar> config{};
@@ -63,7 +63,7 @@ FluxLinkageConfig<Scalar> drawn_flux(Random& r, const DrawnWinding& winding) {
   return config;
 }
 
-/// The back-EMF of the phase that floats falls, then the next leg's begins; the old current runs out first.
+/// The back-EMF of the floating phase falls, then the next leg's begins; the old current decays first.
 template <class Scalar>
 struct FloatingPhase {
   std::int32_t size = 0x10000000, fall = 0x01000000, e = 0;  ///< 2^-31 of the range
@@ -175,7 +175,7 @@ struct FluxLinkageWalk {
   }
 };
 
-/// The choice: one of the four for 64 steps.
+/// The choice between the observers: each of the four for 64 steps.
 template <class Scalar>
 struct ObserverWalk {
   ObserverConfig<Scalar> config{};
@@ -193,7 +193,7 @@ struct ObserverWalk {
     config.luenberger = drawn_luenberger<Scalar>(r, winding);
     config.sliding_mode = drawn_sliding_mode<Scalar>(r, winding);
     config.flux = drawn_flux<Scalar>(r, winding);
-    const std::int32_t back = 67108864 / third;  // 2^26: a V is what so many counts are
+    const std::int32_t back = 67108864 / third;  // 2^26: the counts of a V
     config.counts_per_V =
         Number<Scalar>::gain(static_cast<std::int16_t>(back), std::int8_t{fraction_digits<Scalar>});
     config.lag_ticks = r.below(200);
@@ -253,7 +253,7 @@ struct ObserverWalk {
   }
 };
 
-/// An observer's estimate in place of the terminal's: whole numbers.
+/// An observer's estimate instead of the terminal's: integers.
 struct ObservedCrossingWalk {
   ZeroCrossingConfig config{};
   ZeroCrossingState state{};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rotor at rest behind three current converters, as voltage pulses see it, in whole numbers: six currents that hang on
-// where its magnet stands. And the drive that asks such pulses before it starts.
+// A rotor at rest behind three current converters in integers, for voltage pulses: six currents that depend
+// on the angle of its magnet. And the drive whose start begins with such pulses.
 #pragma once
 #include "sixstep/control/commissioning/pulse_start.hpp"
 #include "tests/target/walk/sensorless.hpp"
@@ -21,10 +21,10 @@ constexpr PulsePositionConfig drawn_pulses(Random& r) {
 
 struct PulsedRotor {
   BinaryAngle electrical = 0;
-  std::uint16_t current = 600;  ///< counts of a pulse; 0: a wire is open
-  std::int32_t saturates = 0;   ///< counts by which north raises it
-  std::int32_t salient = 0;     ///< and the axis
-  std::uint16_t offset[3]{};    ///< of the amplifiers
+  std::uint16_t current = 600;  ///< counts of a pulse; 0 for an open wire
+  std::int32_t saturates = 0;   ///< counts that north adds
+  std::int32_t salient = 0;     ///< counts that the axis adds
+  std::uint16_t offset[3]{};    ///< offsets of the amplifiers
   std::uint8_t noise = 1;       ///< counts
 
   constexpr void draw(Random& r) {
@@ -36,7 +36,7 @@ struct PulsedRotor {
     if (r.one_in(8)) offset[0] = 2300;  // a broken amplifier
     noise = static_cast<std::uint8_t>(1 + r.below(3));
   }
-  /// x, from the magnet's north to the pair of a sector (pulse_position.hpp).
+  /// The current at x, the angle from the magnet's north to the pair of a sector (pulse_position.hpp).
   constexpr std::int32_t through(std::uint8_t sector) const {
     const BinaryAngle x = sector_angle(sector) + sector_angle(2) - electrical;  // 60 s - 30 - (theta_e - 150)
     if (current == 0) return 0;
@@ -92,7 +92,7 @@ struct PulsePositionWalk {
   }
 };
 
-/// The drive without a rotor sensor, whose start asks the pulses first.
+/// The drive without a rotor sensor, whose start begins with pulses.
 template <class Scalar>
 struct PulsedDriveWalk {
   PulsedDriveConfig<Scalar> config{};
@@ -123,7 +123,7 @@ struct PulsedDriveWalk {
     in.drive.on = !r.one_in(64);
     const BridgeCommand<Scalar>& was = state.drive.drive.command;
     in.drive.terminals = course.tick(r, {was.enabled && !state.pulsing, was.pair}, in.drive.on);
-    if (!state.pulsing) pulsed.electrical = course.rotor.angle;  // it stands meanwhile
+    if (!state.pulsing) pulsed.electrical = course.rotor.angle;  // at rest meanwhile
     pulsed.sample(r, state.pulses, in.current_counts);
     return in;
   }

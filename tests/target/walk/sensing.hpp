@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The blocks around the loops: what sensors say, what is watched, what is allowed.
+// The blocks around the loops: sensors, monitoring, limits.
 #pragma once
 #include "sixstep/control/adc.hpp"
 #include "sixstep/control/advance.hpp"
@@ -87,13 +87,13 @@ struct HallSpeedWalk {
     position_config = {gain<Scalar>(r, -9), gain<Scalar>(r, 1)};
     pace = static_cast<std::uint16_t>(20 + (r.bits() & 2047));
     if (r.one_in(2)) direction = static_cast<std::int8_t>(-direction);
-    if (r.one_in(8)) now += 30000;  // stands
+    if (r.one_in(8)) now += 30000;  // standstill
     if (r.one_in(8)) now += 0x40000000u;
     if (r.one_in(2)) position.sectors = 0;
   }
   void step(Random& r, Digest& mix) {
     now += (static_cast<std::uint32_t>(pace) + r.bits() % (pace / 16 + 1u)) / 4;
-    // Mostly an edge every four or five steps; one that is missed, one that comes too soon.
+    // An edge mostly comes every four or five steps; one may be missed, one may be too early.
     if (since >= 8 || (++since >= 4 && since < 6 && !r.one_in(6)) || r.one_in(96)) {
       since = 0;
       const SectorTime time = counted<1>("sector_time+hall_speed_edge+hall_position_edge", [&] {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Start-up, the position without a sensor, and the drive around it: a rotor that is aligned, ramped, caught, lost.
+// Start, position without a sensor, and the whole drive: a rotor that is aligned, ramped, caught, lost.
 #pragma once
 #include "sixstep/control/sensorless/sensorless_drive.hpp"
 #include "tests/target/walk/drawn_drive.hpp"
@@ -82,7 +82,7 @@ struct StartUpWalk {
   }
 };
 
-/// What a run is made of: who turns the rotor, and what is amiss.
+/// The course of a run: the rotor's drive and its faults.
 struct Course {
   TerminalRotor rotor{};
   std::uint32_t now = 0;
@@ -93,8 +93,8 @@ struct Course {
   void draw(Random& r) {
     ++sections;
     if (sections % 8 == 0) wanted = r.one_in(2) ? std::int8_t{1} : std::int8_t{-1};
-    if (sections % 8 == 7) wanted = 0;              // runs out; where it gave up, it may try again
-    if (r.one_in(16)) rotor.speed = drawn_pace(r);  // spun from outside
+    if (sections % 8 == 7) wanted = 0;              // coasts; after it gave up, it may retry
+    if (r.one_in(16)) rotor.speed = drawn_pace(r);  // an external drive spins it
     if (r.one_in(32)) rotor.speed = 0;
     pull = 600000 + static_cast<std::int32_t>(r.bits()) * 16;
   }
@@ -175,7 +175,7 @@ SensorlessDriveConfig<Scalar> drawn_sensorless_drive(Random& r) {
   return next;
 }
 
-/// All of it: loops, start, and Hall probes that take turns with the back-EMF.
+/// The whole drive: loops, start, and Hall probes in turn with the back-EMF.
 template <class Scalar>
 struct SensorlessDriveWalk {
   SensorlessDriveConfig<Scalar> config{};
@@ -195,7 +195,7 @@ struct SensorlessDriveWalk {
   void configure(Random& r) {
     SensorlessDriveConfig<Scalar> next = drawn_sensorless_drive<Scalar>(r);
     if (course.sections % 32 == 17) {
-      next.source = config.source;  // probes are not taken away in flight
+      next.source = config.source;  // probes stay available in flight
       return retune(config, state, next);
     }
     config = next;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The measurements of commissioning that know no scalar: steps between two levels, fast turns, Hall lines, and the vectors
-// in them. Each walk draws a motor, measures it to the end, and draws the next one.
+// The measurements of commissioning without a scalar: steps between two levels, fast turns, Hall lines, and
+// their vectors. Each walk draws a motor, measures it to the end, and draws the next one.
 #pragma once
 #include "sixstep/control/commissioning/flux_turn.hpp"
 #include "sixstep/control/commissioning/hall_survey.hpp"
@@ -11,7 +11,7 @@
 
 namespace target {
 
-inline constexpr std::uint16_t zero_counts = 2048;  ///< of a current converter of 12 bits
+inline constexpr std::uint16_t zero_counts = 2048;  ///< zero of a current converter of 12 bits
 
 constexpr std::int32_t signed_bits(Random& r, std::uint8_t right) {
   return static_cast<std::int32_t>(r.long_bits()) / (std::int32_t{1} << right);
@@ -56,12 +56,12 @@ struct SeenVectorWalk {
   }
 };
 
-/// A winding: the current goes a part of its way to the level's in each tick.
+/// A winding: the current covers a part of its distance to the level's in each tick.
 struct LevelStepsWalk {
   LevelStepsConfig config{};
   LevelStepsState state{};
   std::int32_t low = 0, high = 0, current = 0;
-  std::int32_t per_part = 1;  ///< 2^-8 of a 24th of a count to a part of the bus
+  std::int32_t per_part = 1;  ///< 2^-8 of a 24th of a count per part of the bus
   std::uint8_t slow = 2, noise = 1;
   bool begun = false;
 
@@ -134,7 +134,7 @@ struct FluxTurnWalk {
   }
 };
 
-/// Three lines, hung somehow, and a field that turns there and back: an edge a step.
+/// Three lines with any connection, and a field that turns forward and back: an edge a step.
 struct HallSurveyWalk {
   HallSurveyConfig config{};
   HallSurveyState state{};
@@ -147,7 +147,7 @@ struct HallSurveyWalk {
     const std::uint8_t way = r.below(3), first = r.below(3);
     for (std::uint8_t k = 0; k < 3; ++k) probe[k] = way == 0 ? k : static_cast<std::uint8_t>((first + k) % 3);
     inverted = way == 0 ? std::uint8_t{0} : r.below(8);
-    if (way == 2) {  // straight probes 60 degrees apart, as hall.hpp has them
+    if (way == 2) {  // straight probes 60 degrees apart, as in hall.hpp
       probe[0] = 0;
       probe[1] = 2;
       probe[2] = 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A motor's terminals in whole numbers, the same on every processor: trapezoids of back-EMF (model.md 1 and 2) behind a
-// rotor that is pulled by the pair that is driven and dragged by friction.
+// A motor's terminals in integers, the same on every processor: trapezoids of back-EMF (model.md 1 and 2) of
+// a rotor that the driven pair pulls and friction brakes.
 #pragma once
 #include "sixstep/control/sensing/binary_angle.hpp"
 #include "sixstep/control/sensorless/zero_crossing.hpp"
@@ -11,13 +11,13 @@ namespace target {
 inline constexpr std::uint32_t tick_ticks = 1000;  ///< timer ticks of a control tick
 inline constexpr std::uint16_t bus_counts = 3200;
 
-/// The bridge as the rotor feels it.
+/// The bridge's effect on the rotor.
 struct DrivenPair {
   bool on = false;
   Pair pair{};
 };
 
-/// In which sector a pair makes positive torque.
+/// The sector in which a pair makes positive torque.
 constexpr std::uint8_t sector_of_pair(Pair pair) {
   for (std::uint8_t n = 0; n < 5; ++n)
     if (positive_pair(n).source == pair.source && positive_pair(n).sink == pair.sink) return n;
@@ -54,7 +54,7 @@ struct TerminalRotor {
   }
   constexpr std::uint8_t sector() const { return sector_of_angle(angle); }
 
-  /// On by a control tick. The torque of a pair is about the sine of what its field is ahead.
+  /// Advances by a control tick. The torque of a pair is approximately the sine of its field's lead angle.
   constexpr void turn(const DrivenPair& pair, std::int32_t pull) {
     constexpr std::int8_t torque[6] = {2, 1, -1, -2, -1, 1};
     const std::uint8_t sector_driven = pair.on ? sector_of_pair(pair.pair) : no_sector;
@@ -69,7 +69,7 @@ struct TerminalRotor {
     return static_cast<std::uint16_t>(u < 0 ? 0 : u > bus_counts ? bus_counts : u);
   }
 
-  /// `on`: the switches of the pair are; else the current runs on through the two lower ones.
+  /// `on`: the switches of the pair are on; else the current freewheels through the two lower ones.
   constexpr TerminalSample sample(std::uint32_t at, bool on, std::int32_t noise) {
     TerminalSample s{};
     s.bus = bus_counts;
@@ -92,7 +92,7 @@ struct TerminalRotor {
   }
 };
 
-/// Anything that a converter can say.
+/// A sample with any values of the converter.
 constexpr TerminalSample wild_sample(Random& r, std::uint32_t at) {
   TerminalSample s{};
   for (std::uint16_t& u : s.u) u = static_cast<std::uint16_t>(r.bits() & 4095);
@@ -101,7 +101,7 @@ constexpr TerminalSample wild_sample(Random& r, std::uint32_t at) {
   return s;
 }
 
-/// A rotor that is turned, whatever is driven: some speed, at times another way.
+/// The speed of an externally driven rotor: any speed, at times in the other direction.
 constexpr std::int32_t drawn_pace(Random& r) {
   const std::int32_t pace =
       4000000 + static_cast<std::int32_t>(r.long_bits() >> 6);  // 60 to 1000 ticks a turn

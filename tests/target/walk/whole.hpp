@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The blocks that know no scalar: pins and states.
+// The blocks without a scalar: pins and states.
 #pragma once
 #include "sixstep/control/commutation.hpp"
 #include "sixstep/control/hall.hpp"
@@ -10,7 +10,7 @@
 
 namespace target {
 
-/// A rotor's Hall sector: on by one, at times back, at times a jump; a code may be an impossible one.
+/// A rotor's Hall sector: forward by one, at times back, at times a jump; a code may be impossible.
 struct Rotor {
   std::uint8_t sector = 0;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Controllers are compared fairly: their scenarios differ in the keys of their rows and in nothing else, and no row tunes by hand.
+// The comparison of controllers is fair: their scenarios differ in the keys of their rows alone, and no row
+// has a hand-tuned value.
 #include "text/contest/contest_entries.hpp"
 
 #include <gtest/gtest.h>
@@ -25,7 +26,7 @@ ContestBench bench_of(const std::string& motor) {
   return *bench;
 }
 
-/// Keys whose values two scenarios do not share. What a file says of a run itself is the reader's.
+/// The keys with different values in two scenarios. Title and notes do not count: they are for the reader.
 std::vector<std::string> differences(const study::Scenario& a, const study::Scenario& b) {
   std::map<std::string, std::string> of_a, of_b;
   for (const text::WrittenValue& v : text::scenario_values(a)) of_a[v.path] = v.text;
@@ -43,7 +44,7 @@ std::vector<std::string> differences(const study::Scenario& a, const study::Scen
   return out;
 }
 
-/// A key of a row lets itself be different, and of a table all that stands in it.
+/// A path belongs to a row if it is a key of the row or is inside a table of the row.
 bool is_of_row(const ContestEntry& entry, const std::string& path) {
   return std::any_of(entry.keys.begin(), entry.keys.end(), [&](const analysis::ContestKey& key) {
     return path == key.path || path.starts_with(key.path + ".");
@@ -67,13 +68,13 @@ TEST(Contest, ScenariosDifferInTheKeysOfTheirRowsAlone) {
   }
 }
 
-/// The same sample, delay, limits, bus, bridge, sensors and course; a row that has to leave one of them is named here.
+/// Sample, delay, limits, bus, bridge, sensors and course are the same; this list names each exception.
 TEST(Contest, NoRowTouchesWhatIsTheSameForAll) {
   const std::map<std::string_view, std::string> exceptions = {
       {"hysteresis, comparators", "pwm.delay_periods"},  // nothing is sampled
-      {"six-step, advanced", "sensors.hall_angle"},      // the product drive goes by sectors
-      {"speed to duty", "control.speed"},                // has no torque whose limit it could keep
-      {"state feedback", "control.speed"},  // these three place real poles, and are told no damping
+      {"six-step, advanced", "sensors.hall_angle"},      // the product drive commutates by sectors
+      {"speed to duty", "control.speed"},                // has no torque that could be limited
+      {"state feedback", "control.speed"},               // these three place real poles and use no damping
       {"disturbance rejection", "control.speed"},
       {"sliding mode", "control.speed"}};
   const ContestBench bench = bench_of("maxon-251601");
@@ -93,7 +94,8 @@ TEST(Contest, NoRowTouchesWhatIsTheSameForAll) {
   }
 }
 
-/// A number in a row would be somebody's choice; what is found by rule is <named>. The comparators' 0 periods are none.
+/// A number in a row would be a free choice; a rule's value is <named>. The comparators' 0 periods are an
+/// exception.
 TEST(Contest, NoRowHasANumber) {
   const std::regex number("[=,{] *-?[0-9.]");
   for (const Contestant& who : analysis::contestants()) {
@@ -103,7 +105,7 @@ TEST(Contest, NoRowHasANumber) {
   }
 }
 
-/// Both current loops are placed by the same rule on the same settling time.
+/// The same rule places both current loops with the same settling time.
 TEST(Contest, FieldOrientedHasTheSameLoopsAskedFor) {
   const ContestBench bench = bench_of("teknic-m2310p");
   for (const ContestEntry& entry : text::contest_entries(bench, {})) {
@@ -129,7 +131,7 @@ TEST(Contest, WhatAMotorDoesNotAllowIsToldAndTheOthersStay) {
   EXPECT_NE(to_string(entries[2].scenario.problems().front()).find("pwm.perod_s"), std::string::npos);
 }
 
-/// The difference that the first test looks for is seen where somebody plants it.
+/// The comparison of the first test finds a deliberate difference.
 TEST(Contest, APlantedDifferenceIsFound) {
   const ContestBench bench = bench_of("maxon-251601");
   study::Scenario other = bench.scenario;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sentences below a comparison name who they are about, and a factor only where there is one.
+// The sentences below a comparison name their controllers, and a factor only where it applies.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ using ::testing::Not;
 
 constexpr std::size_t settle = 4, loss = analysis::loss_figure;
 
-/// Of each contestant its place in the list of all, a settling time and a loss.
+/// A contestant's place in the list of all, its settling time and its loss.
 struct Of {
   std::size_t who;
   double settle_s, loss_W;
@@ -44,13 +44,13 @@ TEST(ContestWords, WhoSharesAFigureIsNamed) {
   EXPECT_THAT(told, Not(Contains(HasSubstr("first two"))));
 }
 
-/// Whoever is within a twentieth of the least is named, not the best two alone; of more than four the others, where they are
-/// fewer. From either list a reader finds the same controllers.
+/// The sentence names every controller within a twentieth of the least, not only the best two. For more than
+/// four it names the others, if they are fewer: either list defines the same controllers.
 TEST(ContestWords, AllWhoShareAFigureAreNamed) {
   EXPECT_THAT(
       words({{0, 1.0, 3.1}, {1, 2.0, 3.0}, {2, 3.0, 3.01}, {3, 4.0, 3.2}}),
       Contains(name(0) + "; " + name(1) + " and " + name(2) + " share the least loss in all, within 5 %."));
-  // Of the least, as everything on the page: 3.155 is 5.2 % more than 3.
+  // Percentages are of the least, as on the whole page: 3.155 is 5.2 % more than 3.
   EXPECT_THAT(words({{0, 1.0, 3.155}, {1, 2.0, 3.0}, {2, 3.0, 3.01}}),
               Contains(name(1) + " and " + name(2) + " share the least loss in all, within 5 %."));
   EXPECT_THAT(
@@ -61,7 +61,8 @@ TEST(ContestWords, AllWhoShareAFigureAreNamed) {
               Contains("All controllers that hold the course share the least loss in all, within 5 %."));
 }
 
-/// A start with more than 1.5 times the limit's current uses what the others may not: it has no star, no sentence, and a note why.
+/// A start with more than 1.5 times the limit's current has an advantage over the others: the controller gets
+/// no star, no sentence, and a note with the reason.
 TEST(ContestWords, WhoeverStartsBeyondTheLimitWinsNothing) {
   analysis::Contest c;
   c.bench.design.current_at_full_torque_A = 4.0;
