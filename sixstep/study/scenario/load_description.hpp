@@ -71,7 +71,8 @@ inline void describe(base::Visitor& v, Load& s) {
            "motor turns per turn of the load; torque, inertia and friction of the load are then at its side",
        .range = between(1e-3, 1e5)});
   v.value("gear_efficiency", s.gear_efficiency,
-          {.meaning = "part of the driving side's torque that the gear hands on to the driven one",
+          {.meaning =
+               "efficiency of the gear: fraction of the driving side's torque that reaches the driven side",
            .range = base::Range{0.01, 1, false, true}});
   v.value("stiffness_Nm_rad", s.stiffness_Nm_rad,
           {.meaning = "torsional stiffness of shaft and coupling at the load's side; 0: rigid",

@@ -45,7 +45,9 @@ inline void describe_thresholds(base::Visitor& v, Protection& s) {
                       "stalling is not watched",
            .unit = "A",
            .range = above(0)});
-  v.value("stall_s", s.stall_s, {.meaning = "how long that may last", .unit = "s", .range = above(0)});
+  v.value(
+      "stall_s", s.stall_s,
+      {.meaning = "longest time without a Hall edge above stall_current_A", .unit = "s", .range = above(0)});
   v.value("offset_tolerance_A", s.offset_tolerance_A,
           {.meaning = "offset of a current amplifier beyond which it counts as broken; without it 2 % of "
                       "sensors.current_range_A",
@@ -58,7 +60,7 @@ inline void describe(base::Visitor& v, Protection& s) {
   describe_thresholds(v, s);
   v.table("align", s.align, {.meaning = "pulling the rotor into place before it runs"});
   v.value("brake_current_A", s.brake_current_A,
-          {.meaning = "current held against the turning once the request to run is removed; 0: it coasts",
+          {.meaning = "braking current after the request to run is removed; 0: the motor coasts",
            .unit = "A",
            .range = from(0)});
   v.value("short_below_rad_s", s.short_below_rad_s,

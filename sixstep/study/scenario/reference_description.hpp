@@ -12,17 +12,20 @@ inline constexpr double longest_s = 9e6;
 inline constexpr double shortest_period_s = 1e-9;
 
 inline void describe_moving(base::Visitor& v, Reference& s) {
-  v.value(
-      "begin_s", s.begin_s,
-      {.meaning = "ramp, trapezoid: when it sets off", .unit = "s", .range = base::between(0, longest_s)});
+  v.value("begin_s", s.begin_s,
+          {.meaning = "ramp, trapezoid: time at which it begins",
+           .unit = "s",
+           .range = base::between(0, longest_s)});
   v.value("start", s.start,
-          {.meaning = "ramp, trapezoid: where it sets off, in the unit of control.mode; without it where the "
-                      "reference stood, 0 at first",
+          {.meaning = "ramp, trapezoid: initial value, in the unit of control.mode. Default: the "
+                      "reference's value before it, 0 at first",
            .mode_unit = "*"});
   v.value("end", s.end,
-          {.meaning = "ramp, trapezoid: where it goes to, in the unit of control.mode", .mode_unit = "*"});
+          {.meaning = "ramp, trapezoid: final value, in the unit of control.mode", .mode_unit = "*"});
   v.value("end_s", s.end_s,
-          {.meaning = "ramp: when it gets there", .unit = "s", .range = base::between(0, longest_s)});
+          {.meaning = "ramp: time at which it reaches its final value",
+           .unit = "s",
+           .range = base::between(0, longest_s)});
   v.value("slope", s.slope,
           {.meaning = "ramp, instead of end_s: its rate, in the unit of control.mode per s, without sign; "
                       "trapezoid: its largest rate",
@@ -64,9 +67,9 @@ inline void describe(base::Visitor& v, Reference& s) {
       "column", s.column,
       {.meaning = "csv: heading of the column that holds the reference; a table of two columns needs none"});
   v.choice("interpolation", s.interpolation, interpolation_choices,
-           {.meaning = "csv: what the reference does from row to row"});
+           {.meaning = "csv: course of the reference between rows"});
   v.value("unit", s.unit,
-          {.meaning = "unit of the reference, to be checked: 1, A, rad/s or deg as control.mode asks"});
+          {.meaning = "unit of the reference, to be checked: 1, A, rad/s or deg according to control.mode"});
 }
 
 }  // namespace sixstep::study

@@ -61,7 +61,8 @@ void describe(base::Visitor& v, Record& s) {
            .range = from(shortest_period_s)});
   v.value(
       "events", s.events,
-      {.meaning = "whether rows stand at every event, with both sides of each jump, in place of the grid"});
+      {.meaning =
+           "whether rows are recorded at every event, with both sides of each jump, instead of on the grid"});
   v.value("columns", s.columns, {.meaning = "columns to record, t_s always first; without it all of them"});
 }
 
@@ -103,26 +104,26 @@ void describe(base::Visitor& v, Scenario& s) {
            .unit = "s",
            .range = base::Range{0, longest_s, false, true},
            .required = true});
-  v.value("notes", s.notes, {.meaning = "what the run teaches, shown in the report"});
+  v.value("notes", s.notes, {.meaning = "notes on the purpose of the run, shown in the report"});
   v.value("not_usable", s.not_usable,
-          {.meaning = "what its design found against it: written by design, told by each run, and no header "
-                      "is exported while it stands"});
+          {.meaning = "reason for which the design is not usable. A design writes it and each run prints "
+                      "it; while it is present, no header is exported"});
   v.table("motor_override", s.sheet,
           {.meaning = "single values that replace those of the motor file", .partial = true});
-  v.table("supply", s.supply, {.meaning = "what feeds the bus"});
+  v.table("supply", s.supply, {.meaning = "source of the bus"});
   v.table("bridge", s.bridge, {.meaning = "six switches with antiparallel diodes"});
   v.table("heat", s.heat, {.meaning = "temperatures that the run simulates; none by default"});
   v.table("pwm", s.pwm, {.meaning = "modulation, sampling and commutation"});
-  v.table("control", s.control, {.meaning = "what is controlled and how"});
-  v.table("sensors", s.sensors, {.meaning = "what the controller measures with; ideal by default"});
+  v.table("control", s.control, {.meaning = "controlled quantity and its controllers"});
+  v.table("sensors", s.sensors, {.meaning = "sensors of the controller; ideal by default"});
   v.table("protection", s.protection,
-          {.meaning = "what the product drive watches, how it starts and stops; with control.drive = "
+          {.meaning = "fault thresholds of the product drive, its start and its stop; with control.drive = "
                       "\"product\""});
-  v.table("reference", s.reference, {.meaning = "what is wanted over time"});
-  v.table("load", s.load, {.meaning = "what the shaft drives"});
-  v.list("at", s.at, {.meaning = "what changes during the run", .cure = what_may_change});
+  v.table("reference", s.reference, {.meaning = "setpoint over time"});
+  v.table("load", s.load, {.meaning = "load on the shaft"});
+  v.list("at", s.at, {.meaning = "changes during the run", .cure = what_may_change});
   v.table("initial", s.initial, {.meaning = "state at the start"});
-  v.table("record", s.record, {.meaning = "what is written to the trace"});
+  v.table("record", s.record, {.meaning = "columns and times of the trace"});
   v.list("require", s.require, {.meaning = "figures that decide whether the run passes"});
   v.list("compare", s.compare, {.meaning = "figures shown beside those of a source; they decide nothing"});
   v.list("spread", s.spread,
