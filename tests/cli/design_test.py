@@ -299,7 +299,7 @@ class Design(ProgramTest):
         bad = ("design", "maxon-251601", "--mode", "speed", "--edges", "1", "--capture", "5e4", "--quick", "--quiet", "--toml", "d.toml")
         self.run_program(*bad, code=1)
         export = ("export", "header", "d.toml", "--arithmetic", "float", "--out", "d.hpp")
-        self.assertIn("not_usable is what its design found", self.run_program(*export, code=2).stderr)
+        self.assertIn("not_usable was set by the design", self.run_program(*export, code=2).stderr)
         self.assertIn("NOT USABLE", self.run_program("run", "d.toml").stdout)
         self.assertEqual(self.names(), ["d.toml"])
         # Designed anew on the same board, but with what was advised: the line is gone.

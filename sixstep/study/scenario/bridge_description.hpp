@@ -90,7 +90,8 @@ inline void describe(base::Visitor& v, Bridge& s) {
 inline void describe(base::Visitor& v, Heat& s) {
   v.value(
       "motor", s.motor,
-      {.meaning = "whether winding and housing warm up by the sheet's thermal lines, and R and K_e follow"});
+      {.meaning =
+           "whether winding and housing warm up by the sheet's thermal lines, and R and K_e change with them"});
   v.value(
       "devices", s.devices,
       {.meaning =

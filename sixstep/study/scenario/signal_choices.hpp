@@ -114,7 +114,7 @@ inline constexpr SignalFact signal_facts[] = {
      "voltage beside resistance_ohm",
      SignalKind::series},
     {Signal::loop_current, "loop_A", "loop current of the delta", "A",
-     "sum of a delta's branch currents, which no terminal sees", SignalKind::series},
+     "sum of a delta's branch currents; no terminal carries it", SignalKind::series},
     {Signal::winding_temperature, "winding_degC", "temperature of the winding", "degC",
      "temperature of the winding, with heat.motor", SignalKind::series},
     {Signal::housing_temperature, "housing_degC", "temperature of the housing", "degC",

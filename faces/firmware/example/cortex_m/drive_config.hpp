@@ -22,7 +22,7 @@
 //   greatest current: <= 10 A required, 9.14157 A measured
 // Warnings of that run:
 //   control.speed.torque_limit_Nm over K_t lets 5.82 A flow, 2.5 times the nominal current of 2.33 A: by the sheet's thermal values the winding withstands it for 12.8 s from 25 degC; nothing in the drive ends that while the rotor turns, so lower the limit unless the load is short
-// Note: setpoint_limit = 300 rad/s is the largest reference of this scenario, and the drive follows no larger setpoint; give [reference] the largest one that your firmware asks for
+// Note: setpoint_limit = 300 rad/s is the largest reference of this scenario, and the drive follows no larger setpoint; give [reference] the largest setpoint of your firmware
 // Note: cleared for a supply that takes current back (supply.sinks = true): with one that takes none back the drive fails, after it raised the bus to 28.7 V in its own course: protection.brake_current_A = 2 ends in a fault where the run command is removed at 0.8 s: over-voltage after 15 ms, the bus at 30.1 V at most
 // Assumptions of that run:
 //   supply    24 V behind 0.05 ohm, 0.001 F at the bridge, takes current back
