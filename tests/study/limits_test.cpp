@@ -113,7 +113,7 @@ TEST(Limits, OfASalientRotorAreNotPromised) {
   s.control.limits.current_A = 6;
   EXPECT_THAT(
       refusal(s),
-      HasSubstr("control.limits.current_A = 6 is a promise that is proved for a rotor of one inductance"));
+      HasSubstr("control.limits.current_A = 6 is proved for a rotor with one inductance"));
   s.control.limits = {.speed_rad_s = 300};
   EXPECT_THAT(refusal(s), HasSubstr("control.limits.speed_rad_s = 300 is a promise"));
   EXPECT_THAT(refusal(s), HasSubstr("L_q is 1.42 times its L_d"));

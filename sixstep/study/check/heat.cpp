@@ -18,7 +18,7 @@ void check_energies(const Bridge& b, base::Problems& out) {
     out.push_back({energies ? "bridge.energies_at_V" : "bridge.turn_on_J", "",
                    energies
                        ? "and bridge.energies_at_A are missing: energies are given at a voltage and a current"
-                       : "is missing: energies_at_V and energies_at_A alone say nothing",
+                       : "is missing: energies_at_V and energies_at_A alone have no effect",
                    "give turn_on_J, turn_off_J, recovery_J, energies_at_V and energies_at_A"});
   const bool charges = b.gate_source_charge_C > 0 || b.gate_drain_charge_C > 0;
   if (charges != (b.gate_current_A > 0))

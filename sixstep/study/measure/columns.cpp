@@ -77,11 +77,10 @@ std::vector<Column> turning_columns() {
          "field-oriented: reference of the current along the magnet"),
       of(Signal::quadrature_current_reference, "rotor, q",
          "field-oriented: reference of the current across the magnet"),
-      of(Signal::direct_voltage, "rotor, d", "field-oriented: phase voltage along the magnet, as asked for"),
-      of(Signal::quadrature_voltage, "rotor, q",
-         "field-oriented: phase voltage across the magnet, as asked for"),
+      of(Signal::direct_voltage, "rotor, d", "field-oriented: commanded phase voltage along the magnet"),
+      of(Signal::quadrature_voltage, "rotor, q", "field-oriented: commanded phase voltage across the magnet"),
       of(Signal::angle_error, "electrical",
-         "field-oriented: error of the angle that the magnet is taken to point at"),
+         "field-oriented: error of the magnet's angle as the drive computes it"),
   };
 }
 

@@ -130,11 +130,12 @@ inline constexpr SignalFact signal_facts[] = {
     {Signal::quadrature_current_reference, "i_q_ref_A", "reference of the current across the magnet", "A",
      "field-oriented: reference of the current across the magnet", SignalKind::held},
     {Signal::direct_voltage, "v_d_V", "voltage along the magnet", "V",
-     "field-oriented: phase voltage along the magnet, as asked for at the last sample", SignalKind::held},
+     "field-oriented: commanded phase voltage along the magnet at the last sample", SignalKind::held},
     {Signal::quadrature_voltage, "v_q_V", "voltage across the magnet", "V",
-     "field-oriented: phase voltage across the magnet, as asked for at the last sample", SignalKind::held},
+     "field-oriented: commanded phase voltage across the magnet at the last sample", SignalKind::held},
     {Signal::angle_error, "angle_error_deg", "error of the angle", "deg",
-     "field-oriented: electrical angle by which the magnet was taken to point ahead of where it did, at the last sample",
+     "field-oriented: electrical angle by which the drive's magnet angle was ahead of the true one, at the "
+     "last sample",
      SignalKind::held},
 };
 
