@@ -286,7 +286,7 @@ class Design(ProgramTest):
         self.assertEqual(told("maxon-251601", "--mode", "spede"),
                          "--mode = spede must be one of current, speed, position; did you mean speed?\n")
         self.assertIn("--settle = -1 must be above 0", told("maxon-251601", "--settle", "-1"))
-        self.assertIn("is no input of pole placement", told("maxon-251601", "--bandwidth", "100"))
+        self.assertIn("is not used by pole placement", told("maxon-251601", "--bandwidth", "100"))
         self.assertIn('did you mean "maxon-251601"?', told("maxon-25160"))
         self.assertIn("--voltage is missing, and the sheet prints no nominal voltage", told("mjbots-mj5208"))
         self.assertIn("cannot be written", self.run_program("design", "maxon-251601", "--json", "no/d.json", code=2).stderr)

@@ -251,7 +251,7 @@ TEST(SpeedForm, ADerivativeAboveFullTorqueIsTheSameInFixedPoint) {
   s.control.arithmetic = Arithmetic::q31;
   EXPECT_THAT(refusal(s), HasSubstr("speed derivative and integral"));
   s.control.speed.anti_windup = 0.0;
-  EXPECT_THAT(refusal(s), HasSubstr("lets the integral grow without an end"));
+  EXPECT_THAT(refusal(s), HasSubstr("lets the integral grow without a limit"));
   s.control.speed.anti_windup = std::nullopt;
   s.sensors.rotor = study::RotorSensing::hall;  // whose speed may jump by all there is
   EXPECT_THAT(refusal(s), HasSubstr("a longer filter of the derivative"));

@@ -126,14 +126,16 @@ std::vector<DerivationStep> steps_of(const SensorlessBasis& b, const SensorlessS
       {"T_load", "greatest_load K_t I_N + T_c, at rest the static torque where larger", b.load_Nm, "N m"},
       {"a", "(K_t I_start - T_load)/(2 J)", b.ramp_rad_s2(), "rad/s^2"},
       {"I_ramp", "(J a + T_c + B w_low)/K_t, where the speed loop goes on", b.ramp_A(), "A"},
-      {"d'", "I_N K_t^2/(J U), of 2 U unless soft", s.duty_per_period / b.spec.period_s, "1/s"}};
+      {"d'", "I_N K_t^2/(J U); with 2 U instead of U unless soft", s.duty_per_period / b.spec.period_s,
+       "1/s"}};
   if (b.lag_s > 0.0) {
-    steps.push_back({"tau", "1/(2 pi bandwidth), taken off the commutation", b.lag_s, "s"});
+    steps.push_back({"tau", "1/(2 pi bandwidth), subtracted from the commutation's delay", b.lag_s, "s"});
     steps.push_back({"t_rail", "3.5 tau, from an edge to the rail", b.settle_s(), "s"});
   }
   if (b.spec.comparators.followed) {
     steps.push_back({"y_c", "offset and half the hysteresis, beside y_0", b.comparators_V(), "V"});
-    steps.push_back({"tau_c", "1/(2 pi bandwidth), taken off the commutation", b.comparator_lag_s, "s"});
+    steps.push_back(
+        {"tau_c", "1/(2 pi bandwidth), subtracted from the commutation's delay", b.comparator_lag_s, "s"});
   }
   return steps;
 }

@@ -131,7 +131,7 @@ bool Scale<Scalar>::prove(const control::PiPositionalConfig<double>& pi) {
                  : 0.0;
   if (!(pi.K_b > 0) && pi.K_i != 0)
     proof_.problems.push_back({"speed.K_b", "0",
-                               "lets the integral grow without an end, which fixed point has",
+                               "lets the integral grow without a limit, which fixed point does not allow",
                                "take K_i/K, or floating point"});
   if (braked + weighted + integral > 14.0 * full_scale<Scalar>)
     proof_.problems.push_back(

@@ -71,7 +71,7 @@ void read_inductance(SheetReader& reader) {
   const Sheet& s = reader.sheet;
   const std::optional<Quantity>& q = s.inductance_mH;
   if (q && (s.d_axis_inductance_mH || s.q_axis_inductance_mH))
-    return reader.wrong("inductance_mH", *q, "is given twice: L_d and L_q are there too",
+    return reader.wrong("inductance_mH", *q, "is given twice: L_d and L_q are also given",
                         "keep one of the two ways");
   if (s.d_axis_inductance_mH || s.q_axis_inductance_mH) return read_axes(reader);
   if (!q)

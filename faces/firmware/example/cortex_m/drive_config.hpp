@@ -120,12 +120,12 @@ constexpr sixstep::control::ProtectedConfig<Scalar> make_product() {
   c.current_adc[2].offset_tolerance = 41;                                 // counts
   c.bus_adc.per_eighth = 0x1.a66666p-10f;                                 // 0.00161132812 V: per eighth of a count
   c.shunt.least_duty = 0x1.111112p-1f;                                    // 0.533333333: above it a sample shows the current; not used by this drive
-  c.shunt.commutation_samples = 4;                                        // after a Hall edge, taken for the incoming phase; not used by this drive
+  c.shunt.commutation_samples = 4;                                        // after a Hall edge, used as the incoming phase's current; not used by this drive
   c.shunt.fade = 0x1.e51338p-1f;                                          // 0.947412231: of a hidden current, per tick; not used by this drive
-  c.speed.sector_rad_s_ticks = 0x1.1f9f14p+23f;                           // 9424777.96 rad/s: over the ticks of a sector it is the speed
-  c.speed.timeout_ticks = 7200000;                                        // of the timer: it stands
-  c.speed.edges = 6;                                                      // that a speed is taken over
-  c.speed.window_ticks = 211515;                                          // of the timer: longer, and one edge is taken
+  c.speed.sector_rad_s_ticks = 0x1.1f9f14p+23f;                           // 9424777.96 rad/s: divided by the ticks of a sector it is the speed
+  c.speed.timeout_ticks = 7200000;                                        // of the timer without an edge: standstill
+  c.speed.edges = 6;                                                      // for the average of a speed
+  c.speed.window_ticks = 211515;                                          // of the timer: above it one edge is used
   c.position.per_sector = 0x1.ep+2f;                                      // 7.5 deg: per sector
   c.position.per_fraction = 0x1.ep+2f;                                    // 7.5 deg: per part of a sector
   c.faults.over_current_A = 0x1.ep+3f;                                    // 15 A
