@@ -95,7 +95,7 @@ enum class Trust : std::uint8_t {
 
 inline constexpr Choice<Trust> trust_choices[] = {
     {"sheet", Trust::sheet, "the maker's print"},
-    {"measured", Trust::measured, "by somebody else, on one motor"},
+    {"measured", Trust::measured, "by another source, on one motor"},
     {"derived", Trust::derived, "computed from other values"},
 };
 

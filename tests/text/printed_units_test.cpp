@@ -243,7 +243,7 @@ TEST(PrintedUnits, OfADeltaBothValuesThatAPhaseCanMeanAreNamed) {
                                "pole_pairs = 2\nconnection = \"delta\"\n"
                                "resistance_ohm = { value = 0.1, frame = \"phase\" }\nback_emf_mV_s = 5\n");
   EXPECT_THAT(all, HasSubstr("If a drive identified the value"));
-  EXPECT_THAT(all, HasSubstr("2/3 of it where it is of one branch of the delta"));
+  EXPECT_THAT(all, HasSubstr("if it is of one branch of the delta, write 2/3 of it"));
   EXPECT_THAT(all, HasSubstr("give back_emf_constant_V_krpm with frame = \"line-peak\""));
 }
 

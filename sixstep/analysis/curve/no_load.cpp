@@ -58,7 +58,7 @@ bool bracket(NoLoadSearch& search, const Bench& b, Sample& low, Sample& high) {
   }
   search.problems = {{"speed", base::written(high.speed) + " rad/s",
                       "is reached without load and the torque is still positive",
-                      "look at the sheet's torque constant and friction"}};
+                      "check the sheet's torque constant and friction"}};
   return false;
 }
 

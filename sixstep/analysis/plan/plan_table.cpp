@@ -94,7 +94,7 @@ base::Result<RunRecord> RunRecord::of(TableColumns columns, RunValues values) {
           so_many(values.figures.size(), "measured values"),
       "do not fit the table, which has " + so_many(c.keys.size(), "varied, ") +
           so_many(c.strayed.size(), "strayed and ") + so_many(c.figures.size(), "measured columns"),
-      "report this with the command that led to it"};
+      "report this with its command"};
 }
 
 RunRecord RunRecord::without_figures(TableColumns columns, std::size_t number, std::vector<std::string> point,

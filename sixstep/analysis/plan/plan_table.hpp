@@ -71,8 +71,8 @@ PlannedRun planned_drive(const study::Scenario& nominal, std::uint64_t seed, std
 enum class RunEnd : std::uint8_t { whole, fault, refused };
 
 inline constexpr base::Choice<RunEnd> run_ends[] = {
-    {"whole", RunEnd::whole, "came to its end, whatever its verdicts"},
-    {"fault", RunEnd::fault, "stopped by one; figures are as they were then"},
+    {"whole", RunEnd::whole, "ran to its end, with any verdicts"},
+    {"fault", RunEnd::fault, "stopped by a fault; figures have their values at that time"},
     {"refused", RunEnd::refused, "could not start: no figures"},
 };
 

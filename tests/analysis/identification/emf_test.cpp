@@ -294,7 +294,7 @@ TEST(Emf, WhatIsNoRecordingIsToldWhy) {
   brief.periods = 1.2;
   EXPECT_THAT(told(drawn_record(brief)),
               ::testing::AnyOf(HasSubstr("holds 1.2 periods of the voltage; 1.5 are needed"),
-                               HasSubstr("a period is to be seen once and a half")));
+                               HasSubstr("one and a half periods are needed")));
   brief = clean(false);
   brief.rows_per_period = 5.0;
   EXPECT_THAT(told(drawn_record(brief)), HasSubstr("rows in a period"));
