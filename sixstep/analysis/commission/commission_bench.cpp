@@ -26,9 +26,10 @@ constexpr double hysteresis_deg = 2.0;
 
 /// Time scales of the motor, from its sheet.
 struct Paces {
-  double tau_s = 0.0;             ///< L/R
-  double swing_rad_s = 0.0;       ///< of the rotor in the standing field of the test's current
-  double calming_s = 0.0;         ///< in which that swing decays by the factor e
+  double tau_s = 0.0;  ///< L/R
+  double swing_rad_s =
+      0.0;                 ///< angular frequency of the rotor's swing in the static field of the test current
+  double calming_s = 0.0;  ///< in which that swing decays by the factor e
   double spin_turns_s2 = 0.0;     ///< electrical acceleration by the current
   double half_emf_turns_s = 0.0;  ///< speed at which the back-EMF is half of the voltage vector
 };

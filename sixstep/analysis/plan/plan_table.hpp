@@ -38,7 +38,7 @@ struct InputColumn {
 };
 
 struct PlanColumns {
-  std::vector<InputColumn> keys;      ///< of the plan's axes
+  std::vector<InputColumn> keys;      ///< keys of the plan's axes
   std::vector<InputColumn> strayed;   ///< keys of [[spread]]; none where the plan has no drives
   std::vector<FigureColumn> figures;  ///< requirements first, then comparisons, in the scenario's order
   bool operator==(const PlanColumns&) const = default;
@@ -82,9 +82,9 @@ struct RunValues {
   std::vector<std::string> point;  ///< value of each key, as a file writes it
   std::vector<double> strayed;     ///< in the keys' units; NaN where it could not be drawn
   RunEnd end = RunEnd::whole;
-  std::string problem;          ///< of a fault or a refusal, in one line
+  std::string problem;          ///< text of a fault or a refusal, in one line
   std::vector<double> figures;  ///< NaN where there is none
-  std::uint64_t digest = 0;     ///< of the trajectory
+  std::uint64_t digest = 0;     ///< digest of the trajectory
 };
 
 /// A row with its columns. of() checks that each column has exactly one value; a row does not change afterwards.

@@ -42,7 +42,7 @@ struct ComparatorSpec {
   double bandwidth_Hz = 0.0;      ///< bandwidth of each low-pass
   bool against_half_bus = false;  ///< false: against the virtual star
   double offset_V = 0.0;          ///< largest offset by their sheet, referred to the terminal
-  double hysteresis_V = 0.0;      ///< between the levels of the two edges
+  double hysteresis_V = 0.0;      ///< difference between the levels of the two edges
 };
 
 /// Supply, board and load of a sensorless drive; SI.

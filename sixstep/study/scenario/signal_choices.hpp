@@ -16,7 +16,7 @@ enum class SignalKind : std::uint8_t {
   series,         ///< a series of the engine, or a sum of them
   phase_current,  ///< the same, alternating about zero
   magnitude,      ///< a sum of magnitudes
-  voltage,        ///< of a terminal or a line: jumps with the gates
+  voltage,        ///< voltage of a terminal or a line: jumps with the gates
   emf,
   held,  ///< constant between control samples
   duty,  ///< constant between events

@@ -17,7 +17,7 @@ enum class EmfBetween : std::uint8_t {
 };
 
 struct EmfChannel {
-  std::string name;  ///< of its column
+  std::string name;  ///< name of its column
   std::vector<double> u_V;
 };
 
