@@ -14,7 +14,7 @@ namespace {
 
 constexpr double precision = 1e-3, coarse_precision = 0.02;
 
-/// Control periods that are left of a search.
+/// Remaining control periods of a search.
 class Left {
  public:
   Left(const GainSearch& search, TrialBudget* budget)

@@ -30,7 +30,7 @@ constexpr Factor factors[] = {
     {1000.0, "a factor 1000: the unit?", false},
 };
 
-/// The widest tolerance that is printed: beyond it the line says nothing.
+/// Limit of a printed tolerance: a wider one would show nothing.
 constexpr double most_above = 9.99;
 
 class Relations {

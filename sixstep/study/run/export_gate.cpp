@@ -218,7 +218,7 @@ base::Problems not_held(const Outcome& outcome) {
 
 namespace {
 
-/// Those that the run's own remarks do not say already.
+/// Notes that the run's own remarks do not contain.
 void add_notes(const Scenario& s, const Listeners& listeners, Clearance& c) {
   const auto add = [&c](std::string note) {
     const auto& said = c.outcome.remarks;

@@ -110,8 +110,7 @@ void look_at_bus(const Scenario& s, const SeenPeaks& peaks, bool is_read, base::
   if (peaks.bus_V <= allowed_bus_V(s)) return;
   out.push_back(
       {"the bus", bus + " V",
-       "was raised by braking, from " + base::three_digits(highest_open_V(s)) +
-           " V, and nothing bounds it",
+       "was raised by braking, from " + base::three_digits(highest_open_V(s)) + " V, and nothing bounds it",
        "give supply.brake_resistance_ohm, control.regeneration.limit_V or more supply.capacitance_F, "
        "or say in [[require]] how high the maximum of bus_voltage may be"});
 }

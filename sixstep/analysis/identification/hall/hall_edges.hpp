@@ -49,7 +49,7 @@ inline std::size_t repeating(std::int64_t boundary, std::size_t own) {
 /// Most edges that are evaluated: more improve the result less than they cost in computing time.
 inline constexpr std::size_t most_edges = 20'000;
 
-/// The edges, or why the log has none: the rotor stands, a line is dead, the log is too short or sampled too
+/// The edges, or why the log has none: the rotor is at rest, a line is dead, the log is too short or sampled too
 /// slowly. `where` of a Problem names the column.
 base::Result<HallEdges> hall_edges(const HallLog& log);
 
