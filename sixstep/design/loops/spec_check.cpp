@@ -29,7 +29,7 @@ base::Problems check_spec(const MotorModel& motor, const DesignSpec& w) {
     found.insert(found.end(), out.begin(), out.end());
   };
   if (w.mode != Mode::current && w.mode != Mode::speed && w.mode != Mode::position)
-    add("mode", "", "must be current, speed or position", "choose what is to be controlled");
+    add("mode", "", "must be current, speed or position", "choose the controlled quantity");
   if (w.method == GainMethod::symmetrical_optimum && w.mode == Mode::current)
     add("method", "symmetrical-optimum", "applies to speed loops only",
         "add mode = speed, or take pole-placement or cancellation");

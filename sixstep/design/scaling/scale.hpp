@@ -172,7 +172,7 @@ bool Scale<Scalar>::prove(const control::HallSpeedConfig<double>& speed) {
   if (raw > most)
     proof_.problems.push_back(
         {"speed.sector_rad_s_ticks", base::written(speed.sector_rad_s_ticks),
-         "over so many edges is " + base::written(raw / most) + " times what its sum holds",
+         "over this number of edges is " + base::written(raw / most) + " times the range of its sum",
          "take a slower timer, fewer edges or 32 bits"});
   return true;
 }

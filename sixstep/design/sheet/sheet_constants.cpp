@@ -129,8 +129,7 @@ ShapeFactors read_shape(SheetReader& reader) {
 void read_trust(SheetReader& reader) {
   const Sheet& s = reader.sheet;
   if (!s.simulatable && s.not_simulatable_because.empty())
-    reader.problem("simulatable", "false", "gives no reason",
-                   "give what is missing in not_simulatable_because");
+    reader.problem("simulatable", "false", "gives no reason", "give the reason in not_simulatable_because");
   if (s.simulatable && !s.not_simulatable_because.empty())
     reader.problem("not_simulatable_because", "\"" + s.not_simulatable_because + "\"",
                    "contradicts simulatable = true", "write simulatable = false, or leave the reason out");

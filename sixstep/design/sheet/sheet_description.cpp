@@ -182,8 +182,8 @@ void describe_ratings(base::Visitor& v, Sheet& s) {
   v.quantity(
       "nominal_current_A", s.nominal_current_A,
       {.meaning =
-           "greatest continuous current: direct current through the driven pair, in at one terminal and out at "
-           "another (terminal), or the rms value of a sine in each phase (rms)",
+           "greatest continuous current: direct current through the driven pair (terminal), or rms value "
+           "of a sine in each phase (rms)",
        .unit = "A",
        .frame = "terminal|rms",
        .range = base::above(0),

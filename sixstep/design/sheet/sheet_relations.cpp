@@ -205,7 +205,7 @@ class Relations {
       Relation& r = add("nominal torque", rms ? "K_rms I_N" : "k_M I_N", "nominal torque", computed, *torque,
                         "mNm", 0.0, friction);
       if (r.verdict == RelationVerdict::broken && r.deviation < 0.0 && r.remark.empty())
-        r.remark = "the rating is above what its own current makes: the model does not use it";
+        r.remark = "the rating is above the torque of its own current: the model does not use it";
     }
     if (const std::optional<Term> printed = term(s_.max_efficiency_percent);
         printed && idle_ && stall_ && idle_->value < stall_->value) {

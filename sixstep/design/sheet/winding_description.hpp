@@ -87,7 +87,7 @@ inline void describe_winding(base::Visitor& v, Sheet& s) {
       {.meaning =
            "table: a file beside this one with a line of headings and rows of angle and value, instead of the "
            "two lists"});
-  v.choice("connection", s.connection, connection_choices, {.meaning = "how the three phases are connected"});
+  v.choice("connection", s.connection, connection_choices, {.meaning = "connection of the three phases"});
   v.value("mutual_inductance_mH", s.mutual_inductance_mH,
           {.meaning = "delta: mutual inductance of two branches, negative as a rule",
            .unit = "mH",

@@ -38,7 +38,7 @@ void check_heat(const Scenario& s, base::Problems& out) {
   if (h.motor)
     if (const auto model = design::thermal_model(s.sheet); !model)
       for (const base::Problem& p : model.problems())
-        out.push_back({"heat.motor", "true", "needs what the motor's sheet does not have: " + p.where,
+        out.push_back({"heat.motor", "true", "needs values that the motor's sheet does not have: " + p.where,
                        "add the sheet's thermal lines to the motor file, or give them in [motor_override]"});
   if (h.motor)
     if (auto lost = design::lost_magnets(h.housing_degC ? "heat.housing_degC" : "heat.ambient_degC", s.sheet,

@@ -81,7 +81,7 @@ void check_signal(const Asked& a) {
     case TakenOf::band:
     case TakenOf::energies:
       if (given)
-        a.refuse("signal", quoted(signal), "is nothing that " + quoted(a.m.metric) + " is taken of",
+        a.refuse("signal", quoted(signal), "has no effect: " + quoted(a.m.metric) + " has no signal",
                  "remove signal");
       return;
     case TakenOf::switching:
@@ -137,7 +137,8 @@ void check_level(const Asked& a) {
              "give the level that the signal is to reach, in its own unit");
   const Measure usual;
   const auto looks_not = [&a](const char* key, double value) {
-    a.refuse(key, base::written(value), "is nothing that " + quoted(a.m.metric) + " looks at", "remove it");
+    a.refuse(key, base::written(value), "has no effect: " + quoted(a.m.metric) + " does not use it",
+             "remove it");
   };
   if (a.m.level && !wanted) looks_not("level", *a.m.level);
   if (a.m.start && !is_of_a_step(a.m.metric)) looks_not("start", *a.m.start);
@@ -145,7 +146,7 @@ void check_level(const Asked& a) {
     looks_not("fraction", a.m.fraction);
   if (a.m.band != usual.band && a.m.metric != MetricKind::settling_time) looks_not("band", a.m.band);
   if (a.m.tail && !is_of_a_level(a.m.metric))
-    a.refuse("tail", base::written(*a.m.tail), "is nothing that " + quoted(a.m.metric) + " looks at",
+    a.refuse("tail", base::written(*a.m.tail), "has no effect: " + quoted(a.m.metric) + " does not use it",
              "remove it, or set from_s and to_s");
   if (a.m.tail && is_of_a_level(a.m.metric) && a.m.level)
     a.refuse("tail", base::written(*a.m.tail), "is a part of the reference's levels, and level is given",
@@ -160,7 +161,7 @@ void check_levels_of_reference(const Asked& a) {
     a.refuse(
         "metric", quoted(a.m.metric),
         "needs constant levels of the reference, and the reference moves in this window",
-        "give level, start and from_s, or set from_s and to_s to a time with a constant reference, or take "
+        "give level, start and from_s, or set from_s and to_s to a constant part of the reference; or take "
         "max and min of the error, as signal = \"speed_error_rad_s\"");
   if (takes_levels && !a.m.level && changes_mode(a.s))
     a.refuse("level", "",
@@ -171,11 +172,11 @@ void check_levels_of_reference(const Asked& a) {
 void check_sampled(const Asked& a) {
   if (!a.m.sampled) return;
   if (fact_of(a.m.metric).of != TakenOf::signal)
-    a.refuse("sampled", "true", "would miss what " + quoted(a.m.metric) + " is about",
+    a.refuse("sampled", "true", "would falsify " + quoted(a.m.metric) + ", which needs the whole curve",
              "remove it: the whole curve is evaluated");
   else if (!is_known_at_samples(a.m.signal))
     a.refuse("sampled", "true",
-             "says little of " + quoted(a.m.signal) + ", which jumps where the samples are taken",
+             "is not valid for " + quoted(a.m.signal) + ", which jumps where the samples are taken",
              "remove it: the whole curve is evaluated");
 }
 
@@ -184,7 +185,7 @@ void check_fundamental(const Asked& a) {
   if (fact_of(a.m.metric).of != TakenOf::fundamental) {
     if (frequency_Hz)
       a.refuse("frequency_Hz", base::written(*frequency_Hz),
-               "is nothing that " + quoted(a.m.metric) + " looks at", "remove it");
+               "has no effect: " + quoted(a.m.metric) + " does not use it", "remove it");
     return;
   }
   if (frequency_Hz && whole_periods({a.from_s(), a.to_s()}, *frequency_Hz) < 1.0)

@@ -73,8 +73,8 @@ void check_others(const Scenario& s, base::Problems& out) {
   if (s.sensors.bus_bandwidth_Hz && control::observes(s.control.sensorless.follows))
     out.push_back(
         {"sensors.bus_bandwidth_Hz", base::written(*s.sensors.bus_bandwidth_Hz),
-         "is also that of the terminals' dividers: after a diode turns off within the pulse, the sample is "
-         "wrong by up to half the bus, and an observer keeps the error for periods",
+         "is also that of the terminals' dividers. After a diode turns off within the pulse, the sample is "
+         "wrong by up to half the bus; an observer keeps this error for periods",
          "remove it, or set control.sensorless.follows = \"crossings\""});
   if (s.sheet.kind == design::MotorKind::linear)
     out.push_back({"control.drive", "\"sensorless\"", "starts turning motors, and this one is linear",

@@ -102,10 +102,9 @@ base::Problems check_position_profile(const Scenario& s, const Basis& basis,
                        ", or raise control.speed.torque_limit_Nm"});
   const double no_load = reached_rad_s(s, basis, 0.0);
   if (wanted.speed_rad_s && *wanted.speed_rad_s > no_load)
-    out.push_back(
-        {"control.position.profile.speed_rad_s", base::written(*wanted.speed_rad_s),
-         "is above what the bus reaches without any load, " + base::three_digits(no_load) + " rad/s",
-         "lower it, or raise supply.voltage_V"});
+    out.push_back({"control.position.profile.speed_rad_s", base::written(*wanted.speed_rad_s),
+                   "is above the no-load speed of the bus, " + base::three_digits(no_load) + " rad/s",
+                   "lower it, or raise supply.voltage_V"});
   if (limits.smoothing_s > control::jerk_profile_longest * s.pwm.period_s)
     out.push_back(
         {wanted.jerk_rad_s3 ? "control.position.profile.jerk_rad_s3" : "control.position.profile.smoothing_s",

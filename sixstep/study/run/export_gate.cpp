@@ -92,7 +92,7 @@ std::string cure_by_hall(const Scenario& s) {
   std::string cure = "set rotor = \"hall\"";
   if (s.sensors.shaft == SensorShaft::load) cure += " and shaft = \"motor\"";
   if (const std::string gone = of_this_sensor(s, without); !gone.empty())
-    cure += ", leave out what is of the other sensor (" + gone + ")";
+    cure += ", remove the keys of the other sensor (" + gone + ")";
   if (!is_cascade(s)) return cure;
   const base::Result<design::MotorModel> motor = design::motor_model(s.sheet);
   const std::string step = motor ? base::three_digits(60.0 / motor->machine.pole_pairs) + " deg" : "a step";
@@ -146,11 +146,11 @@ void look_at_dead_time(const Scenario& s, base::Problems& out) {
   if (s.control.mode != Mode::off && s.bridge.dead_time_s > 0 && counted_s < shortest_s)
     out.push_back({"bridge.dead_time_s", written(s.bridge.dead_time_s),
                    "is over before any switch is off: less than 20e-9",
-                   "give what the gate drivers need, as 500e-9"});
+                   "give the gate drivers' dead time, as 500e-9"});
   if (s.control.mode != Mode::off && !(s.bridge.dead_time_s > 0))
     out.push_back({"bridge.dead_time_s", written(s.bridge.dead_time_s),
                    "turns one switch of a leg on while the other turns off, and real ones short the bus then",
-                   "give what the gate drivers need, as 500e-9"});
+                   "give the gate drivers' dead time, as 500e-9"});
 }
 
 /// A chip keeps its configured constants, and the bridge its dead time.

@@ -55,7 +55,7 @@ std::string on_bus(const Scenario& s, const RunWatch& w) {
   const double open = highest_open_V(s);
   if (sinks || caught || !(w.highest_bus_V > risen_part * open)) return {};
   return "the bus rose to " + few_digits(w.highest_bus_V) + " V, " + few_digits(w.highest_bus_V / open) +
-         " times what its source has: the source takes nothing back" +
+         " times its source's voltage: the source takes no current back" +
          (rectifier ? "" : " (supply.sinks = false)") +
          "; give it a chopper (supply.brake_resistance_ohm), a larger supply.capacitance_F or "
          "control.regeneration.limit_V";

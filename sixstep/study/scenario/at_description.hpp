@@ -113,7 +113,7 @@ inline void describe(base::Visitor& v, AtControl& s) {
 
 inline void describe(base::Visitor& v, AtPwm& s) {
   v.choice("chopping", s.chopping, at_chopping_choices,
-           {.meaning = "which switches are chopped from the next control sample on"});
+           {.meaning = "chopped switches from the next control sample on"});
 }
 
 inline constexpr base::Choice<Switch> switch_choices[] = {
@@ -139,7 +139,7 @@ inline void describe(base::Visitor& v, AtBridge& s) {
       "shorted_switch", s.shorted_switch, switch_choices,
       {.meaning = "a switch that is on for ever from then on: the other gate of its leg shoots through"});
   v.choice("phases", s.phases, at_phase_order_choices,
-           {.meaning = "which phase of the motor is wired to legs a, b, c of the bridge from then on"});
+           {.meaning = "phases of the motor at legs a, b, c of the bridge from then on"});
   v.value("dead_time_s", s.dead_time_s,
           {.meaning =
                "pause between turning one switch of a leg off and the other on, of the changes from then on",

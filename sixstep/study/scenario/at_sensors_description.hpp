@@ -24,7 +24,7 @@ inline constexpr base::Choice<PinLevel> pin_level_choices[] = {
 };
 
 inline void describe(base::Visitor& v, AtHallBreak& s) {
-  v.value("line", s.line, {.meaning = "which of H1, H2, H3", .range = base::between(1, 3)});
+  v.value("line", s.line, {.meaning = "number of the Hall line: 1, 2 or 3", .range = base::between(1, 3)});
   v.choice("level", s.level, pin_level_choices, {.meaning = "level that the pin reads from then on"});
 }
 
@@ -70,7 +70,7 @@ inline constexpr base::Choice<EncoderLine> encoder_line_choices[] = {
 };
 
 inline void describe(base::Visitor& v, AtEncoderLine& s) {
-  v.choice("line", s.line, encoder_line_choices, {.meaning = "which of the encoder's three lines"});
+  v.choice("line", s.line, encoder_line_choices, {.meaning = "line of the encoder"});
   v.choice(
       "level", s.level, encoder_level_choices,
       {.meaning =
@@ -95,9 +95,9 @@ inline constexpr base::Choice<Wire> divider_choices[] = {
 inline void describe(base::Visitor& v, AtSensors& s) {
   v.table("hall_break", s.hall_break, {.meaning = "a Hall line that breaks then, or is whole again"});
   v.choice("hall_lines", s.hall_lines, at_hall_order_choices,
-           {.meaning = "which Hall probe is wired to pins H1, H2, H3 of the board from then on"});
+           {.meaning = "Hall probes at pins H1, H2, H3 of the board from then on"});
   v.choice("hall_inverted", s.hall_inverted, at_hall_inverted_choices,
-           {.meaning = "which pins H1, H2, H3 read their probe inverted from then on"});
+           {.meaning = "pins H1, H2, H3 that read their probe inverted from then on"});
   v.value(
       "current_offset_A", s.current_offset_A,
       {.meaning =

@@ -60,7 +60,7 @@ inline void describe(base::Visitor& v, CurrentLoop& s) {
   v.choice("feedback", s.feedback, current_feedback_choices,
            {.meaning = "current that the controller reads"});
   v.choice("commutation", s.commutation, current_commutation_choices,
-           {.meaning = "pi: what happens while a commutation lasts"});
+           {.meaning = "pi: control during a commutation"});
   v.value(
       "correction", s.correction,
       {.meaning =
@@ -84,7 +84,7 @@ inline void describe(base::Visitor& v, SpeedLoop& s) {
   v.choice("law", s.law, speed_law_choices,
            {.meaning = "algorithm of the speed controller; each is designed for settle_s"});
   v.choice("form", s.form, speed_form_choices,
-           {.meaning = "how its PI is computed; short of the limit both forms are one controller"});
+           {.meaning = "form of its PI; below the limit both forms are equal"});
   describe_gains(v, s, speed_gain_meanings);
   v.value("torque_limit_Nm", s.torque_limit_Nm,
           {.meaning = "torque at the speed controller's full output. Default: torque of 2.5 times the "
@@ -141,10 +141,10 @@ inline void describe(base::Visitor& v, PositionProfile& s) {
       {.meaning = "time in which the acceleration rises, acceleration over jerk; without both speed.settle_s",
        .unit = "s",
        .range = from(0)});
-  v.value("feed_forward", s.feed_forward,
-          {.meaning =
-               "whether the profile's speed is added to the position loop's output, and the torque for its "
-               "acceleration and the sheet's friction to the speed loop's output"});
+  v.value(
+      "feed_forward", s.feed_forward,
+      {.meaning = "feed-forward: the profile's speed is added to the position loop's output, the torque for "
+                  "acceleration and the sheet's friction to the speed loop's output"});
 }
 
 inline void describe(base::Visitor& v, PositionLoop& s) {
@@ -280,7 +280,7 @@ inline void describe(base::Visitor& v, Control& s) {
       "sensorless", s.sensorless,
       {.meaning = "sensorless drive: start and quantity that it follows; designed from the motor's sheet"});
   v.table("field", s.field,
-          {.meaning = "field-oriented drive: how the currents along the magnet and across it are held"});
+          {.meaning = "field-oriented drive: control of the currents along the magnet and across it"});
   v.table("own", s.own, {.meaning = "the user's controller: its file and its numbers"});
 }
 

@@ -20,13 +20,13 @@ inline void describe(base::Visitor& v, Load& s) {
        .unit = "N m",
        .also = words::force});
   v.value("times_s", s.times_s,
-          {.meaning = "when each of torques_Nm begins, rising", .unit = "s", .range = from(0)});
+          {.meaning = "times at which the torques_Nm begin, rising", .unit = "s", .range = from(0)});
   v.value("torques_Nm", s.torques_Nm,
           {.meaning = "load torques, each from its time on, instead of torque_Nm",
            .unit = "N m",
            .also = words::forces});
   v.choice("between", s.between, between_choices,
-           {.meaning = "how the load goes from one of torques_Nm to the next"});
+           {.meaning = "transition from one of torques_Nm to the next"});
   v.value("at_speeds_rad_s", s.at_speeds_rad_s,
           {.meaning = "speeds of the load, rising, where at_speeds_Nm are given",
            .unit = "rad/s",
@@ -37,7 +37,7 @@ inline void describe(base::Visitor& v, Load& s) {
        .unit = "N m",
        .also = words::at_speeds_forces});
   v.value("dynamometer_times_s", s.dynamometer_times_s,
-          {.meaning = "dynamometer: when the load has each of dynamometer_rad_s, from 0 on, rising",
+          {.meaning = "dynamometer: times of the dynamometer_rad_s, from 0 on, rising",
            .unit = "s",
            .range = from(0)});
   v.value(

@@ -59,7 +59,7 @@ inline void describe(base::Visitor& v, Comparison& s) {
           {.meaning = "value that the source gives, in the figure's unit",
            .required = true,
            .unit_here = figure_unit(s.measure)});
-  v.value("source", s.source, {.meaning = "where the value comes from", .required = true});
+  v.value("source", s.source, {.meaning = "source of the value", .required = true});
 }
 
 }  // namespace sixstep::study

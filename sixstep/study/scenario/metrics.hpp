@@ -74,7 +74,7 @@ inline constexpr MetricFact metric_facts[] = {
      "largest less smallest value in the window: the ripple, peak to peak"},
     {MetricKind::ripple_rms, "ripple_rms", "rms ripple of", "", "rms of the signal less its mean"},
     {MetricKind::overshoot, "overshoot", "overshoot of", "",
-     "how far the signal goes beyond level, in the signal's unit", TakenOf::signal, TakenOver::steps},
+     "overshoot of the signal beyond level, in the signal's unit", TakenOf::signal, TakenOver::steps},
     {MetricKind::reach_time, "reach_time_s", "time to reach,", "s",
      "time until the signal first gets to start + fraction (level - start); without level: the slowest over "
      "all steps of the reference",

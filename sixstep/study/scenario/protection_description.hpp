@@ -9,18 +9,17 @@ namespace sixstep::study {
 
 inline void describe(base::Visitor& v, Align& s) {
   v.value("current_A", s.current_A,
-          {.meaning = "current that pulls the rotor into place before it runs; without it there is no "
-                      "alignment",
+          {.meaning = "current that aligns the rotor before it runs. Default: no alignment",
            .unit = "A",
            .range = base::above(0)});
   v.value("longest_s", s.longest_s,
-          {.meaning = "time after which a rotor that is not in place is a fault",
+          {.meaning = "time after which a rotor that is not aligned is a fault",
            .unit = "s",
            .range = base::above(0)});
   v.value("settled_s", s.settled_s,
-          {.meaning = "time that it must stay in place", .unit = "s", .range = base::from(0)});
+          {.meaning = "time for which the rotor must stay aligned", .unit = "s", .range = base::from(0)});
   v.value("sector", s.sector,
-          {.meaning = "sector whose pair pulls: the rotor goes to the edge between the next two",
+          {.meaning = "sector whose pair aligns: the rotor moves to the edge between the next two",
            .range = base::between(0, 5)});
 }
 
@@ -39,7 +38,8 @@ inline void describe_thresholds(base::Visitor& v, Protection& s) {
            .range = above(0),
            .also = words::over_speed});
   v.value("voltage_samples", s.voltage_samples,
-          {.meaning = "samples in a row that a voltage must be wrong", .range = base::between(1, 255)});
+          {.meaning = "number of consecutive samples of a wrong voltage that make a fault",
+           .range = base::between(1, 255)});
   v.value("stall_current_A", s.stall_current_A,
           {.meaning = "a phase current above it without a Hall edge for stall_s is a fault; without both, "
                       "stalling is not watched",
@@ -58,7 +58,7 @@ inline void describe_thresholds(base::Visitor& v, Protection& s) {
 inline void describe(base::Visitor& v, Protection& s) {
   using base::from;
   describe_thresholds(v, s);
-  v.table("align", s.align, {.meaning = "pulling the rotor into place before it runs"});
+  v.table("align", s.align, {.meaning = "alignment of the rotor before it runs"});
   v.value("brake_current_A", s.brake_current_A,
           {.meaning = "braking current after the request to run is removed; 0: the motor coasts",
            .unit = "A",
@@ -76,7 +76,7 @@ inline void describe(base::Visitor& v, Protection& s) {
            .range = from(0),
            .also = words::standing});
   v.value("off_at_s", s.off_at_s,
-          {.meaning = "when the request to run is removed; without it never. It is raised at 0",
+          {.meaning = "time at which the request to run is removed. Default: never. The request begins at 0",
            .unit = "s",
            .range = from(0)});
 }

@@ -32,8 +32,7 @@ inline void describe_moving(base::Visitor& v, Reference& s) {
            .range = base::above(0),
            .mode_unit = "*/s"});
   v.value("acceleration", s.acceleration,
-          {.meaning = "trapezoid: how fast the rate itself changes at both ends, in the unit of control.mode "
-                      "per s2",
+          {.meaning = "trapezoid: change of the rate at both ends, in the unit of control.mode per s2",
            .range = base::above(0),
            .mode_unit = "*/s2"});
   v.value("offset", s.offset, {.meaning = "sine: its mean, in the unit of control.mode", .mode_unit = "*"});
@@ -46,11 +45,13 @@ inline void describe_moving(base::Visitor& v, Reference& s) {
 }
 
 inline void describe(base::Visitor& v, Reference& s) {
-  v.choice("shape", s.shape, shape_choices, {.meaning = "how the reference runs over time"});
+  v.choice("shape", s.shape, shape_choices, {.meaning = "course of the reference over time"});
   v.value("value", s.value,
           {.meaning = "constant: the reference, in the unit of control.mode", .mode_unit = "*"});
   v.value("times_s", s.times_s,
-          {.meaning = "steps, csv: when each of values holds, rising", .unit = "s", .range = base::from(0)});
+          {.meaning = "steps, csv: times at which the values begin, rising",
+           .unit = "s",
+           .range = base::from(0)});
   v.value("values", s.values,
           {.meaning = "steps, csv: the references, in the unit of control.mode", .mode_unit = "*"});
   v.value("high", s.high,

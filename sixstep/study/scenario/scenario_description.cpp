@@ -24,12 +24,13 @@ void describe(base::Visitor& v, Pwm& s) {
           {.meaning = "PWM period, 1 over its frequency, and the controller's sampling period",
            .unit = "s",
            .range = between(shortest_period_s, 1)});
-  v.choice("alignment", s.alignment, alignment_choices, {.meaning = "where in the period the on-time lies"});
-  v.choice("chopping", s.chopping, chopping_choices, {.meaning = "which switches are chopped"});
+  v.choice("alignment", s.alignment, alignment_choices, {.meaning = "position of the on-time in the period"});
+  v.choice("chopping", s.chopping, chopping_choices, {.meaning = "chopped switches"});
   v.choice("pattern", s.pattern, pattern_choices,
-           {.meaning = "which of the pair's switches is chopped, where chopping is soft or complementary"});
-  v.choice("commutation", s.commutation, commutation_choices, {.meaning = "when the driven pair changes"});
-  v.choice("sample", s.sample, sample_choices, {.meaning = "when in the period the controller samples"});
+           {.meaning = "chopped switch of the pair, where chopping is soft or complementary"});
+  v.choice("commutation", s.commutation, commutation_choices,
+           {.meaning = "instant at which the driven pair changes"});
+  v.choice("sample", s.sample, sample_choices, {.meaning = "sample instant in the period"});
   v.value("delay_periods", s.delay_periods,
           {.meaning = "periods from a sample until its result takes effect", .range = between(0, 1)});
   v.value("timer_Hz", s.timer_Hz,
@@ -67,15 +68,15 @@ void describe(base::Visitor& v, Record& s) {
 }
 
 void describe(base::Visitor& v, Spread& s) {
-  v.value(
-      "key", s.key,
-      {.meaning =
-           "number that differs from run to run, as supply.voltage_V: of motor_override (resistance_ohm, "
-           "inductance_mH, torque_constant_mNm_A or back_emf_mV_s, inertia_gcm2, viscous_friction_Nm_s, "
-           "coulomb_friction_mNm, iron_viscous_Nm_s, iron_coulomb_mNm, flat_deg), supply, bridge, load or initial, "
-           "a Hall edge (sensors.hall_edges_deg[0], the first one) or sensors.hall_offset_deg",
-       .required = true});
-  v.choice("distribution", s.distribution, distribution_choices, {.meaning = "how likely each value is"});
+  v.value("key", s.key,
+          {.meaning =
+               "number that differs from run to run, such as supply.voltage_V. Allowed: motor_override "
+               "(resistance_ohm, inductance_mH, torque_constant_mNm_A or back_emf_mV_s, inertia_gcm2, "
+               "viscous_friction_Nm_s, coulomb_friction_mNm, iron_viscous_Nm_s, iron_coulomb_mNm, flat_deg); "
+               "supply, bridge, load or initial; a Hall edge (sensors.hall_edges_deg[0], the first one) or "
+               "sensors.hall_offset_deg",
+           .required = true});
+  v.choice("distribution", s.distribution, distribution_choices, {.meaning = "distribution of the values"});
   v.value("relative", s.relative,
           {.meaning = "half width (uniform) or standard deviation (normal), as a part of the key's value",
            .range = above(0)});
@@ -85,7 +86,7 @@ void describe(base::Visitor& v, Spread& s) {
            .unit_of = s.key});
   v.value("cut_sigma", s.cut_sigma,
           {.meaning = "normal: standard deviations beyond which no value is drawn", .range = from(1)});
-  v.value("source", s.source, {.meaning = "where the width comes from"});
+  v.value("source", s.source, {.meaning = "source of the width"});
 }
 
 void describe(base::Visitor& v, Scenario& s) {
@@ -127,8 +128,8 @@ void describe(base::Visitor& v, Scenario& s) {
   v.list("require", s.require, {.meaning = "figures that decide whether the run passes"});
   v.list("compare", s.compare, {.meaning = "figures shown beside those of a source; they decide nothing"});
   v.list("spread", s.spread,
-         {.meaning = "how drives of a series differ, for many runs; the controller stays designed "
-                     "for the values as written"});
+         {.meaning = "differences between the drives of a series; the controller stays designed for the "
+                     "values as written"});
 }
 
 }  // namespace sixstep::study

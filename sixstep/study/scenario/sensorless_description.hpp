@@ -59,7 +59,7 @@ inline void describe(base::Visitor& v, Sensorless& s) {
   v.value("catches_spin", s.catches_spin,
           {.meaning = "whether the drive checks for a rotor that already turns, before it aligns it"});
   v.choice("starts_by", s.starts_by, starts_by_choices,
-           {.meaning = "how a rotor at rest is found; pulses needs sensors.currents = \"phases\""});
+           {.meaning = "method to find a rotor at rest; pulses needs sensors.currents = \"phases\""});
   v.choice("commutates", s.commutates, commutates_choices,
            {.meaning = "source of the commutation; hall needs sensors.rotor = \"hall\""});
   v.value("falls_back", s.falls_back,

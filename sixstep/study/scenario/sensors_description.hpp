@@ -75,7 +75,9 @@ inline constexpr base::Choice<control::HallArrangement> hall_spacing_choices[] =
 inline void describe(base::Visitor& v, HallBreak& s) {
   using base::between;
   v.value("at_s", s.at_s,
-          {.meaning = "when a Hall line sticks; without it none does", .unit = "s", .range = base::from(0)});
+          {.meaning = "time at which a Hall line sticks. Default: none sticks",
+           .unit = "s",
+           .range = base::from(0)});
   v.value("line", s.line, {.meaning = "number of the line, H1 to H3", .range = between(1, 3)});
   v.choice("level", s.level, level_choices, {.meaning = "level it sticks at"});
 }
@@ -205,7 +207,7 @@ inline void describe(base::Visitor& v, Sensors& s) {
           {.meaning = "seed of the noise; the same seed gives the same run",
            .range = base::between(0, 2147483647)});
   v.choice("hall_lines", s.hall_lines, hall_order_choices,
-           {.meaning = "which Hall probe is wired to pins H1, H2, H3 of the board"});
+           {.meaning = "Hall probes at pins H1, H2, H3 of the board"});
   v.choice("hall_inverted", s.hall_inverted, hall_inverted_choices,
            {.meaning = "pins H1, H2, H3 that read their probe inverted, as with a probe whose output has the "
                        "opposite polarity"});

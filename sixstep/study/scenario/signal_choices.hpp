@@ -106,7 +106,7 @@ inline constexpr SignalFact signal_facts[] = {
     {Signal::source_current, "source_A", "current of the source", "A",
      "current out of the source into capacitor and bridge", SignalKind::series},
     {Signal::capacitor_current, "capacitor_A", "current of the bus capacitor", "A",
-     "current into the bus capacitor: its rms is what heats it", SignalKind::series},
+     "current into the bus capacitor: its rms heats the capacitor", SignalKind::series},
     {Signal::battery_charge, "battery_charge", "charge of the battery", "1",
      "charge of the battery, of the whole", SignalKind::series},
     {Signal::battery_recovery, "battery_recovery_V", "recovering voltage of the battery", "V",
