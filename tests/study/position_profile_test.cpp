@@ -232,9 +232,9 @@ TEST(PositionProfile, ContradictionsAreTold) {
           "control.position.profile.speed_rad_s = 100 is above control.position.speed_limit_rad_s = 80"));
   EXPECT_THAT(with([](Control& c) { c.slew = 10.0; }), HasSubstr("control.slew = 10 shapes a setpoint"));
   EXPECT_THAT(with([](Control& c) { c.arithmetic = Arithmetic::q31; }),
-              HasSubstr("control.arithmetic = q31 has no room for"));
+              HasSubstr("control.arithmetic = q31 has too few digits for"));
   EXPECT_THAT(with([](Control& c) { c.speed.law = study::SpeedLaw::disturbance_rejection; }),
-              HasSubstr("would take for a load"));
+              HasSubstr("would estimate as a load"));
   EXPECT_EQ(with([](Control& c) {
               c.speed.law = study::SpeedLaw::disturbance_rejection;
               c.position.profile.feed_forward = false;

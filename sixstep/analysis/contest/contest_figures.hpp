@@ -138,7 +138,7 @@ inline constexpr ContestFigure contest_figures[] = {
      {Gauge::distortion, Gauge::none, Gauge::none}},
     {"copper", "copper loss", "W", ContestGroup::steady, {Gauge::copper, Gauge::none, Gauge::none}},
     {"bridge", "bridge loss", "W", ContestGroup::steady, {Gauge::conduction, Gauge::switching, Gauge::none}},
-    {"losses", "total loss", "W", ContestGroup::steady, {Gauge::copper, Gauge::conduction, Gauge::switching}},
+    {"losses", "loss in all", "W", ContestGroup::steady, {Gauge::copper, Gauge::conduction, Gauge::switching}},
     {"turn-ons",
      "turn-ons of a switch",
      "Hz",

@@ -285,11 +285,11 @@ TEST(Emf, WhatIsNoRecordingIsToldWhy) {
   analysis::EmfRequest request = drawn_record(clean(false));
   const analysis::EmfRequest good = request;
   request.record.channels[0].u_V.assign(request.record.t_s.size(), 0.3);
-  EXPECT_THAT(told(request), HasSubstr("ch1 = 0.3 V in every row: the motor stood"));
+  EXPECT_THAT(told(request), HasSubstr("ch1 = 0.3 V in every row: the motor was at rest"));
   Draw draw(3);
   for (double& u : request.record.channels[0].u_V) u = normal(draw);
   EXPECT_THAT(told(request),
-              ::testing::AnyOf(HasSubstr("is no voltage that repeats"), HasSubstr("ch1 is noise")));
+              ::testing::AnyOf(HasSubstr("is not a voltage that repeats"), HasSubstr("ch1 is noise")));
   EmfTruth brief = clean(false);
   brief.periods = 1.2;
   EXPECT_THAT(told(drawn_record(brief)),
