@@ -54,7 +54,7 @@ struct Spelling {
 
 /// The data of one key that a face needs.
 struct About {
-  std::string_view meaning;     ///< one plain sentence, no full stop
+  std::string_view meaning;     ///< one or two plain sentences, no full stop at the end
   std::string_view unit = "";   ///< "V", "rad/s"; empty for counts, words and ratios
   std::string_view frame = "";  ///< allowed frames, '|' between: "terminal|phase"; empty if only one exists
   Range range = {};             ///< range of the written number

@@ -239,7 +239,8 @@ TEST(Recording, WrongSeparators) {
 TEST(Recording, TooShortStandingOrDead) {
   EXPECT_THAT(told_of_hall(hall_log(12)), StartsWith("hall1, hall2, hall3 pass 11 edges; 18 are needed"));
   EXPECT_THAT(told_of_hall("time [s],hall\n0,4\n"), StartsWith("time = 1 rows are too few"));
-  EXPECT_THAT(told_of_hall(hall_log(1)), StartsWith("hall1, hall2, hall3 never change: the rotor was at rest"));
+  EXPECT_THAT(told_of_hall(hall_log(1)),
+              StartsWith("hall1, hall2, hall3 never change: the rotor was at rest"));
   std::string dead = hall_log(36);
   for (std::size_t end = dead.find('\n', dead.find('\n') + 1); end != std::string::npos;
        end = dead.find('\n', end + 1))

@@ -78,8 +78,7 @@ class Checker {
     if (plan_.sampling != Sampling::grid && !plan_.axes.empty() && plan_.points == 0)
       add("points", "0", "leaves no point to run", "give the number of points");
     if (plan_.sampling == Sampling::saltelli && plan_.drives > 0)
-      add("drives", std::to_string(plan_.drives),
-          "stray at random, and Sobol indices need points that differ as planned",
+      add("drives", std::to_string(plan_.drives), "vary at random, and Sobol indices need planned points",
           "vary these values over their range, with strays = true");
     if (problems_.empty() && too_many())
       add("points", "", "are more than a thousand million runs", "take fewer values or points");

@@ -121,7 +121,7 @@ RunRecord record_of(const TableColumns& columns, std::size_t number, std::vector
   if (planned && same_keys(planned->strayed, columns->strayed))
     for (std::size_t n = 0; n < values.strayed.size(); ++n) values.strayed[n] = planned->strayed[n].value;
   else if (planned)
-    return *without_figures("other values stray in this run than in the table's other runs");
+    return *without_figures("this run has other random values than the table's other runs");
   if (!result) return *without_figures(base::to_string(result.problems().front()));
   std::optional<std::vector<double>> figures = figures_of(*result, *columns);
   if (!figures)

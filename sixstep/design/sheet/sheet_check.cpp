@@ -27,7 +27,7 @@ constexpr Reason reasons[] = {
     {"nominal_torque_mNm",
      "a rating; makers disagree whether friction is subtracted, so K_t is not read from it"},
     {"nominal_current_A", "a rating"},
-    {"stall_torque_mNm", "no part of the motor: the relations hold it against the others"},
+    {"stall_torque_mNm", "not a parameter of the motor: the relations compare it with the other values"},
     {"stall_current_A", "follows from U / R"},
     {"max_efficiency_percent", "follows from the other lines"},
     {"speed_torque_gradient_rpm_mNm", "follows from R and K_t"},
@@ -90,7 +90,7 @@ class Lines final : public base::Visitor {
         key.starts_with("second_") ? f.split_viscous_Nm_s.has_value() : f.no_load_speed_rad_s > 0.0;
     if (whole || std::find(used.begin(), used.end(), "viscous_friction_Nm_s") != used.end())
       return "friction is given by other lines";
-    return "friction comes of a no-load current with its speed, or with its voltage, R and K_t";
+    return "friction follows from a no-load current with its speed, or with its voltage, R and K_t";
   }
   const SheetConstants& constants_;
 };

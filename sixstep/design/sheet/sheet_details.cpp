@@ -137,7 +137,7 @@ std::string left_to_a_run(const Sheet& s) {
   if (is_salient(s)) parts.push_back("the saliency of the rotor");
   if (s.saturation_current_A) parts.push_back("the saturation along the magnets");
   if (!s.phase_resistance_deviation.empty() || !s.phase_back_emf_deviation.empty())
-    parts.push_back("phases that stray");
+    parts.push_back("unequal phases");
   if (!s.cogging_orders.empty()) parts.push_back("cogging");
   std::string text;
   for (std::size_t n = 0; n < parts.size(); ++n)

@@ -74,7 +74,8 @@ void check_battery(const Supply& s, base::Problems& out) {
       break;
     }
   if (!(s.battery_capacity_Ah > 0))
-    out.push_back({"supply.battery_capacity_Ah", "", "is missing", "give the battery's whole charge, as 5"});
+    out.push_back(
+        {"supply.battery_capacity_Ah", "", "is missing", "give the charge of the full battery, as 5"});
   if ((s.battery_recovery_ohm > 0) != (s.battery_recovery_F > 0))
     out.push_back({"supply.battery_recovery_ohm", base::six_digits(s.battery_recovery_ohm),
                    "and supply.battery_recovery_F belong together", "give both, or none"});

@@ -58,7 +58,7 @@ std::vector<Column> turning_columns() {
       of(Signal::source_current, "out of the source", "current of the source"),
       of(Signal::loop_current, "delta", "loop current, the sum of the branch currents"),
       of(Signal::capacitor_current, "into the capacitor", "current of the bus capacitor"),
-      of(Signal::battery_charge, "", "charge of the battery, of the whole"),
+      of(Signal::battery_charge, "", "charge of the battery, relative to the full charge"),
       of(Signal::battery_recovery, "", "voltage of the battery that recovers slowly, v_1"),
       of(Signal::winding_temperature, "", "temperature of the winding"),
       of(Signal::housing_temperature, "", "temperature of housing and magnets"),

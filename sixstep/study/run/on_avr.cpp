@@ -53,7 +53,7 @@ void need_timer(const Scenario& s, base::Problems& out) {
   const double counts = s.pwm.period_s * clock_Hz / 2;
   const double whole = std::floor(counts + 0.5);
   need(counts >= 2 && counts <= most_counts && counts - whole < 1e-6 && whole - counts < 1e-6, out,
-       "pwm.period_s", "is no whole number of timer 1's 125 ns", "take a multiple of 125 ns up to 8 ms");
+       "pwm.period_s", "is not a whole number of timer 1's 125 ns", "take a multiple of 125 ns up to 8 ms");
 }
 
 /// Changes of transducers that other boards simulate and this board does not.

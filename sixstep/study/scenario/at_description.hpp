@@ -137,7 +137,8 @@ inline void describe(base::Visitor& v, AtBridge& s) {
            {.meaning = "a switch whose gate no longer acts from then on: it is off, its diode stays"});
   v.choice(
       "shorted_switch", s.shorted_switch, switch_choices,
-      {.meaning = "a switch that is on for ever from then on: the other gate of its leg shoots through"});
+      {.meaning =
+           "a switch that stays on from then on: turning on the other switch of its leg causes shoot-through"});
   v.choice("phases", s.phases, at_phase_order_choices,
            {.meaning = "phases of the motor at legs a, b, c of the bridge from then on"});
   v.value("dead_time_s", s.dead_time_s,
@@ -148,7 +149,7 @@ inline void describe(base::Visitor& v, AtBridge& s) {
 }
 
 inline constexpr base::Choice<Wire> wire_choices[] = {
-    {"none", Wire::none, "all three are whole"},
+    {"none", Wire::none, "all three are intact"},
     {"a", Wire::a, "the wire of terminal a"},
     {"b", Wire::b, "the wire of terminal b"},
     {"c", Wire::c, "the wire of terminal c"},

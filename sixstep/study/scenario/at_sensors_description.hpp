@@ -82,18 +82,18 @@ inline constexpr base::Choice<Winding> winding_choices[] = {
     {"none", Winding::none, "none breaks"},
     {"cosine", Winding::cosine, "the winding of the cosine"},
     {"sine", Winding::sine, "the winding of the sine"},
-    {"whole", Winding::whole, "both are whole again"},
+    {"whole", Winding::whole, "both are intact again"},
 };
 
 inline constexpr base::Choice<Wire> divider_choices[] = {
-    {"none", Wire::none, "all three are whole"},
+    {"none", Wire::none, "all three are intact"},
     {"a", Wire::a, "that of terminal a"},
     {"b", Wire::b, "that of terminal b"},
     {"c", Wire::c, "that of terminal c"},
 };
 
 inline void describe(base::Visitor& v, AtSensors& s) {
-  v.table("hall_break", s.hall_break, {.meaning = "a Hall line that breaks then, or is whole again"});
+  v.table("hall_break", s.hall_break, {.meaning = "a Hall line that breaks then, or is intact again"});
   v.choice("hall_lines", s.hall_lines, at_hall_order_choices,
            {.meaning = "Hall probes at pins H1, H2, H3 of the board from then on"});
   v.choice("hall_inverted", s.hall_inverted, at_hall_inverted_choices,
@@ -111,10 +111,10 @@ inline void describe(base::Visitor& v, AtSensors& s) {
                       "the count",
            .range = base::between(1, 1000000)});
   v.table("bad_track", s.bad_track,
-          {.meaning = "a track of the absolute encoder that sticks from then on, or is whole again",
+          {.meaning = "a track of the absolute encoder that sticks from then on, or is intact again",
            .cure = what_may_change});
   v.table("encoder_line", s.encoder_line,
-          {.meaning = "a line of the incremental encoder that sticks from then on, or is whole again",
+          {.meaning = "a line of the incremental encoder that sticks from then on, or is intact again",
            .cure = what_may_change});
   v.value("false_index", s.false_index,
           {.meaning = "true: a disturbance on line Z, which the timer counts as the index"});

@@ -73,8 +73,8 @@ inline void describe(base::Visitor& v, CurrentLoop& s) {
   v.value("back_emf_feed_forward", s.back_emf_feed_forward,
           {.meaning = "pi: whether the back-EMF at the measured speed is added to the voltage"});
   v.value("measured_bus_from_V", s.measured_bus_from_V,
-          {.meaning = "pi: lowest bus voltage for which the duty follows the measured bus; without it the "
-                      "duty goes by supply.voltage_V",
+          {.meaning = "pi: lowest bus voltage for which the duty follows the measured bus. Default: the "
+                      "duty uses supply.voltage_V",
            .unit = "V",
            .range = above(0)});
 }

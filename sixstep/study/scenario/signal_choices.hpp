@@ -108,7 +108,7 @@ inline constexpr SignalFact signal_facts[] = {
     {Signal::capacitor_current, "capacitor_A", "current of the bus capacitor", "A",
      "current into the bus capacitor: its rms heats the capacitor", SignalKind::series},
     {Signal::battery_charge, "battery_charge", "charge of the battery", "1",
-     "charge of the battery, of the whole", SignalKind::series},
+     "charge of the battery, relative to the full charge", SignalKind::series},
     {Signal::battery_recovery, "battery_recovery_V", "recovering voltage of the battery", "V",
      "voltage across battery_recovery_ohm and battery_recovery_F, by which the battery is below its open-circuit "
      "voltage beside resistance_ohm",

@@ -12,15 +12,16 @@ using base::from;
 
 inline void describe_battery(base::Visitor& v, Supply& s) {
   v.value("battery_charges", s.battery_charges,
-          {.meaning = "charges of a battery, of the whole, rising: where battery_voltages_V are given",
+          {.meaning = "relative charges of a battery at which battery_voltages_V are given, rising, 1: full",
            .range = between(0, 1)});
   v.value(
       "battery_voltages_V", s.battery_voltages_V,
       {.meaning = "open-circuit voltages at battery_charges, lines between", .unit = "V", .range = above(0)});
   v.value("battery_capacity_Ah", s.battery_capacity_Ah,
-          {.meaning = "the battery's whole charge", .unit = "A h", .range = from(0)});
-  v.value("battery_charge", s.battery_charge,
-          {.meaning = "charge of the battery at the start, of the whole", .range = between(0, 1)});
+          {.meaning = "charge of the full battery", .unit = "A h", .range = from(0)});
+  v.value(
+      "battery_charge", s.battery_charge,
+      {.meaning = "charge of the battery at the start, relative to the full charge", .range = between(0, 1)});
   v.value("battery_recovery_ohm", s.battery_recovery_ohm,
           {.meaning = "resistance of the part that recovers slowly after a load, in series with "
                       "resistance_ohm; 0: none",
