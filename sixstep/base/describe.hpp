@@ -45,16 +45,16 @@ struct Spelling {
   std::string_view key;
   int ten = 0;                    ///< value in the key's own unit = written value times 10^ten
   std::string_view unit = "";     ///< unit of the written value; empty: the key's own
-  std::string_view frame = "";    ///< the only possible frame; empty: the key's
+  std::string_view frame = "";    ///< the only possible frame; empty: the frames of the key
   std::string_view source = "";   ///< source that follows from the spelling: "data sheet, line 10"
-  std::string_view meaning = "";  ///< meaning in its only frame; empty: the key's
+  std::string_view meaning = "";  ///< meaning in its only frame; empty: the key's meaning
   double factor = 1.0;            ///< further factor on the written value
   bool linear = false;            ///< the spelling for linear motors, and only for them (base/linear.hpp)
 };
 
 /// The data of one key that a face needs.
 struct About {
-  std::string_view meaning;     ///< one plain sentence, no full stop
+  std::string_view meaning;     ///< one or two plain sentences, no full stop at the end
   std::string_view unit = "";   ///< "V", "rad/s"; empty for counts, words and ratios
   std::string_view frame = "";  ///< allowed frames, '|' between: "terminal|phase"; empty if only one exists
   Range range = {};             ///< range of the written number
@@ -64,8 +64,9 @@ struct About {
   std::span<const Spelling> also = {};  ///< other keys for the same quantity; a file uses one of them
   std::string_view mode_unit = "";      ///< the unit follows from control.mode: "*" is that of its reference,
                                         // "*/s" that unit per second
-  std::string_view unit_here = "";      ///< the unit according to values read before: a figure's, a signal's
-  std::string_view unit_of = "";        ///< path of the key whose unit applies
+  std::string_view unit_here =
+      "";  ///< the unit that follows from values read before: unit of a figure or a signal
+  std::string_view unit_of = "";  ///< path of the key whose unit applies
 };
 
 /// One word of an enumeration as written in files, with its meaning.
@@ -95,7 +96,7 @@ enum class Trust : std::uint8_t {
 
 inline constexpr Choice<Trust> trust_choices[] = {
     {"sheet", Trust::sheet, "the maker's print"},
-    {"measured", Trust::measured, "by somebody else, on one motor"},
+    {"measured", Trust::measured, "by another source, on one motor"},
     {"derived", Trust::derived, "computed from other values"},
 };
 

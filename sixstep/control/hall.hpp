@@ -27,7 +27,7 @@ enum class SectorTime : std::uint8_t {
 enum class HallFault : std::uint8_t {
   none,
   impossible_code,  ///< a broken wire or probe
-  jump              ///< between sectors that are no neighbours: an edge was missed, or noise
+  jump              ///< step between two sectors that are not neighbours: a missed edge or noise
 };
 
 struct HallConfig {

@@ -21,7 +21,7 @@
 //   regeneration  U_s above the limit, and the reference does not drive
 //
 // With all gates off a current only falls, as long as the bus is above the back-EMF. So current, speed and bus
-// voltage exceed a limit at most by what one control period adds: design/loops/limit_bounds.hpp. Faults
+// voltage exceed a limit at most by the change in one control period: design/loops/limit_bounds.hpp. Faults
 // (faults.hpp) are the second protection.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"

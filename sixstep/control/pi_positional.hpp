@@ -32,7 +32,7 @@ struct PiPositionalConfig {
   bool operator==(const PiPositionalConfig&) const = default;
 };
 
-/// K_c = K_i - K_b K; 0 if only the rounding of K_i/K is left of it.
+/// K_c = K_i - K_b K; 0 if only the rounding of K_i/K remains.
 constexpr double gain_beyond_limit(double K, double K_i, double K_b) {
   const double K_c = K_i - K_b * K, least = 1e-9 * (K_i < 0 ? -K_i : K_i);
   return K_c < least && K_c > -least ? 0.0 : K_c;

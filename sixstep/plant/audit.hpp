@@ -109,7 +109,7 @@ inline void Audit<Real>::check_laws(const LegsLaw<Real>& law, const Point& begin
   const auto raise = [](double& worst, Real v) { worst = std::max(worst, static_cast<double>(v)); };
   const auto sum = [](const Point& p) { return detail::abs(p.i[0] + p.i[1] + p.i[2]); };
   raise(laws_.current_sum_A, std::max(sum(begin), sum(end)));
-  // A floating leg stands last, and its current has not changed.
+  // A free leg comes last, and its current has not changed.
   if (law.connected < 3) raise(laws_.floating_current_A, detail::abs(begin.i[2]));
   if (law.connected < 2)
     raise(laws_.floating_current_A, std::max(detail::abs(begin.i[0]), detail::abs(begin.i[1])));

@@ -21,8 +21,8 @@ struct SwitchingLaw {
 
 /// Energy lost in one switch with its diode, J.
 struct DeviceEnergy {
-  double conduction = 0.0, turn_on = 0.0, turn_off = 0.0;  ///< the transistor's
-  double diode = 0.0, recovery = 0.0;                      ///< its antiparallel diode's
+  double conduction = 0.0, turn_on = 0.0, turn_off = 0.0;  ///< energy of the transistor
+  double diode = 0.0, recovery = 0.0;                      ///< energy of its antiparallel diode
 
   double switching() const { return turn_on + turn_off + recovery; }
   /// Energy that heats the switch's junction: a MOSFET's body diode is in the same crystal, an IGBT's diode is not.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes of Hall probes that stand 120 or 60 electrical degrees apart; each is high over half a turn. The controller
+// Codes of Hall probes that are 120 or 60 electrical degrees apart; each is high over half a turn. The controller
 // decodes them with a separate table, so that a wrong entry cannot cancel itself.
 #pragma once
 #include <cstdint>

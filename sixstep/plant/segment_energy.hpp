@@ -39,7 +39,7 @@ struct Moves {
   unsigned connected;  ///< legs
   bool turning;
   bool steady;        ///< the torque is proportional to the first leg's current
-  Real torque_per_A;  ///< that factor, if `steady`
+  Real torque_per_A;  ///< factor of this proportion, if `steady`
 
   [[gnu::always_inline]] bool conducts() const { return connected >= 2; }
 };

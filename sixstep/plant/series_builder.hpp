@@ -17,7 +17,8 @@ struct SeriesBuilder {
   Real reach_w = 0, reach_i = 0, reach_i_2 = 0;               ///< sums of the terms' sizes
   Real later_w = 0, later_x = 0, later_i = 0, later_i_2 = 0;  ///< sums of the terms behind the first
   series::Coefficients<Real> w, x, torque, bus;
-  series::Coefficients<Real> i, i_2;      ///< of the first and, where three legs are connected, second leg
+  series::Coefficients<Real> i,
+      i_2;  ///< currents of the first and, where three legs are connected, second leg
   series::Coefficients<Real> phi0, phi1;  ///< sine only
 };
 

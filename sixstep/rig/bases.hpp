@@ -5,7 +5,7 @@
 
 namespace sixstep::rig {
 
-/// SI values that the controller's number 1.0 stands for (design::Bases). For floating point each is 1.
+/// SI values of the controller's number 1.0 (design::Bases). For floating point each is 1.
 struct Bases {
   double current_A = 1.0;
   double voltage_V = 1.0;

@@ -16,7 +16,8 @@ struct CrossingComparators {
   double lag_s = 0.0;  ///< time constant of each low-pass; 0: no comparators
   CrossingReference against = CrossingReference::virtual_star;
   plant::PerLeg<double> offset_V{};  ///< offset of each comparator, referred to the terminal
-  double hysteresis_V = 0.0;         ///< between the levels of a rising and a falling edge, at the terminal
+  double hysteresis_V =
+      0.0;  ///< difference between the levels of a rising and a falling edge, at the terminal
 };
 
 /// Time constants of first-order lags, s; 0: no lag.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Speed and position from Hall edges, with the angle extrapolated between edges (control/sensing/hall_angle.hpp) and
-// optionally with edge positions that the drive learns while it turns (hall_calibration.hpp). A drive that commutates
+// optionally with edge positions that the drive measures while it turns (hall_calibration.hpp). A drive that commutates
 // at samples does so by this angle.
 //
 // Hysteresis and delay of the probes are those of the data sheet. Until the positions are learned, a speed is taken

@@ -16,7 +16,7 @@ enum class CoreTrouble : std::uint8_t {
   none,
   silent,   ///< it did not answer in time
   gone,     ///< it ended
-  differs,  ///< its answer is not the host's
+  differs,  ///< its answer differs from the host's answer
   stalled   ///< a chip with its own clock no longer samples
 };
 

@@ -131,7 +131,7 @@ void RotorDecoder<Scalar>::set_speeds(const SensorsConfig& config, const Bases& 
       control::Gain<Scalar>(unit_rad / step_s / per_turn_ / bases.speed_rad_s / raw_unit<Scalar>());
 }
 
-/// Number that stands for a resolver's signals at the expected amplitude.
+/// Number of a resolver's signals at the expected amplitude.
 inline constexpr double full_signal = 0.6;
 
 /// The loop has settled to the shaft's angle before the run.

@@ -46,7 +46,7 @@ struct ShaftMotion {
   Real speed(Real at) const {
     return series::evaluate(load.speed == nullptr ? y.w : *load.speed, y.degree, at);
   }
-  /// Part of the segment that an instant within it stands for.
+  /// Part of the segment up to an instant within it.
   Real part(const sim::Instant& at) const {
     return y.h > 0 ? static_cast<Real>(sim::seconds_between(from, at)) / y.h : Real(0);
   }

@@ -36,7 +36,7 @@ struct Resolver {
   double imbalance = 0.0;
   double quadrature_deg = 0.0;
   double phase_deg = 0.0;
-  std::optional<double> sine_phase_deg;  ///< if different from the cosine's
+  std::optional<double> sine_phase_deg;  ///< if different from the cosine winding's phase
   bool calibrated = false;               ///< sampled: the decoder corrects the differences of the windings
   double noise_V = 0.0;                  ///< noise of the windings, root mean square
   double bandwidth_Hz = 1000.0;

@@ -14,9 +14,9 @@ namespace sixstep::series {
 
 using LagWeights = Coefficients<double>;
 
-/// Integration by parts gives w_j = 1 - (j/z) w_(j-1). Upwards this damps its error if j <= z, downwards if j >
-/// z. Therefore it runs upwards to z, and downwards from an order so high that the error of its first guess
-/// vanishes. z may be infinite: no lag, all weights 1.
+/// Integration by parts gives the recurrence w_j = 1 - (j/z) w_(j-1). Upwards the recurrence damps its error if
+/// j <= z, downwards if j > z. Therefore the function computes upwards to z, and downwards from an order so high
+/// that the error of the first guess vanishes. z may be infinite: no lag, all weights 1.
 inline LagWeights lag_weights(double z, int degree) {
   LagWeights w{};
   const int up = z < degree ? static_cast<int>(z) : degree;

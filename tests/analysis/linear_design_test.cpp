@@ -106,7 +106,7 @@ TEST(LinearDesign, TellsItsProblemsInItsOwnWords) {
   EXPECT_EQ(study.problems()[0].where, "force_limit_N");
   EXPECT_EQ(study.problems()[0].cure, "give it in N");
   order.subject.step = 0.0;
-  EXPECT_EQ(study_design(order).problems()[0].cure, "give it in A, m/s or mm as the mode asks");
+  EXPECT_EQ(study_design(order).problems()[0].cure, "give it in A, m/s or mm according to the mode");
 }
 
 TEST(LinearDesign, AFirstScenarioRunsAndPasses) {

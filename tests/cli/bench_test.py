@@ -154,7 +154,7 @@ class Bench(Started):
                          for n, cells in enumerate(line.split(",") for line in whole.splitlines()))
         for text, told in (("", "is empty; export the recording again"),
                            ("".join(whole.splitlines(True)[:400]), "; turn the shaft by 3 electrical turns"),
-                           (standing, "hall1, hall2, hall3 never change: the rotor stood"),
+                           (standing, "hall1, hall2, hall3 never change: the rotor was at rest"),
                            (dead, "hall3 = 0 in every row, while another line changes"),
                            (whole.replace("hall", "pin"), "has no columns of Hall lines: it has time, pin1"),
                            (whole.replace(",", "|"), "holds no row of numbers"),
@@ -180,7 +180,7 @@ class Bench(Started):
         for text, told in (("", "is empty"),
                            (head, "holds no row of numbers"),
                            (head + "".join(rows.splitlines(True)[:900]), "period"),
-                           (head + "".join(f"{n * 1e-5:g},0.25\n" for n in range(900)), "u_ab = 0.25 V in every row: the motor stood"),
+                           (head + "".join(f"{n * 1e-5:g},0.25\n" for n in range(900)), "u_ab = 0.25 V in every row: the motor was at rest"),
                            (whole.replace("u_ab [V]", "CH1 [V]"), "--between is missing: the headings do not say what the probes hung between; lines is"),
                            (whole.replace("time [s]", "sample"), "has no column of time: it has sample, u_ab; head it time [s], or give"),
                            (whole + "1,inf\n", 'u_ab "inf" is not a number')):

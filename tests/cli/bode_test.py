@@ -74,7 +74,7 @@ class Bode(ProgramTest):
         """400 rad/s take 20 s there. A straight way has a coherence of 1 in every line: the curve would be that of the way."""
         (self.path / "slow.toml").write_text(SLOW)
         made = self.run_program("run", "slow.toml", "--bode", "--json", "b.json", code=2)
-        self.assertRegex(made.stderr, r"^slow: duration_s = 0\.\d+ ends while the drive is still on its way to 400 rad/s: .*; lengthen duration_s")
+        self.assertRegex(made.stderr, r"^slow: duration_s = 0\.\d+ ends while the drive still moves towards 400 rad/s: .*; lengthen duration_s")
         self.assertFalse((self.path / "b.json").exists())
         self.run_program("run", "slow.toml", "--set", "load.inertia_kg_m2=0", "--bode")
 

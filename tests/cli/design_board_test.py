@@ -138,7 +138,7 @@ current = {settle_s = 1e-3, damping = 0.9, limit_A = 3}
 speed = {settle_s = 0.05, damping = 0.9, torque_limit_Nm = 0.5}
 """)
         self.assertRegex(told, r"peak current of the start +3 A .* at the limit of the current")
-        self.assertNotIn("the speed loop may ask for", told)
+        self.assertNotIn("the speed loop may command", told)
 
     def test_the_speed_that_a_position_may_ask_for_is_the_boards(self):
         _, written = self.designed_for(self.BOARD.replace("value = 100", "value = 1000") + """

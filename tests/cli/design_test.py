@@ -286,7 +286,7 @@ class Design(ProgramTest):
         self.assertEqual(told("maxon-251601", "--mode", "spede"),
                          "--mode = spede must be one of current, speed, position; did you mean speed?\n")
         self.assertIn("--settle = -1 must be above 0", told("maxon-251601", "--settle", "-1"))
-        self.assertIn("is no input of pole placement", told("maxon-251601", "--bandwidth", "100"))
+        self.assertIn("is not used by pole placement", told("maxon-251601", "--bandwidth", "100"))
         self.assertIn('did you mean "maxon-251601"?', told("maxon-25160"))
         self.assertIn("--voltage is missing, and the sheet prints no nominal voltage", told("mjbots-mj5208"))
         self.assertIn("cannot be written", self.run_program("design", "maxon-251601", "--json", "no/d.json", code=2).stderr)
@@ -299,7 +299,7 @@ class Design(ProgramTest):
         bad = ("design", "maxon-251601", "--mode", "speed", "--edges", "1", "--capture", "5e4", "--quick", "--quiet", "--toml", "d.toml")
         self.run_program(*bad, code=1)
         export = ("export", "header", "d.toml", "--arithmetic", "float", "--out", "d.hpp")
-        self.assertIn("not_usable is what its design found", self.run_program(*export, code=2).stderr)
+        self.assertIn("not_usable was set by the design", self.run_program(*export, code=2).stderr)
         self.assertIn("NOT USABLE", self.run_program("run", "d.toml").stdout)
         self.assertEqual(self.names(), ["d.toml"])
         # A second design on the same board with the advised value: the warning is gone.

@@ -135,12 +135,12 @@ class Gate(ProgramTest):
             scenario = (self.path / "move.toml").read_text()
             range_A = float(re.search(r"current_range_A = (\S+)", scenario).group(1))
             narrow = f"sensors.current_range_A={range_A / 2}"
-            self.assertIn("was left by the run", self.run_program("export", "header", "move.toml", "--set", narrow, code=1).stderr)
+            self.assertIn("was exceeded in the run", self.run_program("export", "header", "move.toml", "--set", narrow, code=1).stderr)
 
     def test_a_requirement_that_fails_is_refused(self):
         told = self.refused(1, BOARD, "--set", "supply.voltage_V=6")
         self.assertEqual(len(told), 1)
-        self.assertRegex(told[0], r"^slowest reach of 98 % = 0\.0015\d+ s misses what is required, <= 0\.001 s; look at its report")
+        self.assertRegex(told[0], r"^slowest reach of 98 % = 0\.0015\d+ s misses its requirement, <= 0\.001 s; read its report")
 
     def test_what_was_never_measured_is_refused_all_at_once_beside_what_fails(self):
         told = self.refused(2, "current-square", "--set", "supply.voltage_V=6", "--set", "pwm.chopping=complementary")
@@ -152,7 +152,7 @@ class Gate(ProgramTest):
         encoder = SOURCE / "data/scenarios/gallery/encoder.toml"
         said = self.run_program("export", "header", str(encoder), "--out", "d.hpp", code=2).stderr
         self.assertIn('sensors.rotor = "encoder" has no decoder in the header\'s drive, which reads Hall probes; set rotor = "hall", '
-                      "and have gains and [[require]] designed for edges that come 7.5 deg apart\n", said)
+                      "and design gains and [[require]] for edges that come 7.5 deg apart\n", said)
         for cure in ("currents = \"phases\"", "delay_periods = 1", "500e-9", "sixstep design --scenario"):
             self.assertIn(cure, said)
         text = encoder.read_text().replace('rotor = "encoder"\n', 'rotor = "hall"\ncurrents = "phases"\ncurrent_range_A = 40\n')
@@ -173,7 +173,7 @@ class Gate(ProgramTest):
         plain = pathlib.Path(self.scenario("current-square")).read_text().split("[[require]]")[0]
         (self.path / "plain.toml").write_text(plain), (self.path / "a.toml").write_text(text)
         told = self.run_program("export", "header", "a.toml", code=2).stderr
-        self.assertTrue(told.startswith("a.toml: require is missing: where nothing is asked of a run, nothing has been shown; "), told)
+        self.assertTrue(told.startswith("a.toml: require is missing: a run without requirements proves nothing; "), told)
 
     def test_despite_writes_the_reason_and_what_was_overridden_as_comment_alone(self):
         reason = "one bench\n#error two\r*/ \\ \u202e??/\\"

@@ -62,7 +62,7 @@ class Numbers(ProgramTest):
         file = self.write("a.toml", 23)
         words = ["--set", "load.locked=false", "--set", "load.torque_Nm=-16000", "--set", "duration_s=0.001"]
         result = self.run_program("run", file, *words, "--csv", "a.csv", "--json", "a.json", code=3)
-        self.assertIn("the run has run away: the speed is", result.stdout)
+        self.assertIn("the run diverged: the speed is", result.stdout)
         self.assertFalse(json.loads((self.path / "a.json").read_text())["passed"])
         rows = [line for line in (self.path / "a.csv").read_text().splitlines() if not line.startswith("#")]
         self.assertGreater(len(rows), 2)

@@ -299,7 +299,7 @@ class Plan(ProgramTest):
         (self.path / "p.toml").write_text(plan)
         told = self.run_program("run", "p.toml", code=2).stderr
         self.assertIn("p.toml:7:1: vary.value", told)
-        self.assertIn("one end of a range", told)
+        self.assertIn("first end of a range", told)
         (self.path / "p.toml").write_text(PLAN.replace("a.toml", "b.toml"))
         self.assertIn("b.toml", self.run_program("run", "p.toml", code=2).stderr)
 

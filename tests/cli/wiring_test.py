@@ -94,7 +94,7 @@ class Wiring(Started):
         told = json.loads(self.run_program("run", "w.toml", "--json", "-", "--quiet").stdout)
         for figure in told["compare"]:
             self.assertAlmostEqual(figure["measured"] / figure["value"], 1, places=9)
-        self.assertEqual(told["title"], "Let free from rest, connected as bridge.phases and sensors.hall_lines say")
+        self.assertEqual(told["title"], "Released from rest, connected as in bridge.phases and sensors.hall_lines")
         self.assertEqual(self.names(), ["brisk.toml", "w.html", "w.svg", "w.toml"])
 
     def test_what_it_cannot_do_is_one_line_and_bad_input(self):

@@ -128,7 +128,7 @@ TEST(FieldEstimate, WhatCannotBeSeenIsTold) {
   round.L_d_H = round.L_q_H;
   EXPECT_THAT(field_estimate(round, 40, spec(true, true)).problems()[0].limit, HasSubstr("the same"));
   EXPECT_THAT(field_estimate(salient, 0, spec(true, true)).problems()[0].limit,
-              HasSubstr("the sheet's does not"));
+              HasSubstr("the sheet gives none"));
   EXPECT_THAT(field_estimate(salient, 4000, spec(true, true)).problems()[0].limit,
               HasSubstr("less than 1 %"));
   FieldEstimateSpec fast = spec(false, true);

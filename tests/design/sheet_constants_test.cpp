@@ -159,8 +159,8 @@ TEST(SheetConstants, PolesPairsAndWindingsAreToldApart) {
   s.poles.reset();
   for (const auto& [code, message] : {std::pair{"12N15P", "names 15 poles, an odd number"},
                                       {"14N12P", "names 14 teeth, which three phases cannot share"},
-                                      {"12/14", "is no winding code"},
-                                      {"12N14", "is no winding code"},
+                                      {"12/14", "is not a winding code"},
+                                      {"12N14", "is not a winding code"},
                                       {"", "pole_pairs is missing"}}) {
     s.winding = code;
     EXPECT_NE(told(s).find(message), std::string::npos) << told(s);
@@ -197,7 +197,7 @@ TEST(SheetConstants, SaliencyAndBrakesAreAskedFor) {
   EXPECT_EQ(sheet_constants(s).L_H->value, 31e-6);
   s.inductance_mH = Quantity{0.3, "phase", ""};
   EXPECT_EQ(told(s),
-            "inductance_mH = 0.3 is given twice: L_d and L_q are there too; keep one of the two ways");
+            "inductance_mH = 0.3 is given twice: L_d and L_q are also given; keep one of the two ways");
   s = printed_251601();
   s.inertia_with_brake_gcm2 = Quantity{150, "", ""};
   EXPECT_EQ(sheet_constants(s).J_kg_m2->value, 135e-7);

@@ -256,7 +256,7 @@ TEST(SheetNoLoad, ALineThatIsNotUsedSaysTruly) {
   EXPECT_EQ(why(s, "no_load_current_mA"), "");
   s.no_load_current_mA.reset();
   EXPECT_EQ(why(s, "no_load_speed_rpm"),
-            "friction comes of a no-load current with its speed, or with its voltage, R and K_t");
+            "friction follows from a no-load current with its speed, or with its voltage, R and K_t");
 }
 
 }  // namespace SIXSTEP_TEST_FILE

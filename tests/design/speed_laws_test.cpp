@@ -205,7 +205,7 @@ TEST(SpeedLawDesign, SaysWhatCannotBeDesigned) {
   const auto d = design::state_feedback(slow);
   ASSERT_FALSE(d);
   EXPECT_THAT(to_string(d.problems()[0]),
-              HasSubstr("settle_s = 0.02 is longer than friction alone takes, 0.01533 s"));
+              HasSubstr("settle_s = 0.02 is longer than the settling time by friction alone, 0.01533 s"));
   EXPECT_TRUE(design::disturbance_rejection(slow));
   SpeedLawSpec late = maxon();
   late.lag_periods = 1e6;

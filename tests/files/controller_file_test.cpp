@@ -40,8 +40,8 @@ TEST(ControllerFile, WhatIsNoneIsToldAsSuch) {
           "with this program's own_controller.h; see sixstep/control/own/own_controller.h");
   EXPECT_EQ(told("in_float.so"),
             folder +
-                "/in_float.so has a controller whose interface = 257 is that of float, and this program's is "
-                "of double; compile it without -DSIXSTEP_REAL=float");
+                "/in_float.so has a controller whose interface = 257 is compiled for float, and this program "
+                "needs double; compile it without -DSIXSTEP_REAL=float");
   const std::string text = ::testing::TempDir() + "text.so";
   std::ofstream(text) << "no machine code\n";
   const auto loaded = files::load_controller(text);

@@ -308,7 +308,7 @@ TEST(FieldEstimate, WhatCannotWorkIsRefusedWithItsCure) {
   expect_refused(with([](Scenario& x) { x.control.field.law = FieldLaw::finite_set; }), "control.field.law",
                  "no pulses");
   expect_refused(with([](Scenario& x) { x.sheet.saturation_current_A.reset(); }), "control.field.angle",
-                 "the sheet's does not");
+                 "the sheet gives none");
   expect_refused(with([](Scenario& x) { x.control.field.start_current_A = 1.0; }),
                  "control.field.start_current_A", "unknown at rest");
   expect_refused(with([](Scenario& x) {

@@ -112,9 +112,8 @@ TEST(Limits, OfASalientRotorAreNotPromised) {
   s.sheet.q_axis_inductance_mH = base::Quantity{.value = 0.34};
   EXPECT_EQ(refusal(s), "not refused");
   s.control.limits.current_A = 6;
-  EXPECT_THAT(
-      refusal(s),
-      HasSubstr("control.limits.current_A = 6 is a promise that is proved for a rotor of one inductance"));
+  EXPECT_THAT(refusal(s),
+              HasSubstr("control.limits.current_A = 6 is proved for a rotor with one inductance"));
   s.control.limits = {.speed_rad_s = 300};
   EXPECT_THAT(refusal(s), HasSubstr("control.limits.speed_rad_s = 300 is a promise"));
   EXPECT_THAT(refusal(s), HasSubstr("L_q is 1.42 times its L_d"));
@@ -252,7 +251,7 @@ TEST(SpeedForm, ADerivativeAboveFullTorqueIsTheSameInFixedPoint) {
   s.control.arithmetic = Arithmetic::q31;
   EXPECT_THAT(refusal(s), HasSubstr("speed derivative and integral"));
   s.control.speed.anti_windup = 0.0;
-  EXPECT_THAT(refusal(s), HasSubstr("lets the integral grow without an end"));
+  EXPECT_THAT(refusal(s), HasSubstr("lets the integral grow without a limit"));
   s.control.speed.anti_windup = std::nullopt;
   s.sensors.rotor = study::RotorSensing::hall;  // its speed may change by the full range in one step
   EXPECT_THAT(refusal(s), HasSubstr("a longer filter of the derivative"));

@@ -195,8 +195,8 @@ TEST(OwnController, WhatNoTimerDoesEndsTheRun) {
             answered("leg[0].state = 4 in step 1, which own_controller.h does not name"));
   wrong = {};
   wrong.fault = 1;
-  EXPECT_EQ(fault(pair_puppet, wrong), answered("fault = 1 in step 1: it gave up"));
-  EXPECT_EQ(fault(legs_puppet, wrong), answered("fault = 1 in step 1: it gave up"));
+  EXPECT_EQ(fault(pair_puppet, wrong), answered("fault = 1 in step 1: the controller reported a fault"));
+  EXPECT_EQ(fault(legs_puppet, wrong), answered("fault = 1 in step 1: the controller reported a fault"));
 }
 
 /// The remark begins a quarter above the given limit: with the rotor held the current is the duty times U/R.

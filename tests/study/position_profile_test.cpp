@@ -235,9 +235,9 @@ TEST(PositionProfile, ContradictionsAreTold) {
           "control.position.profile.speed_rad_s = 100 is above control.position.speed_limit_rad_s = 80"));
   EXPECT_THAT(with([](Control& c) { c.slew = 10.0; }), HasSubstr("control.slew = 10 shapes a setpoint"));
   EXPECT_THAT(with([](Control& c) { c.arithmetic = Arithmetic::q31; }),
-              HasSubstr("control.arithmetic = q31 has no room for"));
+              HasSubstr("control.arithmetic = q31 has too few digits for"));
   EXPECT_THAT(with([](Control& c) { c.speed.law = study::SpeedLaw::disturbance_rejection; }),
-              HasSubstr("would take for a load"));
+              HasSubstr("would estimate as a load"));
   EXPECT_EQ(with([](Control& c) {
               c.speed.law = study::SpeedLaw::disturbance_rejection;
               c.position.profile.feed_forward = false;
@@ -245,9 +245,9 @@ TEST(PositionProfile, ContradictionsAreTold) {
             "");
   EXPECT_THAT(
       with([](Control& c) { c.position.profile.acceleration_rad_s2 = 6e4; }),
-      HasSubstr("acceleration_rad_s2 = 60000 takes J a = 0.81 N m, and the drive may ask for 0.78 N m"));
+      HasSubstr("acceleration_rad_s2 = 60000 takes J a = 0.81 N m, and the drive's limit is 0.78 N m"));
   EXPECT_THAT(with([](Control& c) { c.position.profile.speed_rad_s = 800.0; }),
-              HasSubstr("is above what the bus reaches without any load, 716 rad/s"));
+              HasSubstr("is above the no-load speed of the bus, 716 rad/s"));
   EXPECT_THAT(with([](Control& c) { c.position.profile.smoothing_s = 1000.0; }), HasSubstr("lower it"));
 }
 

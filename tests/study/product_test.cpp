@@ -74,7 +74,7 @@ TEST(Product, ARotorThatDoesNotComeWherePulledIsAFault) {
   Witness w;
   const study::Outcome out = run_watched(s, w);
   ASSERT_TRUE(out.fault);
-  EXPECT_THAT(out.fault->limit, HasSubstr("did not come to where it was pulled"));
+  EXPECT_THAT(out.fault->limit, HasSubstr("did not reach the alignment position"));
   EXPECT_NEAR(w.off_for_good(), calibrated_s + 5e-3, 2 * T);
 }
 

@@ -108,7 +108,7 @@ TEST(SensorlessScenario, GivesUpOnARotorThatIsHeldAndSaysWhy) {
   s.duration_s = 12.0;
   const Outcome out = outcome_of(s);
   ASSERT_TRUE(out.fault && out.trip);
-  EXPECT_THAT(out.fault->limit, HasSubstr("gave up"));
+  EXPECT_THAT(out.fault->limit, HasSubstr("and stopped: "));
   EXPECT_THAT(out.trip->reasons[0], HasSubstr("ramp ended"));
   EXPECT_GT(out.simulated_s, 11.9) << "it coasts on";
 }

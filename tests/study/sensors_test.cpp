@@ -136,7 +136,7 @@ TEST(Sensors, WhatDriftsMustBeThere) {
   };
   EXPECT_THAT(told(held_at_5_A(), drifts(1e-3, 0.1, {})), HasSubstr("at[0].sensors.current_offset_A = 0.1"));
   EXPECT_THAT(told(held_at_5_A(), drifts(1e-3, {}, 0.1)), HasSubstr("sensors.currents = \"ideal\""));
-  EXPECT_THAT(told(with_phases(held_at_5_A()), drifts(1e-3, -30.0, {})), HasSubstr("leaves nothing of"));
+  EXPECT_THAT(told(with_phases(held_at_5_A()), drifts(1e-3, -30.0, {})), HasSubstr("leaves no range within"));
 }
 
 TEST(Sensors, ShuntsOffsetShowsUntilItIsCalibrated) {

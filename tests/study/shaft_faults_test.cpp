@@ -200,7 +200,7 @@ TEST(ShaftSensorFaults, WhatCannotBeIsRefused) {
                 s.sensors.rotor = RotorSensing::absolute;
                 s.at[0].sensors.bad_track = AtTrack{.track = 15};
               }),
-              HasSubstr("a track that there is"));
+              HasSubstr("an existing track"));
   EXPECT_THAT(refused([](Scenario& s) { s.sensors.encoder.missed_Hz = 1e7; }), HasSubstr("100000"));
   EXPECT_THAT(refused([](Scenario& s) { s = tracked(s, 9); }), HasSubstr("converter chip"));
   EXPECT_THAT(refused([](Scenario& s) {

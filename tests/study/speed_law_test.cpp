@@ -226,7 +226,7 @@ TEST(SpeedLaw, SaysWhatALawDoesNotHave) {
   const auto refused = study::compile(s);
   ASSERT_FALSE(refused);
   EXPECT_THAT(to_string(refused.problems()[0]),
-              HasSubstr("control.speed.settle_s = 0.02 is longer than friction alone takes"));
+              HasSubstr("control.speed.settle_s = 0.02 is longer than the settling time by friction alone"));
 }
 
 }  // namespace SIXSTEP_TEST_FILE

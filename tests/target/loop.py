@@ -112,7 +112,7 @@ BAD = {  # the core program's action in its hundredth call, and the message
     "writes where no memory is": ("*reinterpret_cast<volatile unsigned*>(0x90000000) = 1;", "the core ended"),
     "jumps into nowhere": ("reinterpret_cast<void (*)()>(0x90000001)();", "the core ended"),
     "ends": ("exit_with(0);", "the core ended"),
-    "answers otherwise": ("reinterpret_cast<unsigned char&>(answer) ^= 1;", "the core's answer is not the host's"),
+    "answers otherwise": ("reinterpret_cast<unsigned char&>(answer) ^= 1;", "the core's answer differs from the host's"),
 }
 CALL = "answer = rig::answer_of(made(call));"
 

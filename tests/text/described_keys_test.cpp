@@ -259,7 +259,7 @@ TEST(DescribedKeys, HelpTellsUnitRangeDefaultAndWords) {
             " default 24\n");
   EXPECT_EQ(
       help_text(find("pwm.alignment")),
-      "pwm.alignment\n  where in the period the on-time lies\n  one word of those below\n  default \"edge\"\n"
+      "pwm.alignment\n  position of the on-time in the period\n  one word of those below\n  default \"edge\"\n"
       "    edge          on-time starts with the period\n"
       "    centre        on-time lies in the middle of the period\n");
 }

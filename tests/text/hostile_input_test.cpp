@@ -71,7 +71,7 @@ TEST(HostileInput, SpeedsOfALoadThatNobodyTellsApartAreRefused) {
     return told(head + "[load]\nat_speeds_rad_s = [" + speed + ", 0, 300]\nat_speeds_Nm = [0.1, 0, 0.1]\n");
   };
   EXPECT_THAT(table("-1e-17"),
-              ElementsAre(HasSubstr("load.at_speeds_rad_s = 0 is so close to the one before")));
+              ElementsAre(HasSubstr("load.at_speeds_rad_s = 0 is too close to the one before")));
   EXPECT_THAT(table("1"), ElementsAre(HasSubstr("load.at_speeds_rad_s = 0 must be above the one before")));
   EXPECT_THAT(table("-1e-5"), SizeIs(0));
 }
@@ -134,7 +134,7 @@ TEST(HostileInput, ReferencesBeyondAnyMotorAreRefused) {
 TEST(HostileInput, ATorqueWithoutMeasureIsRefused) {
   EXPECT_THAT(
       told(head + "[load]\ntorque_Nm = 1e6\n"),
-      ElementsAre(HasSubstr("load.torque_Nm = 1e+06 is no load for a moment of inertia of 1.35e-05 kg m2: "
+      ElementsAre(HasSubstr("load.torque_Nm = 1e+06 is too large for a moment of inertia of 1.35e-05 kg m2: "
                             "at most 1.69e+04 N m are simulated")));
   EXPECT_THAT(told(head + "[[at]]\ntime_s = 1e-4\nload.torque_Nm = 1e6\n"), SizeIs(1));
   EXPECT_THAT(told(head + "[load]\ntimes_s = [0, 1e-4]\ntorques_Nm = [0, 1e6]\n"), SizeIs(1));
@@ -152,7 +152,7 @@ TEST(HostileInput, ARunThatRunsAwayEndsWithAFaultAndWritesNumbersOnly) {
   }});
   ASSERT_TRUE(outcome);
   ASSERT_TRUE(outcome->fault);
-  EXPECT_THAT(to_string(*outcome->fault), HasSubstr("the run has run away: the speed is"));
+  EXPECT_THAT(to_string(*outcome->fault), HasSubstr("the run diverged: the speed is"));
   EXPECT_FALSE(outcome->passed());
   EXPECT_TRUE(numbers);
 }
@@ -162,7 +162,7 @@ TEST(HostileInput, AColumnThatTheModeDoesNotHaveIsRefusedAndNotWrittenAsNoNumber
   EXPECT_THAT(
       told(head + columns + "\"duty\"\n"),
       ElementsAre("x.toml:3:18: record.columns = \"i_ref_A\" has no value in this control.mode; remove it, "
-                  "or control what it is the reference of"));
+                  "or set a control.mode that has this reference"));
   EXPECT_THAT(told(head + columns + "\"current\"\n"), SizeIs(0));
 }
 

@@ -242,8 +242,8 @@ TEST(PrintedUnits, OfADeltaBothValuesThatAPhaseCanMeanAreNamed) {
   const std::string all = told(std::string(sine) +
                                "pole_pairs = 2\nconnection = \"delta\"\n"
                                "resistance_ohm = { value = 0.1, frame = \"phase\" }\nback_emf_mV_s = 5\n");
-  EXPECT_THAT(all, HasSubstr("twice the value where a drive has identified it"));
-  EXPECT_THAT(all, HasSubstr("2/3 of it where it is of one branch of the delta"));
+  EXPECT_THAT(all, HasSubstr("If a drive identified the value"));
+  EXPECT_THAT(all, HasSubstr("if it is of one branch of the delta, write 2/3 of it"));
   EXPECT_THAT(all, HasSubstr("give back_emf_constant_V_krpm with frame = \"line-peak\""));
 }
 

@@ -239,13 +239,14 @@ TEST(Recording, WrongSeparators) {
 TEST(Recording, TooShortStandingOrDead) {
   EXPECT_THAT(told_of_hall(hall_log(12)), StartsWith("hall1, hall2, hall3 pass 11 edges; 18 are needed"));
   EXPECT_THAT(told_of_hall("time [s],hall\n0,4\n"), StartsWith("time = 1 rows are too few"));
-  EXPECT_THAT(told_of_hall(hall_log(1)), StartsWith("hall1, hall2, hall3 never change: the rotor stood"));
+  EXPECT_THAT(told_of_hall(hall_log(1)),
+              StartsWith("hall1, hall2, hall3 never change: the rotor was at rest"));
   std::string dead = hall_log(36);
   for (std::size_t end = dead.find('\n', dead.find('\n') + 1); end != std::string::npos;
        end = dead.find('\n', end + 1))
     dead[end - 1] = '0';
   EXPECT_THAT(told_of_hall(dead), StartsWith("hall3 = 0 in every row, while another line changes "));
-  EXPECT_THAT(told_of_emf(scope(4, 0.0)), StartsWith("u_ab = 0 V in every row: the motor stood"));
+  EXPECT_THAT(told_of_emf(scope(4, 0.0)), StartsWith("u_ab = 0 V in every row: the motor was at rest"));
   EXPECT_THAT(told_of_emf(scope(1.2)), HasSubstr("period"));
   EXPECT_THAT(told_of_emf("time [s],u_ab [V]\n0,1\n1,2\n2.5,1\n"), StartsWith("time = 3 rows are too few"));
 }

@@ -40,14 +40,14 @@ base::Problems still_moving(const study::Scenario& run) {
   constexpr double rounding = 1e-12;
   const std::optional<double> rests_s = study::reference_rests_from_s(run);
   if (!rests_s)
-    return {{"reference", "", "never comes to rest, and a loop is measured around a value that is held",
-             "let it stand: shape = \"constant\""}};
+    return {{"reference", "", "never becomes constant, and a loop is measured around a constant value",
+             "make it constant: shape = \"constant\""}};
   if (!(*rests_s > run.duration_s * (1 + rounding))) return {};
   return {{"reference", "",
            "moves until " + base::written(*rests_s) +
                " s, and the measurement begins where the run ends, at " + base::written(run.duration_s) +
                " s",
-           "set duration_s = " + base::written(*rests_s) + ", or let it stand: shape = \"constant\""}};
+           "set duration_s = " + base::written(*rests_s) + ", or make it constant: shape = \"constant\""}};
 }
 
 /// `run` is the scenario as written, `s` the one with the settings at its end.
@@ -55,15 +55,14 @@ base::Problems not_measurable(const study::Scenario& run, const study::Scenario&
   base::Problems problems;
   if (s.control.mode == Mode::off || s.control.mode == Mode::duty)
     problems.push_back({"control.mode", s.control.mode == Mode::off ? "off" : "duty",
-                        "has no loop whose response could be measured",
-                        "measure current, speed or position"});
+                        "has no loop to measure", "measure current, speed or position"});
   if (s.control.slew)
     problems.push_back({"control.slew", "", "ramps the setpoint, which would hide the loop behind it",
-                        "leave it out for this measurement"});
+                        "remove it for this measurement"});
   if (s.control.position.profile.on && s.control.mode == Mode::position)
     problems.push_back({"control.position.profile", "",
                         "shapes the setpoint, which would hide the loop behind it",
-                        "leave it out for this measurement"});
+                        "remove it for this measurement"});
   if (problems.empty()) append(problems, still_moving(run));
   return problems;
 }
@@ -142,7 +141,7 @@ base::Result<study::Session> at_the_end(const study::Scenario& s, const BodeStud
       {.on_record = {}, .on_event = {}, .on_logic = {}, .keep_going = order.keep_going, .keep_books = false});
   if (session && !session->advance(b.begin_s))
     return base::Problem{"duration_s", "", "is not reached: the run ends before it, or was interrupted",
-                         "run it without measuring, and see why"};
+                         "run the scenario without the measurement to find the cause"};
   return session;
 }
 
@@ -184,11 +183,11 @@ base::Problems still_on_its_way(const BodeStudy& b, const std::vector<double>& o
   if (!(std::fabs(way) > most_way * b.amplitude)) return {};
   const std::string unit = " " + std::string(study::reference_unit(b.mode));
   return {{"duration_s", base::written(duration_s),
-           "ends while the drive is still on its way to " + base::six_digits(b.stands_at) + unit +
+           "ends while the drive still moves towards " + base::six_digits(b.stands_at) + unit +
                ": in the measurement it went from " + base::three_digits(means.front()) + " to " +
                base::three_digits(means.back()) + unit + ", " + base::three_digits(std::fabs(way)) +
                " in each period of a multisine of +-" + base::three_digits(b.amplitude) + unit,
-           "lengthen duration_s until it rests, or let the reference stand where the drive can get"}};
+           "lengthen duration_s until it is constant, or set a final reference that the drive can reach"}};
 }
 
 double amplitude_of(const BodeOrder& order, double stands_at) {
@@ -206,8 +205,9 @@ base::Problems prepare(BodeStudy& b, const study::Scenario& s, const BodeOrder& 
   b.stands_at = waveform.back().at(s.duration_s);
   b.amplitude = amplitude_of(order, b.stands_at);
   if (!(b.amplitude > 0.0))
-    return {{"reference", "", "stands at zero at the end, of which no part can be taken for the multisine",
-             "name an amplitude, or measure where the drive works"}};
+    return {{"reference", "",
+             "is zero at the end of the run, so that the default amplitude, a twentieth of it, is also zero",
+             "give an amplitude, or set a final reference other than zero"}};
   const base::Result<study::Compiled> compiled = study::compile(last);
   if (!compiled) return compiled.problems();
   b.pole_pairs = compiled->motor.machine.pole_pairs;

@@ -42,8 +42,8 @@ struct BodeStudy {
   ReadMargins measured;
   std::optional<design::Transfer> designed;    ///< empty: the loop is not linear
   std::string not_linear;                      ///< why `designed` is empty
-  std::optional<design::SpeedLag> lag;         ///< of the sensor's speed, at the reference's final value
-  std::optional<design::LoopFigures> figures;  ///< of `designed`, lag included
+  std::optional<design::SpeedLag> lag;         ///< lag of the sensor's speed, at the reference's final value
+  std::optional<design::LoopFigures> figures;  ///< figures of `designed`, lag included
 
   /// Phase of the designed L at each point, unwrapped over all points. Each measured phase is taken in the turn
   /// nearest to it.

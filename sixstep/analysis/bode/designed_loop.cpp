@@ -21,10 +21,10 @@ std::string nonlinear_block(const study::Scenario& s, const study::Compiled& c,
   if (c.field && c.field->finite_set.on) return "the currents are held by choosing among the legs' states";
   if (s.control.mode == Mode::current) return "";
   if (drive.extras.on && drive.extras.predicts_current)
-    return "a current that is predicted is laid beside the current alone";
+    return "a linear loop with a predicted current exists for the current loop only";
   if (drive.speed_control == control::SpeedControl::duty) return "the speed controller sets the duty itself";
   if (s.control.mode == Mode::position && drive.extras.on && drive.extras.speed_law != control::SpeedLaw::pi)
-    return "the speed controller within is another one than the PI in velocity form";
+    return "the inner speed controller is not the PI in velocity form";
   if (c.field && c.field->per_ampere.k_per_A != 0)
     return "a salient rotor's torque is not proportional to its current";
   return "";
@@ -35,7 +35,8 @@ std::string nonlinear_block(const study::Scenario& s, const study::Compiled& c,
 std::string beside_middle(const study::Scenario& s, const study::Compiled& c, bool predicts) {
   if (predicts) return "a current that is predicted from the middle of a period is not in the linear model";
   if (s.pwm.alignment == study::Alignment::edge && !c.field)
-    return "of pulses that begin with the period, whether a sample in its middle sees their end is the duty's to say";
+    return "with edge-aligned pulses the duty decides whether a sample in the middle of the period comes "
+           "before or after the pulse's end";
   return "";
 }
 
@@ -72,8 +73,7 @@ std::optional<design::SpeedLag> lag_of(const study::Scenario& s, const design::D
 DesignedLoop designed_loop(const study::Scenario& s, const study::Compiled& c, double speed_rad_s) {
   const control::DriveConfig<double>& drive = c.later.empty() ? c.drive : c.later.back().drive;
   DesignedLoop out;
-  out.not_linear =
-      c.own.is ? "a controller of one's own has no linear model here" : nonlinear_block(s, c, drive);
+  out.not_linear = c.own.is ? "a user's controller has no linear model here" : nonlinear_block(s, c, drive);
   const bool predicts = drive.extras.on && drive.extras.predicts_current;
   if (out.not_linear.empty() && c.board.sampled_in_middle) out.not_linear = beside_middle(s, c, predicts);
   if (!out.not_linear.empty()) return out;

@@ -14,7 +14,7 @@ namespace {
 struct Fall {
   const LoopPoint& before;
   const LoopPoint& after;
-  double part = 0.0;  ///< of the way from `before` to `after`
+  double part = 0.0;  ///< fraction of the distance from `before` to `after`
 
   template <class Value>
   double at(const Value& value) const {

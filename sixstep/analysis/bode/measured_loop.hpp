@@ -13,7 +13,7 @@ struct LoopPoint {
   double w_rad_s = 0.0;
   design::Complex closed;  ///< T, from the reference to the measured value
   double coherence = 0.0;
-  double gain = 0.0, phase_rad = 0.0;  ///< of L, the phase of the turn that next_to() gives
+  double gain = 0.0, phase_rad = 0.0;  ///< gain and phase of L, in the turn that next_to() gives
   double scatter = 0.0;  ///< standard deviation of |L| over |L|, which is that of |T| times |1 + L|
 };
 

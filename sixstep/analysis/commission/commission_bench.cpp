@@ -26,9 +26,10 @@ constexpr double hysteresis_deg = 2.0;
 
 /// Time scales of the motor, from its sheet.
 struct Paces {
-  double tau_s = 0.0;             ///< L/R
-  double swing_rad_s = 0.0;       ///< of the rotor in the standing field of the test's current
-  double calming_s = 0.0;         ///< in which that swing decays by the factor e
+  double tau_s = 0.0;  ///< L/R
+  double swing_rad_s =
+      0.0;                 ///< angular frequency of the rotor's swing in the static field of the test current
+  double calming_s = 0.0;  ///< in which that swing decays by the factor e
   double spin_turns_s2 = 0.0;     ///< electrical acceleration by the current
   double half_emf_turns_s = 0.0;  ///< speed at which the back-EMF is half of the voltage vector
 };
@@ -71,7 +72,7 @@ double period_of(double tau_s) {
 study::Scenario on_bench(const CommissionSubject& subject, double voltage_V, double current_A, double R_ohm,
                          double tau_s) {
   study::Scenario s;
-  s.title = "A drive finds out what hangs at it";
+  s.title = "A drive identifies its motor";
   s.motor = subject.motor;
   s.sheet = subject.sheet;
   s.duration_s = 1.0;
@@ -106,11 +107,12 @@ study::Scenario on_bench(const CommissionSubject& subject, double voltage_V, dou
 base::Problems unfit(const CommissionSubject& subject) {
   if (subject.sheet.kind == design::MotorKind::linear)
     return {{"kind", "linear",
-             "cannot be commissioned: the field turns many times each way, and a track ends",
+             "cannot be commissioned: the field turns many times each way, and a track is too short",
              "measure R, L and back-EMF on a bench"}};
   if (subject.sheet.connection == design::WindingConnection::delta)
     return {{"connection", "delta",
-             "cannot be commissioned: what the chip finds is a star's, and a loop current is in it",
+             "cannot be commissioned: the chip identifies the values of a star, and the loop current of a "
+             "delta falsifies them",
              "measure R, L and back-EMF on a bench"}};
   return {};
 }
@@ -158,12 +160,12 @@ base::Result<TestCurrentFrom> current_of(const CommissionSubject& subject, const
   const double I = subject.current_A.value_or(
       base::shortened(std::min(2 * nominal.A, most_A / 2), 2, base::Towards::down));
   if (!(I > 0.0 && I <= most_A))
-    return base::Problem{
-        "current_A", base::written(I),
-        "must be above 0 and at most the " + base::rounded(most_A, 4) +
-            " A that the bus drives through the resting motor and its rotor stays in the field with",
-        nominal.printed ? "remove it for twice the sheet's nominal current"
-                        : "remove it for a fifth of what full duty drives through the resting motor"};
+    return base::Problem{"current_A", base::written(I),
+                         "must be above 0 and at most the " + base::rounded(most_A, 4) +
+                             " A at which the bus drives the motor at rest and its rotor stays in the field",
+                         nominal.printed
+                             ? "remove it for twice the sheet's nominal current"
+                             : "remove it for a fifth of the current at full duty through the motor at rest"};
   return TestCurrentFrom{I, from};
 }
 
@@ -176,12 +178,12 @@ base::Problems too_weak(const CommissionBench& b, const design::MotorModel& moto
     return {{"current_A", base::written(b.wish.test_A),
              "pulls the rotor with " + base::rounded(1e3 * torque, 3) + " mNm against " +
                  base::rounded(1e3 * against, 3) +
-                 " mNm of friction and cogging: it does not stand where the field points",
-             "give a test current that pulls more than three times as much"}};
+                 " mNm of friction and cogging: the rotor does not align with the field",
+             "give a test current with more than three times that torque"}};
   if (!(b.longest_s < most_s))
     return {{"current_A", base::written(b.wish.test_A),
              "makes a test of up to " + base::rounded(b.longest_s, 3) +
-                 " s: so long does the rotor swing in its field",
+                 " s, because the rotor swings that long in its field",
              "give more current, or check the units of the motor's inertia and torque constant"}};
   return {};
 }
@@ -194,7 +196,7 @@ base::Result<CommissionBench> commission_bench(const CommissionSubject& subject)
   if (base::Problems found = unfit(subject); !found.empty()) return found;
   base::Problems wrong =
       base::out_of_range("hall_offset_deg", subject.hall_offset_deg, base::between(-180, 180), "deg",
-                         "give how far all edges stand behind their places, in electrical degrees");
+                         "give the common angle by which all edges come late, in electrical degrees");
   if (!wrong.empty()) return wrong;
   const base::Result<double> V = voltage_of(subject, *motor);
   if (!V) return V.problems();

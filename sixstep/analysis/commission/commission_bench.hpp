@@ -16,12 +16,12 @@ namespace sixstep::analysis {
 
 struct CommissionSubject {
   std::string motor{};                ///< name or path, for the scenario
-  design::Sheet sheet{};              ///< of that motor
-  std::optional<double> voltage_V{};  ///< of the bus; empty: the sheet's nominal voltage
+  design::Sheet sheet{};              ///< sheet of the motor
+  std::optional<double> voltage_V{};  ///< bus voltage; empty: the sheet's nominal voltage
   std::optional<double> current_A{};  ///< test current; empty: see TestCurrent
   rig::Wiring wires{};                ///< how phases and Hall lines are plugged in
-  double hall_offset_deg = 0.0;       ///< electrical, of all edges
-  int seed = 0;                       ///< of the converters' noise
+  double hall_offset_deg = 0.0;       ///< common offset of all edges, electrical
+  int seed = 0;                       ///< seed of the converters' noise
 };
 
 /// Origin of the test's current.
@@ -35,9 +35,9 @@ enum class TestCurrent : std::uint8_t {
 /// The motor's true values at the board's terminals, with the winding at `degC`.
 struct CommissionTruth {
   double degC = 25.0;
-  double R_ohm = 0.0;            ///< of a phase with its switch or diode, as the chip measures it
-  double L_H = 0.0;              ///< of a phase, along the magnet's axis
-  double flux_linkage_Vs = 0.0;  ///< of the fundamental, peak
+  double R_ohm = 0.0;            ///< resistance of a phase with its switch or diode, as the chip measures it
+  double L_H = 0.0;              ///< inductance of a phase, along the magnet's axis
+  double flux_linkage_Vs = 0.0;  ///< flux linkage of the fundamental, peak
   bool sine = true;  ///< no harmonics of the back-EMF: a standing field holds the rotor in its direction
   double cogging_Nm = 0.0;  ///< sum of the orders' peaks
   double beyond_L_H = 0.0;  ///< L_q - L_d, across the magnet's axis minus along it
@@ -51,7 +51,7 @@ struct CommissionBench {
   double voltage_V = 0.0;
   TestCurrent from = TestCurrent::asked_for;  ///< how wish.test_A was chosen
   bool nominal_printed = true;                ///< the sheet names a nominal current
-  double noise_A = 0.0;                       ///< of each current's sample, rms
+  double noise_A = 0.0;                       ///< noise of each current's sample, rms
   double longest_s = 0.0;                     ///< time by which the chip should have ended
 };
 

@@ -118,7 +118,7 @@ base::Result<CommissionStudy> study_commission(const CommissionOrder& order) {
     if (t_s > s.bench.longest_s) break;
     if (sim::run(rig, sim::to_instant(t_s), none).stop != sim::Stop::end)
       return base::Problem{"motor", s.subject.motor, "ends the run of the test before the chip does",
-                           "hold its sheet against itself"};
+                           "check its sheet"};
     note(rig, s.bench, t_s, s);
   }
   s.state = rig.firmware().found();

@@ -42,7 +42,7 @@ struct CommissionEdge {
 struct CommissionStudy {
   CommissionSubject subject;
   CommissionBench bench;
-  control::CommissioningState state;  ///< of the chip at the end
+  control::CommissioningState state;  ///< state of the chip at the end
   control::Commissioned<double> found;
   CommissionBounds bounds;
   std::vector<CommissionPhase> phases;

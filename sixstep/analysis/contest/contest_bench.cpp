@@ -60,7 +60,7 @@ base::Result<design::DriveDesign> drive_design(const design::MotorModel& motor, 
     if (next && !is_grave(*next)) return next;
   }
   return base::Problem{"the motor", c.motor, "has no speed loop that its Hall probes allow",
-                       "look at a design of it, which tells why; or give a settling time"};
+                       "run a design of it to find the reason, or give a settling time"};
 }
 
 Course course_of(const design::DriveDesign& d) {
@@ -144,7 +144,7 @@ void add_course(const Course& c, study::Scenario& s) {
       holds("low speed held", c.end_s - c.slow_calm_s, c.end_s, c.slow_rad_s, holds_slow)};
   s.compare.clear();
   for (const ContestGauge& gauge : contest_gauges)
-    s.compare.push_back({measure_of(gauge, c), 0.0, "what controllers are compared by"});
+    s.compare.push_back({measure_of(gauge, c), 0.0, "figure that compares controllers"});
   s.record = {};
 }
 
@@ -176,13 +176,13 @@ std::vector<std::string> rules_of(const ContestBench& b) {
           "one bus, " + n(s.supply.voltage_V) + " V, one bridge, one set of sensors",
           "one torque limit, " + n(s.control.speed.torque_limit_Nm.value_or(0) * 1e3) + " mN m, " +
               n(b.design.current_at_full_torque_A) + " A",
-          "one speed loop asked for, settled in " + n(b.design.spec.settle_s.value_or(0) * 1e3) +
+          "one speed loop, designed to settle in " + n(b.design.spec.settle_s.value_or(0) * 1e3) +
               " ms, and one current loop, in " + n(s.control.current.settle_s.value_or(0) * 1e3) +
               " ms, by pole placement with damping " + n(b.design.spec.damping),
           "one full load, " + n(b.course.load_Nm * 1e3) + " mN m: K_t times " +
               design::nominal_current_words(b.design) + ", " + n(b.design.nominal_current_A) + " A",
           "one high speed, " + n(b.course.high_rad_s) + " rad/s: " + n(high_part) +
-              " of that up to which the bus drives this current",
+              " of the highest speed at which the bus drives this current",
           "one course: to the high speed against " + n(b.course.load_Nm * 500) + " mN m, at " +
               n(b.course.load_at_s * 1e3) + " ms " + n(b.course.load_Nm * 1e3) + " mN m, at " +
               n(b.course.slow_at_s * 1e3) + " ms down to " + n(b.course.slow_rad_s) + " rad/s"};
@@ -206,8 +206,8 @@ study::Bridge usual_bridge(const design::DriveDesign& d) {
 base::Result<ContestBench> contest_bench(const ContestSpec& spec) {
   if (spec.sheet.kind == design::MotorKind::linear)
     return base::Problem{"the motor", spec.motor,
-                         "is linear, and the controllers are compared on a turning one",
-                         "look at designs of it one by one"};
+                         "is a linear motor, and the controllers are compared on a rotary one",
+                         "run its designs one by one"};
   const base::Result<design::MotorModel> motor = design::motor_model(spec.sheet);
   if (!motor) return motor.problems();
   base::Result<design::DriveDesign> d = drive_design(*motor, spec);
@@ -251,14 +251,14 @@ base::Result<std::vector<ContestKey>> keys_of(const Contestant& contestant, cons
   }
   if (const std::size_t at = keys.find('<'); at != std::string::npos)
     return base::Problem{std::string(contestant.name), keys.substr(at, keys.find('>', at) + 1 - at),
-                         "is found by no rule", "take one of contest_values()"};
+                         "has no rule that computes it", "use one of contest_values()"};
   std::string_view rest = keys;
   while (!rest.empty()) {
     const std::string_view one = rest.substr(0, rest.find("; "));
     rest.remove_prefix(std::min(one.size() + 2, rest.size()));
     const std::size_t equals = one.find(" = ");
     if (equals == std::string_view::npos)
-      return base::Problem{std::string(contestant.name), std::string(one), "is no key with a value",
+      return base::Problem{std::string(contestant.name), std::string(one), "is not a key with a value",
                            "write it as key = value"};
     out.push_back({std::string(one.substr(0, equals)), std::string(one.substr(equals + 3))});
   }

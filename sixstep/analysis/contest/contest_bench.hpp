@@ -25,11 +25,13 @@ namespace sixstep::analysis {
 
 struct ContestSpec {
   std::string motor{};                ///< name or path, for the scenarios
-  design::Sheet sheet{};              ///< of that motor
-  std::optional<double> voltage_V{};  ///< of the bus; else the sheet's
-  std::optional<double> settle_s{};   ///< of the speed loop; empty: the time that the Hall probes allow
-  std::optional<double> current_settle_s{};  ///< of the current loop; else the design's
-  std::optional<double> period_s{};          ///< of PWM and control; else 30 us
+  design::Sheet sheet{};              ///< sheet of the motor
+  std::optional<double> voltage_V{};  ///< bus voltage; empty: nominal voltage of the sheet
+  std::optional<double>
+      settle_s{};  ///< settling time of the speed loop; empty: the time that the Hall probes allow
+  std::optional<double>
+      current_settle_s{};            ///< settling time of the current loop; empty: the design's default
+  std::optional<double> period_s{};  ///< period of PWM and control; empty: 30 us
   /// Source of supply, bridge, PWM and sensors; empty: usual_bridge(). Where the board's switches name no
   /// energies, those of usual_bridge() are used.
   std::optional<study::Scenario> board{};
@@ -47,7 +49,7 @@ struct Course {
 struct ContestBench {
   design::DriveDesign design;
   Course course;
-  study::Scenario scenario;        ///< of a row without keys
+  study::Scenario scenario;        ///< scenario of a row without keys
   std::vector<std::string> rules;  ///< conditions that are the same for all, a sentence each
 };
 

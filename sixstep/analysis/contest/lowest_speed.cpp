@@ -36,7 +36,7 @@ study::Scenario slow_scenario(const study::Scenario& contestant, const ContestBe
   study::Scenario s = contestant;
   const double settle_s = bench.design.spec.settle_s.value_or(10e-3);
   const double turn_rad = 2 * base::pi / bench.design.motor.machine.pole_pairs;
-  s.title = "As slowly as it goes";
+  s.title = "Lowest speed";
   s.load.times_s.clear();
   s.load.torques_Nm.clear();
   s.load.torque_Nm = bench.course.load_Nm;

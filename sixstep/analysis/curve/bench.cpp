@@ -37,8 +37,8 @@ void check_pace(const Bench& b, base::Problems& problems) {
   const bool chops = b.duty != 1 && b.duty != -1;
   if (chops && m.L_H / m.R_ohm > most_periods * b.pwm_period_s)
     refuse("pwm_period_s", b.pwm_period_s,
-           "lies more than a million times in the winding's time constant, " +
-               base::rounded(m.L_H / m.R_ohm, 3) + " s",
+           "is less than a millionth of the winding's time constant, " + base::rounded(m.L_H / m.R_ohm, 3) +
+               " s",
            "give the PWM period in seconds, as 50e-6 for 20 kHz");
 }
 

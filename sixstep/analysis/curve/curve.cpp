@@ -25,8 +25,8 @@ base::Problems check_temperatures(const CurveRequest& r) {
                                                          {"housing_degC", r.motor_degC.housing_degC}};
   for (const auto& [name, degC] : temperatures)  // above absolute zero, and below any winding's temperature
     if (!base::between(-200, 500).holds(degC))
-      problems.push_back({name, base::written(degC), "must be a temperature, -200 to 500 degC",
-                          "25 is what data sheets mean"});
+      problems.push_back(
+          {name, base::written(degC), "must be a temperature, -200 to 500 degC", "data sheets mean 25"});
   if (auto lost = design::lost_magnets("housing_degC", r.sheet, r.motor_degC.housing_degC);
       problems.empty() && lost)
     problems.push_back(std::move(*lost));
@@ -45,10 +45,10 @@ base::Problems check(const CurveRequest& r) {
                         "a curve is taken forwards: backwards it is the same"});
   if (r.points < 2)
     problems.push_back({"points", std::to_string(r.points), "must be at least 2",
-                        "a curve has standstill and no load, and some points between"});
+                        "a curve needs standstill, no load and some points between"});
   if (r.points > most_points)
     problems.push_back({"points", std::to_string(r.points), "must be at most " + std::to_string(most_points),
-                        "a page shows some hundred; each is simulated and kept"});
+                        "a page shows some hundred; each is simulated and stored"});
   return problems;
 }
 

@@ -36,9 +36,9 @@ struct NominalPoint {
 /// Loss of speed per torque, rad/s per N m, from no load to the nominal point.
 struct SpeedDrop {
   double ideal = 0.0;               ///< R_tt/K_t^2, the speed-torque gradient of data sheets
-  std::optional<double> printed{};  ///< that gradient as printed
-  std::optional<double> sheet{};    ///< between the printed no-load and nominal points
-  std::optional<double> curve{};    ///< between the same torques on the curve
+  std::optional<double> printed{};  ///< this gradient as printed
+  std::optional<double> sheet{};    ///< gradient between the printed no-load and nominal points
+  std::optional<double> curve{};    ///< gradient between the same torques on the curve
 };
 
 /// Times for which short-time limits are given, s.

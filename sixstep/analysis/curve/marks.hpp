@@ -24,7 +24,7 @@ struct Marks {
 struct MarksWanted {
   std::optional<design::ThermalModel> thermal;
   double ambient_degC = design::sheet_degC;
-  double on_R = 1.0;  ///< resistance of the bench's winding over the sheet's
+  double on_R = 1.0;  ///< ratio of the bench's winding resistance to the sheet's value
   std::optional<double> torque_Nm;
 };
 

@@ -58,7 +58,7 @@ bool bracket(NoLoadSearch& search, const Bench& b, Sample& low, Sample& high) {
   }
   search.problems = {{"speed", base::written(high.speed) + " rad/s",
                       "is reached without load and the torque is still positive",
-                      "look at the sheet's torque constant and friction"}};
+                      "check the sheet's torque constant and friction"}};
   return false;
 }
 
@@ -138,7 +138,7 @@ base::Result<NoLoad> no_load(const Bench& b) {
   if (!narrow(search, low, high, found, slope)) return search.problems;
   NoLoad out;
   out.point = found.point;
-  if (out.point.supplied_W > 0) out.point.efficiency = 0.0;  // what is left of the shaft's power is rounding
+  if (out.point.supplied_W > 0) out.point.efficiency = 0.0;  // the remaining shaft power is rounding
   out.slope_Nm_s = slope;
   out.half_width_rad_s = found.point.half_width_Nm / std::fabs(slope);
   out.time_constant_s = b.motor.shaft.J_kg_m2 / std::fabs(slope);

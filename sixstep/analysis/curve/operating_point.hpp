@@ -24,7 +24,7 @@ enum class Orbit : std::uint8_t { standstill, periodic, quasi_periodic };
 
 /// A rotor held at one angle: two phases carry all of the current, and the angle decides the torque.
 struct LockedRotor {
-  double phase_rms_A = 0.0;                                ///< of each of the two
+  double phase_rms_A = 0.0;                                ///< rms current of each of the two phases
   double least_torque_Nm = 0.0, greatest_torque_Nm = 0.0;  ///< by size, over all angles
   double ripple_Nm = 0.0;  ///< within a PWM period where the torque is least, peak to peak
 };
@@ -35,8 +35,8 @@ struct OperatingPoint {
   double speed_rad_s = 0.0;
   double torque_Nm = 0.0;        ///< electromagnetic, mean of T_e
   double shaft_torque_Nm = 0.0;  ///< less friction
-  double ripple_Nm = 0.0;        ///< of T_e, peak to peak
-  double ripple_rms_Nm = 0.0;    ///< of T_e about its mean
+  double ripple_Nm = 0.0;        ///< ripple of T_e, peak to peak
+  double ripple_rms_Nm = 0.0;    ///< rms of T_e about its mean
   double bus_current_A = 0.0;
   double winding_current_A = 0.0;  ///< mean of (|i_a| + |i_b| + |i_c|)/2
   double motor_current_A = 0.0;    ///< mean of |i_m|, i_m = (i_p - i_n)/2 of the positive pair (model.md 3)
@@ -51,10 +51,11 @@ struct OperatingPoint {
   Orbit orbit = Orbit::standstill;
   std::int64_t sectors = 0;    ///< simulated
   double residual_A = 0.0;     ///< periodic: distance between the currents one sector apart
-  double error_bound_A = 0.0;  ///< periodic: of the currents' distance to the steady state
-  double half_width_Nm = 0.0;  ///< quasi-periodic: of the mean torque's interval (confidence_level)
-  double half_width_A = 0.0;   ///< quasi-periodic: of the mean bus current's
-  double simulated_s = 0.0;    ///< averaging time of the mean values
+  double error_bound_A = 0.0;  ///< periodic: bound of the currents' distance to the steady state
+  double half_width_Nm =
+      0.0;                    ///< quasi-periodic: half width of the mean torque's interval (confidence_level)
+  double half_width_A = 0.0;  ///< quasi-periodic: half width of the mean bus current's interval
+  double simulated_s = 0.0;   ///< averaging time of the mean values
   /// Quasi-periodic: the interval is below half_width_goal of the stall torque. Periodic: the currents repeat to
   /// rounding.
   bool precise = true;

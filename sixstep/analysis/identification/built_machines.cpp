@@ -36,8 +36,8 @@ base::Problems check_built_speed(double electrical_Hz, int pole_pairs) {
   if (rpm < built_shaft_rpm.low)
     return {{.where = "time",
              .limit = "makes " + base::three_digits(rpm) + " rpm" + pairs +
-                      (pole_pairs == 0 ? " at the most" : "") + ", and what turns less than " +
-                      base::written(built_shaft_rpm.low) + " shows no back-EMF to go by",
+                      (pole_pairs == 0 ? " at the most" : "") + ", and a motor below " +
+                      base::written(built_shaft_rpm.low) + " rpm has too little back-EMF to measure",
              .cure = std::string("check the unit of time and the time from row to row") +
                      (pole_pairs > 1 ? ", and whether the pole pairs are fewer" : "")}};
   return {};
@@ -57,8 +57,8 @@ base::Problems check_built_constant(double line_peak_V_s, double electrical_Hz, 
                     (low ? "less than " + base::written(built_line_mV_s.low)
                          : "more than " + base::six_digits(built_line_mV_s.high)),
            .cure = std::string("check the units of time and voltage and the probe's factor: ") +
-                   (low ? "the voltage is taken too small, or the time too short"
-                        : "the voltage is taken too great, or the time too long") +
+                   (low ? "the voltage is read too small, or the time too short"
+                        : "the voltage is read too great, or the time too long") +
                    pairs}};
 }
 

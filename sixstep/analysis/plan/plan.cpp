@@ -73,14 +73,13 @@ class Checker {
     const std::size_t dimensions = plan_.axes.size() * (plan_.sampling == Sampling::saltelli ? 2 : 1);
     const bool even = plan_.sampling == Sampling::sobol || plan_.sampling == Sampling::saltelli;
     if (even && dimensions > sobol_dimensions)
-      add("vary", std::to_string(plan_.axes.size()), "are more keys than the sequence has dimensions for",
+      add("vary", std::to_string(plan_.axes.size()), "are more keys than the sequence has dimensions",
           "vary at most " + std::to_string(sobol_dimensions * plan_.axes.size() / dimensions));
     if (plan_.sampling != Sampling::grid && !plan_.axes.empty() && plan_.points == 0)
-      add("points", "0", "leaves nothing to run", "say how many points there are to be");
+      add("points", "0", "leaves no point to run", "give the number of points");
     if (plan_.sampling == Sampling::saltelli && plan_.drives > 0)
-      add("drives", std::to_string(plan_.drives),
-          "stray at random, and Sobol indices need points that differ as planned",
-          "vary what strays over its range, with strays = true");
+      add("drives", std::to_string(plan_.drives), "vary at random, and Sobol indices need planned points",
+          "vary these values over their range, with strays = true");
     if (problems_.empty() && too_many())
       add("points", "", "are more than a thousand million runs", "take fewer values or points");
     return std::move(problems_);
@@ -97,13 +96,14 @@ class Checker {
       return add(where + "key", a.key, "is varied already", "give it all its values at once");
     if (!a.values.empty()) return;
     if (!std::isfinite(a.from) || !std::isfinite(a.to))
-      return add(where + "from", base::written(a.from), "and its other end are no range", "give two numbers");
+      return add(where + "from", base::written(a.from), "and its other end are not a range",
+                 "give two numbers");
     if (a.spacing == Spacing::logarithmic && !(a.from > 0.0 && a.to > 0.0))
       return add(where + "from", base::written(std::min(a.from, a.to)),
                  "has no logarithm: ends of a logarithmic range are above 0", "space it linearly");
     if (plan_.sampling == Sampling::grid && a.points < 2)
-      return add(where + "points", std::to_string(a.points),
-                 "leave out an end of the range that the grid goes over", "give 2 points or more");
+      return add(where + "points", std::to_string(a.points), "remove one end of the range",
+                 "give 2 points or more");
   }
 
   bool too_many() const {

@@ -21,7 +21,7 @@ struct Axis {
   std::string key;                  ///< as in the scenario, "pwm.period_s"
   std::vector<std::string> values;  ///< as a file writes them, "\"soft\"" or 0.5; empty: a range
   double from = 0.0, to = 0.0;      ///< in the key's unit; a grid contains both
-  std::size_t points = 0;           ///< of a range on a grid, two or more
+  std::size_t points = 0;           ///< number of values of a range on a grid, two or more
   Spacing spacing = Spacing::linear;
   /// The drive differs, but its controller is designed without the difference, as with [[spread]]
   /// (study::strayed_to).

@@ -33,11 +33,11 @@ struct PlanEntry {
 inline constexpr base::Choice<Sampling> sampling_choices[] = {
     {"grid", Sampling::grid, "every value of each key with every one of the others"},
     {"latin-hypercube", Sampling::latin_hypercube,
-     "each key's range in as many parts as there are points, one point in each part"},
+     "each key's range divided into as many parts as points, one point in each part"},
     {"sobol", Sampling::sobol, "a sequence that fills the ranges evenly, whatever its length"},
     {"monte-carlo", Sampling::monte_carlo, "at random"},
     {"saltelli", Sampling::saltelli,
-     "for Sobol indices, which key a figure depends on: points times (keys + 2) runs"},
+     "for Sobol indices, which show the keys on which a figure depends: points times (keys + 2) runs"},
 };
 
 inline constexpr base::Choice<Spacing> spacing_choices[] = {
@@ -46,28 +46,26 @@ inline constexpr base::Choice<Spacing> spacing_choices[] = {
 };
 
 inline void describe(base::Visitor& v, AxisEntry& s) {
-  v.value("key", s.key,
-          {.meaning = "what is varied: a key of the scenario, as pwm.period_s", .required = true});
-  v.value("values", s.values, {.meaning = "the values that it takes, as the scenario would write them"});
-  v.value("from", s.from, {.meaning = "one end of a range instead, which a grid reaches", .unit_of = s.key});
-  v.value("to", s.to, {.meaning = "its other end", .unit_of = s.key});
+  v.value("key", s.key, {.meaning = "key of the scenario that is varied, as pwm.period_s", .required = true});
+  v.value("values", s.values, {.meaning = "values of the key, as in a scenario"});
+  v.value("from", s.from,
+          {.meaning = "first end of a range, instead of values; a grid includes it", .unit_of = s.key});
+  v.value("to", s.to, {.meaning = "second end of the range", .unit_of = s.key});
   v.value("points", s.points,
           {.meaning = "values from one end to the other on a grid", .range = base::between(0, 1e9)});
-  v.choice("spacing", s.spacing, spacing_choices, {.meaning = "how they lie between the ends"});
-  v.value(
-      "strays", s.strays,
-      {.meaning = "whether the drive differs from what its controller was designed for, as with [[spread]]; "
-                  "else the controller is designed for each value"});
+  v.choice("spacing", s.spacing, spacing_choices, {.meaning = "spacing of the values between the ends"});
+  v.value("strays", s.strays,
+          {.meaning = "whether only the drive has this value, as with [[spread]], while the controller stays "
+                      "designed for the nominal one; else the controller is designed for each value"});
 }
 
 inline void describe(base::Visitor& v, PlanEntry& s) {
   v.value("title", s.title, {.meaning = "one line that names the plan"});
-  v.value("scenario", s.scenario,
-          {.meaning = "the scenario that all runs are made of, beside this file", .required = true});
-  v.value("notes", s.notes, {.meaning = "what the plan answers, shown on its page"});
-  v.choice("sampling", s.sampling, sampling_choices, {.meaning = "how points are laid out"});
+  v.value("scenario", s.scenario, {.meaning = "scenario of all runs, beside this file", .required = true});
+  v.value("notes", s.notes, {.meaning = "question that the plan answers, shown on its page"});
+  v.choice("sampling", s.sampling, sampling_choices, {.meaning = "arrangement of the points"});
   v.value("points", s.points,
-          {.meaning = "how many, of everything but a grid", .range = base::between(0, 1e9)});
+          {.meaning = "number of points, except for a grid", .range = base::between(0, 1e9)});
   v.value(
       "drives", s.drives,
       {.meaning = "drives of the series that [[spread]] describes, at each point; 0: the drive as written",
@@ -75,16 +73,15 @@ inline void describe(base::Visitor& v, PlanEntry& s) {
   v.value("seed", s.seed,
           {.meaning = "another series of drives and of points that are drawn", .range = base::from(0)});
   v.value("sheet_tolerances", s.sheet_tolerances,
-          {.meaning =
-               "whether drives also stray in what makers do not promise: resistance, inductance and torque "
-               "constant, where [[spread]] does not say"});
+          {.meaning = "whether drives also vary by the usual tolerances of resistance, inductance and torque "
+                      "constant, for values that [[spread]] does not have"});
   v.value(
       "minimise", s.minimise,
       {.meaning =
            "label of the figure that is to be small, for design with optimise: every requirement held by every drive"});
   v.value("evaluations", s.evaluations,
           {.meaning = "points that are tried for it, at most", .range = base::between(1, 1e6)});
-  v.list("vary", s.vary, {.meaning = "what differs from point to point"});
+  v.list("vary", s.vary, {.meaning = "keys that differ from point to point"});
 }
 
 }  // namespace sixstep::analysis

@@ -94,7 +94,7 @@ base::Result<RunRecord> RunRecord::of(TableColumns columns, RunValues values) {
           so_many(values.figures.size(), "measured values"),
       "do not fit the table, which has " + so_many(c.keys.size(), "varied, ") +
           so_many(c.strayed.size(), "strayed and ") + so_many(c.figures.size(), "measured columns"),
-      "report this with the command that led to it"};
+      "report this with its command"};
 }
 
 RunRecord RunRecord::without_figures(TableColumns columns, std::size_t number, std::vector<std::string> point,
@@ -121,7 +121,7 @@ RunRecord record_of(const TableColumns& columns, std::size_t number, std::vector
   if (planned && same_keys(planned->strayed, columns->strayed))
     for (std::size_t n = 0; n < values.strayed.size(); ++n) values.strayed[n] = planned->strayed[n].value;
   else if (planned)
-    return *without_figures("other values stray in this run than in the table's other runs");
+    return *without_figures("this run has other random values than the table's other runs");
   if (!result) return *without_figures(base::to_string(result.problems().front()));
   std::optional<std::vector<double>> figures = figures_of(*result, *columns);
   if (!figures)

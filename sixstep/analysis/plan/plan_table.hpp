@@ -38,7 +38,7 @@ struct InputColumn {
 };
 
 struct PlanColumns {
-  std::vector<InputColumn> keys;      ///< of the plan's axes
+  std::vector<InputColumn> keys;      ///< keys of the plan's axes
   std::vector<InputColumn> strayed;   ///< keys of [[spread]]; none where the plan has no drives
   std::vector<FigureColumn> figures;  ///< requirements first, then comparisons, in the scenario's order
   bool operator==(const PlanColumns&) const = default;
@@ -71,8 +71,8 @@ PlannedRun planned_drive(const study::Scenario& nominal, std::uint64_t seed, std
 enum class RunEnd : std::uint8_t { whole, fault, refused };
 
 inline constexpr base::Choice<RunEnd> run_ends[] = {
-    {"whole", RunEnd::whole, "came to its end, whatever its verdicts"},
-    {"fault", RunEnd::fault, "stopped by one; figures are as they were then"},
+    {"whole", RunEnd::whole, "ran to its end, with any verdicts"},
+    {"fault", RunEnd::fault, "stopped by a fault; figures have their values at that time"},
     {"refused", RunEnd::refused, "could not start: no figures"},
 };
 
@@ -82,9 +82,9 @@ struct RunValues {
   std::vector<std::string> point;  ///< value of each key, as a file writes it
   std::vector<double> strayed;     ///< in the keys' units; NaN where it could not be drawn
   RunEnd end = RunEnd::whole;
-  std::string problem;          ///< of a fault or a refusal, in one line
+  std::string problem;          ///< text of a fault or a refusal, in one line
   std::vector<double> figures;  ///< NaN where there is none
-  std::uint64_t digest = 0;     ///< of the trajectory
+  std::uint64_t digest = 0;     ///< digest of the trajectory
 };
 
 /// A row with its columns. of() checks that each column has exactly one value; a row does not change afterwards.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes which key a figure depends on: Sobol indices of a plan laid out for them (Sampling::saltelli).
+// Computes which key a figure depends on: Sobol indices of a plan designed for them (Sampling::saltelli).
 //
 //   f_A, f_B   the figure at the two independent points of a row; f_i the one at A with key i as in B
 //   first      S_i = mean(f_B (f_i - f_A)) / V    of key i alone (A. Saltelli et al., Comput. Phys. Commun. 181,

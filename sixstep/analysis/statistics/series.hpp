@@ -31,7 +31,7 @@ struct Series {
   std::vector<SpreadFigure> figures;  ///< a figure each, in the columns' order
   std::vector<Casualty> faults;       ///< stopped by a fault
   std::vector<Casualty> refused;      ///< could not start
-  std::uint64_t digest = 0;           ///< of all runs' digests, in the order of their numbers
+  std::uint64_t digest = 0;           ///< digest of all runs' digests, in the order of their numbers
 };
 
 Series series_of(const PlanColumns& columns);

@@ -14,7 +14,7 @@ class Statistics {
  public:
   void add(double x);
 
-  std::size_t count() const { return values_.size(); }  ///< of values
+  std::size_t count() const { return values_.size(); }  ///< number of values
   std::size_t missing() const { return missing_; }
   std::optional<double> mean() const;
   /// Estimate for the population of these values: divided by count - 1. Requires two values.

@@ -175,17 +175,16 @@ std::string smaller_step(const DesignOrder& order, const DesignStudy& s) {
   next.subject.step = base::shortened(0.9 * (held - first), 2, base::Towards::down);
   TrialBudget budget{rescue_periods};
   if (!holds(next, order.spec, budget))
-    return "nothing but a smaller step, a higher voltage or less load makes it usable";
+    return "only a smaller step, a higher voltage or less load makes it usable";
   return "usable with step = " + base::written(*next.subject.step);
 }
 
 /// Words for all that was tried in vain.
 std::string nothing_tried(const DriveDesign& d, bool too_long) {
-  std::string text =
-      "nothing that was tried makes it usable: another chopping, period, sensor, slower loops, less torque";
-  if (too_long) text += "; what would take longer to simulate was left out";
+  std::string text = "no tried change makes it usable: chopping, period, sensor, slower loops, less torque";
+  if (too_long) text += "; changes that take longer to simulate were left out";
   if (d.spec.settle_s && d.settle_by_torque_s > *d.spec.settle_s)
-    text += "; torque limit and inertia ask for settle_s = " +
+    text += "; torque limit and inertia need settle_s = " +
             base::written(base::shortened(d.settle_by_torque_s, 2, base::Towards::up));
   return text;
 }
@@ -272,7 +271,7 @@ void advise(const DesignOrder& order, base::Problems& problems) {
   if (const std::string words = rescue(order, *d).words; !words.empty())
     problems.front().cure = "take " + words;
   else if (grave != d->warnings.end())  // independent of the gain
-    problems.front().cure = "mend first what the design has against it: " + grave->what;
+    problems.front().cure = "correct the design's first problem: " + grave->what;
 }
 
 void advise(const DesignOrder& order, DesignStudy& study) {

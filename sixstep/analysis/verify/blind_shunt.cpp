@@ -47,15 +47,14 @@ void look_at_blind_shunt(const DesignOrder& order, DesignStudy& s) {
   if (s.scenario.sensors.currents != rig::CurrentMeasurement::dc_link) return;
   const double unseen_A = unseen_current_A(s.design, s.scenario);
   if (unseen_A == 0.0) return;
-  const std::string blind = "with the rotor at rest one shunt sees no current below " +
+  const std::string blind = "with the rotor at rest one shunt measures no current below " +
                             base::three_digits(unseen_A) + " A: its pulse is too short";
-  design::Warning w{
-      .what = blind + ", and what is not seen is not controlled",
-      .cure = "measure the phases' currents, or make it shorter what hides it: " + hiding(s.scenario),
-      .of = design::Concern::shunt};
+  design::Warning w{.what = blind + ", and smaller currents are not controlled",
+                    .cure = "measure the phases' currents, or shorten the cause: " + hiding(s.scenario),
+                    .of = design::Concern::shunt};
   if (s.design.spec.mode == control::Mode::current && std::fabs(s.scenario.reference.value) < unseen_A) {
     w.what =
-        blind + ", and the step asks for " + base::three_digits(std::fabs(s.scenario.reference.value)) + " A";
+        blind + ", and the step commands " + base::three_digits(std::fabs(s.scenario.reference.value)) + " A";
     w.grave = true;
   }
   if (s.design.spec.mode == control::Mode::speed && s.allowed_swing_rad_s)

@@ -58,7 +58,7 @@ std::string against(const study::Scenario& s, const study::Outcome& designed,
   if (differs) *differs = others(*run, designed);
   if (run->fault) return to_string(*run->fault);
   for (const study::Verdict& v : run->verdicts)
-    if (!v.ok) return v.figure + " misses what is required";
+    if (!v.ok) return v.figure + " misses its requirement";
   if (run->trip) return "the drive trips: " + run->trip->reasons.front();
   return slower(s, *run, designed);
 }
@@ -100,7 +100,7 @@ CarriedOver carry_over(const DesignStudy& study, study::Scenario designed, const
     out.kept += (out.kept.empty() ? "" : ", ") + std::string(name);
   };
   s.control.full_scale = board.control.full_scale;
-  if (take_current_loop(board.control, s.control)) keep("what control.current has beside gains");
+  if (take_current_loop(board.control, s.control)) keep("the keys of control.current other than gains");
   if (board.control.drive == study::FirmwareKind::product) {
     s.control.drive = study::FirmwareKind::product;
     s.protection = board.protection;

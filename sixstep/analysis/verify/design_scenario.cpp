@@ -203,10 +203,10 @@ void add_speed_figures(const DriveDesign& d, const SpeedTest& t, study::Scenario
        "as designed, without limits"},
       {window_measure(study::MetricKind::maximum, study::Signal::current_magnitude, 0, t.begin,
                       "peak current of the start"),
-       d.most_current_A(), at_most_current(d) + "; simulated: the largest of the phases"},
+       d.most_current_A(), at_most_current(d) + "; simulated: largest phase current"},
       {window_measure(study::MetricKind::maximum, study::Signal::current_magnitude, t.begin, t.end,
                       "peak current of the step"),
-       d.most_current_A(), at_most_current(d) + "; simulated: the largest of the phases, braking too"},
+       d.most_current_A(), at_most_current(d) + "; simulated: largest phase current, also while braking"},
   };
   const double band = within * std::fabs(t.step);
   s.require = {

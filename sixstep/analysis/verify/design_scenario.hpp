@@ -16,7 +16,7 @@ inline constexpr double usual_dead_time_s = 0.5e-6;
 
 struct DesignSubject {
   std::string motor{};    ///< name or path, for the scenario
-  design::Sheet sheet{};  ///< of that motor
+  design::Sheet sheet{};  ///< sheet of the motor
   /// Board of the run: supply, bridge, PWM and sensors of this scenario. Empty: a stiff supply, ideal devices, and
   /// the sensors of board_sensors().
   std::optional<study::Scenario> board{};

@@ -29,14 +29,14 @@ constexpr double most_periods = 2e6;
 base::Problems too_long(const study::Scenario& s) {
   if (s.duration_s / s.pwm.period_s <= most_periods) return {};
   return {{"the test", base::three_digits(s.duration_s) + " s",
-           "is longer than two million control periods, so slow is the drive beside them",
+           "is longer than two million control periods: the drive is too slow for this period",
            "give more torque_limit_Nm, a higher lowest_speed_rad_s or a longer period_s"}};
 }
 
 /// Finds a position's gain, and puts it into the design.
 base::Problems find_gain(const DesignOrder& order, DesignStudy& s) {
   if (!(s.design.loop("position").gains.d1 > 0.0))
-    return {{"mode", "position", "finds no gain that does not overshoot: the speed loop within is unstable",
+    return {{"mode", "position", "finds no gain without overshoot: the inner speed loop is unstable",
              "design the speed loop slower (settle_s) or the current loop faster (current_settle_s, "
              "bandwidth_rad_s)"}};
   if (base::Problems found = too_long(design_scenario(s.design, order.subject)); !found.empty()) return found;
@@ -84,10 +84,11 @@ void look_at_pulses(DesignStudy& s) {
   const double sooner = s.design.spec.late_periods() - 0.5;
   s.warnings.push_back(
       {.what =
-           "of pulses that begin with the period a sample in its middle sees the end or not: the loop is " +
+           "with edge-aligned pulses the duty decides whether a sample in the middle comes before or after "
+           "the pulse's end: the loop is " +
            design::late_words(sooner) + " at duties below a half, and " + design::late_words(sooner + 1) +
            " above",
-       .cure = "set pwm.alignment = \"centre\", for which the loop is laid out",
+       .cure = "set pwm.alignment = \"centre\", for which the loop is designed",
        .of = design::Concern::delay});
 }
 
@@ -96,7 +97,7 @@ base::Result<DesignStudy> studied(const DesignOrder& order) {
   const std::optional<double>& step = order.subject.step;
   if (step && !(std::isfinite(*step) && *step != 0.0))
     return base::Problem{"step", base::three_digits(*step), "must be a number other than 0",
-                         "give it in A, rad/s or deg as the mode asks"};
+                         "give it in A, rad/s or deg according to the mode"};
   const base::Result<design::MotorModel> motor = design::motor_model(order.subject.sheet);
   if (!motor) return motor.problems();
   base::Result<design::DriveDesign> design = design::design_drive(*motor, order.spec);

@@ -20,14 +20,14 @@ struct DesignStudy {
   std::optional<PositionGain> position;  ///< position mode: how its gain was found
   study::Scenario scenario;              ///< with which the design was run
   study::Outcome outcome;
-  study::Trace trace;  ///< of that run, with the columns of its [record]
+  study::Trace trace;  ///< trace of that run, with the columns of its [record]
   std::optional<Robustness> robustness;
   std::optional<double> ideal_swing_rad_s;  ///< peak to peak of the speed in steady state, with ideal sensors
   std::optional<double> allowed_swing_rad_s;  ///< above it the speed loop oscillates (board.hpp)
   /// Start, range and delay of a board with a sensorless drive. Its loops are run with Hall edges in place of
   /// crossings.
   std::vector<design::DerivationStep> sensorless;
-  std::vector<design::Warning> warnings;  ///< of the design and of its runs
+  std::vector<design::Warning> warnings;  ///< warnings of the design and of its runs
 
   bool usable() const;  ///< no warning is grave
 };

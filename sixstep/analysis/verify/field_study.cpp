@@ -114,23 +114,25 @@ void add_sensing(const design::DriveLoops& loops, FieldStudy& f) {
 
 void add_axes(const control::FieldDriveConfig<double>& c, FieldStudy& f) {
   const design::FieldMachine& m = f.machine;
-  f.axes = {{"p psi", "peak of the back-EMF's fundamental over the speed", m.magnet_V_s, "V s"},
-            {"K_q", "3/2 p psi, torque over i_q", torque_per_q_A(m), "N m/A"},
-            {"p L_d", "decoupling: voltage across over speed and i_d", c.current.d_V_s_A, "V s/A"},
-            {"p L_q", "decoupling: voltage along over speed and i_q", c.current.q_V_s_A, "V s/A"},
-            {"n T p", "the magnet turns on before an answer acts, over the speed", c.advance.rad_s, "s"}};
+  f.axes = {
+      {"p psi", "peak of the back-EMF's fundamental over the speed", m.magnet_V_s, "V s"},
+      {"K_q", "3/2 p psi, torque over i_q", torque_per_q_A(m), "N m/A"},
+      {"p L_d", "decoupling: voltage across over speed and i_d", c.current.d_V_s_A, "V s/A"},
+      {"p L_q", "decoupling: voltage along over speed and i_q", c.current.q_V_s_A, "V s/A"},
+      {"n T p", "angle that the magnet turns until a command acts, over the speed", c.advance.rad_s, "s"}};
   if (!c.current.decouples) f.axes.erase(f.axes.begin() + 2, f.axes.begin() + 4);
   if (c.per_ampere.k_per_A != 0)
     f.axes.push_back({"k", "(L_q - L_d)/(2 psi), most torque per ampere", c.per_ampere.k_per_A, "1/A"});
   if (c.harmonic.on) {
     const design::HarmonicFigures shape = design::harmonic_figures(c.harmonic);
-    f.axes.push_back({"g", "a constant i_q's torque swings by so much of its mean", shape.swing, ""});
+    f.axes.push_back({"g", "torque swing of a constant i_q, relative to its mean", shape.swing, ""});
     f.axes.push_back(
         {"1/|g|^2", "copper loss of the shape's current, over that of a constant i_q", shape.copper, ""});
   }
   if (!(c.weakening.most_A > 0)) return;
   f.axes.push_back({"K", "weakening, per sample", c.weakening.K_A_per_V, "A/V"});
-  f.axes.push_back({"psi/L_d", "more against the magnet asks for more voltage", most_weakening_A(m), "A"});
+  f.axes.push_back(
+      {"psi/L_d", "above it more current against the magnet needs more voltage", most_weakening_A(m), "A"});
 }
 
 void add_limits(const control::FieldDriveConfig<double>& c, FieldStudy& f) {
@@ -145,7 +147,7 @@ void add_limits(const control::FieldDriveConfig<double>& c, FieldStudy& f) {
                         I, "A"});
     f.limits.push_back(
         {"w(i_q)", "highest speed at which the circle drives i_q", speed_for_current_rad_s(f, I), "rad/s"});
-    f.limits.push_back({"K_q i_q", "the torque that it makes", I * torque_per_q_A(f.machine), "N m"});
+    f.limits.push_back({"K_q i_q", "torque of this current", I * torque_per_q_A(f.machine), "N m"});
   }
   if (!(c.weakening.most_A > 0)) return;
   const double left = f.machine.magnet_V_s - f.machine.pole_pairs * f.machine.L_d_H * c.weakening.most_A;
@@ -157,7 +159,7 @@ void add_limits(const control::FieldDriveConfig<double>& c, FieldStudy& f) {
 std::string slower(const std::string& name) {
   if (name == "position") return "lower control.position.gain_rad_s_per_deg";
   if (name == "speed") return "lengthen control.speed.settle_s";
-  return "lower control.field.bandwidth_Hz, or give control.current less gain";
+  return "lower control.field.bandwidth_Hz or the gains of control.current";
 }
 
 void look_at_loop(const LoopDesign& loop, FieldStudy& f) {
@@ -197,7 +199,7 @@ void look_at_separation(FieldStudy& f) {
 
 void look_at_bus(const control::FieldDriveConfig<double>& c, double asked_rad_s, FieldStudy& f) {
   if (asked_rad_s > base_speed_rad_s(f) && !(c.weakening.most_A > 0))
-    f.warnings.push_back({"the reference asks for " + base::three_digits(asked_rad_s) +
+    f.warnings.push_back({"the reference is " + base::three_digits(asked_rad_s) +
                               " rad/s, and the bus has no voltage above " +
                               base::three_digits(base_speed_rad_s(f)) + " rad/s",
                           "give control.field.weakening_A, or raise supply.voltage_V", false});
@@ -237,10 +239,10 @@ base::Result<FieldStudy> study_field(const study::Scenario& s) {
   if (s.control.drive != study::FirmwareKind::field)
     return base::Problem{"control.drive", "", "is not field-oriented", "set it to \"field-oriented\""};
   if (s.control.mode == Mode::off)
-    return base::Problem{"control.mode", "\"off\"", "leaves no loop to look at",
+    return base::Problem{"control.mode", "\"off\"", "leaves no loop",
                          "set it to \"current\", \"speed\" or \"position\""};
   if (s.control.field.law == study::FieldLaw::finite_set)
-    return base::Problem{"control.field.law", "\"finite-set\"", "has no gains and no linear loop to look at",
+    return base::Problem{"control.field.law", "\"finite-set\"", "has no gains and no linear loop",
                          "run the scenario, or set control.field.law = \"pi\""};
   if (base::Problems problems = study::check(s); !problems.empty()) return problems;
   const base::Result<study::Compiled> c = study::compile(s);

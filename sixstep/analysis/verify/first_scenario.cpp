@@ -60,7 +60,7 @@ base::Result<study::Scenario> run_up(const FirstScenarioSpec& spec, const design
                commutating = R + 3 / base::pi * motor.machine.pole_pairs * speed * motor.machine.L_H;
   const double least = line(d - usual_dead_time_s / s.pwm.period_s, commutating);
   if (!(least > 0.0))
-    return base::Problem{"voltage_V", "", "does not turn the rotor: friction holds it at half the voltage",
+    return base::Problem{"voltage_V", "", "does not turn the rotor: at half the voltage friction holds it",
                          "give a higher bus voltage in V"};
   s.motor = spec.motor;
   s.sheet = spec.sheet;
@@ -76,7 +76,7 @@ base::Result<study::Scenario> run_up(const FirstScenarioSpec& spec, const design
   if (!(10 * tau < longest_run_up_s))
     return base::Problem{"the motor", spec.motor,
                          "takes " + base::rounded(10 * tau, 3) + " s to run up, and minutes to simulate it",
-                         "look at the inertia and the torque constant of its sheet"};
+                         "check the inertia and the torque constant of its sheet"};
   s.duration_s = std::ceil(10 * tau * 1e3) / 1e3;  // exp(-9) of the way is left where the window begins
   const double calm = 0.9 * s.duration_s;
   const study::Measure mean =
@@ -166,7 +166,7 @@ bool runs_and_passes(const study::Scenario& s) {
 /// motor without a loop.
 std::string way_out(const FirstScenarioSpec& spec, const design::MotorModel& motor,
                     const design::DriveDesign& usual) {
-  std::string more = "a design of it tells more";
+  std::string more = "a design shows more";
   DesignOrder order = order_of(spec);
   order.tolerances.clear();
   TrialBudget budget{trial_periods};
@@ -260,7 +260,7 @@ base::Result<study::Scenario> usable_design(const FirstScenarioSpec& spec, const
       if (study->usable() && study->outcome.passed()) {
         study::Scenario s = own_scenario(spec, *study);
         if (runs_and_passes(s)) return s;
-        why = "with the few digits of a file its run misses what it is to hold";
+        why = "with its values rounded for a file, its run misses its requirements";
       }
       for (const design::Warning& w : study->warnings)
         if (w.grave) why = w.what;
@@ -292,9 +292,9 @@ base::Result<study::Scenario> begun(const FirstScenarioSpec& spec) {
   for (const study::Verdict& v : outcome->verdicts)
     if (!v.ok)
       return base::Problem{"the motor", spec.motor,
-                           "does not do what its sheet foretells: the " + v.figure + " is " +
+                           "differs from the prediction of its sheet: the " + v.figure + " is " +
                                base::three_digits(v.measured) + " " + v.unit,
-                           "start with another mode; the torque-speed curve of the motor tells more"};
+                           "start with another mode; the torque-speed curve of the motor shows more"};
   return s;
 }
 

@@ -14,8 +14,8 @@ namespace sixstep::analysis {
 struct FirstScenarioSpec {
   control::Mode mode = control::Mode::speed;  ///< duty, current, speed or position
   std::string motor;                          ///< name or path, for the scenario
-  design::Sheet sheet;                        ///< of that motor
-  std::optional<double> voltage_V;            ///< of the bus; empty: the sheet's
+  design::Sheet sheet;                        ///< sheet of the motor
+  std::optional<double> voltage_V;            ///< bus voltage; empty: nominal voltage of the sheet
   ForEach for_each = one_after_the_other;     ///< runs the motors of the tolerances
 };
 

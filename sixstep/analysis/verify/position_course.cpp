@@ -67,15 +67,16 @@ void add_position(const DriveDesign& d, const DesignSubject& subject, study::Sce
       step_measure(study::MetricKind::overshoot, study::Signal::position, 0, end, 0, step, "overshoot");
   s.compare = {
       {settling, fastest,
-       (forth_and_back / 2 > to_top ? "full torque up to " + of_top + " and down again"
-                                    : std::string("full torque, half the way on and half off")) +
+       (forth_and_back / 2 > to_top
+            ? "full torque up to " + of_top + " and down again"
+            : std::string("full torque, half of the way forward and half of it braking")) +
            std::string(hall     ? "; simulated: to within three Hall steps"
                        : counts ? "; simulated: to within 1 %, or three steps of the sensor"
                                 : "; simulated: to within 0.05 %")},
       {overshoot, 0.0, "none wanted"},
       {window_measure(study::MetricKind::maximum, study::Signal::speed, 0, end, "peak speed"), top, of_top},
       {window_measure(study::MetricKind::maximum, study::Signal::current_magnitude, 0, end, "peak current"),
-       d.most_current_A(), at_most_current(d) + "; simulated: the largest of the phases, braking too"},
+       d.most_current_A(), at_most_current(d) + "; simulated: largest phase current, also while braking"},
   };
   s.require = {{overshoot, std::nullopt, counts ? steps : 1e-9 * std::fabs(step)}};
   if (!counts) return;

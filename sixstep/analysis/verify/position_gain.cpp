@@ -14,7 +14,7 @@ namespace {
 
 constexpr double precision = 1e-3, coarse_precision = 0.02;
 
-/// Control periods that are left of a search.
+/// Remaining control periods of a search.
 class Left {
  public:
   Left(const GainSearch& search, TrialBudget* budget)
@@ -35,7 +35,7 @@ base::Problem none_found(const design::DesignSpec& spec, const DesignSubject& su
                          const std::string& who) {
   const bool encoder_helps = spec.rotor.hall && decodes_encoders(subject.board);
   return {"mode", "position",
-          "finds no gain that does not overshoot: " + who + " tried down to gains that take too long",
+          "finds no gain without overshoot: " + who + " tried down to gains that take too long",
           std::string("give more torque_limit_Nm, or a smaller step") +
               (encoder_helps ? ", or rotor = encoder instead of Hall probes" : "")};
 }

@@ -30,8 +30,8 @@ struct TrialBudget {
 /// Limits of a search. They are needed because a lower gain makes a longer move.
 struct GainSearch {
   bool quick = false;            ///< returns the first of the closed form and its halves that holds
-  double longest_periods = 2e6;  ///< of a run
-  double periods = 1.5e7;        ///< of all runs together: half a minute of one core
+  double longest_periods = 2e6;  ///< limit of one run
+  double periods = 1.5e7;        ///< limit of all runs together: half a minute of one core
 };
 
 /// Near the end of the way the P controller requests w = k x, which decelerates by k^2 x = k w. This is at

@@ -69,7 +69,7 @@ struct RobustFigure {
 };
 
 struct Robustness {
-  std::vector<RobustFigure> figures;  ///< of the scenario's comparisons, in their order
+  std::vector<RobustFigure> figures;  ///< figures of the scenario's comparisons, in their order
   /// Phase margin of each loop in degrees, with the later of the delays and the sensor of the speed; the least is
   /// worst.
   std::vector<RobustFigure> phases;

@@ -32,7 +32,7 @@ void look_at_reach(DesignStudy& s) {
   const bool stands = swing->measured < missed;
   warn(s, design::Concern::reach,
        stands ? target + " is out of reach: against " + base::three_digits(s.scenario.load.torque_Nm) +
-                    " N m on a bus of " + base::three_digits(s.design.bus_V) + " V the speed stands at " +
+                    " N m on a bus of " + base::three_digits(s.design.bus_V) + " V the speed stays at " +
                     base::rounded(held, 4) + " rad/s"
               : target + " is not reached by the end of the run: there the speed is about " +
                     base::rounded(held, 4) + " rad/s and still moves by " +
@@ -82,7 +82,7 @@ void look_at_settling(DesignStudy& s) {
          "in the simulation it settles in " + base::three_digits(1e3 * c->measured) + " ms, designed were " +
              base::three_digits(1e3 * c->value) + " ms" +
              (from_half_the_bus(s)
-                  ? ": from rest the integral has to reach half the bus before hard chopping drives"
+                  ? ": from rest the integral must reach half the bus before hard chopping drives"
                   : ""),
          false);
 }

@@ -88,8 +88,8 @@ base::Problems passed_over(const study::Scenario& s) {
   base::Problems found;
   const auto tell = [&found](const char* key, std::string_view word) {
     found.push_back({key, '"' + std::string(word) + '"',
-                     "is laid out in the report of a run, and a design lays out PI loops",
-                     "run the scenario and look there, or set it to \"pi\""});
+                     "is derived in the report of a run; a design derives PI loops only",
+                     "run the scenario and read its report, or set it to \"pi\""});
   };
   if (s.control.current.type == study::CurrentLoopType::deadbeat)
     tell("control.current.type", base::word(study::current_loop_choices, s.control.current.type));

@@ -28,7 +28,7 @@ class PairTorque {
   /// Means over a part of a sector.
   struct Means {
     double torque = 0.0;  ///< N m/A
-    double square = 0.0;  ///< of torque^2
+    double square = 0.0;  ///< mean of torque^2
   };
   Means means(std::uint8_t sector, double from_rad, double to_rad, std::size_t source,
               std::size_t sink) const;

@@ -118,7 +118,7 @@ base::Result<WiringBench> wiring_bench(const WiringSubject& subject) {
   if (!(longest <= most_periods * study::Pwm{}.period_s))
     return base::Problem{"current_A", base::written(b.current_A),
                          "makes a test of " + base::rounded(longest, 3) +
-                             " s, and that 252 times: so slow is the motor with it",
+                             " s, and that 252 times: the motor is too slow with it",
                          "give more current, or check the units of the motor's inertia and torque constant"};
   return b;
 }
@@ -128,7 +128,7 @@ study::Scenario free_run(const WiringBench& b, const WiringSubject& subject, con
   using enum study::MetricKind;
   using study::Signal;
   study::Scenario s = on_bench(b, subject, wiring);
-  s.title = "Let free from rest, connected as bridge.phases and sensors.hall_lines say";
+  s.title = "Released from rest, connected as in bridge.phases and sensors.hall_lines";
   s.duration_s = b.free_s;
   s.initial.angle_rad = electrical_deg * base::pi / 180 / b.motor.machine.pole_pairs;
   s.record.grid_s = b.row_s;
@@ -144,7 +144,7 @@ study::Scenario free_run(const WiringBench& b, const WiringSubject& subject, con
 
 study::Scenario turned_run(const WiringBench& b, const WiringSubject& subject, const rig::Wiring& wiring) {
   study::Scenario s = on_bench(b, subject, wiring);
-  s.title = "Turned slowly by a dynamometer, connected as bridge.phases and sensors.hall_lines say";
+  s.title = "Turned slowly by a dynamometer, connected as in bridge.phases and sensors.hall_lines";
   s.duration_s = b.turned_from_s + b.turned_s;
   // A row lies in the middle of its two degrees, so that none is on a sector's edge, where the torque has two
   // values.

@@ -17,8 +17,8 @@ inline constexpr double electrical_turn_rad = 6 * base::sector_rad;
 
 struct WiringSubject {
   std::string motor{};                ///< name or path, for the scenario
-  design::Sheet sheet{};              ///< of that motor
-  std::optional<double> voltage_V{};  ///< of the bus; empty: the sheet's nominal voltage
+  design::Sheet sheet{};              ///< sheet of the motor
+  std::optional<double> voltage_V{};  ///< bus voltage; empty: the sheet's nominal voltage
   /// Current of the stalled motor; empty: nominal, or a tenth of the largest that the bus can drive.
   std::optional<double> current_A{};
 };
@@ -34,7 +34,7 @@ struct WiringBench {
   double ideal_rad_s = 0.0;  ///< duty voltage_V/K_t: no load, continuous current
   double free_s = 0.0;  ///< 18 mechanical time constants and an ideal motor's turn, then the measured part
   double watched_from_s = 0.0;
-  double row_s = 0.0;  ///< between two recorded rows of a free run
+  double row_s = 0.0;  ///< time between two recorded rows of a free run
   /// PWM period of the slow turn. It is short, because rows lie at the begin of a period, and a current that
   /// has decayed by then does not show the torque.
   double turned_pwm_s = 0.0;

@@ -23,11 +23,11 @@ struct FreeRun {
   double turns = 0.0;              ///< electrical, of the measured time, signed
   double way_turns = 0.0;          ///< electrical, from the start to the end, signed
   double phase_rms_A = 0.0;        ///< root of the mean square of all three phases
-  double peak_A = 0.0;             ///< of half the sum of the phase currents' magnitudes
+  double peak_A = 0.0;             ///< peak of half the sum of the phase currents' magnitudes
   double supply_A = 0.0;           ///< mean
   double swing_deg = 0.0;          ///< electrical, from lowest to highest angle
   double rest_deg = 0.0;           ///< electrical, in [0, 360): mean angle
-  double swing_Hz = 0.0;           ///< of the whole run: changes of direction, two a period
+  double swing_Hz = 0.0;           ///< rate of swings over the whole run: changes of direction, two a period
   std::vector<float> turned{};     ///< electrical turns since the start, one a row
   std::vector<float> current_A{};  ///< half the sum of the phase currents' magnitudes, one a row
 };
@@ -37,9 +37,9 @@ struct WiringMeasured {
   WiringDoes does = WiringDoes::unclear;
   std::array<FreeRun, starts> runs{};
   double torque_Nm_A = 0.0;  ///< per ampere of half the sum of magnitudes, mean over a slow electrical turn
-  double part = 0.0;         ///< over that of straight wires
+  double part = 0.0;         ///< relative to straight wires
   std::vector<float> torque_over_turn{};  ///< the same, turned_rows of them, at 1, 3, 5 .. degrees
-  std::uint64_t digest = 0;               ///< of all seven runs
+  std::uint64_t digest = 0;               ///< digest of all seven runs
 };
 
 struct WiringCase {
@@ -63,7 +63,7 @@ struct Symptom {
 struct WiringStudy {
   WiringSubject subject;
   WiringBench bench;
-  plant::general::Machine machine;          ///< of the theory's torque
+  plant::general::Machine machine;          ///< machine of the theory's torque
   std::vector<WiringCase> cases;            ///< in the order of all_wirings()
   std::optional<OperatingPoint> settled{};  ///< straight wires without load
 

@@ -19,8 +19,8 @@ enum class WiringDoes : std::uint8_t {
   backward,
   backward_early,
   backward_late,
-  hums,    ///< stands or swings about an angle, with the current of a stalled motor
-  unclear  ///< of a measurement only: not the same from every start
+  hums,    ///< at rest or oscillating about an angle, with the current of a stalled motor
+  unclear  ///< measurements only: the result depends on the start
 };
 inline constexpr std::size_t kinds_of_wiring = 7;  ///< without `unclear`
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a voltage vector that stands or turns as commanded, and computes the current in the frame of that vector.
+// Makes a voltage vector that rests or turns as commanded, and computes the current in the frame of that vector.
 //
 //   v_k = v cos(angle - 120 k),   d_k = 1/2 + v_k + v_0,  v_0 = -(max v_k + min v_k)/2     (model.md 11)
 //   3 i_alpha = 2 i_a - i_b - i_c,   3 i_beta = sqrt 3 (i_b - i_c),   turned back by the angle: along, across

@@ -9,7 +9,7 @@
 // Above w_high nothing is injected. The start:
 //
 //   with injection      axis -> north -> following      the rotor is found at standstill, and does not move
-//                               '-----> unseen          it does not saturate: the drive gives up
+//                               '-----> unseen          it does not saturate: the drive stops
 //   by the flux alone   aligning -> ramping -> following    a current turns it: it moves before it can be followed
 //                           '--------'---------'--> unseen    it was lost too often in a row after short runs
 //
@@ -37,7 +37,7 @@ struct TurnStartConfig {
   std::int64_t step = 0;          ///< increase of the speed per tick, 2^-48 turn per tick
   std::int64_t enough = 0;        ///< speed from which the flux is followed
   std::uint32_t good_ticks = 0;   ///< a rotor that is followed for this time has started
-  std::uint8_t retries = 3;       ///< failed starts in a row before the drive gives up
+  std::uint8_t retries = 3;       ///< failed starts in a row before the drive stops
   bool operator==(const TurnStartConfig&) const = default;
 };
 

@@ -27,7 +27,7 @@ namespace sixstep::control {
 
 struct HallCalibrationConfig {
   std::uint16_t turns = 32;   ///< n, electrical
-  std::uint16_t steady = 64;  ///< a turn's time may differ by this part from the first one's
+  std::uint16_t steady = 64;  ///< a turn may differ from the first turn by 1/steady of its time
   bool operator==(const HallCalibrationConfig&) const = default;
 };
 

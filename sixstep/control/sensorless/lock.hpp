@@ -35,7 +35,7 @@ struct LockConfig {
   std::uint32_t longest_ticks = 0xffffffff;  ///< longest sector: a slower rotor cannot be followed
   std::uint32_t most_flux = 0xffffffff;      ///< largest y times T of a rotor, counts times ticks
   std::int32_t threshold = 0x7fffffff;       ///< counts of y above which it is a voltage and not noise
-  std::uint8_t retries = 3;                  ///< losses and failed starts in a row before the drive gives up
+  std::uint8_t retries = 3;                  ///< losses and failed starts in a row before the drive stops
   std::uint16_t sectors_to_forget = 60;      ///< sectors without a loss after which losses are counted anew
   bool operator==(const LockConfig&) const = default;
 };
@@ -110,7 +110,7 @@ constexpr LockLoss lock_waiting(const LockConfig& config, std::uint32_t since, s
   return hides ? LockLoss::long_demagnetisation : LockLoss::masked_crossing;
 }
 
-/// Counts a loss; true if the drive must give up.
+/// Counts a loss; true if the drive must stop.
 constexpr bool lock_lost(const LockConfig& config, LockState& state, LockLoss loss) {
   lock_begin(state);
   state.last = loss;

@@ -29,7 +29,7 @@ struct SensorlessConfig {
 
 struct SensorlessInput {
   TerminalSample terminals{};
-  std::int8_t wanted = 0;      ///< direction: 1, -1; 0: stand or coast
+  std::int8_t wanted = 0;      ///< direction: 1, -1; 0: rest or coast
   bool on = false;             ///< the driven pair's switches are on at the sample
   std::uint32_t on_ticks = 0;  ///< timer ticks of that on-time; for comparators against half the bus
   Observed observed{};         ///< the observer's result

@@ -97,7 +97,7 @@ void fields(Walk&& w, const control::DeadbeatConfig<double>& d, Kept& kept) {
   w.part("rest", d.rest, rest);
   w.gain({"decay", "", "over a period"}, d.decay, decay, Ratio{});
   w.gain({"V_per_A", "V per A"}, d.V_per_A, V_per_A, of_current);
-  w.gain({"correction_V_per_A", "V per A", "of what a prediction missed"}, d.correction_V_per_A,
+  w.gain({"correction_V_per_A", "V per A", "per ampere of prediction error"}, d.correction_V_per_A,
          correction_V_per_A, of_current);
   w.gain({"K_t_V_s", "V per rad/s"}, d.K_t_V_s, K_t_V_s, {Base::voltage, Base::speed});
   w.signal({"limit", "V"}, d.limit, limit, Base::voltage);
@@ -109,7 +109,7 @@ void fields(Walk&& w, const control::CommutationStepConfig<double>& d, Kept& kep
          flat_flanks] = kept;
   w.gain({"K_t_V_s", "V per rad/s", "2 E"}, d.K_t_V_s, K_t_V_s, {Base::voltage, Base::speed});
   w.gain({"V_per_A", "V per A", "3 R/2"}, d.V_per_A, V_per_A, {Base::voltage, Base::current});
-  w.gain({"A_per_V", "A per V", "T/L times half a period and those that an answer waits"}, d.A_per_V, A_per_V,
+  w.gain({"A_per_V", "A per V", "T/L times half a period plus the command's delay"}, d.A_per_V, A_per_V,
          {Base::current, Base::voltage});
   w.signal({"overlap_bus_V", "V"}, d.overlap_bus_V, overlap_bus_V, Base::voltage);
   w.gain({"missing_V_per_A", "V per A"}, d.missing_V_per_A, missing_V_per_A, {Base::voltage, Base::current});
@@ -125,7 +125,7 @@ void fields(Walk&& w, const control::PiPositionalConfig<double>& d, Kept& kept) 
   auto& [K, K_i, K_b, limit, K_c] = kept;
   w.gain({"K", "per rad/s"}, d.K, K, of_speed);
   w.gain({"K_i", "per rad/s", "per sample"}, d.K_i, K_i, of_speed);
-  w.gain({"K_b", "", "of what the limit cuts off, per sample"}, d.K_b, K_b, Ratio{});
+  w.gain({"K_b", "", "of the clamped excess, per sample"}, d.K_b, K_b, Ratio{});
   w.signal({"limit", "of full torque"}, d.limit, limit, Base::one);
   w.gain({"K_c", "per rad/s", "at the limit, per sample"}, d.K_c, K_c, of_speed);
 }
@@ -141,14 +141,14 @@ void fields(Walk&& w, const control::DerivativeConfig<double>& d, Kept& kept) {
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::ObservedSpeedConfig<double>& d, Kept& kept) {
   auto& [a, b, c, L_w, L_l, K, f, g] = kept;
-  w.signal({"a", "", "left of the speed, per sample"}, d.a, a, Base::one);
-  w.signal({"b", "rad/s", "that a sample of full torque adds"}, d.b, b, Base::speed);
-  w.signal({"c", "", "left of the torque, per sample"}, d.c, c, Base::one);
+  w.signal({"a", "", "fraction of the speed kept per sample"}, d.a, a, Base::one);
+  w.signal({"b", "rad/s", "added by a sample of full torque"}, d.b, b, Base::speed);
+  w.signal({"c", "", "fraction of the torque kept per sample"}, d.c, c, Base::one);
   w.signal({"L_w", "", "correction of the speed"}, d.L_w, L_w, Base::one);
   w.signal({"L_l", "per rad/s", "correction of the load"}, d.L_l, L_l, Base::one);
   w.signal({"K", "per rad/s"}, d.K, K, Base::one);
   w.signal({"f", "per rad/s", "for friction"}, d.f, f, Base::one);
-  w.signal({"g", "rad/s", "that the torque on its way brings"}, d.g, g, Base::speed);
+  w.signal({"g", "rad/s", "added by the torque not yet in effect"}, d.g, g, Base::speed);
 }
 
 template <class Walk, class Kept>

@@ -30,7 +30,7 @@ void fields(Walk&& w, const control::OneShuntConfig<double>& d, Kept& kept) {
   auto& [least_duty, commutation_samples, fade] = kept;
   w.signal({"least_duty", "", "above it a sample shows the current", true}, d.least_duty, least_duty,
            Base::one);
-  w.count({"commutation_samples", "", "after a Hall edge, taken for the incoming phase"},
+  w.count({"commutation_samples", "", "after a Hall edge, used as the incoming phase's current"},
           d.commutation_samples, commutation_samples, std::uint8_t{0});
   w.signal({"fade", "", "of a hidden current, per tick"}, d.fade, fade, Base::one);
 }
@@ -47,14 +47,14 @@ template <class Walk, class Kept>
 void fields(Walk&& w, const control::HallSpeedConfig<double>& d, Kept& kept) {
   auto& [sector_rad_s_ticks, timeout_ticks, edges, window_ticks, grain_ticks] = kept;
   constexpr control::HallSpeedConfig<double> unset{};
-  w.ticks({"sector_rad_s_ticks", "rad/s", "over the ticks of a sector it is the speed", true},
+  w.ticks({"sector_rad_s_ticks", "rad/s", "divided by the ticks of a sector it is the speed", true},
           d.sector_rad_s_ticks, sector_rad_s_ticks, Base::speed);
-  w.count({"timeout_ticks", "", "of the timer: it stands"}, d.timeout_ticks, timeout_ticks,
+  w.count({"timeout_ticks", "", "of the timer without an edge: standstill"}, d.timeout_ticks, timeout_ticks,
           unset.timeout_ticks);
-  w.count({"edges", "", "that a speed is taken over"}, d.edges, edges, unset.edges);
-  w.count({"window_ticks", "", "of the timer: longer, and one edge is taken"}, d.window_ticks, window_ticks,
+  w.count({"edges", "", "for the average of a speed"}, d.edges, edges, unset.edges);
+  w.count({"window_ticks", "", "of the timer: above it one edge is used"}, d.window_ticks, window_ticks,
           unset.window_ticks);
-  w.count({"grain_ticks", "", "of the timer: to so many an edge's time is known"}, d.grain_ticks, grain_ticks,
+  w.count({"grain_ticks", "", "of the timer: resolution of an edge's time"}, d.grain_ticks, grain_ticks,
           unset.grain_ticks);
 }
 

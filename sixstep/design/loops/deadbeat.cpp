@@ -38,7 +38,7 @@ base::Result<Deadbeat> deadbeat(const DeadbeatSpec& spec) {
        {"1/b", "volts that move the current by 1 A in a period", V_per_A, "V/A"},
        {"a_w", "exp(-R t_w / L)", wait.decay, ""},
        {"b_w", "(1 - a_w) / R", wait.A_per_V, "A/V"},
-       {"g/b", "volts taken over per ampere that a prediction missed", spec.correction * V_per_A, "V/A"}}};
+       {"g/b", "correction voltage per ampere of prediction error", spec.correction * V_per_A, "V/A"}}};
 }
 
 Transfer open_deadbeat_loop(int wait_periods) {

@@ -86,9 +86,9 @@ void look_at_steps(const DriveDesign& d, Collector& out) {
                            (d.motor.kind == MotorKind::linear ? " mm" : " degrees");
   if (const std::optional<double> stands = d.loops[1].figures.delay_s; stands && blind_s > *stands)
     out.add(Concern::rest, "within a Hall step of " + step +
-                               " of its target the drive learns its speed every " + milliseconds(blind_s) +
-                               " (1/K_p), and the speed loop stands " + milliseconds(*stands) +
-                               ": it comes to within a few steps and never rests");
+                               " of its target the drive measures its speed only every " +
+                               milliseconds(blind_s) + " (1/K_p), and the speed loop tolerates a delay of " +
+                               milliseconds(*stands) + ": it comes to within a few steps and never rests");
 }
 
 void look_at_sign(const DriveDesign& d, const LoopDesign& loop, Collector& out) {
@@ -147,8 +147,8 @@ void look_at_braking(const DriveDesign& d, Collector& out) {
 void look_at_voltage(const DriveDesign& d, Collector& out) {
   const double first_V = d.loops[0].gains.d1 * d.nominal_current_A;
   if (first_V > d.bus_V)
-    out.add(Concern::voltage, "a step of " + std::string(nominal_current_words(d)) + " asks for " +
-                                  base::three_digits(first_V) + " V at once, the bus has " +
+    out.add(Concern::voltage, "a step of " + std::string(nominal_current_words(d)) + " needs " +
+                                  base::three_digits(first_V) + " V at once, and the bus has " +
                                   base::three_digits(d.bus_V) + " V: it settles later than designed");
   if (d.headroom_end_rad_s <= 0.0)
     out.add(Concern::voltage,
@@ -172,16 +172,16 @@ void look_at_heat(const DriveDesign& d, Collector& out) {
       out.add(
           Concern::heat,
           "the sheet names no nominal current: a tenth of the stall current, " +
-              base::three_digits(d.nominal_current_A) + " A, stands in for it",
+              base::three_digits(d.nominal_current_A) + " A, is used instead",
           false,
           current
               ? "give the sheet's nominal_current_A"
-              : "give the sheet's nominal_current_A, or torque_limit_Nm with what bridge and winding bear");
+              : "give the sheet's nominal_current_A, or a torque_limit_Nm that bridge and winding withstand");
     return;
   }
   const double most_A = d.most_current_A();
   if (!current && most_A > greatest_overload * d.nominal_current_A)
-    out.add(Concern::heat, "the speed loop may ask for " + base::three_digits(most_A) + " A, " +
+    out.add(Concern::heat, "the speed loop may command " + base::three_digits(most_A) + " A, " +
                                base::three_digits(most_A / d.nominal_current_A) +
                                " times the nominal current");
 }
@@ -212,7 +212,7 @@ std::vector<Warning> warnings_of(const DriveDesign& d) {
   look_at_heat(d, out);
   if (!d.motor.left_to_a_run.empty())
     out.add(Concern::other, "this design leaves out " + d.motor.left_to_a_run + ", which a run has", false,
-            "hold it to a run of your scenario");
+            "check it by a run of your scenario");
   return out.found;
 }
 

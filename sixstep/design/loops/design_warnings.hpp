@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Warnings to the designer of a drive, in words. Cures that can be tried are found by trials
-// (analysis/verify/advice.hpp); cures stand here only where no trial is possible: data that the sheet lacks, effects
+// (analysis/verify/advice.hpp); cures are here only where no trial is possible: data that the sheet lacks, effects
 // that only a run shows.
 #pragma once
 #include <vector>

@@ -116,7 +116,7 @@ base::Result<LoopDesign> speed_loop(const DriveDesign& d) {
     if (w.bandwidth_rad_s && !(a > 1.0))
       return base::Problem{
           "bandwidth_rad_s", base::written(*w.bandwidth_rad_s),
-          "must be below what the current loop's lag allows, " + base::written(1.0 / lag) + " rad/s",
+          "must be below the limit from the current loop's lag, " + base::written(1.0 / lag) + " rad/s",
           "lower it; a third of that has the most phase to spare"};
     return by_rule("speed", "symmetrical optimum",
                    symmetrical_optimum(shaft.J_kg_m2, d.torque_limit_Nm, lag, a, w.period_s));
@@ -269,7 +269,7 @@ void add_steps(DriveDesign& d) {
   std::erase_if(d.sensing, [](const DerivationStep& s) { return s.symbol == "q" || s.symbol == "1/K_p"; });
   const double gain = d.loops[2].gains.d1 * 180.0 / base::pi;
   d.sensing.push_back({"q", "60/p, a Hall step", 60.0 / d.motor.machine.pole_pairs, "deg"});
-  d.sensing.push_back({"1/K_p", "a step away from the target the next edge is so far off", 1.0 / gain, "s"});
+  d.sensing.push_back({"1/K_p", "time to the next edge, one step away from the target", 1.0 / gain, "s"});
 }
 
 void add_limits(DriveDesign& d) {

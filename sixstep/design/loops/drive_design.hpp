@@ -37,7 +37,7 @@ struct DesignSpec {
   std::optional<double> voltage_V;        ///< voltage of the bus; default: the sheet's nominal voltage
   std::optional<double> torque_limit_Nm;  ///< full output of the speed loop; default: usual_torque_limit_Nm
   std::optional<double> current_limit_A;  ///< limit of the speed loop's output, if less than full output
-  double load_inertia_kg_m2 = 0.0;        ///< on the shaft, in addition to the rotor's
+  double load_inertia_kg_m2 = 0.0;        ///< inertia on the shaft, in addition to the rotor's inertia
   int delay_periods = 0;           ///< whole periods from a sample until its result takes effect, 0 or 1
   bool sampled_in_middle = false;  ///< samples in mid-period; the result acts at the next start or later
   control::Chopping chopping = control::Chopping::soft;

@@ -46,8 +46,8 @@ base::Problems injected(const FieldMachine& m, double saturation_A, const FieldE
   const double part = saturation_A > 0 ? std::min({0.2, turns / 2, s.current_A / saturation_A}) : 0.0;
   if (part < least_saturation)
     return {{"control.field.angle", "\"injection\"",
-             saturation_A > 0 ? "tells north from south by less than 1 % of the current's answer"
-                              : "tells north from south by iron that saturates, and the sheet's does not",
+             saturation_A > 0 ? "distinguishes north from south by less than 1 % of the current's response"
+                              : "distinguishes north from south by saturation, and the sheet gives none",
              saturation_A > 0 ? "allow more current, or set angle = \"observer\""
                               : "give the sheet saturation_current_A, or set angle = \"observer\""}};
   const double most_V = 0.25 * s.bus_V * by_root_3, gentle_V = 0.2 * s.current_A * m.L_d_H / s.period_s;
@@ -61,8 +61,8 @@ base::Problems injected(const FieldMachine& m, double saturation_A, const FieldE
   out.steps.insert(out.steps.end(),
                    {{"V", "injected along the axis", V, "V"},
                     {"V T/L_d", "the current's change by it", V * s.period_s / m.L_d_H, "A"},
-                    {"I_n", "along the axis and against it, to see north", c.north.current_A, "A"},
-                    {"I_n/I_sat", "of the change is seen then", part, ""}});
+                    {"I_n", "current along the axis and against it, to find north", c.north.current_A, "A"},
+                    {"I_n/I_sat", "relative change of the response at this current", part, ""}});
   return {};
 }
 
@@ -82,8 +82,8 @@ void observed(const FieldMachine& m, const FieldEstimateSpec& s, FieldEstimate& 
             m.magnet_V_s / m.pole_pairs,
             1 - base::exp(-pull_rad_s(m, c) * s.period_s)};
   out.steps.insert(out.steps.end(),
-                   {{"w_high", "from there on the flux alone tells", c.high_rad_s, "rad/s"},
-                    {"w_g", "an integral's offset is pulled out by", pull_rad_s(m, c), "rad/s"}});
+                   {{"w_high", "speed from which the flux alone gives the angle", c.high_rad_s, "rad/s"},
+                    {"w_g", "rate at which an integral's offset decays", pull_rad_s(m, c), "rad/s"}});
 }
 
 void turned(const FieldMachine& m, const FieldEstimateSpec& s, FieldEstimate& out) {
@@ -99,9 +99,9 @@ void turned(const FieldMachine& m, const FieldEstimateSpec& s, FieldEstimate& ou
              static_cast<std::int64_t>(c.high_rad_s * per_rad_s),
              ticks_of(10 / pull_rad_s(m, c), s.period_s)};
   out.steps.insert(out.steps.end(),
-                   {{"I", "holds the rotor, and turns it on", I, "A"},
-                    {"t_align", "until it stands", align_s, "s"},
-                    {"t_ramp", "until the flux estimate follows", c.high_rad_s / rad_s2, "s"},
+                   {{"I", "current that aligns the rotor and then turns it", I, "A"},
+                    {"t_align", "time until the rotor is at rest", align_s, "s"},
+                    {"t_ramp", "time until the flux estimate follows", c.high_rad_s / rad_s2, "s"},
                     {"T_start", "greatest load that it starts against", start_load_part * most_Nm, "N m"}});
 }
 

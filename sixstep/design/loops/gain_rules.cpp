@@ -32,13 +32,13 @@ base::Result<RuleGains> cancel_pole(double R_ohm, double L_H, double bandwidth_r
       {"T_s", "control period", period_s, "s"},
       {"a0", "plant with zero-order hold b0 / (z + a0)", plant.a0, ""},
       {"b0", "plant with zero-order hold b0 / (z + a0)", plant.b0, ""},
-      {"z", "exp(-w T_s), the pole that is left", pole, ""},
+      {"z", "exp(-w T_s), the remaining pole", pole, ""},
       {"d1", "(1 - z) / b0", out.gains.d1, ""},
       {"d0", "a0 d1: the zero on the plant's pole", out.gains.d0, ""},
       {"K", "d1", out.gains.d1, ""},
       {"K_i", "d0 + d1, per sample", K_i, ""},
-      {"K fw", "L w, as drive firmwares have it", L_H * bandwidth_rad_s, ""},
-      {"K_i fw", "R w T_s, theirs per sample", R_ohm * bandwidth_rad_s * period_s, ""},
+      {"K fw", "L w, as in drive firmwares", L_H * bandwidth_rad_s, ""},
+      {"K_i fw", "R w T_s, the same per sample", R_ohm * bandwidth_rad_s * period_s, ""},
   };
   return out;
 }

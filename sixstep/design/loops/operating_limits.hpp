@@ -50,7 +50,7 @@ NominalCurrent nominal_current(const MotorModel& motor, double bus_V);
 inline constexpr double usual_overload = 2.5;
 double usual_torque_limit_Nm(const MotorModel& motor, double bus_V);
 
-/// Voltage left of the bus for changing the current i at speed w: U_s - R_tt i - K_t w. Negative: i cannot flow.
+/// Remaining voltage of the bus for changing the current i at speed w: U_s - R_tt i - K_t w. Negative: i cannot flow.
 double headroom_V(const MotorModel& motor, double bus_V, double current_A, double speed_rad_s);
 /// Speed at which the headroom for that current ends.
 double speed_for_current_rad_s(const MotorModel& motor, double bus_V, double current_A);

@@ -88,7 +88,7 @@ bool one_edge_at(const RotorSensing& sensing, double pole_pairs, double speed_ra
 void add_cost(const SpeedLag& lag, const char* formula, double crossover_rad_s,
               std::vector<DerivationStep>& steps) {
   steps.push_back({"delay", formula, lag.delay_s(), "s"});
-  steps.push_back({"phase", "w_c times it, what the sensor costs",
+  steps.push_back({"phase", "w_c times it, phase loss from the sensor",
                    crossover_rad_s * lag.delay_s() * 180 / base::pi, "deg"});
 }
 
@@ -99,23 +99,25 @@ std::vector<DerivationStep> lag_steps(const RotorSensing& sensing, double pole_p
   if (!sensing.lags()) return {};
   const SpeedLag lag = speed_lag(sensing, pole_pairs, speed_rad_s, crossover_rad_s);
   if (sensing.shaft.kind != ShaftSensorKind::none) {
-    std::vector<DerivationStep> steps{{"w_low", "lowest speed asked for", speed_rad_s, "rad/s"}};
+    std::vector<DerivationStep> steps{{"w_low", "lowest speed of the design", speed_rad_s, "rad/s"}};
     for (const DerivationStep& step : shaft_sensing_steps(sensing.shaft, speed_rad_s)) steps.push_back(step);
     add_crossover(crossover_rad_s, steps);
-    add_cost(lag, "half of what it is the mean over and stands for, and what it is late", crossover_rad_s,
-             steps);
+    add_cost(lag, "half of the averaging time and of the hold time, plus the sensor's latency",
+             crossover_rad_s, steps);
     return steps;
   }
   std::vector<DerivationStep> steps{
-      {"w_low", "lowest speed asked for", speed_rad_s, "rad/s"},
+      {"w_low", "lowest speed of the design", speed_rad_s, "rad/s"},
       {"T", "(pi/3)/(p w_low), a sector at that speed", sector_s(pole_pairs, speed_rad_s), "s"}};
   add_crossover(crossover_rad_s, steps);
   if (sensing.edges == 0)
     steps.push_back({"T_6",
-                     "pi/8 12/7 / w_c: the speed is taken over six edges that come within it, else over one",
+                     "pi/8 12/7 / w_c: the speed is averaged over six edges if they come within this time, "
+                     "else over one",
                      hall_window_s(crossover_rad_s), "s"});
   else
-    steps.push_back({"k", "edges that a speed is taken over", static_cast<double>(sensing.edges), ""});
+    steps.push_back(
+        {"k", "number of edges over which the speed is averaged", static_cast<double>(sensing.edges), ""});
   if (sensing.stray_rad > 0.0)
     steps.push_back({"dw", "w_low s/(k pi/3), k sectors that are s off by probes beside their places",
                      speed_rad_s * sensing.stray_rad / (std::max(sensing.edges, 1) * base::pi / 3), "rad/s"});
@@ -126,7 +128,7 @@ std::vector<DerivationStep> lag_steps(const RotorSensing& sensing, double pole_p
     steps.push_back({"w_min", "(pi/3)/(p timeout_s), slowest speed that does not read as 0",
                      sector_s(pole_pairs, 1.0) / sensing.timeout_s, "rad/s"});
   add_cost(lag,
-           sensing.late_s > 0.0 ? "(k + 1)/2 sectors, the most from w_low up, and what the lines are late"
+           sensing.late_s > 0.0 ? "(k + 1)/2 sectors, the most from w_low up, plus the delay of the lines"
                                 : "(k + 1)/2 sectors, the most from w_low up",
            crossover_rad_s, steps);
   return steps;

@@ -17,7 +17,7 @@ constexpr double forgetting_lags = 5.0;  // exp(-5) of the bus is less than the 
 base::Problem too_slow(const SensorlessBasis& b) {
   const double needed_Hz = rail_lags / (base::pi * b.least_on_s());
   return {"terminal_bandwidth_Hz", base::rounded(b.spec.terminal_bandwidth_Hz, 4),
-          "lets the terminals come to their rails within " + base::rounded(2e6 * b.settle_s(), 4) +
+          "lets the terminals reach their rails within " + base::rounded(2e6 * b.settle_s(), 4) +
               " us, 7 time constants, and the least on-time has " + base::rounded(1e6 * b.least_on_s(), 4) +
               " us",
           "raise it to " + base::rounded(needed_Hz, 4) + " Hz, or hand over at a higher lowest_part"};

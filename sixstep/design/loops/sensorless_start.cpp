@@ -14,7 +14,7 @@ constexpr double two_to_32 = 4294967296.0;
 constexpr double swings = 6.0;    // periods of the alignment's swing
 constexpr double falling = 0.25;  // of the current, while the rotor swings to its alignment
 constexpr double fastest = 1.5;   // times the no-load speed: nothing turns faster
-constexpr double slowest = 0.4;   // of the lowest speed: below it the drive gives up
+constexpr double slowest = 0.4;   // fraction of the lowest speed below which the drive stops
 constexpr double fluxes = 2.0;    // factor by which T may be late in a steep acceleration
 constexpr double periods_a_sector = 4.0, filtered_periods_a_sector = 5.0, captured_periods_a_sector = 3.0;
 constexpr double rail_part = 0.03;  // of the bus
@@ -90,8 +90,8 @@ control::LockConfig lock_of(const SensorlessBasis& b) {
   l.shortest_ticks = whole(b.counts(b.sector_s(fastest * b.no_load_rad_s)));
   l.threshold = static_cast<std::int32_t>(b.lock_V / b.lsb_V) + 1;
   l.most_flux = whole(fluxes * 3.0 * b.motor.machine.K_e_V_s / b.lsb_V * b.counts(b.sector_s(1.0)));
-  // A leg whose diode stops conducting within the on-time is sampled on its way from the rail: its voltage gives no
-  // flux.
+  // If a leg's diode stops conducting within the on-time, the sample comes while the leg still moves from the rail: its
+  // voltage gives no flux.
   if (b.lag_s > 0.0 && b.spec.chopping != control::Chopping::hard) l.most_flux = 0xffffffffu;
   l.longest_ticks = whole(b.counts(b.sector_s(slowest * b.lowest_rad_s)));
   return l;
@@ -126,14 +126,16 @@ std::vector<DerivationStep> steps_of(const SensorlessBasis& b, const SensorlessS
       {"T_load", "greatest_load K_t I_N + T_c, at rest the static torque where larger", b.load_Nm, "N m"},
       {"a", "(K_t I_start - T_load)/(2 J)", b.ramp_rad_s2(), "rad/s^2"},
       {"I_ramp", "(J a + T_c + B w_low)/K_t, where the speed loop goes on", b.ramp_A(), "A"},
-      {"d'", "I_N K_t^2/(J U), of 2 U unless soft", s.duty_per_period / b.spec.period_s, "1/s"}};
+      {"d'", "I_N K_t^2/(J U); with 2 U instead of U unless soft", s.duty_per_period / b.spec.period_s,
+       "1/s"}};
   if (b.lag_s > 0.0) {
-    steps.push_back({"tau", "1/(2 pi bandwidth), taken off the commutation", b.lag_s, "s"});
+    steps.push_back({"tau", "1/(2 pi bandwidth), subtracted from the commutation's delay", b.lag_s, "s"});
     steps.push_back({"t_rail", "3.5 tau, from an edge to the rail", b.settle_s(), "s"});
   }
   if (b.spec.comparators.followed) {
     steps.push_back({"y_c", "offset and half the hysteresis, beside y_0", b.comparators_V(), "V"});
-    steps.push_back({"tau_c", "1/(2 pi bandwidth), taken off the commutation", b.comparator_lag_s, "s"});
+    steps.push_back(
+        {"tau_c", "1/(2 pi bandwidth), subtracted from the commutation's delay", b.comparator_lag_s, "s"});
   }
   return steps;
 }

@@ -4,7 +4,8 @@
 //
 //   threshold       y = 2 u_f - u_s - u_k: noise of three converters, their steps, and the mismatch of the dividers
 //   lowest speed    2 K_e w is `clear` times that threshold; never below lowest_part of the no-load speed
-//   start current   `overload` times the nominal one, no more than 4/5 of what the bus drives through a held rotor
+//   start current   `overload` times the nominal one, no more than 4/5 of the current that the bus drives through a
+//                   held rotor
 //   alignment       `swings` periods of sqrt(p K_t I/J) for each of the two steps (start_up.hpp)
 //   ramp            half of the start current's excess over the greatest load: a = (K_t I - T_load)/(2 J)
 //   hand-over       a speed loop continues from the ramp's current, (J a + T_c + B w)/K_t, not from the start current
@@ -42,7 +43,7 @@ struct ComparatorSpec {
   double bandwidth_Hz = 0.0;      ///< bandwidth of each low-pass
   bool against_half_bus = false;  ///< false: against the virtual star
   double offset_V = 0.0;          ///< largest offset by their sheet, referred to the terminal
-  double hysteresis_V = 0.0;      ///< between the levels of the two edges
+  double hysteresis_V = 0.0;      ///< difference between the levels of the two edges
 };
 
 /// Supply, board and load of a sensorless drive; SI.

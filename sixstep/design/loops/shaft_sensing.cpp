@@ -21,23 +21,23 @@ double count_s(const ShaftSensing& s, double speed_rad_s) { return count_rad(s) 
 void add_encoder(const ShaftSensing& s, double speed, std::vector<DerivationStep>& steps) {
   const ShaftSpeedAge age = speed_age(s, speed);
   steps.push_back({"c", "(2 pi/4N)/w_low, a count at that speed", age.hold_s, "s"});
-  steps.push_back({"T", "max(T_s, c), that a speed is taken over", age.mean_s, "s"});
+  steps.push_back({"T", "max(T_s, c), averaging time of a speed", age.mean_s, "s"});
   steps.push_back({"dw", "w_low/(f T), a tick of the timer", speed_jitter_rad_s(s, speed), "rad/s"});
   steps.push_back(
       {"w_min", "(2 pi/4N)/timeout_s, slowest speed that does not read as 0", lowest_told_rad_s(s), "rad/s"});
 }
 
 void add_absolute(const ShaftSensing& s, double speed, std::vector<DerivationStep>& steps) {
-  steps.push_back({"T", "k T_s, that a speed is taken over", speed_age(s, speed).mean_s, "s"});
-  steps.push_back({"t_l", "by which the code is latched before it is read", s.latency_s, "s"});
+  steps.push_back({"T", "k T_s, averaging time of a speed", speed_age(s, speed).mean_s, "s"});
+  steps.push_back({"t_l", "age of the latched code when it is read", s.latency_s, "s"});
   steps.push_back({"dw", "(2 pi/2^n)/(k T_s), a count", speed_jitter_rad_s(s, speed), "rad/s"});
   steps.push_back({"w_min", "the same: slower ones read as 0 now and then", lowest_told_rad_s(s), "rad/s"});
 }
 
 void add_resolver(const ShaftSensing& s, double speed, std::vector<DerivationStep>& steps) {
-  steps.push_back({"w_n", "of the loop that follows the angle", s.natural_rad_s, "rad/s"});
-  steps.push_back({"2 D/w_n", "by which its speed is late", 2 * s.damping / s.natural_rad_s, "s"});
-  steps.push_back({"t_l", "by which its angle is late", s.latency_s, "s"});
+  steps.push_back({"w_n", "natural frequency of the tracking loop", s.natural_rad_s, "rad/s"});
+  steps.push_back({"2 D/w_n", "delay of its speed", 2 * s.damping / s.natural_rad_s, "s"});
+  steps.push_back({"t_l", "delay of its angle", s.latency_s, "s"});
   steps.push_back({"dw", "s sqrt(T_l w_n^3/(4 D)), root mean square", speed_jitter_rad_s(s, speed), "rad/s"});
 }
 

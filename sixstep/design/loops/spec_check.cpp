@@ -29,7 +29,7 @@ base::Problems check_spec(const MotorModel& motor, const DesignSpec& w) {
     found.insert(found.end(), out.begin(), out.end());
   };
   if (w.mode != Mode::current && w.mode != Mode::speed && w.mode != Mode::position)
-    add("mode", "", "must be current, speed or position", "choose what is to be controlled");
+    add("mode", "", "must be current, speed or position", "choose the controlled quantity");
   if (w.method == GainMethod::symmetrical_optimum && w.mode == Mode::current)
     add("method", "symmetrical-optimum", "applies to speed loops only",
         "add mode = speed, or take pole-placement or cancellation");
@@ -37,7 +37,7 @@ base::Problems check_spec(const MotorModel& motor, const DesignSpec& w) {
     add("delay_periods", std::to_string(w.delay_periods), "must be 0 or 1",
         "0: a command counts at once, 1: from the next period on");
   if (w.bandwidth_rad_s && w.method == GainMethod::pole_placement)
-    add("bandwidth_rad_s", base::written(*w.bandwidth_rad_s), "is no input of pole placement",
+    add("bandwidth_rad_s", base::written(*w.bandwidth_rad_s), "is not used by pole placement",
         "give settle_s, or take method = cancellation");
   if (!w.voltage_V && !(motor.nominal_voltage_V > 0.0))
     add("voltage_V", "", "is missing, and the sheet prints no nominal voltage",
@@ -56,7 +56,7 @@ base::Problems check_spec(const MotorModel& motor, const DesignSpec& w) {
   if (const double top = bus_V / motor.K_t_Nm_A;
       w.lowest_speed_rad_s && *w.lowest_speed_rad_s >= top && top > 0.0)
     found.push_back({"lowest_speed_rad_s", base::written(*w.lowest_speed_rad_s),
-                     "is above what the bus reaches without load, " + base::three_digits(top) + " rad/s",
+                     "is above the no-load speed of the bus, " + base::three_digits(top) + " rad/s",
                      "lower it, or give a higher voltage_V"});
   else if (const double most = most_lowest_speed_rad_s(motor, w); w.mode == Mode::speed && w.rotor.lags() &&
                                                                   w.lowest_speed_rad_s && most > 0.0 &&

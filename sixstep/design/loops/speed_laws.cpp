@@ -45,7 +45,7 @@ std::vector<DerivationStep> wanted(const SpeedLawSpec& s) {
 }
 
 void add_observer(const SpeedLawSpec& s, const SpeedLawDesign& d, std::vector<DerivationStep>& steps) {
-  steps.push_back({"k", "how many times faster the observer is", s.ratio, ""});
+  steps.push_back({"k", "ratio of the observer's bandwidth to the loop's", s.ratio, ""});
   steps.push_back({"z_o", "p^k, both poles of the observer", d.fast_pole, ""});
   steps.push_back({"L_w", "1 - z_o^2 / a", d.gains.observed.L_w, ""});
   steps.push_back({"L_l", "(1 - z_o)^2 / b", d.gains.observed.L_l, "s/rad"});
@@ -68,12 +68,12 @@ base::Result<SpeedLawDesign> state_feedback(const SpeedLawSpec& s) {
   c.c = s.lag_periods / (1.0 + s.lag_periods);
   if (!(d.pole < c.a))
     return base::Problem{"settle_s", written(s.settle_s),
-                         "is longer than friction alone takes, " +
+                         "is longer than the settling time by friction alone, " +
                              base::rounded(time_constants_to_settle / s.fades_1_s, 4) + " s",
-                         "ask for a shorter one, or take disturbance-rejection, which does not count on it"};
+                         "give a shorter one, or take disturbance-rejection, which does not need friction"};
   if (!(c.c < c.a))
     return base::Problem{"lag_periods", written(s.lag_periods),
-                         "samples, by which the torque follows, are more than the speed itself takes",
+                         "samples of torque delay are more than the time constant of the speed itself",
                          "shorten the settling time of the current loop, or take disturbance-rejection"};
   c.g = c.b * c.c / (c.a - c.c);
   const double B = (c.b + c.g) * (1.0 - c.c), r = B * B / (c.a * (bend(d.pole) - bend(c.a)));
@@ -85,11 +85,11 @@ base::Result<SpeedLawDesign> state_feedback(const SpeedLawSpec& s) {
   place_observer(c, d.fast_pole);
   d.steps = wanted(s);
   const DerivationStep more[] = {
-      {"a", "exp(-B T_s / J), left of the speed after a sample", c.a, ""},
-      {"b", "A T_s (1 - a) / (-ln a), added by a sample of the full output", c.b, "rad/s"},
-      {"M", "samples by which the torque follows: R / K_i of the current loop less 1/2", s.lag_periods, ""},
+      {"a", "exp(-B T_s / J), fraction of the speed that friction leaves after one control period", c.a, ""},
+      {"b", "A T_s (1 - a) / (-ln a), speed that the full output adds in one control period", c.b, "rad/s"},
+      {"M", "samples of torque delay: R / K_i of the current loop less 1/2", s.lag_periods, ""},
       {"c", "M / (1 + M), the torque as a lag", c.c, ""},
-      {"g", "b c / (a - c), speed that the torque on its way brings", c.g, "rad/s"},
+      {"g", "b c / (a - c), speed that the torque not yet in effect adds", c.g, "rad/s"},
       {"p", "exp(-4.6 T_s / T_reg), the loop's pole", d.pole, ""},
       {"r", "B^2 / (a ((1 - p)^2/p - (1 - a)^2/a)), weight of the output; B = (b + g)(1 - c)", r, ""},
       {"P", "of the Riccati equation P = 1 + a^2 P r / (r + B^2 P)", P, ""},
@@ -115,7 +115,7 @@ base::Result<SpeedLawDesign> disturbance_rejection(const SpeedLawSpec& s) {
   const DerivationStep more[] = {{"b_0", "A", s.full_rad_s2, "rad/s^2"},
                                  {"w_c", "4.6 / T_reg, bandwidth of the controller", w_c, "rad/s"},
                                  {"p", "exp(-w_c T_s), the loop's pole", d.pole, ""},
-                                 {"a", "nothing is known of friction", c.a, ""},
+                                 {"a", "the model has no friction", c.a, ""},
                                  {"b", "b_0 T_s", c.b, "rad/s"},
                                  {"K", "(1 - p) / b", c.K, "s/rad"},
                                  {"w_o", "k w_c, bandwidth of the observer", s.ratio * w_c, "rad/s"}};
@@ -137,14 +137,15 @@ base::Result<SpeedLawDesign> sliding_mode(const SpeedLawSpec& s) {
   c.layer = s.limit * b / (1.0 - d.fast_pole);
   d.K = c.f + c.reach / c.layer;
   d.steps = wanted(s);
-  const DerivationStep more[] = {{"b", "A T_s, added by a sample of the full output", b, "rad/s"},
-                                 {"p", "exp(-4.6 T_s / T_reg), of an error on the surface", d.pole, ""},
-                                 {"q", "1 - p", c.q, ""},
-                                 {"R", "the limit: the load that it bears, of the full output", c.reach, ""},
-                                 {"k", "how many times faster it is on the surface again", s.ratio, ""},
-                                 {"P", "R b / (1 - p^k), width of the boundary layer", c.layer, "rad/s"},
-                                 {"t_r", "1 rad/s / (R A), reaching the layer without a load, per rad/s",
-                                  1.0 / (c.reach * s.full_rad_s2), "s"}};
+  const DerivationStep more[] = {
+      {"b", "A T_s, speed that the full output adds in one control period", b, "rad/s"},
+      {"p", "exp(-4.6 T_s / T_reg), decay of an error on the surface", d.pole, ""},
+      {"q", "1 - p", c.q, ""},
+      {"R", "the limit: largest load, as a fraction of the full output", c.reach, ""},
+      {"k", "ratio of settle_s to the time back to the surface", s.ratio, ""},
+      {"P", "R b / (1 - p^k), width of the boundary layer", c.layer, "rad/s"},
+      {"t_r", "1 rad/s / (R A), reaching the layer without a load, per rad/s",
+       1.0 / (c.reach * s.full_rad_s2), "s"}};
   d.steps.insert(d.steps.end(), std::begin(more), std::end(more));
   return d;
 }

@@ -131,7 +131,7 @@ bool Scale<Scalar>::prove(const control::PiPositionalConfig<double>& pi) {
                  : 0.0;
   if (!(pi.K_b > 0) && pi.K_i != 0)
     proof_.problems.push_back({"speed.K_b", "0",
-                               "lets the integral grow without an end, which fixed point has",
+                               "lets the integral grow without a limit, which fixed point does not allow",
                                "take K_i/K, or floating point"});
   if (braked + weighted + integral > 14.0 * full_scale<Scalar>)
     proof_.problems.push_back(
@@ -172,7 +172,7 @@ bool Scale<Scalar>::prove(const control::HallSpeedConfig<double>& speed) {
   if (raw > most)
     proof_.problems.push_back(
         {"speed.sector_rad_s_ticks", base::written(speed.sector_rad_s_ticks),
-         "over so many edges is " + base::written(raw / most) + " times what its sum holds",
+         "over this number of edges is " + base::written(raw / most) + " times the range of its sum",
          "take a slower timer, fewer edges or 32 bits"});
   return true;
 }

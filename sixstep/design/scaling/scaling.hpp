@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes which A, V, rad/s and degrees a fixed-point 1.0 stands for, and converts the drive's configuration to
+// Computes which A, V, rad/s and degrees a fixed-point 1.0 means, and converts the drive's configuration to
 // those units. Interval arithmetic proves that, over a stated range of inputs, nothing saturates except where it may.
 #pragma once
 #include <string>
@@ -23,7 +23,7 @@ struct OperatingRange {
       0.0;  ///< change of the measured speed from one sample to the next; 0: any change within speed_rad_s
 };
 
-/// Values that 1.0 stands for. Duties and fractions of torque have the base 1.
+/// SI values of 1.0. Duties and fractions of torque have the base 1.
 struct Bases {
   double current_A = 1.0;
   double voltage_V = 1.0;

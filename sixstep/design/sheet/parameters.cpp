@@ -36,7 +36,7 @@ void check_constants(SheetReader& reader, const MotorModel& m) {
       reader.problem(where, "",
                      std::string("makes ") + what + " " + rounded(value) + " " + std::string(unit) +
                          ", which " + limit_of(own, allowed, value),
-                     "check the units of the lines that it is made of");
+                     "check the units of the lines from which it is computed");
   };
   hold(m.from.K_t.substr(0, m.from.K_t.find(',')), m.K_t_Nm_A, base::above(0), "Nm/A", "the torque constant");
   hold(reader.sheet.viscous_friction_Nm_s ? "viscous_friction_Nm_s" : "no_load_current_mA", m.shaft.B_Nm_s,

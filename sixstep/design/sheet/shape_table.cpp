@@ -79,7 +79,7 @@ bool are_points(SheetReader& reader) {
   else if (angle.size() < 2 || angle.size() > most_shape_points)
     reader.problem("back_emf_angle_deg", std::to_string(angle.size()) + " values",
                    "must be 2 to " + std::to_string(most_shape_points) + " points of one electrical turn",
-                   "a point for each degree is plenty");
+                   "one point per degree is enough");
   else
     for (std::size_t n = 0; n < angle.size(); ++n) {
       const double next = n + 1 < angle.size() ? angle[n + 1] : angle[0] + 360.0;
@@ -87,7 +87,7 @@ bool are_points(SheetReader& reader) {
       reader.problem("back_emf_angle_deg", base::written(angle[n]),
                      "must lie in [0, 360), and the next, " + base::written(next) + ", at least " +
                          base::written(least_shape_step_deg) + " behind it",
-                     "sort the points by angle; the turn closes by itself");
+                     "sort the points by angle; the table continues periodically");
       return false;
     }
   return angle.size() == value.size() && angle.size() >= 2 && angle.size() <= most_shape_points;

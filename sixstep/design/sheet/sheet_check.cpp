@@ -25,9 +25,9 @@ constexpr Reason reasons[] = {
     {"second_no_load_voltage_V", "the voltage of the second no-load point"},
     {"nominal_speed_rpm", "a rating, of a winding as warm as the maker chose"},
     {"nominal_torque_mNm",
-     "a rating; makers disagree whether friction is taken off, so K_t is not read from it"},
+     "a rating; makers disagree whether friction is subtracted, so K_t is not read from it"},
     {"nominal_current_A", "a rating"},
-    {"stall_torque_mNm", "no part of the motor: the relations hold it against the others"},
+    {"stall_torque_mNm", "not a parameter of the motor: the relations compare it with the other values"},
     {"stall_current_A", "follows from U / R"},
     {"max_efficiency_percent", "follows from the other lines"},
     {"speed_torque_gradient_rpm_mNm", "follows from R and K_t"},
@@ -40,13 +40,13 @@ constexpr Reason reasons[] = {
     {"inertia_gcm2", "the motor carries its brake: inertia_with_brake_gcm2 counts"},
     {"inertia_with_brake_gcm2", "the motor carries no brake: inertia_gcm2 counts"},
     {"thermal_resistance_winding_housing_K_W",
-     "what [heat] and the curve warm the motor by; without them it stays at the sheet's temperature"},
+     "used by [heat] and the thermal curve only; else the motor stays at the sheet's temperature"},
     {"thermal_resistance_housing_ambient_K_W",
-     "what [heat] and the curve warm the motor by; without them it stays at the sheet's temperature"},
+     "used by [heat] and the thermal curve only; else the motor stays at the sheet's temperature"},
     {"thermal_time_constant_winding_s",
-     "what [heat] and the curve warm the motor by; without them it stays at the sheet's temperature"},
+     "used by [heat] and the thermal curve only; else the motor stays at the sheet's temperature"},
     {"thermal_time_constant_motor_s",
-     "what [heat] and the curve warm the motor by; without them it stays at the sheet's temperature"},
+     "used by [heat] and the thermal curve only; else the motor stays at the sheet's temperature"},
     {"max_winding_temperature_degC", "a limit"},
 };
 
@@ -90,7 +90,7 @@ class Lines final : public base::Visitor {
         key.starts_with("second_") ? f.split_viscous_Nm_s.has_value() : f.no_load_speed_rad_s > 0.0;
     if (whole || std::find(used.begin(), used.end(), "viscous_friction_Nm_s") != used.end())
       return "friction is given by other lines";
-    return "friction comes of a no-load current with its speed, or with its voltage, R and K_t";
+    return "friction follows from a no-load current with its speed, or with its voltage, R and K_t";
   }
   const SheetConstants& constants_;
 };

@@ -18,7 +18,7 @@ enum class RelationVerdict {
   doubted,  ///< outside of its tolerance on the side where makers define the value otherwise; no contradiction
 };
 
-/// Two sides that physics makes equal, up to the rounding of what is printed and a stated margin.
+/// Two sides that physics makes equal, up to the rounding of the printed values and a stated margin.
 struct Relation {
   std::string name;  ///< its name in known_deviation: "stall current"
   std::string left_words, right_words;

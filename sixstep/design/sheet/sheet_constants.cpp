@@ -71,7 +71,7 @@ void read_inductance(SheetReader& reader) {
   const Sheet& s = reader.sheet;
   const std::optional<Quantity>& q = s.inductance_mH;
   if (q && (s.d_axis_inductance_mH || s.q_axis_inductance_mH))
-    return reader.wrong("inductance_mH", *q, "is given twice: L_d and L_q are there too",
+    return reader.wrong("inductance_mH", *q, "is given twice: L_d and L_q are also given",
                         "keep one of the two ways");
   if (s.d_axis_inductance_mH || s.q_axis_inductance_mH) return read_axes(reader);
   if (!q)
@@ -129,8 +129,7 @@ ShapeFactors read_shape(SheetReader& reader) {
 void read_trust(SheetReader& reader) {
   const Sheet& s = reader.sheet;
   if (!s.simulatable && s.not_simulatable_because.empty())
-    reader.problem("simulatable", "false", "gives no reason",
-                   "give what is missing in not_simulatable_because");
+    reader.problem("simulatable", "false", "gives no reason", "give the reason in not_simulatable_because");
   if (s.simulatable && !s.not_simulatable_because.empty())
     reader.problem("not_simulatable_because", "\"" + s.not_simulatable_because + "\"",
                    "contradicts simulatable = true", "write simulatable = false, or leave the reason out");

@@ -48,8 +48,8 @@ struct Friction {
 
 struct SheetConstants {
   ShapeFactors shape;
-  std::optional<int> pole_pairs;       ///< of a rotary motor
-  std::optional<double> pole_pitch_m;  ///< of a linear motor
+  std::optional<int> pole_pairs;       ///< pole pairs of a rotary motor
+  std::optional<double> pole_pitch_m;  ///< pole pitch of a linear motor
   /// Electrical radians per mechanical one, or per metre: p, pi/tau.
   std::optional<double> electrical_per_mechanical() const {
     if (pole_pitch_m) return base::pi / *pole_pitch_m;

@@ -7,13 +7,13 @@
 namespace sixstep::design {
 
 void describe_words(base::Visitor& v, Sheet& s) {
-  v.value("name", s.name, {.meaning = "what the motor is called", .required = true});
-  v.value("maker", s.maker, {.meaning = "who makes it"});
-  v.value("notes", s.notes, {.meaning = "what a reader should know about the values"});
+  v.value("name", s.name, {.meaning = "name of the motor", .required = true});
+  v.value("maker", s.maker, {.meaning = "maker of the motor"});
+  v.value("notes", s.notes, {.meaning = "notes on the values"});
   v.value("simulatable", s.simulatable,
-          {.meaning = "whether the values are enough for a model and can be trusted for one"});
+          {.meaning = "whether the values are complete and reliable enough for a model"});
   v.value("not_simulatable_because", s.not_simulatable_because,
-          {.meaning = "what is missing or in doubt, where simulatable = false"});
+          {.meaning = "missing or doubtful values, where simulatable = false"});
   v.value("known_deviation", s.known_deviation,
           {.meaning = "relations between its values that this sheet is known to break"});
 }
@@ -27,8 +27,8 @@ void describe_torque_constant(base::Visitor& v, Sheet& s) {
               .also = spellings::torque_constant});
   v.quantity(
       "back_emf_mV_s", s.back_emf_mV_s,
-      {.meaning = "peak of one phase's back-EMF per mechanical rad/s, instead of the torque constant; of a "
-                  "table what its values are multiplied with",
+      {.meaning = "peak of one phase's back-EMF per mechanical rad/s, instead of the torque constant; with "
+                  "a table, the factor of its values",
        .unit = "mV s",
        .frame = "phase",
        .range = base::above(0)});
@@ -89,19 +89,21 @@ void describe_mechanics(base::Visitor& v, Sheet& s) {
   v.value("with_brake", s.with_brake,
           {.meaning = "whether the motor carries the holding brake, so that inertia_with_brake_gcm2 counts"});
   v.choice("rotor", s.rotor, rotor_choices,
-           {.meaning = "what turns, for an inertia from the rotor's measures: J = pi/2 rho l (r^4 - r_i^4)"});
+           {.meaning = "rotating part, for an inertia from its dimensions: J = pi/2 rho l (r^4 - r_i^4)"});
   v.quantity("rotor_radius_mm", s.rotor_radius_mm,
-             {.meaning = "outer radius r of what turns; with rotor_length_mm the inertia where none is given",
+             {.meaning = "outer radius r of the rotating part; with rotor_length_mm it gives the inertia "
+                         "if none is printed",
               .unit = "mm",
               .range = base::above(0)});
   v.quantity("rotor_inner_radius_mm", s.rotor_inner_radius_mm,
-             {.meaning = "inner radius r_i of what turns: an outer rotor's, or a hollow inner one's",
+             {.meaning = "inner radius r_i of the rotating part: of an outer rotor or a hollow inner one",
               .unit = "mm",
               .range = base::above(0)});
-  v.quantity("rotor_length_mm", s.rotor_length_mm,
-             {.meaning = "length l of what turns, along the shaft", .unit = "mm", .range = base::above(0)});
+  v.quantity(
+      "rotor_length_mm", s.rotor_length_mm,
+      {.meaning = "length l of the rotating part, along the shaft", .unit = "mm", .range = base::above(0)});
   v.quantity("rotor_density_kg_m3", s.rotor_density_kg_m3,
-             {.meaning = "density rho of what turns; without it 7850, as steel has",
+             {.meaning = "density rho of the rotating part. Default: 7850, as of steel",
               .unit = "kg/m3",
               .range = base::above(0)});
   v.quantity("viscous_friction_Nm_s", s.viscous_friction_Nm_s,
@@ -180,8 +182,8 @@ void describe_ratings(base::Visitor& v, Sheet& s) {
   v.quantity(
       "nominal_current_A", s.nominal_current_A,
       {.meaning =
-           "greatest continuous current: direct current through the driven pair, in at one terminal and out at "
-           "another (terminal), or the rms value of a sine in each phase (rms)",
+           "greatest continuous current: direct current through the driven pair (terminal), or rms value "
+           "of a sine in each phase (rms)",
        .unit = "A",
        .frame = "terminal|rms",
        .range = base::above(0),

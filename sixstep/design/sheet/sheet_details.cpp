@@ -76,12 +76,11 @@ void read_delta(SheetReader& reader) {
   }
   const auto look = [&](const char* key, const std::optional<base::Quantity>& q, const char* cure) {
     if (q && q->frame == "phase")
-      reader.wrong(key, *q,
-                   "is given for a phase, and of a delta only what lies between two terminals is read", cure);
+      reader.wrong(key, *q, "is given for a phase, and a delta needs the value between two terminals", cure);
   };
   constexpr const char* winding_cure =
-      "write frame = \"terminal\" and twice the value where a drive has identified it (VESC, ODrive: half of "
-      "what lies between two terminals, delta or star), or 2/3 of it where it is of one branch of the delta";
+      "write frame = \"terminal\". If a drive identified the value (VESC, ODrive), write twice the value; "
+      "if it is of one branch of the delta, write 2/3 of it";
   look("resistance_ohm", s.resistance_ohm, winding_cure);
   look("inductance_mH", s.inductance_mH, winding_cure);
   look("back_emf_mV_s", s.back_emf_mV_s,
@@ -138,7 +137,7 @@ std::string left_to_a_run(const Sheet& s) {
   if (is_salient(s)) parts.push_back("the saliency of the rotor");
   if (s.saturation_current_A) parts.push_back("the saturation along the magnets");
   if (!s.phase_resistance_deviation.empty() || !s.phase_back_emf_deviation.empty())
-    parts.push_back("phases that stray");
+    parts.push_back("unequal phases");
   if (!s.cogging_orders.empty()) parts.push_back("cogging");
   std::string text;
   for (std::size_t n = 0; n < parts.size(); ++n)

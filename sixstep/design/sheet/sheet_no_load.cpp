@@ -138,8 +138,8 @@ class NoLoad {
     if (s_.viscous_friction_Nm_s) return;
     sides.above += most_unknown_drop / (1.0 - most_unknown_drop);
     sides.remark = I.value > 0.0
-                       ? sides.remark + "; viscous friction is not printed, and takes more speed off"
-                       : "I_0 is taken as 0: neither it nor friction is printed, and both take speed off";
+                       ? sides.remark + "; viscous friction is not printed, and lowers the speed further"
+                       : "I_0 is taken as 0: neither it nor friction is printed, and both lower the speed";
   }
 
   /// If the friction was read from this current, there is nothing to compare.

@@ -9,7 +9,8 @@
 
 namespace sixstep::design {
 
-/// Two sides of a relation in one unit, not yet judged; `below` and `above` widen the tolerance beyond rounding.
+/// Two sides of a relation in one unit, before they are compared. `below`, `above`: how far left/right - 1 may lie
+/// below or above 0, beyond rounding.
 struct NoLoadSides {
   std::string name, left_words, right_words;
   Term left, right;

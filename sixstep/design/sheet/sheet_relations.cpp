@@ -30,7 +30,7 @@ constexpr Factor factors[] = {
     {1000.0, "a factor 1000: the unit?", false},
 };
 
-/// The widest tolerance that is printed: beyond it the line says nothing.
+/// Limit of a printed tolerance: a wider one would show nothing.
 constexpr double most_above = 9.99;
 
 class Relations {
@@ -205,7 +205,7 @@ class Relations {
       Relation& r = add("nominal torque", rms ? "K_rms I_N" : "k_M I_N", "nominal torque", computed, *torque,
                         "mNm", 0.0, friction);
       if (r.verdict == RelationVerdict::broken && r.deviation < 0.0 && r.remark.empty())
-        r.remark = "the rating is above what its own current makes: the model does not use it";
+        r.remark = "the rating is above the torque of its own current: the model does not use it";
     }
     if (const std::optional<Term> printed = term(s_.max_efficiency_percent);
         printed && idle_ && stall_ && idle_->value < stall_->value) {

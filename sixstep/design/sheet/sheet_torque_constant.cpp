@@ -178,9 +178,9 @@ void read_torque_constant(SheetReader& reader) {
   if (reads.empty()) {
     if (reader.out.problems.size() == told)
       reader.missing("torque_constant_mNm_A",
-                     "give it (torque per ampere through the driven pair), or what the sheet prints instead: "
-                     "torque_constant_Nm_A, back_emf_constant_V_krpm, flux_linkage_mWb, speed_constant_rpm_V "
-                     "(KV) or back_emf_mV_s (a phase's peak)");
+                     "give it (torque per ampere through the driven pair), or the constant that the sheet "
+                     "prints instead: torque_constant_Nm_A, back_emf_constant_V_krpm, flux_linkage_mWb, "
+                     "speed_constant_rpm_V (KV) or back_emf_mV_s (a phase's peak)");
     return;
   }
   const Read& first = reads.front();

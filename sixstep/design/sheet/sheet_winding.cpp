@@ -39,14 +39,14 @@ std::optional<int> of_winding(SheetReader& reader) {
   const std::string& code = reader.sheet.winding;
   const std::optional<Winding> winding = parsed(code);
   if (!winding) {
-    reader.problem("winding", quoted(code), "is no winding code",
+    reader.problem("winding", quoted(code), "is not a winding code",
                    "write teeth and magnet poles as \"12N14P\"");
     return {};
   }
   if (winding->poles % 2 != 0) {
     reader.problem("winding", quoted(code),
                    "names " + std::to_string(winding->poles) + " poles, an odd number",
-                   "count the magnets again: north and south come in pairs");
+                   "count the magnets again: north and south poles are paired");
     return {};
   }
   if (winding->teeth % 3 != 0) {
@@ -96,7 +96,7 @@ std::optional<double> read_pole_pitch(SheetReader& reader) {
     if (given)
       reader.problem(key, "", "is a turning motor's, and kind is \"linear\"", "give pole_pitch_mm instead");
   if (!s.pole_pitch_mm) {
-    reader.missing("pole_pitch_mm", "give the way from one pole of the magnets to the next");
+    reader.missing("pole_pitch_mm", "give the distance from one pole of the magnets to the next");
     return {};
   }
   reader.use("pole_pitch_mm");

@@ -54,7 +54,7 @@ std::optional<base::Problem> lost_magnets(const std::string& where, const Sheet&
   return base::Problem{where, base::written(housing_degC),
                        "leaves the magnets a tenth at most by magnet_loss_percent_K = " +
                            base::written(s.magnet_loss_percent_K),
-                       "look at both"};
+                       "check both"};
 }
 
 base::Result<ThermalModel> thermal_model(const Sheet& s) {

@@ -45,7 +45,8 @@ inline void describe_winding(base::Visitor& v, Sheet& s) {
   v.choice("kind", s.kind, kind_choices, {.meaning = "whether the motor turns or moves along a line"});
   v.quantity(
       "pole_pitch_mm", s.pole_pitch_mm,
-      {.meaning = "linear: way from one pole to the next, half an electrical turn, instead of pole_pairs",
+      {.meaning =
+           "linear: distance from one pole to the next, half an electrical turn, instead of pole_pairs",
        .unit = "mm",
        .range = base::above(0)});
   v.value("pole_pairs", s.pole_pairs,
@@ -72,21 +73,21 @@ inline void describe_winding(base::Visitor& v, Sheet& s) {
            .range = base::between(-1, 1)});
   v.value("back_emf_angle_deg", s.back_emf_angle_deg,
           {.meaning =
-               "table: electrical angles of back_emf_shape, rising; phase b sees the shape 120 degrees later",
+               "table: electrical angles of back_emf_shape, rising; phase b has the same shape 120 degrees "
+               "later",
            .unit = "deg",
            .range = {0, 360, true, false}});
   v.value(
       "back_emf_shape", s.back_emf_shape,
-      {.meaning =
-           "table: phase a's back-EMF at these angles; the back-EMF constant scales it as it stands, and its "
-           "mean over the turn is zero",
+      {.meaning = "table: phase a's back-EMF at these angles, without normalization; the back-EMF constant "
+                  "multiplies it. Its mean over the turn must be zero",
        .range = base::between(-1e6, 1e6)});
   v.value(
       "back_emf_file", s.back_emf_file,
       {.meaning =
            "table: a file beside this one with a line of headings and rows of angle and value, instead of the "
            "two lists"});
-  v.choice("connection", s.connection, connection_choices, {.meaning = "how the three phases are connected"});
+  v.choice("connection", s.connection, connection_choices, {.meaning = "connection of the three phases"});
   v.value("mutual_inductance_mH", s.mutual_inductance_mH,
           {.meaning = "delta: mutual inductance of two branches, negative as a rule",
            .unit = "mH",
@@ -140,12 +141,11 @@ inline void describe_winding(base::Visitor& v, Sheet& s) {
               .frame = "phase",
               .range = base::above(0),
               .also = spellings::q_axis_inductance});
-  v.quantity(
-      "saturation_current_A", s.saturation_current_A,
-      {.meaning = "I_sat of lambda_d = L_d i_d (1 - i_d/(2 I_sat)), i_d along the magnets: what lets a "
-                  "pulse tell north from south; holds for |i_d| < I_sat/2",
-       .unit = "A",
-       .range = base::above(0)});
+  v.quantity("saturation_current_A", s.saturation_current_A,
+             {.meaning = "I_sat of lambda_d = L_d i_d (1 - i_d/(2 I_sat)), i_d along the magnets. Pulses "
+                         "distinguish north from south by it; valid for |i_d| < I_sat/2",
+              .unit = "A",
+              .range = base::above(0)});
 }
 
 }  // namespace sixstep::design

@@ -121,7 +121,7 @@ struct Series {
       pole;  ///< u_k against the negative rail; with fewer than two legs connected, e_k for those that float
   PerLeg<Coefficients> emf;
   Coefficients loop, source, load_w, twist;
-  Coefficients load, cogging;       ///< torques: the load's at its side, cogging at the motor's
+  Coefficients load, cogging;       ///< torque of the load at its side, cogging torque at the motor
   Coefficients through;             ///< lossy gear: the torque that it transmits, at the load's side
   Coefficients forward, backward;   ///< torque against the breakaway torque at rest, for either direction
   Coefficients turn_cos, turn_sin;  ///< cos and sin of the load's angle, for gravity

@@ -82,7 +82,8 @@ class ShaftTerms {
     }
     return load;
   }
-  /// Torques that act against the breakaway torque at rest. `through`: at the load's side, without the gear's losses.
+  /// Torques that the breakaway torque opposes, for motion forward and backward. `through`: torque through the
+  /// gear at the load's side, before the gear's losses.
   void push(int n, Real drive, Real through) {
     z_.forward[n] = drive - c_.inv_gear * through;
     z_.backward[n] = z_.forward[n];

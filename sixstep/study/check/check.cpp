@@ -53,11 +53,12 @@ void check_regeneration(const Scenario& s, base::Problems& out) {
                    "the drive could never brake"});
   if (s.sensors.bus == BusSensing::adc && s.sensors.bus_range_V && !(*r.limit_V < bus_end_V(s.sensors)))
     out.push_back({"control.regeneration.limit_V", base::six_digits(*r.limit_V),
-                   "is never passed: the converter ends at " + base::six_digits(bus_end_V(s.sensors)) +
+                   "is never exceeded: the converter ends at " + base::six_digits(bus_end_V(s.sensors)) +
                        ", by sensors.bus_range_V = " + base::six_digits(*s.sensors.bus_range_V),
                    "lower it or widen the range"});
   if (!r.gain_A_per_V && !(s.supply.capacitance_F > 0))
-    out.push_back({"control.regeneration.gain_A_per_V", "", "is missing, and no capacitance to take it from",
+    out.push_back({"control.regeneration.gain_A_per_V", "",
+                   "is missing, and so is the capacitance for its default",
                    "give it, or supply.capacitance_F"});
 }
 
@@ -136,7 +137,7 @@ void check_torque_limit(const Scenario& s, const design::MotorModel& motor, base
   if (asks_torque && !s.control.speed.torque_limit_Nm && !(motor.nominal_current_A > 0))
     out.push_back({"control.speed.torque_limit_Nm", "",
                    "is missing, and the motor's sheet names no nominal current",
-                   "give the torque that the drive may ask for"});
+                   "give the limit of the drive's torque"});
 }
 
 /// Checks the controller as each event leaves it. Problems that it has from the start are not repeated.

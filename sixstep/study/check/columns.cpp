@@ -18,19 +18,19 @@ NoValue no_value(ColumnId id, const Scenario& s) {
       return {"applies to a load behind a gear or an elastic shaft only, and this load turns with the rotor",
               "record speed_rad_s and angle_rad, or set load.gear or load.stiffness_Nm_rad"};
     case ColumnId::source_A:
-      return {"is recorded where the source has an inductance, and supply.inductance_H = 0",
-              "remove it, or set supply.inductance_H; bus_A is what the bridge takes"};
+      return {"needs a source with inductance, and supply.inductance_H = 0",
+              "remove it, or set supply.inductance_H; bus_A is the bridge's current"};
     case ColumnId::capacitor_A:
-      return {"is recorded where the capacitor has a resistance, and supply.capacitor_resistance_ohm = 0",
+      return {"needs a capacitor with resistance, and supply.capacitor_resistance_ohm = 0",
               "remove it, or set supply.capacitor_resistance_ohm"};
     case ColumnId::battery_charge:
       return {"applies to a battery only, and supply.source is none",
               "remove it, or set supply.source = \"battery\""};
     case ColumnId::winding_degC:
     case ColumnId::housing_degC:
-      return {"stays as it is while heat.motor = false", "remove it, or set heat.motor = true"};
+      return {"is constant while heat.motor = false", "remove it, or set heat.motor = true"};
     case ColumnId::junction_degC:
-      return {"stays as it is while heat.devices = false", "remove it, or set heat.devices = true"};
+      return {"is constant while heat.devices = false", "remove it, or set heat.devices = true"};
     default:
       break;
   }
@@ -42,7 +42,7 @@ NoValue no_value(ColumnId id, const Scenario& s) {
             "remove it, or set sensors.rotor or control.field.angle"};
   if (id >= ColumnId::encoder_A && id < ColumnId::i_d)
     return {"is a signal of another sensor than sensors.rotor", "remove it, or set sensors.rotor"};
-  return {"has no value in this control.mode", "remove it, or control what it is the reference of"};
+  return {"has no value in this control.mode", "remove it, or set a control.mode that has this reference"};
 }
 
 }  // namespace

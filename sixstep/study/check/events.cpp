@@ -59,10 +59,10 @@ void check_mode(const Event& e) {
   std::string word(1, '"');  // GCC 12 warns of a literal before it
   word += base::word(mode_choices, e.mode);
   word += '"';
-  if (e.mode == e.before) return e.say(".control.mode", word, "is the mode already", "remove it");
+  if (e.mode == e.before) return e.say(".control.mode", word, "is the present mode already", "remove it");
   if (e.mode == control::Mode::off) return;
   if (!e.at.reference)
-    e.say(".control.mode", word, "needs a reference: the one before is in another unit",
+    e.say(".control.mode", word, "needs a new reference: the present one has another unit",
           "give reference beside it, in " + std::string(reference_unit(e.mode)));
   else if (goes_on(*e.at.reference))
     e.say(".reference", "", "continues from the reference's last value, which was in another unit",
@@ -97,7 +97,7 @@ void check_drift(const Event& e) {
     return e.say(key, value, "applies to an amplifier only, and sensors.currents = \"ideal\"",
                  "set sensors.currents = \"phases\" or \"dc-link\", and current_range_A");
   if (offset && sensors.current_range_A && std::fabs(*offset) >= *sensors.current_range_A)
-    e.say(key, value, "leaves nothing of sensors.current_range_A = " + written(*sensors.current_range_A),
+    e.say(key, value, "leaves no range within sensors.current_range_A = " + written(*sensors.current_range_A),
           "lower it or widen the range");
 }
 
@@ -112,9 +112,9 @@ void check_event(const Event& e) {
                    "lengthen duration_s or drop the event"});
   if (changes_nothing(at))
     out.push_back(
-        {where + ".time_s", written(at.time_s), "is when nothing changes",
-         "give a reference, a value of supply or load, what changes of sensors, motor.broken_wire, request, or "
-         "what changes of control, pwm or bridge"});
+        {where + ".time_s", written(at.time_s), "changes nothing",
+         "give a reference, a value of supply or load, motor.broken_wire, request, or a change of sensors, "
+         "control, pwm or bridge"});
   if (at.supply.voltage_V && s.supply.source != SourceKind::steady)
     out.push_back({where + ".supply.voltage_V", written(*at.supply.voltage_V),
                    "applies to a steady source only, and supply.source is a battery or mains",
@@ -132,7 +132,7 @@ void check_event(const Event& e) {
                    "must stay below control.regeneration.limit_V = " + written(*limit_V),
                    "the drive could not brake any more"});
   if (at.reference && mode == control::Mode::off)
-    out.push_back({where + ".reference", "", "asks for something that control.mode = \"off\" does not do",
+    out.push_back({where + ".reference", "", "sets a reference, and control.mode = \"off\" has none",
                    "set control.mode"});
   if (at.request != DriveRequest::none && s.control.drive != FirmwareKind::product)
     out.push_back(

@@ -61,9 +61,9 @@ void check_field_loops(const Scenario& s, base::Problems& out) {
          "set output = \"current\"");
   const char* const of_pair = "applies to the current loop of six-step only";
   refuse(c.current.back_emf_feed_forward, "control.current.back_emf_feed_forward", of_pair,
-         "remove it: control.field.decoupling adds what turning makes");
+         "remove it: control.field.decoupling adds the induced voltages");
   refuse(c.current.measured_bus_from_V.has_value(), "control.current.measured_bus_from_V", of_pair,
-         "remove it: three legs go by the measured bus");
+         "remove it: three legs always use the measured bus");
   const Limits& l = c.limits;
   refuse(l.current_A || l.torque_Nm || l.speed_rad_s, "control.limits", of_pair,
          "remove it; in a cascade control.current.limit_A bounds the current");
@@ -80,7 +80,7 @@ void check_unsensed(const Scenario& s, base::Problems& out) {
                    "remove it, or set control.field.angle = \"sensors\""});
   if (s.control.field.law == FieldLaw::finite_set)
     out.push_back({"control.field.law", "\"finite-set\"",
-                   "makes no pulses, and where control.field.angle is " + angle() + " they are looked at",
+                   "makes no pulses, and control.field.angle = " + angle() + " needs them",
                    "set law = \"pi\", or control.field.angle = \"sensors\""});
   if (s.control.mode == control::Mode::position)
     out.push_back({"control.mode", "\"position\"",
@@ -104,10 +104,10 @@ void check_sensing(const Scenario& s, base::Problems& out) {
                    "set currents = \"phases\", or \"ideal\""});
   if (s.control.field.angle != FieldAngle::sensors) return check_unsensed(s, out);
   if (x.rotor == RotorSensing::hall && x.hall_angle == rig::HallAngleFrom::sectors)
-    out.push_back({"sensors.hall_angle", "\"sectors\"", "tells no angle between two Hall edges",
+    out.push_back({"sensors.hall_angle", "\"sectors\"", "gives no angle between two Hall edges",
                    "set hall_angle = \"interpolated\" or \"calibrated\""});
   if (x.rotor == RotorSensing::encoder && !x.encoder.referenced)
-    out.push_back({"sensors.encoder.referenced", "false", "tells no angle before the index is passed",
+    out.push_back({"sensors.encoder.referenced", "false", "gives no angle before the rotor passes the index",
                    "set referenced = true"});
   if (x.shaft == SensorShaft::load && x.rotor != RotorSensing::ideal && x.rotor != RotorSensing::hall)
     out.push_back(
@@ -141,7 +141,7 @@ void check_keys(const Scenario& s, base::Problems& out) {
         "turns a rotor whose angle is unknown at rest, and this drive measures it",
         "remove it, or set control.field.angle = \"observer\"");
   if (f.weakening_A && f.voltage_limit != control::VoltageLimit::circle)
-    out.push_back({"control.field.weakening_A", "", "goes by the circle, and voltage_limit is \"axes\"",
+    out.push_back({"control.field.weakening_A", "", "needs voltage_limit = \"circle\", and it is \"axes\"",
                    "set control.field.voltage_limit = \"circle\", or remove it"});
   if (f.harmonic_current && design::is_salient(s.sheet))
     out.push_back(
@@ -156,7 +156,7 @@ void check_pair_figures(const Scenario& s, base::Problems& out) {
   const auto refuse = [&out](const Measure& m, const std::string& where) {
     if (fact_of(m.metric).of == TakenOf::commutations)
       out.push_back({where + ".metric", "", "applies to commutation, and a drive of three legs has none",
-                     "take another figure"});
+                     "measure another figure"});
   };
   for (std::size_t n = 0; n < s.require.size(); ++n)
     refuse(s.require[n].measure, "require[" + std::to_string(n) + "]");

@@ -36,7 +36,7 @@ void check_finite_set(const Scenario& s, base::Problems& out) {
   refuse(f.bandwidth_Hz.has_value(), "control.field.bandwidth_Hz", no_loop, to_pi);
   refuse(gives_gains(loop), "control.current", no_loop, to_pi);
   refuse(!f.decoupling, "control.field.decoupling",
-         "= false leaves out what turning makes, and the finite set foretells with it", to_pi);
+         "= false leaves out the induced voltages, and the finite set predicts with them", to_pi);
   refuse(f.voltage_limit != control::VoltageLimit::circle, "control.field.voltage_limit",
          "= \"axes\" limits the voltage's magnitude, and three legs for a whole period have only one", to_pi);
   refuse(f.weakening_A.has_value(), "control.field.weakening_A",

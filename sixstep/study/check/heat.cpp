@@ -18,7 +18,7 @@ void check_energies(const Bridge& b, base::Problems& out) {
     out.push_back({energies ? "bridge.energies_at_V" : "bridge.turn_on_J", "",
                    energies
                        ? "and bridge.energies_at_A are missing: energies are given at a voltage and a current"
-                       : "is missing: energies_at_V and energies_at_A alone say nothing",
+                       : "is missing: energies_at_V and energies_at_A alone have no effect",
                    "give turn_on_J, turn_off_J, recovery_J, energies_at_V and energies_at_A"});
   const bool charges = b.gate_source_charge_C > 0 || b.gate_drain_charge_C > 0;
   if (charges != (b.gate_current_A > 0))
@@ -38,7 +38,7 @@ void check_heat(const Scenario& s, base::Problems& out) {
   if (h.motor)
     if (const auto model = design::thermal_model(s.sheet); !model)
       for (const base::Problem& p : model.problems())
-        out.push_back({"heat.motor", "true", "needs what the motor's sheet does not have: " + p.where,
+        out.push_back({"heat.motor", "true", "needs values that the motor's sheet does not have: " + p.where,
                        "add the sheet's thermal lines to the motor file, or give them in [motor_override]"});
   if (h.motor)
     if (auto lost = design::lost_magnets(h.housing_degC ? "heat.housing_degC" : "heat.ambient_degC", s.sheet,

@@ -42,7 +42,7 @@ void check_window(const Asked& a) {
   if (!a.m.to_s && !(a.from_s() < a.s.duration_s))
     return a.refuse("from_s", base::written(a.from_s()),
                     "lies behind the end of the run (duration_s = " + base::written(a.s.duration_s) + ")",
-                    "let the window begin earlier or lengthen duration_s");
+                    "let the window begin earlier, or lengthen duration_s");
   if (!(a.from_s() < a.to_s()))
     a.refuse("to_s", base::written(a.to_s()), "must lie behind from_s = " + base::written(a.from_s()),
              "give the window as from_s < to_s");
@@ -73,20 +73,21 @@ void check_signal(const Asked& a) {
       return;
     case TakenOf::transitions:
       if (!switching_law(a.s.bridge).any())
-        a.refuse("metric", quoted(a.m.metric), "needs the switches' energies, and [bridge] has none",
-                 "give bridge.turn_on_J and its like, or gate_current_A and the gate's charges");
+        a.refuse(
+            "metric", quoted(a.m.metric), "needs the switches' energies, and [bridge] has none",
+            "give bridge.turn_on_J, turn_off_J and recovery_J, or gate_current_A and the gate's charges");
       [[fallthrough]];
     case TakenOf::commutations:
     case TakenOf::band:
     case TakenOf::energies:
       if (given)
-        a.refuse("signal", quoted(signal), "is nothing that " + quoted(a.m.metric) + " is taken of",
+        a.refuse("signal", quoted(signal), "has no effect: " + quoted(a.m.metric) + " has no signal",
                  "remove signal");
       return;
     case TakenOf::switching:
       if (given && !is_gate(signal))
         a.refuse("signal", quoted(signal), "does not switch",
-                 "name a switch, \"gate_T1\" to \"gate_T6\", or remove signal to count what is chopped");
+                 "name a switch, \"gate_T1\" to \"gate_T6\", or remove signal to count the chopped switches");
       return;
     case TakenOf::power:
       if (!is_power(signal))
@@ -136,7 +137,8 @@ void check_level(const Asked& a) {
              "give the level that the signal is to reach, in its own unit");
   const Measure usual;
   const auto looks_not = [&a](const char* key, double value) {
-    a.refuse(key, base::written(value), "is nothing that " + quoted(a.m.metric) + " looks at", "remove it");
+    a.refuse(key, base::written(value), "has no effect: " + quoted(a.m.metric) + " does not use it",
+             "remove it");
   };
   if (a.m.level && !wanted) looks_not("level", *a.m.level);
   if (a.m.start && !is_of_a_step(a.m.metric)) looks_not("start", *a.m.start);
@@ -144,7 +146,7 @@ void check_level(const Asked& a) {
     looks_not("fraction", a.m.fraction);
   if (a.m.band != usual.band && a.m.metric != MetricKind::settling_time) looks_not("band", a.m.band);
   if (a.m.tail && !is_of_a_level(a.m.metric))
-    a.refuse("tail", base::written(*a.m.tail), "is nothing that " + quoted(a.m.metric) + " looks at",
+    a.refuse("tail", base::written(*a.m.tail), "has no effect: " + quoted(a.m.metric) + " does not use it",
              "remove it, or set from_s and to_s");
   if (a.m.tail && is_of_a_level(a.m.metric) && a.m.level)
     a.refuse("tail", base::written(*a.m.tail), "is a part of the reference's levels, and level is given",
@@ -158,23 +160,24 @@ void check_levels_of_reference(const Asked& a) {
       reference_moves(a.s, a.from_s(), a.to_s()))
     a.refuse(
         "metric", quoted(a.m.metric),
-        "is taken of the reference's levels, and the reference moves in this window",
-        "give level, start and from_s, or set from_s and to_s to where the reference stands, or take max "
-        "and min of the error, as signal = \"speed_error_rad_s\"");
+        "needs constant levels of the reference, and the reference moves in this window",
+        "give level, start and from_s, or set from_s and to_s to a constant part of the reference; or take "
+        "max and min of the error, as signal = \"speed_error_rad_s\"");
   if (takes_levels && !a.m.level && changes_mode(a.s))
-    a.refuse("level", "", "is missing: the mode changes during the run, and with it what the levels are of",
+    a.refuse("level", "",
+             "is missing: the mode changes during the run, and with it the quantity of the levels",
              "give the level that the signal is to reach, and from_s and to_s");
 }
 
 void check_sampled(const Asked& a) {
   if (!a.m.sampled) return;
   if (fact_of(a.m.metric).of != TakenOf::signal)
-    a.refuse("sampled", "true", "would miss what " + quoted(a.m.metric) + " is about",
-             "remove it: the whole curve is looked at");
+    a.refuse("sampled", "true", "would falsify " + quoted(a.m.metric) + ", which needs the whole curve",
+             "remove it: the whole curve is evaluated");
   else if (!is_known_at_samples(a.m.signal))
     a.refuse("sampled", "true",
-             "says little of " + quoted(a.m.signal) + ", which jumps where the samples are taken",
-             "remove it: the whole curve is looked at");
+             "is not valid for " + quoted(a.m.signal) + ", which jumps where the samples are taken",
+             "remove it: the whole curve is evaluated");
 }
 
 void check_fundamental(const Asked& a) {
@@ -182,7 +185,7 @@ void check_fundamental(const Asked& a) {
   if (fact_of(a.m.metric).of != TakenOf::fundamental) {
     if (frequency_Hz)
       a.refuse("frequency_Hz", base::written(*frequency_Hz),
-               "is nothing that " + quoted(a.m.metric) + " looks at", "remove it");
+               "has no effect: " + quoted(a.m.metric) + " does not use it", "remove it");
     return;
   }
   if (frequency_Hz && whole_periods({a.from_s(), a.to_s()}, *frequency_Hz) < 1.0)
@@ -191,7 +194,7 @@ void check_fundamental(const Asked& a) {
              "lengthen the window or give a higher frequency");
   if (!frequency_Hz && !alternates(a.m.signal))
     a.refuse("frequency_Hz", "",
-             "is missing: " + quoted(a.m.signal) + " does not alternate with the rotor's turning",
+             "is missing: " + quoted(a.m.signal) + " does not alternate with the rotor's rotation",
              "give the fundamental, or the signal of a phase: \"i_a\", \"u_ab_V\", \"e_a_V\"");
   else if (!frequency_Hz && a.s.load.locked)
     a.refuse("frequency_Hz", "", "is missing: a locked rotor has no electrical frequency",

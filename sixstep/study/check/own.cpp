@@ -12,7 +12,7 @@ namespace sixstep::study {
 
 namespace {
 
-static_assert(sizeof(sixstep_real) == sizeof(double), "SIXSTEP_REAL is for what goes onto a chip");
+static_assert(sizeof(sixstep_real) == sizeof(double), "SIXSTEP_REAL is for programs on a chip");
 constexpr std::uint32_t most_bytes = 65536, most_numbers = 64;
 /// Interface number of a controller that was compiled for a chip.
 constexpr std::uint32_t in_float = SIXSTEP_OWN_INTERFACE + 256;
@@ -66,13 +66,12 @@ void check_around(const Scenario& s, base::Problems& out) {
     if (given) out.push_back({key, "", limit, cure});
   };
   const char* const its_own = "applies to the built-in loops, and a user's controller runs none of them";
-  refuse(c.mode == control::Mode::off, "control.mode", "= \"off\" leaves a user's controller nothing to do",
+  refuse(c.mode == control::Mode::off, "control.mode", "= \"off\" runs no controller",
          "set mode = \"duty\", \"current\", \"speed\" or \"position\"");
   if (c.arithmetic != Arithmetic::float64)
-    out.push_back(
-        {"control.arithmetic", std::string(base::word(arithmetic_choices, c.arithmetic)),
-         "applies to the built-in controllers: a user's controller computes in the types that it is written in",
-         "remove it"});
+    out.push_back({"control.arithmetic", std::string(base::word(arithmetic_choices, c.arithmetic)),
+                   "applies to the built-in controllers: a user's controller has its own number types",
+                   "remove it"});
   refuse(c.current.type != CurrentLoopType::pi, "control.current.type", its_own, "remove it");
   refuse(c.current.feedback != CurrentFeedback::mean, "control.current.feedback", its_own, "remove it");
   refuse(c.current.commutation != CurrentCommutation::plain, "control.current.commutation", its_own,
@@ -98,7 +97,8 @@ base::Problems check_controller(const sixstep_controller& is) {
     if (wrong) out.push_back({where, value, limit, "see sixstep/control/own/own_controller.h"});
   };
   if (is.interface == in_float)
-    return {{"interface", std::to_string(is.interface), "is that of float, and this program's is of double",
+    return {{"interface", std::to_string(is.interface),
+             "is compiled for float, and this program needs double",
              "compile it without -DSIXSTEP_REAL=float"}};
   refuse(is.interface != SIXSTEP_OWN_INTERFACE, "interface", std::to_string(is.interface),
          "is not the interface of this program: compile it with this program's own_controller.h");

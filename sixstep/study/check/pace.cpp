@@ -121,7 +121,7 @@ void check_torque(const Scenario& s, const design::MotorModel& motor, base::Prob
   const auto look = [&](const std::string& key, double torque_Nm) {
     if (std::fabs(torque_Nm) > most_Nm)
       out.push_back({key, written(torque_Nm),
-                     "is no load for a moment of inertia of " + base::three_digits(J) + " kg m2: at most " +
+                     "is too large for a moment of inertia of " + base::three_digits(J) + " kg m2: at most " +
                          base::three_digits(most_Nm) + " N m are simulated",
                      "check its unit and that of the inertia"});
   };
@@ -198,7 +198,8 @@ void check_dead_time(const std::string& where, double dead_time_s, const Pwm& pw
   if (!(2 * dead_time_s < pwm.period_s)) {
     out.push_back(
         {where, written(dead_time_s), "must be shorter than half of pwm.period_s = " + written(pwm.period_s),
-         "give what the gate driver needs, microseconds: a leg with two dead times in a period would never turn on"});
+         "give the gate driver's dead time, microseconds: a leg with two dead times in a period would "
+         "never turn on"});
     return;
   }
   const double counted_s = dead_time_in_counts_s(dead_time_s, pwm);

@@ -25,20 +25,21 @@ void check_position(const Scenario& s, base::Problems& out) {
   if (p.speed_rad_s && limit && *p.speed_rad_s > *limit)
     out.push_back({"control.position.profile.speed_rad_s", base::six_digits(*p.speed_rad_s),
                    "is above control.position.speed_limit_rad_s = " + base::six_digits(*limit) +
-                       ", which the loop does not ask for more than",
+                       ", the bound of the loop's speed reference",
                    "lower it, better to nine tenths of that, or raise the limit"});
   if (c.slew && c.mode == control::Mode::position)
     out.push_back({"control.slew", base::six_digits(*c.slew),
-                   "shapes a setpoint that control.position.profile shapes already",
+                   "shapes the setpoint, and control.position.profile already does so",
                    "remove it: profile.speed_rad_s is its limit"});
   if (c.arithmetic != Arithmetic::float64 && c.arithmetic != Arithmetic::float32)
     out.push_back({"control.arithmetic", std::string(base::word(arithmetic_choices, c.arithmetic)),
-                   "has no room for what control.position.profile adds in a tick",
+                   "has too few digits for the increments of control.position.profile",
                    "set arithmetic = \"float\" or \"double\", or remove the profile"});
   if (p.feed_forward && c.speed.law != SpeedLaw::pi)
     out.push_back({"control.position.profile.feed_forward", "true",
                    "adds a torque that the observer of control.speed.law = \"" +
-                       std::string(base::word(speed_law_choices, c.speed.law)) + "\" would take for a load",
+                       std::string(base::word(speed_law_choices, c.speed.law)) +
+                       "\" would estimate as a load",
                    "set feed_forward = false, or law = \"pi\""});
 }
 

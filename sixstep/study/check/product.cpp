@@ -22,8 +22,7 @@ using control::Mode;
 
 /// Requires measurements that a register shows, because the product drive reads registers only.
 void check_registers(const Scenario& s, base::Problems& out) {
-  const std::string asks =
-      "is nothing that a register shows, and control.drive = \"product\" reads registers";
+  const std::string asks = "has no register, and control.drive = \"product\" reads registers";
   if (s.sensors.currents == rig::CurrentMeasurement::ideal)
     out.push_back({"sensors.currents", "\"ideal\"", asks,
                    "set currents = \"phases\" (or \"dc-link\") and current_range_A"});
@@ -37,7 +36,7 @@ void check_registers(const Scenario& s, base::Problems& out) {
                    "set rotor = \"hall\", or control.drive = \"lean\""});
   if (s.sensors.currents == rig::CurrentMeasurement::dc_link && s.pwm.delay_periods > 0)
     out.push_back({"pwm.delay_periods", std::to_string(s.pwm.delay_periods),
-                   "leaves the product drive with the duty of another period than its shunt's sample",
+                   "gives the product drive the duty of another period than its shunt's sample",
                    "set delay_periods = 0: with pwm.sample = \"middle\" the answer waits for the next start "
                    "anyway"});
 }
@@ -46,7 +45,7 @@ void check_missing(const char* key, const std::optional<double>& threshold, cons
                    base::Problems& out) {
   if (!threshold)
     out.push_back({std::string("protection.") + key, "",
-                   "is missing: without it the product drive trusts nothing and never starts", cure});
+                   "is missing: without it the product drive never starts", cure});
 }
 
 /// Refuses a threshold beyond the converter's range.
@@ -54,7 +53,7 @@ void check_threshold(const char* key, const std::optional<double>& threshold, do
                      const std::string& range, base::Problems& out) {
   if (threshold && !(*threshold < end))
     out.push_back({std::string("protection.") + key, written(*threshold),
-                   "is never passed: the converter ends at " + base::rounded(end, 6) + ", by " + range,
+                   "is never exceeded: the converter ends at " + base::rounded(end, 6) + ", by " + range,
                    "lower it or widen the range"});
 }
 
@@ -83,7 +82,7 @@ void check_thresholds(const Scenario& s, base::Problems& out) {
                    "raise it"});
   if (p.stall_current_A.has_value() != p.stall_s.has_value())
     out.push_back({p.stall_s ? "protection.stall_current_A" : "protection.stall_s", "",
-                   "is missing, and stalling is watched by both", "give both or none"});
+                   "is missing, and stall detection needs both", "give both or none"});
 }
 
 void check_activities(const Scenario& s, base::Problems& out) {
@@ -99,7 +98,7 @@ void check_activities(const Scenario& s, base::Problems& out) {
   if (p.off_at_s && !(*p.off_at_s < s.duration_s))
     out.push_back({"protection.off_at_s", written(*p.off_at_s),
                    "lies behind the end of the run (duration_s = " + written(s.duration_s) + ")",
-                   "lengthen duration_s or let go earlier"});
+                   "lengthen duration_s, or set off_at_s earlier"});
 }
 
 void check_advance(const Scenario& s, base::Problems& out) {
@@ -251,7 +250,7 @@ void check_extras(const Scenario& s, base::Problems& out) {
                    "has no effect in a hysteresis, which has no duty", "remove it, or set type = \"pi\""});
   if (s.control.limits.gain_A_s_per_rad && !s.control.limits.speed_rad_s)
     out.push_back({"control.limits.gain_A_s_per_rad", written(*s.control.limits.gain_A_s_per_rad),
-                   "has no effect without a limit", "give control.limits.speed_rad_s too"});
+                   "has no effect without a limit", "add control.limits.speed_rad_s"});
   const SmoothChopping& smooth = s.control.smooth_chopping;
   if (smooth.soft_above_A && smooth.complementary_below_A &&
       !(*smooth.soft_above_A > *smooth.complementary_below_A))

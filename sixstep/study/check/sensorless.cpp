@@ -14,7 +14,8 @@ namespace {
 /// The sample must lie in the middle of the on-time, where the pair holds the star point at half of the bus.
 void check_sample(const Scenario& s, base::Problems& out) {
   const std::string why =
-      "leaves the sample outside of the on-time, in which the floating terminal shows its back-EMF";
+      "puts the sample outside of the on-time, and only within it the free phase's terminal shows the "
+      "back-EMF";
   if (s.pwm.alignment != Alignment::centre)
     out.push_back({"pwm.alignment", "\"edge\"", why, "set alignment = \"centre\""});
   if (s.pwm.sample != SampleAt::middle)
@@ -28,7 +29,8 @@ void check_sensorless_loops(const Scenario& s, base::Problems& out) {
                    "control speed, current or duty, or set control.drive = \"lean\" and sensors.rotor"});
   if (s.control.current.type == CurrentLoopType::hysteresis)
     out.push_back({"control.current.type", "\"hysteresis\"",
-                   "switches whenever its band is left, and no sample of the terminals finds an on-time",
+                   "switches whenever the current leaves its band, so that no sample of the terminals lies "
+                   "in an on-time",
                    "set type = \"pi\""});
   if (s.control.current.type == CurrentLoopType::deadbeat)
     out.push_back({"control.current.type", "\"deadbeat\"",
@@ -49,12 +51,12 @@ void check_source(const Scenario& s, base::Problems& out) {
   const RotorSensing rotor = s.sensors.rotor;
   if (rotor != RotorSensing::ideal && rotor != RotorSensing::hall)
     out.push_back({"sensors.rotor", std::string(base::word(rotor_sensing_choices, rotor)),
-                   "is no sensor from which the sensorless drive can take over: it reads Hall probes or none",
+                   "is not supported by the sensorless drive: it reads Hall probes or none",
                    "remove it, set rotor = \"hall\", or control.drive = \"lean\""});
   const bool asked = s.control.sensorless.commutates == Commutates::hall;
   if (asked && rotor != RotorSensing::hall)
-    out.push_back({"control.sensorless.commutates", "\"hall\"",
-                   "asks for probes that the board does not read", "set sensors.rotor = \"hall\""});
+    out.push_back({"control.sensorless.commutates", "\"hall\"", "needs Hall probes, and the board reads none",
+                   "set sensors.rotor = \"hall\""});
 }
 
 /// Pulses need a converter per phase, because each pulse is judged by the currents into and out of its pair.
@@ -62,7 +64,7 @@ void check_start(const Scenario& s, base::Problems& out) {
   if (s.control.sensorless.starts_by != StartsBy::pulses) return;
   if (s.sensors.currents == rig::CurrentMeasurement::phases) return;
   out.push_back({"sensors.currents", std::string(base::word(current_sensing_choices, s.sensors.currents)),
-                 "has no converter per phase, by whose counts the drive judges the pulses that it starts by",
+                 "has no converter per phase, and the drive measures its start pulses with them",
                  "set currents = \"phases\" and current_range_A, or "
                  "control.sensorless.starts_by = \"alignment\""});
 }
@@ -71,8 +73,8 @@ void check_others(const Scenario& s, base::Problems& out) {
   if (s.sensors.bus_bandwidth_Hz && control::observes(s.control.sensorless.follows))
     out.push_back(
         {"sensors.bus_bandwidth_Hz", base::written(*s.sensors.bus_bandwidth_Hz),
-         "is of the terminals' dividers, too: a leg that its diode lets go within the pulse is sampled on its way "
-         "from the rail, by up to half the bus off, and an observer keeps that for periods",
+         "is also that of the terminals' dividers. After a diode turns off within the pulse, the sample is "
+         "wrong by up to half the bus; an observer keeps this error for periods",
          "remove it, or set control.sensorless.follows = \"crossings\""});
   if (s.sheet.kind == design::MotorKind::linear)
     out.push_back({"control.drive", "\"sensorless\"", "starts turning motors, and this one is linear",

@@ -20,7 +20,7 @@ void check_currents(const Scenario& s, base::Problems& out) {
                    "give the current at the converter's ends, or currents = \"ideal\""});
   else if (std::fabs(sensors.current_offset_A) >= *sensors.current_range_A)
     out.push_back({"sensors.current_offset_A", base::written(sensors.current_offset_A),
-                   "leaves nothing of current_range_A = " + base::written(*sensors.current_range_A),
+                   "leaves no range within current_range_A = " + base::written(*sensors.current_range_A),
                    "lower it or widen the range"});
   const bool samples_in_middle = s.pwm.sample == SampleAt::middle;
   if (sensors.currents == CurrentMeasurement::dc_link && !samples_in_middle)
@@ -77,7 +77,7 @@ void check_probe_edges(const Scenario& s, const std::optional<design::MotorModel
     if (gap < least_gap_deg)
       return out.push_back({"sensors.hall_edges_deg[" + std::to_string(next) + "]", base::written(own[next]),
                             "leaves " + base::written(gap) + " deg, less than 1, to the edge before, the " +
-                                "hysteresis taken off",
+                                "hysteresis subtracted",
                             "give edges that stay in their order"});
   }
 }

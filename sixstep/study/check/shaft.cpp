@@ -26,9 +26,9 @@ void check_table(const Load& l, base::Problems& out) {
     if (const double step = l.at_speeds_rad_s[n + 1] - l.at_speeds_rad_s[n]; !(step >= least_step_rad_s)) {
       out.push_back({"load.at_speeds_rad_s[" + std::to_string(n + 1) + "]",
                      base::six_digits(l.at_speeds_rad_s[n + 1]),
-                     step > 0 ? "is so close to the one before that a run cannot tell them apart"
+                     step > 0 ? "is too close to the one before: a run cannot resolve them"
                               : "must be above the one before",
-                     step > 0 ? "leave one of the two out" : "sort them"});
+                     step > 0 ? "remove one of the two" : "sort them"});
       return;
     }
 }

@@ -27,7 +27,7 @@ void check_resolver(const Scenario& s, const std::optional<design::MotorModel>& 
   if (motor && commutates && std::fmod(motor->machine.pole_pairs, r.pole_pairs) != 0)
     wrong("pole_pairs", std::to_string(r.pole_pairs),
           "does not divide the motor's " + base::written(motor->machine.pole_pairs) +
-              ": one angle of it would stand for several of the winding",
+              ": one angle of it would correspond to several electrical angles of the motor",
           "take 1, or a divisor of them");
   const double step_s = tracking_period_s(s);
   if (sampled && std::fabs(2 * step_s * r.excitation_Hz - 1) > 1e-9)
@@ -95,7 +95,7 @@ void check_shaft_events(const Scenario& s, base::Problems& out) {
     if (at.bad_track->track > s.sensors.absolute.bits)
       out.push_back({where + "bad_track.track", std::to_string(at.bad_track->track),
                      "is more than sensors.absolute.bits = " + std::to_string(s.sensors.absolute.bits),
-                     "name a track that there is"});
+                     "name an existing track"});
   }
 }
 

@@ -31,7 +31,7 @@ void check_brake(const Supply& s, bool has_capacitor, base::Problems& out) {
   else if (const double open_V = highest_open_V(s); !(s.brake_off_V > open_V))
     out.push_back({"supply.brake_off_V", base::six_digits(s.brake_off_V),
                    (s.source == SourceKind::steady ? "must be above supply.voltage_V = "
-                                                   : "must be above what the source stands at, ") +
+                                                   : "must be above the source's open-circuit voltage, ") +
                        base::six_digits(open_V),
                    "the resistor would never be off again"});
   else if (const double falls = s.brake_on_V * s.capacitor_resistance_ohm / (s.capacitor_resistance_ohm + R);
@@ -48,7 +48,7 @@ void check_nominal(const Supply& s, base::Problems& out) {
   if (!(open_V > 0) || (s.voltage_V > open_V / 2 && s.voltage_V < open_V * 2)) return;
   out.push_back(
       {"supply.voltage_V", base::six_digits(s.voltage_V),
-       "is what the drive is designed for, and the source stands at " + base::six_digits(open_V) + " V",
+       "is the design voltage, and the source's open-circuit voltage is " + base::six_digits(open_V) + " V",
        "write voltage_V = " + base::rounded(open_V, 3)});
 }
 
@@ -74,7 +74,8 @@ void check_battery(const Supply& s, base::Problems& out) {
       break;
     }
   if (!(s.battery_capacity_Ah > 0))
-    out.push_back({"supply.battery_capacity_Ah", "", "is missing", "give the battery's whole charge, as 5"});
+    out.push_back(
+        {"supply.battery_capacity_Ah", "", "is missing", "give the charge of the full battery, as 5"});
   if ((s.battery_recovery_ohm > 0) != (s.battery_recovery_F > 0))
     out.push_back({"supply.battery_recovery_ohm", base::six_digits(s.battery_recovery_ohm),
                    "and supply.battery_recovery_F belong together", "give both, or none"});
@@ -96,7 +97,7 @@ void check_mains(const Supply& s, base::Problems& out) {
   }
   if (!(highest_open_V(s) > 0))
     out.push_back({"supply.mains_rms_V", base::six_digits(s.mains_rms_V),
-                   "does not reach over the rectifier's diodes",
+                   "is below the forward drop of the rectifier's diodes",
                    "give the mains' voltage, as 230, or 400 between the lines of three phases"});
   else
     check_nominal(s, out);
@@ -109,11 +110,11 @@ void check_supply(const Scenario& s, base::Problems& out) {
   if (R && !C)
     out.push_back({"supply.resistance_ohm", base::six_digits(s.supply.resistance_ohm),
                    "needs a bus capacitor behind it",
-                   "give supply.capacitance_F too, or remove both for a stiff bus"});
+                   "add supply.capacitance_F, or remove both for a stiff bus"});
   if (C && !R)
     out.push_back({"supply.capacitance_F", base::six_digits(s.supply.capacitance_F),
                    "needs the source's resistance",
-                   "give supply.resistance_ohm too, or remove both for a stiff bus"});
+                   "add supply.resistance_ohm, or remove both for a stiff bus"});
   if (!s.supply.sinks && !(R && C))
     out.push_back({"supply.sinks", "false", "needs a bus whose voltage can rise",
                    "give supply.resistance_ohm and supply.capacitance_F"});

@@ -29,7 +29,7 @@ void of_power(const Scenario& s, Unused& out) {
     out.add("bridge.dead_time_at_commutation", s.bridge.dead_time_at_commutation,
             Bridge{}.dead_time_at_commutation, "bridge.dead_time_s is 0");
   if (!s.heat.devices && !tells_losses(s.bridge)) {
-    constexpr char reason[] = "no junction warms up, and no losses are told";
+    constexpr char reason[] = "no junction warms up, and no losses are reported";
     out.add("bridge.junction_K_W", s.bridge.junction_K_W, Bridge{}.junction_K_W, reason);
     out.add("bridge.sink_degC", s.bridge.sink_degC, Bridge{}.sink_degC, reason);
   }

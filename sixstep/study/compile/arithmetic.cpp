@@ -69,7 +69,7 @@ base::Problems unheld_speed(const Scenario& s, const Compiled& c, const design::
   const double most = static_cast<double>(control::detail::greatest<Wide>);
   if (digits <= most) return {};
   return {{"sensors.capture_Hz", base::written(s.sensors.capture_Hz),
-           "times speed_edges is " + base::written(digits / most) + " times what the format's sum holds",
+           "times speed_edges is " + base::written(digits / most) + " times the range of the format's sum",
            "take a slower timer, fewer edges, or a 32-bit format"}};
 }
 

@@ -55,7 +55,7 @@ base::Result<SensorlessAround> sensorless_around(const Scenario& scenario, const
 struct FieldAround {
   control::FieldDriveConfig<double> config;    ///< SI
   control::EstimatorConfig<double> estimator;  ///< on if no sensor measures the angle
-  std::vector<LoopGains> gains;                ///< of the current loops
+  std::vector<LoopGains> gains;                ///< gains of the current loops
   std::vector<design::DerivationStep> steps, estimator_steps;
 };
 /// The field-oriented drive around `drive`: gains as given, placed or by cancellation (design/loops/field_current.hpp).

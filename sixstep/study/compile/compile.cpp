@@ -139,8 +139,8 @@ rig::ProbeGiven probes_of(const Sensors& s) {
           sim::to_instant(s.hall_delay_s).ticks};
 }
 
-/// Sets the edges for the loop that uses them (design/loops/rotor_sensing.hpp). A drive that learns its edges
-/// uses six until they are learned.
+/// Sets the edges for the loop that uses them (design/loops/rotor_sensing.hpp). A drive that calibrates its
+/// edges uses six until then.
 void settle_edges(const Scenario& s, const Basis& basis, Compiled& out) {
   rig::SensorsConfig& sensors = out.board.sensors;
   const bool learns = sensors.hall_angle == rig::HallAngleFrom::learned_edges;

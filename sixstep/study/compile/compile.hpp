@@ -39,7 +39,7 @@ struct GeneralPlant {
 
 struct Compiled {
   design::MotorModel motor;
-  plant::Shaft shaft;  ///< the motor's plus the load's
+  plant::Shaft shaft;  ///< shaft of motor and load together
   plant::Devices devices;
   plant::Supply supply;
   plant::Start start;
@@ -54,9 +54,9 @@ struct Compiled {
   rig::OwnConfig own;                          ///< instead of `drive`, for a user's controller
   control::EstimatorConfig<double> estimator;  ///< of a field-oriented drive without a rotor sensor
   std::vector<LoopGains> gains;
-  std::vector<design::DerivationStep> sensorless_steps;  ///< how the sensorless drive's numbers follow
-  std::vector<design::DerivationStep> field_steps;       ///< the field-oriented drive's
-  std::vector<design::DerivationStep> estimator_steps;   ///< its estimator's
+  std::vector<design::DerivationStep> sensorless_steps;  ///< derivation of the sensorless drive's numbers
+  std::vector<design::DerivationStep> field_steps;       ///< derivation of the field-oriented drive's numbers
+  std::vector<design::DerivationStep> estimator_steps;   ///< derivation of its estimator's numbers
   std::vector<Tuned> later;             ///< configurations for the timeline's retune actions, by their number
   double setpoint_range = 1.0;          ///< full scale of a chip's potentiometer, +- (setpoint_range.hpp)
   std::optional<GeneralPlant> general;  ///< replaces motor, shaft, devices and supply

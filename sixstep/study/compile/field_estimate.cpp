@@ -30,7 +30,7 @@ base::Problems too_weak(const Scenario& s, const design::FieldMachine& machine, 
       c.north.current_A / saturation_A * c.injection.voltage_V * s.pwm.period_s / machine.L_d_H;
   if (shown_A >= digit_A) return {};
   return {{"control.field.injection_V", base::rounded(c.injection.voltage_V, 3),
-           "tells north from south by " + base::rounded(1e3 * shown_A, 2) +
+           "distinguishes north from south by " + base::rounded(1e3 * shown_A, 2) +
                " mA, and a digit of the converters is " + base::rounded(1e3 * digit_A, 2) + " mA",
            "inject more, or give the converters a smaller sensors.current_range_A or more adc_bits"}};
 }

@@ -33,7 +33,7 @@ void check_converter(const Scenario& s, const control::DriveConfig<double>& driv
   if (asked < read) return;
   out.push_back({"sensors.current_range_A", base::three_digits(range),
                  "lets the converter read up to " + base::three_digits(read) + " A, and the drive " +
-                     (limited ? "turns off above " : "may ask for ") + base::three_digits(asked) + " A",
+                     (limited ? "turns off above " : "may command ") + base::three_digits(asked) + " A",
                  s.control.mode == Mode::current ? "widen it, or lower the reference"
                                                  : "widen it, or lower control.current.limit_A"});
 }
@@ -61,16 +61,16 @@ void check_current(const Scenario& s, const design::LimitSetting& setting, base:
   const bool by_current = wanted.current_A.has_value();
   // The current loop's reference never exceeds its largest value.
   const bool narrowed = by_current && setting.current_A < *wanted.current_A;
-  out.push_back({by_current ? "control.limits.current_A" : "control.limits.torque_Nm",
-                 base::three_digits(by_current ? *wanted.current_A : *wanted.torque_Nm),
-                 "cannot be held: one PWM period on a bus of up to " + base::three_digits(setting.bus_V) +
-                     " V drives " + base::three_digits(pulse_A) + " A into the held rotor, more than the " +
-                     base::three_digits(setting.current_A) +
-                     (narrowed ? " A that the reference asks for" : " A of the limit"),
-                 "shorten pwm.period_s to " +
-                     base::written(base::shortened(s.pwm.period_s * setting.current_A / pulse_A, 3,
-                                                   base::Towards::down)) +
-                     (narrowed ? ", or remove the limit" : " or raise the limit")});
+  out.push_back(
+      {by_current ? "control.limits.current_A" : "control.limits.torque_Nm",
+       base::three_digits(by_current ? *wanted.current_A : *wanted.torque_Nm),
+       "cannot be held: one PWM period on a bus of up to " + base::three_digits(setting.bus_V) +
+           " V drives " + base::three_digits(pulse_A) + " A into the held rotor, more than the " +
+           base::three_digits(setting.current_A) + (narrowed ? " A of the reference" : " A of the limit"),
+       "shorten pwm.period_s to " +
+           base::written(
+               base::shortened(s.pwm.period_s * setting.current_A / pulse_A, 3, base::Towards::down)) +
+           (narrowed ? ", or remove the limit" : " or raise the limit")});
 }
 
 /// Mechanical angle by which a measured speed is late: the k sectors over which it averages, the
@@ -95,12 +95,13 @@ void check_speed(const Scenario& s, const design::LimitSetting& setting, base::P
   if (most(limit) <= fastest * limit) return;
   double least = limit;
   while (most(least) > fastest * least) least *= 1.02;
-  out.push_back({"control.limits.speed_rad_s", base::three_digits(limit),
-                 "cannot be held: until a sample tells, the drive's own torque may take the rotor to " +
-                     base::three_digits(most(limit)) + " rad/s",
-                 "raise it to " + base::three_digits(least) + ", lower control.limits.current_A" +
-                     (s.sensors.rotor == RotorSensing::hall ? ", or take fewer sensors.speed_edges"
-                                                            : ", or shorten pwm.period_s")});
+  out.push_back(
+      {"control.limits.speed_rad_s", base::three_digits(limit),
+       "cannot be held: until the next sample, the drive's own torque may accelerate the rotor to " +
+           base::three_digits(most(limit)) + " rad/s",
+       "raise it to " + base::three_digits(least) + ", lower control.limits.current_A" +
+           (s.sensors.rotor == RotorSensing::hall ? ", or take fewer sensors.speed_edges"
+                                                  : ", or shorten pwm.period_s")});
 }
 
 void check_bus(const Scenario& s, design::LimitSetting setting, base::Problems& out) {
@@ -126,7 +127,7 @@ void check_bus(const Scenario& s, design::LimitSetting setting, base::Problems& 
   while (!holds(*wanted, C_F) && C_F < 1e6 * C) C_F *= 1.05;
   const bool can_store = holds(*wanted, C_F);
   out.push_back({"control.regeneration.limit_V", base::three_digits(*wanted),
-                 "cannot be held: what the windings hold when the drive lets go, up to " +
+                 "cannot be held: the current in the windings when the drive turns off, up to " +
                      base::three_digits(design::most_current_A(setting)) + " A, may lift the bus to " +
                      base::three_digits(reached) + " V",
                  "raise it to " + base::three_digits(limit_V) +
@@ -140,9 +141,9 @@ void check_saliency(const Scenario& s, base::Problems& out) {
   const auto refuse = [&](const char* key, const std::optional<double>& value) {
     if (value)
       out.push_back({key, base::three_digits(*value),
-                     "is a promise that is proved for a rotor of one inductance, and this one's L_q is " +
+                     "is proved for a rotor with one inductance only, and this rotor's L_q is " +
                          base::three_digits(ratio) + " times its L_d",
-                     "remove it, and set what the drive may ask for: control.current.limit_A, "
+                     "remove it, and set the limits of the references: control.current.limit_A, "
                      "control.speed.torque_limit_Nm"});
   };
   refuse("control.limits.current_A", s.control.limits.current_A);

@@ -195,12 +195,11 @@ GivenGains given_gains(const Loop& loop, double period_s, const std::string& whe
     wrong(loop.kp ? "kp" : integral, "contradicts settle_s, damping: gains are either given or designed",
           keep);
   else if (d && !(loop.d1 && loop.d0))
-    wrong(loop.d1 ? "d1" : "d0", "is only half of the gains", loop.d1 ? "give d0 too" : "give d1 too");
+    wrong(loop.d1 ? "d1" : "d0", "is only half of the gains", loop.d1 ? "add d0" : "add d1");
   else if (loop.ki && loop.ki_per_s)
     wrong("ki_per_s", "contradicts ki: the integral is given twice", "keep one of: ki | ki_per_s");
   else if (k && !(loop.kp && (loop.ki || loop.ki_per_s)))
-    wrong(loop.kp ? "kp" : integral, "is only half of the gains",
-          loop.kp ? "give ki or ki_per_s too" : "give kp too");
+    wrong(loop.kp ? "kp" : integral, "is only half of the gains", loop.kp ? "add ki or ki_per_s" : "add kp");
   else if (d)
     out = {design::PiGains{*loop.d1, *loop.d0}, "given as d1, d0", {}};
   else if (loop.ki)

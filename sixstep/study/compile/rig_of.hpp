@@ -13,7 +13,7 @@ struct Chip {
   typename Firmware::Config config;
   rig::Bases bases;
   std::vector<rig::Tuning<typename Firmware::Config>> later;  ///< configurations for the retune actions
-  FullScale full_scale{};                                     ///< fixed point: the whole run's
+  FullScale full_scale{};                                     ///< fixed point: full scale of the whole run
 };
 
 template <class Firmware>

@@ -25,34 +25,35 @@ LossWords words_of(control::LockLoss loss) {
   switch (loss) {
     case LockLoss::masked_crossing:
       return {"a crossing that was expected did not come",
-              "brake or load it less, or look for it at a higher speed"};
+              "reduce braking or load, or hand over at a higher speed"};
     case LockLoss::long_demagnetisation:
-      return {"the old phase's current hid the crossings", "change the duty or the current more slowly"};
+      return {"the leaving phase's current hid the crossings", "change the duty or the current more slowly"};
     case LockLoss::wrong_sector:
-      return {"what the terminals showed does not go with the sector",
-              "change the load or the supply less suddenly"};
+      return {"the terminal voltages contradict the sector", "change the load or the supply less suddenly"};
     case LockLoss::terminals:
       return {"the terminals did not follow the bridge's command",
-              "look at the bridge, the motor's wires and the dividers"};
+              "check the bridge, the motor's wires and the dividers"};
     case LockLoss::start:
       return {
-          "the ramp ended without crossings to be trusted",
-          "see whether the rotor is free; raise control.sensorless.overload, or greatest_load if it starts against more"};
+          "the ramp ended without reliable crossings",
+          "check that the rotor can turn; raise control.sensorless.overload, or greatest_load if the load "
+          "is larger"};
     case LockLoss::none:
       break;
   }
-  return {"the rotor could not be followed", "look at the load"};
+  return {"the drive lost the rotor's position", "check the load"};
 }
 
 void note_unseen(const rig::Diagnosis& found, Outcome& out) {
   const std::string times = found.unseen == 1 ? "" : " in " + std::to_string(found.unseen) + " starts";
   out.notes.push_back(
-      "the pulses did not show where the rotor's north is" + times + ": " + base::rounded(found.north, 2) +
+      "the pulses did not show the rotor's north" + times + ": " + base::rounded(found.north, 2) +
       " times their noise, and " + base::rounded(found.certain, 2) +
-      " are certain; it was aligned. Nothing shows on a motor that does not saturate (its saturation_current_A)");
+      " are certain, so the drive aligned the rotor. Pulses show north only on a motor that saturates (its "
+      "saturation_current_A)");
 }
 
-/// A sensorless drive that lost its rotor: a note if the drive caught it again, a fault if it gave up.
+/// A sensorless drive that lost its rotor: a note if the drive started again, a fault if it stopped.
 void note_losses(const rig::Diagnosis& found, Outcome& out) {
   const LossWords words = words_of(found.lost);
   const std::string times = found.losses == 1 ? "once" : std::to_string(found.losses) + " times";
@@ -64,7 +65,7 @@ void note_losses(const rig::Diagnosis& found, Outcome& out) {
   out.trip = Trip{.at_s = found.at.seconds(), .reasons = {words.text}, .hall_line = found.hall_line};
   out.fault = base::Problem{
       at(found.at.seconds()), "",
-      "the drive lost the rotor " + times + " and gave up: " + words.text + "; from there the motor coasts",
+      "the drive lost the rotor " + times + " and stopped: " + words.text + "; from there the motor coasts",
       words.cure};
 }
 
@@ -75,27 +76,27 @@ base::Problem lost_sensor(const rig::ShaftFinding& found, double t_s) {
       std::to_string(static_cast<int>(std::floor(100 * found.shown + 0.5))) + " % of its amplitude";
   const auto winding = [&](const char* name) -> base::Problem {
     return {at(t_s), "", "the resolver shows " + part + ", and its " + name + " winding nothing",
-            std::string("look at the ") + name + " winding and its wires"};
+            std::string("check the ") + name + " winding and its wires"};
   };
   switch (found.loss) {
     case ShaftLoss::excitation:
       return {at(t_s), "", "neither winding of the resolver shows anything: its excitation is lost",
-              "look at the excitation and its wires"};
+              "check the excitation and its wires"};
     case ShaftLoss::cosine:
       return winding("cosine");
     case ShaftLoss::sine:
       return winding("sine");
     case ShaftLoss::weak:
-      return {at(t_s), "", "the resolver shows " + part + ", less than an intact one does",
-              "look at the excitation, then at the windings"};
+      return {at(t_s), "", "the resolver shows " + part + ", less than an intact resolver",
+              "check the excitation, then the windings"};
     case ShaftLoss::strong:
-      return {at(t_s), "", "the resolver shows " + part + ", more than an intact one does",
-              "look at the excitation, and at sensors.resolver.amplitude_V"};
+      return {at(t_s), "", "the resolver shows " + part + ", more than an intact resolver",
+              "check the excitation and sensors.resolver.amplitude_V"};
     case ShaftLoss::index:
       return {at(t_s), "",
               "the encoder's index came with " + std::to_string(found.counts) +
                   " counts missing, more than a sector of them",
-              "look at lines A, B and Z, and at what disturbs them"};
+              "check lines A, B and Z and their disturbances"};
     case ShaftLoss::none:
       break;
   }
@@ -119,7 +120,7 @@ base::Problem refused_answer(const rig::OwnFinding& found, double t_s) {
       return {at(t_s), "",
               answered(found) + ", which must lie in " +
                   (found.field == std::string("overlap") ? "-1" : "0") + " to 1",
-              "bound it in the controller, and look for a division by 0"};
+              "limit it in the controller, and check for a division by 0"};
     case OwnWrong::leg:
       return {
           at(t_s), "",
@@ -132,23 +133,24 @@ base::Problem refused_answer(const rig::OwnFinding& found, double t_s) {
     case OwnWrong::none:
       break;
   }
-  return {at(t_s), "", answered(found) + ": it gave up", "look at what it takes for a fault"};
+  return {at(t_s), "", answered(found) + ": the controller reported a fault",
+          "check which condition in the controller reports it"};
 }
 
 base::Problem lost_core(rig::CoreTrouble trouble, double t_s) {
   using rig::CoreTrouble;
   if (trouble == CoreTrouble::differs)
     return {
-        at(t_s), "", "the core's answer is not the host's, to the bit",
-        "look at the core's compiler and its flags; where they are the usual ones, please report it with the scenario file"};
+        at(t_s), "", "the core's answer differs from the host's; both must agree in every bit",
+        "check the core's compiler and flags; if they are the usual ones, report this with the scenario file"};
   if (trouble == CoreTrouble::silent)
     return {at(t_s), "", "the core did not answer in time: its program hangs, or its emulator does",
-            "look at the last thing that was called"};
+            "check the function that was called last"};
   if (trouble == CoreTrouble::stalled)
-    return {at(t_s), "", "the chip starts no conversion any more: its program hangs, or has given up",
-            "look at what it does with a Hall code that there is not, and at loops that wait"};
-  return {at(t_s), "", "the core ended: its program ran into a fault, or its emulator was stopped",
-          "look at what it does with its memory and its stack"};
+    return {at(t_s), "", "the chip starts no conversion any more: its program hangs or has stopped",
+            "check how it handles an invalid Hall code, and its waiting loops"};
+  return {at(t_s), "", "the core ended: its program caused a fault, or its emulator was stopped",
+          "check its memory accesses and its stack"};
 }
 
 }  // namespace
@@ -156,32 +158,31 @@ base::Problem lost_core(rig::CoreTrouble trouble, double t_s) {
 base::Problem stopped_by(rig::Fault fault, const rig::Diagnosis& found, double t_s) {
   if (fault == rig::Fault::shoot_through)
     return {at(t_s), "", "both switches of a leg were on: shoot-through",
-            "look at a switch that is shorted, or at the command that names one leg twice"};
+            "check for a shorted switch, and for a command that names one leg twice"};
   if (fault == rig::Fault::beyond_model)
     return {
         at(t_s), "",
         "the current along the magnet's axis is above half of saturation_current_A, where the model of saturation ends",
-        "ask for less current, or look at the sheet's saturation_current_A"};
+        "reduce the current, or check the sheet's saturation_current_A"};
   if (fault == rig::Fault::core) return lost_core(found.core, t_s);
   if (fault == rig::Fault::own_controller) return refused_answer(found.own, t_s);
   if (fault == rig::Fault::north_unseen)
-    return {
-        at(t_s), "",
-        "the injected pulses did not show which end of the magnet is north: " +
-            base::rounded(100 * found.north, 2) + " % of their current, and " +
-            base::rounded(100 * found.certain, 2) + " % are certain",
-        "see whether the rotor stands and its wires are whole; raise control.field.injection_V, or look at the "
-        "sheet's saturation_current_A"};
+    return {at(t_s), "",
+            "the injected pulses did not show which end of the magnet is north: " +
+                base::rounded(100 * found.north, 2) + " % of their current, and " +
+                base::rounded(100 * found.certain, 2) + " % are certain",
+            "check that the rotor is at rest and its wires are intact; raise control.field.injection_V, or "
+            "check the sheet's saturation_current_A"};
   if (fault == rig::Fault::not_started)
     return {at(t_s), "",
-            "the rotor was not seen to follow the current that turns it, in " + std::to_string(found.losses) +
-                " starts, and the drive gave up",
-            "see whether the rotor is free and its load at most T_start of the design; raise "
+            "the observer did not find that the rotor follows the turning current, in " +
+                std::to_string(found.losses) + " starts; the drive stopped",
+            "check that the rotor can turn and its load is at most T_start of the design; raise "
             "control.field.start_current_A, or give the drive a sensor"};
   if (fault == rig::Fault::shaft_sensor) return lost_sensor(found.shaft, t_s);
   const std::string text = "the Hall code is impossible (000 or 111)";
-  if (found.hall_line == 0) return {at(t_s), "", text, "look at the probes and their wires"};
-  return {at(t_s), "", text + ": " + line_to_blame(found.hall_line), "look at its probe and its wire"};
+  if (found.hall_line == 0) return {at(t_s), "", text, "check the probes and their wires"};
+  return {at(t_s), "", text + ": " + line_to_blame(found.hall_line), "check its probe and its wire"};
 }
 
 base::Problem ran_away(const plant::State<double>& s, double t_s) {
@@ -195,10 +196,10 @@ base::Problem ran_away(const plant::State<double>& s, double t_s) {
     if (!(s.bus - s.bus == 0.0)) return {"the bus voltage", " V", s.bus};
     return {"the speed", " rad/s", s.w};
   }();
-  return {at(t_s), "",
-          std::string("the run has run away: ") + found.name + " is " + base::rounded(found.value, 3) +
-              found.unit,
-          "look at the load, the friction and the moment of inertia, then at the supply"};
+  return {
+      at(t_s), "",
+      std::string("the run diverged: ") + found.name + " is " + base::rounded(found.value, 3) + found.unit,
+      "check the load, the friction and the moment of inertia, then the supply"};
 }
 
 void note_trip(const rig::Diagnosis& found, Outcome& out) {
@@ -208,19 +209,19 @@ void note_trip(const rig::Diagnosis& found, Outcome& out) {
     const char* cure;
   };
   static constexpr Reason reasons[] = {
-      {control::fault_over_current, "over-current", "look at the current loop and protection.over_current_A"},
+      {control::fault_over_current, "over-current", "check the current loop and protection.over_current_A"},
       {control::fault_over_voltage, "over-voltage",
        "brake less, let the supply take current back, or set control.regeneration.limit_V"},
-      {control::fault_under_voltage, "under-voltage", "look at the supply and protection.under_voltage_V"},
-      {control::fault_over_speed, "over-speed", "look at the load and protection.over_speed_rad_s"},
-      {control::fault_hall, "an impossible Hall code, jump or edge", "look at the probes and their wires"},
-      {control::fault_stall, "stall", "look at the load and protection.stall_s"},
+      {control::fault_under_voltage, "under-voltage", "check the supply and protection.under_voltage_V"},
+      {control::fault_over_speed, "over-speed", "check the load and protection.over_speed_rad_s"},
+      {control::fault_hall, "an impossible Hall code, jump or edge", "check the probes and their wires"},
+      {control::fault_stall, "stall", "check the load and protection.stall_s"},
       {control::fault_calibration, "the offset of a current amplifier",
-       "look at sensors.current_offset_A and protection.offset_tolerance_A"},
-      {control::fault_align, "a rotor that did not come to where it was pulled",
-       "look at the load and protection.align"}};
+       "check sensors.current_offset_A and protection.offset_tolerance_A"},
+      {control::fault_align, "a rotor that did not reach the alignment position",
+       "check the load and protection.align"}};
   if (found.faults == 0 && found.hall_line != 0)
-    out.notes.push_back(line_to_blame(found.hall_line) + ": the drive runs on without it");
+    out.notes.push_back(line_to_blame(found.hall_line) + ": the drive continues without it");
   if (found.unseen > 0) note_unseen(found, out);
   if (found.losses > 0) return note_losses(found, out);
   if (found.faults == 0) return;
@@ -234,7 +235,7 @@ void note_trip(const rig::Diagnosis& found, Outcome& out) {
   }
   if (found.hall_line != 0) {
     text += ": " + line_to_blame(found.hall_line);
-    cure = "look at its probe and its wire";
+    cure = "check its probe and its wire";
   }
   out.fault = base::Problem{at(trip.at_s), "",
                             "the drive tripped by " + text + "; from there the motor coasts", cure};
@@ -247,7 +248,8 @@ void note_wires(unsigned still_closed, Outcome& out) {
     if ((still_closed >> k & 1) != 0)
       out.notes.push_back(
           "wire " + std::string(wires[k]) +
-          " was to break and carries current to the end: it opens at that current's next zero");
+          " was set to break, but carries current until the end of the run; it opens only at the current's "
+          "next zero");
 }
 
 }  // namespace sixstep::study

@@ -58,7 +58,7 @@ std::vector<Column> turning_columns() {
       of(Signal::source_current, "out of the source", "current of the source"),
       of(Signal::loop_current, "delta", "loop current, the sum of the branch currents"),
       of(Signal::capacitor_current, "into the capacitor", "current of the bus capacitor"),
-      of(Signal::battery_charge, "", "charge of the battery, of the whole"),
+      of(Signal::battery_charge, "", "charge of the battery, relative to the full charge"),
       of(Signal::battery_recovery, "", "voltage of the battery that recovers slowly, v_1"),
       of(Signal::winding_temperature, "", "temperature of the winding"),
       of(Signal::housing_temperature, "", "temperature of housing and magnets"),
@@ -77,11 +77,10 @@ std::vector<Column> turning_columns() {
          "field-oriented: reference of the current along the magnet"),
       of(Signal::quadrature_current_reference, "rotor, q",
          "field-oriented: reference of the current across the magnet"),
-      of(Signal::direct_voltage, "rotor, d", "field-oriented: phase voltage along the magnet, as asked for"),
-      of(Signal::quadrature_voltage, "rotor, q",
-         "field-oriented: phase voltage across the magnet, as asked for"),
+      of(Signal::direct_voltage, "rotor, d", "field-oriented: commanded phase voltage along the magnet"),
+      of(Signal::quadrature_voltage, "rotor, q", "field-oriented: commanded phase voltage across the magnet"),
       of(Signal::angle_error, "electrical",
-         "field-oriented: error of the angle that the magnet is taken to point at"),
+         "field-oriented: error of the magnet's angle as the drive computes it"),
   };
 }
 

@@ -22,12 +22,12 @@ const std::vector<LogicSignal>& logic_signals() {
       {"encoder", "code", 20, level, "Gray code that was latched last; x: no absolute encoder"},
       {"timer", "tick", 1, LogicKind::event, "a control tick"},
       {"timer", "periods", 32, level, "control ticks up to here"},
-      {"timer", "pwm", 1, level, "the source leg's switch is told to be on, dead time or not"},
+      {"timer", "pwm", 1, level, "command for the source leg's switch, without regard to dead time"},
       {"timer", "enabled", 1, level, "the controller drives the bridge"},
       {"comparators", "comparator_1", 1, level, "of the motor current or the source leg; x: not armed"},
       {"comparators", "comparator_2", 1, level, "of the sink leg; x: not armed"},
       {"faults", "shoot_through", 1, level, "both gates of a leg"},
-      {"faults", "impossible_hall", 1, level, "a lean drive saw 000 or 111"},
+      {"faults", "impossible_hall", 1, level, "a lean drive read 000 or 111"},
       {"faults", "shaft_sensor", 1, level, "a lean drive lost its encoder or resolver"},
       {"faults", "over_current", 1, level, "the product drive tripped"},
       {"faults", "over_voltage", 1, level, "the product drive tripped"},
@@ -36,7 +36,7 @@ const std::vector<LogicSignal>& logic_signals() {
       {"faults", "hall", 1, level, "the product drive tripped by an impossible code or jump"},
       {"faults", "stall", 1, level, "the product drive tripped"},
       {"faults", "calibration", 1, level, "the product drive tripped by a current amplifier's offset"},
-      {"faults", "align", 1, level, "the product drive tripped: the rotor did not come"},
+      {"faults", "align", 1, level, "the product drive tripped: the rotor was not aligned in time"},
   };
   return signals;
 }

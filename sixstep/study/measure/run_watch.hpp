@@ -15,11 +15,11 @@ struct RunWatch {
   double emf_rad_s = 0.0, emf_bus_V = 1.0;  ///< speed and bus at the largest ratio of back-EMF to bus
   double highest_bus_V = 0.0;
   double highest_phase_A = 0.0;                      ///< magnitude, of any phase
-  double lowest_charge = 1.0, highest_charge = 0.0;  ///< of a battery
+  double lowest_charge = 1.0, highest_charge = 0.0;  ///< charge of a battery
   std::optional<double> empty_s{}, full_s{};         ///< when it was first empty; when first overfull
   double winding_degC = 0.0, junction_degC = 0.0;    ///< the hottest; only with kernels that warm up
   double shunt_least_duty = -1.0;  ///< a shunt shows a current above this duty; negative: no shunt
-  std::int64_t samples = 0, hidden_samples = 0;  ///< of the shunt
+  std::int64_t samples = 0, hidden_samples = 0;  ///< samples of the shunt
   bool held_a_commutation = false;               ///< the drive's duty step acted at least once
 
   template <class Rig>

@@ -21,10 +21,10 @@ struct SegmentView {
   ModulatorView modulator;
   double t_s = 0.0;  ///< begin of the segment
   double current_reference_A = 0.0, speed_reference_rad_s = 0.0, position_reference_deg = 0.0, setpoint = 0.0;
-  rig::FieldTelemetry field{};  ///< of a field-oriented drive
-  plant::Gates gates{};         ///< of the board's legs
+  rig::FieldTelemetry field{};  ///< values of a field-oriented drive
+  plant::Gates gates{};         ///< gates of the board's legs
   int board_sector = 0;         ///< the rotor's sector according to the board
-  int probe_sector = 0;         ///< of the motor's Hall code
+  int probe_sector = 0;         ///< sector of the motor's Hall code
   bool ticked = false;          ///< a control sample was taken at the segment's begin
 };
 template <class Rig>

@@ -92,21 +92,21 @@ std::string cure_by_hall(const Scenario& s) {
   std::string cure = "set rotor = \"hall\"";
   if (s.sensors.shaft == SensorShaft::load) cure += " and shaft = \"motor\"";
   if (const std::string gone = of_this_sensor(s, without); !gone.empty())
-    cure += ", leave out what is of the other sensor (" + gone + ")";
+    cure += ", remove the keys of the other sensor (" + gone + ")";
   if (!is_cascade(s)) return cure;
   const base::Result<design::MotorModel> motor = design::motor_model(s.sheet);
   const std::string step = motor ? base::three_digits(60.0 / motor->machine.pole_pairs) + " deg" : "a step";
-  return cure + ", and have gains and [[require]] designed for edges that come " + step + " apart";
+  return cure + ", and design gains and [[require]] for edges that come " + step + " apart";
 }
 
 void look_at_sensors(const Scenario& s, base::Problems& out) {
   const auto ideal = [&out](const char* key, const char* what, const std::string& cure) {
-    out.push_back({key, "\"ideal\"", std::string("tells the drive ") + what, cure});
+    out.push_back({key, "\"ideal\"", std::string("gives the drive ") + what, cure});
   };
   if (reads_rotor(s) && s.sensors.rotor == RotorSensing::ideal)
     ideal("sensors.rotor",
-          in_the_field(s) ? "angle and speed at every instant, and a board has a decoder's"
-                          : "speed and position at every instant, and a board has the Hall edges",
+          in_the_field(s) ? "the exact angle and speed at every instant, and a board has a decoder's"
+                          : "the exact speed and position at every instant, and a board has only Hall edges",
           in_the_field(s)
               ? "set rotor = \"encoder\", \"absolute\" or \"resolver\", or \"hall\" with hall_angle"
               : cure_by_hall(s));
@@ -115,18 +115,18 @@ void look_at_sensors(const Scenario& s, base::Problems& out) {
                    '"' + std::string(base::word(rotor_sensing_choices, s.sensors.rotor)) + '"',
                    "has no decoder in the header's drive, which reads Hall probes", cure_by_hall(s)});
   if (reads_currents(s) && s.sensors.currents == rig::CurrentMeasurement::ideal)
-    ideal("sensors.currents", "currents that no amplifier and converter have been through",
+    ideal("sensors.currents", "currents without the errors of amplifier and converter",
           in_the_field(s) ? "set currents = \"phases\" and current_range_A"
                           : "set currents = \"phases\" or \"dc-link\", and current_range_A");
   if (reads_bus(s) && s.sensors.bus == BusSensing::ideal)
-    ideal("sensors.bus", "a bus voltage that no converter has been through",
+    ideal("sensors.bus", "a bus voltage without the errors of a converter",
           "set bus = \"adc\" and bus_range_V");
 }
 
 void look_at_design(const Scenario& s, base::Problems& out) {
   if (!s.not_usable.empty())
-    out.push_back({"not_usable", "", "is what its design found: " + s.not_usable,
-                   "design it anew until it is usable, or delete the line where you know better"});
+    out.push_back({"not_usable", "", "was set by the design: " + s.not_usable,
+                   "change the design until it is usable, or delete the line if it no longer applies"});
 }
 
 /// A sample in the middle of a period is answered at the next period's start, which already is a delay.
@@ -146,23 +146,22 @@ void look_at_dead_time(const Scenario& s, base::Problems& out) {
   if (s.control.mode != Mode::off && s.bridge.dead_time_s > 0 && counted_s < shortest_s)
     out.push_back({"bridge.dead_time_s", written(s.bridge.dead_time_s),
                    "is over before any switch is off: less than 20e-9",
-                   "give what the gate drivers need, as 500e-9"});
+                   "give the gate drivers' dead time, as 500e-9"});
   if (s.control.mode != Mode::off && !(s.bridge.dead_time_s > 0))
     out.push_back({"bridge.dead_time_s", written(s.bridge.dead_time_s),
                    "turns one switch of a leg on while the other turns off, and real ones short the bus then",
-                   "give what the gate drivers need, as 500e-9"});
+                   "give the gate drivers' dead time, as 500e-9"});
 }
 
 /// A chip keeps its configured constants, and the bridge its dead time.
 void look_at_changes(const Scenario& s, base::Problems& out) {
   for (std::size_t n = 0; n < s.at.size(); ++n) {
     const auto changes = [&](const char* what) {
-      out.push_back(
-          {"at[" + std::to_string(n) + "]", "at " + written(s.at[n].time_s) + " s",
-           std::string("changes ") + what + ", and what is written is the configuration of the start",
-           "take the change out, or run a scenario that begins with it and export that"});
+      out.push_back({"at[" + std::to_string(n) + "]", "at " + written(s.at[n].time_s) + " s",
+                     std::string("changes ") + what + ", and the header has the configuration at the start",
+                     "remove the change, or run and export a scenario that begins with it"});
     };
-    if (retunes(s.at[n])) changes("how the drive is set");
+    if (retunes(s.at[n])) changes("the drive's settings");
     if (s.at[n].bridge.dead_time_s) changes("the dead time");
   }
 }
@@ -199,8 +198,8 @@ base::Problems never_measured(const Scenario& s) {
   if (const auto motor = design::motor_model(s.sheet); motor && s.control.drive == FirmwareKind::product)
     look_at_protection(s, *motor, out);
   if (s.require.empty())
-    out.push_back({"require", "", "is missing: where nothing is asked of a run, nothing has been shown",
-                   "say in [[require]] what the drive must do; see the help on require"});
+    out.push_back({"require", "", "is missing: a run without requirements proves nothing",
+                   "give the drive's requirements in [[require]]; see the help on require"});
   return out;
 }
 
@@ -211,15 +210,15 @@ base::Problems not_held(const Outcome& outcome) {
     if (!v.ok)
       out.push_back(
           {v.figure, std::isfinite(v.measured) ? measured(v) : "",
-           (std::isfinite(v.measured) ? "misses what is required, " : "never came to what is required, ") +
+           (std::isfinite(v.measured) ? "misses its requirement, " : "never reached its requirement, ") +
                required(v),
-           "look at its report, and change the drive"});
+           "read its report and change the drive"});
   return out;
 }
 
 namespace {
 
-/// Those that the run's own remarks do not say already.
+/// Notes that the run's own remarks do not contain.
 void add_notes(const Scenario& s, const Listeners& listeners, Clearance& c) {
   const auto add = [&c](std::string note) {
     const auto& said = c.outcome.remarks;

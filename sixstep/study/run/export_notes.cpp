@@ -107,8 +107,8 @@ std::string setpoint_bound(const Scenario& s) {
                      : s.control.mode == Mode::current  ? " A"
                                                         : "";
   return "setpoint_limit = " + base::six_digits(largest_reference(s)) + unit +
-         " is the largest reference of this scenario, and the drive follows no larger setpoint; give [reference] the "
-         "largest one that your firmware asks for";
+         " is the largest reference of this scenario, and the drive follows no larger setpoint; give "
+         "[reference] the largest setpoint of your firmware";
 }
 
 }  // namespace sixstep::study

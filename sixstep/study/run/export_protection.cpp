@@ -70,9 +70,9 @@ void look_at_over_current(const Scenario& s, const MostCurrent& most, base::Prob
   const std::optional<double>& over_A = s.protection.over_current_A;
   if (!over_A || *over_A > most.ampere) return;
   out.push_back({"protection.over_current_A", written(*over_A),
-                 "stops the drive at a current that it may ask for: " + base::three_digits(most.ampere) +
-                     " A, " + most.by,
-                 "raise it above that and the ripple, or lower what the drive may ask for"});
+                 "stops the drive at a current that its own limits allow: " +
+                     base::three_digits(most.ampere) + " A, " + most.by,
+                 "raise it above that current plus the ripple, or lower the drive's current limit"});
 }
 
 /// A blocked rotor has its current in two phases, and no friction.
@@ -84,11 +84,12 @@ void look_at_stall_time(const Scenario& s, const design::MotorModel& motor, cons
   const std::optional<double> stands_s = design::permissible_seconds(
       *thermal, {.copper_W = copper_W, .housing_W = 0.0, .ambient_degC = s.heat.ambient_degC});
   if (!stands_s || *s.protection.stall_s <= *stands_s) return;
-  out.push_back({"protection.stall_s", written(*s.protection.stall_s),
-                 "is longer than the winding stands it: " + base::three_digits(most.ampere) + " A, " +
-                     most.by + ", take it to " + base::three_digits(thermal->max_winding_degC) +
-                     " degC within " + base::three_digits(*stands_s) + " s",
-                 "shorten it, as to " + rounded_down(0.5 * *stands_s)});
+  out.push_back(
+      {"protection.stall_s", written(*s.protection.stall_s),
+       "is longer than the winding withstands the stall current: " + base::three_digits(most.ampere) +
+           " A, " + most.by + ", heats it to " + base::three_digits(thermal->max_winding_degC) +
+           " degC within " + base::three_digits(*stands_s) + " s",
+       "shorten it, as to " + rounded_down(0.5 * *stands_s)});
 }
 
 void look_at_over_speed(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
@@ -101,7 +102,7 @@ void look_at_over_speed(const Scenario& s, const design::MotorModel& motor, base
                  "protects nothing: without a load the bus turns the motor at " +
                      base::three_digits(highest_open_V(s) / motor.K_t_Nm_A) +
                      " rad/s, and this is more than " + base::three_digits(beyond_no_load) + " times that",
-                 "lower it to what motor and machine stand"});
+                 "lower it to the highest speed that motor and machine withstand"});
 }
 
 }  // namespace

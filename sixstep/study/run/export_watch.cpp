@@ -91,10 +91,10 @@ void look_at_current_range(const Scenario& s, const SeenPeaks& peaks, base::Prob
   const double end = current_end_A(s.sensors);
   if (peaks.phase_A < end) return;
   out.push_back({"sensors.current_range_A", written(*s.sensors.current_range_A),
-                 "was left by the run: " + base::three_digits(peaks.phase_A) +
+                 "was exceeded in the run: " + base::three_digits(peaks.phase_A) +
                      " A flowed, and the converter ends at " + base::three_digits(end) +
-                     " A, beyond which the drive sees nothing",
-                 "widen it, or lower what the drive asks for"});
+                     " A, above which the drive measures no more",
+                 "widen it, or lower the drive's current limit"});
 }
 
 void look_at_bus(const Scenario& s, const SeenPeaks& peaks, bool is_read, base::Problems& out) {
@@ -103,15 +103,14 @@ void look_at_bus(const Scenario& s, const SeenPeaks& peaks, bool is_read, base::
     const double end = bus_end_V(s.sensors);
     if (!(peaks.bus_V < end))
       out.push_back({"sensors.bus_range_V", written(*s.sensors.bus_range_V),
-                     "was left by the run: the bus reached " + bus + " V, and the converter ends at " +
-                         base::three_digits(end) + " V, beyond which the drive sees nothing",
+                     "was exceeded in the run: the bus reached " + bus + " V, and the converter ends at " +
+                         base::three_digits(end) + " V, above which the drive measures no more",
                      "widen it, or keep the bus lower"});
   }
   if (peaks.bus_V <= allowed_bus_V(s)) return;
   out.push_back(
       {"the bus", bus + " V",
-       "is what braking raised it to, from " + base::three_digits(highest_open_V(s)) +
-           " V, and nothing bounds it",
+       "was raised by braking, from " + base::three_digits(highest_open_V(s)) + " V, and nothing bounds it",
        "give supply.brake_resistance_ohm, control.regeneration.limit_V or more supply.capacitance_F, "
        "or say in [[require]] how high the maximum of bus_voltage may be"});
 }

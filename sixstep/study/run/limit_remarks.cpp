@@ -18,13 +18,13 @@ std::string on_battery(const Scenario& s, const RunWatch& w) {
   if (w.empty_s)
     return "the battery was empty at t = " + few_digits(*w.empty_s) + " s, and its charge went down to " +
            few_digits(w.lowest_charge) +
-           ": what flowed after that it does not have; give a larger supply.battery_capacity_Ah or "
-           "battery_charge, or a shorter run";
+           ": it cannot supply the charge that was drawn after that; give a larger "
+           "supply.battery_capacity_Ah or battery_charge, or a shorter run";
   if (w.full_s)
     return "the battery was full at t = " + few_digits(*w.full_s) + " s, and its charge went up to " +
            few_digits(w.highest_charge) +
-           ": it cannot take what flowed back after that; begin with a lower supply.battery_charge, or give it "
-           "a chopper";
+           ": it cannot take the charge that flowed back after that; begin with a lower "
+           "supply.battery_charge, or give it a chopper";
   return {};
 }
 
@@ -55,7 +55,7 @@ std::string on_bus(const Scenario& s, const RunWatch& w) {
   const double open = highest_open_V(s);
   if (sinks || caught || !(w.highest_bus_V > risen_part * open)) return {};
   return "the bus rose to " + few_digits(w.highest_bus_V) + " V, " + few_digits(w.highest_bus_V / open) +
-         " times what its source has: the source takes nothing back" +
+         " times its source's voltage: the source takes no current back" +
          (rectifier ? "" : " (supply.sinks = false)") +
          "; give it a chopper (supply.brake_resistance_ohm), a larger supply.capacitance_F or "
          "control.regeneration.limit_V";
@@ -99,7 +99,7 @@ std::vector<std::string> passed_currents(const Scenario& s, double given_limit_A
   if (s.sensors.currents != rig::CurrentMeasurement::ideal && s.sensors.current_range_A &&
       w.highest_phase_A > past * *s.sensors.current_range_A)
     all.push_back(reached + "the converters show at most sensors.current_range_A = " +
-                  few_digits(*s.sensors.current_range_A) + " A: the drive cannot see more");
+                  few_digits(*s.sensors.current_range_A) + " A: the drive measures no more");
   return all;
 }
 

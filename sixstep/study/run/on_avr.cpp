@@ -30,13 +30,14 @@ void need_drive(const Scenario& s, base::Problems& out) {
        "is not the lean drive, which the AVR has time for", "leave it out");
   need(c.mode == control::Mode::duty ||
            (c.mode == control::Mode::current && c.current.type == CurrentLoopType::pi),
-       out, "control.mode", "is not what the AVR's program does: a duty, or a current by a PI",
+       out, "control.mode",
+       "is not a mode of the AVR's program, which sets a duty or controls a current by a PI",
        "set control.mode = \"current\" or \"duty\"");
   need(c.arithmetic == Arithmetic::q15 || c.arithmetic == Arithmetic::q14, out, "control.arithmetic",
-       "is none that the AVR's program computes in, which has signals of 16 bits",
+       "is not the AVR program's arithmetic, which has signals of 16 bits",
        "set control.arithmetic = \"q15\"");
   need(!std::any_of(s.at.begin(), s.at.end(), retunes), out, "at.control",
-       "changes what the chip was given, and it is flashed once", "leave such events out");
+       "changes settings of the chip, and the chip is flashed once", "leave such events out");
 }
 
 void need_timer(const Scenario& s, base::Problems& out) {
@@ -45,15 +46,14 @@ void need_timer(const Scenario& s, base::Problems& out) {
   need(s.pwm.sample == SampleAt::middle, out, "pwm.sample", "is not where timer 1 starts the converter",
        "set pwm.sample = \"middle\"");
   need(s.pwm.chopping == control::Chopping::soft && s.pwm.pattern == control::PwmPattern::upper, out,
-       "pwm.chopping", "is not what its pins do: timer 1 chops upper switches",
+       "pwm.chopping", "is not the chopping of its pins: timer 1 chops upper switches",
        "take soft chopping of the upper switch");
   need(s.bridge.dead_time_s > 0.0 && s.bridge.dead_time_s <= most_dead_time_s, out, "bridge.dead_time_s",
-       "is none that its program keeps between the two switches of a leg",
-       "set one above 0, and 5e-6 at most");
+       "is not a dead time that its program can make", "set one above 0, and 5e-6 at most");
   const double counts = s.pwm.period_s * clock_Hz / 2;
   const double whole = std::floor(counts + 0.5);
   need(counts >= 2 && counts <= most_counts && counts - whole < 1e-6 && whole - counts < 1e-6, out,
-       "pwm.period_s", "is no whole number of timer 1's 125 ns", "take a multiple of 125 ns up to 8 ms");
+       "pwm.period_s", "is not a whole number of timer 1's 125 ns", "take a multiple of 125 ns up to 8 ms");
 }
 
 /// Changes of transducers that other boards simulate and this board does not.
@@ -61,11 +61,10 @@ bool drifts(const At& at) { return at.sensors.current_offset_A || at.sensors.cur
 
 void need_converter(const Scenario& s, base::Problems& out) {
   need(!std::any_of(s.at.begin(), s.at.end(), drifts), out, "at.sensors",
-       "has a transducer drift on the way, and those of the AVR's board do not",
+       "makes a transducer drift during the run, and those of the AVR's board do not",
        "give its offset and gain from the start, in [sensors]");
   need(s.sensors.currents == rig::CurrentMeasurement::phases, out, "sensors.currents",
-       "is not what stands on the AVR's board: a transducer in each phase",
-       "set sensors.currents = \"phases\"");
+       "is not the AVR board's measurement: a transducer in each phase", "set sensors.currents = \"phases\"");
   need(s.sensors.adc_bits == converter_bits, out, "sensors.adc_bits",
        "is not the AVR's converter, which has 10", "set sensors.adc_bits = 10");
   need(!s.sensors.current_bandwidth_Hz, out, "sensors.current_bandwidth_Hz",

@@ -18,7 +18,7 @@ base::Problems not_on_a_core(const Scenario& s) {
   if (s.control.mode == control::Mode::off)
     out.push_back({"control.mode", "\"off\"", "leaves nothing for a core to run", "set control.mode"});
   if (std::any_of(s.at.begin(), s.at.end(), retunes))
-    out.push_back({"at.control", "", "changes what the chip was given, and a core is flashed once",
+    out.push_back({"at.control", "", "changes settings of the chip, and a core is flashed once",
                    "leave such events out, or run it on the host alone"});
   return out;
 }

@@ -58,7 +58,7 @@ std::string on_late_values(const Scenario& s) {
   if (unreached < 1) return {};
   return std::to_string(unreached) + " of the " + std::to_string(r.times_s.size()) +
          " values of the reference are behind the end of the run, duration_s = " + few_digits(s.duration_s) +
-         ": it never comes to them" + (r.file.empty() ? "" : "; a time without a unit is in s");
+         ": the run never reaches them" + (r.file.empty() ? "" : "; a time without a unit is in s");
 }
 
 /// Time between two sector edges.
@@ -88,7 +88,7 @@ std::string on_samples_taken_too_soon(const Scenario& s, double shown_duty) {
   const bool centre = s.pwm.alignment == Alignment::centre;
   const double settle_s = (centre ? shown_duty / 2 : shown_duty - 0.5) * s.pwm.period_s - pulse_late_s(s);
   return "; from a duty of " + few_digits(taken_duty) +
-         " on the drive takes such a sample for the current: give sensors.shunt_settle_s = " +
+         " on the drive uses such a sample as the current: give sensors.shunt_settle_s = " +
          few_digits(1e6 * base::shortened(settle_s * (1 - 1e-9), 3, base::Towards::up)) + " us";
 }
 
@@ -108,7 +108,7 @@ std::string on_shunt(const Scenario& s, const Compiled& c, const RunWatch& w) {
   const double unseen_A = unseen_at_rest_A(s, c.motor.machine.R_ohm);
   if (unseen_A > 0.0)
     text += "; with the rotor at rest that is " + few_digits(unseen_A) +
-            " A, and what is below it is not measured";
+            " A, and smaller currents are not measured";
   return text + on_samples_taken_too_soon(s, w.shunt_least_duty);
 }
 
@@ -145,7 +145,7 @@ std::string on_sign(const LoopGains& g, const std::string& key) {
   if (!(g.d1 < 0.0) || g.origin.starts_with("given")) return {};
   return "the " + g.loop + " loop's gain on its error is negative, d1 = " + few_digits(g.d1) +
          ": at a change it first goes the other way; " + key +
-         ".settle_s asks for a loop that is slower than what it controls: give a shorter one";
+         ".settle_s makes the loop slower than its plant: give a shorter one";
 }
 
 std::string on_stability(const Scenario& s, const Compiled& c, const LoopGains& g) {
@@ -203,7 +203,7 @@ std::string on_steps(const Scenario& s, const Compiled& c, const RunWatch& w) {
   const double periods = sector_s(c, w.fastest_rad_s) / s.pwm.period_s;
   if (periods >= least_periods_per_step) return {};
   return "at " + speed(s, w.fastest_rad_s) + " a commutation step lasts " + few_digits(periods) +
-         " control periods: fewer than five samples see it; a shorter pwm.period_s gives more";
+         " control periods, so fewer than five samples lie in it; a shorter pwm.period_s gives more";
 }
 
 void on_protection(const Scenario& s, const Compiled& c, Outcome& out) {

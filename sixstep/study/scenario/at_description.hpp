@@ -45,10 +45,9 @@ inline void describe(base::Visitor& v, AtCurrentLoop& s) {
   describe_gains(v, s, current_gain_meanings);
   v.value("band_A", s.band_A,
           {.meaning = "hysteresis: half width of the band from then on", .unit = "A", .range = above(0)});
-  v.value("limit_A", s.limit_A,
-          {.meaning = "bound on the current reference that an outer loop asks for from then on",
-           .unit = "A",
-           .range = above(0)});
+  v.value(
+      "limit_A", s.limit_A,
+      {.meaning = "bound on an outer loop's current reference from then on", .unit = "A", .range = above(0)});
 }
 
 inline void describe(base::Visitor& v, AtSpeedLoop& s) {
@@ -62,12 +61,12 @@ inline void describe(base::Visitor& v, AtSpeedLoop& s) {
 
 inline void describe(base::Visitor& v, AtPositionLoop& s) {
   v.value("gain_rad_s_per_deg", s.gain_rad_s_per_deg,
-          {.meaning = "speed asked for per degree of position error from then on",
+          {.meaning = "gain of the position loop from then on: speed reference per degree of position error",
            .unit = "rad/s/deg",
            .range = above(0),
            .also = words::position_gain});
   v.value("speed_limit_rad_s", s.speed_limit_rad_s,
-          {.meaning = "bound on the speed that the position loop asks for from then on",
+          {.meaning = "bound on the position loop's speed reference from then on",
            .unit = "rad/s",
            .range = above(0),
            .also = words::speed_limit});
@@ -94,12 +93,13 @@ inline constexpr base::Choice<AtCommutates> at_commutates_choices[] = {
 
 inline void describe(base::Visitor& v, AtSensorless& s) {
   v.choice("commutates", s.commutates, at_commutates_choices,
-           {.meaning = "what the pairs are commutated by, once both agree on where the rotor is"});
+           {.meaning = "source of the commutation, from the instant at which both sources give the same "
+                       "sector"});
 }
 
 inline void describe(base::Visitor& v, AtControl& s) {
   v.choice("mode", s.mode, at_mode_choices,
-           {.meaning = "what is controlled from the next control sample on; with a reference in its unit"});
+           {.meaning = "controlled quantity from the next control sample on; with a reference in its unit"});
   v.table("current", s.current, {.meaning = "the current controller", .cure = what_may_change});
   v.table("speed", s.speed, {.meaning = "the speed controller", .cure = what_may_change});
   v.table("position", s.position, {.meaning = "the position controller", .cure = what_may_change});
@@ -113,7 +113,7 @@ inline void describe(base::Visitor& v, AtControl& s) {
 
 inline void describe(base::Visitor& v, AtPwm& s) {
   v.choice("chopping", s.chopping, at_chopping_choices,
-           {.meaning = "which switches are chopped from the next control sample on"});
+           {.meaning = "chopped switches from the next control sample on"});
 }
 
 inline constexpr base::Choice<Switch> switch_choices[] = {
@@ -137,9 +137,10 @@ inline void describe(base::Visitor& v, AtBridge& s) {
            {.meaning = "a switch whose gate no longer acts from then on: it is off, its diode stays"});
   v.choice(
       "shorted_switch", s.shorted_switch, switch_choices,
-      {.meaning = "a switch that is on for ever from then on: the other gate of its leg shoots through"});
+      {.meaning =
+           "a switch that stays on from then on: turning on the other switch of its leg causes shoot-through"});
   v.choice("phases", s.phases, at_phase_order_choices,
-           {.meaning = "which phase of the motor is wired to legs a, b, c of the bridge from then on"});
+           {.meaning = "phases of the motor at legs a, b, c of the bridge from then on"});
   v.value("dead_time_s", s.dead_time_s,
           {.meaning =
                "pause between turning one switch of a leg off and the other on, of the changes from then on",
@@ -148,7 +149,7 @@ inline void describe(base::Visitor& v, AtBridge& s) {
 }
 
 inline constexpr base::Choice<Wire> wire_choices[] = {
-    {"none", Wire::none, "all three are whole"},
+    {"none", Wire::none, "all three are intact"},
     {"a", Wire::a, "the wire of terminal a"},
     {"b", Wire::b, "the wire of terminal b"},
     {"c", Wire::c, "the wire of terminal c"},
@@ -166,14 +167,15 @@ inline void describe(base::Visitor& v, At& s) {
           {.meaning = "the reference from then on; its times count from time_s", .cure = what_may_change});
   v.table("supply", s.supply, {.meaning = "the source from then on", .cure = what_may_change});
   v.table("load", s.load, {.meaning = "the load from then on", .cure = what_may_change});
-  v.table("sensors", s.sensors, {.meaning = "what happens to the sensors", .cure = what_may_change});
-  v.choice("request", s.request, request_choices, {.meaning = "what the product drive is asked for"});
+  v.table("sensors", s.sensors, {.meaning = "changes and faults of the sensors", .cure = what_may_change});
+  v.choice("request", s.request, request_choices, {.meaning = "request to the product drive"});
   v.table("control", s.control,
-          {.meaning = "the controller from its next sample on; loops that go on keep their state",
+          {.meaning = "changes of the controller from its next sample on; loops that stay active keep "
+                      "their state",
            .cure = what_may_change});
   v.table("pwm", s.pwm, {.meaning = "the modulation from then on", .cure = what_may_change});
   v.table("bridge", s.bridge, {.meaning = "the bridge from then on", .cure = what_may_change});
-  v.table("motor", s.motor, {.meaning = "what happens to the motor", .cure = what_may_change});
+  v.table("motor", s.motor, {.meaning = "faults of the motor", .cure = what_may_change});
 }
 
 }  // namespace sixstep::study

@@ -20,12 +20,12 @@ inline constexpr std::string_view what_may_change =
 inline constexpr base::Choice<PinLevel> pin_level_choices[] = {
     {"low", PinLevel::low, "0, as a line that is shorted to ground"},
     {"high", PinLevel::high, "1, as a line that is cut before its pull-up"},
-    {"probe", PinLevel::probe, "what its probe says: the break is over, and was a glitch"},
+    {"probe", PinLevel::probe, "the probe's own level: the break ends, as after a glitch"},
 };
 
 inline void describe(base::Visitor& v, AtHallBreak& s) {
-  v.value("line", s.line, {.meaning = "which of H1, H2, H3", .range = base::between(1, 3)});
-  v.choice("level", s.level, pin_level_choices, {.meaning = "what the pin reads from then on"});
+  v.value("line", s.line, {.meaning = "number of the Hall line: 1, 2 or 3", .range = base::between(1, 3)});
+  v.choice("level", s.level, pin_level_choices, {.meaning = "level that the pin reads from then on"});
 }
 
 inline constexpr base::Choice<AtOrder> at_hall_order_choices[] = {
@@ -52,13 +52,14 @@ inline constexpr base::Choice<AtHallLines> at_hall_inverted_choices[] = {
 inline constexpr base::Choice<EncoderLevel> encoder_level_choices[] = {
     {"low", EncoderLevel::low, level_choices[0].meaning},
     {"high", EncoderLevel::high, level_choices[1].meaning},
-    {"whole", EncoderLevel::whole, "what the encoder gives: the fault is over"},
+    {"whole", EncoderLevel::whole, "the encoder's own level: the fault ends"},
 };
 
 inline void describe(base::Visitor& v, AtTrack& s) {
   v.value("track", s.track,
-          {.meaning = "which, 1 the finest, up to sensors.absolute.bits", .range = base::between(1, 20)});
-  v.choice("level", s.level, encoder_level_choices, {.meaning = "what it shows from then on"});
+          {.meaning = "number of the track, from 1, the finest, to sensors.absolute.bits",
+           .range = base::between(1, 20)});
+  v.choice("level", s.level, encoder_level_choices, {.meaning = "level of the track from then on"});
 }
 
 inline constexpr base::Choice<EncoderLine> encoder_line_choices[] = {
@@ -69,51 +70,54 @@ inline constexpr base::Choice<EncoderLine> encoder_line_choices[] = {
 };
 
 inline void describe(base::Visitor& v, AtEncoderLine& s) {
-  v.choice("line", s.line, encoder_line_choices, {.meaning = "which of the encoder's three"});
+  v.choice("line", s.line, encoder_line_choices, {.meaning = "line of the encoder"});
   v.choice(
       "level", s.level, encoder_level_choices,
       {.meaning =
-           "what its pin reads from then on; with A or B stuck the other line's edges count to and fro"});
+           "level that the pin reads from then on; with A or B stuck, the other line's edges count up and "
+           "down in turn"});
 }
 
 inline constexpr base::Choice<Winding> winding_choices[] = {
     {"none", Winding::none, "none breaks"},
     {"cosine", Winding::cosine, "the winding of the cosine"},
     {"sine", Winding::sine, "the winding of the sine"},
-    {"whole", Winding::whole, "both are whole again"},
+    {"whole", Winding::whole, "both are intact again"},
 };
 
 inline constexpr base::Choice<Wire> divider_choices[] = {
-    {"none", Wire::none, "all three are whole"},
+    {"none", Wire::none, "all three are intact"},
     {"a", Wire::a, "that of terminal a"},
     {"b", Wire::b, "that of terminal b"},
     {"c", Wire::c, "that of terminal c"},
 };
 
 inline void describe(base::Visitor& v, AtSensors& s) {
-  v.table("hall_break", s.hall_break, {.meaning = "a Hall line that breaks then, or is whole again"});
+  v.table("hall_break", s.hall_break, {.meaning = "a Hall line that breaks then, or is intact again"});
   v.choice("hall_lines", s.hall_lines, at_hall_order_choices,
-           {.meaning = "which Hall probe is wired to pins H1, H2, H3 of the board from then on"});
+           {.meaning = "Hall probes at pins H1, H2, H3 of the board from then on"});
   v.choice("hall_inverted", s.hall_inverted, at_hall_inverted_choices,
-           {.meaning = "which pins H1, H2, H3 read their probe inverted from then on"});
-  v.value("current_offset_A", s.current_offset_A,
-          {.meaning =
-               "what the amplifiers show at no current from then on; the drive measured its offsets before",
-           .unit = "A"});
+           {.meaning = "pins H1, H2, H3 that read their probe inverted from then on"});
+  v.value(
+      "current_offset_A", s.current_offset_A,
+      {.meaning =
+           "reading of the amplifiers at zero current from then on; the drive measured its offsets before",
+       .unit = "A"});
   v.value("current_gain_error", s.current_gain_error,
-          {.meaning = "how much too large a current reads from then on, as a part of it",
+          {.meaning = "relative gain error of the current measurement from then on; 0.05 reads 5 % too large",
            .range = base::Range{-1, 1, false, true}});
   v.value("missed_edges", s.missed_edges,
-          {.meaning = "so many of the encoder's next edges are not counted; its next index mends the count",
+          {.meaning = "number of the encoder's next edges that are not counted; the next index corrects "
+                      "the count",
            .range = base::between(1, 1000000)});
   v.table("bad_track", s.bad_track,
-          {.meaning = "a track of the absolute encoder that sticks from then on, or is whole again",
+          {.meaning = "a track of the absolute encoder that sticks from then on, or is intact again",
            .cure = what_may_change});
   v.table("encoder_line", s.encoder_line,
-          {.meaning = "a line of the incremental encoder that sticks from then on, or is whole again",
+          {.meaning = "a line of the incremental encoder that sticks from then on, or is intact again",
            .cure = what_may_change});
   v.value("false_index", s.false_index,
-          {.meaning = "true: a disturbance on line Z, which the timer takes for the index"});
+          {.meaning = "true: a disturbance on line Z, which the timer counts as the index"});
   v.choice("broken_winding", s.broken_winding, winding_choices,
            {.meaning = "a winding of the resolver that gives nothing from then on"});
   v.value("excitation", s.excitation,

@@ -64,7 +64,7 @@ inline void describe_losses(base::Visitor& v, Bridge& s) {
 
 inline void describe(base::Visitor& v, Bridge& s) {
   v.choice("phases", s.phases, phase_order_choices,
-           {.meaning = "which phase of the motor is wired to legs a, b, c of the bridge"});
+           {.meaning = "phases of the motor at legs a, b, c of the bridge"});
   v.choice("device", s.device, device_choices, {.meaning = "kind of the six switches"});
   v.value("on_resistance_ohm", s.on_resistance_ohm,
           {.meaning = "resistance of a switch that is on; of an IGBT beside saturation_V",
@@ -90,7 +90,8 @@ inline void describe(base::Visitor& v, Bridge& s) {
 inline void describe(base::Visitor& v, Heat& s) {
   v.value(
       "motor", s.motor,
-      {.meaning = "whether winding and housing warm up by the sheet's thermal lines, and R and K_e follow"});
+      {.meaning =
+           "whether winding and housing warm up by the sheet's thermal lines, and R and K_e change with them"});
   v.value(
       "devices", s.devices,
       {.meaning =
@@ -107,7 +108,7 @@ inline void describe(base::Visitor& v, Heat& s) {
            .unit = "degC",
            .range = between(-100, 1000)});
   v.value("step_s", s.step_s,
-          {.meaning = "how often R, K_e and on_resistance_ohm follow the temperatures",
+          {.meaning = "interval at which R, K_e and on_resistance_ohm follow the temperatures",
            .unit = "s",
            .range = between(1e-3, 1e3)});
 }

@@ -14,7 +14,9 @@ inline constexpr Choice<Device> device_choices[] = {
 };
 inline constexpr Choice<SourceKind> source_choices[] = {
     {"steady", SourceKind::steady, "a voltage behind resistance_ohm"},
-    {"battery", SourceKind::battery, "a voltage over its charge, and what recovers slowly"},
+    {"battery", SourceKind::battery,
+     "a voltage that depends on the charge, and a part of it that recovers "
+     "slowly"},
     {"single-phase", SourceKind::single_phase, "mains of one phase behind a bridge of four diodes"},
     {"three-phase", SourceKind::three_phase, "mains of three phases behind a bridge of six diodes"},
 };
@@ -44,12 +46,12 @@ inline constexpr Choice<control::PwmPattern> pattern_choices[] = {
     {"upper", control::PwmPattern::upper, "the upper one, the lower one is on (H_PWM-L_ON)"},
     {"lower", control::PwmPattern::lower, "the lower one, the upper one is on (H_ON-L_PWM)"},
     {"pwm-on", control::PwmPattern::pwm_on,
-     "that of the entering leg, which conducts since the last commutation"},
+     "the entering leg's switch; this leg conducts since the last commutation"},
     {"on-pwm", control::PwmPattern::on_pwm,
-     "that of the staying leg, which already conducted before the last commutation"},
+     "the staying leg's switch; this leg already conducted before the last commutation"},
     {"pwm-on-pwm", control::PwmPattern::pwm_on_pwm,
-     "that of the entering leg in the first half of a sector, that of the staying leg in the second: the free phase "
-     "conducts in one off-time of a sector at most"},
+     "the entering leg's switch in the first half of a sector, the staying leg's in the second: the free "
+     "phase conducts in at most one off-time per sector"},
 };
 static_assert(std::size(pattern_choices) == control::pwm_patterns);
 inline constexpr Choice<CommutationAt> commutation_choices[] = {
@@ -61,18 +63,18 @@ inline constexpr Choice<SampleAt> sample_choices[] = {
     {"middle", SampleAt::middle, "in the middle; the answer takes effect at the next start"},
 };
 inline constexpr Choice<FirmwareKind> drive_choices[] = {
-    {"lean", FirmwareKind::lean, "the loops alone; what they measure is ideal, or as [sensors] says"},
+    {"lean", FirmwareKind::lean, "the loops alone; their measurements are ideal, or as in [sensors]"},
     {"product", FirmwareKind::product,
-     "what is flashed: offset calibration, Hall decoding, fault monitor and state machine around the loops; "
-     "needs converters in [sensors] and thresholds in [protection]"},
+     "the complete firmware: offset calibration, Hall decoding, fault monitor and state machine around the "
+     "loops. Needs converters in [sensors] and thresholds in [protection]"},
     {"sensorless", FirmwareKind::sensorless,
-     "the loops on a rotor that is started blindly and followed by its back-EMF, by [control.sensorless]; "
-     "needs pwm.alignment = \"centre\" and pwm.sample = \"middle\""},
+     "the loops without a rotor position sensor: open-loop start, then back-EMF, as in "
+     "[control.sensorless]. Needs pwm.alignment = \"centre\" and pwm.sample = \"middle\""},
     {"field-oriented", FirmwareKind::field,
-     "sine currents on three legs, held along the magnet and across it, by [control.field]; what is controlled as the "
-     "current is their amplitude i_q; needs pwm.alignment = \"centre\""},
+     "sine currents on three legs, controlled along the magnet and across it, as in [control.field]. The "
+     "controlled current is their amplitude i_q. Needs pwm.alignment = \"centre\""},
     {"own", FirmwareKind::own,
-     "a controller of one's own, compiled into a shared object that [control.own] names"},
+     "the user's controller, compiled into a shared object that [control.own] names"},
 };
 inline constexpr Choice<control::Mode> mode_choices[] = {
     {"off", control::Mode::off, "all six gates off"},
@@ -93,7 +95,8 @@ inline constexpr Choice<CurrentLoopType> current_loop_choices[] = {
     {"pi", CurrentLoopType::pi, "discrete PI with clamped output, one step per control period"},
     {"hysteresis", CurrentLoopType::hysteresis, "on below the band, off above it"},
     {"deadbeat", CurrentLoopType::deadbeat,
-     "the voltage after which a winding of the sheet's R and L has its reference, a period after the answer begins"},
+     "the voltage that brings a winding with the sheet's R and L to its reference, one period after the "
+     "answer begins"},
 };
 inline constexpr Choice<CurrentFeedback> current_feedback_choices[] = {
     {"mean", CurrentFeedback::mean, "half the difference of the driven pair's currents"},
@@ -104,10 +107,11 @@ inline constexpr Choice<CurrentFeedback> current_feedback_choices[] = {
 inline constexpr Choice<CurrentCommutation> current_commutation_choices[] = {
     {"plain", CurrentCommutation::plain, "the loop goes on"},
     {"duty-step", CurrentCommutation::duty_step,
-     "the loop rests, and the duty is the one at which the phase that stays keeps its current while the others hand over; "
-     "best with pwm.pattern = \"pwm-on\" or \"pwm-on-pwm\"; with the others the current's peak stays"},
+     "the loop pauses; the duty keeps the staying phase's current constant while the current moves between "
+     "the other two. Best with pwm.pattern = \"pwm-on\" or \"pwm-on-pwm\"; other patterns leave the "
+     "current's peak"},
     {"overlap", CurrentCommutation::overlap,
-     "the same, and where a whole duty is too little the leaving phase is still fed by what is missing"},
+     "as duty-step; where duty 1 is too small, the leaving phase's leg supplies the missing voltage"},
 };
 inline constexpr Choice<SpeedOutput> speed_output_choices[] = {
     {"current", SpeedOutput::current, "a part of the full torque, for the current loop within"},
@@ -116,11 +120,14 @@ inline constexpr Choice<SpeedOutput> speed_output_choices[] = {
 inline constexpr Choice<SpeedLaw> speed_law_choices[] = {
     {"pi", SpeedLaw::pi, "proportional and integral of the error, in one of the forms below"},
     {"state-feedback", SpeedLaw::state_feedback,
-     "linear-quadratic, on speed and torque, with an observer for the load; knows inertia, friction and how late the torque is"},
+     "linear-quadratic, on speed and torque, with an observer for the load; its model has inertia, "
+     "friction and the torque's delay"},
     {"disturbance-rejection", SpeedLaw::disturbance_rejection,
-     "all that the full torque's acceleration does not explain is observed and taken off"},
+     "active disturbance rejection: an observer estimates all accelerations except the full torque's, and "
+     "the controller compensates them"},
     {"sliding-mode", SpeedLaw::sliding_mode,
-     "the full torque against whatever leads away from the course of a drive without load, less of it in a boundary layer"},
+     "the full torque against each deviation from the course of a drive without load; in a boundary layer, "
+     "torque in proportion to the deviation"},
 };
 inline constexpr Choice<SpeedForm> speed_form_choices[] = {
     {"incremental", SpeedForm::incremental,
@@ -133,8 +140,8 @@ inline constexpr Choice<HysteresisOn> hysteresis_choices[] = {
     {"phase", HysteresisOn::phase, "comparators on the currents of the driven phases"},
 };
 inline constexpr Choice<Comparator> comparator_choices[] = {
-    {"event", Comparator::event, "acts the instant the band is left"},
-    {"sampled", Comparator::sampled, "looks once per control period"},
+    {"event", Comparator::event, "acts at the instant at which the current leaves the band"},
+    {"sampled", Comparator::sampled, "compares once per control period"},
 };
 inline constexpr Choice<Shape> shape_choices[] = {
     {"constant", Shape::constant, "value throughout"},
@@ -153,7 +160,7 @@ inline constexpr Choice<Interpolation> interpolation_choices[] = {
 };
 inline constexpr Choice<DriveRequest> request_choices[] = {
     {"none", DriveRequest::none, "nothing new"},
-    {"off", DriveRequest::off, "lets go of the request to run: it brakes, then turns off"},
+    {"off", DriveRequest::off, "ends the request to run: the drive brakes, then turns off"},
     {"on", DriveRequest::on, "raises the request to run"},
     {"clear", DriveRequest::clear, "clears a fault whose causes are gone"},
 };

@@ -54,69 +54,66 @@ inline void describe(base::Visitor& v, CurrentLoop& s) {
   v.value(
       "band_A", s.band_A,
       {.meaning = "hysteresis: half width of the band around the reference", .unit = "A", .range = above(0)});
-  v.choice("on", s.on, hysteresis_choices, {.meaning = "hysteresis: which current is watched"});
+  v.choice("on", s.on, hysteresis_choices, {.meaning = "hysteresis: current that is compared with the band"});
   v.choice("comparator", s.comparator, comparator_choices,
-           {.meaning = "hysteresis: when the band is looked at"});
+           {.meaning = "hysteresis: instants at which the current is compared with the band"});
   v.choice("feedback", s.feedback, current_feedback_choices,
-           {.meaning = "which current the controller is told"});
+           {.meaning = "current that the controller reads"});
   v.choice("commutation", s.commutation, current_commutation_choices,
-           {.meaning = "pi: what happens while a commutation lasts"});
+           {.meaning = "pi: control during a commutation"});
   v.value(
       "correction", s.correction,
       {.meaning =
-           "deadbeat: part of what a prediction missed that each sample takes over as a voltage; without it 0.25",
+           "deadbeat: fraction of the prediction error that each sample corrects by a voltage. Default: 0.25",
        .range = base::Range{0, 1, false, true}});
   v.value("limit_A", s.limit_A,
-          {.meaning = "bound on the current reference that an outer loop asks for; its integral knows of it",
+          {.meaning = "bound on an outer loop's current reference; the outer loop's integral stops at it",
            .unit = "A",
            .range = above(0)});
   v.value("back_emf_feed_forward", s.back_emf_feed_forward,
           {.meaning = "pi: whether the back-EMF at the measured speed is added to the voltage"});
   v.value("measured_bus_from_V", s.measured_bus_from_V,
-          {.meaning = "pi: lowest bus voltage for which the duty follows the measured bus; without it the "
-                      "duty goes by supply.voltage_V",
+          {.meaning = "pi: lowest bus voltage for which the duty follows the measured bus. Default: the "
+                      "duty uses supply.voltage_V",
            .unit = "V",
            .range = above(0)});
 }
 
 inline void describe(base::Visitor& v, SpeedLoop& s) {
-  v.choice("output", s.output, speed_output_choices, {.meaning = "what the speed controller sets"});
+  v.choice("output", s.output, speed_output_choices, {.meaning = "output of the speed controller"});
   v.choice("law", s.law, speed_law_choices,
-           {.meaning = "what computes its output; all of them are designed for settle_s"});
+           {.meaning = "algorithm of the speed controller; each is designed for settle_s"});
   v.choice("form", s.form, speed_form_choices,
-           {.meaning = "how its PI is computed; short of the limit both forms are one controller"});
+           {.meaning = "form of its PI; below the limit both forms are equal"});
   describe_gains(v, s, speed_gain_meanings);
   v.value("torque_limit_Nm", s.torque_limit_Nm,
-          {.meaning = "torque at the speed controller's full output; without it that of 2.5 times the "
+          {.meaning = "torque at the speed controller's full output. Default: torque of 2.5 times the "
                       "sheet's nominal current",
            .unit = "N m",
            .range = above(0),
            .also = words::force_limit});
-  v.value(
-      "anti_windup", s.anti_windup,
-      {.meaning = "positional: part of what the limit cuts off that each sample takes off the integral; 0 "
-                  "lets it wind up; without it ki/kp",
-       .range = between(0, 1)});
-  v.value(
-      "derivative_s", s.derivative_s,
-      {.meaning = "positional: derivative time; kp times it, times the measured acceleration, is taken off "
-                  "the output",
-       .unit = "s",
-       .range = above(0)});
+  v.value("anti_windup", s.anti_windup,
+          {.meaning = "positional: fraction of the clamped excess that each sample subtracts from the "
+                      "integral. 0: the integral winds up. Default: ki/kp",
+           .range = between(0, 1)});
+  v.value("derivative_s", s.derivative_s,
+          {.meaning = "positional: derivative time; kp times it, times the measured acceleration, is "
+                      "subtracted from the output",
+           .unit = "s",
+           .range = above(0)});
   v.value("derivative_filter_s", s.derivative_filter_s,
           {.meaning = "time constant that smooths the derivative; without it a tenth of derivative_s",
            .unit = "s",
            .range = from(0)});
-  v.value(
-      "setpoint_weight", s.setpoint_weight,
-      {.meaning =
-           "positional: part of the setpoint that the proportional part sees; 0 is an I-P controller, without it 1",
-       .range = between(0, 1)});
+  v.value("setpoint_weight", s.setpoint_weight,
+          {.meaning =
+               "positional: fraction of the setpoint in the proportional part. 0: I-P controller. Default: 1",
+           .range = between(0, 1)});
   v.value(
       "observer_ratio", s.observer_ratio,
       {.meaning =
-           "state-feedback, disturbance-rejection, sliding-mode: how many times faster a load is seen, or the "
-           "surface reached, than settle_s; without it 5",
+           "state-feedback, disturbance-rejection, sliding-mode: ratio of settle_s to the time in which a "
+           "load is estimated, or the surface reached. Default: 5",
        .range = between(1, 20)});
 }
 
@@ -124,13 +121,13 @@ inline void describe(base::Visitor& v, PositionProfile& s) {
   v.value("on", s.on,
           {.meaning = "whether the setpoint moves within limits of speed, acceleration and jerk"});
   v.value("speed_rad_s", s.speed_rad_s,
-          {.meaning = "fastest speed of a move; without it nine tenths of what the bus still drives the "
-                      "acceleration at, or of speed_limit_rad_s where that is less",
+          {.meaning = "fastest speed of a move. Default: nine tenths of the highest speed at which the bus "
+                      "can still drive the acceleration, or of speed_limit_rad_s if that is lower",
            .unit = "rad/s",
            .range = above(0),
            .also = words::speed});
   v.value("acceleration_rad_s2", s.acceleration_rad_s2,
-          {.meaning = "largest acceleration; without it that of four fifths of the torque limit",
+          {.meaning = "largest acceleration. Default: acceleration of four fifths of the torque limit",
            .unit = "rad/s2",
            .range = above(0),
            .also = words::acceleration});
@@ -146,20 +143,19 @@ inline void describe(base::Visitor& v, PositionProfile& s) {
        .range = from(0)});
   v.value(
       "feed_forward", s.feed_forward,
-      {.meaning =
-           "whether the profile's speed is added to what the position loop asks for, and the torque of its "
-           "acceleration and the sheet's friction to what the speed loop does"});
+      {.meaning = "feed-forward: the profile's speed is added to the position loop's output, the torque for "
+                  "acceleration and the sheet's friction to the speed loop's output"});
 }
 
 inline void describe(base::Visitor& v, PositionLoop& s) {
   v.value("gain_rad_s_per_deg", s.gain_rad_s_per_deg,
-          {.meaning = "speed asked for per degree of position error",
+          {.meaning = "gain of the position loop: speed reference per degree of position error",
            .unit = "rad/s/deg",
            .range = above(0),
            .also = words::position_gain});
   v.value("speed_limit_rad_s", s.speed_limit_rad_s,
-          {.meaning = "bound on the speed that the position loop asks for; without it supply.voltage_V over "
-                      "K_t, which the motor could not pass",
+          {.meaning = "bound on the position loop's speed reference. Default: supply.voltage_V over K_t, "
+                      "the motor's speed without load and loss",
            .unit = "rad/s",
            .range = above(0),
            .also = words::speed_limit});
@@ -170,19 +166,18 @@ inline void describe(base::Visitor& v, PositionLoop& s) {
 
 inline void describe(base::Visitor& v, FullScale& s) {
   v.value("current_A", s.current_A,
-          {.meaning = "largest current and difference of currents that a number holds; without it three "
-                      "times the largest reference or limit, or what the bus can drive on top of one",
+          {.meaning = "largest current and difference of currents that a number holds. Default: three "
+                      "times the largest reference or limit, or one plus the current that the bus can drive",
            .unit = "A",
            .range = above(0)});
   v.value("voltage_V", s.voltage_V,
           {.meaning = "largest voltage; without it supply.voltage_V", .unit = "V", .range = above(0)});
-  v.value(
-      "speed_rad_s", s.speed_rad_s,
-      {.meaning = "largest speed and difference of speeds; without it that of no load and no loss, and the "
-                  "largest reference",
-       .unit = "rad/s",
-       .range = above(0),
-       .also = words::speed});
+  v.value("speed_rad_s", s.speed_rad_s,
+          {.meaning = "largest speed and difference of speeds. Default: speed without load and loss plus the "
+                      "largest reference",
+           .unit = "rad/s",
+           .range = above(0),
+           .also = words::speed});
   v.value("position_deg", s.position_deg,
           {.meaning = "largest position and difference of positions; without it twice the largest reference",
            .unit = "deg",
@@ -215,13 +210,12 @@ inline void describe(base::Visitor& v, Limits& s) {
            .unit = "N m",
            .range = above(0),
            .also = words::force});
-  v.value(
-      "speed_rad_s", s.speed_rad_s,
-      {.meaning = "speed that the drive's own torque does not pass: above it all gates are off, unless the "
-                  "drive brakes",
-       .unit = "rad/s",
-       .range = above(0),
-       .also = words::speed});
+  v.value("speed_rad_s", s.speed_rad_s,
+          {.meaning = "limit of the speed that the drive's own torque may reach; above it all gates are off, "
+                      "unless the drive brakes",
+           .unit = "rad/s",
+           .range = above(0),
+           .also = words::speed});
   v.value("gain_A_s_per_rad", s.gain_A_s_per_rad,
           {.meaning = "current per rad/s below limits.speed_rad_s; without it J/(K_t settling time of the "
                       "current loop)",
@@ -232,15 +226,15 @@ inline void describe(base::Visitor& v, Limits& s) {
 
 inline void describe(base::Visitor& v, SmoothChopping& s) {
   v.value("on", s.on,
-          {.meaning = "whether chopping goes by the current, soft above and complementary below, instead of "
-                      "by pwm.chopping: no jump at duty 0"});
+          {.meaning = "whether the current selects the chopping, soft above and complementary below, "
+                      "instead of pwm.chopping; no jump at duty 0"});
   v.value("soft_above_A", s.soft_above_A,
-          {.meaning = "driven current above which it is soft; without it twice complementary_below_A",
+          {.meaning = "driven current above which chopping is soft. Default: twice complementary_below_A",
            .unit = "A",
            .range = from(0)});
   v.value("complementary_below_A", s.complementary_below_A,
-          {.meaning = "driven current below which it is complementary; without it half the largest ripple, "
-                      "U T/(8 L) at the terminals",
+          {.meaning = "driven current below which chopping is complementary. Default: half the largest "
+                      "ripple, U T/(8 L) at the terminals",
            .unit = "A",
            .range = from(0)});
 }
@@ -251,27 +245,28 @@ inline void describe(base::Visitor& v, Advance& s) {
            .unit = "deg",
            .range = base::Range{0, 60, true, false}});
   v.value("gain_deg_s_per_rad", s.gain_deg_s_per_rad,
-          {.meaning = "electrical angle more per rad/s of the shaft; pole pairs x 180/pi x L/R makes up for "
-                      "the current's lag",
+          {.meaning = "additional electrical angle per rad/s of the shaft; pole pairs x 180/pi x L/R "
+                      "compensates the current's lag",
            .unit = "deg s/rad",
            .range = from(0)});
   v.value("limit_deg", s.limit_deg,
-          {.meaning = "electrical angle that both together do not pass",
+          {.meaning = "limit of the sum of both, electrical angle",
            .unit = "deg",
            .range = base::strictly_between(0, 60)});
 }
 
 inline void describe(base::Visitor& v, Control& s) {
-  v.choice("drive", s.drive, drive_choices, {.meaning = "what the chip runs"});
-  v.choice("mode", s.mode, mode_choices, {.meaning = "what is controlled, and so what the reference means"});
+  v.choice("drive", s.drive, drive_choices, {.meaning = "firmware on the chip"});
+  v.choice("mode", s.mode, mode_choices,
+           {.meaning = "controlled quantity; the reference has its meaning and unit"});
   v.choice("arithmetic", s.arithmetic, arithmetic_choices,
            {.meaning = "number type the controller computes in"});
-  v.table("full_scale", s.full_scale, {.meaning = "fixed point: what the ends of the range stand for"});
+  v.table("full_scale", s.full_scale, {.meaning = "fixed point: physical values at the ends of the range"});
   v.table("current", s.current, {.meaning = "the current controller"});
   v.table("speed", s.speed, {.meaning = "the speed controller around it"});
   v.table("position", s.position, {.meaning = "the position controller around both"});
   v.value("slew", s.slew,
-          {.meaning = "fastest change of the setpoint, in the mode's unit per second; without it it steps",
+          {.meaning = "fastest change of the setpoint, in the mode's unit per second. Default: no limit",
            .range = above(0),
            .mode_unit = "*/s"});
   v.table("limits", s.limits, {.meaning = "limits of the current reference"});
@@ -283,10 +278,10 @@ inline void describe(base::Visitor& v, Control& s) {
                "product drive: commutation ahead of the Hall edge, at the control tick; 0 is at the edge"});
   v.table(
       "sensorless", s.sensorless,
-      {.meaning = "sensorless drive: how it starts and what it follows; designed from the motor's sheet"});
+      {.meaning = "sensorless drive: start and quantity that it follows; designed from the motor's sheet"});
   v.table("field", s.field,
-          {.meaning = "field-oriented drive: how the currents along the magnet and across it are held"});
-  v.table("own", s.own, {.meaning = "a controller of one's own: where it is, and its numbers"});
+          {.meaning = "field-oriented drive: control of the currents along the magnet and across it"});
+  v.table("own", s.own, {.meaning = "the user's controller: its file and its numbers"});
 }
 
 }  // namespace sixstep::study

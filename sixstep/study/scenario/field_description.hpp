@@ -8,21 +8,22 @@ namespace sixstep::study {
 
 inline constexpr base::Choice<control::VoltageLimit> voltage_limit_choices[] = {
     {"circle", control::VoltageLimit::circle,
-     "the vector within the measured bus over sqrt 3; what weakens the field comes first"},
+     "voltage vector within the measured bus over sqrt 3; the part that weakens the field has priority"},
     {"axes", control::VoltageLimit::axes, "each axis within half the nominal bus"},
 };
 
 inline constexpr base::Choice<FieldAngle> field_angle_choices[] = {
-    {"sensors", FieldAngle::sensors, "what [sensors] says of the rotor"},
+    {"sensors", FieldAngle::sensors, "the sensor that [sensors] names"},
     {"injection", FieldAngle::injection,
-     "a voltage that pulses along the magnet's axis: from standstill on, of a salient rotor that saturates"},
+     "injection of voltage pulses along the magnet's axis: works from standstill on, with a salient rotor "
+     "whose iron saturates"},
     {"observer", FieldAngle::observer,
-     "the flux that the magnet makes in the winding; a current turns the rotor until it is seen"},
-    {"injection-observer", FieldAngle::injection_observer, "the one at rest, the other at speed"},
+     "observer of the magnet's flux in the winding; a current turns the rotor until the flux is large enough"},
+    {"injection-observer", FieldAngle::injection_observer, "injection at rest and low speed, observer above"},
 };
 
 inline constexpr base::Choice<FieldLaw> field_law_choices[] = {
-    {"pi", FieldLaw::pi, "a PI for each axis, whose voltage is made of pulses"},
+    {"pi", FieldLaw::pi, "a PI controller for each axis; PWM makes its voltage"},
     {"finite-set", FieldLaw::finite_set,
      "no pulses: three legs keep one of their eight states for a whole period, the one whose predicted current is "
      "nearest to its reference"},
@@ -30,21 +31,19 @@ inline constexpr base::Choice<FieldLaw> field_law_choices[] = {
 
 inline void describe(base::Visitor& v, Field& s) {
   using base::above;
-  v.choice("law", s.law, field_law_choices, {.meaning = "what holds the currents"});
-  v.value(
-      "bandwidth_Hz", s.bandwidth_Hz,
-      {.meaning =
-           "of the current loops, whose zero is put on the winding's pole; without it and without gains in "
-           "control.current a twentieth of the control frequency",
-       .unit = "Hz",
-       .range = above(0)});
+  v.choice("law", s.law, field_law_choices, {.meaning = "controller of the currents"});
+  v.value("bandwidth_Hz", s.bandwidth_Hz,
+          {.meaning =
+               "bandwidth of the current loops, whose zero cancels the winding's pole. Default without gains "
+               "in control.current: a twentieth of the control frequency",
+           .unit = "Hz",
+           .range = above(0)});
   v.choice("voltage_limit", s.voltage_limit, voltage_limit_choices,
-           {.meaning = "what the voltages of both axes are kept within"});
+           {.meaning = "limit of the voltages of both axes"});
   v.value(
       "decoupling", s.decoupling,
-      {.meaning =
-           "whether the voltages that turning makes in the axes are added: of the other axis's current and of "
-           "the magnet"});
+      {.meaning = "whether the voltages that rotation induces in the axes are added, from the other axis's "
+                  "current and from the magnet"});
   v.value(
       "torque_per_ampere", s.torque_per_ampere,
       {.meaning =
@@ -52,56 +51,54 @@ inline void describe(base::Visitor& v, Field& s) {
   v.value(
       "weakening_A", s.weakening_A,
       {.meaning =
-           "most current against the magnet that is asked for where the bus is short of the back-EMF; without it "
-           "none is, but for what flows beyond the bus whatever is asked for",
+           "largest reference of the current against the magnet (field weakening) where the back-EMF needs "
+           "more than the bus. Default: none; through the diodes a current may flow nevertheless",
        .unit = "A",
        .range = above(0)});
   v.value(
       "advance_periods", s.advance_periods,
       {.meaning =
-           "control periods by which the rotor turns on before an answer acts; without it those up to the middle "
-           "of the period that it fills",
+           "number of control periods over which the angle is extrapolated until a command acts. Default: "
+           "up to the middle of the period in which the command is applied",
        .range = base::between(0, 10)});
-  v.choice("angle", s.angle, field_angle_choices, {.meaning = "what tells where the magnet points"});
+  v.choice("angle", s.angle, field_angle_choices, {.meaning = "source of the magnet's angle"});
   v.value("angle_bandwidth_Hz", s.angle_bandwidth_Hz,
-          {.meaning = "of the loop that follows an angle that no sensor tells; without it a hundredth of the "
-                      "control frequency, and more where full torque would leave the angle 5 degrees behind",
+          {.meaning = "bandwidth of the loop that follows the estimated angle. Default: a hundredth of the "
+                      "control frequency, more if full torque would leave the angle 5 degrees behind",
            .unit = "Hz",
            .range = above(0)});
-  v.value("injection_V", s.injection_V,
-          {.meaning =
-               "voltage of a phase that is injected; without it a quarter of what three legs make, or what "
-               "changes the current by a fifth of its limit",
-           .unit = "V",
-           .range = above(0)});
+  v.value(
+      "injection_V", s.injection_V,
+      {.meaning = "injected phase voltage. Default: a quarter of the largest voltage of three legs, or the "
+                  "voltage that changes the current by a fifth of its limit",
+       .unit = "V",
+       .range = above(0)});
   v.value("observer_from_rad_s", s.observer_from_rad_s,
-          {.meaning = "speed above which the observer alone tells the angle; without it that at which the "
-                      "back-EMF is a tenth of what three legs make",
+          {.meaning = "speed above which the observer alone gives the angle. Default: speed at which the "
+                      "back-EMF is a tenth of the largest voltage of three legs",
            .unit = "rad/s",
            .range = above(0)});
-  v.value(
-      "start_current_A", s.start_current_A,
-      {.meaning = "amplitude that turns the rotor until the observer sees it; without it the limit or the "
-                  "nominal current",
-       .unit = "A",
-       .range = above(0)});
+  v.value("start_current_A", s.start_current_A,
+          {.meaning = "current amplitude that turns the rotor until the observer follows it. Default: the "
+                      "limit or the nominal current",
+           .unit = "A",
+           .range = above(0)});
   v.value(
       "harmonic_current", s.harmonic_current,
       {.meaning =
-           "whether the current follows the shape of a back-EMF that is no sine, so that its torque is the same "
-           "at every angle: the least current that makes it, along the magnet and across it"});
-  v.value(
-      "switching_weight_A", s.switching_weight_A,
-      {.meaning =
-           "finite-set: the distance from its reference that a current may have beside a better one for each leg "
-           "that need not switch: squares are added",
-       .unit = "A",
-       .range = base::from(0)});
-  v.value(
-      "peak_A", s.peak_A,
-      {.meaning = "finite-set: amplitude of the currents beyond which a state is taken only where all are",
-       .unit = "A",
-       .range = above(0)});
+           "whether the current follows the shape of a non-sinusoidal back-EMF, so that its torque is the "
+           "same at every angle. It is the least such current, along the magnet and across it"});
+  v.value("switching_weight_A", s.switching_weight_A,
+          {.meaning =
+               "finite-set: additional distance of the current from its reference that one avoided switching "
+               "of a leg is worth; squares are added",
+           .unit = "A",
+           .range = base::from(0)});
+  v.value("peak_A", s.peak_A,
+          {.meaning = "finite-set: limit of the current amplitude; a state that exceeds it is chosen only if "
+                      "all states do",
+           .unit = "A",
+           .range = above(0)});
   v.value(
       "delay_compensation", s.delay_compensation,
       {.meaning =

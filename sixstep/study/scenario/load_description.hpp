@@ -20,13 +20,13 @@ inline void describe(base::Visitor& v, Load& s) {
        .unit = "N m",
        .also = words::force});
   v.value("times_s", s.times_s,
-          {.meaning = "when each of torques_Nm begins, rising", .unit = "s", .range = from(0)});
+          {.meaning = "times at which the torques_Nm begin, rising", .unit = "s", .range = from(0)});
   v.value("torques_Nm", s.torques_Nm,
           {.meaning = "load torques, each from its time on, instead of torque_Nm",
            .unit = "N m",
            .also = words::forces});
   v.choice("between", s.between, between_choices,
-           {.meaning = "how the load goes from one of torques_Nm to the next"});
+           {.meaning = "transition from one of torques_Nm to the next"});
   v.value("at_speeds_rad_s", s.at_speeds_rad_s,
           {.meaning = "speeds of the load, rising, where at_speeds_Nm are given",
            .unit = "rad/s",
@@ -37,7 +37,7 @@ inline void describe(base::Visitor& v, Load& s) {
        .unit = "N m",
        .also = words::at_speeds_forces});
   v.value("dynamometer_times_s", s.dynamometer_times_s,
-          {.meaning = "dynamometer: when the load has each of dynamometer_rad_s, from 0 on, rising",
+          {.meaning = "dynamometer: times of the dynamometer_rad_s, from 0 on, rising",
            .unit = "s",
            .range = from(0)});
   v.value(
@@ -71,7 +71,8 @@ inline void describe(base::Visitor& v, Load& s) {
            "motor turns per turn of the load; torque, inertia and friction of the load are then at its side",
        .range = between(1e-3, 1e5)});
   v.value("gear_efficiency", s.gear_efficiency,
-          {.meaning = "part of the driving side's torque that the gear hands on to the driven one",
+          {.meaning =
+               "efficiency of the gear: fraction of the driving side's torque that reaches the driven side",
            .range = base::Range{0.01, 1, false, true}});
   v.value("stiffness_Nm_rad", s.stiffness_Nm_rad,
           {.meaning = "torsional stiffness of shaft and coupling at the load's side; 0: rigid",

@@ -23,8 +23,8 @@ inline void describe(base::Visitor& v, Measure& s) {
           {.meaning = "value to be reached, in the signal's unit", .unit_here = unit_of(s.signal)});
   v.value(
       "start", s.start,
-      {.meaning = "value the step starts from, in the signal's unit; without it the signal's at from_s, and "
-                  "of the reference's own steps the level before, 0 before the first (reach_time_s of a "
+      {.meaning = "initial value of the step, in the signal's unit. Default: the signal's value at from_s; "
+                  "for steps of the reference, its level before, and 0 before the first (reach_time_s of a "
                   "square: always 0)",
        .unit_here = unit_of(s.signal)});
   v.value("fraction", s.fraction,
@@ -33,14 +33,14 @@ inline void describe(base::Visitor& v, Measure& s) {
   v.value("band", s.band,
           {.meaning = "settling_time_s: half width of the band as part of the step", .range = above(0)});
   v.value("tail", s.tail,
-          {.meaning = "steady_error, largest_error: part of each level of the reference, at its end, that is "
-                      "looked at; without it 0.1, and the whole window where from_s is given",
+          {.meaning = "steady_error, largest_error: fraction of each level of the reference, at its end, "
+                      "that is evaluated. Default: 0.1; the whole window if from_s is given",
            .range = base::Range{0, 1, false, true}});
   v.value("frequency_Hz", s.frequency_Hz,
           {.meaning = "thd: the fundamental; without it the electrical frequency, followed by the angle",
            .unit = "Hz",
            .range = base::Range{0, 1e7, false, true}});
-  v.value("sampled", s.sampled, {.meaning = "whether only the controller's samples are looked at"});
+  v.value("sampled", s.sampled, {.meaning = "whether only the controller's samples are evaluated"});
   v.value("label", s.label, {.meaning = "name of the figure, instead of metric and signal"});
 }
 
@@ -56,10 +56,10 @@ inline void describe(base::Visitor& v, Requirement& s) {
 inline void describe(base::Visitor& v, Comparison& s) {
   describe(v, s.measure);
   v.value("value", s.value,
-          {.meaning = "what the source says, in the figure's unit",
+          {.meaning = "value that the source gives, in the figure's unit",
            .required = true,
            .unit_here = figure_unit(s.measure)});
-  v.value("source", s.source, {.meaning = "where the value comes from", .required = true});
+  v.value("source", s.source, {.meaning = "source of the value", .required = true});
 }
 
 }  // namespace sixstep::study

@@ -9,18 +9,17 @@ namespace sixstep::study {
 
 inline void describe(base::Visitor& v, Align& s) {
   v.value("current_A", s.current_A,
-          {.meaning = "current that pulls the rotor into place before it runs; without it there is no "
-                      "alignment",
+          {.meaning = "current that aligns the rotor before it runs. Default: no alignment",
            .unit = "A",
            .range = base::above(0)});
   v.value("longest_s", s.longest_s,
-          {.meaning = "time after which a rotor that is not in place is a fault",
+          {.meaning = "time after which a rotor that is not aligned is a fault",
            .unit = "s",
            .range = base::above(0)});
   v.value("settled_s", s.settled_s,
-          {.meaning = "time that it must stay in place", .unit = "s", .range = base::from(0)});
+          {.meaning = "time for which the rotor must stay aligned", .unit = "s", .range = base::from(0)});
   v.value("sector", s.sector,
-          {.meaning = "sector whose pair pulls: the rotor goes to the edge between the next two",
+          {.meaning = "sector whose pair aligns: the rotor moves to the edge between the next two",
            .range = base::between(0, 5)});
 }
 
@@ -39,13 +38,16 @@ inline void describe_thresholds(base::Visitor& v, Protection& s) {
            .range = above(0),
            .also = words::over_speed});
   v.value("voltage_samples", s.voltage_samples,
-          {.meaning = "samples in a row that a voltage must be wrong", .range = base::between(1, 255)});
+          {.meaning = "number of consecutive samples of a wrong voltage that make a fault",
+           .range = base::between(1, 255)});
   v.value("stall_current_A", s.stall_current_A,
           {.meaning = "a phase current above it without a Hall edge for stall_s is a fault; without both, "
                       "stalling is not watched",
            .unit = "A",
            .range = above(0)});
-  v.value("stall_s", s.stall_s, {.meaning = "how long that may last", .unit = "s", .range = above(0)});
+  v.value(
+      "stall_s", s.stall_s,
+      {.meaning = "longest time without a Hall edge above stall_current_A", .unit = "s", .range = above(0)});
   v.value("offset_tolerance_A", s.offset_tolerance_A,
           {.meaning = "offset of a current amplifier beyond which it counts as broken; without it 2 % of "
                       "sensors.current_range_A",
@@ -56,9 +58,9 @@ inline void describe_thresholds(base::Visitor& v, Protection& s) {
 inline void describe(base::Visitor& v, Protection& s) {
   using base::from;
   describe_thresholds(v, s);
-  v.table("align", s.align, {.meaning = "pulling the rotor into place before it runs"});
+  v.table("align", s.align, {.meaning = "alignment of the rotor before it runs"});
   v.value("brake_current_A", s.brake_current_A,
-          {.meaning = "current held against the turning once the request to run is removed; 0: it coasts",
+          {.meaning = "braking current after the request to run is removed; 0: the motor coasts",
            .unit = "A",
            .range = from(0)});
   v.value("short_below_rad_s", s.short_below_rad_s,
@@ -74,7 +76,7 @@ inline void describe(base::Visitor& v, Protection& s) {
            .range = from(0),
            .also = words::standing});
   v.value("off_at_s", s.off_at_s,
-          {.meaning = "when the request to run is removed; without it never. It is raised at 0",
+          {.meaning = "time at which the request to run is removed. Default: never. The request begins at 0",
            .unit = "s",
            .range = from(0)});
 }

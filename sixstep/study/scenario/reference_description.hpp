@@ -12,25 +12,27 @@ inline constexpr double longest_s = 9e6;
 inline constexpr double shortest_period_s = 1e-9;
 
 inline void describe_moving(base::Visitor& v, Reference& s) {
-  v.value(
-      "begin_s", s.begin_s,
-      {.meaning = "ramp, trapezoid: when it sets off", .unit = "s", .range = base::between(0, longest_s)});
+  v.value("begin_s", s.begin_s,
+          {.meaning = "ramp, trapezoid: time at which it begins",
+           .unit = "s",
+           .range = base::between(0, longest_s)});
   v.value("start", s.start,
-          {.meaning = "ramp, trapezoid: where it sets off, in the unit of control.mode; without it where the "
-                      "reference stood, 0 at first",
+          {.meaning = "ramp, trapezoid: initial value, in the unit of control.mode. Default: the "
+                      "reference's value before it, 0 at first",
            .mode_unit = "*"});
   v.value("end", s.end,
-          {.meaning = "ramp, trapezoid: where it goes to, in the unit of control.mode", .mode_unit = "*"});
+          {.meaning = "ramp, trapezoid: final value, in the unit of control.mode", .mode_unit = "*"});
   v.value("end_s", s.end_s,
-          {.meaning = "ramp: when it gets there", .unit = "s", .range = base::between(0, longest_s)});
+          {.meaning = "ramp: time at which it reaches its final value",
+           .unit = "s",
+           .range = base::between(0, longest_s)});
   v.value("slope", s.slope,
           {.meaning = "ramp, instead of end_s: its rate, in the unit of control.mode per s, without sign; "
                       "trapezoid: its largest rate",
            .range = base::above(0),
            .mode_unit = "*/s"});
   v.value("acceleration", s.acceleration,
-          {.meaning = "trapezoid: how fast the rate itself changes at both ends, in the unit of control.mode "
-                      "per s2",
+          {.meaning = "trapezoid: change of the rate at both ends, in the unit of control.mode per s2",
            .range = base::above(0),
            .mode_unit = "*/s2"});
   v.value("offset", s.offset, {.meaning = "sine: its mean, in the unit of control.mode", .mode_unit = "*"});
@@ -43,11 +45,13 @@ inline void describe_moving(base::Visitor& v, Reference& s) {
 }
 
 inline void describe(base::Visitor& v, Reference& s) {
-  v.choice("shape", s.shape, shape_choices, {.meaning = "how the reference runs over time"});
+  v.choice("shape", s.shape, shape_choices, {.meaning = "course of the reference over time"});
   v.value("value", s.value,
           {.meaning = "constant: the reference, in the unit of control.mode", .mode_unit = "*"});
   v.value("times_s", s.times_s,
-          {.meaning = "steps, csv: when each of values holds, rising", .unit = "s", .range = base::from(0)});
+          {.meaning = "steps, csv: times at which the values begin, rising",
+           .unit = "s",
+           .range = base::from(0)});
   v.value("values", s.values,
           {.meaning = "steps, csv: the references, in the unit of control.mode", .mode_unit = "*"});
   v.value("high", s.high,
@@ -64,9 +68,9 @@ inline void describe(base::Visitor& v, Reference& s) {
       "column", s.column,
       {.meaning = "csv: heading of the column that holds the reference; a table of two columns needs none"});
   v.choice("interpolation", s.interpolation, interpolation_choices,
-           {.meaning = "csv: what the reference does from row to row"});
+           {.meaning = "csv: course of the reference between rows"});
   v.value("unit", s.unit,
-          {.meaning = "unit of the reference, to be checked: 1, A, rad/s or deg as control.mode asks"});
+          {.meaning = "unit of the reference, to be checked: 1, A, rad/s or deg according to control.mode"});
 }
 
 }  // namespace sixstep::study

@@ -24,12 +24,13 @@ void describe(base::Visitor& v, Pwm& s) {
           {.meaning = "PWM period, 1 over its frequency, and the controller's sampling period",
            .unit = "s",
            .range = between(shortest_period_s, 1)});
-  v.choice("alignment", s.alignment, alignment_choices, {.meaning = "where in the period the on-time lies"});
-  v.choice("chopping", s.chopping, chopping_choices, {.meaning = "which switches are chopped"});
+  v.choice("alignment", s.alignment, alignment_choices, {.meaning = "position of the on-time in the period"});
+  v.choice("chopping", s.chopping, chopping_choices, {.meaning = "chopped switches"});
   v.choice("pattern", s.pattern, pattern_choices,
-           {.meaning = "which of the pair's switches is chopped, where chopping is soft or complementary"});
-  v.choice("commutation", s.commutation, commutation_choices, {.meaning = "when the driven pair changes"});
-  v.choice("sample", s.sample, sample_choices, {.meaning = "when in the period the controller samples"});
+           {.meaning = "chopped switch of the pair, where chopping is soft or complementary"});
+  v.choice("commutation", s.commutation, commutation_choices,
+           {.meaning = "instant at which the driven pair changes"});
+  v.choice("sample", s.sample, sample_choices, {.meaning = "sample instant in the period"});
   v.value("delay_periods", s.delay_periods,
           {.meaning = "periods from a sample until its result takes effect", .range = between(0, 1)});
   v.value("timer_Hz", s.timer_Hz,
@@ -61,20 +62,21 @@ void describe(base::Visitor& v, Record& s) {
            .range = from(shortest_period_s)});
   v.value(
       "events", s.events,
-      {.meaning = "whether rows stand at every event, with both sides of each jump, in place of the grid"});
+      {.meaning =
+           "whether rows are recorded at every event, with both sides of each jump, instead of on the grid"});
   v.value("columns", s.columns, {.meaning = "columns to record, t_s always first; without it all of them"});
 }
 
 void describe(base::Visitor& v, Spread& s) {
-  v.value(
-      "key", s.key,
-      {.meaning =
-           "number that differs from run to run, as supply.voltage_V: of motor_override (resistance_ohm, "
-           "inductance_mH, torque_constant_mNm_A or back_emf_mV_s, inertia_gcm2, viscous_friction_Nm_s, "
-           "coulomb_friction_mNm, iron_viscous_Nm_s, iron_coulomb_mNm, flat_deg), supply, bridge, load or initial, "
-           "a Hall edge (sensors.hall_edges_deg[0], the first one) or sensors.hall_offset_deg",
-       .required = true});
-  v.choice("distribution", s.distribution, distribution_choices, {.meaning = "how likely each value is"});
+  v.value("key", s.key,
+          {.meaning =
+               "number that differs from run to run, such as supply.voltage_V. Allowed: motor_override "
+               "(resistance_ohm, inductance_mH, torque_constant_mNm_A or back_emf_mV_s, inertia_gcm2, "
+               "viscous_friction_Nm_s, coulomb_friction_mNm, iron_viscous_Nm_s, iron_coulomb_mNm, flat_deg); "
+               "supply, bridge, load or initial; a Hall edge (sensors.hall_edges_deg[0], the first one) or "
+               "sensors.hall_offset_deg",
+           .required = true});
+  v.choice("distribution", s.distribution, distribution_choices, {.meaning = "distribution of the values"});
   v.value("relative", s.relative,
           {.meaning = "half width (uniform) or standard deviation (normal), as a part of the key's value",
            .range = above(0)});
@@ -84,7 +86,7 @@ void describe(base::Visitor& v, Spread& s) {
            .unit_of = s.key});
   v.value("cut_sigma", s.cut_sigma,
           {.meaning = "normal: standard deviations beyond which no value is drawn", .range = from(1)});
-  v.value("source", s.source, {.meaning = "where the width comes from"});
+  v.value("source", s.source, {.meaning = "source of the width"});
 }
 
 void describe(base::Visitor& v, Scenario& s) {
@@ -103,31 +105,31 @@ void describe(base::Visitor& v, Scenario& s) {
            .unit = "s",
            .range = base::Range{0, longest_s, false, true},
            .required = true});
-  v.value("notes", s.notes, {.meaning = "what the run teaches, shown in the report"});
+  v.value("notes", s.notes, {.meaning = "notes on the purpose of the run, shown in the report"});
   v.value("not_usable", s.not_usable,
-          {.meaning = "what its design found against it: written by design, told by each run, and no header "
-                      "is exported while it stands"});
+          {.meaning = "reason for which the design is not usable. A design writes it and each run prints "
+                      "it; while it is present, no header is exported"});
   v.table("motor_override", s.sheet,
           {.meaning = "single values that replace those of the motor file", .partial = true});
-  v.table("supply", s.supply, {.meaning = "what feeds the bus"});
+  v.table("supply", s.supply, {.meaning = "source of the bus"});
   v.table("bridge", s.bridge, {.meaning = "six switches with antiparallel diodes"});
   v.table("heat", s.heat, {.meaning = "temperatures that the run simulates; none by default"});
   v.table("pwm", s.pwm, {.meaning = "modulation, sampling and commutation"});
-  v.table("control", s.control, {.meaning = "what is controlled and how"});
-  v.table("sensors", s.sensors, {.meaning = "what the controller measures with; ideal by default"});
+  v.table("control", s.control, {.meaning = "controlled quantity and its controllers"});
+  v.table("sensors", s.sensors, {.meaning = "sensors of the controller; ideal by default"});
   v.table("protection", s.protection,
-          {.meaning = "what the product drive watches, how it starts and stops; with control.drive = "
+          {.meaning = "fault thresholds of the product drive, its start and its stop; with control.drive = "
                       "\"product\""});
-  v.table("reference", s.reference, {.meaning = "what is wanted over time"});
-  v.table("load", s.load, {.meaning = "what the shaft drives"});
-  v.list("at", s.at, {.meaning = "what changes during the run", .cure = what_may_change});
+  v.table("reference", s.reference, {.meaning = "setpoint over time"});
+  v.table("load", s.load, {.meaning = "load on the shaft"});
+  v.list("at", s.at, {.meaning = "changes during the run", .cure = what_may_change});
   v.table("initial", s.initial, {.meaning = "state at the start"});
-  v.table("record", s.record, {.meaning = "what is written to the trace"});
+  v.table("record", s.record, {.meaning = "columns and times of the trace"});
   v.list("require", s.require, {.meaning = "figures that decide whether the run passes"});
   v.list("compare", s.compare, {.meaning = "figures shown beside those of a source; they decide nothing"});
   v.list("spread", s.spread,
-         {.meaning = "how drives of a series differ, for many runs; the controller stays designed "
-                     "for the values as written"});
+         {.meaning = "differences between the drives of a series; the controller stays designed for the "
+                     "values as written"});
 }
 
 }  // namespace sixstep::study

@@ -14,7 +14,7 @@ inline constexpr base::Choice<Commutates> commutates_choices[] = {
 inline constexpr base::Choice<control::Follow> follow_choices[] = {
     {"crossings", control::Follow::crossings, "the floating terminal's own zero crossing"},
     {"luenberger", control::Follow::luenberger, "the crossing of a Luenberger observer's back-EMF"},
-    {"sliding-mode", control::Follow::sliding_mode, "that of a sliding-mode observer"},
+    {"sliding-mode", control::Follow::sliding_mode, "the crossing of a sliding-mode observer's back-EMF"},
     {"flux-linkage", control::Follow::flux, "the flux linkage since the crossing: it says when to commutate"},
     {"comparators", control::Follow::comparators,
      "the terminal's crossing by the captured edges of sensors.comparators"},
@@ -23,7 +23,7 @@ inline constexpr base::Choice<control::Follow> follow_choices[] = {
 inline constexpr base::Choice<StartsBy> starts_by_choices[] = {
     {"alignment", StartsBy::alignment, "two pairs in turn pull it to a known place"},
     {"pulses", StartsBy::pulses,
-     "six short pulses ask how it stands, where saliency and saturation show it; else it is aligned"},
+     "six short pulses measure its angle, if saliency and saturation show it; else it is aligned"},
 };
 
 inline void describe(base::Visitor& v, Sensorless& s) {
@@ -36,8 +36,8 @@ inline void describe(base::Visitor& v, Sensorless& s) {
           {.meaning = "current of alignment and ramp, in nominal ones",
            .range = base::Range{0, 10, false, true}});
   v.value("lowest_part", s.lowest_part,
-          {.meaning = "speed at which the ramp hands over, as a part of the no-load speed; more, where the "
-                      "converter needs it",
+          {.meaning = "speed at which the ramp ends and commutation begins, as a part of the no-load "
+                      "speed; higher if the converter needs it",
            .range = base::Range{0, 0.5, false, true}});
   v.value("advance_deg", s.advance_deg,
           {.meaning = "electrical angle by which the pair changes before the middle between two crossings",
@@ -45,25 +45,25 @@ inline void describe(base::Visitor& v, Sensorless& s) {
            .range = between(0, 30)});
   v.value(
       "blanking_s", s.blanking_s,
-      {.meaning = "time after the freewheel's end in which no crossing counts: that of the dividers' filters",
+      {.meaning = "time after the freewheel's end in which no crossing counts; the dividers' filters need it",
        .unit = "s",
        .range = base::from(0)});
-  v.value(
-      "mismatch", s.mismatch,
-      {.meaning = "how unlike the three terminals' dividers may be, as a part: what crossings are told from",
-       .range = base::Range{0, 0.2, true, false}});
-  v.choice(
-      "follows", s.follows, follow_choices,
-      {.meaning =
-           "what of the back-EMF is followed; an observer averages the converters' noise, and takes its own lag off"});
+  v.value("mismatch", s.mismatch,
+          {.meaning = "largest relative difference of the three terminals' dividers; the threshold for "
+                      "crossings includes it",
+           .range = base::Range{0, 0.2, true, false}});
+  v.choice("follows", s.follows, follow_choices,
+           {.meaning =
+                "quantity of the back-EMF that the drive follows; an observer averages the converters' noise "
+                "and compensates its own lag"});
   v.value("catches_spin", s.catches_spin,
-          {.meaning = "whether a rotor that turns already is listened for before it is aligned"});
+          {.meaning = "whether the drive checks for a rotor that already turns, before it aligns it"});
   v.choice("starts_by", s.starts_by, starts_by_choices,
-           {.meaning = "how a rotor at rest is found; pulses needs sensors.currents = \"phases\""});
+           {.meaning = "method to find a rotor at rest; pulses needs sensors.currents = \"phases\""});
   v.choice("commutates", s.commutates, commutates_choices,
-           {.meaning = "what the pairs are commutated by; hall needs sensors.rotor = \"hall\""});
+           {.meaning = "source of the commutation; hall needs sensors.rotor = \"hall\""});
   v.value("falls_back", s.falls_back,
-          {.meaning = "whether the crossings take over where a Hall line dies; else the drive stops"});
+          {.meaning = "whether the crossings commutate after a Hall line fails; else the drive stops"});
 }
 
 }  // namespace sixstep::study

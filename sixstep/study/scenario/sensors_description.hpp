@@ -22,24 +22,26 @@ inline constexpr base::Choice<RotorSensing> rotor_sensing_choices[] = {
     {"ideal", RotorSensing::ideal, "speed and position as they are; the sensorless drive: no probes"},
     {"hall", RotorSensing::hall, "from the times of the Hall edges, by the controller's own blocks"},
     {"encoder", RotorSensing::encoder,
-     "from an incremental encoder on a shaft; on the motor's, commutation too"},
+     "from an incremental encoder; on the motor's shaft it also commutates"},
     {"absolute", RotorSensing::absolute,
-     "from an absolute encoder in Gray code; on the motor's shaft, commutation too"},
+     "from an absolute encoder in Gray code; on the motor's shaft it also commutates"},
     {"resolver", RotorSensing::resolver,
-     "from a resolver and a tracking loop; on the motor's shaft, commutation too"},
+     "from a resolver and a tracking loop; on the motor's shaft it also commutates"},
 };
 inline constexpr base::Choice<rig::HallAngleFrom> hall_angle_choices[] = {
     {"sectors", rig::HallAngleFrom::sectors, "by sectors of 60 degrees, as they are passed"},
     {"interpolated", rig::HallAngleFrom::angle,
-     "by an angle that runs on between edges, less the probes' known delay and hysteresis; with "
-     "pwm.commutation = \"sample\" it commutates, too"},
+     "by an angle that is interpolated between edges, less the probes' known delay and hysteresis; with "
+     "pwm.commutation = \"sample\" it also commutates"},
     {"calibrated", rig::HallAngleFrom::learned_edges,
-     "the same by edges whose places are learned from the first steady turns; their common offset is not"},
+     "as interpolated, with the places of the edges measured in the first steady turns; their common "
+     "offset is not measured"},
 };
 inline constexpr base::Choice<SensorShaft> sensor_shaft_choices[] = {
-    {"motor", SensorShaft::motor, "the motor's: it commutates"},
+    {"motor", SensorShaft::motor, "the motor's shaft: the sensor commutates"},
     {"load", SensorShaft::load,
-     "the load's, behind gear and coupling: the Hall probes commutate, speed and position count times the gear"},
+     "the load's shaft, behind gear and coupling: the Hall probes commutate; speed and position are "
+     "multiplied by the gear ratio"},
 };
 inline constexpr base::Choice<Level01> level_choices[] = {
     {"low", Level01::low, "0, as a line that is shorted to ground"},
@@ -73,148 +75,149 @@ inline constexpr base::Choice<control::HallArrangement> hall_spacing_choices[] =
 inline void describe(base::Visitor& v, HallBreak& s) {
   using base::between;
   v.value("at_s", s.at_s,
-          {.meaning = "when a Hall line sticks; without it none does", .unit = "s", .range = base::from(0)});
-  v.value("line", s.line, {.meaning = "which of H1 to H3", .range = between(1, 3)});
+          {.meaning = "time at which a Hall line sticks. Default: none sticks",
+           .unit = "s",
+           .range = base::from(0)});
+  v.value("line", s.line, {.meaning = "number of the line, H1 to H3", .range = between(1, 3)});
   v.choice("level", s.level, level_choices, {.meaning = "level it sticks at"});
 }
 
 inline void describe_currents(base::Visitor& v, Sensors& s) {
   v.choice("currents", s.currents, current_sensing_choices,
-           {.meaning = "how the controller gets the currents"});
+           {.meaning = "source of the controller's currents"});
   v.value("adc_bits", s.adc_bits, {.meaning = "bits of the converter", .range = base::between(4, 16)});
   v.value(
       "current_range_A", s.current_range_A,
       {.meaning = "current at the converter's ends, of either sign", .unit = "A", .range = base::above(0)});
   v.value("current_offset_A", s.current_offset_A,
-          {.meaning = "what the amplifiers show at no current", .unit = "A"});
+          {.meaning = "offset of the amplifiers: reading at zero current", .unit = "A"});
   v.value("current_gain_error", s.current_gain_error,
-          {.meaning = "how much too large a current reads, as a part of it",
+          {.meaning = "relative gain error of the current; 0.05 reads 5 % too large",
            .range = base::Range{-1, 1, false, true}});
   v.value("current_noise_A", s.current_noise_A,
           {.meaning = "root mean square of the noise of a sample", .unit = "A", .range = base::from(0)});
   v.value(
       "current_bandwidth_Hz", s.current_bandwidth_Hz,
-      {.meaning = "of each amplifier in front of the converter, a first-order lag; without it there is none",
+      {.meaning = "bandwidth of each amplifier in front of the converter, a first-order lag. Default: no lag",
        .unit = "Hz",
        .range = base::between(1, 1e9)});
   v.value("current_delay_s", s.current_delay_s,
-          {.meaning = "how long before a sample the current was that it shows, beside that lag",
+          {.meaning = "age of the current that a sample shows, in addition to that lag",
            .unit = "s",
            .range = base::from(0)});
   v.value("calibrated", s.calibrated,
           {.meaning = "whether the controller measured the offset before the run, in 64 noisy samples"});
+  v.value("shunt_settle_s", s.shunt_settle_s,
+          {.meaning =
+               "dc-link: least on-time of a switch before a sample that counts; with complementary chopping "
+               "the switch turns on bridge.dead_time_s later",
+           .unit = "s",
+           .range = base::from(0)});
   v.value(
-      "shunt_settle_s", s.shunt_settle_s,
-      {.meaning =
-           "dc-link: how long a switch must have been on before its sample counts; with complementary chopping "
-           "it turns on bridge.dead_time_s later",
-       .unit = "s",
-       .range = base::from(0)});
-  v.value("commutation_samples", s.commutation_samples,
-          {.meaning = "dc-link: samples after a Hall edge that are taken for the incoming phase",
-           .range = base::between(0, 255)});
+      "commutation_samples", s.commutation_samples,
+      {.meaning = "dc-link: number of samples after a Hall edge that count as the incoming phase's current",
+       .range = base::between(0, 255)});
 }
 
 /// Mounting of the probes, in electrical degrees of the motor's angle.
 inline void describe_probes(base::Visitor& v, Sensors& s) {
   v.choice("hall_spacing", s.hall_spacing, hall_spacing_choices,
-           {.meaning = "how many electrical degrees the Hall probes stand apart"});
+           {.meaning = "electrical angle between two Hall probes, degrees"});
   v.value("hall_offset_deg", s.hall_offset_deg,
-          {.meaning = "how far behind their places all Hall edges lie",
+          {.meaning = "common electrical angle by which all Hall edges come late",
            .unit = "deg",
            .range = base::between(-180, 180)});
-  v.value(
-      "hall_edges_deg", s.hall_edges_deg,
-      {.meaning = "how far each Hall edge lies behind that, the edge at 0 degrees first: 6 values for those "
-                  "of an electrical turn, or 6 per pole pair for those of a mechanical one, whose magnets "
-                  "stray",
-       .unit = "deg",
-       .range = base::between(-60, 60)});
+  v.value("hall_edges_deg", s.hall_edges_deg,
+          {.meaning = "additional angle by which each Hall edge comes late, the edge at 0 degrees first. 6 "
+                      "values: one electrical turn; 6 per pole pair: one mechanical turn, for magnets that "
+                      "differ",
+           .unit = "deg",
+           .range = base::between(-60, 60)});
   v.value("hall_hysteresis_deg", s.hall_hysteresis_deg,
-          {.meaning = "between the places of a Hall edge forward and backward",
+          {.meaning = "hysteresis: angle between the places of a Hall edge forward and backward",
            .unit = "deg",
            .range = base::between(0, 59)});
-  v.value("hall_delay_s", s.hall_delay_s,
-          {.meaning = "from the place of a Hall edge to the edge of its line, as a filter makes it",
-           .unit = "s",
-           .range = base::between(0, 2e-4)});
+  v.value(
+      "hall_delay_s", s.hall_delay_s,
+      {.meaning =
+           "delay between the rotor's passing of a Hall edge and the edge of its line, such as a filter's",
+       .unit = "s",
+       .range = base::between(0, 2e-4)});
   v.value("hall_glitches_Hz", s.hall_glitches_Hz,
-          {.meaning = "how often a Hall line turns over for a moment, in the mean, at instants drawn by seed",
+          {.meaning = "mean rate of glitches of a Hall line, at random instants drawn with seed",
            .unit = "Hz",
            .range = base::from(0)});
   v.value("hall_glitch_s", s.hall_glitch_s,
-          {.meaning = "how long", .unit = "s", .range = base::between(1e-9, 1e-3)});
+          {.meaning = "duration of a glitch", .unit = "s", .range = base::between(1e-9, 1e-3)});
 }
 
 inline void describe(base::Visitor& v, Sensors& s) {
   describe_currents(v, s);
-  v.choice("bus", s.bus, bus_sensing_choices, {.meaning = "how the controller gets the bus voltage"});
+  v.choice("bus", s.bus, bus_sensing_choices, {.meaning = "source of the controller's bus voltage"});
   v.value("bus_range_V", s.bus_range_V,
           {.meaning = "voltage at the converter's upper end", .unit = "V", .range = base::above(0)});
   v.value("bus_offset_V", s.bus_offset_V,
-          {.meaning = "what the converter shows at no voltage, beyond 0", .unit = "V"});
+          {.meaning = "offset of the converter: reading at zero voltage", .unit = "V"});
   v.value("bus_gain_error", s.bus_gain_error,
-          {.meaning = "how much too large the voltage reads, as a part of it",
+          {.meaning = "relative gain error of the voltage; 0.05 reads 5 % too large",
            .range = base::Range{-1, 1, false, true}});
   v.value("bus_noise_V", s.bus_noise_V,
           {.meaning = "root mean square of the noise of a sample", .unit = "V", .range = base::from(0)});
   v.value(
       "bus_bandwidth_Hz", s.bus_bandwidth_Hz,
       {.meaning =
-           "of the divider in front of the converter with the capacitor across it, a first-order lag, and of the "
-           "terminals' dividers alike; without it there is none",
+           "bandwidth of the divider and its capacitor in front of the converter, a first-order lag; also "
+           "that of the terminals' dividers. Default: no lag",
        .unit = "Hz",
        .range = base::between(1, 1e9)});
   v.value("terminal_gain_error", s.terminal_gain_error,
           {.meaning =
-               "how much too large the dividers of terminals a, b, c show them, as parts: 3 values; what the "
-               "drive knows of it is control.sensorless.mismatch",
+               "relative gain errors of the dividers of terminals a, b, c: 3 values; the drive is designed "
+               "for control.sensorless.mismatch",
            .range = base::between(-0.5, 0.5)});
   v.choice("rotor", s.rotor, rotor_sensing_choices,
-           {.meaning = "how the controller gets speed and position"});
-  v.value(
-      "capture_Hz", s.capture_Hz,
-      {.meaning = "clock of the timer that captures edges: of the Hall probes, of an incremental encoder, "
-                  "of the comparators at the terminals; one tick in the time that a speed is taken "
-                  "over is a step of that speed",
-       .unit = "Hz",
-       .range = base::between(1, 1e9)});
+           {.meaning = "source of the controller's speed and position"});
+  v.value("capture_Hz", s.capture_Hz,
+          {.meaning = "clock of the timer that captures edges of Hall probes, incremental encoder or "
+                      "comparators. One tick of the averaging time is the resolution of the speed",
+           .unit = "Hz",
+           .range = base::between(1, 1e9)});
   v.value("speed_edges", s.speed_edges,
-          {.meaning = "Hall edges that a speed is taken over; 6 are an electrical turn, over which faults of "
-                      "the probes cancel, and 3.5 sectors old; 0: 6 where they cost the speed loop at most "
-                      "22.5 degrees of phase, else 1",
+          {.meaning = "number of Hall edges over which a speed is averaged. With 6, one electrical turn, "
+                      "probe errors cancel, and the speed is 3.5 sectors old. 0: 6 if that costs the speed "
+                      "loop at most 22.5 degrees of phase, else 1",
            .range = base::between(0, 6)});
   v.choice("hall_angle", s.hall_angle, hall_angle_choices,
-           {.meaning = "how speed and position between Hall edges are found, where rotor is \"hall\""});
+           {.meaning = "method for speed and position between Hall edges, where rotor is \"hall\""});
   v.value(
       "hall_calibration_turns", s.hall_calibration_turns,
-      {.meaning = "calibrated: electrical turns, each as long as the first to 1/64, that edges are learned "
-                  "from; a multiple of the pole pairs where the magnets stray",
+      {.meaning = "calibrated: number of electrical turns, each as long as the first to 1/64, in which the "
+                  "edges are measured; a multiple of the pole pairs if the magnets differ",
        .range = base::between(1, 1024)});
   v.value("timeout_s", s.timeout_s,
           {.meaning = "time without a Hall edge that counts as standstill",
            .unit = "s",
            .range = base::above(0)});
   v.value("hall_stable_samples", s.hall_stable_samples,
-          {.meaning = "product drive: samples in a row that a Hall code must stand before it counts, against "
-                      "glitches; above 1 an edge counts at a control tick, that many samples less one late, "
-                      "and not in the interrupt",
+          {.meaning = "product drive: number N of consecutive samples with the same Hall code before the "
+                      "code counts. Above 1, an edge takes effect at a control tick, N - 1 samples late, "
+                      "not in the interrupt",
            .range = base::between(1, 255)});
   v.value("seed", s.seed,
-          {.meaning = "of the noise: the same seed, the same run", .range = base::between(0, 2147483647)});
+          {.meaning = "seed of the noise; the same seed gives the same run",
+           .range = base::between(0, 2147483647)});
   v.choice("hall_lines", s.hall_lines, hall_order_choices,
-           {.meaning = "which Hall probe is wired to pins H1, H2, H3 of the board"});
-  v.choice(
-      "hall_inverted", s.hall_inverted, hall_inverted_choices,
-      {.meaning = "which pins H1, H2, H3 read their probe inverted, as where its output is another kind's"});
+           {.meaning = "Hall probes at pins H1, H2, H3 of the board"});
+  v.choice("hall_inverted", s.hall_inverted, hall_inverted_choices,
+           {.meaning = "pins H1, H2, H3 that read their probe inverted, as with a probe whose output has the "
+                       "opposite polarity"});
   describe_probes(v, s);
   v.choice("shaft", s.shaft, sensor_shaft_choices,
-           {.meaning = "on which shaft the encoder or the resolver stands"});
-  v.value(
-      "watched", s.watched,
-      {.meaning =
-           "whether the drive stops where a resolver's amplitude or the count at an encoder's index is not "
-           "that of an intact sensor; false: it goes on with what it has"});
+           {.meaning = "shaft on which the encoder or the resolver is mounted"});
+  v.value("watched", s.watched,
+          {.meaning =
+               "whether the drive stops if a resolver's amplitude or the count at an encoder's index shows a "
+               "defective sensor; false: the drive continues with the faulty signal"});
   v.table("encoder", s.encoder, {.meaning = "lines A, B and Z, where rotor is \"encoder\""});
   v.table("absolute", s.absolute,
           {.meaning = "a code for every angle of the shaft, where rotor is \"absolute\""});

@@ -16,7 +16,7 @@ enum class SignalKind : std::uint8_t {
   series,         ///< a series of the engine, or a sum of them
   phase_current,  ///< the same, alternating about zero
   magnitude,      ///< a sum of magnitudes
-  voltage,        ///< of a terminal or a line: jumps with the gates
+  voltage,        ///< voltage of a terminal or a line: jumps with the gates
   emf,
   held,  ///< constant between control samples
   duty,  ///< constant between events
@@ -106,15 +106,15 @@ inline constexpr SignalFact signal_facts[] = {
     {Signal::source_current, "source_A", "current of the source", "A",
      "current out of the source into capacitor and bridge", SignalKind::series},
     {Signal::capacitor_current, "capacitor_A", "current of the bus capacitor", "A",
-     "current into the bus capacitor: its rms is what heats it", SignalKind::series},
+     "current into the bus capacitor: its rms heats the capacitor", SignalKind::series},
     {Signal::battery_charge, "battery_charge", "charge of the battery", "1",
-     "charge of the battery, of the whole", SignalKind::series},
+     "charge of the battery, relative to the full charge", SignalKind::series},
     {Signal::battery_recovery, "battery_recovery_V", "recovering voltage of the battery", "V",
      "voltage across battery_recovery_ohm and battery_recovery_F, by which the battery is below its open-circuit "
      "voltage beside resistance_ohm",
      SignalKind::series},
     {Signal::loop_current, "loop_A", "loop current of the delta", "A",
-     "sum of a delta's branch currents, which no terminal sees", SignalKind::series},
+     "sum of a delta's branch currents; no terminal carries it", SignalKind::series},
     {Signal::winding_temperature, "winding_degC", "temperature of the winding", "degC",
      "temperature of the winding, with heat.motor", SignalKind::series},
     {Signal::housing_temperature, "housing_degC", "temperature of the housing", "degC",
@@ -130,11 +130,12 @@ inline constexpr SignalFact signal_facts[] = {
     {Signal::quadrature_current_reference, "i_q_ref_A", "reference of the current across the magnet", "A",
      "field-oriented: reference of the current across the magnet", SignalKind::held},
     {Signal::direct_voltage, "v_d_V", "voltage along the magnet", "V",
-     "field-oriented: phase voltage along the magnet, as asked for at the last sample", SignalKind::held},
+     "field-oriented: commanded phase voltage along the magnet at the last sample", SignalKind::held},
     {Signal::quadrature_voltage, "v_q_V", "voltage across the magnet", "V",
-     "field-oriented: phase voltage across the magnet, as asked for at the last sample", SignalKind::held},
+     "field-oriented: commanded phase voltage across the magnet at the last sample", SignalKind::held},
     {Signal::angle_error, "angle_error_deg", "error of the angle", "deg",
-     "field-oriented: electrical angle by which the magnet was taken to point ahead of where it did, at the last sample",
+     "field-oriented: electrical angle by which the drive's magnet angle was ahead of the true one, at the "
+     "last sample",
      SignalKind::held},
 };
 

@@ -12,17 +12,19 @@ using base::from;
 
 inline void describe_battery(base::Visitor& v, Supply& s) {
   v.value("battery_charges", s.battery_charges,
-          {.meaning = "charges of a battery, of the whole, rising: where battery_voltages_V are given",
+          {.meaning = "relative charges of a battery at which battery_voltages_V are given, rising, 1: full",
            .range = between(0, 1)});
   v.value(
       "battery_voltages_V", s.battery_voltages_V,
       {.meaning = "open-circuit voltages at battery_charges, lines between", .unit = "V", .range = above(0)});
   v.value("battery_capacity_Ah", s.battery_capacity_Ah,
-          {.meaning = "the battery's whole charge", .unit = "A h", .range = from(0)});
-  v.value("battery_charge", s.battery_charge,
-          {.meaning = "charge of the battery at the start, of the whole", .range = between(0, 1)});
+          {.meaning = "charge of the full battery", .unit = "A h", .range = from(0)});
+  v.value(
+      "battery_charge", s.battery_charge,
+      {.meaning = "charge of the battery at the start, relative to the full charge", .range = between(0, 1)});
   v.value("battery_recovery_ohm", s.battery_recovery_ohm,
-          {.meaning = "resistance of what recovers slowly after a load, beside resistance_ohm; 0: none",
+          {.meaning = "resistance of the part that recovers slowly after a load, in series with "
+                      "resistance_ohm; 0: none",
            .unit = "ohm",
            .range = from(0)});
   v.value("battery_recovery_F", s.battery_recovery_F,
@@ -30,9 +32,9 @@ inline void describe_battery(base::Visitor& v, Supply& s) {
 }
 
 inline void describe(base::Visitor& v, Supply& s) {
-  v.choice(
-      "source", s.source, source_choices,
-      {.meaning = "what feeds the bus; of a battery or mains voltage_V is what the drive is designed for"});
+  v.choice("source", s.source, source_choices,
+           {.meaning = "source of the bus; with a battery or mains, voltage_V is the voltage for which the "
+                       "drive is designed"});
   v.value("voltage_V", s.voltage_V, {.meaning = "voltage of the source", .unit = "V", .range = above(0)});
   v.value("resistance_ohm", s.resistance_ohm,
           {.meaning = "resistance of the source, feeding capacitance_F; 0 with no capacitance is a stiff bus",
@@ -67,7 +69,7 @@ inline void describe(base::Visitor& v, Supply& s) {
            .range = from(0)});
   v.value("mains_Hz", s.mains_Hz, {.meaning = "frequency of the mains", .unit = "Hz", .range = above(0)});
   v.value("rectifier_drop_V", s.rectifier_drop_V,
-          {.meaning = "forward drop of a diode of the rectifier, of which two are in the way",
+          {.meaning = "forward drop of one rectifier diode; two conduct in series",
            .unit = "V",
            .range = from(0)});
 }

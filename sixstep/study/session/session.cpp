@@ -182,7 +182,7 @@ base::Result<double> Session::change(At at) {
   const Instant next_tick = s.run->next_tick();
   const Instant when = next_change(s.now(), next_tick, s.reach, s.compiled.board.modulator.period_ticks);
   if (s.over || !(when < s.compiled.end))
-    return base::Problem{"time_s", base::written(now_s()), "is where the session is over",
+    return base::Problem{"time_s", base::written(now_s()), "is after the end of the session",
                          "open one with a longer duration_s"};
   at.time_s = when.seconds();
   Scenario candidate = s.scenario;
@@ -192,12 +192,13 @@ base::Result<double> Session::change(At at) {
   if (!compiled) return compiled.problems();
   if (compiled->general && !s.compiled.general)
     return base::Problem{
-        "at", "", "asks for what the kernel that the session began on does not have",
-        "begin with an [[at]] at time_s = 0 that says bridge.phases = \"abc\": it changes nothing, and "
-        "the general kernel runs it"};
+        "at", "", "needs a function that the session's kernel does not have",
+        "begin with an [[at]] at time_s = 0 with bridge.phases = \"abc\": it changes nothing and selects "
+        "the general kernel"};
   if (!same_past(s.scenario, s.compiled, *compiled, s.now()))
-    return base::Problem{"reference", "", "would have laid out the drive's limits otherwise from the start",
-                         "let the session's own reference reach as far, by an [[at]] at its end"};
+    return base::Problem{"reference", "",
+                         "would change the drive's limits, which are fixed at the start of the session",
+                         "give the session's scenario a reference as large, by an [[at]] at its end"};
   compiled->board.sensors.decodes_hall = true;
   rig::Timeline timeline = std::move(compiled->timeline);
   if (base::Problems problems = s.run->take(candidate, *compiled, std::move(timeline)); !problems.empty())
@@ -220,7 +221,7 @@ base::Result<Outcome> Session::close() {
       base::Result<Compiled> compiled = compile(cut);
       if (!compiled || !same_past(cut, s.compiled, *compiled, s.now()))
         return base::Problem{"duration_s", base::written(end.seconds()),
-                             "leaves out a reference that the drive's limits were laid out for",
+                             "leaves out a reference for which the drive's limits were designed",
                              "run the session to its end"};
       rig::Timeline timeline = std::move(compiled->timeline);
       if (base::Problems problems = s.run->take(cut, *compiled, std::move(timeline)); !problems.empty())

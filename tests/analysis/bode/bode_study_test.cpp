@@ -102,7 +102,7 @@ TEST(Bode, ASampleInTheMiddleIsHalfAPeriodLater) {
     const auto edge = analysis::study_bode(s);
     ASSERT_TRUE(edge) << to_string(edge.problems()[0]);
     EXPECT_FALSE(edge->designed);
-    EXPECT_NE(edge->not_linear.find("begin with the period"), std::string::npos);
+    EXPECT_NE(edge->not_linear.find("edge-aligned pulses"), std::string::npos);
   }
 }
 

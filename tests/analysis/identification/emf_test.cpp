@@ -284,16 +284,16 @@ TEST(Emf, WhatIsNoRecordingIsToldWhy) {
   analysis::EmfRequest request = drawn_record(clean(false));
   const analysis::EmfRequest good = request;
   request.record.channels[0].u_V.assign(request.record.t_s.size(), 0.3);
-  EXPECT_THAT(told(request), HasSubstr("ch1 = 0.3 V in every row: the motor stood"));
+  EXPECT_THAT(told(request), HasSubstr("ch1 = 0.3 V in every row: the motor was at rest"));
   Draw draw(3);
   for (double& u : request.record.channels[0].u_V) u = normal(draw);
   EXPECT_THAT(told(request),
-              ::testing::AnyOf(HasSubstr("is no voltage that repeats"), HasSubstr("ch1 is noise")));
+              ::testing::AnyOf(HasSubstr("is not a voltage that repeats"), HasSubstr("ch1 is noise")));
   EmfTruth brief = clean(false);
   brief.periods = 1.2;
   EXPECT_THAT(told(drawn_record(brief)),
               ::testing::AnyOf(HasSubstr("holds 1.2 periods of the voltage; 1.5 are needed"),
-                               HasSubstr("a period is to be seen once and a half")));
+                               HasSubstr("one and a half periods are needed")));
   brief = clean(false);
   brief.rows_per_period = 5.0;
   EXPECT_THAT(told(drawn_record(brief)), HasSubstr("rows in a period"));

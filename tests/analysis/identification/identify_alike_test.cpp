@@ -57,7 +57,7 @@ TEST(IdentifyAlike, AProbeTheWrongWayRoundIsRefused) {
     for (double& u : log.u_V[column]) u = -u;
     const auto found = analysis::identify(log);
     ASSERT_FALSE(found);
-    EXPECT_THAT(to_string(found.problems()[0]), HasSubstr("at their polarity"));
+    EXPECT_THAT(to_string(found.problems()[0]), HasSubstr("their polarity"));
   }
 }
 

@@ -255,7 +255,7 @@ TEST(Identify, WhatIsNoLogIsToldWhy) {
     return told(log);
   };
   EXPECT_THAT(changed([](HallLog& l) { std::fill(l.codes.begin(), l.codes.end(), Code{5}); }),
-              HasSubstr("never change: the rotor stood"));
+              HasSubstr("never change: the rotor was at rest"));
   EXPECT_THAT(changed([](HallLog& l) {
                 for (Code& c : l.codes) c |= 2;
               }),

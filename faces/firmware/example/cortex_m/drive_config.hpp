@@ -22,7 +22,7 @@
 //   greatest current: <= 10 A required, 9.14157 A measured
 // Warnings of that run:
 //   control.speed.torque_limit_Nm over K_t lets 5.82 A flow, 2.5 times the nominal current of 2.33 A: by the sheet's thermal values the winding withstands it for 12.8 s from 25 degC; nothing in the drive ends that while the rotor turns, so lower the limit unless the load is short
-// Note: setpoint_limit = 300 rad/s is the largest reference of this scenario, and the drive follows no larger setpoint; give [reference] the largest one that your firmware asks for
+// Note: setpoint_limit = 300 rad/s is the largest reference of this scenario, and the drive follows no larger setpoint; give [reference] the largest setpoint of your firmware
 // Note: cleared for a supply that takes current back (supply.sinks = true): with one that takes none back the drive fails, after it raised the bus to 28.7 V in its own course: protection.brake_current_A = 2 ends in a fault where the run command is removed at 0.8 s: over-voltage after 15 ms, the bus at 30.1 V at most
 // Assumptions of that run:
 //   supply    24 V behind 0.05 ohm, 0.001 F at the bridge, takes current back
@@ -120,12 +120,12 @@ constexpr sixstep::control::ProtectedConfig<Scalar> make_product() {
   c.current_adc[2].offset_tolerance = 41;                                 // counts
   c.bus_adc.per_eighth = 0x1.a66666p-10f;                                 // 0.00161132812 V: per eighth of a count
   c.shunt.least_duty = 0x1.111112p-1f;                                    // 0.533333333: above it a sample shows the current; not used by this drive
-  c.shunt.commutation_samples = 4;                                        // after a Hall edge, taken for the incoming phase; not used by this drive
+  c.shunt.commutation_samples = 4;                                        // after a Hall edge, used as the incoming phase's current; not used by this drive
   c.shunt.fade = 0x1.e51338p-1f;                                          // 0.947412231: of a hidden current, per tick; not used by this drive
-  c.speed.sector_rad_s_ticks = 0x1.1f9f14p+23f;                           // 9424777.96 rad/s: over the ticks of a sector it is the speed
-  c.speed.timeout_ticks = 7200000;                                        // of the timer: it stands
-  c.speed.edges = 6;                                                      // that a speed is taken over
-  c.speed.window_ticks = 211515;                                          // of the timer: longer, and one edge is taken
+  c.speed.sector_rad_s_ticks = 0x1.1f9f14p+23f;                           // 9424777.96 rad/s: divided by the ticks of a sector it is the speed
+  c.speed.timeout_ticks = 7200000;                                        // of the timer without an edge: standstill
+  c.speed.edges = 6;                                                      // for the average of a speed
+  c.speed.window_ticks = 211515;                                          // of the timer: above it one edge is used
   c.position.per_sector = 0x1.ep+2f;                                      // 7.5 deg: per sector
   c.position.per_fraction = 0x1.ep+2f;                                    // 7.5 deg: per part of a sector
   c.faults.over_current_A = 0x1.ep+3f;                                    // 15 A

@@ -99,7 +99,7 @@ bool is_common(int order, const EmfResult& result) {
 /// The phase's shape as the mean over the channels, with the deviation of each harmonic.
 struct MeanShape {
   ShapeHarmonics phase;
-  std::vector<double> deviation;  ///< of each part's coordinates
+  std::vector<double> deviation;  ///< standard deviations of each part's coordinates
   std::vector<double> degrees_of_freedom;
 };
 MeanShape mean_shape(const HarmonicFit& fit, const EmfResult& so_far) {
@@ -152,7 +152,7 @@ void take_harmonics(MeanShape& mean, EmfResult& out) {
 /// it.
 struct Doubt {
   double fundamental = 0.0;  ///< relative, deviation
-  double shape = 0.0;        ///< of a value of the shape, absolute
+  double shape = 0.0;        ///< standard deviation of a value of the shape, absolute
   double student = 0.0;
   Interval of(double size, double figure, double shape_part) const {
     const double relative =

@@ -17,12 +17,12 @@ namespace sixstep::analysis {
 struct EmfRequest {
   EmfRecord record;
   std::optional<int> pole_pairs;
-  std::optional<double> speed_rad_s;  ///< of the shaft; with the frequency it gives the pole pairs
+  std::optional<double> speed_rad_s;  ///< speed of the shaft; with the frequency it gives the pole pairs
 };
 
 struct EmfHarmonic {
   int order = 1;
-  Interval part;       ///< amplitude over the fundamental's
+  Interval part;       ///< amplitude relative to the fundamental
   double floor = 0.0;  ///< limit above all orders of noise in 95 of 100 recordings
   bool stands_out = false;
   /// Components of a phase's shape, over the fundamental: factors of cos and sin of order (theta_e - 60 deg).
@@ -32,7 +32,7 @@ struct EmfHarmonic {
 struct EmfChannelResult {
   std::string name;
   double offset_V = 0.0;
-  Interval peak_V;     ///< of the fundamental
+  Interval peak_V;     ///< peak of the fundamental
   Interval phase_deg;  ///< lag to the first channel
   double residual_rms_V = 0.0;
   double step_V = 0.0;   ///< least difference of two successive rows: the converter's step
@@ -51,7 +51,7 @@ struct EmfResult {
   std::size_t rows = 0;
   double seconds = 0.0, periods = 0.0;
   Interval frequency_Hz;     ///< at the recording's middle
-  double change_Hz_s = 0.0;  ///< of the frequency, at the middle
+  double change_Hz_s = 0.0;  ///< rate of change of the frequency, at the middle
   int pole_pairs = 0;        ///< 0: unknown
   std::vector<EmfChannelResult> channels;
   bool backward = false;               ///< the voltages follow each other as c, b, a

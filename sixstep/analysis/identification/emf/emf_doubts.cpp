@@ -129,12 +129,11 @@ base::Problem no_period(const std::vector<double>& t_s, const std::string& chann
   if (!regular)
     return {.where = channel,
             .value = "",
-            .limit = "is noise, or changes its speed all the time: its half waves are of all lengths",
-            .cure = "look at where the probe hung; turn the motor steadily while it is recorded"};
-  return {
-      .where = channel,
-      .limit = "passes its mean " + std::to_string(passed) + " times; a period is to be seen once and a half",
-      .cure = "record for longer, or turn the motor faster"};
+            .limit = "is noise or changes its speed all the time: its half waves have very different lengths",
+            .cure = "check the probe's connection; turn the motor steadily while it is recorded"};
+  return {.where = channel,
+          .limit = "passes its mean " + std::to_string(passed) + " times; one and a half periods are needed",
+          .cure = "record for longer, or turn the motor faster"};
 }
 
 base::Problems check_noise(const EmfRecord& record, const HarmonicFit& fit) {
@@ -149,7 +148,7 @@ base::Problems check_noise(const EmfRecord& record, const HarmonicFit& fit) {
              .limit = "is noise: " + base::three_digits(rms) + " V rms of it repeat with " +
                       base::three_digits(fit.phase.rate[0] / base::turn_rad) + " Hz, and " +
                       base::three_digits(channel.residual_rms_V) + " V rms do not",
-             .cure = "look at where the probe hung; turn the motor steadily while it is recorded"}};
+             .cure = "check the probe's connection; turn the motor steadily while it is recorded"}};
   }
   return {};
 }
@@ -188,9 +187,8 @@ base::Problems check_clipped(const EmfRecord& record, const EmfResult& result) {
     if (!lost && !bent) continue;
     return {{.where = channel.name,
              .value = "",
-             .limit = "is clipped: it stands at " + base::six_digits(*high) + " or " +
-                      base::six_digits(*low) + " V for " + base::three_digits(100.0 * channel.clipped) +
-                      " % of a period",
+             .limit = "is clipped: it stays at " + base::six_digits(*high) + " or " + base::six_digits(*low) +
+                      " V for " + base::three_digits(100.0 * channel.clipped) + " % of a period",
              .cure = "record it again in a greater range of the channel"}};
   }
   return {};
@@ -215,7 +213,7 @@ base::Problems check_alike(const EmfResult& result) {
   return {{.where = "voltage",
            .value = each,
            .limit = "have fundamentals that differ more than those of one motor",
-           .cure = "look at the dividers of the probes and at the units of the columns"}};
+           .cure = "check the dividers of the probes and the units of the columns"}};
 }
 
 /// It is unknown which channel is right, so that the constants' bounds reach as far as each.

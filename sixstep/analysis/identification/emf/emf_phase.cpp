@@ -118,7 +118,7 @@ base::Result<EmfPhase> rough_phase(const EmfRecord& record) {
   if (!(level.rms > 1e-9 * std::fabs(level.mean) && level.rms > 0.0))
     return base::Problem{.where = name,
                          .value = base::rounded(level.mean, 4) + " V",
-                         .limit = "in every row: the motor stood, or the probe hung nowhere",
+                         .limit = "in every row: the motor was at rest, or the probe was not connected",
                          .cure = "turn the motor while it is recorded"};
   const std::vector<double> passed = regular_crossings(record.t_s, strongest->u_V, level);
   if (passed.size() < 3) {

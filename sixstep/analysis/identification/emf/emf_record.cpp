@@ -11,7 +11,7 @@ base::Problems check(const EmfRecord& record) {
     return {{.where = "channels",
              .value = std::to_string(record.channels.size()),
              .limit = "must be 1 to " + std::to_string(most_emf_channels) + " voltages",
-             .cure = "name the columns that are voltages"}};
+             .cure = "name the voltage columns"}};
   if (record.t_s.size() < fewest_rows)
     return {{.where = "time",
              .value = std::to_string(record.t_s.size()) + " rows",

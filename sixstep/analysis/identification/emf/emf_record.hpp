@@ -13,11 +13,11 @@ namespace sixstep::analysis {
 /// The two points that a probe was connected to.
 enum class EmfBetween : std::uint8_t {
   lines,  ///< two terminals: u_ab, u_bc, u_ca
-  star    ///< a terminal and the star point, real or made of three equal resistors
+  star    ///< a terminal and the star point, real or from three equal resistors
 };
 
 struct EmfChannel {
-  std::string name;  ///< of its column
+  std::string name;  ///< name of its column
   std::vector<double> u_V;
 };
 

@@ -120,8 +120,8 @@ class Fitter {
 
 base::Problem not_periodic(const std::string& where) {
   return {.where = where,
-          .limit = "is no voltage that repeats from period to period",
-          .cure = "record a motor that something else turns, with nothing connected to it but the probes"};
+          .limit = "is not a voltage that repeats from period to period",
+          .cure = "drive the motor from outside, with only the probes connected to it, and record it"};
 }
 
 double least_step(const std::vector<double>& u) {

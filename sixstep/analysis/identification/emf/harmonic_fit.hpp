@@ -17,7 +17,7 @@ namespace sixstep::analysis {
 
 struct Harmonic {
   double a_V = 0.0, b_V = 0.0;
-  double deviation_V = 0.0;  ///< of a_V and of b_V
+  double deviation_V = 0.0;  ///< standard deviation of a_V and of b_V
   double degrees_of_freedom = 0.0;
 };
 
@@ -25,14 +25,14 @@ struct ChannelFit {
   double offset_V = 0.0;
   std::vector<Harmonic> harmonics;  ///< harmonics[0] is the fundamental
   double residual_rms_V = 0.0;
-  double step_V = 0.0;          ///< least difference of two successive rows: the converter's
+  double step_V = 0.0;          ///< least difference of two successive rows: the converter's step
   double step_at_peak_V = 0.0;  ///< error of the peak by the steps, rms
   double explained = 0.0;       ///< fitted part of the power about the mean
 };
 
 struct HarmonicFit {
   EmfPhase phase;
-  double speed_deviation = 0.0;  ///< of the electrical speed at the middle, rad/s
+  double speed_deviation = 0.0;  ///< standard deviation of the electrical speed at the middle, rad/s
   double degrees_of_freedom = 0.0;
   double periods = 0.0;
   std::vector<ChannelFit> channels;

@@ -12,7 +12,7 @@ namespace sixstep::analysis {
 /// Points of a recording. Each is the mean of several rows where there are far more than harmonics need.
 struct HarmonicPoints {
   std::vector<double> t_s;
-  std::vector<std::vector<double>> u_V;  ///< of each channel
+  std::vector<std::vector<double>> u_V;  ///< voltages of each channel
   double averaged_s = 0.0;               ///< time between two rows
   std::size_t averaged = 1;              ///< rows per point
 };

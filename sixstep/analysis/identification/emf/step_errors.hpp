@@ -13,8 +13,8 @@ struct Converted {
 };
 
 struct StepErrors {
-  std::vector<double> harmonics_V;  ///< of a or b
-  double peak_V = 0.0;              ///< of the sum of the harmonics at its greatest value
+  std::vector<double> harmonics_V;  ///< errors of a or b
+  double peak_V = 0.0;              ///< error of the sum of the harmonics at its peak
 };
 
 /// Error of each harmonic by the steps, rms over all positions of the steps. No spectrum near a harmonic

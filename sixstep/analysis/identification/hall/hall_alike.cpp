@@ -80,7 +80,7 @@ base::Problems check_alike(const HallLog& log, const MotionPath& path, std::size
   return {{.where = "voltage",
            .value = each,
            .limit = "have fundamentals that differ more than those of one motor",
-           .cure = "look at the dividers of the probes, at their polarity and at the units of the columns"}};
+           .cure = "check the dividers of the probes, their polarity and the units of the columns"}};
 }
 
 }  // namespace sixstep::analysis

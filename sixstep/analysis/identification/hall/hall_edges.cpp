@@ -57,7 +57,7 @@ base::Problems dead_lines(const std::vector<Stay>& stays, const Codes& codes) {
          .value = never ? (high ? "1" : "0") : "",
          .limit = never ? "in every row, while another line changes " + times(most_of_all)
                         : "changes " + times(changes[line]) + ", another line " + times(most),
-         .cure = "look at its wire, its pull-up and its probe's supply, or name the right column"});
+         .cure = "check its wire, its pull-up and its probe's supply, or name the right column"});
   }
   return problems;
 }
@@ -75,7 +75,7 @@ base::Problems bridged_lines(const Codes& codes) {
       if (together < 4 || 20 * together < 19 * std::max(changes[a], changes[b])) continue;
       return {{.where = line_name(a) + " and " + line_name(b),
                .limit = "change together, " + times(together),
-               .cure = "name two different columns, or look for a bridge between the wires"}};
+               .cure = "name two different columns, or check for a short circuit between the wires"}};
     }
   return {};
 }
@@ -246,7 +246,7 @@ base::Result<HallEdges> hall_edges(const HallLog& log) {
   const std::vector<Stay> raw = stays_of(log);
   if (raw.size() < 2)
     return base::Problem{.where = "hall1, hall2, hall3",
-                         .limit = "never change: the rotor stood, or no probe is supplied",
+                         .limit = "never change: the rotor was at rest, or no probe is supplied",
                          .cure = "turn the shaft while it is recorded"};
   const Codes codes = happenings(raw);
   if (base::Problems dead = dead_lines(raw, codes); !dead.empty()) return dead;

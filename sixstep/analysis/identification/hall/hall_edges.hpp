@@ -14,11 +14,12 @@ namespace sixstep::analysis {
 /// An edge of the Hall code. Sectors are counted as if each line were at its own pin: forward is 100 110 010 and
 /// so on, with `inverted` lines their complement. Only voltages show the true angle.
 struct HallEdge {
-  double t_s = 0.0;           ///< middle of the interval in which it occurred
-  double width_s = 0.0;       ///< of that interval
-  std::int64_t boundary = 0;  ///< between sector boundary - 1 and sector boundary; 6 is 0 one turn later
-  int direction = 1;          ///< +1, -1
-  bool begins = false;        ///< the path between the last edge and this one is unknown
+  double t_s = 0.0;      ///< middle of the interval in which it occurred
+  double width_s = 0.0;  ///< width of that interval
+  std::int64_t boundary =
+      0;              ///< the edge is between sector boundary - 1 and sector boundary; 6 is 0 one turn later
+  int direction = 1;  ///< +1, -1
+  bool begins = false;  ///< the path between the last edge and this one is unknown
   /// The rotor reversed just before or just after this edge: the previous or next edge is at the same boundary,
   /// in the other direction.
   bool at_turn = false;
@@ -30,7 +31,7 @@ struct HallEdges {
   std::uint8_t mask = 0;
   double mask_probability = 0.0;
   std::vector<HallEdge> edges;
-  std::size_t glitches = 0;           ///< stays with a code that is not the rotor's
+  std::size_t glitches = 0;           ///< passages with a code that the rotor cannot produce
   std::size_t skipped = 0;            ///< sectors passed without a row of their code
   std::array<std::size_t, 6> seen{};  ///< edges by boundary modulo 6
   std::size_t forward = 0, backward = 0;
@@ -48,7 +49,7 @@ inline std::size_t repeating(std::int64_t boundary, std::size_t own) {
 /// Most edges that are evaluated: more improve the result less than they cost in computing time.
 inline constexpr std::size_t most_edges = 20'000;
 
-/// The edges, or why the log has none: the rotor stands, a line is dead, the log is too short or sampled too
+/// The edges, or why the log has none: the rotor is at rest, a line is dead, the log is too short or sampled too
 /// slowly. `where` of a Problem names the column.
 base::Result<HallEdges> hall_edges(const HallLog& log);
 

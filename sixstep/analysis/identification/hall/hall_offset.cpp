@@ -135,7 +135,7 @@ base::Result<HallOffsetEstimate> which_way(const HallLog& log, const std::vector
         .limit = "do not turn with the Hall lines: the best fit leaves " +
                  base::rounded(100.0 * least / std::max(out.voltages.still_V2, 1e-300), 3) +
                  " % of their power",
-        .cure = "probe the same motor's three terminals, with the bridge off, and turn it faster"};
+        .cure = "measure the same motor's three terminals, with the bridge off, and turn it faster"};
   out.mirrored_probability = 1.0 / (1.0 + base::exp(-odds(models[out.mirrored ? 0 : 1]->residual_V2)));
   const double off_deg = turned_into_place(out.voltages);
   out.rotation = static_cast<int>(std::floor((off_deg + 30.0) / 60.0));
@@ -172,8 +172,8 @@ base::Result<HallOffsetEstimate> place_by_voltages(const HallLog& log, const Hal
   });
   if (!found)
     return base::Problem{.where = parity_columns(log),
-                         .limit = "do not tell where the rotor is",
-                         .cure = "turn it by more turns while voltages and Hall lines are recorded"};
+                         .limit = "do not determine the rotor's angle",
+                         .cure = "turn it by more turns while you record voltages and Hall lines"};
   return place;
 }
 

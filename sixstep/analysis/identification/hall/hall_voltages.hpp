@@ -28,8 +28,8 @@ inline constexpr std::array<int, 5> vector_orders = {1, -5, 7, -11, 13};
 struct VoltageModel {
   std::array<double, vector_orders.size()> re_Vs{}, im_Vs{};
   double offset_alpha_V = 0.0, offset_beta_V = 0.0;
-  double variance_V2 = 0.0;         ///< of each component, white
-  double flux_half_width_Vs = 0.0;  ///< of |K_1|, 95 %, from the differences of half turns
+  double variance_V2 = 0.0;         ///< variance of each component, white
+  double flux_half_width_Vs = 0.0;  ///< 95 % half width of |K_1|, from the differences of half turns
   double residual_V2 = 0.0;         ///< sum of squares over both components
   double still_V2 = 0.0;            ///< the same for an offset alone
   std::size_t rows = 0;

@@ -50,7 +50,7 @@ class Weights {
 
 base::Problem not_fixed() {
   return {.where = "hall1, hall2, hall3",
-          .limit = "do not fix where the edges stand",
+          .limit = "do not determine the angles of the edges",
           .cure = "turn the shaft by more turns in one go"};
 }
 
@@ -202,9 +202,9 @@ base::Result<HallIdentity> identified(const HallLog& log, int pole_pairs, const 
         .where = "pole_pairs",
         .value = std::to_string(pole_pairs),
         .limit =
-            "needs voltages: without them a shaft that turns unevenly within each turn looks like edges "
-            "that are out of place",
-        .cure = "record the voltages of the terminals too, or leave the pole pairs out"};
+            "needs voltages: without them an uneven rotation of the shaft cannot be distinguished from "
+            "displaced edges",
+        .cure = "record also the voltages of the terminals, or leave the pole pairs out"};
   const std::size_t own = 6 * static_cast<std::size_t>(pole_pairs);
   if (const std::optional<base::Problem> rare = too_rare(*edges, own)) return *rare;
   const std::optional<FoundMotion> by_edges = motion_of_edges(*edges, own, keep_going);

@@ -31,8 +31,8 @@ struct IdentifiedEdge {
 /// Results that need voltages.
 struct IdentifiedPlace {
   PinCodes codes{};                ///< at the pins, in sectors 0 to 5
-  double probability = 0.0;        ///< that all six are right
-  double order_probability = 0.0;  ///< that the lines do not run the other way round
+  double probability = 0.0;        ///< probability that all six are right
+  double order_probability = 0.0;  ///< probability that the lines do not run the other way round
   std::vector<HallWires> wires;    ///< all that make these codes, the plainest first
   bool forward = true;             ///< direction of most of the log
   /// Common offset of all edges, in the direction of positive angles. A log that turns one way only cannot
@@ -45,7 +45,7 @@ struct IdentifiedPlace {
   std::size_t at_turns = 0;
   /// Given where the log turns both ways, and far enough between its reversals.
   std::optional<Interval> hysteresis_deg;
-  std::optional<Interval> delay_s;  ///< of the Hall lines behind the voltages, where speeds differ
+  std::optional<Interval> delay_s;  ///< delay of the Hall lines behind the voltages, where speeds differ
   Interval flux_linkage_Vs;         ///< peak of a phase's fundamental
   double explained = 0.0;           ///< part of the voltages' power that the rotor's motion explains
 };
@@ -66,7 +66,7 @@ struct HallIdentity {
   std::size_t forward = 0, backward = 0;  ///< edges; without voltages as if each line were at its own pin
   std::size_t glitches = 0, skipped = 0;  ///< hall_edges.hpp
   std::size_t left_out = 0;               ///< edges that contradict all others
-  std::size_t voltages_left_out = 0;      ///< voltage readings that do
+  std::size_t voltages_left_out = 0;      ///< voltage readings that contradict all others
   std::size_t unused = 0;                 ///< edges after the first most_edges
   std::uint8_t mask = 0;                  ///< the codes that never occur are this one and its complement
   double mask_probability = 0.0;

@@ -205,7 +205,7 @@ double MotionPosterior::probability(std::span<const double> weights, double low,
 }
 
 Interval MotionPosterior::jitter_deg() const {
-  // Each point stands for its part of the axis. It is spread over that part, so that the steps do not show.
+  // Each point represents its part of the axis. It is spread over that part, so that the steps do not show.
   std::vector<Component> mixture;
   for (const Possible& p : all_)
     mixture.push_back({p.weight, base::log(p.noise.jitter_deg), 0.29 * jitter_step_});

@@ -49,7 +49,7 @@ enum class Smoothness : std::uint8_t { second = 2, third = 3 };
 
 struct MotionNoise {
   Smoothness smoothness = Smoothness::third;
-  double intensity = 0.0;  ///< of that derivative: deg^2/s^3, deg^2/s^5
+  double intensity = 0.0;  ///< intensity of that derivative: deg^2/s^3, deg^2/s^5
   double jitter_deg = 0.0;
   double voltage_scale = 1.0;
 };

@@ -212,7 +212,7 @@ base::Result<Overlay> overlay(const std::string& name, const study::Trace& simul
                     base::six_digits(here->back() + shift_s) + " s, and " + std::to_string(fewest_compared) +
                     " are needed"
               : "has no column with " + std::to_string(fewest_compared) + " rows that this run has values of",
-      .cure = few ? "check the unit of its time, or say by how much its clock is off"
+      .cure = few ? "check the unit of its time, or give the offset of its clock"
                   : "name columns that the scenario's drive has"};
 }
 

@@ -15,7 +15,7 @@ struct TraceComparison {
   study::Column column;
   std::size_t rows = 0;
   double span = 0.0;      ///< highest minus lowest simulated value there
-  double rms = 0.0;       ///< of log minus simulation
+  double rms = 0.0;       ///< rms of log minus simulation
   double greatest = 0.0;  ///< log minus simulation farthest from 0, with its sign
   double at_s = 0.0;      ///< its time
 };
@@ -46,7 +46,7 @@ struct Overlay {
     std::string column, reason;
   };
   std::vector<LeftOut> left_out;
-  std::size_t rows = 0, inside = 0;  ///< of the log; those in the simulated time
+  std::size_t rows = 0, inside = 0;  ///< rows of the log; rows in the simulated time
 };
 
 /// trace_comparison() of the columns with enough rows. A Problem where no column has them; `name` is the log's.
