@@ -103,7 +103,7 @@ base::Problem unwritable(const std::string& path, int reason) {
 }
 
 std::string saved_instead(const std::string& path) {
-  return fmt::format("what was finished is in {}; make room and run it again", partial_name(path));
+  return fmt::format("the finished part is in {}; free disk space and run again", partial_name(path));
 }
 
 std::string partial_name(const std::string& path) {

@@ -95,11 +95,11 @@ class Charts {
                                 }}});
     if (curve_.thermal) {
       const auto limit = limits();
-      lines.push_back({"winding, continuous", "c", "what the winding stands continuously",
+      lines.push_back({"winding, continuous", "c", "torque that the winding withstands continuously",
                        [limit, per_Nm](const OnCurve& p) { return per_Nm * limit(p).continuous_Nm; }});
-      lines.push_back({"60 s", "a", "what it stands for 60 s from ambient temperature",
+      lines.push_back({"60 s", "a", "torque that it withstands for 60 s from ambient temperature",
                        [limit, per_Nm](const OnCurve& p) { return per_Nm * limit(p).short_Nm[1]; }});
-      lines.push_back({"10 s", "b", "what it stands for 10 s from ambient temperature",
+      lines.push_back({"10 s", "b", "torque that it withstands for 10 s from ambient temperature",
                        [limit, per_Nm](const OnCurve& p) { return per_Nm * limit(p).short_Nm[0]; }});
     }
     if (curve_.nominal && curve_.nominal->torque_Nm)

@@ -128,8 +128,8 @@ std::string rows_told(const Trace& trace) {
     where =
         fmt::format("from {:.6g} s to {:.6g} s and ", trace.whole.front().from_s, trace.whole.front().to_s);
   return fmt::format(
-      "the report has every event {}from {:.6g} s on; an envelope that keeps each peak stands for {} others, "
-      "as their rows would take too much memory",
+      "the report has every event {}from {:.6g} s on; an envelope that keeps each peak replaces {} others, "
+      "because their rows would take too much memory",
       where, trace.whole.back().from_s, trace.left_out);
 }
 

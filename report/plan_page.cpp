@@ -92,7 +92,7 @@ std::string range_text(const PagePlan& plan, std::size_t k) {
   if (axis.values.empty() && plan.story.plan.sampling == analysis::Sampling::grid)
     text += fmt::format(", {} values", axis.points);
   if (axis.values.empty() && axis.spacing == analysis::Spacing::logarithmic) text += ", equal factors";
-  if (axis.strays) text += "; the controller does not know";
+  if (axis.strays) text += "; the controller keeps the nominal value";
   return text;
 }
 

@@ -149,8 +149,8 @@ std::string sensorless(const study::Sensorless& x) {
   if (x.commutates == study::Commutates::hall) text += ", commutated by its Hall probes while they are whole";
   if (x.advance_deg > 0) text += ", commutated " + given(x.advance_deg, "deg") + " ahead";
   if (x.starts_by == study::StartsBy::pulses)
-    text += "; pulses ask how a rotor at rest stands, and where they do not see it, it is aligned";
-  if (!x.catches_spin) text += "; a rotor that turns already is not listened for";
+    text += "; pulses find the angle of a rotor at rest; if they cannot, the rotor is aligned";
+  if (!x.catches_spin) text += "; a start does not detect a rotor that already turns";
   return text;
 }
 

@@ -205,7 +205,8 @@ base::Problems check_comparison(const RunArguments& arguments) {
   if (arguments.files.size() <= report::most_compared) return {};
   return {{.where = "--html",
            .value = fmt::format("{} files", arguments.files.size()),
-           .limit = fmt::format("is more than the {} that one page can tell apart", report::most_compared),
+           .limit =
+               fmt::format("must be at most {}, because one page has no more colours", report::most_compared),
            .cure = "compare fewer, or write one report each with --out DIR"}};
 }
 

@@ -48,7 +48,7 @@ void take_count(const std::string& file, Contestants& out, base::Problems& found
                                 [&](const auto& own) { return own.name == counted->controller; });
   if (who == out.all.end()) {
     found.push_back({"--own-cost " + file, '"' + counted->controller + '"', "is not a controller of --own",
-                     "name that one with --own too, or remove its count"});
+                     "also name that controller with --own, or remove its count"});
     return;
   }
   who->tick = out.texts.emplace_back(counted->cost.tick);
@@ -75,7 +75,7 @@ void declare_own(CLI::App& verb, OwnArguments& own) {
       ->allow_extra_args(false);
   verb.add_option(
           "--own-cost", own.counts,
-          "what tools/own_cost.sh --json wrote of one of them, for the columns tick and flash; may be repeated")
+          "file that tools/own_cost.sh --json wrote for one of them, for the columns tick and flash; may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
 }

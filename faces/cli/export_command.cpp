@@ -26,7 +26,7 @@ namespace {
 struct ExportArguments {
   std::string file;                 ///< the scenario
   std::string out;                  ///< empty: standard output
-  std::string arithmetic;           ///< empty: the scenario's
+  std::string arithmetic;           ///< empty: arithmetic of the scenario
   std::vector<std::string> ranges;  ///< "current_A=20"
   std::vector<std::string> sets;    ///< "key=value"
   std::string name_space = "exported";
@@ -203,16 +203,16 @@ void declare_options(CLI::App& header, ExportArguments& a) {
   header
       .add_option(
           "--range", a.ranges,
-          "fixed point: the most that is measured or asked for, as --range current_A=20; also speed_rad_s, "
-          "position_deg, bus_V, setpoint; without it twice the current that is asked for or limited, and the speed that the bus can reach")
+          "fixed point: largest measured or requested value, as --range current_A=20; also speed_rad_s, "
+          "position_deg, bus_V, setpoint. Default: twice the requested or limiting current, and the speed that the bus allows")
       ->allow_extra_args(false);
   take_sets(header, a.sets);
-  header.add_option("--namespace", a.name_space, "C++ namespace of what the header declares")
+  header.add_option("--namespace", a.name_space, "C++ namespace of the header's declarations")
       ->capture_default_str();
   header.add_option(
       "--despite", a.despite,
-      "write it although its run fails, or leaves unmeasured what a board has; the header states "
-      "this reason and all that was overridden");
+      "write it although its run fails, or neglects effects of a real board; the header states this reason and "
+      "everything that was overridden");
   header.add_flag("--single-header", a.single_header, "include sixstep_control.hpp, not sixstep/control/");
   take_data(header, a.data_dir);
 }

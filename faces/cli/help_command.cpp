@@ -32,7 +32,7 @@ std::string line(const KeyEntry& entry) {
 
 std::string overview(const std::vector<KeyEntry>& scenario, const std::vector<KeyEntry>& sheet,
                      const std::vector<KeyEntry>& plan) {
-  std::string text = "Keys of a scenario file (sixstep help TABLE or sixstep help KEY tells more):\n";
+  std::string text = "Keys of a scenario file (details: sixstep help TABLE or sixstep help KEY):\n";
   for (const KeyEntry& entry : scenario)
     if (entry.path.find('.') == std::string::npos) text += line(entry);
   text += "Keys of a motor file and of [motor_override]:\n";

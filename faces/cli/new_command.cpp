@@ -96,7 +96,7 @@ Exit new_command(const NewArguments& a) {
     print(fmt::format("note: {}\n", note));
   if (scenario->pwm.period_s < text::stm32_least_period_s)
     print(fmt::format(
-        "note: {}; this winding's ripple asks for it, and a choke in each line, counted into the sheet's inductance, allows a longer one\n",
+        "note: {}; this winding's ripple needs it; a choke in each line, added to the sheet's inductance, allows a longer period\n",
         text::too_short_for_images(scenario->pwm.period_s)));
   return Exit::ok;
 }

@@ -104,15 +104,15 @@ std::uint64_t inputs_digest(const files::ReadLog& log, const RunArguments& a, bo
 base::Problems without_drives(const RunArguments& a, const analysis::Plan& plan) {
   if (!a.plan.tolerances || plan.drives > 0) return {};
   return {{.where = "--tolerances",
-           .limit = "makes drives differ, and only the drive as written is run",
-           .cure = "give the number, as --runs 1000"}};
+           .limit = "needs several drives, and only the drive as written is run",
+           .cure = "give their number, as --runs 1000"}};
 }
 
 base::Problems without_series(const std::string& file, const ReadPlan& plan) {
   if (plan.scenarios->plan().drives == 0 || !plan.nominal.spread.empty()) return {};
   return {{.where = file + ":",
            .limit = "describes no series, since all drives would be the same",
-           .cure = "add [[spread]] with what differs; see: sixstep help spread"}};
+           .cure = "add [[spread]] with the values that vary; see: sixstep help spread"}};
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ std::string left_behind(const std::vector<std::string>& partial_files, const std
   for (const std::string& file : partial_files) files += (files.empty() ? "" : ", ") + text::visible(file);
   std::string kept = kept_in(store);
   if (files.empty()) return kept;
-  return "what was finished is in " + files + (kept.empty() ? "" : "; " + kept);
+  return "the finished part is in " + files + (kept.empty() ? "" : "; " + kept);
 }
 
 std::string unit_of(const std::string& key) {

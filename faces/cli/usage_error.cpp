@@ -33,7 +33,7 @@ struct Called {
       path.append(" ").append(verb->get_name());
     }
   }
-  std::string help() const { return path + " --help tells more"; }
+  std::string help() const { return path + " --help lists all"; }
 };
 
 std::vector<std::string> verbs_of(const CLI::App& verb) {

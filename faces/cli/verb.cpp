@@ -17,7 +17,7 @@ void take_sets(CLI::App& verb, std::vector<std::string>& sets) {
 }
 
 void take_force(CLI::App& verb, bool& force) {
-  verb.add_flag("--force", force, "replace files that sixstep has not made, too");
+  verb.add_flag("--force", force, "also replace files that sixstep has not written");
 }
 
 void take_jobs(CLI::App& verb, unsigned& jobs, const std::string& what) {

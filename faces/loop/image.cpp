@@ -37,7 +37,7 @@ base::Problems write_header(const study::Scenario& scenario, const fs::path& fil
   std::ofstream out(file);
   out << *header;
   out.close();
-  if (!out) return {{file.string(), "", "cannot be written", "see whether the disk is full"}};
+  if (!out) return {{file.string(), "", "cannot be written", "check whether the disk is full"}};
   return {};
 }
 

@@ -75,7 +75,7 @@ rig::CoreTrouble Talk::ask(const void* call, std::size_t call_bytes, void* answe
 base::Problem no_greeting(const std::string& program, rig::CoreTrouble trouble) {
   const bool silent = trouble == rig::CoreTrouble::silent;
   return {program, "", silent ? "did not start the program within 30 s" : "ended before the program ran",
-          "start it by hand and see what it says: tools/packages.txt names its package"};
+          "start it by hand and read its output; tools/packages.txt names its package"};
 }
 
 }  // namespace loop

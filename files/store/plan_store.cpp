@@ -224,7 +224,7 @@ base::Result<PlanStore> PlanStore::resume(const std::string& path, StoredPlan pl
   };
   if (before.sixstep != now.sixstep)
     return refuse("was begun by sixstep " + before.sixstep + ", and this is " + now.sixstep +
-                      ": nothing would tell their rows apart",
+                      ": their rows could not be distinguished",
                   "finish it with that version, or begin anew (force)");
   if (before.plan != now.plan)
     return refuse("holds the runs of another plan: " + before.plan,

@@ -93,11 +93,11 @@ base::Problems check_format(Database& db) {
   if (format == store_format) return {};
   if (format == 1)
     return {{db.path() + ":", "",
-             "was written by an older sixstep, which kept no checksums: damage could not be told",
+             "was written by an older sixstep without checksums, so damage cannot be detected",
              "finish it with that version, or begin anew (force)"}};
   return {{db.path() + ":", "",
-           fmt::format("has the format {}, and this sixstep knows {}", format, store_format),
-           "take the version that wrote it, or begin anew (force)"}};
+           fmt::format("has the format {}, and this sixstep reads {}", format, store_format),
+           "use the version that wrote it, or begin anew (force)"}};
 }
 
 analysis::PlanColumns columns_from(const std::vector<ColumnRow>& rows) {

@@ -99,7 +99,7 @@ class Bench(Started):
         written = tomllib.loads((self.path / "a.toml").read_text())
         self.assertEqual(written, {"sensors": {}})
         for told in (text, (self.path / "a.toml").read_text()):
-            self.assertIn("# hall_edges_deg is left out: codes alone tell neither which edge is the first", told)
+            self.assertIn("# hall_edges_deg is left out: codes alone show neither the first edge nor", told)
         (self.path / "log.csv").write_text(log())
         self.run_program("motor", "identify", "log.csv", "--write", "b.toml")
         self.assertEqual(len(tomllib.loads((self.path / "b.toml").read_text())["sensors"]["hall_edges_deg"]), 6)
@@ -181,7 +181,7 @@ class Bench(Started):
                            (head, "holds no row of numbers"),
                            (head + "".join(rows.splitlines(True)[:900]), "period"),
                            (head + "".join(f"{n * 1e-5:g},0.25\n" for n in range(900)), "u_ab = 0.25 V in every row: the motor stood"),
-                           (whole.replace("u_ab [V]", "CH1 [V]"), "--between is missing: the headings do not say what the probes hung between; lines is"),
+                           (whole.replace("u_ab [V]", "CH1 [V]"), "--between is missing: the headings do not name the points of the probes; lines is"),
                            (whole.replace("time [s]", "sample"), "has no column of time: it has sample, u_ab; head it time [s], or give"),
                            (whole + "1,inf\n", 'u_ab "inf" is not a number')):
             (self.path / "scope.csv").write_text(text)

@@ -102,10 +102,10 @@ class Bode(ProgramTest):
         encoder = ("--set", "sensors.rotor=encoder", "--set", "pwm.commutation=sample")
         for words, said, cures in some((
                 (("sp.toml", *free, *ideal), "this chopping lets no current flow backwards", (both,)),
-                (("po.toml",), "Hall probes tell the position in steps of 7.5 deg", (encoder,)),
+                (("po.toml",), "Hall probes resolve the position only in steps of 7.5 deg", (encoder,)),
                 (("sp.toml",), None, ()),
                 (("sp.toml", *ideal), None, ()),
-                (("po.toml", *both), "Hall probes tell the position in steps of 7.5 deg", (ideal,))), 3):
+                (("po.toml", *both), "Hall probes resolve the position only in steps of 7.5 deg", (ideal,))), 3):
             with self.subTest(words=words):
                 beside = re.findall("deg beside the designed one: (.*)", self.run_program("run", *words, "--bode").stdout)
                 self.assertEqual(len(beside), said is not None, beside)

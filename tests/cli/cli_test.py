@@ -181,8 +181,8 @@ class CommandLine(ProgramTest):
     def test_what_the_command_line_lacks_or_has_too_much_of(self):
         self.write("a.toml", 1000)
         for words, told in (
-                ("run", "sixstep run needs FILE: scenario or plan files; sixstep run --help tells more"),
-                ("motor", "sixstep motor needs a command: list, show, check, new, wiring, commission, identify, emf; sixstep motor --help tells more"),
+                ("run", "sixstep run needs FILE: scenario or plan files; sixstep run --help lists all"),
+                ("motor", "sixstep motor needs a command: list, show, check, new, wiring, commission, identify, emf; sixstep motor --help lists all"),
                 ("motor lst", "lst is no command of sixstep motor; did you mean list?"),
                 ("run a.toml --htlm x", "--htlm is no argument of sixstep run; did you mean --html?"),
                 ("run a.toml --duraton 3", "--duraton is no argument of sixstep run; did you mean --set duration_s=..?"),
@@ -190,8 +190,8 @@ class CommandLine(ProgramTest):
                 ("run a.toml --csv", "--csv needs a value behind it; it means: write the recorded trace"),
                 ("run a.toml --html x --html y", "--html is given more than once; keep one"),
                 ("run a.toml --runs 5 --watch", "--watch does not go together with --runs; leave one of them out"),
-                ("run a.toml --jobs 0", "--jobs = 0 must be a whole number in 1 to 1024; sixstep run --help tells more"),
-                ("run a.toml --seed -1", f"--seed = -1 must be a whole number in 0 to {2**63 - 1}; sixstep run --help tells more"),
+                ("run a.toml --jobs 0", "--jobs = 0 must be a whole number in 1 to 1024; sixstep run --help lists all"),
+                ("run a.toml --seed -1", f"--seed = -1 must be a whole number in 0 to {2**63 - 1}; sixstep run --help lists all"),
                 ("curve maxon-251601 --points 1e9", "--points = 1e9 must be a whole number, in digits alone; it means: from standstill "
                                                     "to no load; without it 41"),
                 ("curve maxon-251601 --voltage 24V", "--voltage = 24V must be a number, without its unit; it means: bus voltage, V; "

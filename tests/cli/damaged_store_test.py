@@ -94,14 +94,14 @@ class DamagedStore(ProgramTest):
 
     def test_rows_beyond_the_plan_are_told(self):
         told = self.run_program("run", "a.toml", "--runs", "50", "--store", "s.sqlite", "--resume", code=1)
-        self.assertIn(f"s.sqlite: holds {MORE - 50} runs beyond the 50 that are asked for", told.stderr)
+        self.assertIn(f"s.sqlite: holds {MORE - 50} runs beyond the 50 of this plan", told.stderr)
         self.assertIn("50 drives", told.stdout)
 
     def test_another_version_or_format_is_named(self):
         self.change("UPDATE about SET value = '0.0.1' WHERE word = 'sixstep'")
         self.assertIn("was begun by sixstep 0.0.1, and this is", self.refused())
         self.change("PRAGMA user_version = 1")
-        self.assertIn("was written by an older sixstep, which kept no checksums", self.refused())
+        self.assertIn("was written by an older sixstep without checksums", self.refused())
 
     def test_a_row_of_another_store_is_no_row(self):
         """The same plan of another scenario has the same columns."""

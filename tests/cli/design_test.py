@@ -124,7 +124,7 @@ class Design(ProgramTest):
                 self.assertEqual(gains["d1"], loop["gain_rad_s_per_deg"] if mode == "position" and gains["loop"] == mode
                                  else loop["gains"]["d1"])
             # Its test is a board's, with the dead time that the usual gate drivers ask for.
-            self.assertRegex((self.path / "d.toml").read_text(), r"(?m)^# bridge\.dead_time_s: what gate drivers of small bridges ask for")
+            self.assertRegex((self.path / "d.toml").read_text(), r"(?m)^# bridge\.dead_time_s: usual for gate drivers of small bridges")
             self.run_program("export", "header", "d.toml", "--out", "d.hpp")
             d1 = float(designed["loops"][0]["gains"]["d1"]).hex()
             mantissa, exponent = d1.split("p")

@@ -169,7 +169,7 @@ class Plan(ProgramTest):
                 with unittest.mock.patch.dict(os.environ, {size: "2", rank: n}):
                     told.append(self.run_program("run", file, "--runs", "3", code=2).stderr)
                     self.run_program("motor", "list")
-            self.assertIn("started 2 processes, and this build knows nothing of MPI", told[0])
+            self.assertIn("started 2 processes, and this build has no MPI", told[0])
             self.assertEqual(told[1], "")
             with unittest.mock.patch.dict(os.environ, {size: "1", rank: "0"}):
                 self.run_program("run", file, code=1)

@@ -134,7 +134,7 @@ TEST_F(DamagedStore, OfWhatItSaysOfItselfIsTold) {
 TEST_F(DamagedStore, OfAnotherFormatOrVersionSaysSo) {
   const std::string good = text_of_file();
   tamper("PRAGMA user_version = 1");
-  EXPECT_THAT(told(), HasSubstr("was written by an older sixstep, which kept no checksums"));
+  EXPECT_THAT(told(), HasSubstr("was written by an older sixstep without checksums"));
   EXPECT_THAT(told(), HasSubstr("(force)"));
   ASSERT_TRUE(PlanStore::create(path(), plan(), true)) << "the cure";
   write(good);

@@ -72,7 +72,7 @@ TEST(Units, AWrongOneIsToldWithThoseThatFit) {
             "carries the unit mA, which is not of the kind of s; units that fit: s, ms, us or min");
   EXPECT_EQ(
       refused("50 Hz", "rad/s"),
-      "carries the unit Hz, and hertz do not say of what: turns of the shaft, or electrical ones, which are "
+      "carries the unit Hz, and hertz may count turns of the shaft or electrical turns, which are "
       "pole pairs times as many; write rev/s for turns of the shaft, or erpm, 60 times the electrical hertz; "
       "units that fit: rad/s, rpm, rev/s or deg/s");
   EXPECT_EQ(refused("20 msecs", "s"), "carries an unknown unit, msecs; units that fit: s, ms, us or min");

@@ -156,7 +156,7 @@ std::string assumptions(const ClearanceText& t) {
 }  // namespace
 
 std::string clearance_lines(const ClearanceText& t) {
-  if (!t.clearance) return line("NOT CLEARED FOR A BRIDGE: no run stands behind these constants.");
+  if (!t.clearance) return line("NOT CLEARED FOR A BRIDGE: no run has checked these constants.");
   const study::Clearance& c = *t.clearance;
   std::string text;
   if (!c.clear()) {

@@ -32,7 +32,7 @@ void describe(base::Visitor& v, MapFile& w) {
   v.value("potentiometer", w.potentiometer,
           {.meaning = "the converter's input at the potentiometer", .range = base::from(0)});
   v.value("setpoint_range", w.setpoint_range,
-          {.meaning = "what the potentiometer's ends mean, in the mode's unit; 0 in its middle",
+          {.meaning = "setpoint at the potentiometer's ends, in the mode's unit; 0 in its middle",
            .range = base::above(0),
            .required = true});
 }

@@ -162,9 +162,10 @@ base::Result<Conversion> by_pole_pairs(const std::string& unit, int power, const
                                        const Wanted& wanted, Conversion conversion) {
   if (to.power(Base::V) == 0 && plain_spelling(unit).find("Hz") != std::string::npos)
     return base::Problem{
-        .limit = fmt::format("carries the unit {}, and hertz do not say of what: turns of the shaft, or "
-                             "electrical ones, which are pole pairs times as many",
-                             unit),
+        .limit =
+            fmt::format("carries the unit {}, and hertz may count turns of the shaft or electrical turns, "
+                        "which are pole pairs times as many",
+                        unit),
         .cure = fmt::format(
             "write rev/s for turns of the shaft, or erpm, 60 times the electrical hertz; units that fit: {}",
             units_that_fit(wanted.unit))};
@@ -173,7 +174,7 @@ base::Result<Conversion> by_pole_pairs(const std::string& unit, int power, const
         .limit = fmt::format("carries the unit {}, which counts electrical turns, and the pole pairs are not "
                              "known here",
                              unit),
-        .cure = "give pole_pairs, poles or winding too, or convert; units that fit: " +
+        .cure = "also give pole_pairs, poles or winding, or convert; units that fit: " +
                 units_that_fit(wanted.unit)};
   const double p = *wanted.pole_pairs;
   conversion.multiply *= to_power(p, -power);

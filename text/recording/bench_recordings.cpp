@@ -203,7 +203,7 @@ base::Result<analysis::EmfBetween> between_of(const Voltages& voltages) {
   if (const std::optional<analysis::EmfBetween> said = between_in(voltages.columns)) return *said;
   return base::Problem{.where = "between",
                        .value = "",
-                       .limit = "is missing: the headings do not say what the probes hung between",
+                       .limit = "is missing: the headings do not name the points of the probes",
                        .cure = "lines is two terminals, star a terminal and any one point"};
 }
 
@@ -271,7 +271,7 @@ base::Result<analysis::EmfRecord> emf_record_of(const Recording& r, const BenchC
   if (!voltages->between)
     return base::Problem{.where = "between",
                          .value = "",
-                         .limit = "is missing: the headings do not say what the probes hung between",
+                         .limit = "is missing: the headings do not name the points of the probes",
                          .cure = "lines is two terminals, star a terminal and the star point"};
   out.between = *voltages->between;
   out.t_s = std::move(times->t_s);

@@ -60,7 +60,7 @@ base::Problems said_twice(const Recording& r) {
       if (recorded.unit.empty() || recorded.unit == unit) continue;
       found.push_back(of_recording(
           r,
-          fmt::format("has a column \"{}\", in {} by its name and in {} by what is behind it",
+          fmt::format("has a column \"{}\", in {} by its name and in {} by the unit behind it",
                       bounded(recorded.heading, 200), unit, recorded.unit),
           fmt::format("head it {} or {} [{}]", column.name,
                       column.name.substr(0, column.name.size() - unit.size() - 1), recorded.unit)));

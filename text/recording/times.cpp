@@ -203,7 +203,7 @@ base::Result<Times> rising_times(const Recording& recording, std::vector<double>
   constexpr std::size_t one_in = 10;
   if (out.left_out.size() * one_in > t.size()) return does_not_rise(out.left_out[0] + 1);
   if (!out.left_out.empty())
-    notes.push_back(fmt::format("{} {} left out: the next row stands at the same instant (first in line {})",
+    notes.push_back(fmt::format("{} {} left out: the next row has the same time (first in line {})",
                                 out.left_out.size(), out.left_out.size() == 1 ? "row" : "rows",
                                 recording.line_of(out.left_out[0])));
   out.t_s = without_rows(std::move(t), out.left_out);

@@ -61,17 +61,17 @@ std::string why_beside(const BodeStudy& s) {
       end.sensors.rotor == study::RotorSensing::hall && end.control.drive != study::FirmwareKind::sensorless;
   if (hall && s.mode == sixstep::control::Mode::position)
     return fmt::format(
-        "Hall probes tell the position in steps of {}, and around a standstill their edges hardly tell a speed; sensors.rotor = "
-        "\"ideal\" shows the loop without them, and an encoder with pwm.commutation = \"sample\" tells both finely",
+        "Hall probes resolve the position only in steps of {}, and near standstill their edges hardly show a speed; sensors.rotor = "
+        "\"ideal\" shows the loop without them, and an encoder with pwm.commutation = \"sample\" resolves both finely",
         quantity_text(60 / s.pole_pairs, "deg", 3));
   const bool one_way = end.pwm.chopping != sixstep::control::Chopping::complementary &&
                        !end.control.smooth_chopping.on && end.control.drive != study::FirmwareKind::field;
   if (one_way && s.without_current > least_without_current)
     return fmt::format(
-        "this chopping lets no current flow backwards, and at {:.2g} % of the samples there is none: the answer is another one up "
-        "than down; pwm.chopping = \"complementary\" lets it",
+        "this chopping lets no current flow backwards, and at {:.2g} % of the samples the current is zero: the response upwards "
+        "differs from that downwards; pwm.chopping = \"complementary\" lets it flow",
         100 * s.without_current);
-  return "each period of the multisine is answered alike, and not as a linear loop does: commutation, dead time, discontinuous current or a limit";
+  return "the response repeats in each period of the multisine and is not linear: commutation, dead time, discontinuous current or a limit";
 }
 
 /// A coherence near 1 shows that the answers repeat, but not that the loop is linear.

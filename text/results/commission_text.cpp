@@ -80,7 +80,7 @@ std::string lines(const CommissionStudy& s) {
   const std::string probes = fmt::format("{} {} {}", found.probe[0], found.probe[1], found.probe[2]);
   const std::string inverted = inverted_word(found.inverted);
   return fmt::format(
-             "Hall lines as the board sees them: probes {} at H1 H2 H3{}; the rotor {} {:.1f} deg each way\n",
+             "Hall lines as measured by the board: probes {} at H1 H2 H3{}; the rotor {} {:.1f} deg each way\n",
              probes, inverted == "none" ? "" : ", inverted: " + inverted,
              s.found.hall_lag_deg < 0 ? "leads" : "lags", std::fabs(s.found.hall_lag_deg)) +
          rows.text() +
@@ -113,11 +113,11 @@ std::string bench(const CommissionStudy& s) {
 const char* fault_words(CommissioningFault fault) {
   switch (fault) {
     case CommissioningFault::offset:
-      return "an amplifier's zero is not where the circuit has it";
+      return "an amplifier's zero differs from the circuit's";
     case CommissioningFault::current:
-      return "the longest vector makes no such current: a wire is open, or more was asked for than there is";
+      return "the longest vector does not reach the test current: a wire is open, or the bus is too low for this current";
     case CommissioningFault::winding:
-      return "the two levels do not differ as they should: nothing that a resistance can be told of; give more current";
+      return "the two levels differ too little to compute a resistance; give more current";
     case CommissioningFault::not_turned:
       return "the rotor did not follow, however slowly: free the shaft, or give more current";
     case CommissioningFault::none:
@@ -187,8 +187,8 @@ std::string commission_failure(const CommissionStudy& s) {
 std::string stand_in_words(const analysis::CommissionBench& bench) {
   using analysis::TestCurrent;
   if (bench.nominal_printed || bench.from == TestCurrent::asked_for) return "";
-  return std::string(bench.from == TestCurrent::half_of_most ? ", half of the most that this test can use"
-                                                             : ", twice a tenth of what full duty drives") +
+  return std::string(bench.from == TestCurrent::half_of_most ? ", half of the largest current of this test"
+                                                             : ", a fifth of the current at full duty") +
          ": the sheet names no nominal current";
 }
 

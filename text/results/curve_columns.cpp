@@ -49,7 +49,7 @@ const std::array<CurveColumn, 25> columns = {{
     {{"shaft_W", "W", "shaft", "given by the shaft"}, of_point<&P::shaft_W>},
     {{"efficiency", "1", "", "shaft over supply, as a generator supply over shaft"},
      [](const CurveRow& row) { return number(row.point.efficiency); }},
-    {{"energy_residual", "1", "", "what the energy balance lacks, over what moves"},
+    {{"energy_residual", "1", "", "residual of the energy balance, relative to the exchanged energy"},
      of_point<&P::energy_residual>},
     {{"current_bound_A", "A", "phase", "error bound of the steady state's currents"},
      [](const CurveRow& row) {
@@ -57,13 +57,16 @@ const std::array<CurveColumn, 25> columns = {{
      }},
     {{"torque_half_width_Nm", "N m", "", "half width of the mean torque's 99 % interval (chopped)"},
      of_point<&P::half_width_Nm>},
-    {{"continuous_torque_Nm", "N m", "shaft", "what the winding stands for ever"},
+    {{"continuous_torque_Nm", "N m", "shaft", "torque that the winding withstands continuously"},
      of_limits<&analysis::ThermalLimits::continuous_Nm>},
-    {{"torque_60s_Nm", "N m", "shaft", "what it stands for 60 s from ambient temperature"}, short_torque<1>},
-    {{"torque_10s_Nm", "N m", "shaft", "what it stands for 10 s from ambient temperature"}, short_torque<0>},
-    {{"winding_degC", "degC", "", "winding in the end, were this point held"},
+    {{"torque_60s_Nm", "N m", "shaft", "torque that it withstands for 60 s from ambient temperature"},
+     short_torque<1>},
+    {{"torque_10s_Nm", "N m", "shaft", "torque that it withstands for 10 s from ambient temperature"},
+     short_torque<0>},
+    {{"winding_degC", "degC", "", "final temperature of the winding if this point is held"},
      [](const CurveRow& row) { return row.warming ? number(row.warming->winding_degC) : not_there; }},
-    {{"permissible_s", "s", "", "how long this point may last from ambient temperature; inf: for ever"},
+    {{"permissible_s", "s", "",
+      "time for which this point may last from ambient temperature; inf: unlimited"},
      [](const CurveRow& row) {
        constexpr double ever = std::numeric_limits<double>::infinity();
        return row.warming ? row.warming->permissible_s.value_or(ever) : not_there;

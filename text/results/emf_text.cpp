@@ -53,7 +53,7 @@ std::string channels_section(const EmfResult& r) {
   for (const analysis::EmfChannelResult& c : r.channels)
     if (analysis::may_be_clipped(c))
       out += fmt::format(
-          "  {} stands at its greatest value for {:.2g} % of a period: was it clipped? The upper ends of the "
+          "  {} stays at its greatest value for {:.2g} % of a period: was it clipped? The upper ends of the "
           "constants allow for it\n",
           visible(c.name), to_percent * c.clipped);
   return out;
@@ -115,7 +115,7 @@ std::string harmonics_section(const EmfResult& r) {
                             : fmt::format("{:+.2g} %", to_percent * h.in_phase)});
   }
   std::string out = rows.text();
-  if (hidden > 0) out += fmt::format("  {} more do not stand out of the noise\n", hidden);
+  if (hidden > 0) out += fmt::format("  {} more do not exceed the noise\n", hidden);
   const char* const probed = r.between == analysis::EmfBetween::lines ? "line" : "phase";
   return out +
          fmt::format(

@@ -52,8 +52,8 @@ std::string amperes(double A) { return quantity_text(A, "A", 3); }
 
 Rows symptom_rows(const WiringStudy& s, const base::Motion& motion) {
   Rows rows;
-  rows.add({"", "ways", motion.words("torque/A"), "theory", "speed", "phase rms", "peak", "supply",
-            "what you see"});
+  rows.add(
+      {"", "ways", motion.words("torque/A"), "theory", "speed", "phase rms", "peak", "supply", "symptom"});
   for (const WiringDoes does : told_order()) {
     const analysis::WiringCase* const example = s.example(does);
     if (!example) continue;

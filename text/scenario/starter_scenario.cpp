@@ -241,10 +241,10 @@ std::string starter_note(const study::Scenario& scenario) { return torque_limit_
 
 std::string starter_text(const study::Scenario& scenario, const StarterOptions& options) {
   return fmt::format("#:schema {}\n", scenario_schema_file) +
-         wrapped_comment(fmt::format("sixstep run {} runs this and judges it; with --html the report is "
-                                     "written too. Lines behind a # say what holds without them: take the # "
-                                     "away to change it; nan stands where no value holds: replace it by a "
-                                     "number. sixstep help TABLE and sixstep help KEY tell more.",
+         wrapped_comment(fmt::format("sixstep run {} runs this and judges it; --html also writes the report. "
+                                     "Lines behind a # show the defaults: remove the # to change one; nan "
+                                     "means that there is no default: replace it by a number. Details: "
+                                     "sixstep help TABLE and sixstep help KEY.",
                                      shell_word(options.file))) +
          Starter(scenario, options.full).text();
 }

@@ -17,7 +17,7 @@ constexpr std::array<Cure, 11> syntax_cures = {{
     {"parsing string", "close the quote on the same line"},
     {"cannot redefine", "give each key and table once"},
     {"could not determine value type",
-     "put words in quotes, as \"speed\"; numbers, true and false stand alone"},
+     "put words in quotes, as \"speed\"; numbers, true and false have none"},
     {"parsing boolean", "write true or false, in small letters"},
     {"expected a comment or whitespace, saw ','", "write a decimal point, as 0.5, and a list in brackets"},
     {"expected a comment or whitespace", "end the line behind the value: its unit is in the key"},
