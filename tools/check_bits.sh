@@ -20,7 +20,7 @@ golden=tests/digest/expected.txt
 out=build/bits
 mkdir -p "$out"
 
-# What a run needs: analysis/ is above it, and compiling it takes a fifth of all.
+# Sources that a run needs. analysis/ is above them, and compiling it takes a fifth of the time.
 mapfile -t library < <(find sixstep -name '*.cpp' -not -path 'sixstep/analysis/*' -not -path 'sixstep/study/*' -not -path 'sixstep/design/*'
   find sixstep/study/{live,session} -name '*.cpp'; find sixstep/design -name '*_scaling.cpp')
 # The other small sources together, as cmake/rooms.cmake has them.
@@ -34,12 +34,12 @@ done
 mapfile -t above < <(find sixstep/analysis -name '*.cpp' | LC_ALL=C sort)
 table=(tests/digest/main.cpp tests/digest/cases.cpp tests/digest/sessions.cpp)
 sources=("${library[@]}" "${table[@]}")
-# What reads a scenario, and what of text/ has only to compile.
+# Sources that read a scenario, and the rest of text/, which only has to compile.
 mapfile -t reader < <(find text/sources.cpp text/keys text/toml text/motor/motor_library.cpp \
   text/recording/{bench_columns,cells,column_formula,columns,decimal_marks,encoding,heading,known_names,preamble,recording,row_reader,table_head,times}.cpp \
   text/scenario/{scenario_file,scenario_family,sheet_source,reference_file,motion_words}.cpp -name '*.cpp' | LC_ALL=C sort)
 mapfile -t rest < <(find text -name '*.cpp' | LC_ALL=C sort | grep -vxF "$(printf '%s\n' "${reader[@]}")")
-# What decides about bits is what CMakeLists.txt gives the product. The rest shows that no exception is needed.
+# The flags that decide about bits are those of the product in CMakeLists.txt. The others show that no exception is needed.
 flags=(-DSIXSTEP_POSITION_PROFILE -std=c++20 -ffp-contract=off -fno-math-errno -fno-trapping-math -fno-exceptions -fno-rtti -I.)
 
 if [ "$task" = --renew ]; then
@@ -126,7 +126,7 @@ ask_wasm() {
   else
     { echo failed; head -n 20 "$log"; } >"$out/$1.answer"
   fi
-  # That the rest of text/ and analysis/ compile there too has its place in the long run: they hardly ever do not.
+  # Only the long check compiles the rest of text/ and analysis/ there, because they hardly ever fail.
   [ "$task" != --gate ] || rest=() above=()
   if { "${cxx[@]}" "${text[@]}" "${link[@]}" "${reader[@]}" tests/digest/read_scenarios.cpp "$out/$1.o" -o "$out/$2" &&
        { [ ${#above[@]} = 0 ] || "${cxx[@]}" -fsyntax-only "${above[@]}"; } &&
@@ -138,7 +138,7 @@ ask_wasm() {
   fi
 }
 
-# platform "WORDS" "NEEDED PROGRAMS AND FILES" COMPILE.. -- RUN..: asks it beside at most one other
+# platform "WORDS" "NEEDED PROGRAMS AND FILES" COMPILE.. -- RUN..: checks it, at most two platforms at a time
 platforms=()
 platform() {
   local words=$1 needed program
