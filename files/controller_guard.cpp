@@ -38,7 +38,7 @@ const femode_t& usual_mode() {
 /// A controller as loaded, and as the program calls it.
 struct Guarded {
   std::string path, name, sentence;
-  std::deque<std::string> words;  ///< of its parameters; pointers to them stay valid
+  std::deque<std::string> words;  ///< texts of its parameters; pointers to them stay valid
   std::vector<sixstep_parameter> parameters;
   sixstep_controller real{}, shown{};
 };

@@ -61,7 +61,7 @@ std::string file_name(std::string_view name) {
 /// The output files. They are opened before the work, so that an unwritable path fails at once.
 struct ContestFiles {
   std::optional<files::AtomicFile> json, csv, html;
-  std::vector<files::AtomicFile> scenarios;  ///< of the entries that have one, in their order
+  std::vector<files::AtomicFile> scenarios;  ///< files of the entries with a scenario, in their order
 
   base::Problems open(const ContestArguments& a, const std::vector<analysis::ContestEntry>& entries) {
     base::Problems found = duplicate_outputs({{"--json", a.json}, {"--csv", a.csv}, {"--html", a.html}});

@@ -20,7 +20,7 @@ namespace {
 std::string roff(std::string_view text) {
   constexpr std::size_t longest_line = 78;
   std::string out;
-  std::size_t begin = 0;  // of the line
+  std::size_t begin = 0;  // begin of the line
   for (std::size_t n = 0; n < text.size(); ++n) {
     const char c = text[n];
     const std::size_t word = std::min(text.find(' ', n + 1), text.size()) - n;

@@ -124,7 +124,7 @@ struct PlanStore::Inside {
 
   Database db;
   StoredPlan plan;
-  StoredPlan stored;  ///< as it is in the file
+  StoredPlan stored;  ///< plan as stored in the file
   std::uint64_t begin_of_checksums;
   std::optional<Statement> insert;
   mutable std::mutex guard;

@@ -24,7 +24,7 @@ struct Units {
   struct Unit {
     double factor;
     const char* name;
-    int decimals;  ///< of a speed in a column
+    int decimals;  ///< decimals of a speed in a column
   };
   Unit speed, torque;
   base::Motion motion;

@@ -23,7 +23,7 @@ struct Point {
   std::vector<std::string> values;
   std::vector<analysis::Statistics> figures;
   std::size_t first = 0, runs = 0, passed = 0;
-  analysis::RunEnd end = analysis::RunEnd::whole;  ///< of the first drive that did not end so
+  analysis::RunEnd end = analysis::RunEnd::whole;  ///< reason of the first incomplete drive
 };
 
 std::vector<Point> points_of(const PlanStory& story) {

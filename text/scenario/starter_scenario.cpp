@@ -227,7 +227,7 @@ class Starter {
                                        .explained = explained_.insert(entry.about.meaning).second});
   }
 
-  std::string origin_;  ///< of the torque limit
+  std::string origin_;  ///< origin of the torque limit
   std::vector<KeyEntry> keys_;
   std::vector<WrittenValue> values_;
   std::vector<Wanted> wanted_;

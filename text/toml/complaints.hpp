@@ -60,7 +60,7 @@ class Complaints {
 
  private:
   struct Found {
-    std::size_t file;  ///< as Document::order_of
+    std::size_t file;  ///< number of the file, as Document::order_of gives it
     toml::source_position at;
     base::Problem problem;
   };
