@@ -157,7 +157,7 @@ std::string man_page(const CLI::App& app) {
   text +=
       ".fi\n.SH DESCRIPTION\n"
       "Simulates motor, bridge, sensors and the controller code itself, finds every\n"
-      "commutation, diode and PWM event exactly, and tells whether your requirements\n"
+      "commutation, diode and PWM event exactly, and reports whether your requirements\n"
       "hold.\nEvery number states its unit, frame and source.\n";
   text += commands(app, verbs) + files();
   text += ".SH EXIT STATUS\n";

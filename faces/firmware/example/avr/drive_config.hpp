@@ -65,7 +65,7 @@ namespace exported {
 
 using Scalar = sixstep::control::Q15;
 
-// What 1.0 means; constants of the board are made by its functions: units.amperes(15)
+// Physical values of 1.0; its functions make constants of the board: units.amperes(15)
 inline constexpr sixstep::control::Units<Scalar> units{
   .current_A = 0x1.4p+4,                                                  // 20 A
   .voltage_V = 0x1.80030006000cp+4,                                       // 24.0007 V
@@ -79,11 +79,11 @@ inline constexpr std::uint64_t pwm_period_ps = 100000000;                 // 100
 inline constexpr bool pwm_centre_aligned = true;                          // else the on-time begins with the period
 inline constexpr std::uint64_t dead_time_ps = 1000000;                    // 1 us
 inline constexpr bool commutate_at_sample = false;                        // else in the Hall interrupt
-inline constexpr bool command_delayed = true;                             // a command counts from the next period on
-inline constexpr bool sampled_in_middle = true;                           // of the period; else at its start
-inline constexpr int adc_bits = 10;                                       // of each phase's transducer
+inline constexpr bool command_delayed = true;                             // a command takes effect in the next period
+inline constexpr bool sampled_in_middle = true;                           // in the middle of the period; else at its start
+inline constexpr int adc_bits = 10;                                       // bits of each current converter
 inline constexpr double adc_amperes_per_count = 0x1.4p-6;                 // 0.0195312 A
-inline constexpr double setpoint_range = 0x1.4666666666666p+2;            // 5.1 in the mode's unit: a potentiometer's, either way
+inline constexpr double setpoint_range = 0x1.4666666666666p+2;            // 5.1 in the mode's unit, at each end of a potentiometer
 
 constexpr sixstep::control::DriveConfig<Scalar> make_drive() {
   using namespace sixstep::control;

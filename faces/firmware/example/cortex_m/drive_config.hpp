@@ -63,7 +63,7 @@ namespace exported {
 
 using Scalar = float;
 
-// What 1.0 means; constants of the board are made by its functions: units.amperes(15)
+// Physical values of 1.0; its functions make constants of the board: units.amperes(15)
 inline constexpr sixstep::control::Units<Scalar> units{
   .current_A = 0x1p+0,                                                    // 1 A
   .voltage_V = 0x1p+0,                                                    // 1 V
@@ -77,8 +77,8 @@ inline constexpr std::uint64_t pwm_period_ps = 30000000;                  // 30 
 inline constexpr bool pwm_centre_aligned = false;                         // else the on-time begins with the period
 inline constexpr std::uint64_t dead_time_ps = 500000;                     // 0.5 us
 inline constexpr bool commutate_at_sample = false;                        // else in the Hall interrupt
-inline constexpr bool command_delayed = true;                             // a command counts from the next period on
-inline constexpr bool sampled_in_middle = false;                          // of the period; else at its start
+inline constexpr bool command_delayed = true;                             // a command takes effect in the next period
+inline constexpr bool sampled_in_middle = false;                          // in the middle of the period; else at its start
 inline constexpr double timer_Hz = 0x1.12a88p+26;                         // 7.2e+07 Hz, counts up and wraps at 2^32
 
 constexpr sixstep::control::DriveConfig<Scalar> make_drive() {
