@@ -201,10 +201,10 @@ base::Result<const sixstep_controller*> guarded_controller(const std::string& pa
   for (std::size_t n = 0; n < loaded_controllers; ++n)
     if (controllers[n].path == path && is_same(controllers[n].real, real)) return &controllers[n].shown;
   if (loaded_controllers == most_controllers)
-    return base::Problem{.where = path,
-                         .limit = fmt::format("is one more than the {} controllers that a program may load",
-                                              loaded_controllers),
-                         .cure = "run it in another one"};
+    return base::Problem{
+        .where = path,
+        .limit = fmt::format("exceeds the {} controllers that a program may load", loaded_controllers),
+        .cure = "run it in another one"};
   take(controllers[loaded_controllers], path, real);
   show(loaded_controllers, controllers[loaded_controllers].shown,
        std::make_index_sequence<most_controllers>());

@@ -99,7 +99,7 @@ std::string render_wiring(const WiringPageInput& in) {
        {"subtitle", escaped(text::bench_text(s))},
        {"class", all ? "pass" : "fail"},
        {"word", fmt::format("{} of {}", s.agreeing(), s.cases.size())},
-       {"line", "move in simulation as theory says"},
+       {"line", "move in simulation as theory predicts"},
        {"grid",
         in_figure(
             grid,

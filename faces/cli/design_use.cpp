@@ -85,8 +85,8 @@ base::Problems of_other_motion(const design::Sheet& sheet, const DesignArguments
   const auto refuse = [&](const std::optional<double>& given, const char* option, const char* instead) {
     if (given)
       found.push_back({option, fmt::format("{}", *given),
-                       linear ? "is a turning motor's, and this one is linear"
-                              : "is a linear motor's, and this one turns",
+                       linear ? "is for turning motors, and this motor is linear"
+                              : "is for linear motors, and this motor turns",
                        fmt::format("write {}", instead)});
   };
   refuse(linear ? a.torque_limit_Nm : a.force_limit_N, linear ? "--torque-limit" : "--force-limit",

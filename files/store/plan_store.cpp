@@ -103,7 +103,7 @@ struct PlanStore::Inside {
     const auto told = static_cast<std::int64_t>(checksum_of(cells, begin_of_checksums));
     base::Result<analysis::RunRecord> record = record_of_cells(cells, plan.columns);
     if (record && select.cell(select.columns() - 1) == Cell(told)) return record;
-    return damaged(db.path(), fmt::format("run {} is not what was written", select.whole(0)));
+    return damaged(db.path(), fmt::format("run {} differs from the written one", select.whole(0)));
   }
   base::Problems each(const std::function<void(const analysis::RunRecord&)>& visit) {
     base::Result<Statement> select = db.prepare(select_sql(stored));
@@ -172,7 +172,7 @@ base::Problems check_pages(Database& db) {
 }
 
 base::Problem foreign(const std::string& path) {
-  return {path + ":", "", "is no store of runs", "name another file: sixstep writes over its own alone"};
+  return {path + ":", "", "is no store of runs", "name another file: sixstep overwrites only its own files"};
 }
 
 }  // namespace

@@ -160,9 +160,9 @@ class Bench(Started):
                            (whole.replace(",", "|"), "holds no row of numbers"),
                            ("\x1f\x8b\x08\x00\x00" + whole, "is no text; export the recording as CSV; gzip -d"),
                            (whole.replace("0.01,", "nan,", 1), ': time "nan" is not a number; leave such rows out'),
-                           (whole + "1e300,1,0,0,0,0,0\n", "time 1e+300 in row 2161 is beyond all instruments; check the unit"),
+                           (whole + "1e300,1,0,0,0,0,0\n", "time 1e+300 in row 2161 is too large for any instrument; check the unit"),
                            (whole + "0,1,0,0,0,0,0\n", "time 0 in row 2161 does not rise; give the rows in the order"),
-                           (whole + "1,1,0,0,1e200,0,0\n", "u_ab 1e+200 in row 2161 is beyond all instruments"),
+                           (whole + "1,1,0,0,1e200,0,0\n", "u_ab 1e+200 in row 2161 is too large for any instrument"),
                            (whole + "1,1,0\n", ':2162: hall3 "" is not a number'),
                            (whole.rsplit(",", 200)[0], 'is not a number')):
             (self.path / "log.csv").write_text(text)

@@ -95,7 +95,7 @@ class CommandLine(ProgramTest):
                             ("design own.toml --quick --toml own.toml", "own.toml")):
             with self.subTest(words):
                 told = self.run_program(*words.split(), code=2).stderr
-                self.assertEqual(told, f"{name}: is read here: what is written would take its place; name another file\n")
+                self.assertEqual(told, f"{name}: is an input of this command, and the output would replace it; name another file\n")
         self.assertEqual((self.path / "a.toml").read_text(), text)
         self.assertEqual((self.path / "own.toml").read_text(), sheet)
         self.assertEqual(self.names(), ["a.toml", "link.toml", "own.toml"])
@@ -198,14 +198,14 @@ class CommandLine(ProgramTest):
                                                      "without it the sheet's nominal voltage"),
                 ("--verson", "--verson is no argument of sixstep; did you mean --version?"),
                 ("run -", "-: is no file; /dev/stdin is the one that holds what is piped into the program"),
-                ("run /dev/zero", "/dev/zero: cannot be read: it goes on beyond 128 MiB; name a file that ends")):
+                ("run /dev/zero", "/dev/zero: cannot be read: it is larger than 128 MiB; name a file that ends")):
             with self.subTest(words):
                 self.assertEqual(self.run_program(*words.split(), code=2).stderr, told + "\n")
         alone = self.run_program(code=2)
         self.assertEqual(alone.stdout, "")
         self.assertIn("To begin with: sixstep new first\n", alone.stderr)
         self.assertEqual(self.run_program("motor", "show", "a.toml", code=2).stderr,
-                         "a.toml:1:1: is a scenario, not a motor's file; its motor is maxon-251601: name that\n")
+                         "a.toml:1:1: is a scenario, not a motor's file; its motor is maxon-251601: name this motor\n")
 
     def test_help_explains_keys_and_answers_near_misses(self):
         self.assertIn("supply.voltage_V", self.run_program("help", "supply").stdout)

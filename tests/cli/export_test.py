@@ -180,7 +180,7 @@ class Gate(ProgramTest):
         text = self.run_program("export", "header", self.scenario("current-square"), "--set", "supply.voltage_V=6",
                                 "--despite", reason).stdout
         lines = text.splitlines()
-        at = lines.index("// NOT CLEARED FOR A BRIDGE. Written all the same, for this reason:")
+        at = lines.index("// NOT CLEARED FOR A BRIDGE. Written anyway, for this reason:")
         self.assertEqual(lines[at + 1:at + 3], ["//   one bench\\u000a#error two\\u000d*/ \\ \\u202e", "// What was overridden:"])
         self.assertEqual([line.split(" ")[3] for line in lines[at + 3:at + 7]],
                          ["sensors.currents", "pwm.delay_periods", "bridge.dead_time_s", "slowest"])

@@ -82,7 +82,7 @@ TEST(Units, AWrongOneIsToldWithThoseThatFit) {
   EXPECT_EQ(refused("20", ""), "must be a number without quotes; write 20");
   EXPECT_EQ(refused("20 ms", ""),
             "carries the unit ms, and this key is a plain number; write the number alone, or in %");
-  EXPECT_EQ(refused("0,5 A", "A"), "has a decimal comma; write the decimal point as a point");
+  EXPECT_EQ(refused("0,5 A", "A"), "has a decimal comma; write a point, not a comma, as the decimal mark");
   EXPECT_EQ(refused("1e400 A", "A"),
             "is outside the range of a double, 4.9e-324 to 1.8e308; correct its exponent");
   EXPECT_EQ(refused("1e99999999999 A", "A"),

@@ -73,7 +73,8 @@ std::string board_constants(const ConfigHeader& w, const study::Compiled& c) {
                      sixstep::base::six_digits(sensors.capture_Hz) + " Hz, counts up and wraps at 2^32");
   if (c.product || c.field || sensors.currents != sixstep::rig::CurrentMeasurement::phases) return timer;
   const double lsb = c.board.sensors.current.lsb(), range = c.setpoint_range;
-  return timer + constant("int", "adc_bits", std::to_string(sensors.adc_bits), "bits of each current converter") +
+  return timer +
+         constant("int", "adc_bits", std::to_string(sensors.adc_bits), "bits of each current converter") +
          constant("double", "adc_amperes_per_count", hex_float(lsb), sixstep::base::six_digits(lsb) + " A") +
          constant("double", "setpoint_range", hex_float(range),
                   sixstep::base::six_digits(range) + " in the mode's unit, at each end of a potentiometer");
@@ -187,7 +188,7 @@ base::Problems too_small(const ConfigHeader& w, const study::Compiled& c) {
            fmt::format(
                "is less than {} {}, the largest of this scenario's reference, limits, source and start",
                sixstep::base::six_digits(asked), unit),
-           "give the largest value that the drive may measure or be given, or leave it out"});
+           "give the largest value that the drive may measure or receive, or leave it out"});
   };
   look("current_A", w.range.current_A, least.current_A, "A");
   look("speed_rad_s", w.range.speed_rad_s, least.speed_rad_s, "rad/s");

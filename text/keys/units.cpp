@@ -106,7 +106,7 @@ std::string fitting_like(const std::string& unit, std::string_view wanted) {
 
 base::Problem not_known(const std::string& unit, const std::string& wanted) {
   if (unit.starts_with(','))
-    return {.limit = "has a decimal comma", .cure = "write the decimal point as a point"};
+    return {.limit = "has a decimal comma", .cure = "write a point, not a comma, as the decimal mark"};
   if (plain_spelling(unit) == "degF")
     return {.limit = "is in degrees Fahrenheit", .cure = "write (F - 32) / 1.8, in " + wanted};
   const std::string near = fitting_like(unit, wanted), fit = units_that_fit(wanted);
@@ -134,7 +134,7 @@ base::Problem other_kind(const std::string& unit, const Unit& from, const Unit& 
             .cure = "write the period, 1 over the frequency: 20 kHz is 50 us. Units that fit: " + fit};
   return {.limit = fmt::format("carries the unit {}, which is not of the kind of {}", unit, wanted.unit),
           .cure = multiplies_minutes(from, to)
-                      ? "minutes multiply here: per rpm is written /rpm or /min-1. Units that fit: " + fit
+                      ? "minutes are a factor here; write per rpm as /rpm or /min-1. Units that fit: " + fit
                       : "units that fit: " + fit};
 }
 

@@ -150,7 +150,7 @@ base::Result<Codes> codes_of(const Recording& r, const Picked& picked) {
     if (!(x >= 0.0 && x <= 7.0 && x == std::floor(x)))
       return of_recording(
           r, fmt::format("{} {:g} in row {} is no Hall code, 0 to 7", picked.column->name, x, n + 1),
-          "a code is 4 H1 + 2 H2 + H3; three lines of their own are columns hall1, hall2, hall3");
+          "a code is 4 H1 + 2 H2 + H3; three separate lines are columns hall1, hall2, hall3");
     out.push_back(static_cast<std::uint8_t>(x));
   }
   return out;
@@ -214,12 +214,12 @@ base::Problems take_voltages(const Recording& r, const Voltages& voltages, const
   if (!between) return between.problems();
   const bool lines = *between == analysis::EmfBetween::lines;
   if (count > 3 || count < (lines ? 2U : 3U))
-    return {
-        of_recording(r,
-                     fmt::format("has {} {} of {}", count, count == 1 ? "voltage" : "voltages",
-                                 lines ? "lines" : "terminals"),
-                     lines ? "u_ab and u_bc are needed; leave out the voltages to go by the codes alone"
-                           : "u_a, u_b and u_c are needed; leave out the voltages to go by the codes alone")};
+    return {of_recording(r,
+                         fmt::format("has {} {} of {}", count, count == 1 ? "voltage" : "voltages",
+                                     lines ? "lines" : "terminals"),
+                         lines
+                             ? "u_ab and u_bc are needed; leave out the voltages to use the codes alone"
+                             : "u_a, u_b and u_c are needed; leave out the voltages to use the codes alone")};
   out.voltages = lines ? analysis::RecordedVoltages::lines : analysis::RecordedVoltages::terminals;
   for (std::size_t n = 0; n < count; ++n) {
     base::Result<std::vector<double>> values = values_of(r, voltages.columns[n], "V");

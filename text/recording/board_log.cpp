@@ -212,7 +212,7 @@ class LogReader {
       if (std::any_of(columns.begin(), columns.end(),
                       [&](const study::Column& c) { return c.name == found.column->name; }))
         problems_.push_back(of_recording(r_, fmt::format("has two columns of {}", found.column->name),
-                                         "head one otherwise, or name the one that is meant"));
+                                         "rename one of them, or name the intended column"));
       else
         add(*found.column, values_of(r_, found.picked, wanted(*found.column)), times.left_out);
     }

@@ -84,8 +84,7 @@ std::string lines(const CommissionStudy& s) {
              probes, inverted == "none" ? "" : ", inverted: " + inverted,
              s.found.hall_lag_deg < 0 ? "leads" : "lags", std::fabs(s.found.hall_lag_deg)) +
          rows.text() +
-         "A drive takes this table as it is, by as_wired() of hall_survey.hpp. `sixstep motor wiring` says which wires to move "
-         "instead.\n" +
+         "A drive takes this table as it is, by as_wired() of hall_survey.hpp. `sixstep motor wiring` lists the wires to move instead.\n" +
          crossed_phases(s.subject.wires);
 }
 
@@ -130,12 +129,11 @@ std::string survey_words(const CommissionStudy& s) {
   switch (s.state.probes.verdict) {
     case HallSurvey::dead_line:
       return "Hall line at H" + inverted_word(s.state.probes.dead_pins) +
-             " never changed: look at its probe, its supply and its pull-up";
+             " never changed: check its probe, its supply and its pull-up";
     case HallSurvey::other_codes:
       return "Hall lines do not show six codes in one order: a shorted line, or probes of another kind";
     case HallSurvey::not_steady:
-      return "Hall edges of one kind lay too far apart, or were missed: the rotor does not follow the slow field steadily, "
-             "by cogging, or because dead time and diodes take too much of so small a vector; give more current";
+      return "Hall edges of one kind lay too far apart, or were missed: the rotor does not follow the slow field steadily. Causes: cogging, or dead time and diodes at a small vector; give more current";
     case HallSurvey::good:
       break;
   }
@@ -197,7 +195,8 @@ std::string commission_text(const CommissionStudy& s) {
   if (const std::string found = lines(s); !found.empty()) out += "\n" + found;
   out += "\n" + times(s) + "\n";
   if (const std::string why = commission_failure(s); !why.empty()) return out + "NOT FOUND: " + why + "\n";
-  return out + (s.holds() ? "All was found, within its bounds.\n" : "NOT ALL lies within its bounds.\n");
+  return out + (s.holds() ? "All values were found, within their bounds.\n"
+                          : "NOT ALL values lie within their bounds.\n");
 }
 
 std::string commission_toml(const CommissionStudy& s) {

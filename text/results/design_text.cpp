@@ -152,7 +152,7 @@ std::string conditions(const analysis::DesignStudy& s) {
     text += fmt::format(", down to {}",
                         quantity_text(d.lowest_speed_rad_s, std::string(motion.unit("rad/s").linear), 3));
   return text + (s.robustness ? fmt::format(", over {} motors within the tolerances", s.robustness->runs)
-                              : ", tolerances not looked at");
+                              : ", tolerances not simulated");
 }
 
 }  // namespace

@@ -107,7 +107,7 @@ std::string index_table(const PlanStory& story) {
   for (std::size_t f = 0; f < story.columns.figures.size(); ++f) {
     const auto found = indices_of(story, f);
     text += fmt::format("  {}: {}\n", visible(story.columns.figures[f].name),
-                        found ? "what it depends on, first order and in all, each with the middle 95 %"
+                        found ? "sensitivity indices, first order and total, each with the middle 95 %"
                               : "does not vary, or too few runs have it");
     if (!found) continue;
     Rows rows(Rows::Side::right);

@@ -162,16 +162,17 @@ std::string wiring_speed_text(const analysis::WiringStudy& s, double rad_s) {
 
 std::vector<std::string> wiring_scenario_lines() {
   return {
-      "A motor let free from rest, its wires straight. To cross them:",
+      "A motor starts from rest, with straight wires. To cross them:",
       "  [bridge] phases = \"bac\", [sensors] hall_lines = \"132\"",
-      "A motor that runs well still accelerates at the end of this run; the table has its speed once it has settled."};
+      "A motor that runs well still accelerates at the end of this run; the table has its settled speed."};
 }
 
 std::string bench_text(const analysis::WiringStudy& s) {
   const analysis::WiringBench& b = s.bench;
-  const char* const is = b.from == analysis::BenchCurrent::nominal          ? ", its nominal current"
-                         : b.from == analysis::BenchCurrent::tenth_of_stall ? ", a tenth of full duty's"
-                                                                            : "";
+  const char* const is = b.from == analysis::BenchCurrent::nominal ? ", its nominal current"
+                         : b.from == analysis::BenchCurrent::tenth_of_stall
+                             ? ", a tenth of the current at full duty"
+                             : "";
   const base::Result<design::MotorModel> motor = design::motor_model(s.subject.sheet);
   const bool rubs = !motor || motor->shaft.coulomb_Nm > 0 || motor->shaft.B_Nm_s > 0;
   return motion_of(s).words(fmt::format(

@@ -125,9 +125,7 @@ std::string torque_limit_origin(const study::Scenario& s) {
   const double usual = design::usual_torque_limit_Nm(*motor, s.supply.voltage_V);
   if (!(std::fabs(*limit - usual) < 0.01 * usual)) return "";
   return fmt::format(
-      "The sheet names no nominal current: control.speed.torque_limit_Nm is that of a quarter of the stall "
-      "current, {} A, and nobody has said that bridge and winding bear it. Give nominal_current_A in the motor "
-      "file, or the torque that they bear.",
+      "The sheet names no nominal current: control.speed.torque_limit_Nm is the torque of a quarter of the stall current, {} A. Check that bridge and winding withstand it; give nominal_current_A in the motor file, or the allowed torque.",
       base::rounded(usual / motor->K_t_Nm_A, 4));
 }
 

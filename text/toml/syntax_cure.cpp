@@ -32,7 +32,7 @@ constexpr std::array<Cure, 11> syntax_cures = {{
 std::string_view syntax_cure(std::string_view met) {
   for (const Cure& cure : syntax_cures)
     if (met.find(cure.met) != std::string_view::npos) return cure.cure;
-  return "mend the TOML syntax";
+  return "correct the TOML syntax";
 }
 
 }  // namespace text

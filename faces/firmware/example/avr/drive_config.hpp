@@ -25,7 +25,7 @@
 //   rotor     Hall probes 120 degrees apart, edges exactly at the sectors' ends (no probe is; sheet_tolerances of a plan moves each by up to 3 deg), captured at 1e+06 Hz, speed over six edges where the loop tolerates their delay, else one
 //   wires     phases abc at legs a b c, Hall lines 123 at H1 H2 H3
 //   load      0 N m, 0.0001 kg m2 beside the rotor's; viscous friction 0.0004 N m s
-//   heat      winding and magnets at 25 degC all along
+//   heat      winding and magnets constant at 25 degC
 //
 // Fixed point: what each quantity may reach and where the format ends, in SI
 //   current                               10 of 19.9994
@@ -51,7 +51,7 @@
 //   ATmega2560  q15              996      42 cycles             2434     129 bytes
 //   ATmega2560  q31             2606      42 cycles             4020     197 bytes
 //   ATmega2560  float           2176      42 cycles             2046     193 bytes
-// They are of the control code alone; a whole image has the board's code beside it.
+// They are of the control code alone; a whole image also has the board's code.
 #pragma once
 #if __cplusplus < 201709L && !defined(_MSC_VER)
 #error "C++20 is needed: avr-gcc 5 and 7, of Debian 12 and the Arduino IDE, have none; take clang 19 for the AVR"

@@ -33,7 +33,7 @@
 //   rotor     Hall probes 120 degrees apart, edges exactly at the sectors' ends (no probe is; sheet_tolerances of a plan moves each by up to 3 deg), captured at 7.2e+07 Hz, speed over six edges where the loop tolerates their delay, else one
 //   wires     phases abc at legs a b c, Hall lines 123 at H1 H2 H3
 //   load      0.02 N m, 0 kg m2 beside the rotor's
-//   heat      winding and magnets at 25 degC all along
+//   heat      winding and magnets constant at 25 degC
 //
 // On a core, the product drive of tests/target/scenarios/ takes, by count over 80 000 recorded periods, for a
 // control tick and a Hall interrupt at worst, without an interrupt's entry and exit (docs/reference/core-costs.md):
@@ -48,7 +48,7 @@
 //   ATmega2560  q15             5365     976 cycles            14594     229 bytes
 //   ATmega2560  q31            11568     975 cycles            20552     289 bytes
 //   ATmega2560  float           9508     976 cycles            11872     285 bytes
-// They are of the control code alone; a whole image has the board's code beside it.
+// They are of the control code alone; a whole image also has the board's code.
 // Note: a control period of 30 us is shorter than the ATmega2560's image needs, 100 us.
 #pragma once
 #if __cplusplus < 201709L && !defined(_MSC_VER)
