@@ -56,9 +56,9 @@ std::string facts(const HallIdentity& f) {
 
 /// Places of the edges of one kind over time; one colour per pin.
 SvgChart passages(const HallIdentity& f, bool rising) {
-  SvgChart chart{.title = rising ? "Rising edges, as they were passed" : "Falling edges, as they were passed",
+  SvgChart chart{.title = rising ? "Rising edges in the order of time" : "Falling edges in the order of time",
                  .x_label = "s",
-                 .y_label = "electrical degrees off their place",
+                 .y_label = "deviation from the nominal place, electrical degrees",
                  .levels = {0.0}};
   // Without voltages the absolute level is unknown: the mean of all edges defines zero.
   double level = 0.0, count = 0.0;

@@ -116,7 +116,7 @@ std::string facts(const PlanPageInput& in, std::size_t p) {
     std::string names;
     for (const analysis::InputColumn& c : plan.story.columns.strayed)
       names += (names.empty() ? "" : ", ") + escaped(c.key);
-    html += plan_fact("Strays from drive to drive", names);
+    html += plan_fact("Varies from drive to drive", names);
   }
   return html + plan_fact("Digest of all runs", base::written_hex(plan.story.series.digest)) + "</dl>\n";
 }

@@ -160,7 +160,7 @@ base::Result<std::optional<design::Sheet>> sheet_of(EmfArguments& a) {
   if (a.pole_pairs && of_sheet && *a.pole_pairs != *of_sheet)
     return base::Problem{"--pole-pairs", std::to_string(*a.pole_pairs),
                          fmt::format("contradicts the {} of {}", *of_sheet, text::visible(sheet->name)),
-                         "leave out the one that is less sure: --pole-pairs or --motor"};
+                         "leave out the less certain one: --pole-pairs or --motor"};
   if (of_sheet) a.pole_pairs = of_sheet;
   return std::optional(*sheet);
 }
@@ -266,7 +266,7 @@ Verb declare_emf(CLI::App& motor) {
   CLI::App& emf = *motor.add_subcommand(
       "emf", "constants, harmonics and shape of the back-EMF, from a recording of open terminals");
   const auto a = std::make_shared<EmfArguments>();
-  emf.add_option("SCOPE", a->path, "a CSV file: time and one to three voltages")->required();
+  emf.add_option("SCOPE", a->path, "CSV file with time and one to three voltages")->required();
   declare_common(emf, *a, "headings of the voltages, as CH1,CH2");
   emf.add_option("--pole-pairs", a->pole_pairs, "electrical turns per turn of the shaft");
   emf.add_option("--speed", a->speed_rpm,

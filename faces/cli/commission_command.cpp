@@ -139,7 +139,7 @@ Verb declare_commission(CLI::App& motor) {
       ->check(CLI::Range(0, 1'000'000'000))
       ->capture_default_str();
   verb.add_flag("--json", a->json, "for programs");
-  verb.add_option("--write", a->write, "write what was found as lines for a motor's file");
+  verb.add_option("--write", a->write, "write the results as lines for a motor's file");
   verb.add_option("--html", a->html,
                   "write a page with the currents of the test, the rotor's path and all figures");
   take_force(verb, a->force);

@@ -234,7 +234,7 @@ void declare_options(CLI::App& verb, ContestArguments& a) {
   verb.add_option("MOTOR", a.motor, "name or path of a motor file")->required();
   verb.add_option("--voltage", a.voltage_V, "bus voltage in V; without it the sheet's nominal voltage");
   verb.add_option("--settle", a.settle_s,
-                  "settling time of all speed loops in s; without it what Hall probes allow");
+                  "settling time of all speed loops in s; without it the fastest that Hall probes allow");
   verb.add_option("--current-settle", a.current_settle_s,
                   "settling time of all current loops in s; without it the design's");
   verb.add_option("--period", a.period_s, "control and PWM period in s; 30e-6");

@@ -145,7 +145,7 @@ analysis::CarriedOver designed_scenario(analysis::DesignStudy& s, const study::S
   if (!carried.kept.empty() || !carried.lost.empty())
     for (design::Warning& w : s.warnings)
       if (w.cure.starts_with("usable with"))
-        w.cure += ", as far as tried: without what bounds the board's drive";
+        w.cure += ", in a simplified run without the limits of the board's drive";
   // The verdict on a sensorless drive's loops does not cover its file, which lacks the commutation.
   if (!carried.lost.empty()) warn(carried.lost, board->control.drive != study::FirmwareKind::sensorless);
   if (!carried.differs.empty())
@@ -361,7 +361,7 @@ void declare_options(CLI::App& design, DesignArguments& a) {
 
 Verb declare_design(CLI::App& app) {
   CLI::App& design =
-      *app.add_subcommand("design", "gains from a motor's sheet, simulated and put through tolerances");
+      *app.add_subcommand("design", "gains from a motor's sheet, simulated over its tolerances");
   const auto a = std::make_shared<DesignArguments>();
   declare_options(design, *a);
   return {&design, calling(design_command, a)};

@@ -101,14 +101,14 @@ base::Result<study::Scenario> scenario_of(const ExportArguments& a) {
   const files::ReadOptions options = read_options(a.data_dir, a.sets, problems);
   if (a.despite && a.despite->find_first_not_of(" \t\r\n") == std::string::npos)
     problems.push_back({"--despite", "", "gives no reason",
-                        "give the reason for writing the header all the same; the header quotes it"});
+                        "give the reason for writing the header anyway; the header quotes it"});
   if (!problems.empty()) return problems;
   base::Result<study::Scenario> scenario = files::read_scenario(a.file, options);
   if (!scenario) return scenario;
   if (arithmetic) scenario->control.arithmetic = *arithmetic;
   const study::Arithmetic number = scenario->control.arithmetic;
   if (!a.ranges.empty() && (number == study::Arithmetic::float64 || number == study::Arithmetic::float32))
-    return base::Problem{"--range", "", "is the range of fixed point, and the drive is in floating point",
+    return base::Problem{"--range", "", "applies to fixed point, and the drive is in floating point",
                          "add --arithmetic q15 or another fixed point, or leave the range out"};
   return scenario;
 }
@@ -145,7 +145,7 @@ Exit not_cleared(const ExportArguments& a, const study::Control& control, const 
         "with these keys set, sixstep design --scenario " + text::visible(a.file) +
             " --toml NEW.toml writes a scenario with gains and requirements for it, and says whether they are usable\n",
         stderr);
-  print("no header was written; --despite REASON writes one that says all of this\n", stderr);
+  print("no header was written; --despite REASON writes one that states all of this\n", stderr);
   const Exit told = !c.unmeasured.empty() ? Exit::bad_input : c.unheld.empty() ? Exit::ok : Exit::failed;
   return graver(cli::exit_of(c.outcome), told);
 }
@@ -177,7 +177,7 @@ Exit export_header(const ExportArguments& a) {
   if (!clearance) return refused(within(a.file, clearance.problems()));
   if (!clearance->clear() && !a.despite) return not_cleared(a, scenario->control, *clearance);
   if (a.despite && clearance->clear())
-    print("--despite was not needed: the run holds, and the header says so\n", stderr);
+    print("--despite was not needed: the run holds, and the header states it\n", stderr);
   for (const std::string& note : clearance->notes)
     print(fmt::format("note: {}\n", text::visible(note)), stderr);
   wanted.clearance = &*clearance;
@@ -220,7 +220,7 @@ void declare_options(CLI::App& header, ExportArguments& a) {
 }  // namespace
 
 Verb declare_export(CLI::App& app) {
-  CLI::App& exports = *app.add_subcommand("export", "a scenario's drive for use elsewhere");
+  CLI::App& exports = *app.add_subcommand("export", "export of a scenario's drive");
   exports.require_subcommand(1);
   const auto a = std::make_shared<ExportArguments>();
   declare_options(*exports.add_subcommand(

@@ -63,7 +63,7 @@ base::Problems same_program(const batch::PlanRuns& runs, files::PlanStore& store
   const std::optional<analysis::RunRecord> now = batch::run_one(runs, (*before)->number);
   if (!now || (*now)->digest == (*before)->digest) return {};
   return {{.where = store.path() + ":",
-           .limit = fmt::format("was begun by another version of sixstep: run {} has other bits now",
+           .limit = fmt::format("was begun by another version of sixstep, and run {} now differs",
                                 (*before)->number),
            .cure = "finish it with that version, or begin anew with --force"}};
 }

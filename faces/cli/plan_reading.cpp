@@ -61,8 +61,8 @@ base::Problems add_options(const RunArguments& a, analysis::Plan& plan) {
   for (const analysis::Axis& axis : plan.axes)
     for (const std::string& set : a.sets)
       if (set.substr(0, set.find('=')) == axis.key)
-        problems.push_back(
-            {"--set " + axis.key, "", "would be lost: the plan varies this key", "give one of the two"});
+        problems.push_back({"--set " + axis.key, "", "has no effect, because the plan varies this key",
+                            "give one of the two"});
   if (a.plan.points > 0) plan.points = a.plan.points;
   if (a.runs > 0) plan.drives = a.runs;
   if (a.drive) plan.drives = static_cast<std::size_t>(*a.drive) + 1;

@@ -40,7 +40,7 @@ base::Result<files::PlanStore> store_of(const RunArguments& a, const ReadPlan& p
 
 std::string kept_in(const std::string& store) {
   if (store.empty() || !std::filesystem::exists(store)) return "";
-  return fmt::format("what has run is kept in {}, and the same command with --resume goes on",
+  return fmt::format("the finished runs are kept in {}, and the same command with --resume continues",
                      text::visible(store));
 }
 

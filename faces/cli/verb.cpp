@@ -12,7 +12,7 @@ void take_data(CLI::App& verb, std::string& folder) {
 }
 
 void take_sets(CLI::App& verb, std::vector<std::string>& sets) {
-  verb.add_option("--set", sets, "key=value, stronger than the file: --set supply.voltage_V=12")
+  verb.add_option("--set", sets, "key=value, which overrides the file: --set supply.voltage_V=12")
       ->allow_extra_args(false);
 }
 

@@ -121,8 +121,8 @@ class Bode(ProgramTest):
 
     def test_refuses_with_a_way_out_and_writes_nothing(self):
         for words, said in (((NO_LOOP, "--bode"), "has no loop"),
-                            ((LOCKED, "--bode", "--vary", "supply.voltage_V=20:28:3"), "--vary has nothing to do with --bode"),
-                            ((LOCKED, "--bode", "--out", "all"), "--out has nothing to do with --bode"),
+                            ((LOCKED, "--bode", "--vary", "supply.voltage_V=20:28:3"), "--vary has no effect with --bode"),
+                            ((LOCKED, "--bode", "--out", "all"), "--out has no effect with --bode"),
                             ((LOCKED, "--amplitude", "1"), "--bode"),
                             ((LOCKED, "--bode", "--amplitude", "-1"), "--amplitude"),
                             ((LOCKED, "--bode", "--set", "reference={ value = 0 }"), "--amplitude"),

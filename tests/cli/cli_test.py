@@ -105,7 +105,7 @@ class CommandLine(ProgramTest):
         for words, told in (("run a.toml --csv ./x --json x", "--json = x is what --csv writes; give each its own file\n"),
                             ("curve maxon-251601 --csv x --html ./x", "--html = ./x is what --csv writes; give each its own file\n"),
                             ("design maxon-251601 --toml x --json ./x", "--toml = x is what --json writes; give each its own file\n"),
-                            ("run a.toml index.toml --out out", "index.toml: would write index.html, which is to list all reports; "
+                            ("run a.toml index.toml --out out", "index.toml: would write index.html, which lists all reports; "
                                                                 "rename it, or run it without --out\n")):
             self.assertEqual(self.run_program(*words.split(), code=2).stderr, told)
         self.assertEqual(self.names(), ["a.toml", "index.toml"])
@@ -189,11 +189,10 @@ class CommandLine(ProgramTest):
                 ("run a.toml --supply-voltage=3", "--supply-voltage=3 is no argument of sixstep run; did you mean --set supply.voltage_V=..?"),
                 ("run a.toml --csv", "--csv needs a value behind it; it means: write the recorded trace"),
                 ("run a.toml --html x --html y", "--html is given more than once; keep one"),
-                ("run a.toml --runs 5 --watch", "--watch does not go together with --runs; leave one of them out"),
+                ("run a.toml --runs 5 --watch", "--watch cannot be combined with --runs; leave one of them out"),
                 ("run a.toml --jobs 0", "--jobs = 0 must be a whole number in 1 to 1024; sixstep run --help lists all"),
                 ("run a.toml --seed -1", f"--seed = -1 must be a whole number in 0 to {2**63 - 1}; sixstep run --help lists all"),
-                ("curve maxon-251601 --points 1e9", "--points = 1e9 must be a whole number, in digits alone; it means: from standstill "
-                                                    "to no load; without it 41"),
+                ("curve maxon-251601 --points 1e9", "--points = 1e9 must be a whole number, in digits alone; it means: number of points from standstill to no load; without it 41"),
                 ("curve maxon-251601 --voltage 24V", "--voltage = 24V must be a number, without its unit; it means: bus voltage, V; "
                                                      "without it the sheet's nominal voltage"),
                 ("--verson", "--verson is no argument of sixstep; did you mean --version?"),

@@ -211,7 +211,7 @@ class Plan(ProgramTest):
                             ([*varied, "--tolerances"], "--tolerances makes drives differ"),
                             ([*varied, "--watch"], "--watch reruns scenarios"),
                             ([*varied, "--vary", "supply.voltage_V=5,6"], "is varied already"),
-                            ([*varied, "--set", "supply.voltage_V=6"], "--set supply.voltage_V would be lost: the plan varies this key"),
+                            ([*varied, "--set", "supply.voltage_V=6"], "--set supply.voltage_V has no effect, because the plan varies this key"),
                             ([*varied, "--points", "4", "--sampling", "grid"], "--points = 4 applies to drawn points")):
             self.assertIn(told, self.run_program("run", self.held(), *words, code=2).stderr)
         self.assertEqual(self.names(), ["a.toml"])

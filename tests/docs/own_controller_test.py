@@ -105,7 +105,7 @@ class OwnControllerPage(unittest.TestCase):
         self.run_program("run", "own.toml", "--quiet", "--html", "own.html")
         page = (self.path / "own.html").read_text(encoding="utf-8")
         self.assertIn("PI in integers", page)
-        self.assertIn("chopping as the controller answers", page)
+        self.assertIn("chopping as the controller commands", page)
 
     def test_a_report_names_no_current_reference_that_nobody_gave(self):
         """mine.c limits no current and answers no reference."""
