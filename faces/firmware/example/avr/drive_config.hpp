@@ -6,7 +6,7 @@
 // C++20, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) have not. For the AVR: clang 19 or later.
 //
 // scenario  Current loop in Q15 on an AVR: a transducer in each phase, a tick every 100 us
-// notes     What faces/firmware/example/avr flashes; sixstep run --on avr has that very program do it. The period is what 16 MHz can keep, a fifth of the motor's L/R, and the command counts one period late: gains by pole-zero cancellation (sixstep design maxon-251601 --mode current --period 100e-6 --method cancellation --settle 1e-3).
+// notes     The drive that faces/firmware/example/avr flashes; sixstep run --on avr runs the same program. The period, a fifth of the motor's L/R, is long enough for 16 MHz, and the command takes effect one period late: gains by pole-zero cancellation (sixstep design maxon-251601 --mode current --period 100e-6 --method cancellation --settle 1e-3).
 // motor     maxon EC 45 flat 251601: 8 pole pairs, terminal R = 1.03 ohm, L = 0.000572 H, K_t = 0.0335 N m/A; J = 0.0001135 kg m2
 // current   d1 = 2.30464 V/A, d0 = -1.92486 V/A; K_p = d1 = 2.30464 V/A, K_i = (d1 + d0)/T_s = 3797.8 V/(A s); given as d1, d0; poles z = 0.83521 and 0.631286 on 0.159989/(z -0.835212); settle_s = 0.001, damping = 0.9 would give d1 = 3.77432, d0 = -2.72953
 // Gains are per control period, pwm_period_ps. Speed is mechanical, current positive into the motor.

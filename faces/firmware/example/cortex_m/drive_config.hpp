@@ -6,7 +6,7 @@
 // C++20, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) have not. For the AVR: clang 19 or later.
 //
 // scenario  Speed cascade on a Cortex-M: 70 to 300 rad/s on Hall probes
-// notes     What faces/firmware/example/cortex_m flashes, from registers: three phase currents, the bus and Hall edges, a command that counts one period late. The settling time is what sixstep design --scenario on this file allows down to 70 rad/s.
+// notes     The drive that faces/firmware/example/cortex_m flashes, from registers: three phase currents, the bus and Hall edges, a command that takes effect one period late. The settling time is the one that sixstep design --scenario on this file allows down to 70 rad/s.
 // motor     maxon EC 45 flat 251601: 8 pole pairs, terminal R = 1.03 ohm, L = 0.000572 H, K_t = 0.0335 N m/A; J = 1.35e-05 kg m2
 // current   d1 = 4.09559 V/A, d0 = -3.69396 V/A; K_p = d1 = 4.09559 V/A, K_i = (d1 + d0)/T_s = 13387.5 V/(A s); pole placement from settle_s and damping; poles z = 0.869154 +- 0.0581778j (settle_s = 0.001, damping = 0.9) on 0.0510561/(z -0.947412)
 // speed     d1 = 0.0158648 per rad/s, d0 = -0.015831 per rad/s; K_p = d1 = 0.0158648 per rad/s, K_i = (d1 + d0)/T_s = 1.12646 per rad; pole placement from settle_s and damping; poles z = 0.996555 +- 0.00166516j (settle_s = 0.04, damping = 0.9) on 0.43333/(z -0.999984)
