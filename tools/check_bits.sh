@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # check_bits.sh          builds tests/digest with every toolchain at hand, runs it, and compares with expected.txt
 # check_bits.sh --all    the same, and a missing toolchain is a failure (ctest --preset long)
-# check_bits.sh --gate   WebAssembly alone, likewise, at -O1: another compiler (clang) and another machine at once. The tests
+# check_bits.sh --gate   WebAssembly alone, also at -O1: another compiler (clang) and another machine at once. The tests
 #                        ask g++ at -O3, and under the sanitizers at -O1 and -O0; aarch64 has its place in the long run
 # check_bits.sh --renew  writes expected.txt anew from g++ -O3: after a change that is meant to change bits
 #
@@ -74,8 +74,8 @@ ask() {
   fi
 }
 
-# answer FILE EXPECTED PROGRAM..: what the program prints, compared with a table. It takes seconds, even in an
-# emulator; what runs for minutes will never end.
+# answer FILE EXPECTED PROGRAM..: compares the program's output with a table. It takes seconds, even in an
+# emulator; a program that runs for minutes will never end.
 answer() {
   local file=$1 expected=$2
   shift 2
@@ -109,7 +109,7 @@ side_by_side() {
 # ask_wasm TABLE READER: the library once, then the table's program and the one that reads texts
 ask_wasm() {
   local log=$out/$1.log
-  # node 18 asks for the switch, later ones know it. A run keeps its plant and series on the stack, of which wasm-ld
+  # node 18 needs the switch, later versions accept it. A run keeps its plant and series on the stack, of which wasm-ld
   # gives 64 KiB: too little. The stack comes first, so that an overflow leaves the memory and traps: behind the data
   # it would write over them.
   local node=(node --no-warnings --experimental-wasi-unstable-preview1 tests/digest/wasi.mjs)
