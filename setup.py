@@ -15,7 +15,7 @@ from wheel.bdist_wheel import bdist_wheel
 HERE = pathlib.Path(__file__).parent.resolve()
 FACE = HERE / "faces" / "python" / "sixstep"
 BUILD = HERE / "build" / "python"
-# What every Linux has (PEP 600); all other libraries go into the wheel, with their licences.
+# Libraries of every Linux (PEP 600); all others go into the wheel, with their licences.
 EVERYWHERE = re.compile(r"(lib(c|m|dl|rt|pthread|stdc\+\+|gcc_s|z)|ld-linux.*)\.so\.\d+")
 
 

@@ -34,7 +34,8 @@ constexpr double most_ahead = 4096;
 
 letters::Letter letter_of(const Mail& mail) {
   std::optional<letters::Letter> letter = letters::read(mail.bytes);
-  if (!letter) throw std::runtime_error("another build of sixstep leads: take the same on all nodes");
+  if (!letter)
+    throw std::runtime_error("another build of sixstep leads: install the same build on all nodes");
   return std::move(*letter);
 }
 

@@ -21,7 +21,7 @@ struct Begin {
   analysis::Plan plan;
   analysis::PlanColumns columns;
   std::uint64_t jobs = 1;  ///< threads of each process
-  std::string made_of;     ///< as in Briefing
+  std::string made_of;     ///< same value as in Briefing
 };
 /// Numbers of the runs that the receiver has to make.
 struct Runs {

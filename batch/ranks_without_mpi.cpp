@@ -9,7 +9,7 @@ base::Result<Cluster> join_ranks() {
   return base::Problem{
       "mpirun:", "",
       "started " + std::to_string(s.size) +
-          " processes, and this build knows nothing of MPI: each would make all the runs",
+          " processes, and this build has no MPI: each process would make all the runs",
       "build with MPI (cmake --preset mpi && cmake --build build/mpi), or start one process"};
 }
 

@@ -22,7 +22,7 @@ function(sixstep_room name)
   endif()
 endfunction()
 
-# Of instrumented code only what holds the engine runs long enough to be worth -O1 (CMakeLists.txt).
+# -O1 pays only for instrumented targets with the engine, which run long enough (CMakeLists.txt).
 function(sixstep_holds_engine target)
   if(SIXSTEP_SANITIZE)
     target_compile_options(${target} PRIVATE -O1)

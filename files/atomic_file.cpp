@@ -70,7 +70,7 @@ std::string random_name() {
 base::Problems refused(const Destination& to, const std::string& partial) {
   if (ReadLog::has(to.path))
     return {{.where = to.path + ":",
-             .limit = "is read here: what is written would take its place",
+             .limit = "is an input of this command, and the output would replace it",
              .cure = "name another file"}};
   for (const std::string& path : {to.path, partial})
     if (!to.force && is_foreign(path))
@@ -96,14 +96,14 @@ void sync_folder(const fs::path& folder) {
 base::Problem unwritable(const std::string& path, int reason) {
   const char* cure = "check that the folder exists and may be written, and that the disk has room";
   if (reason == EISDIR) cure = "name a file in it";
-  if (reason == ENAMETOOLONG) cure = "take a shorter name: a run that is cut short puts .partial into it";
+  if (reason == ENAMETOOLONG) cure = "choose a shorter name: an interrupted run adds .partial to it";
   if (reason == ELOOP) cure = "name the file itself, not a link that leads to itself";
   return {
       .where = path + ":", .limit = std::string("cannot be written: ") + std::strerror(reason), .cure = cure};
 }
 
 std::string saved_instead(const std::string& path) {
-  return fmt::format("what was finished is in {}; make room and run it again", partial_name(path));
+  return fmt::format("the finished part is in {}; free disk space and run again", partial_name(path));
 }
 
 std::string partial_name(const std::string& path) {

@@ -80,7 +80,7 @@ class AtomicFile {
   std::filesystem::path folder_;                    // absolute, if the file has a temporary name
   std::unique_ptr<std::string, Remove> temporary_;  // null if the file is written directly
   std::unique_ptr<int, Close> descriptor_;          // closed before the name is removed
-  std::uint64_t size_ = 0;                          // of the completely written text
+  std::uint64_t size_ = 0;                          // size of the completely written text
   bool waits_ = false;                              // a device or a pipe, whose reader may be slow
   int error_ = 0;
 };

@@ -29,7 +29,7 @@ base::Result<text::NamedText> loaded_from(const std::string& path, const std::st
   void* const object = dlopen(whole.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (object == nullptr) {
     const char* const why = dlerror();
-    return unloaded(whole, why ? why : "no reason is told");
+    return unloaded(whole, why ? why : "no reason is known");
   }
   using Own = const sixstep_controller* (*)();
   const auto own = reinterpret_cast<Own>(dlsym(object, symbol));

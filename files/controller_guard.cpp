@@ -38,7 +38,7 @@ const femode_t& usual_mode() {
 /// A controller as loaded, and as the program calls it.
 struct Guarded {
   std::string path, name, sentence;
-  std::deque<std::string> words;  ///< of its parameters; pointers to them stay valid
+  std::deque<std::string> words;  ///< texts of its parameters; pointers to them stay valid
   std::vector<sixstep_parameter> parameters;
   sixstep_controller real{}, shown{};
 };
@@ -201,10 +201,10 @@ base::Result<const sixstep_controller*> guarded_controller(const std::string& pa
   for (std::size_t n = 0; n < loaded_controllers; ++n)
     if (controllers[n].path == path && is_same(controllers[n].real, real)) return &controllers[n].shown;
   if (loaded_controllers == most_controllers)
-    return base::Problem{.where = path,
-                         .limit = fmt::format("is one more than the {} controllers that a program may load",
-                                              loaded_controllers),
-                         .cure = "run it in another one"};
+    return base::Problem{
+        .where = path,
+        .limit = fmt::format("exceeds the {} controllers that a program may load", loaded_controllers),
+        .cure = "run it in another one"};
   take(controllers[loaded_controllers], path, real);
   show(loaded_controllers, controllers[loaded_controllers].shown,
        std::make_index_sequence<most_controllers>());

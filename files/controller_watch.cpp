@@ -78,15 +78,15 @@ const char* crash_of(int signal) {
     case SIGSEGV:
       return "crashed (SIGSEGV: memory that is not its own)";
     case SIGBUS:
-      return "crashed (SIGBUS: memory that is not there)";
+      return "crashed (SIGBUS: access to memory that does not exist)";
     case SIGFPE:
       return "crashed (SIGFPE: a division by zero, or an exception that it enabled)";
     case SIGILL:
-      return "crashed (SIGILL: what this processor cannot execute)";
+      return "crashed (SIGILL: an instruction that this processor lacks)";
     case SIGTRAP:
       return "crashed (SIGTRAP)";
     default:
-      return "gave up by abort() (SIGABRT)";
+      return "ended itself by abort() (SIGABRT)";
   }
 }
 
@@ -250,7 +250,7 @@ void controllers_are_done() { ours_at_work = false; }
 
 void end_by_controller(const ControllerThread& at, const char* what) {
   note_run(at, what);
-  tell(at, what, "; the program ends here, and what it has not finished is lost");
+  tell(at, what, "; the program ends here, and unfinished results are lost");
   remove_temporary_files();
   ::syscall(SYS_exit_group, exit_of_a_fault);
   std::abort();
@@ -265,7 +265,7 @@ void tell_controllers_that_do_not_come_back() {
   for (const ControllerThread& t : threads) {
     if (t.thread == 0 || t.place == ControllerPlace::outside || t.calls != t.calls_at_stop) continue;
     note_run(t, what);  // noted before the message, after which the user may interrupt again
-    tell(t, what, "; press Ctrl-C again to end (a second SIGTERM does so, too)");
+    tell(t, what, "; press Ctrl-C again to end (or send a second SIGTERM)");
   }
 }
 

@@ -15,7 +15,7 @@ text::Resolve on_disk(const std::string& data_dir = {});
 
 struct ReadOptions {
   std::string data_dir;                  ///< contains motors/; empty: none
-  std::vector<text::Setting> overrides;  ///< from the command line, stronger than the file
+  std::vector<text::Setting> overrides;  ///< settings of the command line, which override the file
 };
 
 /// text::read_scenario_text() of the file.

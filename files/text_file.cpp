@@ -93,7 +93,7 @@ base::Result<std::string> read_text(const std::string& path) {
     text.append(block, got);
     if (text.size() > most_bytes)
       return base::Problem{.where = path + ":",
-                           .limit = "cannot be read: it goes on beyond 128 MiB",
+                           .limit = "cannot be read: it is larger than 128 MiB",
                            .cure = "name a file that ends"};
   }
   if (std::ferror(file.get())) return unreadable(path, errno);

@@ -8,7 +8,7 @@
 namespace report {
 
 struct BodePage {
-  std::string name;  ///< the scenario's
+  std::string name;  ///< name of the scenario
   const sixstep::analysis::BodeStudy& study;
   std::string command;  ///< the command that makes this page again
   std::string version;

@@ -94,7 +94,7 @@ std::string way(const CommissionStudy& s) {
 
 std::string render_commission(const CommissionPage& page) {
   const CommissionStudy& s = page.study;
-  const std::string title = escaped(text::visible("What the chip found of " + s.subject.sheet.name));
+  const std::string title = escaped(text::visible("Results of the chip on " + s.subject.sheet.name));
   const std::string body = filled(
       assets::bench_html(),
       {{"title", title},

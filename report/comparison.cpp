@@ -137,7 +137,7 @@ std::string named_figures(const std::vector<ComparedRun>& runs) {
 std::string energy_rows(const std::vector<ComparedRun>& runs) {
   using Book = sixstep::study::EnergyBook;
   static constexpr std::pair<const char*, double Book::*> entries[] = {
-      {"energy supplied", &Book::supplied},       {"of it in copper", &Book::copper},
+      {"energy supplied", &Book::supplied},       {"share of the copper", &Book::copper},
       {"in switches and diodes", &Book::devices}, {"in friction", &Book::friction},
       {"of friction in the iron", &Book::iron},   {"in the load", &Book::load}};
   const bool iron = std::any_of(runs.begin(), runs.end(), [](const ComparedRun& run) {
@@ -235,7 +235,7 @@ std::string render_comparison(const ComparisonInput& in) {
   const std::string body =
       filled(assets::comparison_html(),
              {{"title", title},
-              {"subtitle", escaped(names) + "; differences are against the first"},
+              {"subtitle", escaped(names) + "; differences are relative to the first"},
               {"runs", run_rows(in.runs)},
               {"differences", with_log ? "<p class=\"quiet\">The log's drive is taken for the one of this "
                                          "scenario.</p>\n"

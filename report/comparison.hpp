@@ -25,7 +25,7 @@ struct ComparisonInput {
   std::vector<ComparedRun> runs;  ///< two to most_compared; differences are relative to the first one, which
                                   ///< must be a run
   std::vector<sixstep::analysis::TraceComparison> laid_over{};  ///< results for a log, which is the last run
-  double shift_s = 0.0;                                         ///< of the log
+  double shift_s = 0.0;                                         ///< shift of the log
   std::string command;
   std::string version;
 };

@@ -82,7 +82,7 @@ SvgChart trade(const Contest& c) {
   std::sort(front.begin(), front.end(), [](const ContestRow* a, const ContestRow* b) {
     return a->values[analysis::ripple_figure] < b->values[analysis::ripple_figure];
   });
-  SvgCurve line{"nobody has less of both", "main", {}, {}};
+  SvgCurve line{"no controller has less of both", "main", {}, {}};
   for (const ContestRow* row : front) {
     line.x.push_back(1e3 * row->values[analysis::ripple_figure]);
     line.y.push_back(row->values[analysis::loss_figure]);
@@ -159,8 +159,7 @@ std::string render_contest(const ContestPage& page) {
   const std::string title =
       escaped(text::visible(fmt::format("Controllers of the {}", c.bench.scenario.motor)));
   const std::string subtitle = fmt::format(
-      "{} controllers, each designed by its rule, on one course: start against half of the "
-      "full load, load step, way down to the lowest speed",
+      "{} controllers, each designed by its rule, on one course: start against half of the full load, load step, deceleration to the lowest speed",
       c.entries.size());
   const std::string body =
       filled(assets::contest_html(), {{"title", title},

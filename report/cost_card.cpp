@@ -45,7 +45,7 @@ double switching_J(const Outcome& outcome) {
 
 std::string switching_row(const Outcome& outcome) {
   const double joule = switching_J(outcome);
-  return joule > 0.0 ? entry("Switching, besides<br><small>not in the account</small>", joule, "") : "";
+  return joule > 0.0 ? entry("Switching<br><small>not included</small>", joule, "") : "";
 }
 
 }  // namespace

@@ -95,11 +95,11 @@ class Charts {
                                 }}});
     if (curve_.thermal) {
       const auto limit = limits();
-      lines.push_back({"winding, continuous", "c", "what the winding stands continuously",
+      lines.push_back({"winding, continuous", "c", "torque that the winding withstands continuously",
                        [limit, per_Nm](const OnCurve& p) { return per_Nm * limit(p).continuous_Nm; }});
-      lines.push_back({"60 s", "a", "what it stands for 60 s from ambient temperature",
+      lines.push_back({"60 s", "a", "torque that it withstands for 60 s from ambient temperature",
                        [limit, per_Nm](const OnCurve& p) { return per_Nm * limit(p).short_Nm[1]; }});
-      lines.push_back({"10 s", "b", "what it stands for 10 s from ambient temperature",
+      lines.push_back({"10 s", "b", "torque that it withstands for 10 s from ambient temperature",
                        [limit, per_Nm](const OnCurve& p) { return per_Nm * limit(p).short_Nm[0]; }});
     }
     if (curve_.nominal && curve_.nominal->torque_Nm)
@@ -143,9 +143,9 @@ class Charts {
       return per_Nm * std::fmax(0.0, std::fmin(allowed_Nm, p.point->shaft_torque_Nm));
     };
     const auto limit = limits();
-    return {{"short-time", "b", "what bus and winding allow together for 10 s from ambient temperature",
+    return {{"short-time", "b", "operation that bus and winding allow for 10 s from ambient temperature",
              [=](const OnCurve& p) { return below(limit(p).short_Nm[0], p); }, CurveLine::Drawn::region},
-            {"continuous", "c", "what bus and winding allow together continuously",
+            {"continuous", "c", "operation that bus and winding allow continuously",
              [=](const OnCurve& p) { return below(limit(p).continuous_Nm, p); }, CurveLine::Drawn::region}};
   }
 
@@ -179,8 +179,8 @@ std::string curve_charts(const analysis::CurveRequest& request, const analysis::
   charts.add("efficiency", "Efficiency", "%", 180,
              {{"efficiency", "main", "shaft over supply",
                [](const OnCurve& p) { return 100 * p.point->efficiency.value_or(0.0); }}});
-  std::vector<CurveLine> power = {{"in", "main", "taken from the supply", of<&P::supplied_W>(1)},
-                                  {"out", "c", "given by the shaft", of<&P::shaft_W>(1)},
+  std::vector<CurveLine> power = {{"in", "main", "power from the supply", of<&P::supplied_W>(1)},
+                                  {"out", "c", "power delivered by the shaft", of<&P::shaft_W>(1)},
                                   {"copper", "b", "loss in the winding", of<&P::copper_W>(1)},
                                   {"friction", "a", "loss by friction", of<&P::friction_W>(1)}};
   const auto& devices = request.bench.devices;

@@ -178,9 +178,8 @@ std::string sensing_steps(const DesignStudy& s) {
     return fmt::format("<div class=\"loop\"><h3>{}</h3><p class=\"origin\">{}</p>\n{}</div>\n",
                        escaped(title), origin, derivation_table(steps, linear));
   };
-  return loop("Speed from " + edges_words(s.design.spec.rotor), "how old it is, and how coarse",
-              s.design.sensing) +
-         loop("Without a rotor sensor", "the loops are run with Hall edges where crossings would be",
+  return loop("Speed from " + edges_words(s.design.spec.rotor), "delay and resolution", s.design.sensing) +
+         loop("Without a rotor sensor", "these runs have Hall edges in place of zero crossings",
               s.sensorless);
 }
 

@@ -63,7 +63,7 @@ SvgChart recording(const EmfPage& page) {
 
 SvgChart residual(const EmfPage& page) {
   const auto& t = page.record.t_s;
-  SvgChart chart{.title = "What the fit leaves over", .x_label = "ms", .y_label = "V", .levels = {0.0}};
+  SvgChart chart{.title = "Residual of the fit", .x_label = "ms", .y_label = "V", .levels = {0.0}};
   for (std::size_t c = 0; c < page.record.channels.size(); ++c) {
     SvgCurve curve{text::visible(page.record.channels[c].name), curve_styles[c], {}, {}};
     for (std::size_t n = 0; n < t.size(); n += thinned_stride(t.size())) {

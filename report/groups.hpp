@@ -20,7 +20,7 @@ struct Curve {
 struct Group {
   std::string id, title, unit;
   int height_px = 180;
-  bool logic = false;      ///< strips of zeros and ones, one below the other
+  bool logic = false;      ///< one strip of zeros and ones per signal, below each other
   bool lanes = false;      ///< curves above each other, each with its own zero, because they would hide each
                            ///< other
   std::string quantity{};  ///< "speed", "angle", "torque", "current": the reader may choose its unit
@@ -29,7 +29,7 @@ struct Group {
 
 struct Groups {
   std::vector<Group> charts;
-  std::vector<double> angle_deg;            ///< of the shaft, counted over turns; empty if not recorded
+  std::vector<double> angle_deg;            ///< angle of the shaft, counted over turns; empty if not recorded
   std::deque<std::vector<double>> derived;  ///< computed columns (Hall bits); a deque keeps their addresses
 };
 

@@ -49,7 +49,7 @@ struct Held {
       0.0;  ///< length of the run's last part, if an envelope replaces the rows before it; else of the run
   double bus_s = 0.0;  ///< the driven pair fully on, or the vector on its circle: the voltage is at its limit
   double largest_duty = 0.0;      ///< for three legs the vector's part of the circle
-  std::optional<double> limit_A;  ///< of the current reference, in cascades
+  std::optional<double> limit_A;  ///< limit of the current reference, in cascades
   double limit_s = 0.0;           ///< the reference is at the limit
 };
 /// Empty if comparators switch the bridge: their duty is the state of a switch.

@@ -47,7 +47,7 @@ std::string facts(const HallIdentity& f) {
   } else {
     out += bench_fact("Codes never seen", text::code_word(f.mask) + " and " +
                                               text::code_word(static_cast<std::uint8_t>(f.mask ^ 7)));
-    out += bench_fact("Order and offset", "not told by codes alone");
+    out += bench_fact("Order and offset", "codes alone do not show them");
   }
   out += bench_fact("Jitter", f.jitter_deg.low > 0.0 ? text::with_bounds(f.jitter_deg, "° rms")
                                                      : fmt::format("≤ {:.2g}° rms", f.jitter_deg.high));
@@ -56,9 +56,9 @@ std::string facts(const HallIdentity& f) {
 
 /// Places of the edges of one kind over time; one colour per pin.
 SvgChart passages(const HallIdentity& f, bool rising) {
-  SvgChart chart{.title = rising ? "Rising edges, as they were passed" : "Falling edges, as they were passed",
+  SvgChart chart{.title = rising ? "Rising edges in the order of time" : "Falling edges in the order of time",
                  .x_label = "s",
-                 .y_label = "electrical degrees off their place",
+                 .y_label = "deviation from the nominal place, electrical degrees",
                  .levels = {0.0}};
   // Without voltages the absolute level is unknown: the mean of all edges defines zero.
   double level = 0.0, count = 0.0;

@@ -8,7 +8,7 @@
 namespace report {
 
 struct IdentifyPage {
-  std::string name;  ///< the log's
+  std::string name;  ///< name of the log
   const sixstep::analysis::HallIdentity& found;
   std::string command;  ///< the command that makes this page again
   std::string version;

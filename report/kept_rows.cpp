@@ -116,8 +116,7 @@ std::string rows_foretold(const Scenario& s, std::size_t most_bytes) {
   const double bytes = expected_bytes(s), most = static_cast<double>(most_bytes);
   if (!(bytes > 1.5 * most)) return "";
   return fmt::format(
-      "its events are some {:.0f} MB, and a report keeps {:.0f} MB: those of about the last {:.2g} s and of "
-      "the largest step, and an envelope of the others",
+      "its events need some {:.0f} MB, and a report keeps {:.0f} MB: the events of about the last {:.2g} s and of the largest step, and an envelope of the others",
       bytes / 1e6, most / 1e6, 0.6 * most / bytes * s.duration_s);
 }
 
@@ -128,8 +127,8 @@ std::string rows_told(const Trace& trace) {
     where =
         fmt::format("from {:.6g} s to {:.6g} s and ", trace.whole.front().from_s, trace.whole.front().to_s);
   return fmt::format(
-      "the report has every event {}from {:.6g} s on; an envelope that keeps each peak stands for {} others, "
-      "as their rows would take too much memory",
+      "the report has every event {}from {:.6g} s on; an envelope that keeps each peak replaces {} others, "
+      "because their rows would take too much memory",
       where, trace.whole.back().from_s, trace.left_out);
 }
 

@@ -48,7 +48,7 @@ std::string row(std::string_view name, const std::optional<Quantity>& q, std::st
 }
 
 std::string shape_words(const sixstep::design::MotorModel& m) {
-  if (m.shape_is_table) return "a table; closed forms go by a sine of the same torque constant";
+  if (m.shape_is_table) return "a table; closed forms use a sine of the same torque constant";
   if (m.machine.back_emf == sixstep::plant::BackEmf::sine) return "sine";
   return fmt::format("trapezoid, {}° flat", plain(m.machine.flat_deg, 4, true));
 }
@@ -132,7 +132,7 @@ std::string model_section(const sixstep::design::MotorModel& m) {
                 "iron_coulomb_mNm, part of T_c0");
   if (m.shaft.static_Nm != 0.0)
     html += row("T<sub>static</sub>", given(m.shaft.static_Nm, dry), "mechanical", "");
-  if (!m.left_to_a_run.empty()) html += row("Beside it", m.left_to_a_run, "", "motor file; the run has it");
+  if (!m.left_to_a_run.empty()) html += row("Beside it", m.left_to_a_run, "", "motor file; used in the run");
   return html + "</tbody></table>\n";
 }
 

@@ -92,7 +92,7 @@ std::string range_text(const PagePlan& plan, std::size_t k) {
   if (axis.values.empty() && plan.story.plan.sampling == analysis::Sampling::grid)
     text += fmt::format(", {} values", axis.points);
   if (axis.values.empty() && axis.spacing == analysis::Spacing::logarithmic) text += ", equal factors";
-  if (axis.strays) text += "; the controller does not know";
+  if (axis.strays) text += "; the controller keeps the nominal value";
   return text;
 }
 
@@ -116,7 +116,7 @@ std::string facts(const PlanPageInput& in, std::size_t p) {
     std::string names;
     for (const analysis::InputColumn& c : plan.story.columns.strayed)
       names += (names.empty() ? "" : ", ") + escaped(c.key);
-    html += plan_fact("Strays from drive to drive", names);
+    html += plan_fact("Varies from drive to drive", names);
   }
   return html + plan_fact("Digest of all runs", base::written_hex(plan.story.series.digest)) + "</dl>\n";
 }

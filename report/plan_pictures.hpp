@@ -14,7 +14,7 @@ namespace report {
 
 /// The runs of one plan in a histogram.
 struct DrawnHistogram {
-  std::string_view colour;  ///< of the style sheet
+  std::string_view colour;  ///< name of a colour in the style sheet
   const Histogram& histogram;
 };
 

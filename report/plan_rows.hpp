@@ -25,7 +25,7 @@ struct PlanColumn {
   bool logarithmic = false;
   bool required = false;  ///< a figure with a requirement, between these limits
   std::optional<double> min{}, max{};
-  std::vector<std::string> words{};  ///< of a key whose values are no numbers; its values are indices into
+  std::vector<std::string> words{};  ///< words of a key without numbers; its values are indices into
                                      ///< these
   std::vector<float> values{};       ///< one per row; NaN: none
 };

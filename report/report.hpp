@@ -15,7 +15,7 @@ namespace report {
 struct ReportInput {
   const sixstep::study::Scenario& scenario;
   const sixstep::study::Outcome& outcome;
-  const sixstep::study::Trace& trace;  ///< of every event, as KeptRows has it; columns of NaN are left out
+  const sixstep::study::Trace& trace;  ///< trace of KeptRows; columns of NaN are left out
   std::string command;                 ///< the command that makes this report again
   std::string version;
   std::string scenario_text;  ///< the file as written

@@ -173,7 +173,7 @@ std::string spoken(const Drawing& d, const Scale& scale) {
                             plain(flow.joule * scale.factor, 4), scale.unit);
     return text;
   };
-  return fmt::format("Energy of the run, from left to right. Comes from: {}. Goes to: {}.",
+  return fmt::format("Energy of the run, from left to right. Sources: {}. Sinks: {}.",
                      list(d.second.in, d.first.in), list(d.second.out, d.first.out));
 }
 

@@ -10,7 +10,7 @@ namespace report {
 
 struct KeyDifference {
   std::string key;                  ///< "control.current.settle_s"
-  std::vector<std::string> values;  ///< of each scenario, with unit; "–" if not given
+  std::vector<std::string> values;  ///< value in each scenario, with unit; "–" if not given
 };
 
 /// Titles, notes, recorded columns and requirements are ignored, because they do not change a run.

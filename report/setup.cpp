@@ -44,8 +44,8 @@ std::string pwm(const study::Scenario& scenario) {
   const study::FirmwareKind drive = scenario.control.drive;
   const std::string answers = drive == study::FirmwareKind::field ? "three legs, each complementary"
                               : study::answers_legs(scenario.control.own)
-                                  ? "three legs, as the controller answers"
-                              : drive == study::FirmwareKind::own ? "chopping as the controller answers"
+                                  ? "three legs, as the controller commands"
+                              : drive == study::FirmwareKind::own ? "chopping as the controller commands"
                                                                   : "";
   return fmt::format("{} ({}), {}-aligned, {}", given(p.period_s, "s"), computed(1.0 / p.period_s, "Hz"),
                      p.alignment == study::Alignment::edge ? "edge" : "centre",
@@ -146,20 +146,20 @@ std::string sensorless(const study::Sensorless& x) {
       "the no-load speed on by {}",
       computed(100 * x.greatest_load, "%"), x.overload, computed(100 * x.lowest_part, "%"),
       std::ranges::find(study::follow_choices, x.follows, &base::Choice<control::Follow>::value)->meaning);
-  if (x.commutates == study::Commutates::hall) text += ", commutated by its Hall probes while they are whole";
+  if (x.commutates == study::Commutates::hall) text += ", commutated by its Hall probes while they work";
   if (x.advance_deg > 0) text += ", commutated " + given(x.advance_deg, "deg") + " ahead";
   if (x.starts_by == study::StartsBy::pulses)
-    text += "; pulses ask how a rotor at rest stands, and where they do not see it, it is aligned";
-  if (!x.catches_spin) text += "; a rotor that turns already is not listened for";
+    text += "; pulses find the angle of a rotor at rest; if they cannot, the rotor is aligned";
+  if (!x.catches_spin) text += "; a start does not detect a rotor that already turns";
   return text;
 }
 
 std::string finite_set(const study::Field& x) {
   std::string text =
-      "currents along the magnet and across it held by the state of three legs whose predicted current is nearest";
+      "currents along the magnet and across it controlled by the leg state whose predicted current is nearest";
   if (x.switching_weight_A > 0) text += "; a leg that switches weighs " + given(x.switching_weight_A, "A");
   if (x.peak_A) text += "; at most " + given(*x.peak_A, "A");
-  if (!x.delay_compensation) text += "; a late answer is not made up for";
+  if (!x.delay_compensation) text += "; the delay is not compensated";
   if (x.harmonic_current) text += "; the current follows the shape of the back-EMF";
   return text;
 }
@@ -174,7 +174,7 @@ std::string field(const study::Field& x) {
   if (x.weakening_A) text += "; the field weakened by up to " + given(*x.weakening_A, "A");
   if (x.angle != study::FieldAngle::sensors)
     text += fmt::format("; the magnet's angle by {}", base::word(study::field_angle_choices, x.angle));
-  if (x.advance_periods) text += fmt::format("; answers turned on by {} periods", *x.advance_periods);
+  if (x.advance_periods) text += fmt::format("; commands rotated ahead by {} periods", *x.advance_periods);
   if (x.harmonic_current) text += "; the current follows the shape of the back-EMF";
   return text;
 }
@@ -249,7 +249,7 @@ std::string setup_section(const study::Scenario& scenario) {
   if (s.control.mode != control::Mode::off) add("Reference", reference(s));
   if (s.control.drive != study::FirmwareKind::field)
     add("Commutation", s.control.drive == study::FirmwareKind::sensorless
-                           ? "by the crossings or the angle that the drive finds"
+                           ? "by the drive's own zero crossings or angle"
                        : at_edge ? "at the Hall edge"
                                  : "at the next sample");
   const bool linear = s.sheet.kind == sixstep::design::MotorKind::linear;

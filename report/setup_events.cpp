@@ -72,7 +72,7 @@ std::string events(const std::vector<study::At>& events, bool linear) {
     std::string what;
     const auto add = [&what](const std::string& words) { what += (what.empty() ? "" : ", ") + words; };
     if (at.supply.voltage_V) add("supply " + given(*at.supply.voltage_V, "V"));
-    if (at.supply.sinks) add(*at.supply.sinks ? "supply takes current back" : "supply takes none back");
+    if (at.supply.sinks) add(*at.supply.sinks ? "supply takes current back" : "supply takes no current back");
     if (at.load.torque_Nm) add("load " + given(*at.load.torque_Nm, linear ? "N" : "Nm"));
     if (at.load.locked) add(*at.load.locked ? "rotor clamped" : "rotor let go");
     if (at.sensors.hall_break) add(fmt::format("line H{} breaks", at.sensors.hall_break->line));
@@ -84,7 +84,7 @@ std::string events(const std::vector<study::At>& events, bool linear) {
       if (which != study::Switch::none)
         add(fmt::format("{} {}", base::word(study::switch_choices, which), how));
     };
-    fails(at.bridge.open_switch, "obeys its gate no more");
+    fails(at.bridge.open_switch, "no longer follows its gate");
     fails(at.bridge.shorted_switch, "is shorted");
     if (at.bridge.dead_time_s) add("dead time " + given(*at.bridge.dead_time_s, "s"));
     if (const std::string words = tuned(at); !words.empty()) add(words);

@@ -40,7 +40,7 @@ std::string probes(const study::Sensors& s) {
   std::string text;
   if (s.hall_spacing != sixstep::control::HallArrangement::degrees_120) text += "; Hall probes 60° apart";
   if (s.hall_offset_deg != 0) text += "; Hall edges late by " + given(s.hall_offset_deg, "deg");
-  if (!s.hall_edges_deg.empty()) text += "; each beside that by " + listed(s.hall_edges_deg, "deg");
+  if (!s.hall_edges_deg.empty()) text += "; each additionally by " + listed(s.hall_edges_deg, "deg");
   if (s.hall_hysteresis_deg > 0) text += "; Hall hysteresis " + given(s.hall_hysteresis_deg, "deg");
   if (s.hall_delay_s > 0) text += "; Hall lines late by " + given(s.hall_delay_s, "s");
   if (s.hall_glitches_Hz > 0)

@@ -9,7 +9,7 @@ namespace report {
 
 struct Shell {
   std::string title;  ///< title of the window, escaped
-  std::string body;   ///< from the heading on
+  std::string body;   ///< HTML from the heading on
   std::string_view command;
   std::string_view version;
   std::string_view main_class = {};

@@ -38,7 +38,7 @@ std::string how(const Spectra& s) {
 
 std::string table(const Spectra& s, const DrawnSpectrum& d) {
   if (d.lines.tones.empty())
-    return fmt::format("<div><h3>{}</h3><p class=\"quiet\">No line stands out.</p></div>\n", d.title);
+    return fmt::format("<div><h3>{}</h3><p class=\"quiet\">No line exceeds the noise.</p></div>\n", d.title);
   constexpr std::size_t most = 6;
   const double periods = s.period_s > 0.0 ? (s.stretch.time.to - s.stretch.time.from) / s.period_s : 0.0;
   std::string rows;

@@ -17,7 +17,7 @@ struct DrawnSpectrum {
 
 struct Spectra {
   Stretch stretch;
-  double period_s = 0.0;  ///< of the PWM; 0 if comparators switch
+  double period_s = 0.0;  ///< period of the PWM; 0 if comparators switch
   std::vector<DrawnSpectrum> all;
 };
 

@@ -18,7 +18,7 @@ namespace report {
 struct Stretch {
   Interval time;
   long long turns = 0;  ///< electrical
-  double part = 0.0;    ///< of an electrical turn, where the stretch holds less than a whole one
+  double part = 0.0;    ///< fraction of an electrical turn, if the stretch is shorter than one turn
 };
 /// Empty if shorter than 64 PWM periods, which do not resolve frequencies.
 std::optional<Stretch> steady_stretch(const sixstep::study::Trace& trace,

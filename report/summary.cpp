@@ -100,7 +100,7 @@ std::string without_gains(const Scenario& scenario) {
   if (scenario.control.mode == Mode::off) return "off";
   if (scenario.control.drive == sixstep::study::FirmwareKind::own) return "your own";
   if (scenario.control.mode == Mode::duty) return "none: the duty is given";
-  return "no gains: the next state of the legs is chosen of all that there are";
+  return "no gains: the controller chooses the next of all leg states";
 }
 
 std::string gains(const Scenario& scenario, const Outcome& outcome) {

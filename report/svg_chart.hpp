@@ -20,7 +20,7 @@ struct SvgCurve {
 struct SvgMark {
   double x, y;
   std::string label;
-  std::string style;  ///< as of a curve
+  std::string style;  ///< style, as for a curve
 };
 
 struct SvgChart {

@@ -76,7 +76,7 @@ Panel wiring_cards(const WiringStudy& s, double height) {
   const double each =
       (height - head - card_gap * static_cast<double>(seen.size() - 1)) / static_cast<double>(seen.size());
   std::string svg = fmt::format(
-      "<text class=\"b\" x=\"0\" y=\"12\">What you see</text><text class=\"e q s\" x=\"{:.0f}\" y=\"12\">current "
+      "<text class=\"b\" x=\"0\" y=\"12\">Symptom</text><text class=\"e q s\" x=\"{:.0f}\" y=\"12\">current "
       "from rest on, {}; dashed: {}</text>\n",
       card_width, escaped(computed(shown_part * s.bench.free_s, "s")),
       escaped(computed(s.bench.current_A, "A")));

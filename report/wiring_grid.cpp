@@ -139,10 +139,10 @@ Panel wiring_grid(const WiringStudy& s) {
   const double bottom = at(5, grid_top, cell_height) + cell_height + 18;
   const sixstep::base::Motion motion = sixstep::design::motion_of(s.subject.sheet);
   const std::string key[] = {
-      "Upper: torque over one electrical turn at the same current, filled as theory has it, the line as measured; up is forward.",
-      fmt::format("Lower: the way from six starts in {}, up to ±{} electrical turns; where it hums, ±{}.",
+      "Upper: torque over one electrical turn at the same current; filled: theory, line: simulation; up is forward.",
+      fmt::format("Lower: motion from six starts in {}, up to ±{} electrical turns; if it hums, ±{}.",
                   computed(s.bench.free_s, "s"), plain(std::ceil(most), 2, true), plain(humming_turns, 1)),
-      "×: phase current without load, of that with straight wires."};
+      "×: phase current without load, relative to straight wires."};
   for (std::size_t n = 0; n < 3; ++n)
     svg += fmt::format("<text class=\"q s\" x=\"{:.0f}\" y=\"{:.0f}\">{}</text>\n", grid_left,
                        bottom + 15.0 * static_cast<double>(n), escaped(motion.words(key[n])));

@@ -32,7 +32,7 @@ std::string recipe() {
   std::string rows;
   for (const auto& [seen, step] : text::recipe_steps())
     rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", escaped(seen), escaped(step));
-  return "<table>" + table_head({"What you see", "What to do"}) + "<tbody>\n" + rows +
+  return "<table>" + table_head({"Symptom", "Cure"}) + "<tbody>\n" + rows +
          "</tbody></table>\n<p class=\"notes\">" + escaped(text::recipe_note()) + "</p>\n";
 }
 
@@ -81,7 +81,7 @@ std::string symptoms(const WiringStudy& s) {
   return "<table>" +
          motion.words(
              table_head({"", "#Ways", "#Least torque,<br>theory", "#Idle current of stalled,<br>theory",
-                         "#Speed", "#Phase rms", "#Peak", "#Supply", "What you see"})) +
+                         "#Speed", "#Phase rms", "#Peak", "#Supply", "Symptom"})) +
          "<tbody>\n" + rows + "</tbody></table>\n";
 }
 
@@ -99,13 +99,12 @@ std::string render_wiring(const WiringPageInput& in) {
        {"subtitle", escaped(text::bench_text(s))},
        {"class", all ? "pass" : "fail"},
        {"word", fmt::format("{} of {}", s.agreeing(), s.cases.size())},
-       {"line", "move in simulation as theory says"},
+       {"line", "move in simulation as theory predicts"},
        {"grid",
         in_figure(
             grid,
-            motion.words(
-                "Of each wiring its torque over an electrical turn, and what it does from six starts"))},
-       {"cards", in_figure(wiring_cards(s, grid.height), "What each kind looks like at the bench")},
+            motion.words("Torque of each wiring over an electrical turn, and its motion from six starts"))},
+       {"cards", in_figure(wiring_cards(s, grid.height), "Symptoms of each kind at the bench")},
        {"recipe", recipe()},
        {"commutation",
         in_figure(commutation_picture(s), "Hall lines, back-EMF and legs over an electrical turn")},

@@ -56,7 +56,7 @@ std::string wiring_picture(const WiringStudy& s, std::string_view version) {
   const double right = sheet_margin + grid.width + sheet_gap, below = head + grid.height + sheet_gap;
   const double width = right + cards.width + sheet_margin;
   const double height = below + std::max(commutation.height, recipe.height) + sheet_margin;
-  const std::string title = fmt::format("The 36 ways to plug in the {}", s.subject.sheet.name);
+  const std::string title = fmt::format("The 36 ways to connect the {}", s.subject.sheet.name);
   const sixstep::base::Motion motion = sixstep::design::motion_of(s.subject.sheet);
   return fmt::format(
              "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"wiring\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "

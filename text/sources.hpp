@@ -21,7 +21,7 @@ struct NamedText {
 struct Naming {
   enum class Kind { scenario, motor, rows, controller };
   Kind kind;
-  std::string name;  ///< as written
+  std::string name;  ///< name as written
   std::string from;  ///< name of the text that contains the name; empty: none
 };
 

@@ -48,7 +48,7 @@ def compiler_words(command):
 
 
 def cpu_seconds(words, folder):
-    """Of one compiler and what it starts, which no other child of this process may share: wait4 counts it alone."""
+    """CPU time of one compiler and its child processes. wait4 counts this child alone, also if others run."""
     child = subprocess.Popen(words, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     said = child.stderr.read()
     _, status, used = os.wait4(child.pid, 0)

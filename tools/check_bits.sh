@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # check_bits.sh          builds tests/digest with every toolchain at hand, runs it, and compares with expected.txt
 # check_bits.sh --all    the same, and a missing toolchain is a failure (ctest --preset long)
-# check_bits.sh --gate   WebAssembly alone, likewise, at -O1: another compiler (clang) and another machine at once. The tests
+# check_bits.sh --gate   WebAssembly alone, also at -O1: another compiler (clang) and another machine at once. The tests
 #                        ask g++ at -O3, and under the sanitizers at -O1 and -O0; aarch64 has its place in the long run
 # check_bits.sh --renew  writes expected.txt anew from g++ -O3: after a change that is meant to change bits
 #
@@ -20,7 +20,7 @@ golden=tests/digest/expected.txt
 out=build/bits
 mkdir -p "$out"
 
-# What a run needs: analysis/ is above it, and compiling it takes a fifth of all.
+# Sources that a run needs. analysis/ is above them, and compiling it takes a fifth of the time.
 mapfile -t library < <(find sixstep -name '*.cpp' -not -path 'sixstep/analysis/*' -not -path 'sixstep/study/*' -not -path 'sixstep/design/*'
   find sixstep/study/{live,session} -name '*.cpp'; find sixstep/design -name '*_scaling.cpp')
 # The other small sources together, as cmake/rooms.cmake has them.
@@ -34,12 +34,12 @@ done
 mapfile -t above < <(find sixstep/analysis -name '*.cpp' | LC_ALL=C sort)
 table=(tests/digest/main.cpp tests/digest/cases.cpp tests/digest/sessions.cpp)
 sources=("${library[@]}" "${table[@]}")
-# What reads a scenario, and what of text/ has only to compile.
+# Sources that read a scenario, and the rest of text/, which only has to compile.
 mapfile -t reader < <(find text/sources.cpp text/keys text/toml text/motor/motor_library.cpp \
   text/recording/{bench_columns,cells,column_formula,columns,decimal_marks,encoding,heading,known_names,preamble,recording,row_reader,table_head,times}.cpp \
   text/scenario/{scenario_file,scenario_family,sheet_source,reference_file,motion_words}.cpp -name '*.cpp' | LC_ALL=C sort)
 mapfile -t rest < <(find text -name '*.cpp' | LC_ALL=C sort | grep -vxF "$(printf '%s\n' "${reader[@]}")")
-# What decides about bits is what CMakeLists.txt gives the product. The rest shows that no exception is needed.
+# The flags that decide about bits are those of the product in CMakeLists.txt. The others show that no exception is needed.
 flags=(-DSIXSTEP_POSITION_PROFILE -std=c++20 -ffp-contract=off -fno-math-errno -fno-trapping-math -fno-exceptions -fno-rtti -I.)
 
 if [ "$task" = --renew ]; then
@@ -74,8 +74,8 @@ ask() {
   fi
 }
 
-# answer FILE EXPECTED PROGRAM..: what the program prints, compared with a table. It takes seconds, even in an
-# emulator; what runs for minutes will never end.
+# answer FILE EXPECTED PROGRAM..: compares the program's output with a table. It takes seconds, even in an
+# emulator; a program that runs for minutes will never end.
 answer() {
   local file=$1 expected=$2
   shift 2
@@ -109,7 +109,7 @@ side_by_side() {
 # ask_wasm TABLE READER: the library once, then the table's program and the one that reads texts
 ask_wasm() {
   local log=$out/$1.log
-  # node 18 asks for the switch, later ones know it. A run keeps its plant and series on the stack, of which wasm-ld
+  # node 18 needs the switch, later versions accept it. A run keeps its plant and series on the stack, of which wasm-ld
   # gives 64 KiB: too little. The stack comes first, so that an overflow leaves the memory and traps: behind the data
   # it would write over them.
   local node=(node --no-warnings --experimental-wasi-unstable-preview1 tests/digest/wasi.mjs)
@@ -126,7 +126,7 @@ ask_wasm() {
   else
     { echo failed; head -n 20 "$log"; } >"$out/$1.answer"
   fi
-  # That the rest of text/ and analysis/ compile there too has its place in the long run: they hardly ever do not.
+  # Only the long check compiles the rest of text/ and analysis/ there, because they hardly ever fail.
   [ "$task" != --gate ] || rest=() above=()
   if { "${cxx[@]}" "${text[@]}" "${link[@]}" "${reader[@]}" tests/digest/read_scenarios.cpp "$out/$1.o" -o "$out/$2" &&
        { [ ${#above[@]} = 0 ] || "${cxx[@]}" -fsyntax-only "${above[@]}"; } &&
@@ -138,7 +138,7 @@ ask_wasm() {
   fi
 }
 
-# platform "WORDS" "NEEDED PROGRAMS AND FILES" COMPILE.. -- RUN..: asks it beside at most one other
+# platform "WORDS" "NEEDED PROGRAMS AND FILES" COMPILE.. -- RUN..: checks it, at most two platforms at a time
 platforms=()
 platform() {
   local words=$1 needed program

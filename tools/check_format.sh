@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# check_format.sh [--fix]: every C++ file of the project as .clang-format wants it. Untracked files count too.
+# check_format.sh [--fix]: checks every C++ file of the project against .clang-format. Untracked files count too.
 set -eu
 cd "$(dirname "$0")/.."
 files() { git ls-files -z --cached --others --exclude-standard -- '*.cpp' '*.hpp' | while IFS= read -r -d '' f; do [ ! -f "$f" ] || printf '%s\0' "$f"; done; }

@@ -20,10 +20,10 @@ SOURCE = {".hpp", ".cpp", ".h", ".cc", ".inl"}
 ROOTS = ("sixstep", "batch", "text", "files", "report", "faces")
 DETERMINISTIC = {"base", "series", "control", "plant", "sim", "rig", "design"}
 
-# What C++20 promises without an operating system (the freestanding headers, and three that need none).
+# Headers of C++20 that need no operating system (the freestanding headers, and three others).
 FREESTANDING = set("array bit cfloat climits compare concepts cstddef cstdint initializer_list limits stdint.h type_traits "
                    "utility version".split())
-# Of the standard library, what the library may use: no files, clocks, threads, platform-dependent random numbers,
+# Headers of the standard library that the library may use: no files, clocks, threads, platform-dependent random numbers,
 # or containers whose order differs between platforms.
 LIBRARY = FREESTANDING | set("algorithm bitset cassert charconv cmath cstdlib cstring deque functional iterator list "
                              "map memory memory_resource numbers numeric optional ranges set span string string_view "
@@ -41,7 +41,7 @@ class Broken(Exception):
 
 
 def read_layers(document: pathlib.Path) -> dict[str, set[str]]:
-    """{layer: layers it may include}, in the order of the block; each row stands on rows above it."""
+    """{layer: layers it may include}, in the order of the block; each row names only rows above it."""
     if not document.is_file():
         raise Broken(f"{document}: missing; it holds the layers block")
     layers: dict[str, set[str]] = {}
@@ -58,7 +58,7 @@ def read_layers(document: pathlib.Path) -> dict[str, set[str]]:
                 raise Broken(f"{document}:{number}: write each layer once, as NAME -> NAMES")
             unknown = allowed - layers.keys()
             if unknown:
-                raise Broken(f"{document}:{number}: {name} stands on {', '.join(sorted(unknown))}, which no row above names")
+                raise Broken(f"{document}:{number}: {name} includes {', '.join(sorted(unknown))}, which no row above names")
             layers[name] = allowed
     raise Broken(f"{document}: no complete ```layers block")
 
@@ -119,7 +119,7 @@ def check_include(layer: str, quoted: bool, target: str, layers: dict[str, set[s
     if not CPP_HEADER.match(target) and target not in FREESTANDING:
         return f"<{target}> is not the C++ standard library's; third-party code belongs to batch, text, files, report or faces"
     if target not in LIBRARY:
-        return f"<{target}> knows files, clocks, threads or differs between platforms; do that in batch, files or faces"
+        return f"<{target}> has files, clocks or threads, or differs between platforms; do that in batch, files or faces"
     return None
 
 
@@ -144,7 +144,7 @@ def check_file(root: pathlib.Path, file: pathlib.Path, layers: dict[str, set[str
         for text in STRING.findall(line) if in_library and not include else ():
             word = FACE.search(text)
             if word:
-                breaches.append(f"{path}:{number}: says {word.group(0)}, which only one face knows; say it in the library's "
+                breaches.append(f"{path}:{number}: says {word.group(0)}, which only one face has; say it in the library's "
                                 "words and let the face translate (faces/cli/spec_words.hpp)")
         call = ELEMENTARY.search(STRING.sub('""', line)) if in_library and layer in DETERMINISTIC else None
         if call:

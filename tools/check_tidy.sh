@@ -27,7 +27,7 @@ if [ -n "$alone" ]; then
   git ls-files -z 'sixstep/*.cpp' 'batch/*.cpp' 'text/*.cpp' 'files/*.cpp' 'report/*.cpp' 'faces/*.cpp' ':!faces/firmware' ':!faces/loop/core' \
     ':!batch/ranks_with_mpi.cpp' | xargs -0 -n 1 -P "$(nproc)" bash -c 'tidy -p "$0" --checks= "$1"' "$build/sources"
 else
-  # What is compiled for the product: neither tests and benchmarks nor controllers of one's own.
+  # Sources of the product, without tests, benchmarks and users' controllers.
   python3 -c 'import json, sys; print("\n".join(sorted({entry["file"] for entry in json.load(sys.stdin)})))' <"$build/compile_commands.json" |
     grep -vE "^$PWD/data/|/(tests|benchmarks)/" | tr '\n' '\0' |
     xargs -0 -n 1 -P "$(nproc)" bash -c 'tidy -p "$0" "$1" "$2" "$3"' "$build" "${in_batches[@]}"

@@ -15,7 +15,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SERIES = ROOT / "data/scenarios/current-square-series.toml"
-# mpirun does not count what its processes took: a shell around each of them does.
+# mpirun does not count the time of its processes: a shell around each of them does.
 COUNTED = '"$0" "$@"; times >cpu.$OMPI_COMM_WORLD_RANK'
 
 

@@ -44,7 +44,7 @@ def case_errors(program, scenario, folder):
 
 def main(words):
     program = pathlib.Path(words[0] if words else ROOT / "build/release/sixstep").resolve()
-    # R: what the lean kernel runs; G: the general one.
+    # R: cases of the lean kernel; G: cases of the general kernel.
     cases = sorted((ROOT / "data/scenarios/reference").glob("[RG]*.toml"),
                    key=lambda p: (p.stem[0] == "G", int("".join(filter(str.isdigit, p.stem))), p.stem))
     print(f"{'case':<31}{'rows':>5}  {'currents':>9}  {'speed':>9}  {'angle':>9}  {'bus':>9}")

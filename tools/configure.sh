@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# configure.sh PRESET: configures build/PRESET where that is still to be done. In a copy of a checkout the folder
-# that came along would go on building the original's sources: it is made anew, which is said.
-# What was missing when it was configured, and has been installed since, is looked for anew.
+# configure.sh PRESET: configures build/PRESET if that is still to be done. In a copy of a checkout the copied folder
+# would still build the original's sources, so the script makes it anew and prints a message.
+# Programs and libraries that were missing at the last configuration are searched again.
 set -eu
 cd "$(dirname "$0")/.."
 build=build/$1 log=build/$1.log

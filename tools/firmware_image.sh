@@ -30,7 +30,7 @@ header=$(realpath "${words[1]:-$root/$example/drive_config.hpp}")
 if [ -e "$root/CMakeLists.txt" ]; then images=$root/build/firmware; else images=$PWD/firmware; fi
 out=$(realpath -m "${words[2]:-$images/$board}")
 cd "$root"
-# What the compiler would say in more words.
+# Short messages for faults that the compiler would report at length.
 refuse() { echo "$header: $1" >&2; exit 1; }
 [ -r "$header" ] || refuse "cannot be read"
 grep -q 'constexpr bool cleared = ' "$header" || refuse "does not say whether its drive is cleared for a bridge; export it anew with this sixstep"

@@ -3,8 +3,8 @@
 """gallery.py PROGRAM [--check]: writes the pages in docs/gallery and their pictures from the scenarios in data/scenarios.
 
 Titles and notes are those of the files, results those of the program, pictures are drawn from its traces at every event.
-docs/gallery/gallery.toml says which scenarios stand together and what a picture shows. With --check nothing is written; it
-fails where pages or pictures are not what they would be.
+docs/gallery/gallery.toml groups the scenarios and defines the pictures. --check writes nothing; it fails if a page or a
+picture differs from the one that would be written.
 """
 import csv
 import io
@@ -99,7 +99,7 @@ def index(plan):
 
 
 def pages(program):
-    """What the gallery consists of: {path: text}."""
+    """All files of the gallery: {path: text}."""
     plan = tomllib.loads((GALLERY / "gallery.toml").read_text(encoding="utf-8"))
     files = {GALLERY / "README.md": index(plan)}
     for page, following in zip(plan["page"], [*plan["page"][1:], None]):

@@ -19,7 +19,7 @@ LINE = 64
 
 
 def counted(case):
-    """Callgrind's text of what the benchmark repeats; 20 seconds under it, so that setting up a run is next to nothing of it."""
+    """Callgrind's output for the code that the benchmark repeats; with 20 seconds of it, the setup of a run is negligible."""
     with tempfile.TemporaryDirectory() as folder:
         out = pathlib.Path(folder) / "callgrind"
         subprocess.run(["valgrind", "--tool=callgrind", "--dump-instr=yes", f"--callgrind-out-file={out}",
@@ -28,7 +28,7 @@ def counted(case):
 
 
 def instructions(text):
-    """{address: (times executed, function)}; costs of a call belong to who is called and stand behind a line "calls="."""
+    """{address: (times executed, function)}; the costs of a call belong to the called function and follow a line "calls="."""
     names, costs, function, address, of_call = {}, {}, "", 0, False
     for line in text.splitlines():
         named = re.match(r"c?fn=\((\d+)\)(?: (.*))?", line)

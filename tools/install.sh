@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# install.sh SECTION..: installs what tools/packages.txt lists in these sections and this machine lacks, then the
-# browser parts of package-lock.json. Says what it does; when all is there it is silent and takes milliseconds.
+# install.sh SECTION..: installs the missing packages of these sections of tools/packages.txt, then the
+# browser parts of package-lock.json. Prints each action; if all is installed it prints nothing and takes milliseconds.
 set -eu
 cd "$(dirname "$0")/.."
 

@@ -87,11 +87,11 @@ def build(mutants):
         if not copy.exists() or copy.read_bytes() != text:  # else nothing to compile anew
             copy.parent.mkdir(parents=True, exist_ok=True)
             copy.write_bytes(text)
-    for folder, _, names in os.walk(source):  # what the tree no longer has must not be built
+    for folder, _, names in os.walk(source):  # files that the tree no longer has must not be built
         for file in (Path(folder) / name for name in names):
             if str(file.relative_to(source)) not in copied:
                 file.unlink()
-    if not (source / "node_modules").exists():  # the report's chart library, which the build asks for
+    if not (source / "node_modules").exists():  # the report's chart library, which the build needs
         (source / "node_modules").symlink_to(root / "node_modules")
     subprocess.run(["cmake", "-S", source, "-B", work / "build", "-G", "Ninja", "-DSIXSTEP_BENCHMARKS=OFF", "-DCMAKE_BUILD_TYPE=None",
                     f"-DCMAKE_CXX_FLAGS=-std=c++20 -O1 -w -include {source / 'switch.hpp'}"], check=True, stdout=subprocess.DEVNULL)

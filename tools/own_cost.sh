@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# own_cost.sh SOURCE [SCENARIO]   what a controller of your own costs on emulated Cortex-M, RISC-V and ATmega2560 cores: instructions of a step and
+# own_cost.sh SOURCE [SCENARIO]   costs of a user's controller on emulated Cortex-M, RISC-V and ATmega2560 cores: instructions of a step and
 #                                 of a Hall interrupt, flash and RAM (docs/howto/write-a-controller.md)
-# own_cost.sh --help              what else may be said; needs the compilers of tools/install.sh target
+# own_cost.sh --help              further options; needs the compilers of tools/install.sh target
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 case " $* " in *" --program "* | *" --help "*) ;; *) "$root/run" --version >/dev/null ;; esac

@@ -72,7 +72,7 @@ def share(error):
 
 
 def speed_table(engine, users):
-    """A row for each case and kernel that runs it; behind the kernel that its scenario asks for one of a user's run."""
+    """A row for each case and kernel that runs it; after the scenario's own kernel, a row of a user's run."""
     rows = [["case", "kernel", "ns per 30 us", "simulated s per s", "error of the current", *(f"RK4 {y}" for y in YARDSTICKS)]]
     for kernel in KERNELS:
         for case, runs in solvers_of(engine).items():
@@ -93,7 +93,7 @@ def speed_table(engine, users):
 
 
 def short_table(speed):
-    """Of the table of speed: a row for each case, on the kernel that its scenario asks for, beside the textbook's yardstick."""
+    """Excerpt of the table of speed: a row for each case, on its scenario's own kernel, with the textbook's solver for comparison."""
     rows = [["case", "simulated s per s, engine alone", "simulated s per s, as a user runs it", speed[0][4], *speed[0][5:7]]]
     for alone, user in zip(speed, speed[1:]):
         if user[0] == alone[0] + AS_USER:
@@ -138,7 +138,7 @@ def markdown(rows):
 
 
 def shape(rows):
-    """What must be the same on every machine: the first row and the first column."""
+    """Cells that must be the same on every machine: the first row and the first column."""
     return [rows[0], [row[0] for row in rows]]
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""position_table.py [PROGRAM]: what each way to know the rotor's position does on the maxon 251601, as Markdown.
+"""position_table.py [PROGRAM]: results of each method of rotor sensing on the maxon 251601, as Markdown.
 
   --renew          also writes the table between its markers in docs/howto/choose-a-rotor-sensor.md
   --check          fails where the table there is another one
@@ -89,9 +89,9 @@ SOURCES = {
     "flux linkage": ("sensorless", "", "bus_noise_V = 0.01", 'sensorless.follows = "flux-linkage"'),
 }
 
-# What the chip calls for each, as rig/sensors.hpp, hall_interpolator.hpp, rotor_decoder.hpp and control/sensorless/
-# sensorless_drive.hpp do, in a period in which an edge, a line or a commutation falls: blocks and functions of
-# data/cores/blocks.txt. A timer counts the encoder's lines. What learning edges takes is over when they are learned.
+# Functions that the chip calls for each method, as in rig/sensors.hpp, hall_interpolator.hpp, rotor_decoder.hpp and control/sensorless/
+# sensorless_drive.hpp, in a period with an edge, a line or a commutation: blocks and functions of
+# data/cores/blocks.txt. A timer counts the encoder's lines. The cost of learning edges is left out, because it ends.
 COSTS_ON = (("Cortex-M0", "q15"), ("Cortex-M4F", "float"))
 HALL_EDGE = (("hall", "hall_step"), ("hall_speed", "sector_time+hall_speed_edge+hall_position_edge"))
 HALL = (*HALL_EDGE, ("hall_speed", "hall_speed"), ("hall_speed", "sector_fraction+hall_position"))
@@ -146,7 +146,7 @@ class Bench:
         self.program, self.folder = program, folder
 
     def figures(self, name, text):
-        """What was asked for, None where there is none; nothing where the drive did not stay alive."""
+        """The requested figures, None for a missing one; empty if the drive tripped."""
         file = self.folder / (re.sub(r"[^a-z0-9]+", "-", name.lower()) + ".toml")
         file.write_text(text, encoding="utf-8")
         done = subprocess.run([self.program, "run", str(file), "--json", str(file.with_suffix(".json")), "--quiet", "--force"],
@@ -198,7 +198,7 @@ MEASURED = ["known by"] + [f"{speed}" for speed in SPEEDS] + ["lowest", "ripple"
 
 
 def kept_rows(table):
-    """What was measured, as it stands on the page: every way once, in the order of this file."""
+    """The measured rows of the page: every method once, in the order of this file."""
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in table.splitlines()]
     if rows[0][:len(MEASURED)] != MEASURED or [row[0] for row in rows[2:]] != list(SOURCES):
         sys.exit("docs/howto/choose-a-rotor-sensor.md has other rows or columns: tools/position_table.py PROGRAM --renew measures them")

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# tools/renew_docs.sh [PROGRAM] [--screenshots]   writes anew what the documents show of the program: the page of all keys,
+# tools/renew_docs.sh [PROGRAM] [--screenshots]   renews the program's output in the documents: the page of all keys,
 # the gallery with its pictures, the tables of the cores, the example's headers, and the printed blocks of every page. With --screenshots also the photographed pages, which
-# need Chromium (tools/install.sh test). Look at `git diff` afterwards: what changed must be what was meant to change.
+# need Chromium (tools/install.sh test). Look at `git diff` afterwards: only intended changes may appear.
 set -eu
 cd "$(dirname "$0")/.."
 program=build/release/sixstep

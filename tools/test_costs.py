@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""test_costs.py [BUILD]          what each test costs: the dearest first, of what ctest has measured in this build
-test_costs.py [BUILD] --write  those that take long into tests/slow.txt: ./test leaves them out, .ci/run has them"""
+"""test_costs.py [BUILD]          prints the time of each test that ctest has measured in this build, the longest first
+test_costs.py [BUILD] --write  writes the long tests into tests/slow.txt: ./test leaves them out, .ci/run has them"""
 import pathlib
 import sys
 

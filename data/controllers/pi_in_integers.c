@@ -33,7 +33,7 @@ static int32_t milli(sixstep_real x) {
 
 static const sixstep_parameter numbers[] = {
     {"bandwidth", "", "current loop's bandwidth, as a part of the control frequency", (sixstep_real)0.05, (sixstep_real)0.001, (sixstep_real)0.15},
-    {"limit_A", "A", "largest current that the speed loop asks for", 10, (sixstep_real)0.1, 1000},
+    {"limit_A", "A", "largest current that the speed loop may request", 10, (sixstep_real)0.1, 1000},
 };
 
 static const char* design(const sixstep_given* given, const sixstep_real* values, void* config) {

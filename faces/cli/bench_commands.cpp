@@ -160,7 +160,7 @@ base::Result<std::optional<design::Sheet>> sheet_of(EmfArguments& a) {
   if (a.pole_pairs && of_sheet && *a.pole_pairs != *of_sheet)
     return base::Problem{"--pole-pairs", std::to_string(*a.pole_pairs),
                          fmt::format("contradicts the {} of {}", *of_sheet, text::visible(sheet->name)),
-                         "leave out the one that is less sure: --pole-pairs or --motor"};
+                         "leave out the less certain one: --pole-pairs or --motor"};
   if (of_sheet) a.pole_pairs = of_sheet;
   return std::optional(*sheet);
 }
@@ -191,9 +191,9 @@ Exit emf_command(const EmfArguments& arguments) {
   EmfArguments a = arguments;
   base::Problems problems = check(a);
   hold(problems, "--speed", a.speed_rpm, analysis::built_shaft_rpm,
-       "give the shaft's speed in rpm: that of the voltage is so many times the pole pairs");
+       "give the shaft's speed in rpm, not the electrical speed, which is the shaft's times the pole pairs");
   hold(problems, "--tolerance", a.tolerance_percent, base::strictly_between(0, 100),
-       "5 is usual: magnets differ by so much");
+       "5 is usual, because magnets differ by a few percent");
   if (!problems.empty()) return refused(problems);
   const base::Result<std::optional<design::Sheet>> sheet = sheet_of(a);
   if (!sheet) return refused(sheet.problems());
@@ -230,8 +230,8 @@ void declare_common(CLI::App& verb, BenchArguments& a, const char* voltages) {
   verb.add_option("--voltages", a.columns.voltages, voltages)->delimiter(',');
   verb.add_option(
       "--between", a.between,
-      "what the probes hung between: lines, two terminals; or star, a terminal and one common point");
-  verb.add_option("--interval", a.interval_s, "time from row to row, s, where no column is the time");
+      "points between which the probes were connected: lines, two terminals; or star, a terminal and a common point");
+  verb.add_option("--interval", a.interval_s, "time from row to row, s, if no column holds the time");
   verb.add_flag("--json", a.json, "for programs");
   verb.add_option("--html", a.html, "write a page with charts");
   take_force(verb, a.force);
@@ -242,19 +242,21 @@ void declare_common(CLI::App& verb, BenchArguments& a, const char* voltages) {
 
 Verb declare_identify(CLI::App& motor) {
   CLI::App& identify = *motor.add_subcommand(
-      "identify", "wires, spacing, places and jitter of Hall probes, from a log of a motor that is turned");
+      "identify", "wires, spacing, positions and jitter of Hall probes, from a log of a turning motor");
   const auto a = std::make_shared<BenchArguments>();
   identify
-      .add_option("LOG", a->path,
-                  "a CSV file: time, hall1, hall2, hall3 or hall, and u_ab, u_bc, u_ca or u_a, u_b, u_c")
+      .add_option(
+          "LOG", a->path,
+          "CSV file with time, Hall lines (hall1, hall2, hall3, or hall for their code) and, if recorded, voltages (u_ab, u_bc, also u_ca; or u_a, u_b, u_c)")
       ->required();
   identify
       .add_option("--hall", a->columns.hall,
                   "headings of the Hall lines, as CH1,CH2,CH3, or of one column of codes")
       ->delimiter(',');
   declare_common(identify, *a, "headings of the voltages, as CH4,CH5,CH6");
-  identify.add_option("--pole-pairs", a->pole_pairs,
-                      "place every edge of the shaft's turn apart; without it the six that repeat");
+  identify.add_option(
+      "--pole-pairs", a->pole_pairs,
+      "locate each edge of a shaft turn separately; without it the six edges of an electrical turn");
   identify.add_option("--write", a->write,
                       "write the lines of a scenario, and the table for a user's firmware");
   return {&identify, calling(identify_command, a)};
@@ -264,12 +266,14 @@ Verb declare_emf(CLI::App& motor) {
   CLI::App& emf = *motor.add_subcommand(
       "emf", "constants, harmonics and shape of the back-EMF, from a recording of open terminals");
   const auto a = std::make_shared<EmfArguments>();
-  emf.add_option("SCOPE", a->path, "a CSV file: time and one to three voltages")->required();
+  emf.add_option("SCOPE", a->path, "CSV file with time and one to three voltages")->required();
   declare_common(emf, *a, "headings of the voltages, as CH1,CH2");
   emf.add_option("--pole-pairs", a->pole_pairs, "electrical turns per turn of the shaft");
-  emf.add_option("--speed", a->speed_rpm, "of the shaft, rpm: with the frequency it gives the pole pairs");
-  emf.add_option("--motor", a->motor, "hold it against this sheet, which gives the pole pairs too");
-  emf.add_option("--tolerance", a->tolerance_percent, "how far a sheet may be off, percent; without it 5");
+  emf.add_option("--speed", a->speed_rpm,
+                 "speed of the shaft, rpm; with the frequency it gives the pole pairs");
+  emf.add_option("--motor", a->motor, "compare with this motor's sheet, which also gives the pole pairs");
+  emf.add_option("--tolerance", a->tolerance_percent,
+                 "tolerance of the sheet's constants, percent; without it 5");
   take_data(emf, a->data_dir);
   emf.add_option("--write", a->write, "write the lines of a motor's file");
   emf.add_option("--shape", a->shape, "write the shape as a table that back_emf_file reads");

@@ -33,7 +33,7 @@ base::Problems strangers(const RunArguments& a) {
   const auto refuse = [&](const char* option, bool given) {
     if (given)
       problems.push_back({.where = option,
-                          .limit = "has nothing to do with --bode",
+                          .limit = "has no effect with --bode",
                           .cure = "leave it out; --bode has --html, --json and --csv"});
   };
   refuse("--out", !a.out.empty());

@@ -118,28 +118,30 @@ Exit commission_command(const CommissionArguments& a) {
 
 Verb declare_commission(CLI::App& motor) {
   CLI::App& verb = *motor.add_subcommand(
-      "commission", "let the chip find out what hangs at it, and hold it against the motor");
+      "commission", "simulate how the drive measures its motor, and compare the results with the motor");
   const auto a = std::make_shared<CommissionArguments>();
   verb.add_option("MOTOR", a->motor, "name or path of a motor file")->required();
   verb.add_option("--voltage", a->voltage_V, "bus voltage, V; without it the sheet's nominal voltage");
   verb.add_option(
       "--current", a->current_A,
-      "of the test, A, that the motor stands for seconds; without it twice the nominal one, or twice a tenth "
-      "of what full duty drives where the sheet names none; never more than half of what the bus drives through the resting motor");
-  verb.add_option("--phases", a->phases, "of the motor at legs a, b, c: abc, bca, cab, acb, cba or bac")
+      "test current, A; the motor must withstand it for seconds. Default: twice the nominal current; if the sheet "
+      "names none, a fifth of the current at full duty. At most half of the current that the bus drives through the motor at rest");
+  verb.add_option("--phases", a->phases,
+                  "phases of the motor at legs a, b, c: abc, bca, cab, acb, cba or bac")
       ->capture_default_str();
   verb.add_option("--wires", a->wires, "Hall probes at pins H1, H2, H3: 123, 231, 312, 132, 321 or 213")
       ->capture_default_str();
   verb.add_option("--inverted", a->inverted, "pins that read their probe inverted: none, 1, 12 and so on")
       ->capture_default_str();
-  verb.add_option("--offset", a->offset_deg, "of all Hall edges, electrical degrees")->capture_default_str();
-  verb.add_option("--seed", a->seed, "of the converters' noise")
+  verb.add_option("--offset", a->offset_deg, "offset of all Hall edges, electrical degrees")
+      ->capture_default_str();
+  verb.add_option("--seed", a->seed, "seed of the converters' noise")
       ->check(CLI::Range(0, 1'000'000'000))
       ->capture_default_str();
   verb.add_flag("--json", a->json, "for programs");
-  verb.add_option("--write", a->write, "write what was found as lines for a motor's file");
+  verb.add_option("--write", a->write, "write the results as lines for a motor's file");
   verb.add_option("--html", a->html,
-                  "write a page with the currents of the test, the rotor's way and all figures");
+                  "write a page with the currents of the test, the rotor's path and all figures");
   take_force(verb, a->force);
   take_data(verb, a->data_dir);
   verb.add_flag("--quiet", a->quiet, "no text, only files and errors");

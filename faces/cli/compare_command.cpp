@@ -51,7 +51,7 @@ void add(study::Trace& trace, study::Row row, const std::vector<study::Column>& 
 struct Compared {
   study::Scenario scenario;
   const loop::Core* core = nullptr;
-  std::size_t most_bytes = report::most_row_bytes;  ///< of events
+  std::size_t most_bytes = report::most_row_bytes;  ///< limit of the memory for events
   study::Trace grid = all_columns();
   std::optional<report::KeptRows> events;
   std::optional<study::Outcome> outcome;
@@ -95,7 +95,7 @@ std::vector<Compared> on_one_grid(const std::vector<Job>& jobs) {
 /// A board's log.
 struct Log {
   std::string name;
-  std::optional<double> shift_s;  ///< as requested; empty: fitted
+  std::optional<double> shift_s;  ///< requested shift; empty: fitted
   text::BoardLog read;
   study::Trace grid;
   LogFound found;
@@ -205,7 +205,8 @@ base::Problems check_comparison(const RunArguments& arguments) {
   if (arguments.files.size() <= report::most_compared) return {};
   return {{.where = "--html",
            .value = fmt::format("{} files", arguments.files.size()),
-           .limit = fmt::format("is more than the {} that one page can tell apart", report::most_compared),
+           .limit =
+               fmt::format("must be at most {}, because one page has no more colours", report::most_compared),
            .cure = "compare fewer, or write one report each with --out DIR"}};
 }
 

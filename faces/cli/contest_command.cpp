@@ -61,7 +61,7 @@ std::string file_name(std::string_view name) {
 /// The output files. They are opened before the work, so that an unwritable path fails at once.
 struct ContestFiles {
   std::optional<files::AtomicFile> json, csv, html;
-  std::vector<files::AtomicFile> scenarios;  ///< of the entries that have one, in their order
+  std::vector<files::AtomicFile> scenarios;  ///< files of the entries with a scenario, in their order
 
   base::Problems open(const ContestArguments& a, const std::vector<analysis::ContestEntry>& entries) {
     base::Problems found = duplicate_outputs({{"--json", a.json}, {"--csv", a.csv}, {"--html", a.html}});
@@ -150,7 +150,7 @@ Exit own_without_run(const analysis::Contest& contest) {
     const analysis::ContestEntry& entry = contest.entries[n];
     if (n < analysis::contestants().size() || entry.scenario) continue;
     complain({{"--own " + std::string(entry.who->name), "", "took no part, and its row has no figure",
-               "give it what follows"}});
+               "correct the faults that the next lines name"}});
     complain(entry.scenario.problems());
     exit = Exit::failed;
   }
@@ -232,11 +232,11 @@ Exit contest_command(const ContestArguments& a) {
 
 void declare_options(CLI::App& verb, ContestArguments& a) {
   verb.add_option("MOTOR", a.motor, "name or path of a motor file")->required();
-  verb.add_option("--voltage", a.voltage_V, "of the bus in V; without it the sheet's nominal voltage");
+  verb.add_option("--voltage", a.voltage_V, "bus voltage in V; without it the sheet's nominal voltage");
   verb.add_option("--settle", a.settle_s,
-                  "settling time of all speed loops in s; without it what Hall probes allow");
+                  "settling time of all speed loops in s; without it the fastest that Hall probes allow");
   verb.add_option("--current-settle", a.current_settle_s,
-                  "of all current loops in s; without it the design's");
+                  "settling time of all current loops in s; without it the design's");
   verb.add_option("--period", a.period_s, "control and PWM period in s; 30e-6");
   verb.add_option("--board", a.board,
                   "a scenario whose supply, bridge, PWM and sensors all controllers have");
@@ -244,17 +244,19 @@ void declare_options(CLI::App& verb, ContestArguments& a) {
                                      std::pair{"--current-settle", "s"}, std::pair{"--period", "s"}})
     take_unit(verb.get_option(option), unit);
   declare_own(verb, a.own);
-  verb.add_option("--runs", a.drives,
-                  "drives of the sheet's tolerances for each controller; 0: the nominal one alone")
+  verb.add_option(
+          "--runs", a.drives,
+          "number of drives within the sheet's tolerances, for each controller; 0: only the nominal drive")
       ->check(CLI::Range(0, 100'000))
       ->capture_default_str();
-  verb.add_option("--seed", a.seed, "of these drives")->capture_default_str();
+  verb.add_option("--seed", a.seed, "seed of these drives")->capture_default_str();
   take_store(verb, a.store, "an SQLite file for the figures of each of these drives, one row each");
   verb.add_flag("--resume", a.resume, "continue with the drives that --store does not have yet");
   verb.add_option("--json", a.json, "write everything; - for standard output instead of the tables");
   verb.add_option("--csv", a.csv, "write a line per controller; - for standard output");
-  verb.add_option("--html", a.html,
-                  "write a page with pictures: who has the least of what, each one's answer to the load");
+  verb.add_option(
+      "--html", a.html,
+      "write a page with pictures: the best controller by each figure, and each controller's response to the load");
   verb.add_option("--write", a.write, "a folder for the scenario of each controller, for sixstep run");
   take_force(verb, a.force);
   take_data(verb, a.data_dir);

@@ -15,7 +15,7 @@ namespace cli {
 
 struct OwnArguments {
   std::vector<std::string> files;   ///< shared objects
-  std::vector<std::string> counts;  ///< files of tools/own_cost.sh, for some of them
+  std::vector<std::string> counts;  ///< files of tools/own_cost.sh, for some of the controllers
 };
 
 void declare_own(CLI::App& verb, OwnArguments& own);

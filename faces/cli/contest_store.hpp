@@ -10,7 +10,7 @@
 namespace cli {
 
 struct ContestStoring {
-  std::string path;  ///< of the store; empty: one that is removed at the program's end
+  std::string path;  ///< path of the store; empty: a temporary store, removed at the program's end
   bool resume = false, force = false;
   std::string command;
 };

@@ -179,15 +179,18 @@ Exit curve_command(const CurveArguments& a) {
 void declare_options(CLI::App& curve, CurveArguments& a) {
   curve.add_option("MOTOR", a.motor, "name or path of a motor file")->required();
   curve.add_option("--voltage", a.voltage_V, "bus voltage, V; without it the sheet's nominal voltage");
-  curve.add_option("--duty", a.duty, "in (0, 1]; without it 1, full voltage");
-  curve.add_option("--chopping", a.chopping, "soft, hard or complementary, where the duty is below 1");
-  curve.add_option("--pwm-period", a.pwm_period_s, "s, where the duty is below 1; without it 30e-6");
-  curve.add_option("--on-resistance", a.on_resistance_ohm, "of a switch, ohm; without it 0");
+  curve.add_option("--duty", a.duty, "duty in (0, 1]; without it 1, full voltage");
+  curve.add_option("--chopping", a.chopping, "chopping for a duty below 1: soft, hard or complementary");
+  curve.add_option("--pwm-period", a.pwm_period_s, "PWM period in s, for a duty below 1; without it 30e-6");
+  curve.add_option("--on-resistance", a.on_resistance_ohm, "on-resistance of a switch, ohm; without it 0");
   curve.add_option("--diode-drop", a.diode_drop_V, "V; without it 0");
-  curve.add_option("--points", a.points, "from standstill to no load; without it 41");
-  curve.add_option("--ambient", a.ambient_degC, "air around the motor, degC; without it 25");
-  curve.add_option("--winding", a.winding_degC, "how warm the winding is on the curve, degC; without it 25");
-  curve.add_option("--housing", a.housing_degC, "and the housing with its magnets; without it 25");
+  curve.add_option("--points", a.points, "number of points from standstill to no load; without it 41");
+  curve.add_option("--ambient", a.ambient_degC,
+                   "temperature of the air around the motor, degC; without it 25");
+  curve.add_option("--winding", a.winding_degC,
+                   "temperature of the winding on the curve, degC; without it 25");
+  curve.add_option("--housing", a.housing_degC,
+                   "temperature of housing and magnets on the curve, degC; without it 25");
   curve.add_option("--csv", a.csv, "write all points with all columns");
   curve.add_option("--json", a.json, "write everything; - for standard output instead of the table");
   curve.add_option("--html", a.html, "write a page with charts");
@@ -201,7 +204,7 @@ void declare_options(CLI::App& curve, CurveArguments& a) {
 
 Verb declare_curve(CLI::App& app) {
   CLI::App& curve =
-      *app.add_subcommand("curve", "torque-speed curve of a motor, of a linear one force over speed");
+      *app.add_subcommand("curve", "torque-speed curve of a motor; force over speed of a linear motor");
   const auto a = std::make_shared<CurveArguments>();
   declare_options(curve, *a);
   return {&curve, calling(curve_command, a)};

@@ -145,7 +145,7 @@ analysis::CarriedOver designed_scenario(analysis::DesignStudy& s, const study::S
   if (!carried.kept.empty() || !carried.lost.empty())
     for (design::Warning& w : s.warnings)
       if (w.cure.starts_with("usable with"))
-        w.cure += ", as far as tried: without what bounds the board's drive";
+        w.cure += ", in a simplified run without the limits of the board's drive";
   // The verdict on a sensorless drive's loops does not cover its file, which lacks the commutation.
   if (!carried.lost.empty()) warn(carried.lost, board->control.drive != study::FirmwareKind::sensorless);
   if (!carried.differs.empty())
@@ -290,56 +290,58 @@ Exit design_command(const DesignArguments& a) {
 }
 
 void declare_options(CLI::App& design, DesignArguments& a) {
-  design.add_option("MOTOR", a.motor, "motor's name or file; with --scenario that one's");
+  design.add_option("MOTOR", a.motor, "motor's name or file; with --scenario the scenario's motor");
   design.add_option("--scenario", a.scenario, "a scenario whose board, motor and task are designed for");
   design.add_option("--mode", a.mode, "current, speed or position; current");
   design.add_option(
       "--settle", a.settle_s,
       "settling time of the mode's PI loop in s; 1e-3 or 8 L/R if shorter, speed 10e-3 or what sensor and torque allow");
-  design.add_option("--damping", a.damping, "of the placed poles, above 0 to 1; 0.9");
+  design.add_option("--damping", a.damping, "damping of the placed poles, above 0 to 1; 0.9");
   design.add_option(
       "--current-settle", a.current_settle_s,
       "speed, position: settling time of the current loop in s; 1e-3, 8 L/R or a tenth of the speed loop's, the shortest");
   design.add_option("--method", a.method, "pole-placement, cancellation or symmetrical-optimum")
       ->capture_default_str();
   design.add_option("--bandwidth", a.bandwidth_rad_s,
-                    "cancellation, symmetrical-optimum: of the loop, in rad/s");
+                    "cancellation, symmetrical-optimum: bandwidth of the loop, in rad/s");
   design.add_option("--period", a.period_s, "control and PWM period in s; 30e-6");
-  design.add_option("--voltage", a.voltage_V, "of the bus in V; the sheet's nominal voltage");
+  design.add_option("--voltage", a.voltage_V, "bus voltage in V; the sheet's nominal voltage");
   design.add_option("--torque-limit", a.torque_limit_Nm,
-                    "speed, position: in N m; that of 2.5 times the nominal current");
-  design.add_option("--force-limit", a.force_limit_N, "linear motor, for --torque-limit: in N");
+                    "speed, position: torque limit in N m; the torque of 2.5 times the nominal current");
+  design.add_option("--force-limit", a.force_limit_N,
+                    "linear motor, instead of --torque-limit: force limit in N");
   design.add_option("--rotor", a.rotor, "hall, encoder, absolute, resolver, or ideal; hall");
-  design.add_option("--edges", a.edges,
-                    "speed, position: Hall edges that a speed is taken over, 1 to 6; else 6 or 1, adaptive");
+  design.add_option(
+      "--edges", a.edges,
+      "speed, position: number of Hall edges over which a speed is averaged, 1 to 6; else 6 or 1, adaptive");
   design.add_option("--capture", a.capture_Hz,
                     "speed, position: clock of the timer that captures the edges of Hall probes or an "
-                    "encoder, in Hz; 1e6, of an encoder 16e6");
-  design.add_option("--lowest-speed", a.lowest_speed_rad_s,
-                    "speed, position: that is to be held, in rad/s or m/s; a tenth of what the bus reaches");
+                    "encoder, in Hz; 1e6, for an encoder 16e6");
+  design.add_option(
+      "--lowest-speed", a.lowest_speed_rad_s,
+      "speed, position: lowest speed that the loop must hold, in rad/s or m/s; a tenth of the speed that the bus allows");
   design.add_option("--currents", a.currents, "phases, dc-link or ideal; phases");
   design.add_option("--load-inertia", a.load_inertia_kg_m2,
-                    "speed, position: on the shaft, beside the rotor's, in kg m2; 0");
+                    "speed, position: inertia on the shaft besides the rotor's, in kg m2; 0");
   design.add_option("--load-mass", a.load_mass_kg,
-                    "linear motor, for --load-inertia: on the slide, in kg; 0");
-  design.add_option("--delay", a.delay_periods, "periods until a command counts, 0 or 1; 1");
+                    "linear motor, instead of --load-inertia: mass on the slide, in kg; 0");
+  design.add_option("--delay", a.delay_periods, "periods until a command takes effect, 0 or 1; 1");
   design.add_option("--chopping", a.chopping, "soft, hard or complementary; soft");
-  design.add_option("--step", a.step,
-                    "what is simulated: a step in A, rad/s (m/s) or deg (mm) as the mode asks");
+  design.add_option("--step", a.step, "simulated step, in the mode's unit: A, rad/s (m/s) or deg (mm)");
   design.add_option("--json", a.json, "write everything as numbers; - for standard output");
   design.add_option(
       "--toml", a.toml,
-      "write the scenario that was simulated, for sixstep run and export; without --scenario it has, and is designed with, a dead "
-      "time of 0.5 us");
+      "write the simulated scenario, for sixstep run and export; without --scenario, design and file have a dead time of "
+      "0.5 us");
   design.add_option("--html", a.html, "write the design as a page");
   CLI::Option* models =
       design.add_option("--models", a.models, "write the motor's two state spaces, as .json or .mat");
-  design.add_option("--angle", a.angle_deg, "of the rotor for --models, in electrical degrees")
+  design.add_option("--angle", a.angle_deg, "angle of the rotor for --models, in electrical degrees")
       ->capture_default_str()
       ->needs(models);
   CLI::Option* optimise = design.add_option(
       "--optimise", a.optimise,
-      "a plan that says what is to be small: the best point of its ranges, and what limits it");
+      "plan with the figure to minimise; the design is the best point of the plan's ranges, and the output names the limits");
   take_store(design, a.store, "keep each run of --optimise in this SQLite file")->needs(optimise);
   design.add_flag("--resume", a.resume, "continue the runs of --store")->needs("--store");
   take_force(design, a.force);
@@ -359,7 +361,7 @@ void declare_options(CLI::App& design, DesignArguments& a) {
 
 Verb declare_design(CLI::App& app) {
   CLI::App& design =
-      *app.add_subcommand("design", "gains from a motor's sheet, simulated and put through tolerances");
+      *app.add_subcommand("design", "gains from a motor's sheet, simulated over its tolerances");
   const auto a = std::make_shared<DesignArguments>();
   declare_options(design, *a);
   return {&design, calling(design_command, a)};

@@ -55,9 +55,9 @@ constexpr Use uses[] = {
     {"--load-mass", [](const A& a) { return a.load_mass_kg.has_value(); }, "load_inertia_kg_m2", in_scenario,
      false},
     {"--lowest-speed", [](const A& a) { return a.lowest_speed_rad_s.has_value(); }, "lowest_speed_rad_s",
-     "it is the reference's own lowest", false},
+     "it is the lowest speed of the reference", false},
     {"--step", [](const A& a) { return a.step.has_value(); }, "",
-     "nothing is simulated: sixstep run does that", false},
+     "this design simulates nothing; use sixstep run", false},
     {"--quick", [](const A& a) { return a.quick; }, "",
      "leave it out: it is computed in closed form, without tolerances", false},
     {"--json", [](const A& a) { return !a.json.empty(); }, "", nullptr, true},
@@ -85,8 +85,8 @@ base::Problems of_other_motion(const design::Sheet& sheet, const DesignArguments
   const auto refuse = [&](const std::optional<double>& given, const char* option, const char* instead) {
     if (given)
       found.push_back({option, fmt::format("{}", *given),
-                       linear ? "is a turning motor's, and this one is linear"
-                              : "is a linear motor's, and this one turns",
+                       linear ? "is for turning motors, and this motor is linear"
+                              : "is for linear motors, and this motor turns",
                        fmt::format("write {}", instead)});
   };
   refuse(linear ? a.torque_limit_Nm : a.force_limit_N, linear ? "--torque-limit" : "--force-limit",
@@ -112,7 +112,7 @@ base::Problems unread_by_optimise(const DesignArguments& a) {
   for (const Use& use : uses)
     if (!use.in_optimise && use.given(a))
       found.push_back({use.option, "", "applies to a single design; with --optimise the plan gives it",
-                       "leave it out, or say it in the plan or its scenario"});
+                       "leave it out, or set it in the plan or its scenario"});
   return found;
 }
 

@@ -35,7 +35,7 @@ inline constexpr ExitMeaning exit_meanings[] = {
     {Exit::bad_input, "bad input"},
     {Exit::fault, "a fault stopped a run"},
     {Exit::internal, "internal error"},
-    {Exit::hung_up, "ended by SIGHUP as its terminal went"},
+    {Exit::hung_up, "ended by SIGHUP when its terminal closed"},
     {Exit::interrupted, "interrupted by Ctrl-C"},
     {Exit::quit, "ended by SIGQUIT"},
     {Exit::reader_gone, "nobody reads the pipe"},

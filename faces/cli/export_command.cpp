@@ -26,7 +26,7 @@ namespace {
 struct ExportArguments {
   std::string file;                 ///< the scenario
   std::string out;                  ///< empty: standard output
-  std::string arithmetic;           ///< empty: the scenario's
+  std::string arithmetic;           ///< empty: arithmetic of the scenario
   std::vector<std::string> ranges;  ///< "current_A=20"
   std::vector<std::string> sets;    ///< "key=value"
   std::string name_space = "exported";
@@ -101,14 +101,14 @@ base::Result<study::Scenario> scenario_of(const ExportArguments& a) {
   const files::ReadOptions options = read_options(a.data_dir, a.sets, problems);
   if (a.despite && a.despite->find_first_not_of(" \t\r\n") == std::string::npos)
     problems.push_back({"--despite", "", "gives no reason",
-                        "give the reason for writing the header all the same; the header quotes it"});
+                        "give the reason for writing the header anyway; the header quotes it"});
   if (!problems.empty()) return problems;
   base::Result<study::Scenario> scenario = files::read_scenario(a.file, options);
   if (!scenario) return scenario;
   if (arithmetic) scenario->control.arithmetic = *arithmetic;
   const study::Arithmetic number = scenario->control.arithmetic;
   if (!a.ranges.empty() && (number == study::Arithmetic::float64 || number == study::Arithmetic::float32))
-    return base::Problem{"--range", "", "is the range of fixed point, and the drive is in floating point",
+    return base::Problem{"--range", "", "applies to fixed point, and the drive is in floating point",
                          "add --arithmetic q15 or another fixed point, or leave the range out"};
   return scenario;
 }
@@ -145,7 +145,7 @@ Exit not_cleared(const ExportArguments& a, const study::Control& control, const 
         "with these keys set, sixstep design --scenario " + text::visible(a.file) +
             " --toml NEW.toml writes a scenario with gains and requirements for it, and says whether they are usable\n",
         stderr);
-  print("no header was written; --despite REASON writes one that says all of this\n", stderr);
+  print("no header was written; --despite REASON writes one that states all of this\n", stderr);
   const Exit told = !c.unmeasured.empty() ? Exit::bad_input : c.unheld.empty() ? Exit::ok : Exit::failed;
   return graver(cli::exit_of(c.outcome), told);
 }
@@ -177,7 +177,7 @@ Exit export_header(const ExportArguments& a) {
   if (!clearance) return refused(within(a.file, clearance.problems()));
   if (!clearance->clear() && !a.despite) return not_cleared(a, scenario->control, *clearance);
   if (a.despite && clearance->clear())
-    print("--despite was not needed: the run holds, and the header says so\n", stderr);
+    print("--despite was not needed: the run holds, and the header states it\n", stderr);
   for (const std::string& note : clearance->notes)
     print(fmt::format("note: {}\n", text::visible(note)), stderr);
   wanted.clearance = &*clearance;
@@ -203,16 +203,16 @@ void declare_options(CLI::App& header, ExportArguments& a) {
   header
       .add_option(
           "--range", a.ranges,
-          "fixed point: the most that is measured or asked for, as --range current_A=20; also speed_rad_s, "
-          "position_deg, bus_V, setpoint; without it twice the current that is asked for or limited, and the speed that the bus can reach")
+          "fixed point: largest measured or requested value, as --range current_A=20; also speed_rad_s, "
+          "position_deg, bus_V, setpoint. Default: twice the requested or limiting current, and the speed that the bus allows")
       ->allow_extra_args(false);
   take_sets(header, a.sets);
-  header.add_option("--namespace", a.name_space, "C++ namespace of what the header declares")
+  header.add_option("--namespace", a.name_space, "C++ namespace of the header's declarations")
       ->capture_default_str();
   header.add_option(
       "--despite", a.despite,
-      "write it although its run fails, or leaves unmeasured what a board has; the header states "
-      "this reason and all that was overridden");
+      "write it although its run fails, or neglects effects of a real board; the header states this reason and "
+      "everything that was overridden");
   header.add_flag("--single-header", a.single_header, "include sixstep_control.hpp, not sixstep/control/");
   take_data(header, a.data_dir);
 }
@@ -220,7 +220,7 @@ void declare_options(CLI::App& header, ExportArguments& a) {
 }  // namespace
 
 Verb declare_export(CLI::App& app) {
-  CLI::App& exports = *app.add_subcommand("export", "a scenario's drive for use elsewhere");
+  CLI::App& exports = *app.add_subcommand("export", "export of a scenario's drive");
   exports.require_subcommand(1);
   const auto a = std::make_shared<ExportArguments>();
   declare_options(*exports.add_subcommand(

@@ -32,7 +32,7 @@ std::string line(const KeyEntry& entry) {
 
 std::string overview(const std::vector<KeyEntry>& scenario, const std::vector<KeyEntry>& sheet,
                      const std::vector<KeyEntry>& plan) {
-  std::string text = "Keys of a scenario file (sixstep help TABLE or sixstep help KEY tells more):\n";
+  std::string text = "Keys of a scenario file (details: sixstep help TABLE or sixstep help KEY):\n";
   for (const KeyEntry& entry : scenario)
     if (entry.path.find('.') == std::string::npos) text += line(entry);
   text += "Keys of a motor file and of [motor_override]:\n";
@@ -55,7 +55,7 @@ std::string of_key(const KeyEntry& entry) {
   if (entry.path != "record.columns") return text;
   for (const study::Column& column : study::all_columns())
     text += fmt::format("    {:<20}{}\n", column.name, column.meaning);
-  text += "  where the motor is linear, instead of those that turn\n";
+  text += "  for a linear motor, instead of those for a turning motor\n";
   const std::vector<study::Column>& linear = study::all_columns(design::MotorKind::linear);
   for (std::size_t n = 0; n < linear.size(); ++n)
     if (linear[n].name != study::all_columns()[n].name)

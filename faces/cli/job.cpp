@@ -61,7 +61,7 @@ std::string Job::cut_short() const {
       fmt::format("{}: {} at {:.6g} s of {:.6g} s", name(), interrupted_ ? "interrupted" : "stopped",
                   outcome_->simulated_s, scenario_.duration_s);
   if (!outputs_.partial_files().empty())
-    text += fmt::format("; what was finished is in {}", fmt::join(outputs_.partial_files(), ", "));
+    text += fmt::format("; the finished part is in {}", fmt::join(outputs_.partial_files(), ", "));
   return text::visible(text) + "\n";
 }
 

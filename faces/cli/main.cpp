@@ -94,7 +94,7 @@ Exit run_program(int count, const char* const* words) {
 
 /// Reports lack of memory without allocating any.
 Exit out_of_memory() {
-  print("sixstep is out of memory; make room, or ask for less: fewer --jobs, a shorter run\n", stderr);
+  print("sixstep is out of memory; free memory, or reduce the work: fewer --jobs, a shorter run\n", stderr);
   return Exit::bad_input;
 }
 

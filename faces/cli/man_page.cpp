@@ -20,7 +20,7 @@ namespace {
 std::string roff(std::string_view text) {
   constexpr std::size_t longest_line = 78;
   std::string out;
-  std::size_t begin = 0;  // of the line
+  std::size_t begin = 0;  // begin of the line
   for (std::size_t n = 0; n < text.size(); ++n) {
     const char c = text[n];
     const std::size_t word = std::min(text.find(' ', n + 1), text.size()) - n;
@@ -113,17 +113,17 @@ std::string keys_of_file(const std::vector<text::KeyEntry>& keys) {
 std::string files() {
   std::string text =
       ".SH SCENARIO FILES\n"
-      "A scenario is a TOML file.\nEvery key carries its unit; a key that is not known is an error that\n"
-      "names the one that is probably meant.\n"
+      "A scenario is a TOML file.\nEvery key carries its unit; an unknown key is an error that\n"
+      "names the key that is probably meant.\n"
       "These are its keys and tables;\n"
       ".B sixstep help\n.I TABLE\nlists the keys of one, and\n.B sixstep help\n.I KEY\n"
-      "tells unit, range, default and words.\n";
+      "prints unit, range, default and words.\n";
   return text + keys_of_file(text::scenario_keys()) +
          ".PP\nA motor file is a TOML file of the motor's data sheet;\n.B sixstep motor new\nwrites one to "
          "be "
          "filled in.\n"
          ".SH PLAN FILES\n"
-         "A plan is a TOML file that names a scenario and says what differs in the\nruns that are made of it;\n"
+         "A plan is a TOML file that names a scenario and the keys that differ\nbetween its runs;\n"
          ".B sixstep run\n"
          "takes one wherever it takes a\nscenario.\nThese are its keys:\n" +
          keys_of_file(text::plan_keys());
@@ -136,13 +136,13 @@ constexpr std::string_view examples =
     "sixstep run first.toml \\-\\-html first.html\n"
     "sixstep run first.toml \\-\\-set supply.voltage_V=20\n"
     ".RE\n.fi\n.PP\n"
-    "Which PWM period it takes, and a hundred drives as makers let them stray, in\n"
-    "a file that a later call goes on with:\n.PP\n.nf\n.RS\n"
+    "The PWM period that it needs, and a hundred drives within the makers' tolerances, in\n"
+    "a file that a later call continues:\n.PP\n.nf\n.RS\n"
     "sixstep run first.toml \\-\\-vary pwm.period_s=20us:60us:3\n"
     "sixstep run first.toml \\-\\-tolerances \\-\\-runs 100 \\-\\-store first.sqlite\n"
     ".RE\n.fi\n.PP\n"
-    "Gains of a speed cascade, put through the sheet's tolerances, as a\nscenario "
-    "that runs:\n.PP\n.nf\n.RS\n"
+    "Gains of a speed cascade, checked over the sheet's tolerances, as a\n"
+    "scenario:\n.PP\n.nf\n.RS\n"
     "sixstep design maxon\\-251601 \\-\\-mode speed \\-\\-toml drive.toml\n"
     ".RE\n.fi\n";
 
@@ -157,7 +157,7 @@ std::string man_page(const CLI::App& app) {
   text +=
       ".fi\n.SH DESCRIPTION\n"
       "Simulates motor, bridge, sensors and the controller code itself, finds every\n"
-      "commutation, diode and PWM event exactly, and tells whether your requirements\n"
+      "commutation, diode and PWM event exactly, and reports whether your requirements\n"
       "hold.\nEvery number states its unit, frame and source.\n";
   text += commands(app, verbs) + files();
   text += ".SH EXIT STATUS\n";

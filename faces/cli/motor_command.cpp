@@ -115,22 +115,23 @@ Exit new_motor(const MotorArguments& a) {
 }  // namespace
 
 Verb declare_motor(CLI::App& app) {
-  CLI::App& motor = *app.add_subcommand("motor", "look into motor files");
+  CLI::App& motor = *app.add_subcommand("motor", "show, check and create motor files");
   motor.require_subcommand(1);
   const auto a = std::make_shared<MotorArguments>();
-  CLI::App& list = *motor.add_subcommand("list", "the built-in motors, one a line");
-  CLI::App& show = *motor.add_subcommand("show", "the sheet as printed and the model that it makes");
+  CLI::App& list = *motor.add_subcommand("list", "list the built-in motors, one per line");
+  CLI::App& show =
+      *motor.add_subcommand("show", "show the sheet as printed, and the model that follows from it");
   CLI::App& check = *motor.add_subcommand("check", "report values of the sheet that contradict each other");
   for (CLI::App* const verb : {&show, &check}) {
     verb->add_option("NAME", a->name, "name or path")->required();
     take_data(*verb, a->data_dir);
   }
   for (CLI::App* const verb : {&list, &show, &check}) verb->add_flag("--json", a->json, "for programs");
-  CLI::App& fresh = *motor.add_subcommand("new", "an empty motor file, to be filled in");
+  CLI::App& fresh = *motor.add_subcommand("new", "write an empty motor file, to be filled in");
   fresh.add_option("NAME", a->name, "the file to write, NAME.toml; without it standard output");
   fresh
       .add_option("--style", a->style,
-                  fmt::format("whose sheet it is: {}", fmt::join(text::template_styles(), ", ")))
+                  fmt::format("style of the sheet: {}", fmt::join(text::template_styles(), ", ")))
       ->capture_default_str();
   const Verb wiring = declare_wiring(motor), commission = declare_commission(motor),
              identify = declare_identify(motor), emf = declare_emf(motor);

@@ -61,10 +61,11 @@ base::Result<std::string> write_schema(const std::string& path) {
     if (!problems.empty()) return problems;
   } else if (const base::Result<std::string> there = files::read_text(path);
              !there || *there != text::scenario_schema()) {
-    return fmt::format("; {} beside it is another and stays: editors need that of sixstep schema scenario",
-                       text::visible(path));
+    return fmt::format(
+        "; the existing {} beside it differs and is kept; editors need the one from sixstep schema scenario",
+        text::visible(path));
   }
-  return fmt::format(", and {}, with which editors complete and check it", text::visible(path));
+  return fmt::format(", and {}, which editors use to complete and check it", text::visible(path));
 }
 
 Exit new_command(const NewArguments& a) {
@@ -96,7 +97,7 @@ Exit new_command(const NewArguments& a) {
     print(fmt::format("note: {}\n", note));
   if (scenario->pwm.period_s < text::stm32_least_period_s)
     print(fmt::format(
-        "note: {}; this winding's ripple asks for it, and a choke in each line, counted into the sheet's inductance, allows a longer one\n",
+        "note: {}; this winding's ripple needs it; a choke in each line, added to the sheet's inductance, allows a longer period\n",
         text::too_short_for_images(scenario->pwm.period_s)));
   return Exit::ok;
 }
@@ -107,11 +108,11 @@ Verb declare_new(CLI::App& app) {
   CLI::App& fresh = *app.add_subcommand("new", "write a scenario to start from, each line explained");
   const auto a = std::make_shared<NewArguments>();
   fresh.add_option("NAME", a->name, "the file to write, NAME.toml; without it standard output");
-  fresh.add_option("--mode", a->mode, "what is controlled: speed, current, position or duty")
+  fresh.add_option("--mode", a->mode, "controlled quantity: speed, current, position or duty")
       ->capture_default_str();
   fresh.add_option("--motor", a->motor, "motor's name or file")->capture_default_str();
-  fresh.add_option("--voltage", a->voltage_V, "of the bus in V; without it the sheet's nominal voltage");
-  fresh.add_flag("--full", a->full, "every key there is, not only those for a start");
+  fresh.add_option("--voltage", a->voltage_V, "bus voltage in V; without it the sheet's nominal voltage");
+  fresh.add_flag("--full", a->full, "write all keys, not only those for a start");
   take_data(fresh, a->data_dir);
   return {&fresh, calling(new_command, a)};
 }

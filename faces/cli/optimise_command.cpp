@@ -43,7 +43,7 @@ base::Problems not_to_be_chosen(const OptimiseArguments& a, const analysis::Plan
   base::Problems problems;
   for (const analysis::Axis& axis : plan.axes) {
     if (!axis.values.empty())
-      problems.push_back({a.plan + ": " + axis.key, "", "is a list, and an optimiser goes through ranges",
+      problems.push_back({a.plan + ": " + axis.key, "", "is a list, and an optimiser needs ranges",
                           "give from and to, or a plan for each value"});
     if (axis.strays)
       problems.push_back({a.plan + ": " + axis.key, "", "is drawn by [[spread]] and cannot be chosen",

@@ -63,7 +63,7 @@ base::Problems same_program(const batch::PlanRuns& runs, files::PlanStore& store
   const std::optional<analysis::RunRecord> now = batch::run_one(runs, (*before)->number);
   if (!now || (*now)->digest == (*before)->digest) return {};
   return {{.where = store.path() + ":",
-           .limit = fmt::format("was begun by another version of sixstep: run {} has other bits now",
+           .limit = fmt::format("was begun by another version of sixstep, and run {} now differs",
                                 (*before)->number),
            .cure = "finish it with that version, or begin anew with --force"}};
 }
@@ -76,10 +76,9 @@ class MadePlan {
     each([&](const analysis::RunRecord& record) { analysis::add(series_, record); });
     const std::size_t wanted = analysis::runs_of(plan.scenarios->plan());
     if (problems_.empty() && series_.runs < wanted && !interrupted())
-      problems_.push_back(
-          {store_.path() + ":", "",
-           fmt::format("gives back {} of the {} runs that it was given", series_.runs, wanted),
-           "begin anew with --force"});
+      problems_.push_back({store_.path() + ":", "",
+                           fmt::format("holds only {} of the {} runs that were stored", series_.runs, wanted),
+                           "begin anew with --force"});
   }
   MadePlan(const MadePlan&) = delete;
   MadePlan& operator=(const MadePlan&) = delete;
@@ -90,7 +89,7 @@ class MadePlan {
   /// Message about runs in the store beyond those of the plan; empty: none.
   std::string beyond() const {
     if (beyond_ == 0) return "";
-    return fmt::format("{}: holds {} run{} beyond the {} that are asked for; ask for more to see them\n",
+    return fmt::format("{}: holds {} run{} beyond the {} of this plan; request more to see them\n",
                        text::visible(store_.path()), beyond_, beyond_ == 1 ? "" : "s",
                        analysis::runs_of(plan_.scenarios->plan()));
   }
@@ -239,7 +238,7 @@ Exit run_plans(const RunArguments& a, const std::vector<ReadPlan>& plans,
   // A path that is not a regular file has no partial name.
   const std::string partial = files::partial_name(junit->path());
   if (interrupted() && unwritten.empty() && std::filesystem::exists(partial))
-    tell_stop("the verdicts of what was finished are in " + text::visible(partial));
+    tell_stop("the verdicts of the finished runs are in " + text::visible(partial));
   return unwritten.empty() ? exit : graver(exit, Exit::bad_input);
 }
 
@@ -257,8 +256,7 @@ base::Problems plan_contradictions(const RunArguments& a) {
   if (both && a.files.size() > report::most_plans_on_a_page)
     problems.push_back({.where = "--html",
                         .value = fmt::format("{} plans", a.files.size()),
-                        .limit = fmt::format("is more than the {} that one page can tell apart",
-                                             report::most_plans_on_a_page),
+                        .limit = fmt::format("must be at most {} on one page", report::most_plans_on_a_page),
                         .cure = "compare two, or write a page each with --out DIR"});
   if (a.files.size() > 1 && (!a.plan.store.empty() || (a.paths.any() && a.out.empty() && !both)))
     problems.push_back({.where = a.plan.store.empty() ? all_options() : "--store",

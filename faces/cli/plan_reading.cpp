@@ -61,8 +61,8 @@ base::Problems add_options(const RunArguments& a, analysis::Plan& plan) {
   for (const analysis::Axis& axis : plan.axes)
     for (const std::string& set : a.sets)
       if (set.substr(0, set.find('=')) == axis.key)
-        problems.push_back(
-            {"--set " + axis.key, "", "would be lost: the plan varies this key", "give one of the two"});
+        problems.push_back({"--set " + axis.key, "", "has no effect, because the plan varies this key",
+                            "give one of the two"});
   if (a.plan.points > 0) plan.points = a.plan.points;
   if (a.runs > 0) plan.drives = a.runs;
   if (a.drive) plan.drives = static_cast<std::size_t>(*a.drive) + 1;
@@ -104,15 +104,15 @@ std::uint64_t inputs_digest(const files::ReadLog& log, const RunArguments& a, bo
 base::Problems without_drives(const RunArguments& a, const analysis::Plan& plan) {
   if (!a.plan.tolerances || plan.drives > 0) return {};
   return {{.where = "--tolerances",
-           .limit = "makes drives differ, and only the drive as written is run",
-           .cure = "give the number, as --runs 1000"}};
+           .limit = "needs several drives, and only the drive as written is run",
+           .cure = "give their number, as --runs 1000"}};
 }
 
 base::Problems without_series(const std::string& file, const ReadPlan& plan) {
   if (plan.scenarios->plan().drives == 0 || !plan.nominal.spread.empty()) return {};
   return {{.where = file + ":",
            .limit = "describes no series, since all drives would be the same",
-           .cure = "add [[spread]] with what differs; see: sixstep help spread"}};
+           .cure = "add [[spread]] with the values that vary; see: sixstep help spread"}};
 }
 
 }  // namespace

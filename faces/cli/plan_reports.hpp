@@ -21,7 +21,7 @@ report::PagePlan page_of(const RunArguments& arguments, const ReadPlan& plan, co
                          std::map<std::size_t, std::string> reports);
 
 struct WorstReports {
-  std::map<std::size_t, std::string> files;  ///< by the run's number; relative to the page
+  std::map<std::size_t, std::string> files;  ///< paths by the run's number, relative to the page
   base::Problems problems;
 };
 

@@ -40,7 +40,7 @@ base::Result<files::PlanStore> store_of(const RunArguments& a, const ReadPlan& p
 
 std::string kept_in(const std::string& store) {
   if (store.empty() || !std::filesystem::exists(store)) return "";
-  return fmt::format("what has run is kept in {}, and the same command with --resume goes on",
+  return fmt::format("the finished runs are kept in {}, and the same command with --resume continues",
                      text::visible(store));
 }
 
@@ -49,7 +49,7 @@ std::string left_behind(const std::vector<std::string>& partial_files, const std
   for (const std::string& file : partial_files) files += (files.empty() ? "" : ", ") + text::visible(file);
   std::string kept = kept_in(store);
   if (files.empty()) return kept;
-  return "what was finished is in " + files + (kept.empty() ? "" : "; " + kept);
+  return "the finished part is in " + files + (kept.empty() ? "" : "; " + kept);
 }
 
 std::string unit_of(const std::string& key) {

@@ -173,8 +173,8 @@ base::Problems one_at_a_time(const RunArguments& a) {
   const bool on_core = !a.on.empty();
   return {{.where = on_core ? "--on" : "--compare",
            .limit = fmt::format("{}, and this is a plan of many runs",
-                                on_core ? "runs one scenario on a core" : "lays a log over one run"),
-           .cure = "take one run of it: --only N, or --drive N of a series"}};
+                                on_core ? "runs one scenario on a core" : "compares a log with one run"),
+           .cure = "choose one run of it: --only N, or --drive N of a series"}};
 }
 
 Exit run_command(const RunArguments& arguments) {
@@ -209,15 +209,15 @@ std::vector<std::string_view> core_names() {
 void declare_plan_options(CLI::App& run, PlanArguments& a) {
   run.add_option("--vary", a.vary, "KEY=FROM:TO:POINTS, or KEY=VALUE,VALUE; several make a grid");
   run.add_option("--sampling", a.sampling,
-                 "how points are laid out: grid, latin-hypercube, sobol, monte-carlo, saltelli");
-  run.add_option("--points", a.points, "how many points, of everything but a grid")
+                 "arrangement of the points: grid, latin-hypercube, sobol, monte-carlo, saltelli");
+  run.add_option("--points", a.points, "number of points; a grid has its own")
       ->check(integer_in(1, 1'000'000'000));
   run.add_flag("--tolerances", a.tolerances,
-               "drives of --runs also stray in what makers do not promise: R, L and K_t");
+               "drives of --runs also vary in R, L and K_t, which the sheet states without tolerances");
   take_store(run, a.store, "keep each finished run in this SQLite file");
   run.add_flag("--resume", a.resume, "continue the runs of --store, or of --out as it was");
-  run.add_flag("--dry-run", a.dry_run, "how many runs, how long and how large, and nothing else");
-  run.add_option("--only", a.only, "run N of the plan alone, with all its outputs")
+  run.add_flag("--dry-run", a.dry_run, "print only number, duration and file size of the runs");
+  run.add_option("--only", a.only, "only run N of the plan, with all its outputs")
       ->check(integer_in(0, std::numeric_limits<std::int64_t>::max()));
 }
 
@@ -237,46 +237,46 @@ void declare_options(CLI::App& run, RunArguments& a) {
   take_jobs(run, a.jobs);
   CLI::Option* watch = run.add_flag("--watch", a.watch, "run again whenever a file that was read is saved");
   CLI::Option* runs =
-      run.add_option("--runs", a.runs, "that many drives of the series that [[spread]] describes");
+      run.add_option("--runs", a.runs, "number of drives of the series that [[spread]] describes");
   runs->excludes(watch)->check(integer_in(1, 1'000'000'000));
   // A minus would be read as a large number.
   const CLI::Validator whole = integer_in(0, std::numeric_limits<std::int64_t>::max());
-  run.add_option("--seed", a.seed, "another series of drives; without it 1")->check(whole);
-  run.add_option("--drive", a.drive, "drive N of the series alone, with all its outputs")
+  run.add_option("--seed", a.seed, "seed of the series of drives; without it 1")->check(whole);
+  run.add_option("--drive", a.drive, "only drive N of the series, with all its outputs")
       ->excludes(runs)
       ->check(whole);
   CLI::Option* bode = run.add_flag(
       "--bode", a.bode,
-      "measure the outermost loop's frequency response where the scenario ends, beside the designed one");
+      "measure the outermost loop's frequency response at the scenario's end, beside the designed response");
   run.add_option(
          "--amplitude", a.amplitude,
-         "of --bode's multisine, A, rad/s or deg; without it a twentieth of where the reference stands")
+         "amplitude of --bode's multisine, A, rad/s or deg; without it a twentieth of the final reference")
       ->needs(bode);
   run.add_option(
          "--on", a.on,
          fmt::format(
-             "the drive runs on this core, in an emulator: {}; or the firmware that a map, MAP.toml, names",
+             "core that runs the drive, in an emulator: {}; or MAP.toml, a map that names the firmware",
              fmt::join(core_names(), ", ")))
       ->excludes(bode)
       ->excludes(runs);
   CLI::Option* log =
       run.add_option(
              "--compare", a.log.path,
-             "lay what a board sent over the run, or an oscilloscope's record of it: a table, on the page of --html too")
+             "compare a board's log or an oscilloscope's record with the run, in a table and on the page of --html")
           ->excludes(bode)
           ->excludes(runs);
   run.add_option("--columns", a.log.columns,
-                 "which column of --compare is what, with constants: "
+                 "meaning of each column of --compare, with constants: "
                  "time=ms_today/1000,speed=erpm*2*pi/60/7,i_m=current_motor; without it by its headings")
       ->delimiter(',')
       ->needs(log);
   run.add_option("--interval", a.log.interval_s,
-                 "time from row to row of --compare, s, where no column is the time")
+                 "time from row to row of --compare, s, if no column holds the time")
       ->needs(log);
   run.add_option(
          "--shift", a.log.shift_s,
-         "s to add to the times of --compare; without it they are fitted within 20 PWM periods; a clock "
-         "that starts beyond the run counts from its first row")
+         "time to add to the rows of --compare, s; without it a shift is fitted within 20 PWM periods. A clock that "
+         "starts beyond the run counts from its first row")
       ->needs(log);
   declare_plan_options(run, a.plan);
 }

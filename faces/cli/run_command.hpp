@@ -27,24 +27,24 @@ struct LogArguments {
   std::string path;                  ///< empty: none
   std::optional<double> shift_s;     ///< added to its times; empty: fitted
   std::vector<std::string> columns;  ///< "speed=erpm*2*pi/60/7"; empty: by the headings
-  std::optional<double> interval_s;  ///< of its rows, if no column is a time
+  std::optional<double> interval_s;  ///< interval of the log's rows, if no column is a time
 };
 
 struct RunArguments {
   std::vector<std::string> files;
   std::string out;                ///< folder for the outputs of each file, and for index.html of scenarios
-  OutputPaths paths;              ///< for one file only
+  OutputPaths paths;              ///< output paths, for a single file only
   std::vector<std::string> sets;  ///< "key=value"
   std::string data_dir;
   bool quiet = false;
   bool watch = false;
   unsigned jobs = 0;     ///< 0: one per core
-  std::size_t runs = 0;  ///< of a series; 0: only the nominal run
+  std::size_t runs = 0;  ///< number of drives of a series; 0: only the nominal run
   std::optional<std::uint64_t> seed;
   std::optional<std::uint64_t> drive;  ///< the only drive of the series that is run
   PlanArguments plan;
   bool bode = false;                ///< measure the loop's frequency response instead of a run
-  std::optional<double> amplitude;  ///< of the multisine, in the mode's unit
+  std::optional<double> amplitude;  ///< amplitude of the multisine, in the mode's unit
   std::string junit;                ///< verdicts for build servers
   std::string on;       ///< core that runs the drive, in parallel with the host or instead of it; empty: none
   LogArguments log;     ///< log to compare with the run

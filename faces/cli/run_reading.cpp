@@ -62,8 +62,8 @@ std::optional<Job> read_one_of_a_plan(const std::string& file, const RunArgument
     into.problems.push_back(
         {.where = "--only",
          .value = std::to_string(number),
-         .limit = fmt::format("is not a run of this plan: they count from 0 to {}", runs - 1),
-         .cure = "take one of these"});
+         .limit = fmt::format("is not a run of this plan: its runs have the numbers 0 to {}", runs - 1),
+         .cure = "choose one of these"});
     return {};
   }
   base::Result<analysis::PlannedRun> run = plan->scenarios->run(number);
@@ -82,7 +82,7 @@ base::Problems same_outputs(const RunArguments& arguments) {
     if (arguments.out.empty()) continue;
     if (other->first == "index")
       problems.push_back({.where = place(file),
-                          .limit = "would write index.html, which is to list all reports",
+                          .limit = "would write index.html, which lists all reports",
                           .cure = "rename it, or run it without --out"});
     if (!is_new)
       problems.push_back({.where = place(file),
@@ -131,8 +131,8 @@ base::Problems contradictions(const RunArguments& arguments) {
          .cure = "with several files or --out use --out DIR alone; --html alone compares the files"});
   if (!arguments.paths.of(uart_option).empty() && !on_a_chip(arguments))
     problems.push_back({.where = std::string(uart_option),
-                        .limit = "writes what a chip sent over its serial line, and no chip runs here",
-                        .cure = "with --on avr, or with the map of a firmware of your own"});
+                        .limit = "writes the serial output of a chip, and no chip runs here",
+                        .cure = "add --on avr, or the map of your own firmware"});
   append(problems, same_outputs(arguments));
   return problems;
 }

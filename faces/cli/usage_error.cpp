@@ -33,7 +33,7 @@ struct Called {
       path.append(" ").append(verb->get_name());
     }
   }
-  std::string help() const { return path + " --help tells more"; }
+  std::string help() const { return path + " --help lists all"; }
 };
 
 std::vector<std::string> verbs_of(const CLI::App& verb) {
@@ -155,7 +155,7 @@ std::optional<Problem> excluded(const Called& called) {
     for (const CLI::Option* other : option->get_excludes())
       if (option->count() > 0 && other->count() > 0)
         return Problem{.where = option->get_name(),
-                       .limit = "does not go together with " + other->get_name(),
+                       .limit = "cannot be combined with " + other->get_name(),
                        .cure = "leave one of them out"};
   return {};
 }

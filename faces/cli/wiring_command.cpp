@@ -114,18 +114,18 @@ Exit wiring_command(const WiringArguments& a) {
 
 Verb declare_wiring(CLI::App& motor) {
   CLI::App& wiring =
-      *motor.add_subcommand("wiring", "what it does connected in each of the 36 ways, and what cures it");
+      *motor.add_subcommand("wiring", "behaviour of the motor in each of the 36 wirings, and the cures");
   const auto a = std::make_shared<WiringArguments>();
   wiring.add_option("MOTOR", a->motor, "name or path of a motor file")->required();
   wiring.add_option("--voltage", a->voltage_V, "bus voltage, V; without it the sheet's nominal voltage");
   wiring.add_option(
       "--current", a->current_A,
-      "that the stalled motor draws, A, by the duty; without it nominal, or a tenth of what full duty drives");
+      "current of the stalled motor, A, which sets the duty; without it the nominal current, or a tenth of the "
+      "current at full duty");
   wiring.add_flag("--json", a->json, "for programs");
   wiring.add_option("--svg", a->svg, "write the picture");
   wiring.add_option("--html", a->html, "write a page with the picture and all figures");
-  wiring.add_option("--toml", a->toml,
-                    "write the run that was simulated, with straight wires, for sixstep run");
+  wiring.add_option("--toml", a->toml, "write the simulated run, with straight wires, for sixstep run");
   take_force(wiring, a->force);
   take_data(wiring, a->data_dir);
   take_jobs(wiring, a->jobs);

@@ -69,7 +69,7 @@ std::string on_path(const std::string& program) {
 base::Problem not_here(const std::string& program) {
   const bool is_ours = program.starts_with("sixstep-");
   return {
-      program, "", "is not on this machine",
+      program, "", "is not installed on this machine",
       is_ours
           ? "install the package sixstep-avr-board; in a checkout tools/install.sh target, then build sixstep again"
           : "install it: " + (sources_folder() / "tools/packages.txt").string() +

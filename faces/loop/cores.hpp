@@ -10,17 +10,17 @@
 namespace loop {
 
 struct Core {
-  std::string_view name;              ///< as the command line names it
-  std::string_view title;             ///< as people name it
-  std::vector<std::string> compiler;  ///< with the flags of this core
-  std::vector<std::string> emulator;  ///< with its board; the image's path is appended
+  std::string_view name;              ///< name on the command line
+  std::string_view title;             ///< name in texts
+  std::vector<std::string> compiler;  ///< command with the flags of this core
+  std::vector<std::string> emulator;  ///< command with its board; the image's path is appended
   std::string_view start_up;          ///< the code before main(), a file of faces/firmware/bare/
   std::string_view linker_script;     ///< a file of the same folder
   std::vector<std::string> libraries;
   bool by_registers = false;          ///< a whole chip in place of the drive; false: a core that is called
   std::vector<std::string> linker{};  ///< if the compiler does not link
   std::string elf{};                  ///< an existing program of the user; empty: ours is compiled
-  double setpoint_range = 0.0;        ///< of its potentiometer, in the mode's unit
+  double setpoint_range = 0.0;        ///< setpoint at the ends of the potentiometer, in the mode's unit
 };
 
 std::span<const Core> cores();

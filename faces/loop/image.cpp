@@ -20,7 +20,7 @@ base::Result<fs::path> sources() {
   const fs::path root = sources_folder();
   std::error_code none;
   if (fs::exists(root / "sixstep/control/drive.hpp", none)) return root;
-  return base::Problem{root.string(), "", "does not hold the sources that a core's program is compiled from",
+  return base::Problem{root.string(), "", "does not hold the sources of a core's program",
                        "set SIXSTEP_SOURCES to the folder with sixstep/ and faces/ in it"};
 }
 
@@ -37,7 +37,7 @@ base::Problems write_header(const study::Scenario& scenario, const fs::path& fil
   std::ofstream out(file);
   out << *header;
   out.close();
-  if (!out) return {{file.string(), "", "cannot be written", "see whether the disk is full"}};
+  if (!out) return {{file.string(), "", "cannot be written", "check whether the disk is full"}};
   return {};
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiles a scenario's drive into a program for a core: its exported header, with faces/loop/core/.
+// Compiles the exported header of a scenario's drive, together with faces/loop/core/, into a program for a core.
 #pragma once
 #include <string>
 

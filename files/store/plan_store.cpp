@@ -103,7 +103,7 @@ struct PlanStore::Inside {
     const auto told = static_cast<std::int64_t>(checksum_of(cells, begin_of_checksums));
     base::Result<analysis::RunRecord> record = record_of_cells(cells, plan.columns);
     if (record && select.cell(select.columns() - 1) == Cell(told)) return record;
-    return damaged(db.path(), fmt::format("run {} is not what was written", select.whole(0)));
+    return damaged(db.path(), fmt::format("run {} differs from the written one", select.whole(0)));
   }
   base::Problems each(const std::function<void(const analysis::RunRecord&)>& visit) {
     base::Result<Statement> select = db.prepare(select_sql(stored));
@@ -124,7 +124,7 @@ struct PlanStore::Inside {
 
   Database db;
   StoredPlan plan;
-  StoredPlan stored;  ///< as it is in the file
+  StoredPlan stored;  ///< plan as stored in the file
   std::uint64_t begin_of_checksums;
   std::optional<Statement> insert;
   mutable std::mutex guard;
@@ -172,7 +172,7 @@ base::Problems check_pages(Database& db) {
 }
 
 base::Problem foreign(const std::string& path) {
-  return {path + ":", "", "is no store of runs", "name another file: sixstep writes over its own alone"};
+  return {path + ":", "", "is no store of runs", "name another file: sixstep overwrites only its own files"};
 }
 
 }  // namespace
@@ -224,7 +224,7 @@ base::Result<PlanStore> PlanStore::resume(const std::string& path, StoredPlan pl
   };
   if (before.sixstep != now.sixstep)
     return refuse("was begun by sixstep " + before.sixstep + ", and this is " + now.sixstep +
-                      ": nothing would tell their rows apart",
+                      ": their rows could not be distinguished",
                   "finish it with that version, or begin anew (force)");
   if (before.plan != now.plan)
     return refuse("holds the runs of another plan: " + before.plan,

@@ -19,7 +19,7 @@ namespace files {
 
 /// The description of a store. The first three members and the columns must not change between two sittings.
 struct StoredPlan {
-  std::string sixstep{};  ///< version that made all of its rows; empty: this one
+  std::string sixstep{};  ///< version that made all of its rows; empty: the running version
   std::string plan;       ///< the plan in one line (text::plan_identity)
   std::string
       inputs;  ///< digest of all files read for the scenario and of the values that the command line set

@@ -31,7 +31,7 @@ base::Problem Database::problem() const {
   const int code = handle_ ? sqlite3_errcode(handle_.get()) : SQLITE_NOMEM;
   if ((code & 0xff) == SQLITE_NOMEM)
     return {path_.empty() ? "the rows of the runs" : path_ + ":", "", "found no memory",
-            "make room, or ask for less: fewer --jobs, fewer runs"};
+            "free memory, or reduce the work: fewer --jobs, fewer runs"};
   base::Problem problem{.where = path_ + ":", .limit = "cannot be used as a store"};
   switch (code & 0xff) {
     case SQLITE_BUSY:
@@ -42,7 +42,7 @@ base::Problem Database::problem() const {
     case SQLITE_CORRUPT:
       return damaged(path_, std::string("SQLite says: ") + sqlite3_errmsg(handle_.get()));
     case SQLITE_FULL:
-      return {path_ + ":", "", "cannot grow: the disk is full", "make room and go on where it stopped"};
+      return {path_ + ":", "", "cannot grow: the disk is full", "free disk space and resume"};
     case SQLITE_CANTOPEN:
     case SQLITE_READONLY:
     case SQLITE_PERM:

@@ -93,11 +93,11 @@ base::Problems check_format(Database& db) {
   if (format == store_format) return {};
   if (format == 1)
     return {{db.path() + ":", "",
-             "was written by an older sixstep, which kept no checksums: damage could not be told",
+             "was written by an older sixstep without checksums, so damage cannot be detected",
              "finish it with that version, or begin anew (force)"}};
   return {{db.path() + ":", "",
-           fmt::format("has the format {}, and this sixstep knows {}", format, store_format),
-           "take the version that wrote it, or begin anew (force)"}};
+           fmt::format("has the format {}, and this sixstep reads {}", format, store_format),
+           "use the version that wrote it, or begin anew (force)"}};
 }
 
 analysis::PlanColumns columns_from(const std::vector<ColumnRow>& rows) {
@@ -208,8 +208,8 @@ base::Result<StoredPlan> read_plan(Database& db) {
     for (const std::vector<Cell>& row : *about)
       if (text_of(row[0]) == word) *value = text_of(row[1]);
   if (checksum != base::written_hex(checksum_of_plan(plan)) || column_rows(*plan.columns) != *columns)
-    return damaged(db.path(), "what it says of its plan is not what was written");
-  if (!has_tables(*tables, plan)) return damaged(db.path(), "its tables are not those of its columns");
+    return damaged(db.path(), "its plan differs from the written one");
+  if (!has_tables(*tables, plan)) return damaged(db.path(), "its tables do not match its columns");
   return plan;
 }
 

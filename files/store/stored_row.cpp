@@ -69,7 +69,7 @@ std::optional<analysis::RunEnd> end_of(const std::string& word) {
 }
 
 base::Problem not_as_written() {
-  return {.where = {}, .value = {}, .limit = "does not hold what a row of this store holds", .cure = {}};
+  return {.where = {}, .value = {}, .limit = "does not have the contents of a row of this store", .cure = {}};
 }
 
 }  // namespace

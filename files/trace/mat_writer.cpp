@@ -116,7 +116,7 @@ base::Problems MatWriter::save_what_fits(std::uint64_t digest) {
   }
   if (!assemble(digest) || !file_.commit_partial().empty()) return {problem};
   problem.cure = too_long_
-                     ? fmt::format("{}; what was finished is in {}", problem.cure, partial_name(file_.path()))
+                     ? fmt::format("{}; the finished part is in {}", problem.cure, partial_name(file_.path()))
                      : saved_instead(file_.path());
   return {problem};
 }

@@ -11,7 +11,7 @@ namespace files {
 
 struct TraceOrigin {
   std::string scenario;      ///< the file's name
-  std::uint64_t digest = 0;  ///< of all files read and of the values that the command line set
+  std::uint64_t digest = 0;  ///< digest of all files read and of the values that the command line set
   std::string title, motor;
   std::string command;  ///< makes the trace again
   std::string text;     ///< the scenario file's, as it was read

@@ -88,7 +88,7 @@ TEST(Commission, ASheetWithoutNominalCurrentIsTestedWithTheStandIn) {
   EXPECT_FALSE(usual->nominal_printed);
   EXPECT_EQ(usual->wish.test_A, 10);  // 12 V/(2 0.1153 ohm)/5 = 10.4 A, to two digits
   EXPECT_EQ(text::stand_in_words(*usual),
-            ", twice a tenth of what full duty drives: the sheet names no nominal current");
+            ", a fifth of the current at full duty: the sheet names no nominal current");
   drone.current_A = 19;
   EXPECT_EQ(text::stand_in_words(*analysis::commission_bench(drone)), "");
   const auto printed = analysis::commission_bench(subject_of("maxon-251601"));

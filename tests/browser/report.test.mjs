@@ -205,7 +205,7 @@ test('where the energy went is drawn so that it can be read, in light and dark, 
   for (const theme of ['light', 'dark']) {
     const page = await opened('short.html', {theme});
     const drawing = page.locator('.sankey svg[role=img]');
-    assert.match(await drawing.getAttribute('aria-label'), /Comes from: Supplied by the bus [\d.]+ J\. Goes to: .*Copper/);
+    assert.match(await drawing.getAttribute('aria-label'), /Sources: Supplied by the bus [\d.]+ J\. Sinks: .*Copper/);
     const {texts, overlaps, ink, paper} = await drawing.evaluate((svg) => {
       const boxes = [...svg.querySelectorAll('text')].map((t) => t.getBoundingClientRect());
       const whole = svg.getBoundingClientRect();

@@ -99,7 +99,7 @@ class Bench(Started):
         written = tomllib.loads((self.path / "a.toml").read_text())
         self.assertEqual(written, {"sensors": {}})
         for told in (text, (self.path / "a.toml").read_text()):
-            self.assertIn("# hall_edges_deg is left out: codes alone tell neither which edge is the first", told)
+            self.assertIn("# hall_edges_deg is left out: codes alone show neither the first edge nor", told)
         (self.path / "log.csv").write_text(log())
         self.run_program("motor", "identify", "log.csv", "--write", "b.toml")
         self.assertEqual(len(tomllib.loads((self.path / "b.toml").read_text())["sensors"]["hall_edges_deg"]), 6)
@@ -160,9 +160,9 @@ class Bench(Started):
                            (whole.replace(",", "|"), "holds no row of numbers"),
                            ("\x1f\x8b\x08\x00\x00" + whole, "is no text; export the recording as CSV; gzip -d"),
                            (whole.replace("0.01,", "nan,", 1), ': time "nan" is not a number; leave such rows out'),
-                           (whole + "1e300,1,0,0,0,0,0\n", "time 1e+300 in row 2161 is beyond all instruments; check the unit"),
+                           (whole + "1e300,1,0,0,0,0,0\n", "time 1e+300 in row 2161 is too large for any instrument; check the unit"),
                            (whole + "0,1,0,0,0,0,0\n", "time 0 in row 2161 does not rise; give the rows in the order"),
-                           (whole + "1,1,0,0,1e200,0,0\n", "u_ab 1e+200 in row 2161 is beyond all instruments"),
+                           (whole + "1,1,0,0,1e200,0,0\n", "u_ab 1e+200 in row 2161 is too large for any instrument"),
                            (whole + "1,1,0\n", ':2162: hall3 "" is not a number'),
                            (whole.rsplit(",", 200)[0], 'is not a number')):
             (self.path / "log.csv").write_text(text)
@@ -181,7 +181,7 @@ class Bench(Started):
                            (head, "holds no row of numbers"),
                            (head + "".join(rows.splitlines(True)[:900]), "period"),
                            (head + "".join(f"{n * 1e-5:g},0.25\n" for n in range(900)), "u_ab = 0.25 V in every row: the motor was at rest"),
-                           (whole.replace("u_ab [V]", "CH1 [V]"), "--between is missing: the headings do not say what the probes hung between; lines is"),
+                           (whole.replace("u_ab [V]", "CH1 [V]"), "--between is missing: the headings do not name the points of the probes; lines is"),
                            (whole.replace("time [s]", "sample"), "has no column of time: it has sample, u_ab; head it time [s], or give"),
                            (whole + "1,inf\n", 'u_ab "inf" is not a number')):
             (self.path / "scope.csv").write_text(text)

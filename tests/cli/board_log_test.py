@@ -150,7 +150,7 @@ class LogsOfOthers(LogTest):
     def test_simplefoc_has_neither_head_nor_time(self):
         self.log("MOT: Monitor enabled!\nMOT: Init\nMOT: Ready.\n",
                  lambda n, r: f"5.0000\t14.4000\t0.0000\t{1e3 * r['i_m_A']:.4f}\t0.0000\t{r['speed_rad_s']:.4f}\t0.1\n")
-        self.assertIn("where none has a heading", self.compared(code=2)[1])
+        self.assertIn("without headings the first column is used", self.compared(code=2)[1])
         self.expect_right("--interval", "0.003", "--columns", "speed=column 6,i_m=column 4/1000")
 
     def test_what_the_board_said_between_the_rows_is_told(self):

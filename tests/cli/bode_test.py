@@ -59,7 +59,7 @@ class Bode(ProgramTest):
         self.assertEqual([re.split(r" {2,}", line.strip())[1] for line in margins], ["-"] * 5, made.stdout)
         # The linear loop includes the half period of samples in the middle and the crossings' delay, so that no deviation is reported.
         self.assertNotIn("no linear loop", made.stdout)
-        self.assertIn("the loop includes the delay of the back-EMF's zero crossings: the speed is ", made.stdout)
+        self.assertIn("the loop includes the delay of the back-EMF's zero crossings: at this speed the measured speed is ", made.stdout)
         told = json.loads((self.path / "b.json").read_text())
         self.assertFalse(told["answered"])
         self.assertEqual(set(told["measured"].values()), {None})
@@ -87,7 +87,7 @@ class Bode(ProgramTest):
             (self.path / "b.json").unlink()
             lost = told["designed"]["phase_margin_deg"] - told["measured"]["phase_margin_deg"]
             self.assertEqual(lost > 5, beside)
-            self.assertEqual('deg beside the designed one' in made and 'pwm.chopping = "complementary" lets it' in made, beside)
+            self.assertEqual('deg from the designed one' in made and 'pwm.chopping = "complementary" lets it' in made, beside)
             page = (self.path / "b.html").read_text()
             self.assertIn("±", page)
             self.assertNotIn("+-", page[page.index("<h1"):page.index("<footer") if "<footer" in page else len(page)])
@@ -102,17 +102,17 @@ class Bode(ProgramTest):
         encoder = ("--set", "sensors.rotor=encoder", "--set", "pwm.commutation=sample")
         for words, said, cures in some((
                 (("sp.toml", *free, *ideal), "this chopping lets no current flow backwards", (both,)),
-                (("po.toml",), "Hall probes tell the position in steps of 7.5 deg", (encoder,)),
+                (("po.toml",), "Hall probes resolve the position only in steps of 7.5 deg", (encoder,)),
                 (("sp.toml",), None, ()),
                 (("sp.toml", *ideal), None, ()),
-                (("po.toml", *both), "Hall probes tell the position in steps of 7.5 deg", (ideal,))), 3):
+                (("po.toml", *both), "Hall probes resolve the position only in steps of 7.5 deg", (ideal,))), 3):
             with self.subTest(words=words):
-                beside = re.findall("deg beside the designed one: (.*)", self.run_program("run", *words, "--bode").stdout)
+                beside = re.findall("deg from the designed one: (.*)", self.run_program("run", *words, "--bode").stdout)
                 self.assertEqual(len(beside), said is not None, beside)
                 if said:
                     self.assertTrue(beside[0].startswith(said), beside)
                 for cure in cures:
-                    self.assertNotIn("beside the designed one", self.run_program("run", *words, *cure, "--bode").stdout)
+                    self.assertNotIn("from the designed one", self.run_program("run", *words, *cure, "--bode").stdout)
 
     def test_json_is_alone_on_standard_output(self):
         made = self.run_program("run", LOCKED, "--bode", "--amplitude", "0.5", "--json", "-")
@@ -121,8 +121,8 @@ class Bode(ProgramTest):
 
     def test_refuses_with_a_way_out_and_writes_nothing(self):
         for words, said in (((NO_LOOP, "--bode"), "has no loop"),
-                            ((LOCKED, "--bode", "--vary", "supply.voltage_V=20:28:3"), "--vary has nothing to do with --bode"),
-                            ((LOCKED, "--bode", "--out", "all"), "--out has nothing to do with --bode"),
+                            ((LOCKED, "--bode", "--vary", "supply.voltage_V=20:28:3"), "--vary has no effect with --bode"),
+                            ((LOCKED, "--bode", "--out", "all"), "--out has no effect with --bode"),
                             ((LOCKED, "--amplitude", "1"), "--bode"),
                             ((LOCKED, "--bode", "--amplitude", "-1"), "--amplitude"),
                             ((LOCKED, "--bode", "--set", "reference={ value = 0 }"), "--amplitude"),

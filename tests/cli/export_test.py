@@ -100,7 +100,7 @@ class Gate(ProgramTest):
         result = self.run_program("export", "header", self.scenario(name), *words, "--out", "d.hpp", code=code)
         self.assertEqual((result.stdout, self.names()), ("", []))
         *lines, last = result.stderr.splitlines()
-        self.assertEqual(last, "no header was written; --despite REASON writes one that says all of this")
+        self.assertEqual(last, "no header was written; --despite REASON writes one that states all of this")
         return [line.removeprefix(self.scenario(name) + ": ") for line in lines]
 
     def test_a_header_that_passed_says_what_it_passed(self):
@@ -180,7 +180,7 @@ class Gate(ProgramTest):
         text = self.run_program("export", "header", self.scenario("current-square"), "--set", "supply.voltage_V=6",
                                 "--despite", reason).stdout
         lines = text.splitlines()
-        at = lines.index("// NOT CLEARED FOR A BRIDGE. Written all the same, for this reason:")
+        at = lines.index("// NOT CLEARED FOR A BRIDGE. Written anyway, for this reason:")
         self.assertEqual(lines[at + 1:at + 3], ["//   one bench\\u000a#error two\\u000d*/ \\ \\u202e", "// What was overridden:"])
         self.assertEqual([line.split(" ")[3] for line in lines[at + 3:at + 7]],
                          ["sensors.currents", "pwm.delay_periods", "bridge.dead_time_s", "slowest"])
@@ -192,9 +192,9 @@ class Gate(ProgramTest):
 
     def test_despite_needs_a_reason_and_is_told_where_it_was_not_needed(self):
         told = self.run_program("export", "header", self.scenario(BOARD), "--despite", " \n", code=2).stderr
-        self.assertEqual(told, "--despite gives no reason; give the reason for writing the header all the same; the header quotes it\n")
+        self.assertEqual(told, "--despite gives no reason; give the reason for writing the header anyway; the header quotes it\n")
         clear = self.run_program("export", "header", self.scenario(BOARD), *DESPITE)
-        self.assertIn("--despite was not needed: the run holds, and the header says so\n", clear.stderr)
+        self.assertIn("--despite was not needed: the run holds, and the header states it\n", clear.stderr)
         self.assertIn("Cleared by its run", clear.stdout)
 
 

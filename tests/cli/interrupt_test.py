@@ -114,7 +114,7 @@ class Ends(Started):
             heard, said = self.stopped("run", "long.toml", "--csv", "a.csv", "--html", "a.html", "--json", "a.json", after=(0.3, 0.8))
             self.assertEqual(heard, "a.partial.html" in self.names())
             self.assertEqual([name for name in self.names() if "partial" not in name], ["long.toml"])
-            self.assertIn("what was finished is in a.partial.csv, a.partial.json, a.partial.html\n", said)
+            self.assertIn("the finished part is in a.partial.csv, a.partial.json, a.partial.html\n", said)
 
     def test_a_comparison(self):
         (self.path / "other.toml").write_text(ENDLESS)
@@ -145,10 +145,10 @@ class Ends(Started):
                 program.send_signal(signal.SIGINT)
                 told = program.communicate(timeout=60)[1]
             self.assertEqual(program.returncode, 130, told)
-            left = "current-square-series: interrupted; what was finished is in o.partial.csv, o.partial.json"
-            kept = "; what has run is kept in o.sqlite, and the same command with --resume goes on"
+            left = "current-square-series: interrupted; the finished part is in o.partial.csv, o.partial.json"
+            kept = "; the finished runs are kept in o.sqlite, and the same command with --resume continues"
             self.assertIn(left + (kept if store else "") + "\n", told)
-            self.assertIn("the verdicts of what was finished are in o.partial.xml\n", told)
+            self.assertIn("the verdicts of the finished runs are in o.partial.xml\n", told)
             self.assertEqual([name for name in self.names() if name.startswith("o.")],
                              ["o.partial.csv", "o.partial.json", "o.partial.xml"] + (["o.sqlite"] if store else []))
             for name in self.names():
@@ -174,7 +174,7 @@ class Ends(Started):
                 program.send_signal(signal.SIGINT)
                 told = program.communicate(timeout=60)[1]
                 self.assertEqual(program.returncode, 130, told)
-                self.assertIn(f"{what}: interrupted; what has run is kept in s.sqlite, and the same command with --resume goes on\n", told)
+                self.assertIn(f"{what}: interrupted; the finished runs are kept in s.sqlite, and the same command with --resume continues\n", told)
             (self.path / "s.sqlite").unlink()
 
     def test_curves(self):

@@ -58,7 +58,7 @@ class Starter(ProgramTest):
         self.assertEqual(self.run_program("new", "mine.toml", code=2).stderr,
                          "mine.toml is there already; choose another name, or move it away\n")
         self.assertEqual((self.path / "mine.toml").read_text(), "mine")
-        self.assertIn("wrote other.toml; sixstep-scenario.schema.json beside it is another and stays", self.run_program("new", "other").stdout)
+        self.assertIn("wrote other.toml; the existing sixstep-scenario.schema.json beside it differs and is kept", self.run_program("new", "other").stdout)
         self.assertEqual((self.path / "sixstep-scenario.schema.json").read_text(), "{}")
 
     def test_without_a_name_it_goes_to_standard_output(self):

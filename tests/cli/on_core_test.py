@@ -63,7 +63,7 @@ class OnCore(ProgramTest):
         self.assertEqual(self.names(), ["drifts.toml", "own.toml", "retuned.toml"])
 
     def test_says_what_is_missing_and_leaves_no_file(self):
-        for environment, said in (({"PATH": "/nowhere"}, "arm-none-eabi-g++ is not on this machine; install it"),
+        for environment, said in (({"PATH": "/nowhere"}, "arm-none-eabi-g++ is not installed on this machine; install it"),
                                   ({"SIXSTEP_SOURCES": "/nowhere"}, "set SIXSTEP_SOURCES to the folder"),
                                   ({"TMPDIR": "/proc"}, "set TMPDIR to a folder that can be written to")):
             with self.subTest(said=said), tempfile.TemporaryDirectory() as folder:

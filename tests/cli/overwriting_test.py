@@ -110,7 +110,7 @@ class Overwriting(Started):
         for size in (248, 255, 256):
             name = "n" * (size - 4) + ".csv"
             told = self.run_program("run", "slow.toml", "--csv", name, code=2).stderr
-            self.assertEqual(told, f"{name}: cannot be written: File name too long; take a shorter name: a run that is cut short puts .partial into it\n")
+            self.assertEqual(told, f"{name}: cannot be written: File name too long; choose a shorter name: an interrupted run adds .partial to it\n")
         self.run_program("run", "slow.toml", "--csv", "n" * 243 + ".csv", "--quiet", "--set", "duration_s=1e-4")
 
 

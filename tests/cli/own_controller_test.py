@@ -33,7 +33,7 @@ label = "most"
 max = 1000
 """
 WHO = rf"^{re.escape(str(CONTROLLER))}: the controller "
-ENDS = "; the program ends here, and what it has not finished is lost\n$"
+ENDS = "; the program ends here, and unfinished results are lost\n$"
 AT_20 = r" in step 20, at t = 0\.600 ms"
 
 # The message about each way to end the program, and the places where it may occur.
@@ -167,7 +167,7 @@ class OwnController(Started):
             with self.subTest(place):
                 code, told = self.stuck(f"{place}-loop", "run", "a.toml", "--csv", "o.csv")
                 self.assertEqual(code, -signal.SIGINT)
-                self.assertRegex(told, WHO + "does not come back" + PLACES[place] + r"; press Ctrl-C again to end \(a second SIGTERM does so, too\)\n$")
+                self.assertRegex(told, WHO + "does not come back" + PLACES[place] + r"; press Ctrl-C again to end \(or send a second SIGTERM\)\n$")
                 self.nothing_is_left()
         code, told = self.stuck("step-loop", "run", "a.toml", "--vary", "supply.voltage_V=20,22", "--store", "s.sqlite", "--jobs", "1")
         self.assertRegex(told, ", of run 0; press")

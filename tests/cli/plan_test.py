@@ -169,7 +169,7 @@ class Plan(ProgramTest):
                 with unittest.mock.patch.dict(os.environ, {size: "2", rank: n}):
                     told.append(self.run_program("run", file, "--runs", "3", code=2).stderr)
                     self.run_program("motor", "list")
-            self.assertIn("started 2 processes, and this build knows nothing of MPI", told[0])
+            self.assertIn("started 2 processes, and this build has no MPI", told[0])
             self.assertEqual(told[1], "")
             with unittest.mock.patch.dict(os.environ, {size: "1", rank: "0"}):
                 self.run_program("run", file, code=1)
@@ -207,11 +207,11 @@ class Plan(ProgramTest):
         for words, told in ((["--dry-run"], "--vary is missing"), (["--store", "s.sqlite"], "--vary is missing"),
                             (["--points", "5"], "--vary is missing"), (["--sampling", "sobol"], "--vary is missing"),
                             (["--resume"], "--resume continues the runs of a store"),
-                            (["--tolerances"], "--tolerances makes drives differ"),
-                            ([*varied, "--tolerances"], "--tolerances makes drives differ"),
+                            (["--tolerances"], "--tolerances needs several drives"),
+                            ([*varied, "--tolerances"], "--tolerances needs several drives"),
                             ([*varied, "--watch"], "--watch reruns scenarios"),
                             ([*varied, "--vary", "supply.voltage_V=5,6"], "is varied already"),
-                            ([*varied, "--set", "supply.voltage_V=6"], "--set supply.voltage_V would be lost: the plan varies this key"),
+                            ([*varied, "--set", "supply.voltage_V=6"], "--set supply.voltage_V has no effect, because the plan varies this key"),
                             ([*varied, "--points", "4", "--sampling", "grid"], "--points = 4 applies to drawn points")):
             self.assertIn(told, self.run_program("run", self.held(), *words, code=2).stderr)
         self.assertEqual(self.names(), ["a.toml"])

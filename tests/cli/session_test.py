@@ -53,7 +53,7 @@ class Interruption(Session):
         summary = json.loads((self.path / "a.partial.json").read_text())
         self.assertFalse(summary["complete"])
         at = summary["simulated_s"]
-        self.assertRegex(told, rf"a: interrupted at {at:.6g} s of 10000 s; what was finished is in a\.partial\.csv, a\.partial\.mat, "
+        self.assertRegex(told, rf"a: interrupted at {at:.6g} s of 10000 s; the finished part is in a\.partial\.csv, a\.partial\.mat, "
                                r"h\.partial\.mat, a\.partial\.vcd, a\.partial\.json, a\.partial\.html\n")
         lines = (self.path / "a.partial.csv").read_text().splitlines()
         self.assertEqual(len(lines[-1].split(",")), len(lines[3].split(",")), "the last row is whole")
@@ -144,7 +144,7 @@ class FullDisk(Session):
                 self.assertEqual(program.returncode, 2)
                 partial = name.replace(".", ".partial.")
                 self.assertTrue(told.startswith(
-                    f"{name}: cannot be written: File too large; what was finished is in {partial}; make room and run it again\n"), told)
+                    f"{name}: cannot be written: File too large; the finished part is in {partial}; free disk space and run again\n"), told)
                 self.assertRegex(told, r"R3: stopped at [\d.]+ s of 10 s\n$")
                 self.assertEqual(self.names(), [partial])
                 written = self.path / partial

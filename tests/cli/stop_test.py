@@ -113,7 +113,7 @@ class Stopped(Started):
             told = program.communicate(timeout=20)[1]
         self.assertEqual(program.returncode, 129, told)
         self.assertEqual(self.names(), ["log.csv", "o.partial.csv", "o.partial.mat"])
-        self.assertIn("what was finished is in o.partial.csv, o.partial.mat\n", told)
+        self.assertIn("the finished part is in o.partial.csv, o.partial.mat\n", told)
 
     def test_nohup_is_heeded(self):
         self.fresh()

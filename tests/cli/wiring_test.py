@@ -120,7 +120,7 @@ class Wiring(Started):
         (self.path / "stiff.toml").write_text(SHIPPED + "\ncoulomb_friction_mNm = 60\n")
         text = self.run_program("motor", "wiring", "stiff.toml", code=1).stdout
         self.assertIn("phases abc, Hall lines 231: backward, late by theory, hums in simulation\n", text)
-        self.assertIn("24 of 36 move in simulation as theory says", text)
+        self.assertIn("24 of 36 move in simulation as theory predicts", text)
 
     @unittest.skipUnless(EVERY, "only with --every-motor")
     def test_every_motor_of_the_library(self):

@@ -105,7 +105,7 @@ class OwnControllerPage(unittest.TestCase):
         self.run_program("run", "own.toml", "--quiet", "--html", "own.html")
         page = (self.path / "own.html").read_text(encoding="utf-8")
         self.assertIn("PI in integers", page)
-        self.assertIn("chopping as the controller answers", page)
+        self.assertIn("chopping as the controller commands", page)
 
     def test_a_report_names_no_current_reference_that_nobody_gave(self):
         """mine.c limits no current and answers no reference."""
@@ -163,7 +163,7 @@ class OwnControllerPage(unittest.TestCase):
         made = self.run_program("run", "own.toml", "--set", "control.own={controller='wrong.so'}", code=3)
         self.assertIn("wrong.so: the controller answered duty = infinite in step 1, which must lie in 0 to 1", made.stderr + made.stdout)
         self.assertIn("own", self.run_program("export", "header", "own.toml", code=2).stderr)
-        self.assertIn("is another controller's name", self.run_program(
+        self.assertIn("is already another controller's name", self.run_program(
             "compare", "maxon-251601", "--own", "six_step_again.so", "--own", "six_step_again.so", code=2).stderr)
 
 

@@ -107,7 +107,7 @@ TEST_F(DamagedStore, OfEachValueOfARowIsTold) {
   }
   write(good);
   tamper("UPDATE run SET f0 = (SELECT f0 FROM run WHERE run = 8) WHERE run = 3");
-  EXPECT_THAT(told(), HasSubstr("run 3 is not what was written"));
+  EXPECT_THAT(told(), HasSubstr("run 3 differs from the written one"));
   write(good);
   tamper("DELETE FROM run WHERE run = 3");
   EXPECT_EQ(told(), "") << "a run that is missing is made again";
@@ -134,7 +134,7 @@ TEST_F(DamagedStore, OfWhatItSaysOfItselfIsTold) {
 TEST_F(DamagedStore, OfAnotherFormatOrVersionSaysSo) {
   const std::string good = text_of_file();
   tamper("PRAGMA user_version = 1");
-  EXPECT_THAT(told(), HasSubstr("was written by an older sixstep, which kept no checksums"));
+  EXPECT_THAT(told(), HasSubstr("was written by an older sixstep without checksums"));
   EXPECT_THAT(told(), HasSubstr("(force)"));
   ASSERT_TRUE(PlanStore::create(path(), plan(), true)) << "the cure";
   write(good);

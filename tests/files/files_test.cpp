@@ -150,8 +150,8 @@ TEST_F(Files, AColumnTooLongForMat5EndsTheTraceAndNamesTheCure) {
   EXPECT_EQ(rows, 2 * ColumnSpool::block_rows + 1) << "the row that is refused tells it";
   EXPECT_EQ(to_string(mat->commit(0).at(0)),
             at("a.mat") +
-                ": has 4096 rows, and a column of MAT 5 ends at 2 GiB; take --mat73, or record less; what "
-                "was finished is in " +
+                ": has 4096 rows, and a column of MAT 5 ends at 2 GiB; take --mat73, or record less; "
+                "the finished part is in " +
                 at("a.partial.mat"));
   EXPECT_GT(fs::file_size(at("a.partial.mat")), 2 * 4096 * sizeof(double));
   EXPECT_EQ(entries(), 1U);

@@ -173,8 +173,8 @@ TEST_F(ReplacedFiles, ANameMayBeAsLongAsLeavesRoomForItsPartial) {
   for (const std::size_t size : {longest - partial + 1, longest, longest + 1})
     EXPECT_THAT(
         told_writing(named(size), "new"),
-        HasSubstr("cannot be written: File name too long; take a shorter name: a run that is cut short puts "
-                  ".partial into it"));
+        HasSubstr(
+            "cannot be written: File name too long; choose a shorter name: an interrupted run adds .partial to it"));
   EXPECT_EQ(entries(), 2U);
 }
 

@@ -84,7 +84,7 @@ TEST(Emulator, WhatDoesNotStartIsTold) {
   missing.emulator.front() = "no-such-emulator";
   const auto emulator = Emulator::start(missing, "image");
   ASSERT_FALSE(emulator);
-  EXPECT_THAT(base::to_string(emulator.problems().front()), HasSubstr("is not on this machine"));
+  EXPECT_THAT(base::to_string(emulator.problems().front()), HasSubstr("is not installed on this machine"));
 }
 
 }  // namespace SIXSTEP_TEST_FILE

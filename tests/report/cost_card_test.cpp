@@ -100,7 +100,7 @@ TEST(CostCard, switching_stands_besides_with_the_figures_energy) {
   const double joule = run.outcome.comparisons[0].measured * s.duration_s;
   EXPECT_GT(joule, 1e-3);
   EXPECT_THAT(cost_content(run.outcome, run.trace),
-              HasSubstr("Switching, besides<br><small>not in the account</small></th><td class=\"num\">" +
+              HasSubstr("Switching<br><small>not included</small></th><td class=\"num\">" +
                         computed(joule, "J") + "</td>"));
 }
 

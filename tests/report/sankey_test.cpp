@@ -80,10 +80,9 @@ TEST(Sankey, a_motoring_run_goes_from_the_bus_to_the_load) {
   const std::string svg = energy_sankey(book(0.4, 0.1, 0.0, 0.05, 1.0, 0.45));
   expect_kirchhoff(svg);
   EXPECT_THAT(
-      svg,
-      HasSubstr("role=\"img\" aria-label=\"Energy of the run, from left to right. Comes from: Supplied by "
-                "the bus 2.000 J. Goes to: Load 1.000 J, Into kinetic energy 0.4500 J, Friction 0.05000 "
-                "J, Copper 0.4000 J, Switches and diodes 0.1000 J.\""));
+      svg, HasSubstr("role=\"img\" aria-label=\"Energy of the run, from left to right. Sources: Supplied by "
+                     "the bus 2.000 J. Sinks: Load 1.000 J, Into kinetic energy 0.4500 J, Friction 0.05000 "
+                     "J, Copper 0.4000 J, Switches and diodes 0.1000 J.\""));
   EXPECT_THAT(svg, HasSubstr("across the air gap 1.500 J"));
   EXPECT_THAT(svg, Not(HasSubstr("magnetic")));  // nothing stayed there
 }
@@ -91,11 +90,10 @@ TEST(Sankey, a_motoring_run_goes_from_the_bus_to_the_load) {
 TEST(Sankey, a_braking_run_feeds_back_what_the_rotor_gave) {
   const std::string svg = energy_sankey(book(0.2, 0.05, 0.01, 0.04, 0.0, -1.0));
   expect_kirchhoff(svg);
-  EXPECT_THAT(
-      svg,
-      HasSubstr("Comes from: From kinetic energy 1.000 J. Goes to: Fed back to the bus 0.7000 J, Into the "
-                "magnetic field 0.01000 J, Copper 0.2000 J, Switches and diodes 0.05000 J, Friction "
-                "0.04000 J."));
+  EXPECT_THAT(svg,
+              HasSubstr("Sources: From kinetic energy 1.000 J. Sinks: Fed back to the bus 0.7000 J, Into the "
+                        "magnetic field 0.01000 J, Copper 0.2000 J, Switches and diodes 0.05000 J, Friction "
+                        "0.04000 J."));
 }
 
 TEST(Sankey, a_locked_rotor_has_no_air_gap_to_show) {

@@ -46,7 +46,8 @@ TEST(Spectra, of_what_is_not_there_there_is_none) {
 
 TEST(Spectra, of_a_drift_alone_no_line_stands_out) {
   const std::string html = spectra_section(spectra(trace_of(rounding, drift), scenario(), 2));
-  EXPECT_THAT(html, HasSubstr("<h3>Spectrum of the torque</h3><p class=\"quiet\">No line stands out.</p>"));
+  EXPECT_THAT(html,
+              HasSubstr("<h3>Spectrum of the torque</h3><p class=\"quiet\">No line exceeds the noise.</p>"));
   EXPECT_THAT(html, Not(HasSubstr("<table")));
 }
 

@@ -13,9 +13,9 @@ from build import Failed
 TABLE = cores.TABLES / "blocks.txt"
 SLOTS = ("slot0", "slot1", "slot2")
 HEAD = """# SPDX-License-Identifier: Apache-2.0
-# core, block, scalar, function, calls, and of what each executed: mean, what 99.9 % do not pass, worst; written by
+# core, block, scalar, function, calls, and the count per call: mean, 99.9 % quantile, worst; written by
 # tools/check_target.sh --renew blocks. ATmega2560: cycles; the others: instructions. Called as functions with configurations
-# in memory; the call's own cost is taken off.
+# in memory; without the cost of the call itself.
 """
 
 

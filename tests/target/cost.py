@@ -15,7 +15,7 @@ SOURCES = [cores.HERE / "cost" / "main.cpp", cores.HERE / "cost" / "entries.cpp"
 USUAL = ("hysteresis", "position", "product", "field")  # position runs the speed loop, that the current's, that the duty's
 MORE = 1.05  # a larger ratio to the table's count is reported
 HEAD = """# SPDX-License-Identifier: Apache-2.0
-# core, drive, scalar, entry, calls, and of what each executed: mean, what 99.9 % do not pass, worst; written by
+# core, drive, scalar, entry, calls, and the count per call: mean, 99.9 % quantile, worst; written by
 # tools/check_target.sh --renew. ATmega2560: cycles; the others: instructions. tick_interrupt and hall_interrupt are the same
 # entries with what an interrupt adds: saved registers and reti, the vector's jump, and the five cycles of its response.
 """

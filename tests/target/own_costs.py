@@ -18,7 +18,7 @@ CONTROLLERS = cores.REPOSITORY / "data" / "controllers"
 CORE = "Cortex-M4F"
 CASES = {"six_step_again.cpp": "speed", "sine_voltage.c": "duty"}  # each with its scenario
 HEAD = """# SPDX-License-Identifier: Apache-2.0
-# core, controller, scalar, entry, calls, and of what each executed: mean, what 99.9 % do not pass, worst; of size: bytes of flash and RAM.
+# core, controller, scalar, entry, calls, and the count per call: mean, 99.9 % quantile, worst; of size: bytes of flash and RAM.
 # Written by tools/check_target.sh --renew own
 """
 

@@ -33,8 +33,8 @@ std::string told(const std::string& file) {
 TEST(DecimalMarks, CommasBesidePointsAreRefusedWithBothCells) {
   EXPECT_EQ(
       seen(in_millivolts("t (ms)\tu_ab (mV)\tu_bc (mV)\n", "{:.1f}\t{}\t{}\n", ',')).problem,
-      "r.csv:2: holds 3,784, and line 2 holds 0.0: one mark is decimal, and what the other parts nobody "
-      "can say; write thousands without a mark between them, 2940, and one decimal mark, or leave the "
+      "r.csv:2: holds 3,784, and line 2 holds 0.0: one mark is decimal, and the other one's meaning "
+      "is unclear; write thousands without a mark between them, 2940, and one decimal mark, or leave the "
       "column out");
   EXPECT_THAT(told("t;u\n0,5;1,5\n1;1.025\n"),
               AllOf(StartsWith("r.csv:3: holds 1.025, and line 2 holds 0,5")));

@@ -36,7 +36,7 @@ TEST(ForeignFile, SaysWhatItIsAndWhichLinesToType) {
       told(vesc),
       "m.xml:1:1: is a VESC motor configuration, and a TOML file is wanted; type into a motor's file: pole_pairs = 7, "
       "resistance_ohm = { value = 0.0187, frame = \"phase\" }, inductance_uH = { value = 22.3, frame = \"phase\" }, "
-      "flux_linkage_mWb = 5.12; it lacks the inertia, and what else the style firmware lists");
+      "flux_linkage_mWb = 5.12; add the inertia and the other values that the style firmware lists");
   EXPECT_THAT(
       told(moteus),
       HasSubstr(

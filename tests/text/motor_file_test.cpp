@@ -96,8 +96,8 @@ TEST_F(MotorFile, EachSlipIsOneClearErrorWithItsCure) {
        "m.toml:8:17: back_emf_mV_s = 16 contradicts torque_constant_mNm_A, which means 16.75; give only one "
        "of the two"},
       {sheet_with("stall_current_A = { value = 23.3, range = [24, 25] }"),
-       "m.toml:8:43: stall_current_A.range = [24, 25] does not hold the value, 23.3; it reaches over what "
-       "all sources say, the value included"},
+       "m.toml:8:43: stall_current_A.range = [24, 25] does not hold the value, 23.3; write the least and the "
+       "largest value of all sources, including this value"},
       {sheet_with("stall_current_A = { value = 23.3, range = [25, 24] }"),
        "m.toml:8:43: stall_current_A.range = [25, 24] runs downwards; write range = [low, high]"},
       {sheet_with("inertia_gcm2 = { value = 135, kind = \"measurd\" }"),

@@ -73,10 +73,9 @@ TEST(PrintedUnits, HertzAndMinutesElsewhere) {
                   .back_emf_constant_V_krpm->value,
               0.15, 1e-16);
   EXPECT_NEAR(read(motor + "back_emf_mV_s = \"5 mWb\"\n").back_emf_mV_s->value, 10.0, 0.0);
-  EXPECT_THAT(told(motor + "viscous_friction_Nm_s = \"1e-3 mNm/Hz\"\n"),
-              HasSubstr("hertz do not say of what"));
+  EXPECT_THAT(told(motor + "viscous_friction_Nm_s = \"1e-3 mNm/Hz\"\n"), HasSubstr("hertz may count turns"));
   EXPECT_THAT(told(motor + "back_emf_constant_V_krpm = { value = \"4.5 mV min\", frame = \"line-peak\" }\n"),
-              HasSubstr("minutes multiply here"));
+              HasSubstr("minutes are a factor here"));
   EXPECT_THAT(told(motor + "no_load_speed_rpm = \"300 1/s\"\n"), HasSubstr("not of the kind of rpm"));
   EXPECT_NEAR(read(motor + "no_load_speed_rpm = \"6000 erpm\"\n").no_load_speed_rpm->value, 3000.0, 1e-12);
 }
@@ -122,7 +121,7 @@ TEST(PrintedUnits, RmsInAUnitIsTheFrame) {
       "m.toml:4:34: torque_constant_Nm_A.value = \"0.55 Nm/Arms\" is rms, and its frame is \"terminal\"; write frame "
       "= \"rms\", or the unit without rms\n");
   EXPECT_THAT(told(motor + "back_emf_constant_V_krpm = \"40 Vrms/krpm\"\n"),
-              HasSubstr("is rms and must say of what; write frame = \"line-rms\" or \"phase-rms\""));
+              HasSubstr("is rms, and its frame is missing; write frame = \"line-rms\" or \"phase-rms\""));
   EXPECT_EQ(
       read(motor + "back_emf_constant_V_krpm = { value = \"0.382 Vrms/(rad/s)\", frame = \"line-rms\" }\n")
           .back_emf_constant_V_krpm->frame,
@@ -162,7 +161,7 @@ TEST(PrintedUnits, AScenarioKnowsThePolePairsOfItsMotor) {
   EXPECT_EQ(scenario_told("initial.speed_rad_s = \"10 turns/s\"\n", speed_rad_s), "accepted");
   EXPECT_NEAR(speed_rad_s, 20 * M_PI, 1e-14);
   EXPECT_THAT(scenario_told("initial.speed_rad_s = \"10 Hz\"\n", speed_rad_s),
-              HasSubstr("hertz do not say of what"));
+              HasSubstr("hertz may count turns"));
   // 1e6 rad/s is the largest value: 8 times as many electrical ones.
   EXPECT_THAT(scenario_told("initial.speed_rad_s = \"1e9 erpm\"\n", speed_rad_s),
               HasSubstr("must lie in -76394372.68410976 to 76394372.68410976, in erpm"));

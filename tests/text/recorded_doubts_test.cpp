@@ -77,7 +77,7 @@ TEST(RecordedDoubts, ADecimalCommaBetweenCommasIsNamed) {
   for (const char* head : {"time [s],u_ab [V],u_bc [V]\n", ""})
     EXPECT_THAT(
         seen(with_commas(plain(head)), between_lines).problem,
-        AllOf(HasSubstr("commas are decimal points here and part the cells too"), HasSubstr("semicolons")));
+        AllOf(HasSubstr("commas are both decimal points and separators here"), HasSubstr("semicolons")));
 }
 
 TEST(RecordedDoubts, RowsOfMoreCellsThanHeadingsAreToldOf) {
@@ -112,7 +112,7 @@ TEST(RecordedDoubts, ColumnsThatAreNotUsedAreNamed) {
   EXPECT_THAT(
       seen(file).notes,
       ElementsAre(
-          "not used: Remark (holds no numbers), Temp (in degC), aux (its heading says nothing that is known here)"));
+          "not used: Remark (holds no numbers), Temp (in degC), aux (its heading has no known meaning)"));
   const std::string four = table("time [s],CH1,CH2,CH3,CH4\n", [](int, double t, double a, double b) {
     return fmt::format("{:.6f},{:.5f},{:.5f},{:.5f},{:.5f}\n", t, a, b, -a - b, a);
   });
@@ -147,7 +147,7 @@ TEST(RecordedDoubts, AKnownColumnThatIsNotUsedSaysTrulyWhy) {
   EXPECT_THAT(notes("hall1,H2,code"),
               ElementsAre("not used: hall1, H2 (a Hall line, no voltage), code (Hall codes, no voltage)"));
   EXPECT_THAT(notes("i_a [A],speed"),
-              ElementsAre("not used: i_a (in A), speed (its heading says nothing that is known here)"));
+              ElementsAre("not used: i_a (in A), speed (its heading has no known meaning)"));
   EXPECT_THAT(notes("u_a [mA]"), ElementsAre("not used: u_a (in mA)"));
 }
 

@@ -168,7 +168,7 @@ TEST(RecordedFormats, AnInstantTwice) {
   });
   expect_right(file, 1e-6);
   EXPECT_THAT(seen(file, between_lines).notes,
-              ElementsAre("2 rows left out: the next row stands at the same instant (first in line 102)"));
+              ElementsAre("2 rows left out: the next row has the same time (first in line 102)"));
   EXPECT_THAT(seen(plain("time [s],u_ab,u_bc\n", "{:.3f},{:.5f},{:.5f}\n")).problem,
               HasSubstr("does not rise"));
 }

@@ -158,8 +158,8 @@ TEST(RecordedHall, AKnownColumnThatIsNotUsedSaysTrulyWhy) {
               ElementsAre("not used: u_bc, u_ca (between terminals, of which u_ab and u_bc are needed)"));
   EXPECT_THAT(
       notes("time,hall1,hall2,hall3,u_b,aux", "1,2"),
-      ElementsAre("not used: u_b (of terminals, of which u_a, u_b and u_c are needed), aux (its heading "
-                  "says nothing that is known here)"));
+      ElementsAre(
+          "not used: u_b (of terminals, of which u_a, u_b and u_c are needed), aux (its heading has no known meaning)"));
   EXPECT_THAT(notes("time,hall1,hall2,hall3,u_ab,u_bc,u_a", "1,2,3"),
               ElementsAre("not used: u_a (a terminal against one point; those between terminals are used)"));
   std::string file = "time,hall1,hall\n";

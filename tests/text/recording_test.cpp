@@ -153,7 +153,7 @@ TEST(Recording, CellsThatAreNoNumbersAreNamedByTheirLine) {
 TEST(Recording, NumbersBeyondAllInstrumentsAreNamedByTheirRow) {
   for (const char* const huge : {"1e300", "-1e13", "1e308"})
     EXPECT_THAT(told_of_emf(scope(2) + fmt::format("1,{}\n", huge)),
-                AllOf(StartsWith("r.csv: u_ab "), HasSubstr(" in row 201 is beyond all instruments")));
+                AllOf(StartsWith("r.csv: u_ab "), HasSubstr(" in row 201 is too large for any instrument")));
   EXPECT_THAT(told_of_emf(scope(2) + "1e200,0\n"), StartsWith("r.csv: time 1e+200 in row 201 is beyond"));
   EXPECT_THAT(told_of_emf(scope(2) + "1,1e999\n"), StartsWith("r.csv:202: u_ab \"1e999\" is not a number"));
 }

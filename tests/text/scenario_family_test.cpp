@@ -132,8 +132,8 @@ TEST_F(Family, ANameThatLeadsNowhereOrInACircleIsTold) {
           "directory; check the path and the permission to read it"));
   EXPECT_THAT(
       complaints("extends = \"x.toml\"\n" + head),
-      ElementsAre("x.toml:1:11: extends = \"x.toml\" forms a circle: that file extends this one; take "
-                  "the common keys into a third"));
+      ElementsAre(
+          "x.toml:1:11: extends = \"x.toml\" forms a circle: that file extends this one; put the common keys into a third file"));
   write("a.toml", "extends = [\"b.toml\"]\n");
   write("b.toml", "extends = [\"./bases/../a.toml\"]\n");
   EXPECT_THAT(

@@ -72,7 +72,7 @@ TEST(Units, AWrongOneIsToldWithThoseThatFit) {
             "carries the unit mA, which is not of the kind of s; units that fit: s, ms, us or min");
   EXPECT_EQ(
       refused("50 Hz", "rad/s"),
-      "carries the unit Hz, and hertz do not say of what: turns of the shaft, or electrical ones, which are "
+      "carries the unit Hz, and hertz may count turns of the shaft or electrical turns, which are "
       "pole pairs times as many; write rev/s for turns of the shaft, or erpm, 60 times the electrical hertz; "
       "units that fit: rad/s, rpm, rev/s or deg/s");
   EXPECT_EQ(refused("20 msecs", "s"), "carries an unknown unit, msecs; units that fit: s, ms, us or min");
@@ -82,7 +82,7 @@ TEST(Units, AWrongOneIsToldWithThoseThatFit) {
   EXPECT_EQ(refused("20", ""), "must be a number without quotes; write 20");
   EXPECT_EQ(refused("20 ms", ""),
             "carries the unit ms, and this key is a plain number; write the number alone, or in %");
-  EXPECT_EQ(refused("0,5 A", "A"), "has a decimal comma; write the decimal point as a point");
+  EXPECT_EQ(refused("0,5 A", "A"), "has a decimal comma; write a point, not a comma, as the decimal mark");
   EXPECT_EQ(refused("1e400 A", "A"),
             "is outside the range of a double, 4.9e-324 to 1.8e308; correct its exponent");
   EXPECT_EQ(refused("1e99999999999 A", "A"),

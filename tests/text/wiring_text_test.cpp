@@ -56,7 +56,7 @@ TEST(WiringText, HasEachWiringInItsPlace) {
   EXPECT_THAT(row(text, "abc", 1), ElementsAre("abc", "-", "a>c>b", "a>b>c", "H2-H3", "H1-H3", "H1-H2"));
   EXPECT_THAT(row(text, "cba", 1),
               ElementsAre("cba", "a-c", "a-b", "b-c", "a-b H1-H3", "a-b H1-H2", "a-b H2-H3"));
-  EXPECT_THAT(text, HasSubstr("All 36 move in simulation as theory says."));
+  EXPECT_THAT(text, HasSubstr("All 36 move in simulation as theory predicts."));
   EXPECT_THAT(text, HasSubstr("20 times the current"));
   EXPECT_THAT(text, Not(HasSubstr("nan")));
   for (const std::string& line : lines_of(text)) EXPECT_LE(line.size(), 130u) << line;
@@ -70,7 +70,7 @@ TEST(WiringText, SaysWhichWiringsDifferFromTheory) {
   EXPECT_THAT(text, HasSubstr("phases abc, Hall lines 231: backward, late by theory, hums in simulation\n"));
   EXPECT_THAT(text,
               HasSubstr("phases bac, Hall lines 213: forward, early by theory, unclear in simulation\n"));
-  EXPECT_THAT(text, HasSubstr("34 of 36 move in simulation as theory says"));
+  EXPECT_THAT(text, HasSubstr("34 of 36 move in simulation as theory predicts"));
   for (analysis::WiringCase& c : s.cases)
     c.measured.does = WiringDoes::hums;  // none to compare the others with
   EXPECT_THAT(text::wiring_text(s), HasSubstr("18 of 36"));

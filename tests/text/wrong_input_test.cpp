@@ -58,7 +58,8 @@ TEST_F(WrongInput, AScenarioTakenForAMotorIsToldInOneSentence) {
   write("y.toml", head);
   EXPECT_THAT(
       complaints("motor = \"y.toml\"\nduration_s = 0.02\n"),
-      ElementsAre("y.toml:1:1: is a scenario, not a motor's file; its motor is maxon-251601: name that"));
+      ElementsAre(
+          "y.toml:1:1: is a scenario, not a motor's file; its motor is maxon-251601: name this motor"));
   write("z.toml", "duration_s = 0.02\n");
   EXPECT_THAT(complaints("motor = \"z.toml\"\nduration_s = 0.02\n"),
               ElementsAre(HasSubstr("is a scenario, not a motor's file; name the file of a motor")));

@@ -140,11 +140,11 @@ std::string missed_speed(const ContestRow& row) {
     const double x = (*row.nominal)->figures[k];
     if (columns[k].holds(x)) continue;
     const auto speed = [](double rad_s) { return quantity_text(rad_s, "rad/s", 4); };
-    return fmt::format("{}: {} in the mean, {} to {} are asked for", columns[k].name,
+    return fmt::format("{}: {} in the mean, {} to {} are required", columns[k].name,
                        std::isnan(x) ? std::string("no value") : speed(x),
                        speed(columns[k].min.value_or(0.0)), speed(columns[k].max.value_or(0.0)));
   }
-  return "the run did not come to its end";
+  return "the run stopped before its end";
 }
 
 }  // namespace
@@ -167,7 +167,7 @@ std::vector<std::string> contest_notes(const Contest& c) {
     else if (!problem.empty())
       notes.push_back(fmt::format("{} stopped: {}", controller_name(c, n), problem));
     else if (c.rows[n].nominal && !c.rows[n].nominal_held)
-      notes.push_back(fmt::format("{} does not hold the speed that is asked for, and wins nothing: {}",
+      notes.push_back(fmt::format("{} does not hold the required speed, and wins nothing: {}",
                                   controller_name(c, n), missed_speed(c.rows[n])));
     else if (c.rows[n].nominal_held && !analysis::may_win(c, n))
       notes.push_back(fmt::format(
@@ -182,10 +182,9 @@ std::vector<std::string> contest_notes(const Contest& c) {
                       "scenario's control.own.number",
                       controller_name(c, n)));
     if (scenario && scenario->control.speed.output == study::SpeedOutput::duty)
-      notes.push_back(
-          fmt::format("{} has no current loop, and the torque limit does not bound its current: its setpoint "
-                      "moves no faster than that torque could follow",
-                      controller_name(c, n)));
+      notes.push_back(fmt::format(
+          "{} has no current loop, and the torque limit does not bound its current: its setpoint changes only as fast as that torque allows",
+          controller_name(c, n)));
   }
   return notes;
 }

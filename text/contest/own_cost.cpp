@@ -27,7 +27,7 @@ base::Result<OwnCost> own_cost_of(std::string_view json) {
   const CountedJson all = CountedJson::parse(json, nullptr, false);
   if (!all.is_object() || !all.contains("controller") || !all["controller"].is_string() ||
       !all.contains("cores") || !all["cores"].is_array())
-    return not_counted("is no count of a controller of one's own");
+    return not_counted("is no count of a user's controller");
   for (const CountedJson& row : all["cores"]) {
     if (!row.is_object() || row.value("core", CountedJson{}) != contest_core) continue;
     OwnCost out{all["controller"].get<std::string>(),
@@ -35,7 +35,7 @@ base::Result<OwnCost> own_cost_of(std::string_view json) {
     if (out.cost.tick.empty() || out.cost.flash_bytes.empty()) break;
     return out;
   }
-  return not_counted("has no count of the " + std::string(contest_core) + ", which the table is of");
+  return not_counted("has no count of the " + std::string(contest_core) + ", which the table shows");
 }
 
 }  // namespace text

@@ -12,7 +12,7 @@ namespace text {
 
 struct OwnCost {
   std::string controller;  ///< the name that it gives itself
-  CoreCost cost;           ///< on the core of the comparison's table
+  CoreCost cost;           ///< cost on the core of the comparison's table
 };
 
 /// Problems: `json` is no such file, or lacks the comparison's core. The caller adds the Problem's place.

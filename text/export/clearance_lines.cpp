@@ -66,7 +66,7 @@ std::string timing(const study::Pwm& p) {
                                                          : "sampled at a period's start";
   text += p.delay_periods > 0 ? ", answered one period later" : "";
   if (p.delay_periods == 0)
-    text += p.sample == study::SampleAt::middle ? ", answered at the next one's start" : ", answered at once";
+    text += p.sample == study::SampleAt::middle ? ", answered at the next start" : ", answered at once";
   text += p.timer_Hz > 0 ? fmt::format("; edges on counts of {:.6g} Hz", p.timer_Hz)
                          : "; PWM edges not rounded to timer counts";
   return text +
@@ -106,7 +106,7 @@ std::string rotor(const study::Sensors& s) {
       sixstep::base::word(study::hall_spacing_choices, s.hall_spacing),
       in_place
           ? "exactly at the sectors' ends (no probe is; sheet_tolerances of a plan moves each by up to 3 deg)"
-          : "off their places as [sensors] says",
+          : "displaced as [sensors] states",
       s.capture_Hz, over, runs_on ? ", angle that runs on between edges" : "");
 }
 
@@ -133,7 +133,7 @@ std::string load(const study::Load& l) {
 
 std::string heat(const study::Heat& h) {
   if (!h.motor)
-    return fmt::format("winding and magnets at {:.6g} degC all along", sixstep::design::sheet_degC);
+    return fmt::format("winding and magnets constant at {:.6g} degC", sixstep::design::sheet_degC);
   return fmt::format("winding from {:.6g} degC, housing from {:.6g} degC, air of {:.6g} degC",
                      h.winding_degC.value_or(h.ambient_degC), h.housing_degC.value_or(h.ambient_degC),
                      h.ambient_degC);
@@ -149,18 +149,18 @@ std::string assumptions(const ClearanceText& t) {
           entry("heat", heat(s.heat));
   if (s.control.drive == study::FirmwareKind::product && !s.protection.stall_s)
     text += entry("stall", "not watched: protection.stall_current_A and stall_s are not given");
-  if (t.other_scale) text += entry("scale", "the scenario's own; that of --range below was proved, not run");
+  if (t.other_scale) text += entry("scale", "the scenario's own; the range below was proved, not run");
   return text;
 }
 
 }  // namespace
 
 std::string clearance_lines(const ClearanceText& t) {
-  if (!t.clearance) return line("NOT CLEARED FOR A BRIDGE: no run stands behind these constants.");
+  if (!t.clearance) return line("NOT CLEARED FOR A BRIDGE: no run has checked these constants.");
   const study::Clearance& c = *t.clearance;
   std::string text;
   if (!c.clear()) {
-    text += "// NOT CLEARED FOR A BRIDGE. Written all the same, for this reason:\n";
+    text += "// NOT CLEARED FOR A BRIDGE. Written anyway, for this reason:\n";
     text += fmt::format("//   {}\n// What was overridden:\n", comment_text(t.despite));
     for (const base::Problems* problems : {&c.unmeasured, &c.unheld})
       for (const base::Problem& p : *problems) text += fmt::format("//   {}\n", comment_text(to_string(p)));

@@ -12,10 +12,10 @@
 namespace text {
 
 struct ClearanceText {
-  const study::Scenario& scenario;    ///< as it was run
+  const study::Scenario& scenario;    ///< scenario of the run
   const study::Clearance* clearance;  ///< null: it was not run
   std::string_view despite;           ///< the reason for writing it although it is not cleared
-  bool other_scale = false;           ///< fixed point: the header's full scale differs from the run's
+  bool other_scale = false;           ///< fixed point: header and run have different full scales
 };
 
 /// Lines of // comment, without a date: the same run gives the same lines.

@@ -55,9 +55,9 @@ std::string timing(const study::Compiled& c, const study::Clearance* clearance) 
                   : constant("bool", "commutate_at_sample", flag(c.board.commutate_at_sample),
                              "else in the Hall interrupt")) +
          constant("bool", "command_delayed", flag(c.board.delayed),
-                  "a command counts from the next period on") +
+                  "a command takes effect in the next period") +
          constant("bool", "sampled_in_middle", flag(c.board.sampled_in_middle),
-                  "of the period; else at its start");
+                  "in the middle of the period; else at its start");
 }
 
 /// Constants for the board's own code. A drive that times edges gets the clock of that timer: another clock
@@ -73,10 +73,11 @@ std::string board_constants(const ConfigHeader& w, const study::Compiled& c) {
                      sixstep::base::six_digits(sensors.capture_Hz) + " Hz, counts up and wraps at 2^32");
   if (c.product || c.field || sensors.currents != sixstep::rig::CurrentMeasurement::phases) return timer;
   const double lsb = c.board.sensors.current.lsb(), range = c.setpoint_range;
-  return timer + constant("int", "adc_bits", std::to_string(sensors.adc_bits), "of each phase's transducer") +
+  return timer +
+         constant("int", "adc_bits", std::to_string(sensors.adc_bits), "bits of each current converter") +
          constant("double", "adc_amperes_per_count", hex_float(lsb), sixstep::base::six_digits(lsb) + " A") +
          constant("double", "setpoint_range", hex_float(range),
-                  sixstep::base::six_digits(range) + " in the mode's unit: a potentiometer's, either way");
+                  sixstep::base::six_digits(range) + " in the mode's unit, at each end of a potentiometer");
 }
 
 /// Text of a function that makes a constant, and of the constant.
@@ -95,7 +96,7 @@ std::string position_profile(const study::Compiled& c) {
                                                         : c.drive;
   if (!drive.extras.on || !drive.extras.position.on) return "";
   return "#ifndef SIXSTEP_POSITION_PROFILE\n"
-         "#define SIXSTEP_POSITION_PROFILE  // so in all that is linked with it\n"
+         "#define SIXSTEP_POSITION_PROFILE  // also in all code that is linked with it\n"
          "#endif\n\n";
 }
 
@@ -139,7 +140,7 @@ std::string header(const ConfigHeader& w, const study::Compiled& c, std::string_
     return fmt::format("{:<72}  // {} {}\n", fmt::format("  .{} = {},", member, hex_float(x)),
                        sixstep::base::six_digits(x), unit);
   };
-  text += "// What 1.0 means; constants of the board are made by its functions: units.amperes(15)\n";
+  text += "// Physical values of 1.0; its functions make constants of the board: units.amperes(15)\n";
   text += "inline constexpr sixstep::control::Units<Scalar> units{\n" + base("current_A", b.current_A, "A") +
           base("voltage_V", b.voltage_V, "V") + base("speed_rad_s", b.speed_rad_s, "rad/s") +
           base("position_deg", b.position_deg, "deg") + "};\n\n";
@@ -187,7 +188,7 @@ base::Problems too_small(const ConfigHeader& w, const study::Compiled& c) {
            fmt::format(
                "is less than {} {}, the largest of this scenario's reference, limits, source and start",
                sixstep::base::six_digits(asked), unit),
-           "give the largest value that the drive may measure or be given, or leave it out"});
+           "give the largest value that the drive may measure or receive, or leave it out"});
   };
   look("current_A", w.range.current_A, least.current_A, "A");
   look("speed_rad_s", w.range.speed_rad_s, least.speed_rad_s, "rad/s");

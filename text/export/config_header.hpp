@@ -15,7 +15,7 @@ namespace text {
 
 struct ConfigHeader {
   const study::Scenario& scenario;
-  std::optional<study::Arithmetic> arithmetic;  ///< empty: the scenario's
+  std::optional<study::Arithmetic> arithmetic;  ///< empty: arithmetic of the scenario
   /// Fixed point: the operating range for which the drive is proved. A member that is 0 comes from
   /// study::operating_range. If none is given, the bits are those of the scenario's run, control.full_scale
   /// included.

@@ -130,8 +130,7 @@ std::string other_than_stm32_image(const study::Scenario& s) {
 
 std::string core_cost_lines(const study::Compiled& c) {
   if (c.sensorless)
-    return "//\n// What its entries take on a core is counted in docs/reference/block-costs.md: sensorless_drive_step, sensorless_drive_commutate and\n"
-           "// sensorless_drive_hall.\n";
+    return "//\n// docs/reference/block-costs.md counts the costs of its entries on a core: sensorless_drive_step, sensorless_drive_commutate and\n// sensorless_drive_hall.\n";
   const std::vector<Words> counts = rows(cores::drives_txt()), sizes = rows(cores::sizes_txt());
   std::string text = fmt::format(
       "//\n// On a core, the {} drive of tests/target/scenarios/ takes, by count over 80 000 recorded periods, for a\n"
@@ -147,7 +146,7 @@ std::string core_cost_lines(const study::Compiled& c) {
                         hall ? hall->back() : "-", size[0].starts_with("AT") ? " cycles" : " instructions",
                         size[3], size[4]);
   }
-  text += "// They are of the control code alone; a whole image has the board's code beside it.\n";
+  text += "// They are of the control code alone; a whole image also has the board's code.\n";
   if (const std::string more = blocks_beside(c); !more.empty())
     text += fmt::format("// These counts do not include: {}.\n", more);
   return text;

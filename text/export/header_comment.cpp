@@ -58,14 +58,14 @@ std::string derivation(const study::LoopGains& g, double period_s) {
 /// The functions that the board calls.
 std::string entries(const study::Compiled& c) {
   if (c.sensorless)
-    return "// The tick is pulsed_drive_step: of currents, the terminals' and the bus's counts and the timer. At its compare match, where\n"
-           "// next_commutation says, sensorless_drive_commutate; in a Hall interrupt sensorless_drive_hall; at an edge of a comparator at\n"
-           "// a terminal sensorless_capture.\n";
+    return "// Call pulsed_drive_step in each tick, with the currents, the terminals' and the bus's counts and the timer. Call\n"
+           "// sensorless_drive_commutate at the compare match that next_commutation sets, sensorless_drive_hall in a Hall interrupt, and\n"
+           "// sensorless_capture at an edge of a comparator at a terminal.\n";
   if (c.estimator.on)
-    return "// The tick is sensorless_field_step: of currents and bus as measured; where the magnet points it finds itself.\n";
+    return "// Call sensorless_field_step in each tick, with the measured currents and bus; it estimates the magnet's angle.\n";
   if (c.field)
-    return "// The tick is field_drive_step: of currents, speed and bus as measured, and of the magnet's direction, which\n"
-           "// field_directions makes of a decoder's electrical angle. Hall edges ask nothing of it.\n";
+    return "// Call field_drive_step in each tick, with the measured currents, speed and bus, and with the magnet's direction, which\n"
+           "// field_directions computes from a decoder's electrical angle. Hall edges need no call.\n";
   return "";
 }
 

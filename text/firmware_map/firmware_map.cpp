@@ -24,7 +24,7 @@ struct MapFile {
 
 void describe(base::Visitor& v, MapFile& w) {
   v.value("chip", w.chip, {.meaning = "the chip, \"atmega2560\"", .required = true});
-  v.value("elf", w.elf, {.meaning = "the program as its linker left it", .required = true});
+  v.value("elf", w.elf, {.meaning = "ELF file of the program, as the linker wrote it", .required = true});
   v.value("hall", w.hall, {.meaning = "pins of the Hall lines H1 H2 H3, of port K"});
   v.value("upper", w.upper, {.meaning = "pins of the upper gates of legs a, b, c"});
   v.value("lower", w.lower, {.meaning = "pins of the lower gates of legs a, b, c"});
@@ -32,7 +32,7 @@ void describe(base::Visitor& v, MapFile& w) {
   v.value("potentiometer", w.potentiometer,
           {.meaning = "the converter's input at the potentiometer", .range = base::from(0)});
   v.value("setpoint_range", w.setpoint_range,
-          {.meaning = "what the potentiometer's ends mean, in the mode's unit; 0 in its middle",
+          {.meaning = "setpoint at the potentiometer's ends, in the mode's unit; 0 in its middle",
            .range = base::above(0),
            .required = true});
 }
@@ -54,11 +54,12 @@ void check_pins(const MapFile& w, Complaints& c) {
       refuse(c, key, "is not three pins", "name them as the data sheet does: [\"PK0\", \"PK1\", \"PK2\"]");
     for (const std::string& pin : *pins)
       if (!taken.insert(pin).second)
-        refuse(c, key, fmt::format("names {} a second time", pin), "give each line a pin of its own");
+        refuse(c, key, fmt::format("names {} a second time", pin), "give each line its own pin");
   }
   if (std::any_of(w.hall.begin(), w.hall.end(),
                   [](const std::string& pin) { return pin.rfind("PK", 0) != 0; }))
-    refuse(c, "hall", "is not of port K, whose pin changes are followed", "take three of PK0 to PK7");
+    refuse(c, "hall", "must be of port K, whose pin-change interrupt is simulated",
+           "choose three of PK0 to PK7");
 }
 
 void check_inputs(const MapFile& w, Complaints& c) {
@@ -67,7 +68,7 @@ void check_inputs(const MapFile& w, Complaints& c) {
   const auto is_input = [](double n) { return n >= 0 && n <= most_input && n == static_cast<int>(n); };
   if (w.currents.size() != 3 || inputs.size() != 4 || !std::all_of(inputs.begin(), inputs.end(), is_input))
     refuse(c, "currents", "is not three inputs of the converter, none of them the potentiometer's",
-           "take four different ones of 0 to 7");
+           "choose four different ones of 0 to 7");
 }
 
 }  // namespace
@@ -79,8 +80,7 @@ base::Result<FirmwareMap> read_firmware_map(const std::string& name, std::string
   MapFile w;
   read_root(*document, w, complaints);
   if (complaints.empty()) {
-    if (w.chip != "atmega2560")
-      refuse(complaints, "chip", "is none that there is an emulator for", "write chip = \"atmega2560\"");
+    if (w.chip != "atmega2560") refuse(complaints, "chip", "has no emulator", "write chip = \"atmega2560\"");
     check_pins(w, complaints);
     check_inputs(w, complaints);
   }

@@ -21,7 +21,7 @@ struct Decimal {
   bool negative = false;
   std::string digits;
   long power = 0;
-  std::size_t size = 0;  ///< of its text
+  std::size_t size = 0;  ///< length of its text
 };
 
 /// The exponent whose e is at `at`, and its end; 0 and `at` if no digit follows.

@@ -77,14 +77,14 @@ constexpr SheetWords sheet_words[] = {
      "thermal_time_constant_motor_s"},
     {"operatingtemperaturemax maxoperatingtemperature maxcoiltemperature maxpermissiblewindingtemperature "
      "windingtemperaturemax maximumwindingtemperature",
-     "max_winding_temperature_degC", "(what the winding may reach)"},
+     "max_winding_temperature_degC", "(limit of the winding)"},
 };
 
 /// Words without a key in a motor's file, with the reason or the right place. All texts continue "is not a key
 /// here; ..".
 constexpr SheetWords elsewhere[] = {
     {"gearratio gear gearreduction reductionratio sigearratio", "",
-     "a gear is the load's: write load.gear in the scenario, motor turns per turn of the load"},
+     "a gear belongs to the load: write load.gear in the scenario, motor turns per turn of the load"},
     {"currentconstant ki", "", "leave it out: it is 1 over the torque constant"},
     {"electricaltimeconstant taue te", "", "leave it out: it follows from resistance and inductance, L/R"},
     {"motorconstant", "", "leave it out: it follows from torque constant and resistance, K_t/sqrt R"},
@@ -93,11 +93,11 @@ constexpr SheetWords elsewhere[] = {
     {"peaktorque maxtorque maximumtorque", "",
      "leave it out, or write stall_torque_mNm where it is the torque of the held rotor at nominal voltage"},
     {"peakcurrent maxcurrent maximumcurrent lcurrentmax currentlim currentlimit", "",
-     "write control.limits.current_A in the scenario: the drive's limit is the drive's"},
+     "write control.limits.current_A in the scenario, because this limit belongs to the drive"},
     {"ratedpower nominalpower maxpower power outputpower", "",
      "leave it out: it follows from nominal_torque_mNm and nominal_speed_rpm"},
     {"weight motorweight mass shaftdiameter statordiameter length diameter phases numberofphases insulationclass",
-     "", "leave it out: nothing here follows from it"},
+     "", "leave it out: the model does not use it"},
     {"focmotorldlqdiff", "", "write d_axis_inductance_mH = L - diff/2 and q_axis_inductance_mH = L + diff/2"},
 };
 

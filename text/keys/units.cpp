@@ -106,7 +106,7 @@ std::string fitting_like(const std::string& unit, std::string_view wanted) {
 
 base::Problem not_known(const std::string& unit, const std::string& wanted) {
   if (unit.starts_with(','))
-    return {.limit = "has a decimal comma", .cure = "write the decimal point as a point"};
+    return {.limit = "has a decimal comma", .cure = "write a point, not a comma, as the decimal mark"};
   if (plain_spelling(unit) == "degF")
     return {.limit = "is in degrees Fahrenheit", .cure = "write (F - 32) / 1.8, in " + wanted};
   const std::string near = fitting_like(unit, wanted), fit = units_that_fit(wanted);
@@ -134,7 +134,7 @@ base::Problem other_kind(const std::string& unit, const Unit& from, const Unit& 
             .cure = "write the period, 1 over the frequency: 20 kHz is 50 us. Units that fit: " + fit};
   return {.limit = fmt::format("carries the unit {}, which is not of the kind of {}", unit, wanted.unit),
           .cure = multiplies_minutes(from, to)
-                      ? "minutes multiply here: per rpm is written /rpm or /min-1. Units that fit: " + fit
+                      ? "minutes are a factor here; write per rpm as /rpm or /min-1. Units that fit: " + fit
                       : "units that fit: " + fit};
 }
 
@@ -162,9 +162,10 @@ base::Result<Conversion> by_pole_pairs(const std::string& unit, int power, const
                                        const Wanted& wanted, Conversion conversion) {
   if (to.power(Base::V) == 0 && plain_spelling(unit).find("Hz") != std::string::npos)
     return base::Problem{
-        .limit = fmt::format("carries the unit {}, and hertz do not say of what: turns of the shaft, or "
-                             "electrical ones, which are pole pairs times as many",
-                             unit),
+        .limit =
+            fmt::format("carries the unit {}, and hertz may count turns of the shaft or electrical turns, "
+                        "which are pole pairs times as many",
+                        unit),
         .cure = fmt::format(
             "write rev/s for turns of the shaft, or erpm, 60 times the electrical hertz; units that fit: {}",
             units_that_fit(wanted.unit))};
@@ -173,7 +174,7 @@ base::Result<Conversion> by_pole_pairs(const std::string& unit, int power, const
         .limit = fmt::format("carries the unit {}, which counts electrical turns, and the pole pairs are not "
                              "known here",
                              unit),
-        .cure = "give pole_pairs, poles or winding too, or convert; units that fit: " +
+        .cure = "also give pole_pairs, poles or winding, or convert; units that fit: " +
                 units_that_fit(wanted.unit)};
   const double p = *wanted.pole_pairs;
   conversion.multiply *= to_power(p, -power);

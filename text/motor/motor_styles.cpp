@@ -25,11 +25,11 @@ const std::vector<MotorStyle>& motor_styles() {
        {"idle_current_A", "idle_voltage_V", "no_load_speed_rpm", "max_speed_rpm"},
        false,
        {{"inductance_uH",
-         "Such sheets lack it. L/R is 0.15 to 0.7 ms for those of sixstep motor list; an LCR meter at 1 kHz between two "
-         "terminals, or a drive's identification, tells."},
+         "Such sheets lack it. L/R is 0.15 to 0.7 ms for those of sixstep motor list. Measure it with an LCR meter at 1 kHz "
+         "between two terminals, or by a drive's identification."},
         {"inertia_gcm2",
          "Such sheets lack it. Most of it is the bell: its mass times the square of its mean radius, 0.03 kg at 13 mm make 51 g "
-         "cm2; or give rotor = \"outer\" with rotor_radius_mm, rotor_inner_radius_mm and rotor_length_mm instead. A propeller is the load's."}}},
+         "cm2; or give rotor = \"outer\" with rotor_radius_mm, rotor_inner_radius_mm and rotor_length_mm instead. A propeller belongs to the load."}}},
       {"servo",
        "torque per ampere rms, back-EMF per 1000 rpm, inertia with and without brake",
        "sine",
@@ -52,7 +52,7 @@ const std::vector<MotorStyle>& motor_styles() {
        {{"resistance_ohm", "terminal resistance R, phase to phase: frame = \"terminal\""},
         {"inductance_uH", "terminal inductance L, phase to phase: frame = \"terminal\""},
         {"torque_constant_mNm_A", "k_M"},
-        {"coulomb_friction_mNm", "static friction C_0; with C_V it takes the place of the no-load point"},
+        {"coulomb_friction_mNm", "static friction C_0; with C_V it replaces the no-load point"},
         {"viscous_friction_Nm_s", "dynamic friction C_V, in quotes with its unit: \"4.3e-4 mNm/min-1\""},
         {"no_load_current_mA", "I_0; amperes as \"0.148 A\""},
         {"stall_torque_mNm", "M_H"},
@@ -78,8 +78,8 @@ const std::vector<MotorStyle>& motor_styles() {
         {"resistance_ohm", "line to line: frame = \"terminal\""},
         {"inductance_mH", "line to line: frame = \"terminal\""},
         {"torque_constant_Nm_A",
-         "Ncm/A in quotes with the unit; frame = \"rms\" where the rated current is in A rms, \"terminal\" where it is "
-         "direct current: rated torque over rated current tells"},
+         "Ncm/A in quotes with the unit; frame = \"rms\" if the rated current is in A rms, \"terminal\" if it is "
+         "direct current: rated torque over rated current shows which"},
         {"stall_torque_mNm", "only of the held rotor at rated voltage; a peak torque is the drive's limit"},
         {"stall_current_A", "only of the held rotor at rated voltage; a peak current is the drive's limit"}}},
       {"portescap",
@@ -95,7 +95,7 @@ const std::vector<MotorStyle>& motor_styles() {
        false,
        {{"resistance_ohm", "line to line: frame = \"terminal\""},
         {"inductance_mH", "line to line: frame = \"terminal\""},
-        {"inertia_gcm2", "1e-7 kg m2 are 1 g cm2: the number as it stands"},
+        {"inertia_gcm2", "1e-7 kg m2 are 1 g cm2: write the sheet's number"},
         {"back_emf_constant_V_krpm",
          "V/1000 rpm: where 9.549 times it is the torque constant, frame = \"six-step\""},
         {"nominal_torque_mNm", "max. continuous torque"},
@@ -111,21 +111,21 @@ const std::vector<MotorStyle>& motor_styles() {
        {"no_load_speed_rpm", "no_load_current_mA", "nominal_current_A", "nominal_torque_Nm"},
        false,
        {{"poles",
-         "twice the Hall periods, or the periods between two terminals, that one turn of the wheel makes: 20 to 60"},
+         "twice the number of periods of a Hall line, or of the voltage between two terminals, per turn of the wheel: 20 to 60"},
         {"speed_constant_rpm_V",
          "no-load speed over voltage is about the constant of frame = \"six-step\", some percent low; turned by hand with a "
          "voltmeter for alternating voltage between two terminals, rpm over volts rms times 0.707 is that of \"line-peak\""},
         {"resistance_ohm",
-         "Such sellers are silent. 0.04 to 0.4 ohm between two terminals for 250 to 1500 W at 36 to 48 V: the copper then "
+         "Sellers rarely state it. 0.04 to 0.4 ohm between two terminals for 250 to 1500 W at 36 to 48 V: the copper then "
          "takes 1 to 10 % of the power. Measure it with four wires, 1 A and a voltmeter."},
         {"inductance_mH",
-         "Such sellers are silent. L/R is 2 to 7 ms for those of sixstep motor list, which drives have identified: 0.2 to 1 mH "
-         "between two terminals. An LCR meter at 1 kHz tells, turned to its mean over the angle."},
+         "Sellers rarely state it. L/R is 2 to 7 ms for those of sixstep motor list, which drives have identified: 0.2 to 1 mH "
+         "between two terminals. Measure it with an LCR meter at 1 kHz, and take the mean over the rotor's angle."},
         {"inertia_kgm2",
-         "Such sellers are silent. Mass of what turns times the square of its mean radius: 1.5 kg at 63 mm are 0.006 (a "
-         "hoverboard's wheel), 2.5 kg at 110 mm 0.03; with the spoked wheel 0.05 to 0.2. A vehicle's mass is the load's, "
+         "Sellers rarely state it. Mass of the turning parts times the square of their mean radius: 1.5 kg at 63 mm are 0.006 (a "
+         "hoverboard's wheel), 2.5 kg at 110 mm 0.03; with the spoked wheel 0.05 to 0.2. A vehicle's mass belongs to the load: "
          "m r^2."},
-        {"no_load_current_mA", "with it the friction is known; sellers rarely say it, a clamp meter does"}}},
+        {"no_load_current_mA", "gives the friction; sellers rarely state it, a clamp meter measures it"}}},
       {"linear",
        "force per ampere, pole pitch, moving mass",
        "sine",
@@ -138,13 +138,13 @@ const std::vector<MotorStyle>& motor_styles() {
         "thermal_time_constant_motor_s", "max_winding_temperature_degC"},
        true},
       {"firmware",
-       "what a drive identifies: R, L and flux linkage of one phase",
+       "values that a drive identifies: R, L and flux linkage of one phase",
        "sine",
        {"pole_pairs", "resistance_ohm", "inductance_uH", "flux_linkage_mWb", "inertia_kgm2"},
        {"nominal_voltage_V", "speed_constant_rpm_V", "viscous_friction_Nm_s", "coulomb_friction_mNm"},
        false,
        {{"resistance_ohm",
-         "foc_motor_r, phase_resistance: half of what lies between two terminals, frame = \"phase\""},
+         "foc_motor_r, phase_resistance: half of the resistance between two terminals, frame = \"phase\""},
         {"inductance_uH", "foc_motor_l, phase_inductance: frame = \"phase\""},
         {"flux_linkage_mWb",
          "foc_motor_flux_linkage; ODrive gives torque_constant_Nm_A instead, frame = \"peak\""},

@@ -64,11 +64,11 @@ base::Result<std::string> motor_template(std::string_view style_name, const std:
   const std::vector<KeyEntry> keys = style->linear ? in_linear_words(sheet_keys()) : sheet_keys();
   std::string text = fmt::format(
       "# A motor, to be filled in from its sheet: {}.\n"
-      "# Replace each nan by a number; take the # away from other lines that the sheet has. sixstep help KEY\n"
+      "# Replace each nan by a number; remove the # from other lines that the sheet has. sixstep help KEY\n"
       "# explains a key, and sixstep motor check FILE reports values that contradict each other.\n"
       "# Type the zeros as the sheet prints them (4.00): the check allows each value half of its last digit.\n"
       "name = {}\nmaker = \"{}\"\n{}\n"
-      "# shape of the back-EMF over the electrical angle, trapezoid or sine: sheets rarely say it\n"
+      "# shape of the back-EMF over the electrical angle, trapezoid or sine: sheets rarely state it\n"
       "back_emf = \"{}\"\n\n",
       style->what, toml_text(name), style->name == "maxon" ? "maxon" : "",
       style->linear ? "kind = \"linear\"  # it moves along a line\n" : "", style->shape);

@@ -241,7 +241,7 @@ std::string model_table(const design::Sheet& sheet, const SheetCheck& check) {
   const bool linear = sheet.kind == design::MotorKind::linear;
   if (linear)
     text += model_row("tau", c.pole_pitch_m ? fmt::format("{:.4g} mm", *c.pole_pitch_m * 1e3) : "not given",
-                      "pole pitch; pi/tau stands for the pole pairs");
+                      "pole pitch; pi/tau replaces the pole pairs");
   else
     text += model_row("p", c.pole_pairs ? fmt::format("{}", *c.pole_pairs) : "not given", "pole pairs");
   text += model_row("R_s", c.R_ohm, 1.0, "ohm");
@@ -275,7 +275,7 @@ std::string check_report(const design::Sheet& sheet, const SheetCheck& check) {
   std::string unused;
   for (const design::LineUse& line : check.lines)
     if (!line.used) unused += trimmed(fmt::format("  {}: {}", line.key, line.why));
-  if (!unused.empty()) text += "\nLines that the model is not made of\n" + unused;
+  if (!unused.empty()) text += "\nLines that the model does not use\n" + unused;
   if (const std::string coarse = coarse_lines(check); !coarse.empty())
     text += "\nIntegers of one digit: the sheet's zeros, as in 4.00, make the tolerance narrow\n" + coarse;
   std::string doubts;

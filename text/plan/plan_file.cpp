@@ -57,7 +57,7 @@ analysis::Axis axis_from(const analysis::AxisEntry& entry, const std::string& wh
         {.where = where, .limit = "has no values", .cure = "give values = [..], or from, to and points"});
   if (range && !(entry.from && entry.to))
     complaints.later({.where = where + (entry.from ? ".from" : ".to"),
-                      .limit = "is one end of a range without the other",
+                      .limit = "is one end of a range, and the other end is missing",
                       .cure = entry.from ? "give to" : "give from"});
   return {.key = entry.key,
           .values = entry.values,
@@ -134,7 +134,7 @@ base::Result<analysis::Axis> range_of(const std::string& key, const std::vector<
     const double count = number_alone(parts[2]).value_or(0.0);
     if (count < 2 || count > 1e9 || count != static_cast<double>(static_cast<std::size_t>(count)))
       return base::Problem{std::string(whole), parts[2], "is not a number of points",
-                           "write a whole number from 2 on behind the second colon"};
+                           "write a whole number of at least 2 behind the second colon"};
     axis.points = static_cast<std::size_t>(count);
   }
   if (parts.size() > 3 && parts[3] != "log" && parts[3] != "linear")

@@ -12,7 +12,7 @@ namespace text {
 
 struct PlanFile {
   std::string title, notes;
-  std::string scenario;  ///< as written
+  std::string scenario;  ///< path as written
   bool sheet_tolerances = false;
   std::string minimise;  ///< a figure's label; empty: nothing is optimised
   std::size_t evaluations = 0;

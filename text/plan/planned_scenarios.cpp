@@ -124,8 +124,9 @@ base::Problems PlannedScenarios::check() const {
   for (std::size_t k = 0; k < plan_.axes.size(); ++k) {
     const std::string& key = plan_.axes[k].key;
     if (std::find(std::begin(same_in_all), std::end(same_in_all), table_of(key)) != std::end(same_in_all)) {
-      problems.push_back({fmt::format("vary[{}].key", k), key, "is the same in all runs of a plan",
-                          "vary what the run is made of, and ask the same of all"});
+      problems.push_back(
+          {fmt::format("vary[{}].key", k), key, "is the same in all runs of a plan",
+           "vary keys of the motor, board, control or load; requirements are the same for all runs"});
       continue;
     }
     base::Result<study::Scenario> read = at(begin);

@@ -12,7 +12,7 @@ namespace text {
 
 /// The input that all runs of a plan share.
 struct PlannedText {
-  std::string name, text;  ///< of the scenario, for read_scenario_text()
+  std::string name, text;  ///< name and text of the scenario, for read_scenario_text()
   ReadOptions options;     ///< the point's values follow its overrides
   bool sheet_tolerances = false;
 };

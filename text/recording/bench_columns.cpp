@@ -15,7 +15,7 @@ bool is_any_of(const RecordedColumn& column, const ThreeNames& names) {
 /// Why a known voltage was not used, although others or none were.
 std::string why_not_voltage(Meaning meaning, const BenchUse& use) {
   const bool line = meaning == Meaning::between_terminals;
-  if (use.voltages_are_asked) return "other voltages are asked for";
+  if (use.voltages_are_asked) return "other voltages are requested";
   if (use.voltages == Meaning::unknown)
     return line ? "between terminals, of which u_ab and u_bc are needed"
                 : "of terminals, of which u_a, u_b and u_c are needed";
@@ -115,7 +115,7 @@ std::string why_not_used(const RecordedColumn& column, const BenchUse& use) {
     case Meaning::unknown:
       break;
   }
-  return "its heading says nothing that is known here";
+  return "its heading has no known meaning";
 }
 
 }  // namespace text

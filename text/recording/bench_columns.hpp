@@ -50,8 +50,8 @@ Voltages chosen(Columns lines, Columns terminals, std::optional<analysis::EmfBet
 struct BenchUse {
   bool hall_log = false;                ///< Hall lines are read too
   bool by_codes = false;                ///< Hall lines come from a column of codes
-  bool voltages_are_asked = false;      ///< by their headings
-  Meaning voltages = Meaning::unknown;  ///< of the voltages in use; unknown: there are none
+  bool voltages_are_asked = false;      ///< the request names the voltages by their headings
+  Meaning voltages = Meaning::unknown;  ///< meaning of the voltages in use; unknown: none
 };
 /// The reason why a column that holds numbers was not used.
 std::string why_not_used(const RecordedColumn& column, const BenchUse& use);

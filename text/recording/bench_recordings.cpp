@@ -150,7 +150,7 @@ base::Result<Codes> codes_of(const Recording& r, const Picked& picked) {
     if (!(x >= 0.0 && x <= 7.0 && x == std::floor(x)))
       return of_recording(
           r, fmt::format("{} {:g} in row {} is no Hall code, 0 to 7", picked.column->name, x, n + 1),
-          "a code is 4 H1 + 2 H2 + H3; three lines of their own are columns hall1, hall2, hall3");
+          "a code is 4 H1 + 2 H2 + H3; three separate lines are columns hall1, hall2, hall3");
     out.push_back(static_cast<std::uint8_t>(x));
   }
   return out;
@@ -203,7 +203,7 @@ base::Result<analysis::EmfBetween> between_of(const Voltages& voltages) {
   if (const std::optional<analysis::EmfBetween> said = between_in(voltages.columns)) return *said;
   return base::Problem{.where = "between",
                        .value = "",
-                       .limit = "is missing: the headings do not say what the probes hung between",
+                       .limit = "is missing: the headings do not name the points of the probes",
                        .cure = "lines is two terminals, star a terminal and any one point"};
 }
 
@@ -214,12 +214,12 @@ base::Problems take_voltages(const Recording& r, const Voltages& voltages, const
   if (!between) return between.problems();
   const bool lines = *between == analysis::EmfBetween::lines;
   if (count > 3 || count < (lines ? 2U : 3U))
-    return {
-        of_recording(r,
-                     fmt::format("has {} {} of {}", count, count == 1 ? "voltage" : "voltages",
-                                 lines ? "lines" : "terminals"),
-                     lines ? "u_ab and u_bc are needed; leave out the voltages to go by the codes alone"
-                           : "u_a, u_b and u_c are needed; leave out the voltages to go by the codes alone")};
+    return {of_recording(r,
+                         fmt::format("has {} {} of {}", count, count == 1 ? "voltage" : "voltages",
+                                     lines ? "lines" : "terminals"),
+                         lines
+                             ? "u_ab and u_bc are needed; leave out the voltages to use the codes alone"
+                             : "u_a, u_b and u_c are needed; leave out the voltages to use the codes alone")};
   out.voltages = lines ? analysis::RecordedVoltages::lines : analysis::RecordedVoltages::terminals;
   for (std::size_t n = 0; n < count; ++n) {
     base::Result<std::vector<double>> values = values_of(r, voltages.columns[n], "V");
@@ -271,7 +271,7 @@ base::Result<analysis::EmfRecord> emf_record_of(const Recording& r, const BenchC
   if (!voltages->between)
     return base::Problem{.where = "between",
                          .value = "",
-                         .limit = "is missing: the headings do not say what the probes hung between",
+                         .limit = "is missing: the headings do not name the points of the probes",
                          .cure = "lines is two terminals, star a terminal and the star point"};
   out.between = *voltages->between;
   out.t_s = std::move(times->t_s);

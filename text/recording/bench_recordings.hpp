@@ -17,7 +17,7 @@ struct BenchColumns {
   std::vector<std::string>
       voltages;  ///< headings of u_ab and u_bc, with u_ca or without, or of u_a, u_b, u_c
   std::optional<analysis::EmfBetween> between;
-  std::optional<double> interval_s;  ///< of the rows, if no column is a time
+  std::optional<double> interval_s;  ///< interval of the rows, if no column is a time
 };
 
 /// A line has the values 0 and 1, or two voltages; the threshold is then their middle, with hysteresis.

@@ -60,7 +60,7 @@ base::Problems said_twice(const Recording& r) {
       if (recorded.unit.empty() || recorded.unit == unit) continue;
       found.push_back(of_recording(
           r,
-          fmt::format("has a column \"{}\", in {} by its name and in {} by what is behind it",
+          fmt::format("has a column \"{}\", in {} by its name and in {} by the unit behind it",
                       bounded(recorded.heading, 200), unit, recorded.unit),
           fmt::format("head it {} or {} [{}]", column.name,
                       column.name.substr(0, column.name.size() - unit.size() - 1), recorded.unit)));
@@ -212,7 +212,7 @@ class LogReader {
       if (std::any_of(columns.begin(), columns.end(),
                       [&](const study::Column& c) { return c.name == found.column->name; }))
         problems_.push_back(of_recording(r_, fmt::format("has two columns of {}", found.column->name),
-                                         "head one otherwise, or name the one that is meant"));
+                                         "rename one of them, or name the intended column"));
       else
         add(*found.column, values_of(r_, found.picked, wanted(*found.column)), times.left_out);
     }

@@ -20,8 +20,8 @@ struct LogColumns {
   std::vector<std::string>
       formulas;  ///< see column_formula.hpp; if given, only their columns and the time are read
                  ///< are read
-  std::optional<double> interval_s;  ///< of the rows, if no column is a time
-  std::optional<int> pole_pairs{};   ///< of the motor; electrical speeds convert with them
+  std::optional<double> interval_s;  ///< interval of the rows, if no column is a time
+  std::optional<int> pole_pairs{};   ///< pole pairs of the motor, which convert electrical speeds
 };
 
 struct BoardLog {

@@ -54,7 +54,7 @@ bool is_the_boards_word(const RecordedColumn& column) {
 Notes what_the_board_says(const Recording& recording) {
   Notes out;
   for (const Remark& remark : recording.remarks) out.push_back(remark_words(remark));
-  if (recording.remarks.size() == most_remarks) out.push_back("remarks below that one are not told");
+  if (recording.remarks.size() == most_remarks) out.push_back("later remarks are not shown");
   for (const RecordedColumn& column : recording.columns) {
     if (!is_the_boards_word(column)) continue;
     const Marked found = marked(column);

@@ -85,7 +85,7 @@ base::Result<ColumnFormula> column_formula(std::string_view text) {
   return bounded({.where = "columns",
                   .value = std::string(text),
                   .limit = is_finite ? "must be NAME=COLUMN, with constants behind it or none"
-                                     : "has a factor that is 0 or beyond all numbers",
+                                     : "has a factor that is 0 or not finite",
                   .cure = "write it like time=ms_today/1000 or speed=erpm*2*pi/60/7"});
 }
 

@@ -116,7 +116,7 @@ base::Result<std::vector<Picked>> columns_called(const Recording& recording,
     const auto before = static_cast<std::size_t>(
         std::count(headings.begin(), headings.begin() + static_cast<std::ptrdiff_t>(n), heading));
     if (found.size() == 1 && before > 0)
-      return of_recording(recording, fmt::format("is asked for its column \"{}\" twice", heading),
+      return of_recording(recording, fmt::format("has column \"{}\" requested twice", heading),
                           "name each column once; it has " + headings_of(recording));
     if (found.size() > 1 && asked != found.size()) return several(recording, heading, found);
     const RecordedColumn* const column = found[before];
@@ -159,7 +159,7 @@ base::Result<std::vector<double>> values_of(const Recording& recording, const Pi
     if (!(std::fabs((*out)[n]) <= most))
       return of_recording(
           recording,
-          fmt::format("{} {:g} in row {} is beyond all instruments", column.name, (*out)[n], n + 1),
+          fmt::format("{} {:g} in row {} is too large for any instrument", column.name, (*out)[n], n + 1),
           "check the unit of its column");
   return out;
 }

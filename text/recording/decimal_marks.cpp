@@ -90,8 +90,8 @@ std::optional<base::Problem> DecimalMarks::doubt(const std::string& file, char s
     const Cell &late = comma->line < point->line ? *point : *comma,
                &early = comma->line < point->line ? *comma : *point;
     return in_doubt(file, late.line,
-                    fmt::format("holds {}, and line {} holds {}: one mark is decimal, and what the other "
-                                "parts nobody can say",
+                    fmt::format("holds {}, and line {} holds {}: one mark is decimal, and the other one's "
+                                "meaning is unclear",
                                 late.text, early.line, early.text));
   }
   if (comma) return thousands(file, &Column::comma, ',', false);

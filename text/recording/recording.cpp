@@ -75,7 +75,7 @@ WholeRows from_last_start(std::string_view text) {
   out.lines_before = lines_in(text.substr(0, from));
   if (from > 0)
     out.notes.push_back(
-        fmt::format("begins anew in line {}: what stands above is left out", out.lines_before + 1));
+        fmt::format("begins anew in line {}: the lines above are left out", out.lines_before + 1));
   out.text = text.substr(from);
   return out;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads tables of numbers from oscilloscopes, logic analyzers, drives, simulators and loggers: lines of
+// Reads tables of numbers from oscilloscopes, logic analyzers, drives, simulators and loggers. A table has a
 // preamble, headings with units or a line of units below them, then rows. The program reads every table of
-// numbers here.
+// numbers with these functions.
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -23,7 +23,7 @@ struct BadCell {
 };
 
 struct RecordedColumn {
-  std::string heading;         ///< as in the file
+  std::string heading;         ///< heading as in the file
   std::string name;            ///< unique, without its unit; "column 2" without a heading
   std::string bare;            ///< bare_name() of `name`; two columns may have the same
   std::string unit;            ///< in the spelling of units.hpp; empty: none
@@ -43,14 +43,14 @@ using Notes = std::vector<std::string>;
 /// A line of the file between its rows that begins with '#' or '%'.
 struct Remark {
   std::string text;       ///< without that mark
-  std::size_t line = 0;   ///< of its first occurrence
+  std::size_t line = 0;   ///< line of its first occurrence
   std::size_t times = 1;  ///< occurrences
 };
 /// Different remarks at most.
 constexpr std::size_t most_remarks = 8;
 
 struct Recording {
-  std::string name;  ///< of the file, for messages
+  std::string name;  ///< name of the file, for messages
   std::vector<RecordedColumn> columns;
   std::optional<RowClock> clock;  ///< from the preamble
   bool has_headings = false;

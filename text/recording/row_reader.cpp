@@ -185,26 +185,26 @@ std::optional<base::Problem> RowReader::wrong_cells() const {
     return told(
         fmt::format("{}:{}:", out_.name, first_line_),
         more_than_names
-            ? fmt::format("has {} cells below {} headings: commas are decimal points here and part the "
-                          "cells too",
-                          first_cells_, names_)
-            : "has cells like \"001\": commas are decimal points here and part the cells too",
+            ? fmt::format(
+                  "has {} cells below {} headings: commas are both decimal points and separators here",
+                  first_cells_, names_)
+            : "has cells like \"001\": commas are both decimal points and separators here",
         "export it with semicolons or tabs between cells, or with decimal points");
   if (wide_line_ == 0) return {};
   return told(fmt::format("{}:{}:", out_.name, wide_line_),
               fmt::format("has {} cells, and the table {} columns", wide_cells_, out_.columns.size()),
-              "mend that line, or head every column");
+              "correct that line, or give each column a heading");
 }
 
 base::Result<Recording> RowReader::result() {
   if (values_ > most_values)
     return told(fmt::format("{}:{}:", out_.name, number_),
-                fmt::format("brings more than {} million values", most_values / 1'000'000),
+                fmt::format("has more than {} million values", most_values / 1'000'000),
                 "cut the recording, leave columns out, or keep every tenth row");
   if (out_.columns.empty() || out_.rows() == 0)
     return told(number_ > 1 ? out_.name + ":" : fmt::format("{}:{}:", out_.name, number_),
                 "holds no row of numbers",
-                "export the recording as text: headings, then rows of numbers parted by commas");
+                "export the recording as text: headings, then rows of numbers separated by commas");
   if (beside_) {
     Recording head;
     take_head({above_, remarks_, separator_, beside_->cells}, out_.columns.size(), head);

@@ -14,7 +14,7 @@ namespace text {
 /// The place of the rows in a table with other cells next to them.
 struct RowsBeside {
   char separator = 0;
-  std::size_t cells = 0;  ///< in front of the row's own first cell
+  std::size_t cells = 0;  ///< number of cells before the row's own first cell
 };
 
 /// Recognises a table in which most lines begin with the same number of empty cells and a number: "Record

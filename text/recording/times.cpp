@@ -96,7 +96,7 @@ base::Result<Times> without_column(const Recording& r, std::optional<double> int
   if (interval_s && r.clock && !are_near(*interval_s, r.clock->interval_s))
     return of_recording(
         r, fmt::format("says \"{}\", and the interval is given as {:.6g} s", r.clock->said, *interval_s),
-        "leave the interval out, or give the one that the file says");
+        "leave the interval out, or give the file's interval");
   if (!interval_s)
     notes.push_back(fmt::format("has no column of time: rows are {:.6g} s apart, as \"{}\" says",
                                 r.clock->interval_s, r.clock->said));
@@ -127,7 +127,7 @@ base::Result<Times> column_at_interval(const Recording& r, const RecordedColumn&
   if (guessed && !go_with(*t, interval_s)) {
     if (steps_of(*t).even() && std::is_sorted(t->begin(), t->end()))
       notes.push_back(fmt::format(
-          "{} rises by {:.6g} from row to row and is not taken for the time: the interval is given",
+          "{} rises by {:.6g} from row to row, but is not used as the time: the interval is given",
           column.name, steps_of(*t).middle));
     return without_column(r, interval_s, notes);
   }
@@ -191,8 +191,7 @@ base::Result<Times> rising_times(const Recording& recording, std::vector<double>
         recording, fmt::format("{} {:.10g} in row {} does not rise", column.name, t[row], row + 1),
         recording.has_headings
             ? "give the rows in the order of recording, with all digits of the time, or the interval of the rows"
-            : "the first column is taken for the time where none has a heading: name the column of the time, or "
-              "give the interval of the rows");
+            : "without headings the first column is used as the time: name the column of the time, or give the interval of the rows");
   };
   Times out{.t_s = {}, .left_out = {}, .column = &column};
   for (std::size_t n = 1; n < t.size(); ++n) {
@@ -203,7 +202,7 @@ base::Result<Times> rising_times(const Recording& recording, std::vector<double>
   constexpr std::size_t one_in = 10;
   if (out.left_out.size() * one_in > t.size()) return does_not_rise(out.left_out[0] + 1);
   if (!out.left_out.empty())
-    notes.push_back(fmt::format("{} {} left out: the next row stands at the same instant (first in line {})",
+    notes.push_back(fmt::format("{} {} left out: the next row has the same time (first in line {})",
                                 out.left_out.size(), out.left_out.size() == 1 ? "row" : "rows",
                                 recording.line_of(out.left_out[0])));
   out.t_s = without_rows(std::move(t), out.left_out);
@@ -234,7 +233,7 @@ base::Result<Times> times_of(const Recording& recording, std::optional<double> i
   if (!values) return values.problems();
   if (column->unit.empty() && !recording.clock && are_numbers_of_rows(*values))
     return of_recording(recording, fmt::format("numbers its rows in {}", column->name),
-                        "head the column time [s] where these are seconds, or give the interval of the rows");
+                        "head the column time [s] if these are seconds, or give the interval of the rows");
   base::Result<std::vector<double>> t_s = by_clock(recording, *column, std::move(*values), notes);
   if (!t_s) return t_s.problems();
   return rising_times(recording, std::move(*t_s), *column, notes);

@@ -61,17 +61,17 @@ std::string why_beside(const BodeStudy& s) {
       end.sensors.rotor == study::RotorSensing::hall && end.control.drive != study::FirmwareKind::sensorless;
   if (hall && s.mode == sixstep::control::Mode::position)
     return fmt::format(
-        "Hall probes tell the position in steps of {}, and around a standstill their edges hardly tell a speed; sensors.rotor = "
-        "\"ideal\" shows the loop without them, and an encoder with pwm.commutation = \"sample\" tells both finely",
+        "Hall probes resolve the position only in steps of {}, and near standstill their edges hardly show a speed; sensors.rotor = "
+        "\"ideal\" shows the loop without them, and an encoder with pwm.commutation = \"sample\" resolves both finely",
         quantity_text(60 / s.pole_pairs, "deg", 3));
   const bool one_way = end.pwm.chopping != sixstep::control::Chopping::complementary &&
                        !end.control.smooth_chopping.on && end.control.drive != study::FirmwareKind::field;
   if (one_way && s.without_current > least_without_current)
     return fmt::format(
-        "this chopping lets no current flow backwards, and at {:.2g} % of the samples there is none: the answer is another one up "
-        "than down; pwm.chopping = \"complementary\" lets it",
+        "this chopping lets no current flow backwards, and at {:.2g} % of the samples the current is zero: the response upwards "
+        "differs from that downwards; pwm.chopping = \"complementary\" lets it flow",
         100 * s.without_current);
-  return "each period of the multisine is answered alike, and not as a linear loop does: commutation, dead time, discontinuous current or a limit";
+  return "the response repeats in each period of the multisine and is not linear: commutation, dead time, discontinuous current or a limit";
 }
 
 /// A coherence near 1 shows that the answers repeat, but not that the loop is linear.
@@ -88,8 +88,8 @@ std::string beside_the_designed(const BodeStudy& s) {
     Hz = p.w_rad_s / sixstep::base::turn_rad;
   }
   if (Hz == 0.0) return "";
-  return fmt::format("at {:.3g} Hz the loop is {:+.2g} dB and {:+.2g} deg beside the designed one: {}", Hz,
-                     most_dB, deg, why_beside(s));
+  return fmt::format("at {:.3g} Hz the loop differs by {:+.2g} dB and {:+.2g} deg from the designed one: {}",
+                     Hz, most_dB, deg, why_beside(s));
 }
 
 std::string gain_margin(const std::optional<double>& gain) {
@@ -141,23 +141,21 @@ std::vector<std::string> bode_notes(const BodeStudy& s) {
   const bool sensorless = s.at_end.control.drive == study::FirmwareKind::sensorless;
   if (!analysis::answered(s.points))
     notes.push_back(fmt::format(
-        "NOTHING WAS MEASURED: no line has a coherence of {:g}, so commutation, ripple or noise is larger than the answer; a "
-        "larger amplitude helps, a locked rotor has no commutation; a drive that stopped has its reason in a plain run",
+        "NOTHING WAS MEASURED: no line has a coherence of {:g}, so commutation, ripple or noise exceeds the response. A larger amplitude helps; a locked rotor has no commutation. If the drive stopped, a run without --bode shows the reason",
         analysis::little_coherence));
   else if (few > 0)
     notes.push_back(fmt::format(
-        "{} of {} lines have a coherence below {:g}: commutation, ripple or noise is larger there than the answer; "
-        "a larger amplitude helps",
+        "{} of {} lines have a coherence below {:g}: commutation, ripple or noise exceeds the response there; a larger amplitude helps",
         few, s.points.size(), analysis::little_coherence));
   if (s.lag)
-    notes.push_back(fmt::format("the loop includes the delay of {}: the speed is {} late at this one{}",
-                                sensorless ? "the back-EMF's zero crossings" : "the sensor",
-                                quantity_text(s.lag->delay_s(), "s", 3),
-                                sensorless ? "" : "; sensors.rotor = \"ideal\" shows the loop without it"));
+    notes.push_back(fmt::format(
+        "the loop includes the delay of {}: at this speed the measured speed is {} late{}",
+        sensorless ? "the back-EMF's zero crossings" : "the sensor", quantity_text(s.lag->delay_s(), "s", 3),
+        sensorless ? "" : "; sensors.rotor = \"ideal\" shows the loop without it"));
   if (std::string told = beside_the_designed(s); !told.empty()) notes.push_back(std::move(told));
   if (std::isfinite(s.beside))
-    notes.push_back(
-        fmt::format("{:.2g} % of the answer's rms is at frequencies that were not excited", 100 * s.beside));
+    notes.push_back(fmt::format("{:.2g} % of the response's rms is at frequencies that were not excited",
+                                100 * s.beside));
   return notes;
 }
 

@@ -80,12 +80,11 @@ std::string lines(const CommissionStudy& s) {
   const std::string probes = fmt::format("{} {} {}", found.probe[0], found.probe[1], found.probe[2]);
   const std::string inverted = inverted_word(found.inverted);
   return fmt::format(
-             "Hall lines as the board sees them: probes {} at H1 H2 H3{}; the rotor {} {:.1f} deg each way\n",
+             "Hall lines as measured by the board: probes {} at H1 H2 H3{}; the rotor {} {:.1f} deg each way\n",
              probes, inverted == "none" ? "" : ", inverted: " + inverted,
              s.found.hall_lag_deg < 0 ? "leads" : "lags", std::fabs(s.found.hall_lag_deg)) +
          rows.text() +
-         "A drive takes this table as it is, by as_wired() of hall_survey.hpp. `sixstep motor wiring` says which wires to move "
-         "instead.\n" +
+         "A drive takes this table as it is, by as_wired() of hall_survey.hpp. `sixstep motor wiring` lists the wires to move instead.\n" +
          crossed_phases(s.subject.wires);
 }
 
@@ -113,11 +112,11 @@ std::string bench(const CommissionStudy& s) {
 const char* fault_words(CommissioningFault fault) {
   switch (fault) {
     case CommissioningFault::offset:
-      return "an amplifier's zero is not where the circuit has it";
+      return "an amplifier's zero differs from the circuit's";
     case CommissioningFault::current:
-      return "the longest vector makes no such current: a wire is open, or more was asked for than there is";
+      return "the longest vector does not reach the test current: a wire is open, or the bus is too low for this current";
     case CommissioningFault::winding:
-      return "the two levels do not differ as they should: nothing that a resistance can be told of; give more current";
+      return "the two levels differ too little to compute a resistance; give more current";
     case CommissioningFault::not_turned:
       return "the rotor did not follow, however slowly: free the shaft, or give more current";
     case CommissioningFault::none:
@@ -130,12 +129,11 @@ std::string survey_words(const CommissionStudy& s) {
   switch (s.state.probes.verdict) {
     case HallSurvey::dead_line:
       return "Hall line at H" + inverted_word(s.state.probes.dead_pins) +
-             " never changed: look at its probe, its supply and its pull-up";
+             " never changed: check its probe, its supply and its pull-up";
     case HallSurvey::other_codes:
       return "Hall lines do not show six codes in one order: a shorted line, or probes of another kind";
     case HallSurvey::not_steady:
-      return "Hall edges of one kind lay too far apart, or were missed: the rotor does not follow the slow field steadily, "
-             "by cogging, or because dead time and diodes take too much of so small a vector; give more current";
+      return "Hall edges of one kind lay too far apart, or were missed: the rotor does not follow the slow field steadily. Causes: cogging, or dead time and diodes at a small vector; give more current";
     case HallSurvey::good:
       break;
   }
@@ -187,8 +185,8 @@ std::string commission_failure(const CommissionStudy& s) {
 std::string stand_in_words(const analysis::CommissionBench& bench) {
   using analysis::TestCurrent;
   if (bench.nominal_printed || bench.from == TestCurrent::asked_for) return "";
-  return std::string(bench.from == TestCurrent::half_of_most ? ", half of the most that this test can use"
-                                                             : ", twice a tenth of what full duty drives") +
+  return std::string(bench.from == TestCurrent::half_of_most ? ", half of the largest current of this test"
+                                                             : ", a fifth of the current at full duty") +
          ": the sheet names no nominal current";
 }
 
@@ -197,7 +195,8 @@ std::string commission_text(const CommissionStudy& s) {
   if (const std::string found = lines(s); !found.empty()) out += "\n" + found;
   out += "\n" + times(s) + "\n";
   if (const std::string why = commission_failure(s); !why.empty()) return out + "NOT FOUND: " + why + "\n";
-  return out + (s.holds() ? "All was found, within its bounds.\n" : "NOT ALL lies within its bounds.\n");
+  return out + (s.holds() ? "All values were found, within their bounds.\n"
+                          : "NOT ALL values lie within their bounds.\n");
 }
 
 std::string commission_toml(const CommissionStudy& s) {

@@ -18,7 +18,7 @@ std::string commission_json(const analysis::CommissionStudy& study);
 /// Lines for the motor's file and for a scenario's sensors, without values that were not found.
 std::string commission_toml(const analysis::CommissionStudy& study);
 
-/// ", twice a tenth of what full duty drives: ..": the substitute for a nominal current that the sheet omits.
+/// ", a fifth of the current at full duty: ..": the substitute for a nominal current that the sheet omits.
 /// Empty if the sheet has a nominal current, or if the test current was given.
 std::string stand_in_words(const analysis::CommissionBench& bench);
 

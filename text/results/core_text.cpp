@@ -55,13 +55,13 @@ std::vector<std::string> chip_texts(const study::ChipReport& c) {
                             taken(c.times.hall, c.clock_Hz), c.latest_edge_s * 1e6));
   if (c.overran())
     out.push_back(fmt::format(
-        "OVERRUN: {} of {} periods went by without a control interrupt: it takes longer than they do",
+        "OVERRUN: {} of {} periods had no control interrupt, because it takes longer than a period",
         c.times.periods - c.times.conversions, c.times.periods));
   if (const std::vector<std::string> why = chip_faults(c); !why.empty())
     out.push_back(
-        fmt::format("FAULT: its gates are off, and its serial line says why: {}", fmt::join(why, ", then ")));
+        fmt::format("FAULT: its gates are off; reason on its serial line: {}", fmt::join(why, ", then ")));
   if (const std::string_view last = last_remark(c.sent); last.starts_with(waits_remark))
-    out.push_back(fmt::format("WAITS: it drives nothing before its setpoint was 0, and waits for {}",
+    out.push_back(fmt::format("WAITS: it drives only after its setpoint was 0, and waits for {}",
                               printable(last.substr(waits_remark.size()))));
   return out;
 }

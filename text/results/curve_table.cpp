@@ -24,7 +24,7 @@ struct Units {
   struct Unit {
     double factor;
     const char* name;
-    int decimals;  ///< of a speed in a column
+    int decimals;  ///< decimals of a speed in a column
   };
   Unit speed, torque;
   base::Motion motion;
@@ -234,7 +234,7 @@ std::string nominal(const analysis::CurveRequest& r, const analysis::Curve& curv
   const double sheet_V = r.bench.motor.nominal_voltage_V;
   if (r.bench.duty != 1 || r.bench.voltage_V != sheet_V)
     return text + fmt::format(", at full duty and {:g} V.\n", sheet_V);
-  if (!n.torque_Nm) return text + "; without a torque it is not a point of the curve.\n";
+  if (!n.torque_Nm) return text + "; it has no torque, so it is not a point of the curve.\n";
   if (!n.at_torque) return text + "; the curve never has that torque.\n";
   const analysis::OperatingPoint& p = *n.at_torque;
   text += fmt::format("; at that torque the curve has {}", speed_text(p.speed_rad_s, u));
@@ -246,7 +246,7 @@ std::string nominal(const analysis::CurveRequest& r, const analysis::Curve& curv
 
 /// The part of the curve that the winding withstands continuously.
 std::string lasting(const analysis::Curve& curve, const Units& u) {
-  if (!curve.marks.for_ever) return "Not even no load can be held for ever.\n";
+  if (!curve.marks.for_ever) return "Even without load the winding becomes too hot.\n";
   const analysis::OperatingPoint& from = *curve.marks.for_ever;
   return fmt::format("The curve itself can be held for ever from {} ({}) on.\n",
                      speed_text(from.speed_rad_s, u), torque_text(from.shaft_torque_Nm, u));
@@ -281,7 +281,7 @@ std::string too_fast(const analysis::CurveRequest& r, const analysis::Curve& cur
   if (past(curve.marks.best_efficiency))
     text +=
         fmt::format(", the best efficiency at {}", speed_text(curve.marks.best_efficiency->speed_rad_s, u));
-  return text + ": what is faster than the sheet allows is not an operating point.\n";
+  return text + ": points above the sheet's speed limit are not operating points.\n";
 }
 
 std::string thermal(const analysis::CurveRequest& r, const analysis::Curve& curve, const Units& u) {
@@ -307,7 +307,7 @@ std::string certainty(const analysis::Curve& curve, const Units& u) {
           ? fmt::format("Mean torque within +- {} at {} % ({} batches)", torque_text(width, u, 2),
                         per_cent * analysis::confidence_level, analysis::batches)
           : fmt::format("Steady currents within {:.1g} A", bound);
-  if (!precise) text += ", at some points less narrow than wanted";
+  if (!precise) text += ", at some points wider than requested";
   return text + fmt::format("; the energy balance closes to {:.1g}.\n", residual);
 }
 

@@ -61,8 +61,7 @@ std::string loop_text(const LoopDesign& loop, const Motion& motion) {
                         sixstep::base::six_digits(loop.gains.d1 + loop.gains.d0));
   if (thesis)
     text +=
-        "  (the thesis's gains follow from the poles that it prints; those are a faster loop's than it asks "
-        "for)\n";
+        "  (the thesis's gains follow from the poles that it prints; these give a faster loop than it requires)\n";
   return text;
 }
 
@@ -157,7 +156,7 @@ std::string sensorless_text(const std::vector<sixstep::design::DerivationStep>& 
   for (const DerivationStep& step : steps)
     rows.add({step.symbol, quantity_text(step.value, step.unit, 6), step.formula});
   return "\nWithout a rotor sensor: threshold, lowest speed, start, highest speed\n" + rows.text() +
-         "  the loops are run with Hall edges where crossings would be; run the scenario itself to see it start\n";
+         "  these runs have Hall edges in place of zero crossings; run the scenario itself to simulate the start\n";
 }
 
 std::string limits_text(const DriveDesign& d) {

@@ -118,7 +118,7 @@ std::string position_text(const analysis::PositionGain& p, const Motion& motion)
                                               counted(static_cast<std::size_t>(p.runs), "simulation"),
                                               rising ? braking : linear, rising ? linear : braking));
   if (p.gain_rad_s_per_deg < p.nominal)
-    text += fmt::format("  the sheet's motor alone would stand {} {}; the tolerances do not\n",
+    text += fmt::format("  the sheet's nominal motor allows {} {}; its tolerances do not\n",
                         sixstep::base::six_digits(p.nominal * gain.factor), gain.linear);
   return text;
 }
@@ -152,7 +152,7 @@ std::string conditions(const analysis::DesignStudy& s) {
     text += fmt::format(", down to {}",
                         quantity_text(d.lowest_speed_rad_s, std::string(motion.unit("rad/s").linear), 3));
   return text + (s.robustness ? fmt::format(", over {} motors within the tolerances", s.robustness->runs)
-                              : ", tolerances not looked at");
+                              : ", tolerances not simulated");
 }
 
 }  // namespace
@@ -230,7 +230,7 @@ std::vector<std::string> design_lines(const analysis::DesignStudy& s, bool of_a_
   }
   if (!of_a_board && s.scenario.bridge.dead_time_s == analysis::usual_dead_time_s)
     lines.push_back(
-        "bridge.dead_time_s: what gate drivers of small bridges ask for, and what this was simulated with; write what yours need");
+        "bridge.dead_time_s: usual for gate drivers of small bridges, and simulated here; write the value that yours need");
   return lines;
 }
 

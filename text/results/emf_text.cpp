@@ -53,7 +53,7 @@ std::string channels_section(const EmfResult& r) {
   for (const analysis::EmfChannelResult& c : r.channels)
     if (analysis::may_be_clipped(c))
       out += fmt::format(
-          "  {} stands at its greatest value for {:.2g} % of a period: was it clipped? The upper ends of the "
+          "  {} stays at its greatest value for {:.2g} % of a period: was it clipped? The upper ends of the "
           "constants allow for it\n",
           visible(c.name), to_percent * c.clipped);
   return out;
@@ -92,7 +92,7 @@ std::string constants_section(const EmfResult& r) {
   if (r.pole_pairs == 0)
     out += "  per electrical rad/s; the pole pairs, or the shaft's speed, make them constants per turn\n";
   if (!star)
-    out += "  a phase's without harmonics of order 3, 9, 15, which no voltage between two terminals shows\n";
+    out += "  values of a phase, without harmonics of order 3, 9, 15, which cancel between two terminals\n";
   return out;
 }
 
@@ -111,11 +111,11 @@ std::string harmonics_section(const EmfResult& r) {
     rows.add({std::to_string(h.order), measured_text(part), bounds_text(part),
               fmt::format("{:.2g}", to_percent * h.floor),
               !h.stands_out ? ""
-              : common      ? "not the motor's: between lines there is none"
+              : common      ? "not from the motor: it cancels between lines"
                             : fmt::format("{:+.2g} %", to_percent * h.in_phase)});
   }
   std::string out = rows.text();
-  if (hidden > 0) out += fmt::format("  {} more do not stand out of the noise\n", hidden);
+  if (hidden > 0) out += fmt::format("  {} more do not exceed the noise\n", hidden);
   const char* const probed = r.between == analysis::EmfBetween::lines ? "line" : "phase";
   return out +
          fmt::format(
@@ -134,15 +134,15 @@ std::string check_words(const analysis::FrameCheck& c, double tolerance) {
   if (printed && printed->fits)
     return "fits" + (fitting == printed->frame ? std::string() : "; so do, within the tolerance: " + fitting);
   if (fitting.empty()) return fmt::format("CONTRADICTS: fits no frame within {:g} %", to_percent * tolerance);
-  if (!printed) return "says no frame; fits " + fitting;
+  if (!printed) return "names no frame; fits " + fitting;
   return "CONTRADICTS: reads like " + fitting;
 }
 
 std::string sheet_section(const MeasuredEmf& m) {
   if (m.sheet.empty()) return "";
-  std::string out = fmt::format("\nHeld against the sheet of {}, within {:g} %\n", visible(m.sheet),
+  std::string out = fmt::format("\nCompared with the sheet of {}, within {:g} %\n", visible(m.sheet),
                                 to_percent * m.tolerance);
-  if (m.checks.empty()) out += "  it prints nothing of the back-EMF that can be compared\n";
+  if (m.checks.empty()) out += "  it prints no back-EMF value that can be compared\n";
   for (const analysis::FrameCheck& c : m.checks) {
     out +=
         fmt::format("  {} = {:g} {}: {}\n", visible(c.key), c.printed, c.unit, check_words(c, m.tolerance));

@@ -11,7 +11,7 @@ namespace text {
 
 /// A measured motor, and the sheet that it is compared with.
 struct MeasuredEmf {
-  std::string name;  ///< of the recording
+  std::string name;  ///< name of the recording
   const analysis::EmfResult& result;
   std::string sheet{};  ///< the motor's name; empty: no comparison
   std::vector<analysis::FrameCheck> checks{};

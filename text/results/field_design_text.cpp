@@ -71,12 +71,11 @@ std::string field_design_text(const FieldStudy& f, bool colour) {
   std::string text = verdict + "\n\n" + field_motor_line(f);
   for (const sixstep::design::LoopDesign& loop : f.design.loops) text += loop_text(loop, motion);
   text += table("Along the magnet and across it", f.axes) + figures_text(f.design) + sensing(f) +
-          table("What the bus lets through", f.limits);
+          table("Limits by the bus", f.limits);
   if (!f.warnings.empty()) text += "\nWarnings\n";
   for (const auto& w : f.warnings)
     text += fmt::format("  - {}{}\n    {}\n", w.grave ? "GRAVE: " : "", visible(w.what), visible(w.cure));
-  return text +
-         "\nsixstep run puts the scenario to the test with all switching; its --bode measures the loop\n";
+  return text + "\nsixstep run tests the scenario with all switching; its --bode measures the loop\n";
 }
 
 }  // namespace text

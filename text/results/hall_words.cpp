@@ -75,8 +75,8 @@ std::string sensor_lines(const analysis::HallIdentity& found) {
   // direction as well.
   if (!place)
     return out +
-           "# hall_edges_deg is left out: codes alone tell neither which edge is the first nor which way the rotor "
-           "turned, on which each\n# sign hangs; record u_ab and u_bc too\n";
+           "# hall_edges_deg is left out: codes alone show neither the first edge nor the rotor's direction, which "
+           "sets each\n# sign; also record u_ab and u_bc\n";
   out += "hall_edges_deg = [";
   double width = 0.0;
   for (std::size_t n = 0; n < found.edges.size(); ++n) {

@@ -47,7 +47,7 @@ std::string heading(const std::string& name, const HallIdentity& f) {
     out += fmt::format("  {} not used, for the rotor turned back beyond {}\n",
                        count(f.place->at_turns, "edge", "edges"), f.place->at_turns == 1 ? "it" : "them");
   if (f.unused > 0)
-    out += fmt::format("  {} behind the first {} not looked at\n", count(f.unused, "edge", "edges"), edges);
+    out += fmt::format("  {} behind the first {} not used\n", count(f.unused, "edge", "edges"), edges);
   return out;
 }
 
@@ -89,7 +89,7 @@ void add_jitter(Rows& rows, const HallIdentity& f) {
     add(rows, "jitter", f.jitter_deg, 1.0, "deg rms");
   else
     rows.add({"jitter", fmt::format("<= {:.2g} deg rms", f.jitter_deg.high), "",
-              f.place ? "" : "the rotor's own unsteadiness is in it"});
+              f.place ? "" : "it includes the rotor's own speed variation"});
 }
 
 std::string wires_section(const HallIdentity& f) {
@@ -97,7 +97,7 @@ std::string wires_section(const HallIdentity& f) {
   rows.add({"Wires", "", "sure"});
   rows.add({"never seen", never_seen(f) + ": " + spacing_words(f), certainty_text(f.mask_probability)});
   if (!f.place) {
-    rows.add({"order", "not told by codes alone: record u_ab and u_bc too", ""});
+    rows.add({"order", "codes alone do not show it: also record u_ab and u_bc", ""});
     return rows.text();
   }
   const IdentifiedPlace& p = *f.place;
@@ -121,18 +121,18 @@ std::string numbers_section(const HallIdentity& f) {
   rows.add({"Electrical degrees", "", "95 %"});
   if (f.place) {
     const IdentifiedPlace& p = *f.place;
-    add(rows, "offset", p.offset_deg, 1.0, "deg", p.both_ways ? "" : "as this way of turning shows it");
+    add(rows, "offset", p.offset_deg, 1.0, "deg", p.both_ways ? "" : "as measured in this direction");
     if (p.hysteresis_deg)
       add(rows, "hysteresis", *p.hysteresis_deg, 1.0, "deg");
     else if (p.both_ways)
-      rows.add({"hysteresis", "not told: turn farther, by a turn and more, before turning back", ""});
+      rows.add({"hysteresis", "not found: turn by more than one turn before turning back", ""});
   }
   add_jitter(rows, f);
   if (f.place) {
     const IdentifiedPlace& p = *f.place;
     if (p.delay_s) add(rows, "delay", *p.delay_s, 1e6, "us", "of the lines behind the voltages");
     add(rows, "flux linkage", p.flux_linkage_Vs, 1e3, "mWb",
-        fmt::format("{:.4g} % of the voltages' power is the rotor's", 100.0 * p.explained));
+        fmt::format("{:.4g} % of the voltages' power comes from the rotor", 100.0 * p.explained));
   }
   return rows.text();
 }
@@ -189,7 +189,7 @@ std::string identify_text(const std::string& name, const HallIdentity& f) {
 std::string identify_toml(const std::string& name, const HallIdentity& f) {
   std::string out = as_remarks(heading(name, f)) + sensor_lines(f);
   if (f.place)
-    out += "\n# For a firmware of one's own: the legs to connect where the pins show a code.\n" +
+    out += "\n# For a user's firmware: the legs to connect at each code of the pins.\n" +
            as_remarks(table_section(*f.place)) + "\n# For the motor's file:\n# " +
            identified_motor_line(f, name);
   return out;

@@ -23,7 +23,7 @@ struct Point {
   std::vector<std::string> values;
   std::vector<analysis::Statistics> figures;
   std::size_t first = 0, runs = 0, passed = 0;
-  analysis::RunEnd end = analysis::RunEnd::whole;  ///< of the first drive that did not end so
+  analysis::RunEnd end = analysis::RunEnd::whole;  ///< reason of the first incomplete drive
 };
 
 std::vector<Point> points_of(const PlanStory& story) {
@@ -107,7 +107,7 @@ std::string index_table(const PlanStory& story) {
   for (std::size_t f = 0; f < story.columns.figures.size(); ++f) {
     const auto found = indices_of(story, f);
     text += fmt::format("  {}: {}\n", visible(story.columns.figures[f].name),
-                        found ? "what it depends on, first order and in all, each with the middle 95 %"
+                        found ? "sensitivity indices, first order and total, each with the middle 95 %"
                               : "does not vary, or too few runs have it");
     if (!found) continue;
     Rows rows(Rows::Side::right);

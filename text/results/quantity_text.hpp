@@ -26,8 +26,8 @@ std::string counted(std::size_t n, const char* what);
 /// enough digits to distinguish different numbers.
 struct ComparedTexts {
   std::vector<std::string> yardsticks;
-  std::string x;     ///< with its unit; with its own prefix if its magnitude differs
-  std::string unit;  ///< of the yardsticks, with prefix
+  std::string x;     ///< value with its unit; with its own prefix if its magnitude differs
+  std::string unit;  ///< unit of the yardsticks, with prefix
 };
 ComparedTexts compared_texts(double x, std::span<const double> yardsticks, const std::string& unit);
 

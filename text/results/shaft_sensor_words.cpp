@@ -31,7 +31,7 @@ std::string resolver(const study::Resolver& r, bool page, Given given) {
     return text + fmt::format(", {} by a converter chip of {} bits at {}, {} late", within, r.bits,
                               given(r.converter_Hz, "Hz"), given(r.latency_s, "s"));
   text += fmt::format(" at {}, {}, {} bits", given(r.excitation_Hz, "Hz"), within, r.bits);
-  return text + (r.calibrated ? ", what its windings are unlike by taken off" : "");
+  return text + (r.calibrated ? ", differences between its windings compensated" : "");
 }
 
 }  // namespace

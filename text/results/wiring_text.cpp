@@ -52,8 +52,8 @@ std::string amperes(double A) { return quantity_text(A, "A", 3); }
 
 Rows symptom_rows(const WiringStudy& s, const base::Motion& motion) {
   Rows rows;
-  rows.add({"", "ways", motion.words("torque/A"), "theory", "speed", "phase rms", "peak", "supply",
-            "what you see"});
+  rows.add(
+      {"", "ways", motion.words("torque/A"), "theory", "speed", "phase rms", "peak", "supply", "symptom"});
   for (const WiringDoes does : told_order()) {
     const analysis::WiringCase* const example = s.example(does);
     if (!example) continue;
@@ -72,7 +72,7 @@ std::string symptoms(const WiringStudy& s, const base::Motion& motion) {
   const analysis::Symptom hum = s.symptom(WiringDoes::hums);
   if (hum.swing_Hz > 0)
     text += motion.words(fmt::format(
-        "What hums swings by {} at {:.0f} Hz, in the mean, about one of two angles in each electrical turn.\n",
+        "A humming motor swings by {} at {:.0f} Hz, in the mean, about one of two angles in each electrical turn.\n",
         way_text(s, hum.swing_deg), hum.swing_Hz));
   const WiringCase* const early = s.example(WiringDoes::forward_early);
   if (!early) return text;
@@ -107,7 +107,7 @@ std::string recipe() {
 /// The measurement does not use the theory, so that their agreement is a result.
 std::string agreement(const WiringStudy& s) {
   if (s.agreeing() == s.cases.size())
-    return fmt::format("All {} move in simulation as theory says.\n", s.cases.size());
+    return fmt::format("All {} move in simulation as theory predicts.\n", s.cases.size());
   std::string text;
   for (const WiringCase& c : s.cases)
     if (!c.agrees())
@@ -115,8 +115,7 @@ std::string agreement(const WiringStudy& s) {
                           hall_lines_word(c.wiring), does_text(c.theory.does), does_text(c.measured.does));
   return text +
          fmt::format(
-             "{} of {} move in simulation as theory says; friction or cogging holds the others at this current: "
-             "raise it.\n",
+             "{} of {} move in simulation as theory predicts; friction or cogging holds the others at this current: raise it.\n",
              s.agreeing(), s.cases.size());
 }
 

@@ -111,7 +111,7 @@ std::string symptom_text(const analysis::WiringStudy& s, WiringDoes does) {
   const double ratio = here.phase_rms_A / well.phase_rms_A;
   const std::string current =
       ratio < 100 ? times(ratio) + " times the current" : "more than 100 times the current";
-  if (does == WiringDoes::hums) return fmt::format("jerks, stands, hums; {}", current);
+  if (does == WiringDoes::hums) return fmt::format("jerks, stops, hums; {}", current);
   if (analysis::direction_of(does) == 0) return "does not do the same from every start";
   return fmt::format("runs rough; {}", current);
 }
@@ -134,18 +134,18 @@ std::string cure_mark(const analysis::Cure& c) {
 
 std::span<const std::pair<std::string_view, std::string_view>> recipe_steps() {
   static constexpr std::pair<std::string_view, std::string_view> steps[] = {
-      {"it jerks and hums", "swap any two phase wires: it runs then"},
+      {"it jerks and hums", "swap any two phase wires; then it runs"},
       {"it runs rough",
        "move all three phase wires on by one leg; still rough: once more; then it runs well, the other way"},
       {"it runs well, but backward",
-       "swap the phase wires at legs a and b and the Hall lines at H2 and H3, or ask for the other direction"},
+       "swap the phase wires at legs a and b and the Hall lines at H2 and H3, or reverse the sign of the reference"},
   };
   return steps;
 }
 
 std::string_view recipe_note() {
-  return "Of the six orders of the phase wires three hum, two run rough one way and one runs well the other way. Where two Hall "
-         "lines are swapped that one is backward, and phase wires alone do not cure it.";
+  return "Three of the six orders of the phase wires hum, two run rough in one direction, and one runs well in the other. If two "
+         "Hall lines are swapped, the order that runs well runs backward; changing phase wires alone does not cure it.";
 }
 
 std::string way_text(const analysis::WiringStudy& s, double electrical_deg) {
@@ -162,16 +162,17 @@ std::string wiring_speed_text(const analysis::WiringStudy& s, double rad_s) {
 
 std::vector<std::string> wiring_scenario_lines() {
   return {
-      "A motor let free from rest, its wires straight. To cross them:",
+      "A motor starts from rest, with straight wires. To cross them:",
       "  [bridge] phases = \"bac\", [sensors] hall_lines = \"132\"",
-      "A motor that runs well still accelerates at the end of this run; the table has its speed once it has settled."};
+      "A motor that runs well still accelerates at the end of this run; the table has its settled speed."};
 }
 
 std::string bench_text(const analysis::WiringStudy& s) {
   const analysis::WiringBench& b = s.bench;
-  const char* const is = b.from == analysis::BenchCurrent::nominal          ? ", its nominal current"
-                         : b.from == analysis::BenchCurrent::tenth_of_stall ? ", a tenth of full duty's"
-                                                                            : "";
+  const char* const is = b.from == analysis::BenchCurrent::nominal ? ", its nominal current"
+                         : b.from == analysis::BenchCurrent::tenth_of_stall
+                             ? ", a tenth of the current at full duty"
+                             : "";
   const base::Result<design::MotorModel> motor = design::motor_model(s.subject.sheet);
   const bool rubs = !motor || motor->shaft.coulomb_Nm > 0 || motor->shaft.B_Nm_s > 0;
   return motion_of(s).words(fmt::format(

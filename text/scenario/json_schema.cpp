@@ -69,8 +69,8 @@ Json quantity(const KeyEntry& entry, const Place& place) {
   for (const auto& trust : base::trust_choices) trusts.emplace_back(trust.word);
   Json parts = {{"value", range_schema(base::allowed(entry.about))}};
   if (!frames.empty()) parts["frame"] = words_of(frames);
-  parts["source"] = {{"type", "string"}, {"description", "where the value comes from"}};
-  parts["kind"] = {{"description", "how far the value can be trusted"}};
+  parts["source"] = {{"type", "string"}, {"description", "source of the value"}};
+  parts["kind"] = {{"description", "reliability of the value"}};
   parts["kind"].update(words_of(trusts));
   parts["range"] = {{"type", "array"},
                     {"items", range_schema(base::allowed(entry.about))},

@@ -132,7 +132,7 @@ class RowsOf {
   std::string unit_;
   ReferenceRows rows_;
   std::size_t bad_ = 0;                                      ///< cells that are no numbers, quoted or not
-  std::vector<std::pair<std::size_t, base::Problem>> told_;  ///< with their lines
+  std::vector<std::pair<std::size_t, base::Problem>> told_;  ///< problems with their lines
 };
 
 base::Result<ReferenceRows> rows_of(const std::string& name, const std::string& text,

@@ -64,7 +64,7 @@ class Family {
       return base::Problems{};
     };
     if (std::find(chain_.begin(), chain_.end(), beside(from, base.file)) != chain_.end())
-      return refuse("forms a circle: that file extends this one", "take the common keys into a third");
+      return refuse("forms a circle: that file extends this one", "put the common keys into a third file");
     if (++files_ > most_files)
       return refuse(fmt::format("makes the family larger than {} files", most_files), "join some of them");
     base::Result<NamedText> found = find_text(resolve_, {Naming::Kind::scenario, base.file, from});

@@ -117,7 +117,7 @@ void load_controller(const Document& document, const Resolve& resolve, study::Ow
     own.loaded = file->controller;
     return;
   }
-  base::Problem problem = file ? base::Problem{.limit = "is machine code, and none is loaded here",
+  base::Problem problem = file ? base::Problem{.limit = "is machine code, which is not loaded here",
                                                .cure = "run it by the program on this machine"}
                                : file.problems().front();
   problem.where = key;

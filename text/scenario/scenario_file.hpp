@@ -13,7 +13,7 @@
 namespace text {
 
 struct ReadOptions {
-  std::vector<Setting> overrides;  ///< from the command line, stronger than the file
+  std::vector<Setting> overrides;  ///< settings of the command line, which override the file
   Resolve resolve;                 ///< finds the named texts; motors compiled in do not need it
 };
 

@@ -140,8 +140,9 @@ class TableText final : public sixstep::base::Visitor {
   Shown shown_ = Shown::where_it_differs;
   std::vector<Row> rows_;
   std::vector<TableText> tables_;
-  std::vector<TableText> items_, usual_items_;  ///< of the lists, and an item of each with its defaults
-  std::vector<WrittenValue> listed_;            ///< of the lists' items
+  std::vector<TableText> items_,
+      usual_items_;                   ///< items of the lists, and an item of each list with its defaults
+  std::vector<WrittenValue> listed_;  ///< values of the lists' items
 };
 
 std::string TableText::text(const TableText& usual, const std::string& path, Heading heading) const {

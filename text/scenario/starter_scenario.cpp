@@ -125,9 +125,7 @@ std::string torque_limit_origin(const study::Scenario& s) {
   const double usual = design::usual_torque_limit_Nm(*motor, s.supply.voltage_V);
   if (!(std::fabs(*limit - usual) < 0.01 * usual)) return "";
   return fmt::format(
-      "The sheet names no nominal current: control.speed.torque_limit_Nm is that of a quarter of the stall "
-      "current, {} A, and nobody has said that bridge and winding bear it. Give nominal_current_A in the motor "
-      "file, or the torque that they bear.",
+      "The sheet names no nominal current: control.speed.torque_limit_Nm is the torque of a quarter of the stall current, {} A. Check that bridge and winding withstand it; give nominal_current_A in the motor file, or the allowed torque.",
       base::rounded(usual / motor->K_t_Nm_A, 4));
 }
 
@@ -227,7 +225,7 @@ class Starter {
                                        .explained = explained_.insert(entry.about.meaning).second});
   }
 
-  std::string origin_;  ///< of the torque limit
+  std::string origin_;  ///< origin of the torque limit
   std::vector<KeyEntry> keys_;
   std::vector<WrittenValue> values_;
   std::vector<Wanted> wanted_;
@@ -241,10 +239,10 @@ std::string starter_note(const study::Scenario& scenario) { return torque_limit_
 
 std::string starter_text(const study::Scenario& scenario, const StarterOptions& options) {
   return fmt::format("#:schema {}\n", scenario_schema_file) +
-         wrapped_comment(fmt::format("sixstep run {} runs this and judges it; with --html the report is "
-                                     "written too. Lines behind a # say what holds without them: take the # "
-                                     "away to change it; nan stands where no value holds: replace it by a "
-                                     "number. sixstep help TABLE and sixstep help KEY tell more.",
+         wrapped_comment(fmt::format("sixstep run {} runs this and judges it; --html also writes the report. "
+                                     "Lines behind a # show the defaults: remove the # to change one; nan "
+                                     "means that there is no default: replace it by a number. Details: "
+                                     "sixstep help TABLE and sixstep help KEY.",
                                      shell_word(options.file))) +
          Starter(scenario, options.full).text();
 }

@@ -38,8 +38,8 @@ class Complaints {
   /// Reports a key or a word at `path` that only the other kind of motor has.
   void other_motion(std::string_view path, const std::string& instead) {
     later({.where = std::string(path),
-           .limit = linear_motor_ ? "is a turning motor's, and this one is linear"
-                                  : "is a linear motor's, and this one turns",
+           .limit = linear_motor_ ? "is for turning motors, and this motor is linear"
+                                  : "is for linear motors, and this motor turns",
            .cure = "write " + instead});
   }
 
@@ -60,7 +60,7 @@ class Complaints {
 
  private:
   struct Found {
-    std::size_t file;  ///< as Document::order_of
+    std::size_t file;  ///< number of the file, as Document::order_of gives it
     toml::source_position at;
     base::Problem problem;
   };

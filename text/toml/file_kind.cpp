@@ -44,7 +44,7 @@ std::optional<base::Problem> taken_for(FileKind wanted, const Document& document
       .limit = scenario ? "is a motor's file, not a scenario" : "is a scenario, not a motor's file",
       .cure = scenario ? fmt::format("sixstep new first --motor {} writes a scenario that runs it",
                                      document.name())
-              : name   ? fmt::format("its motor is {}: name that", *name)
+              : name   ? fmt::format("its motor is {}: name this motor", *name)
                        : std::string("name the file of a motor, or a built-in one of sixstep motor list")};
 }
 

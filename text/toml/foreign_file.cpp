@@ -81,7 +81,7 @@ base::Problem foreign_problem(const std::string& name, std::string_view kind, co
           .limit = fmt::format("is {}, and a TOML file is wanted", kind),
           .cure = lines.empty() ? "type its values into a motor's file of the style firmware"
                                 : "type into a motor's file: " + lines +
-                                      "; it lacks the inertia, and what else the style firmware lists"};
+                                      "; add the inertia and the other values that the style firmware lists"};
 }
 
 /// BLDCMotor(pole pairs, phase resistance, KV, phase inductance), of which the last three may be missing.

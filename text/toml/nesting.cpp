@@ -37,7 +37,7 @@ base::Problem too_deep(std::string_view name, std::string_view text, std::size_t
 }  // namespace
 
 std::optional<base::Problem> nests_too_deep(std::string_view name, std::string_view text) {
-  std::size_t brackets = 0, parts = 0;  // of the current key
+  std::size_t brackets = 0, parts = 0;  // open brackets at this place; dots in the current key
   for (std::size_t at = 0; at < text.size(); ++at) {
     switch (text[at]) {
       case '"':

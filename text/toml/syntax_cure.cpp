@@ -17,7 +17,7 @@ constexpr std::array<Cure, 11> syntax_cures = {{
     {"parsing string", "close the quote on the same line"},
     {"cannot redefine", "give each key and table once"},
     {"could not determine value type",
-     "put words in quotes, as \"speed\"; numbers, true and false stand alone"},
+     "put words in quotes, as \"speed\"; numbers, true and false have none"},
     {"parsing boolean", "write true or false, in small letters"},
     {"expected a comment or whitespace, saw ','", "write a decimal point, as 0.5, and a list in brackets"},
     {"expected a comment or whitespace", "end the line behind the value: its unit is in the key"},
@@ -32,7 +32,7 @@ constexpr std::array<Cure, 11> syntax_cures = {{
 std::string_view syntax_cure(std::string_view met) {
   for (const Cure& cure : syntax_cures)
     if (met.find(cure.met) != std::string_view::npos) return cure.cure;
-  return "mend the TOML syntax";
+  return "correct the TOML syntax";
 }
 
 }  // namespace text

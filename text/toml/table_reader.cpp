@@ -54,7 +54,7 @@ const toml::array* TableReader::find_tables(std::string_view key, const base::Ab
     complaints_.value(
         *node, at(key),
         {.limit = fmt::format("has {} tables; at most {} are allowed", node->as_array()->size(), most_tables),
-         .cure = "remove some; rows of a reference belong into a file, with shape = \"csv\""});
+         .cure = "remove some; put rows of a reference into a file, with shape = \"csv\""});
     return nullptr;
   }
   if (!node) return nullptr;

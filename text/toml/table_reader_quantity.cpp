@@ -79,9 +79,10 @@ void TableReader::interval(const toml::node& node, const std::string& path, cons
   if (low > high)
     return complaints_.value(node, path, {.limit = "runs downwards", .cure = "write range = [low, high]"});
   if (!(low <= out.value && out.value <= high))
-    return complaints_.value(node, path,
-                             {.limit = fmt::format("does not hold the value, {}", shortest(out.value)),
-                              .cure = "it reaches over what all sources say, the value included"});
+    return complaints_.value(
+        node, path,
+        {.limit = fmt::format("does not hold the value, {}", shortest(out.value)),
+         .cure = "write the least and the largest value of all sources, including this value"});
   out.range = base::Interval{base::times_ten_to(low, ten), base::times_ten_to(high, ten)};
 }
 
@@ -152,7 +153,7 @@ void TableReader::frame_of_unit(const toml::node& node, const std::string& path,
   complaints_.value(
       node, path,
       {.limit = quantity.frame.empty()
-                    ? fmt::format("is {} and must say of what", measure)
+                    ? fmt::format("is {}, and its frame is missing", measure)
                     : fmt::format("is {}, and its frame is \"{}\"", measure, quantity.frame),
        .cure = fmt::format("write frame = {}{}", quoted_alternatives(fit),
                            quantity.frame.empty() ? "" : ", or the unit without " + std::string(measure))});

@@ -90,20 +90,20 @@ class Chip {
 
   bool stop_ = false;  ///< a register was written, or an interrupt entered: stop before the next instruction
   bool has_write_ = false;
-  Write write_{};  ///< by the last instruction
+  Write write_{};  ///< write by the last instruction
   bool ended_ = false, slept_ = false;
   bool was_reset_ = false;      ///< the watchdog reset the chip
   std::uint64_t response_ = 0;  ///< cycles of entered interrupts that the core has not counted
 
   Timer1 timer_;
   Converter converter_;
-  std::uint8_t channel_ = 0;  ///< of the running conversion
+  std::uint8_t channel_ = 0;  ///< channel of the running conversion
   bool timer_started_it_ = false, timer_samples_ = false;
   std::uint16_t held_ = 0, result_ = 0;
-  bool result_locked_ = false;  ///< between the readings of ADCL and ADCH
+  bool result_locked_ = false;  ///< true between the reads of ADCL and ADCH
 
   std::uint32_t gates_ = 0, told_gates_ = 0;
-  std::deque<sixstep::rig::ChipAnswer> told_;  ///< in the order of their cycles
+  std::deque<sixstep::rig::ChipAnswer> told_;  ///< answers in the order of their cycles
   bool asked_for_count_ = false;               ///< the last answer was a sample
   std::uint64_t reached_ = 0;                  ///< cycle of the last answer
 

@@ -27,7 +27,8 @@ struct Pins {
   Pin hall[3] = {{'K', 0}, {'K', 1}, {'K', 2}};  ///< must be of port K
   Pin upper[3] = {{'B', 5}, {'B', 6}, {'B', 7}};
   Pin lower[3] = {{'A', 0}, {'A', 1}, {'A', 2}};
-  std::uint8_t inputs[4] = {0, 1, 2, 3};  ///< of the converter: currents of legs a, b, c, potentiometer
+  std::uint8_t inputs[4] = {0, 1, 2,
+                            3};  ///< inputs of the converter: currents of legs a, b, c, potentiometer
 
   /// The signal at an input of the converter: 0 to 3 in the above order; -1: none.
   int what_hangs_at(unsigned channel) const {

@@ -54,5 +54,5 @@ class Interrupted(KeyboardInterrupt):
     """Ctrl-C ended a run or a sweep early. `result` has the part that was finished; None if there is none."""
 
     def __init__(self, result: Any, message: str = "") -> None:
-        super().__init__(message or f"interrupted at {result.simulated_s:.6g} s; .result has what was finished")
+        super().__init__(message or f"interrupted at {result.simulated_s:.6g} s; .result has the finished part")
         self.result = result

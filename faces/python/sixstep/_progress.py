@@ -21,7 +21,7 @@ def notebook_display() -> Any:
 
 @contextlib.contextmanager
 def shown(progress: bool | Callable[[float], None], duration_s: float) -> Iterator[Callable[[float], None] | None]:
-    """What the run calls with its simulated time in s: nothing, the given function, or one that draws a bar."""
+    """Function that the run calls with its simulated time in s: none, the given one, or one that draws a bar."""
     if not isinstance(progress, bool):
         yield progress
     elif not progress:

@@ -29,7 +29,7 @@ def value_text(value: Any) -> str:
 
 
 def setting_text(value: Any) -> str:
-    """One value as an override, where a bare word or a number with its unit may stand: "hard", "40us"."""
+    """One value as an override; a bare word or a number with its unit is allowed: "hard", "40us"."""
     return value if isinstance(value, str) else value_text(value)
 
 

@@ -15,7 +15,7 @@ Measured = _core.Measured
 
 
 def as_controller(controller: Any) -> Any:
-    """What the library calls once per control period. `controller.legs = True` makes it one of three legs."""
+    """The object that the library calls once per control period. `controller.legs = True` makes it a controller of three legs."""
     return controller if isinstance(controller, _core.Controller) else _core.Controller(controller, bool(getattr(controller, "legs", False)))
 
 

@@ -36,7 +36,7 @@ def _limits(low: float | None, high: float | None) -> str:
 
 
 def _charts(result: Result) -> str:
-    """All charts over the same rows, and what reads them at the pointer."""
+    """All charts over the same rows, and the script that shows the values at the pointer."""
     names = [name for name in USUAL if name in result.units]
     t = result.time
     keep = _kept([result[name] for name in names], len(t))

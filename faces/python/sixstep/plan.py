@@ -135,7 +135,7 @@ def sweep(scenario: Source, vary: Mapping[str, Any] | None = None, *, drives: in
 
 
 def _ended(words: list[str]) -> str | None:
-    """Messages of the program; None after Ctrl-C, which ends it, too."""
+    """Messages of the program; None after Ctrl-C, which also ends the program."""
     with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as made:
         try:
             return made.communicate()[1]

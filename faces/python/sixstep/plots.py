@@ -104,7 +104,7 @@ GATES = (("gate_T1", "gate_T2"), ("gate_T3", "gate_T4"), ("gate_T5", "gate_T6"))
 
 
 def conducting(upper: float, lower: float, current_A: float) -> str:
-    """What carries the current of a leg into the motor: "upper switch", "lower switch", "upper diode", "lower diode" or "none".
+    """The device that carries the current of a leg into the motor: "upper switch", "lower switch", "upper diode", "lower diode" or "none".
 
     >>> import sixstep.plots
     >>> sixstep.plots.conducting(upper=0, lower=0, current_A=1.5)

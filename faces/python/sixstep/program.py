@@ -167,7 +167,7 @@ def check(motor: str | os.PathLike[str]) -> Study:
 
 
 def wiring(motor: str | os.PathLike[str], **options: Any) -> Study:
-    """What the motor does with each of the 36 orders of its phase and Hall wires."""
+    """The motor's behaviour with each of the 36 orders of its phase and Hall wires."""
     return _asked(["motor", "wiring", os.fspath(motor)], ["--json"], options)
 
 

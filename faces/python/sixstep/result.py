@@ -32,7 +32,7 @@ class Column(NamedTuple):
 
 
 class Verdict(NamedTuple):
-    """One requirement of the scenario and what the run measured; `measured` is infinite for "never".
+    """One requirement of the scenario and the measured value; `measured` is infinite for "never".
 
     >>> import sixstep
     >>> s = sixstep.Scenario(motor="maxon-251601", duration_s=2e-3, control={"mode": "current"}, reference={"value": 2, "unit": "A"},
@@ -83,7 +83,7 @@ class Result:
 
     @property
     def fault(self) -> str | None:
-        """What stopped the run or the drive, in words; None without a fault."""
+        """Fault that stopped the run or the drive, in words; None without a fault."""
         told = self.summary["fault"]
         return None if told is None else told if isinstance(told, str) else " ".join(str(part) for part in told.values() if part)
 
@@ -99,18 +99,18 @@ class Result:
 
     @property
     def verdicts(self) -> list[Verdict]:
-        """The scenario's requirements and what was measured."""
+        """The scenario's requirements with the measured values."""
         return [Verdict(v["figure"], _number(v["measured"]), v["unit"], v["min"], v["max"], v["ok"]) for v in self.summary["require"]]
 
     @property
     def figures(self) -> dict[str, float]:
-        """Measured figures by name, required or compared. A name that stands twice has " (2)" behind it the second time."""
+        """Measured figures by name, required or compared. A repeated name ends with " (2)" the second time."""
         rows = [*self.summary["require"], *self.summary["compare"]]
         return dict(zip(distinct(row["figure"] for row in rows), (_number(row["measured"]) for row in rows)))
 
     @property
     def remarks(self) -> list[str]:
-        """What the program noticed, as a key without effect."""
+        """Remarks of the program, for example on a key without effect."""
         return [*self.summary.get("remarks", []), *self.summary.get("notes", [])]
 
     @property

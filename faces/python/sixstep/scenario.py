@@ -15,7 +15,7 @@ from . import _core, _toml
 
 
 class Key(NamedTuple):
-    """What one key of a scenario means.
+    """Description of one key of a scenario.
 
     >>> import sixstep
     >>> sixstep.describe("pwm.period_s").unit
@@ -40,7 +40,7 @@ def _keys() -> dict[str, Key]:
 
 
 def describe(key: str) -> Key:
-    """Meaning, unit, range and default of one key; the range stands in `help`.
+    """Meaning, unit, range and default of one key; `help` states the range.
 
     >>> import sixstep
     >>> print(sixstep.describe("supply.voltage_V").meaning)
@@ -103,7 +103,7 @@ class Scenario:
 
     @property
     def path(self) -> str | None:
-        """Absolute path of the scenario's file; None if it was made of a text, a dict or keywords."""
+        """Absolute path of the scenario's file; None if it was made from a text, a dict or keywords."""
         return None if os.path.basename(self._name) == _TEXT else self._name
 
     def portable_text(self) -> str:
@@ -237,7 +237,7 @@ Source = Scenario | str | os.PathLike[str] | Mapping[str, Any]
 
 
 def as_scenario(source: Source) -> Scenario:
-    """The scenario, or one made of a path, a text or a dict."""
+    """The scenario, or one made from a path, a text or a dict."""
     return source if isinstance(source, Scenario) else Scenario(source)
 
 
@@ -258,7 +258,7 @@ def _read(source: Any, tables: Mapping[str, Any]) -> tuple[str, str]:
     if isinstance(source, str) and ("\n" in source or "=" in source or not source):
         return here, source
     if not isinstance(source, (str, os.PathLike)):
-        raise TypeError("a scenario is made of a path, a text, a dict or keywords")
+        raise TypeError("a scenario needs a path, a text, a dict or keywords")
     return os.path.abspath(source), pathlib.Path(source).read_text(encoding="utf-8", errors="surrogateescape")
 
 

@@ -19,7 +19,7 @@ thread_local Exchange* opening = nullptr;
 struct Opened {
   Exchange* exchange;
   std::uint8_t chopping;
-  DriveConfig<double> loop;  ///< of a current
+  DriveConfig<double> loop;  ///< configuration of the current loop
 };
 
 const Opened& of(const void* config) { return *static_cast<const Opened*>(config); }

@@ -22,9 +22,9 @@ constexpr std::size_t columns_of(Action action) { return action == Action::legs 
 struct Exchange {
   std::array<double, 3> action{};
   sixstep_measured seen{};
-  double setpoint = 0.0;  ///< of the scenario's reference
+  double setpoint = 0.0;  ///< value of the scenario's reference
   double current_A =
-      0.0;  ///< bound of a current setpoint: of the scenario's limit, else that of the full torque
+      0.0;  ///< bound of a current setpoint: the scenario's limit, else the current of the full torque
 };
 
 const sixstep_controller& controller_of(Action action);

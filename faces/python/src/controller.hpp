@@ -42,7 +42,7 @@ class Controller {
   pybind11::object seen_;   ///< Python's view of measured_, the same object in each step
   std::shared_ptr<sixstep_measured> measured_;
   uint8_t chopping_ = SIXSTEP_SOFT;
-  uint8_t mode_ = 0;  ///< of the scenario, as sixstep_given has it
+  uint8_t mode_ = 0;  ///< mode of the scenario, coded as in sixstep_given
   std::optional<pybind11::error_already_set> error_;
   sixstep_controller functions_;
 };

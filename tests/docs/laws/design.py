@@ -167,7 +167,7 @@ def position(test, spot):
     found = re.search(r"between ([\d.]+) \(full torque.*?and ([\d.]+) \(no limit", spot.text)
     gain = re.search(r"K_p +([\d.]+) rad/s/deg", spot.text)
     if found and gain:
-        low, high, alone = float(found.group(1)), float(found.group(2)), float(re.search(r"alone would stand ([\d.]+)", spot.text).group(1))
+        low, high, alone = float(found.group(1)), float(found.group(2)), float(re.search(r"nominal motor allows ([\d.]+)", spot.text).group(1))
         test.assertTrue(float(gain.group(1)) <= alone and low < alone < high, str(spot))
     hall_step = re.search(r"Hall step of ([\d.]+) degrees", spot.text)
     if hall_step:

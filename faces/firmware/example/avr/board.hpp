@@ -17,7 +17,7 @@ using exported::drive, exported::Scalar, exported::units;
 
 static_assert((drive.mode == Mode::current || drive.mode == Mode::duty) && drive.chopping == Chopping::soft &&
                   drive.extras.pwm.pattern == PwmPattern::upper,
-              "what these pins and loops are for");
+              "these pins and loops are for current or duty mode, soft chopping and PWM of the upper switch");
 static_assert(!(Scalar{} < drive.extras.commutation.overlap_bus_V),
               "the third leg has no pulse of its own here");
 static_assert(exported::pwm_centre_aligned,

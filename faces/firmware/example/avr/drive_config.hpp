@@ -6,7 +6,7 @@
 // C++20, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) have not. For the AVR: clang 19 or later.
 //
 // scenario  Current loop in Q15 on an AVR: a transducer in each phase, a tick every 100 us
-// notes     What faces/firmware/example/avr flashes; sixstep run --on avr has that very program do it. The period is what 16 MHz can keep, a fifth of the motor's L/R, and the command counts one period late: gains by pole-zero cancellation (sixstep design maxon-251601 --mode current --period 100e-6 --method cancellation --settle 1e-3).
+// notes     The drive that faces/firmware/example/avr flashes; sixstep run --on avr runs the same program. The period, a fifth of the motor's L/R, is long enough for 16 MHz, and the command takes effect one period late: gains by pole-zero cancellation (sixstep design maxon-251601 --mode current --period 100e-6 --method cancellation --settle 1e-3).
 // motor     maxon EC 45 flat 251601: 8 pole pairs, terminal R = 1.03 ohm, L = 0.000572 H, K_t = 0.0335 N m/A; J = 0.0001135 kg m2
 // current   d1 = 2.30464 V/A, d0 = -1.92486 V/A; K_p = d1 = 2.30464 V/A, K_i = (d1 + d0)/T_s = 3797.8 V/(A s); given as d1, d0; poles z = 0.83521 and 0.631286 on 0.159989/(z -0.835212); settle_s = 0.001, damping = 0.9 would give d1 = 3.77432, d0 = -2.72953
 // Gains are per control period, pwm_period_ps. Speed is mechanical, current positive into the motor.
@@ -25,7 +25,7 @@
 //   rotor     Hall probes 120 degrees apart, edges exactly at the sectors' ends (no probe is; sheet_tolerances of a plan moves each by up to 3 deg), captured at 1e+06 Hz, speed over six edges where the loop tolerates their delay, else one
 //   wires     phases abc at legs a b c, Hall lines 123 at H1 H2 H3
 //   load      0 N m, 0.0001 kg m2 beside the rotor's; viscous friction 0.0004 N m s
-//   heat      winding and magnets at 25 degC all along
+//   heat      winding and magnets constant at 25 degC
 //
 // Fixed point: what each quantity may reach and where the format ends, in SI
 //   current                               10 of 19.9994
@@ -51,7 +51,7 @@
 //   ATmega2560  q15              996      42 cycles             2434     129 bytes
 //   ATmega2560  q31             2606      42 cycles             4020     197 bytes
 //   ATmega2560  float           2176      42 cycles             2046     193 bytes
-// They are of the control code alone; a whole image has the board's code beside it.
+// They are of the control code alone; a whole image also has the board's code.
 #pragma once
 #if __cplusplus < 201709L && !defined(_MSC_VER)
 #error "C++20 is needed: avr-gcc 5 and 7, of Debian 12 and the Arduino IDE, have none; take clang 19 for the AVR"
@@ -65,7 +65,7 @@ namespace exported {
 
 using Scalar = sixstep::control::Q15;
 
-// What 1.0 means; constants of the board are made by its functions: units.amperes(15)
+// Physical values of 1.0; its functions make constants of the board: units.amperes(15)
 inline constexpr sixstep::control::Units<Scalar> units{
   .current_A = 0x1.4p+4,                                                  // 20 A
   .voltage_V = 0x1.80030006000cp+4,                                       // 24.0007 V
@@ -79,11 +79,11 @@ inline constexpr std::uint64_t pwm_period_ps = 100000000;                 // 100
 inline constexpr bool pwm_centre_aligned = true;                          // else the on-time begins with the period
 inline constexpr std::uint64_t dead_time_ps = 1000000;                    // 1 us
 inline constexpr bool commutate_at_sample = false;                        // else in the Hall interrupt
-inline constexpr bool command_delayed = true;                             // a command counts from the next period on
-inline constexpr bool sampled_in_middle = true;                           // of the period; else at its start
-inline constexpr int adc_bits = 10;                                       // of each phase's transducer
+inline constexpr bool command_delayed = true;                             // a command takes effect in the next period
+inline constexpr bool sampled_in_middle = true;                           // in the middle of the period; else at its start
+inline constexpr int adc_bits = 10;                                       // bits of each current converter
 inline constexpr double adc_amperes_per_count = 0x1.4p-6;                 // 0.0195312 A
-inline constexpr double setpoint_range = 0x1.4666666666666p+2;            // 5.1 in the mode's unit: a potentiometer's, either way
+inline constexpr double setpoint_range = 0x1.4666666666666p+2;            // 5.1 in the mode's unit, at each end of a potentiometer
 
 constexpr sixstep::control::DriveConfig<Scalar> make_drive() {
   using namespace sixstep::control;

@@ -84,7 +84,7 @@ static_assert(
 static_assert(!exported::pwm_centre_aligned,
               "TIM1 counts up; a period begins with the on-time, and is sampled there");
 static_assert(exported::command_delayed,
-              "the compare registers are preloaded: a command counts from the next period on");
+              "the compare registers are preloaded: a command takes effect in the next period");
 static_assert(!exported::commutate_at_sample, "the Hall interrupt moves the pair");
 static_assert(!exported::sampled_in_middle, "the converter samples at a period's start");
 static_assert(

@@ -6,7 +6,7 @@
 // C++20, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) have not. For the AVR: clang 19 or later.
 //
 // scenario  Speed cascade on a Cortex-M: 70 to 300 rad/s on Hall probes
-// notes     What faces/firmware/example/cortex_m flashes, from registers: three phase currents, the bus and Hall edges, a command that counts one period late. The settling time is what sixstep design --scenario on this file allows down to 70 rad/s.
+// notes     The drive that faces/firmware/example/cortex_m flashes, from registers: three phase currents, the bus and Hall edges, a command that takes effect one period late. The settling time is the one that sixstep design --scenario on this file allows down to 70 rad/s.
 // motor     maxon EC 45 flat 251601: 8 pole pairs, terminal R = 1.03 ohm, L = 0.000572 H, K_t = 0.0335 N m/A; J = 1.35e-05 kg m2
 // current   d1 = 4.09559 V/A, d0 = -3.69396 V/A; K_p = d1 = 4.09559 V/A, K_i = (d1 + d0)/T_s = 13387.5 V/(A s); pole placement from settle_s and damping; poles z = 0.869154 +- 0.0581778j (settle_s = 0.001, damping = 0.9) on 0.0510561/(z -0.947412)
 // speed     d1 = 0.0158648 per rad/s, d0 = -0.015831 per rad/s; K_p = d1 = 0.0158648 per rad/s, K_i = (d1 + d0)/T_s = 1.12646 per rad; pole placement from settle_s and damping; poles z = 0.996555 +- 0.00166516j (settle_s = 0.04, damping = 0.9) on 0.43333/(z -0.999984)
@@ -33,7 +33,7 @@
 //   rotor     Hall probes 120 degrees apart, edges exactly at the sectors' ends (no probe is; sheet_tolerances of a plan moves each by up to 3 deg), captured at 7.2e+07 Hz, speed over six edges where the loop tolerates their delay, else one
 //   wires     phases abc at legs a b c, Hall lines 123 at H1 H2 H3
 //   load      0.02 N m, 0 kg m2 beside the rotor's
-//   heat      winding and magnets at 25 degC all along
+//   heat      winding and magnets constant at 25 degC
 //
 // On a core, the product drive of tests/target/scenarios/ takes, by count over 80 000 recorded periods, for a
 // control tick and a Hall interrupt at worst, without an interrupt's entry and exit (docs/reference/core-costs.md):
@@ -48,7 +48,7 @@
 //   ATmega2560  q15             5365     976 cycles            14594     229 bytes
 //   ATmega2560  q31            11568     975 cycles            20552     289 bytes
 //   ATmega2560  float           9508     976 cycles            11872     285 bytes
-// They are of the control code alone; a whole image has the board's code beside it.
+// They are of the control code alone; a whole image also has the board's code.
 // Note: a control period of 30 us is shorter than the ATmega2560's image needs, 100 us.
 #pragma once
 #if __cplusplus < 201709L && !defined(_MSC_VER)
@@ -63,7 +63,7 @@ namespace exported {
 
 using Scalar = float;
 
-// What 1.0 means; constants of the board are made by its functions: units.amperes(15)
+// Physical values of 1.0; its functions make constants of the board: units.amperes(15)
 inline constexpr sixstep::control::Units<Scalar> units{
   .current_A = 0x1p+0,                                                    // 1 A
   .voltage_V = 0x1p+0,                                                    // 1 V
@@ -77,8 +77,8 @@ inline constexpr std::uint64_t pwm_period_ps = 30000000;                  // 30 
 inline constexpr bool pwm_centre_aligned = false;                         // else the on-time begins with the period
 inline constexpr std::uint64_t dead_time_ps = 500000;                     // 0.5 us
 inline constexpr bool commutate_at_sample = false;                        // else in the Hall interrupt
-inline constexpr bool command_delayed = true;                             // a command counts from the next period on
-inline constexpr bool sampled_in_middle = false;                          // of the period; else at its start
+inline constexpr bool command_delayed = true;                             // a command takes effect in the next period
+inline constexpr bool sampled_in_middle = false;                          // in the middle of the period; else at its start
 inline constexpr double timer_Hz = 0x1.12a88p+26;                         // 7.2e+07 Hz, counts up and wraps at 2^32
 
 constexpr sixstep::control::DriveConfig<Scalar> make_drive() {
