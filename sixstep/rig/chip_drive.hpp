@@ -74,13 +74,15 @@ class ChipDrive {
   }
   /// Runs the chip from this stop to the next one, at most `quiet_s` seconds.
   void go_on(double quiet_s) {
-    const double cycles = std::clamp(quiet_s * port_.clock_Hz, least_cycles, most_cycles);
+    const double cycles =
+        std::clamp(quiet_s * static_cast<double>(port_.clock_Hz), least_cycles, most_cycles);
     run_.until = answer_.cycle + static_cast<std::uint64_t>(cycles);
     run_.hall_pins = pins_;
     note_lateness();
     trouble_ = port_.run(port_.chip, run_, answer_);
     if (trouble_ == CoreTrouble::none && answer_.event == ChipEvent::ended) trouble_ = CoreTrouble::gone;
-    if (trouble_ == CoreTrouble::none && sim::seconds_between(sampled_, stop_) > patience_s_)
+    if (trouble_ == CoreTrouble::none && port_.converts &&
+        sim::seconds_between(sampled_, stop_) > patience_s_)
       trouble_ = CoreTrouble::stalled;
     stop_ = lost() ? stop_ : at_cycle(answer_.cycle);
   }
@@ -113,7 +115,7 @@ class ChipDrive {
   sim::Instant at_cycle(std::uint64_t cycle) const {
     const auto whole_s = static_cast<std::int64_t>(cycle / port_.clock_Hz);
     const double rest =
-        static_cast<double>(cycle % port_.clock_Hz) * (sim::ticks_per_second / port_.clock_Hz);
+        static_cast<double>(cycle % port_.clock_Hz) * (sim::ticks_per_second / static_cast<double>(port_.clock_Hz));
     return sim::Instant{whole_s * static_cast<std::int64_t>(sim::ticks_per_second), 0.0}.plus_ticks(rest);
   }
   void note_lateness() {

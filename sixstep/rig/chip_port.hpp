@@ -57,7 +57,8 @@ struct ChipTimes {
 struct ChipPort {
   void* chip = nullptr;
   CoreTrouble (*run)(void* chip, const ChipRun& run, ChipAnswer& answer) = nullptr;
-  std::uint32_t clock_Hz = 0;  ///< clock of the cycles
+  std::uint64_t clock_Hz = 0;  ///< clock of the cycles
+  bool converts = true;        ///< its converter samples once a period; if it does not, the chip has stalled
 
   explicit operator bool() const { return run != nullptr; }
 };

@@ -50,6 +50,14 @@ struct Session::State {
   bool figures_moved = false;  ///< windows differ from those at the begin
 
   Instant now() const { return run->now(); }
+  std::int64_t period() const { return compiled.board.modulator.period_ticks; }
+  /// Part of the period before its control tick, ps.
+  std::int64_t lead() const { return compiled.board.sampled_in_middle ? period() / 2 : 0; }
+  bool is_tick(const Instant& t) const { return t.offset == 0.0 && t.ticks % period() == lead(); }
+  Instant tick_after(const Instant& t) const {
+    const std::int64_t since = t.ticks - lead();
+    return since < 0 ? Instant{lead(), 0.0} : Instant{lead() + (since / period() + 1) * period(), 0.0};
+  }
   /// Samples an instant that is already simulated, if the last segment contains it.
   bool look_back(const Instant& asked) {
     if (!(asked < last->from)) {
@@ -59,7 +67,7 @@ struct Session::State {
     return true;
   }
   Slice slice(const Instant& until) {
-    return {watchers, present, last, until, reach, compiled.board.modulator.period_ticks};
+    return {watchers, present, last, until, reach, period()};
   }
 };
 
@@ -128,15 +136,18 @@ const Present& Session::present() const { return state_->present; }
 double Session::now_s() const { return state_->now().seconds(); }
 bool Session::over() const { return state_->over; }
 const Scenario& Session::scenario() const { return state_->scenario; }
+const rig::BoardConfig& Session::board() const { return state_->compiled.board; }
 double Session::period_s() const { return state_->scenario.pwm.period_s; }
 
-base::Result<Session> Session::open(const Scenario& scenario, const Listeners& listeners) {
+base::Result<Session> Session::open(const Scenario& scenario, const Listeners& listeners,
+                                    const rig::ChipPort& instead) {
   if (base::Problems problems = check(scenario); !problems.empty()) return problems;
   base::Result<Compiled> compiled = compile(scenario);
   if (!compiled) return compiled.problems();
   const base::Result<std::vector<std::size_t>> indices = record_indices(scenario);
   if (!indices) return indices.problems();
   compiled->board.sensors.decodes_hall = true;  // a line may break at any time
+  compiled->board.chip = instead;
   rig::Timeline timeline = std::move(compiled->timeline);
   base::Result<std::unique_ptr<AnyRun>> run = detail::made_by(scenario, *compiled, std::move(timeline));
   if (!run) return run.problems();
@@ -152,12 +163,23 @@ base::Result<Session> Session::open(const Scenario& scenario, const Listeners& l
   return Session(std::move(state));
 }
 
-bool Session::advance(double to_s) { return go(to_s, true); }
-bool Session::skip(double to_s) { return go(to_s, false); }
-
-bool Session::go(double to_s, bool read) {
+bool Session::advance(double to_s) { return go(sim::to_instant(to_s), true); }
+bool Session::skip(double to_s) { return go(sim::to_instant(to_s), false); }
+bool Session::advance_to_tick() { return go(state_->tick_after(state_->now()), true); }
+bool Session::at_tick() const {
+  const Instant now = state_->now(), next = state_->run->next_tick();
+  return !state_->over && !(now < next) && !(next < now) && state_->is_tick(now);
+}
+void Session::call_controller() const {
   State& s = *state_;
-  const Instant asked = sim::to_instant(to_s), end = s.compiled.end;
+  Present present;
+  Slice here{s.watchers, present, s.last, s.now(), s.reach, s.period()};
+  s.run->look(here);
+}
+
+bool Session::go(const Instant& asked, bool read) {
+  State& s = *state_;
+  const Instant end = s.compiled.end;
   const bool to_end = !(asked < end);
   if (s.over) return false;
   if (!to_end && !(s.now() < asked)) {
@@ -180,7 +202,7 @@ bool Session::go(double to_s, bool read) {
 base::Result<double> Session::change(At at) {
   State& s = *state_;
   const Instant next_tick = s.run->next_tick();
-  const Instant when = next_change(s.now(), next_tick, s.reach, s.compiled.board.modulator.period_ticks);
+  const Instant when = next_change(s.now(), next_tick, s.reach, s.period());
   if (s.over || !(when < s.compiled.end))
     return base::Problem{"time_s", base::written(now_s()), "is after the end of the session",
                          "open one with a longer duration_s"};
@@ -200,6 +222,7 @@ base::Result<double> Session::change(At at) {
                          "would change the drive's limits, which are fixed at the start of the session",
                          "give the session's scenario a reference as large, by an [[at]] at its end"};
   compiled->board.sensors.decodes_hall = true;
+  compiled->board.chip = s.compiled.board.chip;
   rig::Timeline timeline = std::move(compiled->timeline);
   if (base::Problems problems = s.run->take(candidate, *compiled, std::move(timeline)); !problems.empty())
     return problems;
@@ -209,11 +232,11 @@ base::Result<double> Session::change(At at) {
   return when.seconds();
 }
 
-base::Result<Outcome> Session::close() {
+base::Result<Outcome> Session::close(bool replay) {
   State& s = *state_;
   if (!s.over) {
     const Instant next_tick = s.run->next_tick();
-    const std::int64_t period = s.compiled.board.modulator.period_ticks;
+    const std::int64_t period = s.period();
     Instant end = next_change(s.now(), next_tick, s.reach, period);
     if (end.ticks == 0) end.ticks = period;
     if (end < s.compiled.end) {
@@ -223,6 +246,7 @@ base::Result<Outcome> Session::close() {
         return base::Problem{"duration_s", base::written(end.seconds()),
                              "leaves out a reference for which the drive's limits were designed",
                              "run the session to its end"};
+      compiled->board.chip = s.compiled.board.chip;
       rig::Timeline timeline = std::move(compiled->timeline);
       if (base::Problems problems = s.run->take(cut, *compiled, std::move(timeline)); !problems.empty())
         return problems;
@@ -239,6 +263,7 @@ base::Result<Outcome> Session::close() {
     s.watchers.figures.judge(s.scenario, out);
     return out;
   }
+  if (!replay) return out;
   const base::Result<Outcome> again = run(s.scenario, {.keep_books = false});
   if (!again) return again.problems();
   out.verdicts = again->verdicts;

@@ -18,7 +18,9 @@ namespace sixstep::study {
 class Session {
  public:
   /// Opens a session at t = 0. Fixed point: the scaling [control.full_scale] holds for the whole session.
-  static base::Result<Session> open(const Scenario& scenario, const Listeners& listeners = {});
+  /// `instead`: a chip that sets the gates in the drive's place; copies of the session share it.
+  static base::Result<Session> open(const Scenario& scenario, const Listeners& listeners = {},
+                                    const rig::ChipPort& instead = {});
 
   Session(const Session& other);
   Session& operator=(const Session& other);
@@ -36,6 +38,15 @@ class Session {
   template <class Done>
   bool advance_until(double to_s, Done&& done);
 
+  /// Advances to the next control tick after the present instant and reads it. The controller has not yet acted on it.
+  /// False as by advance().
+  bool advance_to_tick();
+  /// Whether the present instant is a control tick on which the controller has not yet acted.
+  bool at_tick() const;
+  /// Calls the controller with the measurement of the present instant, in a copy of its state: the session is
+  /// unchanged. The session must be at_tick().
+  void call_controller() const;
+
   /// Changes values at the next control tick. `at.time_s` is not read: the result is the instant, also in
   /// scenario().
   base::Result<double> change(At at);
@@ -47,17 +58,20 @@ class Session {
   bool over() const;
   /// The scenario with all changes so far.
   const Scenario& scenario() const;
+  /// The board that the scenario was compiled to.
+  const rig::BoardConfig& board() const;
 
   /// Ends the session and returns the results. A run that is not over ends at the next control tick: this
   /// becomes the scenario's duration_s, and later events are dropped. If the reference was changed or the
-  /// session ends early, figures have other windows than at the begin: they are then taken from a replay.
-  base::Result<Outcome> close();
+  /// session ends early, figures have other windows than at the begin: they are then taken from a replay, or
+  /// left out without `replay`, for a controller that is not part of the scenario.
+  base::Result<Outcome> close(bool replay = true);
 
  private:
   struct State;
   explicit Session(std::unique_ptr<State> state);
   double period_s() const;
-  bool go(double to_s, bool read);
+  bool go(const sim::Instant& asked, bool read);
 
   std::unique_ptr<State> state_;
 };

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faces/c/saved.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include "text/scenario/scenario_text.hpp"
+
+namespace c_face {
+
+namespace {
+
+using Cbor = nlohmann::json;
+
+constexpr char magic[] = "sixstep session";
+
+/// The bytes of an answer are its fields in the order of the struct, the same in every process of one interface.
+std::vector<std::uint8_t> bytes_of(const sixstep_answer& answer) {
+  std::vector<std::uint8_t> out(sizeof answer);
+  std::memcpy(out.data(), &answer, sizeof answer);
+  return out;
+}
+
+/// Empty if the bytes are no saved session of this version.
+struct Parts {
+  Source source;
+  std::vector<Command> commands;
+  double time_s = 0.0;
+};
+
+const Cbor* member(const Cbor& in, const char* name, Cbor::value_t type) {
+  const auto found = in.find(name);
+  if (found == in.end()) return nullptr;
+  const bool number = type == Cbor::value_t::number_float && found->is_number();
+  return found->type() == type || number ? &*found : nullptr;
+}
+
+bool read_command(const Cbor& in, Command& out) {
+  if (!in.is_array() || in.size() != 3 || !in[0].is_number_integer() || !in[1].is_number_integer() ||
+      !in[2].is_binary() || in[2].get_binary().size() != sizeof out.answer)
+    return false;
+  out.at_ps = in[0].get<std::int64_t>();
+  out.gates = in[1].get<std::uint32_t>();
+  std::memcpy(&out.answer, in[2].get_binary().data(), sizeof out.answer);
+  return true;
+}
+
+std::optional<Parts> parts_of(const Cbor& in) {
+  if (!in.is_object()) return std::nullopt;
+  const Cbor *what = member(in, "what", Cbor::value_t::string),
+             *version = member(in, "version", Cbor::value_t::string),
+             *chip = member(in, "chip", Cbor::value_t::number_unsigned),
+             *name = member(in, "name", Cbor::value_t::string), *toml = member(in, "toml", Cbor::value_t::string),
+             *data = member(in, "data", Cbor::value_t::string),
+             *time = member(in, "time_s", Cbor::value_t::number_float),
+             *commands = member(in, "commands", Cbor::value_t::array);
+  if (!what || *what != magic || !version || *version != SIXSTEP_VERSION || !chip || *chip > 3 || !name ||
+      !toml || !data || !time || !commands)
+    return std::nullopt;
+  Parts out{.source = {.name = name->get<std::string>(),
+                       .toml = toml->get<std::string>(),
+                       .data_folder = data->get<std::string>(),
+                       .settings = {},
+                       .chip = static_cast<sixstep_chip>(chip->get<int>())},
+            .commands = {},
+            .time_s = time->get<double>()};
+  for (const Cbor& command : *commands)
+    if (!read_command(command, out.commands.emplace_back())) return std::nullopt;
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> saved(const Session& session) {
+  Cbor commands = Cbor::array();
+  for (const Command& c : session.commands())
+    commands.push_back({c.at_ps, c.gates, Cbor::binary(bytes_of(c.answer))});
+  const Cbor out = {{"what", magic},
+                    {"version", SIXSTEP_VERSION},
+                    {"chip", static_cast<unsigned>(session.source().chip)},
+                    {"name", session.source().name},
+                    {"toml", text::scenario_text(*session.scenario())},
+                    {"data", session.source().data_folder},
+                    {"time_s", session.time_s()},
+                    {"commands", commands}};
+  return Cbor::to_cbor(out);
+}
+
+sixstep_status loaded(std::span<const std::uint8_t> bytes, Session& session) {
+  const Cbor in = Cbor::from_cbor(bytes, true, false);
+  std::optional<Parts> parts = parts_of(in);
+  if (!parts) {
+    session.problems = {{"bytes", "", "are not a session that this version of the library saved",
+                         "load what sixstep_save() of version " SIXSTEP_VERSION " wrote, all of it"}};
+    return SIXSTEP_REFUSED;
+  }
+  if (const sixstep_status status = session.open(std::move(parts->source)); status != SIXSTEP_OK) return status;
+  return session.replay(parts->commands, parts->time_s);
+}
+
+}  // namespace c_face

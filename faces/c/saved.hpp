@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// A session as bytes: scenario, commands and instant, from which the run is simulated again. They hold no memory of
+// the machine, so that any machine with the same version of the library reads them.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "faces/c/session.hpp"
+
+namespace c_face {
+
+/// CBOR (RFC 8949). `session` must be open.
+std::vector<std::uint8_t> saved(const Session& session);
+
+/// Opens `session` and simulates it up to the saved instant.
+sixstep_status loaded(std::span<const std::uint8_t> bytes, Session& session);
+
+}  // namespace c_face

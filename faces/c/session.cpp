@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faces/c/session.hpp"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "files/scenario_on_disk.hpp"
+#include "sixstep/base/written.hpp"
+#include "text/results/json_summary.hpp"
+#include "text/scenario/scenario_file.hpp"
+#include "text/scenario/scenario_text.hpp"
+
+namespace c_face {
+
+namespace {
+
+/// Finds files as the command line does, and the caller's controller by its name.
+text::Resolve resolve_with(const std::string& data_folder, bool legs) {
+  return [on_disk = files::on_disk(data_folder), legs](const text::Naming& naming) {
+    if (naming.kind == text::Naming::Kind::controller && naming.name == caller_name)
+      return base::Result<text::NamedText>(
+          text::NamedText{.name = caller_name, .text = {}, .controller = caller_controller(legs)});
+    return on_disk(naming);
+  };
+}
+
+/// The caller replaces the scenario's controller. Only the board's parts of the scenario remain.
+void hand_over(study::Scenario& s, sixstep_chip chip) {
+  if (chip != SIXSTEP_CHIP_PAIR && chip != SIXSTEP_CHIP_LEGS) return;
+  s.control.drive = study::FirmwareKind::own;
+  s.control.own = {
+      .controller = caller_name, .number = {}, .loaded = caller_controller(chip == SIXSTEP_CHIP_LEGS)};
+}
+
+}  // namespace
+
+Session::Session(const Session& other)
+    : source_(other.source_),
+      run_(other.run_),
+      ahead_(other.ahead_),
+      exchange_(other.exchange_),
+      registers_(other.registers_),
+      conversions_(other.conversions_),
+      commands_(other.commands_),
+      applies_(other.applies_),
+      outcome_(other.outcome_),
+      digest_(other.digest_) {}
+
+sixstep_status Session::refused(base::Problems found) {
+  problems = std::move(found);
+  return SIXSTEP_REFUSED;
+}
+
+sixstep_status Session::misuse(const char* function, const char* limit, const char* cure) {
+  problems = {{function, "", limit, cure}};
+  return SIXSTEP_MISUSE;
+}
+
+sixstep_status Session::usable(const char* function) {
+  problems.clear();
+  if (!run_) return misuse(function, "needs a session that was opened", "see the problems of its opening");
+  if (outcome_) return misuse(function, "needs a run that goes on, and this one is finished", "open another");
+  return SIXSTEP_OK;
+}
+
+base::Result<study::Scenario> Session::read(const std::string& more) const {
+  text::ReadOptions options{.overrides = {},
+                            .resolve = resolve_with(source_.data_folder, source_.chip == SIXSTEP_CHIP_LEGS)};
+  for (const auto& [key, value] : source_.settings) options.overrides.push_back({key, value});
+  base::Result<study::Scenario> scenario =
+      text::read_scenario_text(source_.name, source_.toml + more, options);
+  if (scenario) hand_over(*scenario, source_.chip);
+  return scenario;
+}
+
+sixstep_status Session::open(Source source) {
+  problems.clear();
+  source_ = std::move(source);
+  const base::Result<study::Scenario> scenario = read("");
+  if (!scenario) return refused(scenario.problems());
+  const bool gates = source_.chip == SIXSTEP_CHIP_GATES;
+  const Exchanging here(exchange_);
+  base::Result<study::Session> run =
+      study::Session::open(*scenario, {}, gates ? caller_chip() : rig::ChipPort{});
+  if (!run) return refused(run.problems());
+  run_.emplace(std::move(*run));
+  registers_ = rig::Registers(run_->board().sensors);
+  note_what_applies();
+  if (gates) look_ahead();
+  return SIXSTEP_OK;
+}
+
+void Session::note_what_applies() {
+  for (std::size_t c = 0; c < applies_.size(); ++c)
+    applies_[c] = study::applies(static_cast<study::ColumnId>(c), run_->scenario());
+}
+
+void Session::look_ahead() {
+  exchange_.stop_ps = Exchange::never_ps;
+  ahead_ = run_;
+}
+
+std::int64_t Session::now_ps() const { return sim::to_instant(time_s()).ticks; }
+double Session::time_s() const {
+  return run_ ? seen().present().t_s : std::numeric_limits<double>::quiet_NaN();
+}
+double Session::value(int index) const {
+  return seen().present().signals[static_cast<std::size_t>(index)];
+}
+
+sixstep_status Session::reached(bool goes_on) { return goes_on ? SIXSTEP_OK : SIXSTEP_OVER; }
+
+sixstep_status Session::advance(double to_s) {
+  if (const sixstep_status status = usable("sixstep_advance"); status != SIXSTEP_OK) return status;
+  if (std::isnan(to_s))
+    return refused({{"to_s", "nan", "must be an instant in seconds", "give a number"}});
+  const Exchanging here(exchange_);
+  // Past its end a run is over: a larger number changes nothing, and an instant has room for it.
+  const double end_s = 2 * seen().scenario().duration_s;
+  return reached(seen().advance(to_s < end_s ? (to_s < 0 ? 0.0 : to_s) : end_s));
+}
+
+sixstep_status Session::advance_to_tick() {
+  if (const sixstep_status status = usable("sixstep_advance_to_tick"); status != SIXSTEP_OK) return status;
+  const Exchanging here(exchange_);
+  return reached(seen().advance_to_tick());
+}
+
+/// The edge lies within the step: its instant is found in a copy by halving to the picosecond, for few steps have one.
+sixstep_status Session::advance_to_hall_edge(double to_s) {
+  constexpr auto hall = static_cast<std::size_t>(study::ColumnId::hall);
+  if (const sixstep_status status = usable("sixstep_advance_to_hall_edge"); status != SIXSTEP_OK) return status;
+  if (!ahead_)
+    return misuse("sixstep_advance_to_hall_edge", "needs a session whose gates the caller sets",
+                  "open it with SIXSTEP_CHIP_GATES");
+  if (std::isnan(to_s)) return advance(to_s);
+  const double code = ahead_->present().signals[hall];
+  const Exchanging here(exchange_);
+  // No two edges of one line lie within a hundredth of a control period.
+  const double step_s = ahead_->scenario().pwm.period_s / 16;
+  while (time_s() < to_s) {
+    const study::Session before = *ahead_;
+    const double from_s = time_s(), next_s = std::min(to_s, from_s + step_s);
+    if (!ahead_->advance(next_s)) return SIXSTEP_OVER;
+    if (ahead_->present().signals[hall] == code) continue;
+    std::int64_t low = sim::to_instant(from_s).ticks, high = sim::to_instant(next_s).ticks;
+    while (high - low > 1) {
+      const std::int64_t middle = low + (high - low) / 2;
+      study::Session tried = before;
+      const bool changed = !tried.advance(static_cast<double>(middle) / sim::ticks_per_second) ||
+                           tried.present().signals[hall] != code;
+      (changed ? high : low) = middle;
+    }
+    *ahead_ = before;
+    return reached(ahead_->advance(static_cast<double>(high) / sim::ticks_per_second));
+  }
+  return SIXSTEP_OK;
+}
+
+sixstep_status Session::change(std::string_view toml, double* at_s) {
+  if (const sixstep_status status = usable("sixstep_change"); status != SIXSTEP_OK) return status;
+  const base::Result<study::Scenario> with =
+      read("\n[[at]]\ntime_s = " + base::written(time_s()) + "\n" + std::string(toml) + "\n");
+  if (!with) return refused(with.problems());
+  if (with->at.empty()) return refused({{"toml", std::string(toml), "has no change", "name a key of [[at]]"}});
+  const Exchanging here(exchange_);
+  if (ahead_) {  // the run itself goes to this instant too
+    if (const sixstep_status status = set_gates(exchange_.gates); status != SIXSTEP_OK) return status;
+  }
+  const base::Result<double> at = run_->change(with->at.back());
+  if (!at) return refused(at.problems());
+  if (at_s != nullptr) *at_s = *at;
+  note_what_applies();
+  if (ahead_) look_ahead();
+  return SIXSTEP_OK;
+}
+
+sixstep_status Session::measure(sixstep_measured& measured, double* setpoint) {
+  if (const sixstep_status status = usable("sixstep_measure"); status != SIXSTEP_OK) return status;
+  if (source_.chip != SIXSTEP_CHIP_PAIR && source_.chip != SIXSTEP_CHIP_LEGS)
+    return misuse("sixstep_measure", "needs a session whose controller is the caller",
+                  "open it with SIXSTEP_CHIP_PAIR or SIXSTEP_CHIP_LEGS");
+  if (!run_->at_tick())
+    return misuse("sixstep_measure", "needs a control tick", "call sixstep_advance_to_tick() before");
+  const Exchanging here(exchange_);
+  run_->call_controller();
+  measured = exchange_.measured;
+  if (setpoint != nullptr) *setpoint = exchange_.setpoint;
+  return SIXSTEP_OK;
+}
+
+sixstep_status Session::command(const sixstep_answer& answer) {
+  if (const sixstep_status status = usable("sixstep_command"); status != SIXSTEP_OK) return status;
+  if (source_.chip != SIXSTEP_CHIP_PAIR && source_.chip != SIXSTEP_CHIP_LEGS)
+    return misuse("sixstep_command", "needs a session whose controller is the caller",
+                  "open it with SIXSTEP_CHIP_PAIR or SIXSTEP_CHIP_LEGS");
+  exchange_.answer = answer;
+  commands_.push_back({.at_ps = now_ps(), .answer = answer, .gates = 0});
+  return SIXSTEP_OK;
+}
+
+sixstep_status Session::set_gates(std::uint32_t gates) {
+  if (const sixstep_status status = usable("sixstep_set_gates"); status != SIXSTEP_OK) return status;
+  if (!ahead_)
+    return misuse("sixstep_set_gates", "needs a session whose gates the caller sets",
+                  "open it with SIXSTEP_CHIP_GATES");
+  if (gates > 0x3f)
+    return refused({{"gates", std::to_string(gates), "must be 0 to 63: a bit per switch", "clear the others"}});
+  if (ahead_->over()) return SIXSTEP_OVER;
+  const double at_s = time_s();
+  const Exchanging here(exchange_);
+  exchange_.stop_ps = now_ps();
+  if (at_s > 0 && !run_->skip(static_cast<double>(exchange_.stop_ps) / sim::ticks_per_second))
+    return SIXSTEP_OVER;
+  exchange_.gates = gates;
+  commands_.push_back({.at_ps = exchange_.stop_ps, .answer = {}, .gates = gates});
+  look_ahead();
+  return reached(ahead_->advance(static_cast<double>(commands_.back().at_ps) / sim::ticks_per_second));
+}
+
+sixstep_status Session::convert(sixstep_counts& counts) {
+  if (const sixstep_status status = usable("sixstep_convert"); status != SIXSTEP_OK) return status;
+  const study::FullRow& row = seen().present().signals;
+  const auto at = [&](study::ColumnId id) { return row[static_cast<std::size_t>(id)]; };
+  const rig::SensorsConfig& sensors = run_->board().sensors;
+  using enum study::ColumnId;
+  const double current[] = {at(i_a), at(i_b), at(i_c)}, terminal[] = {at(u_a), at(u_b), at(u_c)};
+  ++conversions_;
+  counts = {};
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (sensors.currents == rig::CurrentMeasurement::phases)
+      counts.current[k] = registers_.current_counts(k, current[k], conversions_);
+    if (sensors.bus.range > 0) counts.terminal[k] = registers_.terminal_counts(k, terminal[k], conversions_);
+  }
+  if (sensors.bus.range > 0)
+    counts.bus = registers_.bus_counts({.bus_V = at(bus_V), .number = conversions_});
+  counts.timer = static_cast<std::uint16_t>(registers_.counter(sim::to_instant(time_s())));
+  counts.hall = static_cast<std::uint8_t>(at(hall));
+  return SIXSTEP_OK;
+}
+
+sixstep_status Session::finish() {
+  if (const sixstep_status status = usable("sixstep_finish"); status != SIXSTEP_OK) return status;
+  const Exchanging here(exchange_);
+  if (ahead_) {
+    exchange_.stop_ps = Exchange::never_ps;
+    run_ = std::move(ahead_);
+    ahead_.reset();
+  }
+  const base::Result<study::Outcome> outcome = run_->close(source_.chip == SIXSTEP_CHIP_OF_SCENARIO);
+  if (!outcome) return refused(outcome.problems());
+  outcome_ = text::json_summary(run_->scenario(), *outcome);
+  digest_ = outcome->digest;
+  return SIXSTEP_OK;
+}
+
+sixstep_status Session::replay(const std::vector<Command>& commands, double to_s) {
+  for (const Command& c : commands) {
+    const sixstep_status reached = advance(static_cast<double>(c.at_ps) / sim::ticks_per_second);
+    if (reached != SIXSTEP_OK) return reached;
+    const sixstep_status set = ahead_ ? set_gates(c.gates) : command(c.answer);
+    if (set != SIXSTEP_OK) return set;
+  }
+  return advance(to_s);
+}
+
+}  // namespace c_face

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// A session of the C interface: the library's session, what the caller controls it with, and the texts that it has
+// handed out. Functions return a status and leave their problems in `problems`.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "faces/c/caller.hpp"
+#include "sixstep/base/result.hpp"
+#include "sixstep/rig/registers.hpp"
+#include "sixstep/study/measure/columns.hpp"
+#include "sixstep/study/session/session.hpp"
+
+namespace c_face {
+
+/// Where a scenario comes from.
+struct Source {
+  std::string name{};  ///< for messages; files that the text names are in its folder
+  std::string toml{};
+  std::string data_folder{};
+  std::vector<std::pair<std::string, std::string>> settings{};
+  sixstep_chip chip = SIXSTEP_CHIP_OF_SCENARIO;
+};
+
+/// What the caller set at an instant, for sixstep_save().
+struct Command {
+  std::int64_t at_ps = 0;
+  sixstep_answer answer{};
+  std::uint32_t gates = 0;
+};
+
+class Session {
+ public:
+  base::Problems problems;
+
+  sixstep_status open(Source source);
+  sixstep_status advance(double to_s);
+  sixstep_status advance_to_tick();
+  sixstep_status advance_to_hall_edge(double to_s);
+  sixstep_status change(std::string_view toml, double* at_s);
+  sixstep_status measure(sixstep_measured& measured, double* setpoint);
+  sixstep_status command(const sixstep_answer& answer);
+  sixstep_status set_gates(std::uint32_t gates);
+  sixstep_status convert(sixstep_counts& counts);
+  sixstep_status finish();
+  /// Continues at what a saved session had set and reached.
+  sixstep_status replay(const std::vector<Command>& commands, double to_s);
+
+  /// An independent session in the same state, without its problems and texts.
+  Session(const Session& other);
+  Session() = default;
+  Session& operator=(const Session&) = delete;
+  ~Session() = default;
+
+  bool is_open() const { return run_.has_value(); }
+  const study::Scenario* scenario() const { return run_ ? &run_->scenario() : nullptr; }
+  const Source& source() const { return source_; }
+  const std::vector<Command>& commands() const { return commands_; }
+  double time_s() const;
+  bool applies(int index) const { return applies_[static_cast<std::size_t>(index)]; }
+  double value(int index) const;
+  const std::optional<std::string>& outcome() const { return outcome_; }
+  std::uint64_t digest() const { return digest_; }
+
+  sixstep_status misuse(const char* function, const char* limit, const char* cure);
+
+  std::string described, written;          ///< texts handed out
+  std::vector<std::uint8_t> saved;         ///< the last result of sixstep_save()
+
+ private:
+  /// The run that is read: with gates, it is ahead of run_, which stands at the last change of the gates, so that
+  /// reading ends no segment.
+  study::Session& seen() { return ahead_ ? *ahead_ : *run_; }
+  const study::Session& seen() const { return ahead_ ? *ahead_ : *run_; }
+  sixstep_status usable(const char* function);
+  sixstep_status refused(base::Problems found);
+  void note_what_applies();
+  void look_ahead();
+  sixstep_status reached(bool goes_on);
+  std::int64_t now_ps() const;
+  base::Result<study::Scenario> read(const std::string& more) const;
+
+  Source source_;
+  std::optional<study::Session> run_, ahead_;
+  Exchange exchange_;
+  rig::Registers registers_;
+  std::uint64_t conversions_ = 0;
+  std::vector<Command> commands_;
+  std::array<bool, study::column_count> applies_{};
+  std::optional<std::string> outcome_;
+  std::uint64_t digest_ = 0;
+};
+
+}  // namespace c_face
