@@ -120,7 +120,8 @@ void Rig<Real, Firmware, Plant>::replace_future(Timeline timeline, const Tuning<
     if (timeline_[n].kind == ActionKind::retune)
       in_effect = &tunings_[static_cast<std::size_t>(timeline_[n].value)];
   firmware_.retune(*in_effect);
-  if (const sim::Instant told = told_next(); told < next_tick_) next_tick_ = told;
+  if constexpr (!keeps_time)
+    if (const sim::Instant told = told_next(); told < next_tick_) next_tick_ = told;
   moved_ = true;
 }
 

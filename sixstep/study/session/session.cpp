@@ -168,7 +168,8 @@ bool Session::skip(double to_s) { return go(sim::to_instant(to_s), false); }
 bool Session::advance_to_tick() { return go(state_->tick_after(state_->now()), true); }
 bool Session::at_tick() const {
   const Instant now = state_->now(), next = state_->run->next_tick();
-  return !state_->over && !(now < next) && !(next < now) && state_->is_tick(now);
+  return !state_->over && !(now < next) && !(next < now) && state_->is_tick(now) &&
+         state_->present.t_s == now.seconds();
 }
 void Session::call_controller() const {
   State& s = *state_;
