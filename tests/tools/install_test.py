@@ -27,7 +27,7 @@ share/doc/sixstep/copyright
 share/doc/sixstep/changelog.gz
 share/sixstep/README.md
 share/sixstep/sixstep_control.hpp""".splitlines()
-FOLDERS = ["data/controllers", "data/motors", "data/plans", "data/recordings", "data/scenarios", "docs", "faces/firmware",
+FOLDERS = ["data/controllers", "data/motors", "data/plans", "data/recordings", "data/scenarios", "docs", "faces/c/example", "faces/firmware",
            "faces/loop/core", "sixstep/control"]
 DRIVES = ["LEAN", "PRODUCT", "SENSORLESS", "FIELD", "SENSORLESS_FIELD"]
 # zsh calls the function after it reads its file at the first Tab.
@@ -130,6 +130,24 @@ class Installed(unittest.TestCase):
                                             '[control.own]\ncontroller = "pi_in_integers.so"\n[reference]\nvalue = 1\n')
         self.call("sixstep", "run", "own.toml")
         self.call("c++", "-std=c++20", "-fsyntax-only", f"-I{self.prefix / 'include'}", own / "six_step_again.cpp")
+
+    def test_a_program_with_the_library(self):
+        """By pkg-config and by CMake, in C and in C++; the installed library is at none of the places that it was configured for."""
+        if not (self.prefix / "lib/libsixstep.so").exists():
+            self.skipTest("built without libsixstep")
+        example = self.share / "faces/c/example/advance.c"
+        scenario = self.share / "data/scenarios/current-square.toml"
+        flags = self.call("pkg-config", "--cflags", "--libs", "sixstep", PKG_CONFIG_PATH=str(self.prefix / "share/pkgconfig")).stdout.strip()
+        self.call("sh", "-c", f"cc -std=c99 '{example}' {flags} -o by_pkg_config")
+        self.call("sh", "-c", f"c++ -x c++ -fsyntax-only '{self.prefix / 'include/sixstep.h'}' {flags}")
+        by_pkg_config = self.call("./by_pkg_config", scenario, LD_LIBRARY_PATH=str(self.prefix / "lib")).stdout
+        (self.here / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.16)\nproject(mine C)\nfind_package(sixstep 0.1 REQUIRED)\n"
+                                                  f'add_executable(mine "{example}")\ntarget_link_libraries(mine PRIVATE sixstep::sixstep)\n')
+        self.call("cmake", "-B", "build", f"-DCMAKE_PREFIX_PATH={self.prefix}")
+        self.call("cmake", "--build", "build")
+        by_cmake = self.call("build/mine", scenario).stdout
+        self.assertEqual(by_cmake, by_pkg_config)
+        self.assertTrue(by_cmake.endswith(self.call("sixstep", "run", scenario, "--json", "-").stdout))
 
     def test_exported_headers(self):
         for words, folder in (((), self.prefix / "include"), (("--single-header",), self.share)):
