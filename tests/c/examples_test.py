@@ -136,6 +136,16 @@ class Examples(unittest.TestCase):
             self.assertEqual(kinds[kind], result, name)
             self.assertEqual(len([a for a in arguments.split(",") if a.strip()]), 0 if declared == "void" else len(declared.split(",")), name)
 
+    def test_what_calls_cost_is_in_order(self):
+        """Reading is cheaper than a period, a long advance than steps; tenfold room above the goals, for a machine that is busy."""
+        self.call("cc", "-O2", EXAMPLES / "costs.c", *FLAGS, "-o", "costs")
+        us = {name.strip(): float(x) for name, x in re.findall(r"^(.*?) +([\d.]+) us$", self.call("./costs", SCENARIO).stdout, re.M)}
+        self.assertLess(us["read a value"], 0.5)
+        self.assertLess(us["read a value"], us["a period of one long advance"])
+        self.assertLess(us["a period of one long advance"], us["advance by a period"])
+        self.assertLess(us["open a file"], 10_000)
+        self.assertLess(us["copy"], us["load"])
+
     def same(self, printed, columns):
         lines, outcome = self.told(printed)
         mine, wanted = self.c_example()
