@@ -159,6 +159,7 @@ def costs_of_calls(test, spot):
     """The goals of the library for C; a step costs at least its part of a long one; a load opens and simulates."""
     us = {name.strip(): float(x) for name, x in re.findall(r"^(.*?) +([\d.]+) us$", spot.text, re.M)}
     test.assertLess(us["open a file"], 1000)
+    test.assertLess(us["open a file"], us["open the first file"])
     test.assertLess(us["read a value"], 0.05)
     test.assertLess(us["a period of one long advance"], us["advance by a period"])
     test.assertLess(us["copy"], us["open a file"])
