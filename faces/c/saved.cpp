@@ -53,7 +53,8 @@ std::optional<Parts> parts_of(const Cbor& in) {
   const Cbor *what = member(in, "what", Cbor::value_t::string),
              *version = member(in, "version", Cbor::value_t::string),
              *chip = member(in, "chip", Cbor::value_t::number_unsigned),
-             *name = member(in, "name", Cbor::value_t::string), *toml = member(in, "toml", Cbor::value_t::string),
+             *name = member(in, "name", Cbor::value_t::string),
+             *toml = member(in, "toml", Cbor::value_t::string),
              *data = member(in, "data", Cbor::value_t::string),
              *time = member(in, "time_s", Cbor::value_t::number_float),
              *commands = member(in, "commands", Cbor::value_t::array);
@@ -97,7 +98,8 @@ sixstep_status loaded(std::span<const std::uint8_t> bytes, Session& session) {
                          "load what sixstep_save() of version " SIXSTEP_VERSION " wrote, all of it"}};
     return SIXSTEP_REFUSED;
   }
-  if (const sixstep_status status = session.open(std::move(parts->source)); status != SIXSTEP_OK) return status;
+  if (const sixstep_status status = session.open(std::move(parts->source)); status != SIXSTEP_OK)
+    return status;
   return session.replay(parts->commands, parts->time_s);
 }
 

@@ -105,16 +105,13 @@ std::int64_t Session::now_ps() const { return sim::to_instant(time_s()).ticks; }
 double Session::time_s() const {
   return run_ ? seen().present().t_s : std::numeric_limits<double>::quiet_NaN();
 }
-double Session::value(int index) const {
-  return seen().present().signals[static_cast<std::size_t>(index)];
-}
+double Session::value(int index) const { return seen().present().signals[static_cast<std::size_t>(index)]; }
 
 sixstep_status Session::reached(bool goes_on) { return goes_on ? SIXSTEP_OK : SIXSTEP_OVER; }
 
 sixstep_status Session::advance(double to_s) {
   if (const sixstep_status status = usable("sixstep_advance"); status != SIXSTEP_OK) return status;
-  if (std::isnan(to_s))
-    return refused({{"to_s", "nan", "must be an instant in seconds", "give a number"}});
+  if (std::isnan(to_s)) return refused({{"to_s", "nan", "must be an instant in seconds", "give a number"}});
   const Exchanging here(exchange_);
   // Past its end a run is over: a larger number changes nothing, and an instant has room for it.
   const double end_s = 2 * seen().scenario().duration_s;
@@ -130,7 +127,8 @@ sixstep_status Session::advance_to_tick() {
 /// The edge lies within the step: its instant is found in a copy by halving to the picosecond, for few steps have one.
 sixstep_status Session::advance_to_hall_edge(double to_s) {
   constexpr auto hall = static_cast<std::size_t>(study::ColumnId::hall);
-  if (const sixstep_status status = usable("sixstep_advance_to_hall_edge"); status != SIXSTEP_OK) return status;
+  if (const sixstep_status status = usable("sixstep_advance_to_hall_edge"); status != SIXSTEP_OK)
+    return status;
   if (!ahead_)
     return misuse("sixstep_advance_to_hall_edge", "needs a session whose gates the caller sets",
                   "open it with SIXSTEP_CHIP_GATES");
@@ -163,7 +161,8 @@ sixstep_status Session::change(std::string_view toml, double* at_s) {
   const base::Result<study::Scenario> with =
       read("\n[[at]]\ntime_s = " + base::written(time_s()) + "\n" + std::string(toml) + "\n");
   if (!with) return refused(with.problems());
-  if (with->at.empty()) return refused({{"toml", std::string(toml), "has no change", "name a key of [[at]]"}});
+  if (with->at.empty())
+    return refused({{"toml", std::string(toml), "has no change", "name a key of [[at]]"}});
   const Exchanging here(exchange_);
   if (ahead_) {  // the run itself goes to this instant too
     if (const sixstep_status status = set_gates(exchange_.gates); status != SIXSTEP_OK) return status;
@@ -206,7 +205,8 @@ sixstep_status Session::set_gates(std::uint32_t gates) {
     return misuse("sixstep_set_gates", "needs a session whose gates the caller sets",
                   "open it with SIXSTEP_CHIP_GATES");
   if (gates > 0x3f)
-    return refused({{"gates", std::to_string(gates), "must be 0 to 63: a bit per switch", "clear the others"}});
+    return refused(
+        {{"gates", std::to_string(gates), "must be 0 to 63: a bit per switch", "clear the others"}});
   if (ahead_->over()) return SIXSTEP_OVER;
   const double at_s = time_s();
   const Exchanging here(exchange_);
@@ -233,8 +233,7 @@ sixstep_status Session::convert(sixstep_counts& counts) {
       counts.current[k] = registers_.current_counts(k, current[k], conversions_);
     if (sensors.bus.range > 0) counts.terminal[k] = registers_.terminal_counts(k, terminal[k], conversions_);
   }
-  if (sensors.bus.range > 0)
-    counts.bus = registers_.bus_counts({.bus_V = at(bus_V), .number = conversions_});
+  if (sensors.bus.range > 0) counts.bus = registers_.bus_counts({.bus_V = at(bus_V), .number = conversions_});
   counts.timer = static_cast<std::uint16_t>(registers_.counter(sim::to_instant(time_s())));
   counts.hall = static_cast<std::uint8_t>(at(hall));
   return SIXSTEP_OK;

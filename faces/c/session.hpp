@@ -69,8 +69,8 @@ class Session {
 
   sixstep_status misuse(const char* function, const char* limit, const char* cure);
 
-  std::string described, written;          ///< texts handed out
-  std::vector<std::uint8_t> saved;         ///< the last result of sixstep_save()
+  std::string described, written;   ///< texts handed out
+  std::vector<std::uint8_t> saved;  ///< the last result of sixstep_save()
 
  private:
   /// The run that is read: with gates, it is ahead of run_, which stands at the last change of the gates, so that

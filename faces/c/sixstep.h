@@ -17,7 +17,7 @@
  *
  * Threads. Sessions are independent: each may be used by one thread at a time, different ones at the same time.
  *
- * Texts are UTF-8 and end in '\0'. A text that a function returns belongs to the session, and is valid until the
+ * Texts are UTF-8, but for what a problem repeats of an input that is not, and end in '\0'. A text that a function returns belongs to the session, and is valid until the
  * next call of that function for the session, or its sixstep_free().
  *
  * Units are SI, as in the names of signals: docs/reference/results.md lists their units and frames. */
@@ -180,7 +180,8 @@ SIXSTEP_API sixstep_status sixstep_measure(sixstep_session* session, sixstep_mea
 SIXSTEP_API sixstep_status sixstep_command(sixstep_session* session, const sixstep_answer* answer);
 
 /* SIXSTEP_CHIP_GATES: the gates from the present instant on, as bits 0..5: upper a, lower a, upper b, lower b, upper c,
- * lower c. Dead time is the caller's: both bits of a leg are a shoot-through, which ends the run. Instants of changes are
+ * lower c. Dead time is the caller's: both bits of a leg are a shoot-through, which ends the run at once: the next advance
+ * returns SIXSTEP_OVER. Instants of changes are
  * rounded to 1 ps. */
 SIXSTEP_API sixstep_status sixstep_set_gates(sixstep_session* session, uint32_t gates);
 /* SIXSTEP_CHIP_GATES: advances to the next change of a Hall line, or to to_s if none comes before: sixstep_time() says

@@ -57,6 +57,11 @@ class Conditions(ProgramTest):
         self.assertIn(words, self.run_program("new", "mine", "--motor", "a.toml", "--mode", "current").stdout)
         self.assertIn(words, self.run_program("run", "mine.toml").stdout)
         self.assertNotIn("contradicts", self.run_program("design", "maxon-251601", "--quick").stdout)
+        field = (SOURCE / "data/scenarios/gallery/field-weakened.toml").read_text()
+        (self.path / "field.toml").write_text(re.sub('(?m)^motor = .*$', 'motor = "a.toml"', field))
+        told = self.run_program("design", "--scenario", "field.toml", code=None).stdout
+        self.assertIn(words, told)
+        self.assertRegex(told, "^(usable, |NOT USABLE)")
 
     def test_a_value_of_one_digit_is_named(self):
         (self.path / "a.toml").write_text(re.sub(r"resistance_ohm        = \{ value = 1.03", "resistance_ohm = { value = 1", SHEET, count=1)

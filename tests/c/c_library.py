@@ -111,7 +111,7 @@ class Session:
         for k in range(self.problem_count()):
             problem = Problem()
             assert self.problem_at(k, C.byref(problem)) == OK
-            out.append(tuple(getattr(problem, f).decode() for f, _ in Problem._fields_))
+            out.append(tuple(getattr(problem, f).decode(errors="replace") for f, _ in Problem._fields_))
         return out
 
     def __del__(self):
