@@ -64,7 +64,7 @@ class Desk:
         for name in ("build/release/sixstep", "bin/sixstep", "run"):  # the real ./run first installs and builds
             (self.folder / name).symlink_to(program)
         (self.folder / "build/dev").symlink_to(program.parent)
-        for name in ("tests", "sixstep"):
+        for name in ("faces", "tests", "sixstep"):
             (self.folder / name).symlink_to(REPOSITORY / name)
         self.environment = {**os.environ, "PATH": f"{self.folder}/bin:{os.environ['PATH']}"}
 
