@@ -116,7 +116,7 @@ class Firmware(unittest.TestCase):
                 changed = at
             elif word == "taken":
                 self.assertGreaterEqual(at, changed + HOLD_ps)
-                if at > changed + HOLD_ps and 0.44e12 < at < CLAMPED_s * 1e12:  # full duty: no diode conducts then
+                if at > changed + HOLD_ps and 0.44e12 < at < CLAMPED_s * 1e12:  # full duty: no diode of the free phase conducts
                     self.assertAlmostEqual(abs(number), 20e6, delta=100)  # nV; 35 nV a picosecond
                     exact += 1
         self.assertGreater(exact, 300)

@@ -210,6 +210,13 @@ class Gates(unittest.TestCase):
             self.assertAlmostEqual(angle, round(angle), delta=1e-8)  # at 100 rad/s a picosecond is 8e-10 of a sector
         self.assertGreater(len(found), 2)
 
+    def test_an_edge_that_does_not_come_ends_at_an_instant_of_any_fraction(self):
+        session = opened(CURRENT, chip=c.GATES, settings=["load.locked=true"])
+        for n in range(1, 60):
+            for search in (session.advance_to_hall_edge, lambda to_s: session.advance_to_crossing(0, 1e3, to_s)):
+                self.assertEqual(search(n * 1e-4 / 7), c.OK)
+                self.assertAlmostEqual(session.time(), n * 1e-4 / 7, delta=1e-12)
+
     def test_crossings_are_found_to_the_picosecond(self):
         """A copy is on the old side a picosecond before, and at every tenth of the time until then."""
         draw, found, jumps = random.Random(5), 0, 0

@@ -50,7 +50,7 @@ uint16_t hal_adc(uint8_t channel);
 
 /* ---- Hall lines ---- */
 
-/* Calls esc_on_hall() at each edge from now on. */
+/* Calls esc_on_hall() at each edge from now on, while no comparator is watched. */
 void hal_hall_on(void);
 /* H1 H2 H3 as bits 2, 1, 0. */
 uint8_t hal_hall(void);

@@ -11,8 +11,7 @@
 #define PERIOD_PS ((int64_t)HAL_PWM_TOP * PWM_COUNT_PS)
 #define DEAD_PS ((int64_t)HAL_DEAD_COUNTS * PWM_COUNT_PS)
 #define HOLD_PS 2000000     /* a comparator's output is held after each change of a gate */
-#define LOOK_PS 2000000     /* a comparator is looked at this often: shorter pulses of a terminal are not seen */
-#define HYSTERESIS_V 0.02   /* of a comparator, to either side */
+#define HYSTERESIS_V 0.02   /* of a comparator, to either side of zero */
 #define NEVER INT64_MAX
 
 static struct {
@@ -106,10 +105,10 @@ static double above_mean(int phase) {
   return u[phase] - (u[0] + u[1] + u[2]) / 3;
 }
 
-static int level_now(void) {
-  const double u = above_mean(hal.phase);
-  return hal.level ? u > -HYSTERESIS_V : u > HYSTERESIS_V;
-}
+/* Voltage at which the output of the watched comparator changes. */
+static double threshold(void) { return hal.level ? -HYSTERESIS_V : HYSTERESIS_V; }
+static int level_now(void) { return above_mean(hal.phase) > threshold(); }
+static int holds(void) { return hal.now < hal.changed + HOLD_PS; }
 
 void hal_comparator(uint8_t phase, uint8_t high, uint16_t blank) {
   hal.phase = phase;
@@ -130,7 +129,14 @@ static void interrupt(void (*handler)(void)) {
   handler();
 }
 
-static void comparator_changed(void) {
+static void look_at_hall(void) {
+  if (hal.hall == hal_hall()) return;
+  hal.hall = hal_hall();
+  interrupt(esc_on_hall);
+}
+
+static void look_at_comparator(void) {
+  if (level_now() == hal.level) return;
   hal.level = !hal.level;
   if (hal.level != hal.sought) return;
   note(hal.now < hal.blank ? "masked" : "taken", (long long)(1e9 * sixstep_value(hal.session, hal.e[hal.phase])));
@@ -139,48 +145,17 @@ static void comparator_changed(void) {
 
 /* ---- The loop ---- */
 
-static void move(int64_t to) {
-  hal.status = sixstep_advance(hal.session, seconds(to));
-  hal.now = to;
-}
-
-/* The output changed after `low` and before now, where the terminal may have jumped. Instants behind the last event can
- * still be read, which finds the change to the picosecond. */
-static void back_to_change(int64_t low) {
-  int64_t high = hal.now;
-  while (high - low > 1) {
-    const int64_t middle = low + (high - low) / 2;
-    sixstep_advance(hal.session, seconds(middle));
-    if (sixstep_time(hal.session) <= seconds(middle) && level_now() != hal.level) high = middle;
-    else low = middle;
-  }
-  move(high);
-}
-
-/* Advances to the event at `to`, or to a change of the comparator or of a Hall line before it. The comparator is looked
- * at on a fixed grid, so that the steps of the caller move no bit. */
+/* Advances to the event at `to`, or to a change of the comparator or of a Hall line before it. */
 static void advance(int64_t to) {
-  while (hal.now < to && hal.status == SIXSTEP_OK) {
-    const int64_t from = hal.now;
-    int64_t next = to;
-    if (hal.phase >= 0 && hal.now < hal.changed + HOLD_PS) next = least(to, hal.changed + HOLD_PS);
-    else if (hal.phase >= 0) next = least(to, (hal.now / LOOK_PS + 1) * LOOK_PS);
-    if (hal.hall >= 0) {
-      hal.status = sixstep_advance_to_hall_edge(hal.session, seconds(next));
-      hal.now = next = (int64_t)(sixstep_time(hal.session) * 1e12 + 0.5);
-      if (hal.hall != hal_hall()) {
-        hal.hall = hal_hall();
-        interrupt(esc_on_hall);
-        return;
-      }
-    } else {
-      move(next);
-    }
-    if (hal.phase < 0 || hal.now < hal.changed + HOLD_PS || level_now() == hal.level) continue;
-    if (from >= hal.changed + HOLD_PS) back_to_change(from);
-    comparator_changed();
-    return;
-  }
+  if (hal.phase >= 0 && !holds())
+    hal.status = sixstep_advance_to_crossing(hal.session, hal.phase, threshold(), seconds(to));
+  else if (hal.phase < 0 && hal.hall >= 0)
+    hal.status = sixstep_advance_to_hall_edge(hal.session, seconds(to));
+  else
+    hal.status = sixstep_advance(hal.session, seconds(hal.phase >= 0 ? least(to, hal.changed + HOLD_PS) : to));
+  hal.now = (int64_t)(sixstep_time(hal.session) * 1e12 + 0.5);
+  if (hal.phase >= 0 && !holds()) look_at_comparator();
+  else if (hal.phase < 0 && hal.hall >= 0) look_at_hall();
 }
 
 /* Everything that is due at the present instant. */
