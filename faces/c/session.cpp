@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "faces/c/session.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -124,36 +125,57 @@ sixstep_status Session::advance_to_tick() {
   return reached(seen().advance_to_tick());
 }
 
-/// The edge lies within the step: its instant is found in a copy by halving to the picosecond, for few steps have one.
-sixstep_status Session::advance_to_hall_edge(double to_s) {
-  constexpr auto hall = static_cast<std::size_t>(study::ColumnId::hall);
-  if (const sixstep_status status = usable("sixstep_advance_to_hall_edge"); status != SIXSTEP_OK)
-    return status;
+/// Looks on a grid that does not depend on the caller's steps, and halves the step with a change down to a picosecond.
+/// run_, at the last change of the gates, is the past from which that step is simulated again.
+template <class Side>
+sixstep_status Session::advance_to_edge(const char* function, double to_s, const Side& side) {
+  if (const sixstep_status status = usable(function); status != SIXSTEP_OK) return status;
   if (!ahead_)
-    return misuse("sixstep_advance_to_hall_edge", "needs a session whose gates the caller sets",
-                  "open it with SIXSTEP_CHIP_GATES");
+    return misuse(function, "needs a session whose gates the caller sets", "open it with SIXSTEP_CHIP_GATES");
   if (std::isnan(to_s)) return advance(to_s);
-  const double code = ahead_->present().signals[hall];
+  const auto seconds = [](std::int64_t ps) { return static_cast<double>(ps) / sim::ticks_per_second; };
+  const auto before = side(ahead_->present().signals);
   const Exchanging here(exchange_);
-  // No two edges of one line lie within a hundredth of a control period.
-  const double step_s = ahead_->scenario().pwm.period_s / 16;
-  while (time_s() < to_s) {
-    const study::Session before = *ahead_;
-    const double from_s = time_s(), next_s = std::min(to_s, from_s + step_s);
-    if (!ahead_->advance(next_s)) return SIXSTEP_OVER;
-    if (ahead_->present().signals[hall] == code) continue;
-    std::int64_t low = sim::to_instant(from_s).ticks, high = sim::to_instant(next_s).ticks;
+  const study::Scenario& s = ahead_->scenario();
+  const std::int64_t end = sim::to_instant(std::clamp(to_s, 0.0, 2 * s.duration_s)).ticks,
+                     step = std::max<std::int64_t>(1, sim::to_instant(s.pwm.period_s).ticks / 16);
+  while (now_ps() < end) {
+    std::int64_t low = now_ps(), high = std::min(end, (low / step + 1) * step);
+    if (!ahead_->advance(seconds(high))) return SIXSTEP_OVER;
+    if (side(ahead_->present().signals) == before) continue;
+    study::Session at_low = *run_;
+    (void)at_low.advance(seconds(low));
     while (high - low > 1) {
       const std::int64_t middle = low + (high - low) / 2;
-      study::Session tried = before;
-      const bool changed = !tried.advance(static_cast<double>(middle) / sim::ticks_per_second) ||
-                           tried.present().signals[hall] != code;
+      study::Session tried = at_low;
+      const bool changed = !tried.advance(seconds(middle)) || side(tried.present().signals) != before;
       (changed ? high : low) = middle;
     }
-    *ahead_ = before;
-    return reached(ahead_->advance(static_cast<double>(high) / sim::ticks_per_second));
+    *ahead_ = at_low;
+    return reached(ahead_->advance(seconds(high)));
   }
   return SIXSTEP_OK;
+}
+
+sixstep_status Session::advance_to_hall_edge(double to_s) {
+  return advance_to_edge("sixstep_advance_to_hall_edge", to_s, [](const study::FullRow& row) {
+    return row[static_cast<std::size_t>(study::ColumnId::hall)];
+  });
+}
+
+sixstep_status Session::advance_to_crossing(int leg, double level_V, double to_s) {
+  if (const sixstep_status status = usable("sixstep_advance_to_crossing"); status != SIXSTEP_OK)
+    return status;
+  if (leg < 0 || leg > 2)
+    return refused({{"leg", std::to_string(leg), "must be 0, 1 or 2", "give the index of leg a, b or c"}});
+  if (!std::isfinite(level_V))
+    return refused({{"level_V", base::written(level_V), "must be a voltage", "give a number"}});
+  return advance_to_edge("sixstep_advance_to_crossing", to_s, [=](const study::FullRow& row) {
+    using enum study::ColumnId;
+    const double u[] = {row[static_cast<std::size_t>(u_a)], row[static_cast<std::size_t>(u_b)],
+                        row[static_cast<std::size_t>(u_c)]};
+    return u[leg] - (u[0] + u[1] + u[2]) / 3 > level_V;
+  });
 }
 
 sixstep_status Session::change(std::string_view toml, double* at_s) {

@@ -42,6 +42,7 @@ class Session {
   sixstep_status advance(double to_s);
   sixstep_status advance_to_tick();
   sixstep_status advance_to_hall_edge(double to_s);
+  sixstep_status advance_to_crossing(int leg, double level_V, double to_s);
   sixstep_status change(std::string_view toml, double* at_s);
   sixstep_status measure(sixstep_measured& measured, double* setpoint);
   sixstep_status command(const sixstep_answer& answer);
@@ -81,6 +82,8 @@ class Session {
   sixstep_status refused(base::Problems found);
   void note_what_applies();
   void look_ahead();
+  template <class Side>
+  sixstep_status advance_to_edge(const char* function, double to_s, const Side& side);
   sixstep_status reached(bool goes_on);
   std::int64_t now_ps() const;
   base::Result<study::Scenario> read(const std::string& more) const;

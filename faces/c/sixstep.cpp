@@ -160,6 +160,9 @@ sixstep_status sixstep_advance_to_tick(sixstep_session* session) {
 sixstep_status sixstep_advance_to_hall_edge(sixstep_session* session, double to_s) {
   return with(session, [&](Session& s) { return s.advance_to_hall_edge(to_s); });
 }
+sixstep_status sixstep_advance_to_crossing(sixstep_session* session, int leg, double level_V, double to_s) {
+  return with(session, [&](Session& s) { return s.advance_to_crossing(leg, level_V, to_s); });
+}
 
 double sixstep_time(const sixstep_session* session) {
   return session == nullptr ? std::numeric_limits<double>::quiet_NaN() : session->is.time_s();

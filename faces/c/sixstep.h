@@ -187,6 +187,10 @@ SIXSTEP_API sixstep_status sixstep_set_gates(sixstep_session* session, uint32_t 
 /* SIXSTEP_CHIP_GATES: advances to the next change of a Hall line, or to to_s if none comes before: sixstep_time() says
  * which. */
 SIXSTEP_API sixstep_status sixstep_advance_to_hall_edge(sixstep_session* session, double to_s);
+/* SIXSTEP_CHIP_GATES: advances to the next instant at which the terminal of leg 0, 1 or 2, less the mean of the three
+ * terminals, changes from above level_V to at most level_V or back, or to to_s if none comes before: the edge of a
+ * comparator for the back-EMF. Two changes within 1/16 of a control period can stay unseen. */
+SIXSTEP_API sixstep_status sixstep_advance_to_crossing(sixstep_session* session, int leg, double level_V, double to_s);
 
 /* Counts that the board's converters have at the present instant, with their offsets, gain errors and noise ([sensors]).
  * A converter that the scenario does not have reads 0. */

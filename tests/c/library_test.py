@@ -210,6 +210,46 @@ class Gates(unittest.TestCase):
             self.assertAlmostEqual(angle, round(angle), delta=1e-8)  # at 100 rad/s a picosecond is 8e-10 of a sector
         self.assertGreater(len(found), 2)
 
+    def test_an_edge_that_does_not_come_ends_at_an_instant_of_any_fraction(self):
+        session = opened(CURRENT, chip=c.GATES, settings=["load.locked=true"])
+        for n in range(1, 60):
+            for search in (session.advance_to_hall_edge, lambda to_s: session.advance_to_crossing(0, 1e3, to_s)):
+                self.assertEqual(search(n * 1e-4 / 7), c.OK)
+                self.assertAlmostEqual(session.time(), n * 1e-4 / 7, delta=1e-12)
+
+    def test_crossings_are_found_to_the_picosecond(self):
+        """A copy is on the old side a picosecond before, and at every tenth of the time until then."""
+        draw, found, jumps = random.Random(5), 0, 0
+        session = opened(CURRENT, chip=c.GATES, settings=["load.locked=false", "initial.speed_rad_s=100"])
+        while session.time() < 4e-3:
+            source, sink = self.PAIRS[int(session.value_of("sector"))]
+            for gates, length in ((1 << 2 * source | 2 << 2 * sink, 20e-6), (2 << 2 * sink, 30e-6), (0, 40e-6)):
+                session.set_gates(gates)
+                leg = draw.choice((source, sink, 3 - source - sink))
+                level = draw.choice((0.0, self.above(session, leg) + draw.uniform(-0.1, 0.1), draw.uniform(-8, 8)))
+                before, begin, end, side = session.copied(), session.time(), session.time() + length, self.above(session, leg) > level
+                self.assertEqual(session.advance_to_crossing(leg, level, end), c.OK)
+                at = session.time()
+                if at < end - 1e-12:
+                    found += 1
+                    self.assertNotEqual(self.above(session, leg) > level, side)
+                    jumps += abs(self.above(session, leg) - level) > 1e-3
+                    for part in (0.1 * k for k in range(1, 10)):
+                        before.advance(begin + part * (at - begin))
+                        self.assertEqual(self.above(before, leg) > level, side)
+                    before.advance(at - 1e-12)
+                    self.assertEqual(self.above(before, leg) > level, side)
+                session.advance(end)
+        self.assertGreater(found, 20)
+        self.assertGreater(jumps, 3)  # a diode turns on or off
+        for arguments in ((3, 0.0, 1.0), (-1, 0.0, 1.0), (0, math.nan, 1.0), (0, 0.0, math.nan)):
+            self.assertEqual(session.advance_to_crossing(*arguments), c.REFUSED)
+
+    def above(self, session, leg):
+        """Voltage of a terminal against the mean of the three."""
+        u = [session.value_of(name) for name in ("u_a_V", "u_b_V", "u_c_V")]
+        return u[leg] - sum(u) / 3
+
     def test_both_switches_of_a_leg_end_the_run(self):
         session = opened(CURRENT, chip=c.GATES)
         session.advance(1e-3)

@@ -2,7 +2,7 @@
 """Which law judges which block. A block is found by its page and a piece of its text or heading."""
 import re
 
-from laws import bench, capacitor, commutation, contest, curve, design, drives, run_output, series, tables
+from laws import bench, capacitor, commutation, contest, curve, design, drives, firmware, run_output, series, tables
 from page import REPOSITORY
 
 # Blocks of a reader's input are no results.
@@ -212,7 +212,7 @@ BY_TEXT = [
     ("docs/start/tour-bench-and-chip.md", "held as", drives.exported), ("docs/explanation/accuracy.md", "cases match", counted),
     ("docs/start/tour.md", "settles within", design.judge), ("docs/howto/tune-a-speed-loop.md", "", design.judge), ("docs/howto/choose-pwm.md", "verdict", series.judge_plan), ("docs/howto/choose-pwm.md", "$ ./run design", design.judge),
     ("docs/howto/design-", "", design.judge),
-    ("docs/reference/keys/", "| key |", default_in_range),
+    ("docs/howto/run-a-firmware", "ms throttle", firmware.course), ("docs/reference/keys/", "| key |", default_in_range),
 ]
 # Messages of the program, which repeat the input or the allowed values.
 MESSAGES = [("docs/howto/use-the-c-library.md", "must lie in"), ("docs/start/tour-bench-and-chip.md", "gives the drive currents"), ("docs/howto/measure-the-back-emf.md", "short.csv: "), ("docs/howto/find-the-hall-order.md", "short.csv: "),
@@ -223,7 +223,8 @@ MESSAGES = [("docs/howto/use-the-c-library.md", "must lie in"), ("docs/start/tou
 # Pages and tables of definitions: names, formulas, commands, exit codes, and pages of code.
 DEFINES = ("docs/architecture.md", "docs/contracts.md", "docs/contributing.md", "docs/reference/model", "docs/reference/notation.md",
            "docs/reference/figures.md", "docs/reference/results.md", "docs/reference/command-line.md", "docs/reference/keys/")
-DEFINING = [("README.md", "| task |"), ("docs/reference/glossary.md", "| term |"),
+DEFINING = [("README.md", "| task |"), ("docs/howto/run-a-firmware", "sixstep_status hal_run"), ("docs/howto/run-a-firmware", "static void advance"),
+            ("docs/howto/run-a-firmware", "| file in "), ("docs/howto/run-a-firmware", "| function or macro |"), ("docs/reference/glossary.md", "| term |"),
             ("docs/howto/record-a-motor.md", "| column |"), ("docs/howto/measure-a-frequency-response.md", "| what stands there |"), ("docs/howto/commission-a-drive.md", "| phase |"),
             ("docs/howto/read-the-curve.md", "| row |"), ("docs/howto/read-the-curve.md", "| column |"), ("docs/reference/product-drive.md", "| limit |"), ("docs/howto/put-a-controller-on-a-chip.md", "| what | exit code |"),
             ("docs/reference/loops.md", "| law | what it is |"), ("docs/reference/commutation.md", "| pattern | chopped is |"), ("docs/reference/commutation.md", "| chopped is |"),
