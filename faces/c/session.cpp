@@ -2,6 +2,7 @@
 #include "faces/c/session.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -34,6 +35,23 @@ void hand_over(study::Scenario& s, sixstep_chip chip) {
       .controller = caller_name, .number = {}, .loaded = caller_controller(chip == SIXSTEP_CHIP_LEGS)};
 }
 
+constexpr char change_head[] = "\n[[at]]\ntime_s = ";
+
+/// A change is read as the end of the scenario's text; its lines are counted from its own first one.
+base::Problems in_change(base::Problems found, const Source& source) {
+  const auto lines = std::count(source.toml.begin(), source.toml.end(), '\n') + 3;
+  for (base::Problem& p : found) {
+    const std::string before = source.name + ":";
+    long line = 0;
+    if (!p.where.starts_with(before)) continue;
+    const char *const from = p.where.data() + before.size(), *const last = p.where.data() + p.where.size();
+    const auto [end, wrong] = std::from_chars(from, last, line);
+    if (wrong == std::errc{} && line > lines)
+      p.where = "toml:" + std::to_string(line - lines) + std::string(end, last);
+  }
+  return found;
+}
+
 }  // namespace
 
 Session::Session(const Session& other)
@@ -50,6 +68,9 @@ Session::Session(const Session& other)
 
 sixstep_status Session::refused(base::Problems found) {
   problems = std::move(found);
+  for (base::Problem& p : problems)  // the command line's word for a setting
+    if (constexpr std::string_view option = "--set "; p.where.starts_with(option))
+      p.where.replace(0, option.size(), "options.settings: ");
   return SIXSTEP_REFUSED;
 }
 
@@ -181,17 +202,20 @@ sixstep_status Session::advance_to_crossing(int leg, double level_V, double to_s
 sixstep_status Session::change(std::string_view toml, double* at_s) {
   if (const sixstep_status status = usable("sixstep_change"); status != SIXSTEP_OK) return status;
   const base::Result<study::Scenario> with =
-      read("\n[[at]]\ntime_s = " + base::written(time_s()) + "\n" + std::string(toml) + "\n");
-  if (!with) return refused(with.problems());
+      read(change_head + base::written(time_s()) + "\n" + std::string(toml) + "\n");
+  if (!with) return refused(in_change(with.problems(), source_));
   if (with->at.empty())
     return refused({{"toml", std::string(toml), "has no change", "name a key of [[at]]"}});
-  const Exchanging here(exchange_);
-  if (ahead_) {  // the run itself goes to this instant too
-    if (const sixstep_status status = set_gates(exchange_.gates); status != SIXSTEP_OK) return status;
-  }
-  const base::Result<double> at = run_->change(with->at.back());
+  Session tried(*this);  // a refused change leaves this session as it is
+  if (tried.ahead_)      // the run itself goes to this instant too
+    if (const sixstep_status status = tried.set_gates(exchange_.gates); status != SIXSTEP_OK) return status;
+  const Exchanging here(tried.exchange_);
+  const base::Result<double> at = tried.run_->change(with->at.back());
   if (!at) return refused(at.problems());
   if (at_s != nullptr) *at_s = *at;
+  run_ = std::move(tried.run_);
+  exchange_ = tried.exchange_;
+  commands_ = std::move(tried.commands_);
   note_what_applies();
   if (ahead_) look_ahead();
   return SIXSTEP_OK;
@@ -276,7 +300,8 @@ sixstep_status Session::finish() {
   return SIXSTEP_OK;
 }
 
-sixstep_status Session::replay(const std::vector<Command>& commands, double to_s) {
+sixstep_status Session::replay(const std::vector<Command>& commands, std::uint64_t conversions, double to_s) {
+  conversions_ = conversions;
   for (const Command& c : commands) {
     const sixstep_status reached = advance(static_cast<double>(c.at_ps) / sim::ticks_per_second);
     if (reached != SIXSTEP_OK) return reached;

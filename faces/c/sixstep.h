@@ -90,7 +90,7 @@ typedef struct {
 } sixstep_options;
 #define SIXSTEP_OPTIONS {sizeof(sixstep_options), NULL, NULL, NULL, SIXSTEP_CHIP_OF_SCENARIO}
 
-/* Reads and checks a scenario (docs/reference/scenario.md) and makes its run at t = 0. `options` may be null. After
+/* Reads and checks a scenario (docs/reference/keys/README.md) and makes its run at t = 0. `options` may be null. After
  * SIXSTEP_REFUSED *session is no run, but has the problems; free it too. After SIXSTEP_NO_MEMORY it is null. */
 SIXSTEP_API sixstep_status sixstep_open_file(const char* path, const sixstep_options* options, sixstep_session** session);
 SIXSTEP_API sixstep_status sixstep_open_text(const char* toml, const sixstep_options* options, sixstep_session** session);
@@ -100,7 +100,7 @@ SIXSTEP_API void sixstep_free(sixstep_session* session);
 /* ---- Advance and read ---------------------------------------------------------------------------------------- */
 
 /* Advances to the instant to_s, in s from the start. An instant in the past reads that instant if it lies in the
- * segment between the last two events, else the present one. SIXSTEP_OVER: the run ended before to_s. */
+ * segment between the last two events, else the present one. SIXSTEP_OVER: the run ended at or before to_s. */
 SIXSTEP_API sixstep_status sixstep_advance(sixstep_session* session, double to_s);
 /* Advances to the next control tick after the present instant, before the controller acts on it. */
 SIXSTEP_API sixstep_status sixstep_advance_to_tick(sixstep_session* session);
@@ -146,7 +146,8 @@ SIXSTEP_API sixstep_status sixstep_copy(const sixstep_session* session, sixstep_
  * sixstep_load() simulates the run again up to there, to the bit, also on another machine. */
 SIXSTEP_API size_t sixstep_save(sixstep_session* session, void* bytes, size_t room);
 SIXSTEP_API sixstep_status sixstep_load(const void* bytes, size_t count, sixstep_session** session);
-/* The scenario as TOML with all changes so far; its run has the bits of this session. */
+/* The scenario as TOML with all changes so far; its run has the bits of this session, unless the caller controls it: such a
+ * text names the controller "caller", which sixstep_load() alone knows. */
 SIXSTEP_API const char* sixstep_scenario(sixstep_session* session);
 
 /* ---- Finish -------------------------------------------------------------------------------------------------- */

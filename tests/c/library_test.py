@@ -258,17 +258,27 @@ class Gates(unittest.TestCase):
         session.finish()
         self.assertIn("shoot-through", json.loads(session.outcome())["fault"])
 
+    def test_an_early_end_is_within_two_periods(self):
+        session = opened(text=HELD, chip=c.GATES)
+        session.advance(3.31e-3)
+        self.assertEqual(session.finish(), c.OK)
+        end = json.loads(session.outcome())["simulated_s"]
+        self.assertTrue(3.31e-3 <= end <= 3.31e-3 + 2 * session.period(), end)  # a segment may pass the next tick
+
     def test_counts_are_those_of_the_converters(self):
-        settings = ["sensors.currents=phases", "sensors.current_range_A=16", "sensors.bus_range_V=32"]
+        settings = ["sensors.currents=phases", "sensors.current_range_A=16", "sensors.bus_range_V=32", "sensors.current_noise_A=0.02"]
         session = opened(text=HELD, chip=c.GATES, settings=settings)
         session.set_gates(0b001001)
         session.advance(300e-6)
         counts = c.Counts()
         self.assertEqual(session.convert(C.byref(counts)), c.OK)
         lsb = 2 * 16 / 4096
-        self.assertLessEqual(abs(counts.current[0] - 2048 - session.value_of("i_a_A") / lsb), 0.51)
-        self.assertLessEqual(abs(counts.current[1] - 2048 - session.value_of("i_b_A") / lsb), 0.51)
+        self.assertLessEqual(abs(counts.current[0] - 2048 - session.value_of("i_a_A") / lsb), 15)
+        self.assertLessEqual(abs(counts.current[1] - 2048 - session.value_of("i_b_A") / lsb), 15)  # five times the noise
         self.assertEqual(counts.hall, int(session.value_of("hall")))
+        loaded, next_here, next_there = c.Session.loaded(LIB, session.saved()), c.Counts(), c.Counts()
+        session.convert(C.byref(next_here)), loaded.convert(C.byref(next_there))
+        self.assertEqual(bytes(next_here), bytes(next_there))  # the same noise
         self.assertLessEqual(abs(counts.bus - session.value_of("bus_V") / (32 / 4096)), 0.51)
 
 
@@ -292,6 +302,25 @@ class Misuse(unittest.TestCase):
             self.assertEqual(session.change(text, None), c.REFUSED, text)
             self.assertTrue(session.problems()[0][2], text)
         self.assertEqual(digest(other), (session.advance(1), digest(session))[1])
+
+    def test_a_change_that_is_refused_late_leaves_gates_as_they_are(self):
+        """bridge.phases needs the general kernel, which only the compiled change shows."""
+        def run(asked):
+            session = opened(text=HELD, chip=c.GATES)
+            session.set_gates(0b001001)
+            session.advance(1.23e-3)
+            if asked:
+                self.assertEqual(session.change(b'bridge.phases = "bca"', None), c.REFUSED)
+            session.advance(2e-3)
+            return digest(session)
+        self.assertEqual(run(True), run(False))
+
+    def test_places_of_a_change_are_counted_from_its_first_line(self):
+        session = opened(CURRENT)
+        self.assertEqual(session.change(b"supply.voltage_V = 20\nsupply.volts = 4", None), c.REFUSED)
+        self.assertRegex(session.problems()[0][0], r"^toml:2:")
+        refused = c.Session.open(LIB, CURRENT, settings=["nonsense=1"])
+        self.assertRegex(refused.problems()[0][0], "^options.settings: nonsense")
 
     def test_null_and_numbers_that_are_none(self):
         session = opened(CURRENT)
