@@ -254,7 +254,7 @@ TEST(DriveDesign, WarnsOfWhatIsOffAndOfNothingElse) {
       warns(designed({.mode = Mode::current, .settle_s = 0.1e-3, .delay_periods = 1}), "loop is unstable"));
   EXPECT_TRUE(warns(designed({.mode = Mode::speed, .settle_s = 10e-3, .current_settle_s = 8e-3}),
                     "times the frequency"));
-  EXPECT_TRUE(warns(designed({.mode = Mode::current, .settle_s = 0.25e-3}), "asks for"));
+  EXPECT_TRUE(warns(designed({.mode = Mode::current, .settle_s = 0.25e-3}), "is to settle within"));
   EXPECT_TRUE(warns(designed({.mode = Mode::current, .period_s = 60e-6}), "ripple"));
   // A ripple above the nominal current is grave, and the named chokes reduce it to a fifth, for any short L/R.
   for (const double period_s : {10e-6, 1e-3}) {
