@@ -45,7 +45,7 @@ class Conditions(ProgramTest):
         line = 6710 - 1.03 / 33.5e-3**2 * 83.4e-3 * 30 / math.pi
         drop = 6710 - line
         for speed, verdict, code in ((6800, "BROKEN", 1), (6710, "BROKEN", 1), (1.06 * line, "BROKEN", 1), (line, "ok", 0),
-                                     (5240, "ok", 0), (6710 - 2.3 * drop, "ok", 0), (6710 - 3 * drop, "doubt", 0)):
+                                     (5240, "ok", 0), (6710 - 2.3 * drop, "ok", 0), (6710 - 3.5 * drop, "doubt", 0)):
             (self.path / "a.toml").write_text(SHEET.replace("value = 5240", f"value = {speed:.0f}"))
             told = self.run_program("motor", "check", "a.toml", code=code).stdout
             self.assertRegex(told, rf"\n  {verdict} +nominal speed ", f"{speed}")
