@@ -195,6 +195,9 @@ class Plan(ProgramTest):
         told = self.run_program("run", self.held(SPREAD), "--vary", "supply.voltage_V=12:24:7", "--runs", "100", "--dry-run",
                                 "--store", "s.sqlite").stdout
         self.assertIn("7 points of 100 drives each: 700 runs", told)
+        sobol = self.run_program("run", self.held(SPREAD), "--vary", "supply.voltage_V=12:24", "--vary", "load.torque_Nm=0:0.1", "--sampling",
+                                 "saltelli", "--points", "50", "--dry-run").stdout
+        self.assertIn("200 points, 50 x (keys + 2): 200 runs", sobol)
         self.assertRegex(told, r"a run on one core \(16 tried\), about .* on \d+ cores")
         self.assertEqual(self.names(), ["a.toml"])
 
