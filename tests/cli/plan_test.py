@@ -82,7 +82,7 @@ class Plan(ProgramTest):
         one = json.loads((self.path / "one.json").read_text())
         self.assertEqual(one["digest"], plan["rows"][3][-1])
         self.assertEqual(one["require"][0]["measured"], plan["rows"][3][5])
-        self.assertIn("count from 0 to 5", self.run_program("run", "p.toml", "--only", "6", code=2).stderr)
+        self.assertIn("numbers 0 to 5", self.run_program("run", "p.toml", "--only", "6", code=2).stderr)
 
     def test_a_controller_is_designed_for_each_value_or_stays_as_it_was(self):
         """What strays meets the gains of the value as written: bit for bit the run that is given them."""
@@ -302,7 +302,7 @@ class Plan(ProgramTest):
         (self.path / "p.toml").write_text(plan)
         told = self.run_program("run", "p.toml", code=2).stderr
         self.assertIn("p.toml:7:1: vary.value", told)
-        self.assertIn("first end of a range", told)
+        self.assertIn("is one end of a range", told)
         (self.path / "p.toml").write_text(PLAN.replace("a.toml", "b.toml"))
         self.assertIn("b.toml", self.run_program("run", "p.toml", code=2).stderr)
 
@@ -403,7 +403,7 @@ class Plan(ProgramTest):
         for p in plans:
             self.run_program("run", p["name"] + ".toml", *vary, "--html", "one.html", code=1)
             self.assertEqual(self.page("one.html")[1][0] | {"repeats": ""}, p | {"repeats": ""})
-        for more, why in ((["a.toml"], "more than the 2"), (["--store", "s.sqlite"], "one plan")):
+        for more, why in ((["a.toml"], "must be at most 2"), (["--store", "s.sqlite"], "one plan")):
             self.assertIn(why, self.run_program("run", "a.toml", "b.toml", *more, *vary, "--html", "x.html", code=2).stderr)
         self.assertNotIn("x.html", self.names())
 
