@@ -195,6 +195,9 @@ class Plan(ProgramTest):
         told = self.run_program("run", self.held(SPREAD), "--vary", "supply.voltage_V=12:24:7", "--runs", "100", "--dry-run",
                                 "--store", "s.sqlite").stdout
         self.assertIn("7 points of 100 drives each: 700 runs", told)
+        sobol = self.run_program("run", self.held(SPREAD), "--vary", "supply.voltage_V=12:24", "--vary", "load.torque_Nm=0:0.1", "--sampling",
+                                 "saltelli", "--points", "50", "--dry-run").stdout
+        self.assertIn("200 points, 50 x (keys + 2): 200 runs", sobol)
         self.assertRegex(told, r"a run on one core \(16 tried\), about .* on \d+ cores")
         self.assertEqual(self.names(), ["a.toml"])
 
@@ -299,7 +302,7 @@ class Plan(ProgramTest):
         (self.path / "p.toml").write_text(plan)
         told = self.run_program("run", "p.toml", code=2).stderr
         self.assertIn("p.toml:7:1: vary.value", told)
-        self.assertIn("one end of a range", told)
+        self.assertIn("is one end of a range", told)
         (self.path / "p.toml").write_text(PLAN.replace("a.toml", "b.toml"))
         self.assertIn("b.toml", self.run_program("run", "p.toml", code=2).stderr)
 
@@ -400,7 +403,7 @@ class Plan(ProgramTest):
         for p in plans:
             self.run_program("run", p["name"] + ".toml", *vary, "--html", "one.html", code=1)
             self.assertEqual(self.page("one.html")[1][0] | {"repeats": ""}, p | {"repeats": ""})
-        for more, why in ((["a.toml"], "at most 2"), (["--store", "s.sqlite"], "one plan")):
+        for more, why in ((["a.toml"], "must be at most 2"), (["--store", "s.sqlite"], "one plan")):
             self.assertIn(why, self.run_program("run", "a.toml", "b.toml", *more, *vary, "--html", "x.html", code=2).stderr)
         self.assertNotIn("x.html", self.names())
 

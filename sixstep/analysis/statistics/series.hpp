@@ -12,10 +12,17 @@
 
 namespace sixstep::analysis {
 
+/// Distance to the nearer bound in the figure's unit, negative beyond it; minus infinity for a figure that never
+/// comes or has no value, infinity without a bound.
+double margin(const FigureColumn& column, double x);
+
 struct SpreadFigure {
   FigureColumn column;
   std::size_t holds = 0;  ///< runs whose value meets the requirement; a faulted run counts too
-  std::optional<std::size_t> first_miss;  ///< first run whose value does not
+  /// Of a requirement: the run with the least margin(), the first of several. A run that could not start is none.
+  std::optional<std::size_t> worst;
+  double least_margin = 0.0;  ///< that run's
+  bool missed = false;        ///< whether a run that could start misses it
   Statistics statistics;
 };
 
