@@ -84,6 +84,24 @@ class Plan(ProgramTest):
         self.assertEqual(one["require"][0]["measured"], plan["rows"][3][5])
         self.assertIn("numbers 0 to 5", self.run_program("run", "p.toml", "--only", "6", code=2).stderr)
 
+    def test_a_run_of_a_plan_has_the_remarks_of_the_run_alone(self):
+        """Neither the table nor a resumed store loses one; a remark with other numbers in other runs is one line."""
+        (self.path / "b.toml").write_text(SHORT.format(limit=1e3).replace("1e-4", "2e-3").replace("locked = true", "dynamometer_times_s = [0]\ndynamometer_rad_s = [2000]"))
+        vary = ["run", "b.toml", "--vary", "pwm.period_s=5us,20us,40us", "--set", "heat.step_s=1"]
+        alone = [json.loads(self.run_program(*vary, "--only", str(n), "--json", "-", code=None).stdout)["remarks"] for n in range(3)]
+        short = [[r for r in remarks if "a commutation step lasts" in r] for remarks in alone]
+        self.assertEqual([len(r) for r in short], [0, 1, 1])
+        for store in ([], ["--store", "s.sqlite"], ["--store", "s.sqlite", "--resume"]):
+            page = f"{len(store)}.json"
+            table = self.run_program(*vary, *store, "--json", page, code=None).stdout
+            told = json.loads((self.path / page).read_text())["remarks"]
+            for n in range(3):
+                self.assertEqual(sum(n in r["runs"] for r in told), len(alone[n]))
+            for remark in told:
+                self.assertIn(remark["text"], alone[remark["runs"][0]])
+            self.assertIn(f"  remark, runs 1, 2: {short[1][0]}\n", table)
+            self.assertIn("  remark, all runs: given without effect: ", table)
+
     def test_a_controller_is_designed_for_each_value_or_stays_as_it_was(self):
         """What strays meets the gains of the value as written: bit for bit the run that is given them."""
         (self.path / "b.toml").write_text('motor = "maxon-251601"\nduration_s = 4e-3\n[control]\nmode = "current"\n'

@@ -96,7 +96,8 @@ std::string point_table(const PlanStory& story) {
   const std::string of =
       story.plan.drives > 1 ? fmt::format(", medians of {} drives", story.plan.drives) : "";
   return fmt::format("{}{}\n", visible(story.name), of) + rows.text() + legend(story) +
-         casualties_text(story.series, story.plan) + series_sum(story.series, story.plan);
+         casualties_text(story.series, story.plan) + remarks_text(story.series, story.plan) +
+         series_sum(story.series, story.plan);
 }
 
 std::string part(const analysis::Estimated& e) {

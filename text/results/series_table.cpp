@@ -2,6 +2,7 @@
 #include "text/results/series_table.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -87,6 +88,18 @@ std::string casualties(const std::vector<analysis::Casualty>& which, const char*
                      which[0].number, visible(which[0].problem));
 }
 
+constexpr std::size_t most_numbers = 8;
+
+/// "run 4", "runs 0, 1, 2", "all runs", or how many and the first.
+std::string those(const std::vector<std::size_t>& numbers, const analysis::Series& series,
+                  const analysis::Plan& plan) {
+  const char* one = one_of(plan);
+  if (numbers.size() == series.runs && series.runs > 1) return fmt::format("all {}s", one);
+  if (numbers.size() > most_numbers)
+    return fmt::format("{} {}s, the first of them {}", numbers.size(), one, numbers.front());
+  return fmt::format("{}{} {}", one, numbers.size() > 1 ? "s" : "", fmt::join(numbers, ", "));
+}
+
 /// It may have missed because of the fault.
 bool stopped(std::size_t number, const analysis::Series& series) {
   return std::any_of(series.faults.begin(), series.faults.end(),
@@ -145,6 +158,13 @@ std::string stopped_text(const analysis::Series& series, const analysis::Plan& p
          casualties(series.refused, "could not run", plan);
 }
 
+std::string remarks_text(const analysis::Series& series, const analysis::Plan& plan) {
+  std::string text;
+  for (const analysis::SeriesRemark& r : series.remarks)
+    text += fmt::format("  remark, {}: {}\n", those(r.numbers, series, plan), visible(r.text));
+  return text;
+}
+
 std::string casualties_text(const analysis::Series& series, const analysis::Plan& plan) {
   std::string text = stopped_text(series, plan);
   const analysis::SpreadFigure* const closest = closest_of(series);
@@ -163,7 +183,8 @@ std::string series_table(const std::string& name, const analysis::Series& series
   std::vector<SeriesRow> rows = {
       {name, "required", "min", "5 %", "median", "95 %", "max", "mean", "std. dev.", "holds"}};
   for (const analysis::SpreadFigure& figure : series.figures) rows.push_back(row_of(figure, series.runs));
-  return aligned(std::move(rows)) + casualties_text(series, plan) + series_sum(series, plan);
+  return aligned(std::move(rows)) + casualties_text(series, plan) + remarks_text(series, plan) +
+         series_sum(series, plan);
 }
 
 }  // namespace text

@@ -8,6 +8,25 @@
 #include "sixstep/base/hash.hpp"
 
 namespace sixstep::analysis {
+namespace {
+
+/// The same remark has other numbers in other runs.
+bool differs_in_numbers_alone(const std::string& a, const std::string& b) {
+  const auto words = [](std::string text) {
+    std::erase_if(text, [](char c) { return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+'; });
+    return text;
+  };
+  return a == b || words(a) == words(b);
+}
+
+void add_remark(std::vector<SeriesRemark>& remarks, const std::string& text, std::size_t number) {
+  const auto known = std::ranges::find_if(
+      remarks, [&text](const SeriesRemark& r) { return differs_in_numbers_alone(r.text, text); });
+  if (known == remarks.end()) return void(remarks.push_back({text, {number}}));
+  if (known->numbers.back() != number) known->numbers.push_back(number);
+}
+
+}  // namespace
 
 double margin(const FigureColumn& column, double x) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -43,6 +62,7 @@ void add(Series& series, const RunRecord& record) {
   }
   if (record->end == RunEnd::fault) series.faults.push_back({record->number, record->problem});
   if (record->end == RunEnd::refused) series.refused.push_back({record->number, record->problem});
+  for (const std::string& remark : record->remarks) add_remark(series.remarks, remark, record->number);
   series.passed += all;
   base::Hash hash;
   hash.word(series.digest);

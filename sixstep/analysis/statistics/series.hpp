@@ -32,12 +32,19 @@ struct Casualty {
   std::string problem;
 };
 
+/// A remark that some runs have, perhaps with other numbers in it.
+struct SeriesRemark {
+  std::string text;                  ///< as its first run has it
+  std::vector<std::size_t> numbers;  ///< its runs
+};
+
 struct Series {
   std::size_t runs = 0;               ///< all: ended, stopped by a fault, or could not start
   std::size_t passed = 0;             ///< meet every requirement
   std::vector<SpreadFigure> figures;  ///< a figure each, in the columns' order
   std::vector<Casualty> faults;       ///< stopped by a fault
   std::vector<Casualty> refused;      ///< could not start
+  std::vector<SeriesRemark> remarks;  ///< in the order of their first runs
   std::uint64_t digest = 0;           ///< digest of all runs' digests, in the order of their numbers
 };
 

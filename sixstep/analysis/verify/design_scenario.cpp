@@ -241,9 +241,14 @@ void expect_step(const DriveDesign& design, study::Scenario& s) {
   // The setpoint steps at a period's start; the first sample with it is in the middle of that period.
   const double first_s = design.spec.sampled_in_middle ? design.spec.period_s / 2 : 0.0;
   for (study::Comparison& c : s.compare) {
-    if (c.measure.metric == study::MetricKind::settling_time) c.value = first_s + step.settling_s;
-    if (c.measure.metric == study::MetricKind::overshoot)
+    if (c.measure.metric == study::MetricKind::settling_time) {
+      c.value = first_s + step.settling_s;
+      if (first_s > 0.0) c.source = "designed, and T_s/2 to the first sample, 2 %";
+    }
+    if (c.measure.metric == study::MetricKind::overshoot) {
       c.value = step.overshoot > 1e-9 ? step.overshoot * std::fabs(s.reference.value) : 0.0;
+      if (s.bridge.dead_time_s > 0.0) c.source = "designed, at the samples, without dead time";
+    }
   }
 }
 
