@@ -27,6 +27,7 @@ constexpr Mark marks[] = {{"", "# sixstep "},  // CSV
                           {"", "{\n  \"sixstep\": \""},
                           {"<?xml ", "<testsuites name=\"sixstep "},
                           {"<svg ", "<desc>Made by sixstep "},
+                          {"PK", "generationTool=\"sixstep "},
                           {"<!doctype html>", "<meta name=\"generator\" content=\"sixstep "}};
 
 bool begins_as(const Mark& mark, std::string_view text) {

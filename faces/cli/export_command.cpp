@@ -13,6 +13,7 @@
 #include "faces/cli/settings.hpp"
 #include "faces/cli/stop_signals.hpp"
 #include "faces/cli/terminal.hpp"
+#include "faces/cli/unit_export.hpp"
 #include "files/atomic_file.hpp"
 #include "sixstep/base/plausible.hpp"
 #include "sixstep/study/scenario/choices.hpp"
@@ -226,7 +227,11 @@ Verb declare_export(CLI::App& app) {
   declare_options(*exports.add_subcommand(
                       "header", "gains and scalings as constants for firmware, in C++20, once the run holds"),
                   *a);
-  return {&exports, calling(export_header, a)};
+  const Verb unit = declare_unit_export(exports);
+  const auto header = calling(export_header, a);
+  return {&exports, [header, unit](const std::string& command) {
+            return *unit.app ? unit.call(command) : header(command);
+          }};
 }
 
 }  // namespace cli

@@ -4,7 +4,7 @@
 
 namespace cli {
 
-/// `sixstep export header SCENARIO`: the scenario's drive as constants for firmware.
+/// `sixstep export header SCENARIO`: the scenario's drive as constants for firmware; and `export fmu` (unit_export.hpp).
 Verb declare_export(CLI::App& app);
 
 }  // namespace cli

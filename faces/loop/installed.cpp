@@ -44,4 +44,13 @@ std::string avr_board_program() {
   return name;
 }
 
+std::string unit_binary(int fmi) {
+  const std::string name = "sixstep-fmi" + std::to_string(fmi) + ".so";
+  const fs::path folder = program_folder();
+  if (folder.empty()) return {};
+  for (const fs::path& file : {folder / name, folder.parent_path() / "lib/sixstep" / name})
+    if (::access(file.c_str(), R_OK) == 0) return file.string();
+  return {};
+}
+
 }  // namespace loop

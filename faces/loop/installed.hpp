@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the files that this program needs to run a drive on a core. It searches relative to the program's
+// Finds the files that this program needs to run a drive on a core, or puts into a functional mock-up unit. It searches relative to the program's
 // path, so that an installation can be moved.
 #pragma once
 #include <filesystem>
@@ -13,5 +13,8 @@ std::filesystem::path sources_folder();
 
 /// The ATmega2560's board; only its name if it must be on PATH.
 std::string avr_board_program();
+
+/// The shared object of functional mock-up units of a version of FMI. Empty: this program came without it.
+std::string unit_binary(int fmi);
 
 }  // namespace loop

@@ -24,6 +24,7 @@ WORK = {
     "plan": ["run", SERIES, "--runs", "60", "--jobs", "1", "--csv", "o.csv", "--json", "o.json", "--html", "o.html", "--junit", "o.xml"],
     "design": ["design", "maxon-251601", "--quick", "--jobs", "1", "--json", "o.json", "--toml", "o.toml", "--html", "o.html", "--models", "o.mat"],
     "header": ["export", "header", ONE, "--out", "o.h", "--despite", "a test"],
+    "unit": ["export", "fmu", ONE, "--out", "o.fmu"],
     "curve": ["curve", "maxon-251601", "--points", "9", "--csv", "o.csv", "--json", "o.json", "--html", "o.html"],
 }
 EIO, ENOMEM, EACCES, ENOSPC = 5, 12, 13, 28

@@ -241,6 +241,16 @@ std::string scenario_text(const study::Scenario& scenario, const std::vector<std
   return out + text.text(defaults, "", TableText::Heading::none);
 }
 
+std::string sheet_text(const design::Sheet& sheet) {
+  design::Sheet copy = sheet, usual;
+  copy.back_emf_file.clear();
+  const bool linear = sheet.kind == design::MotorKind::linear;
+  TableText text(linear), defaults(linear);
+  describe(text, copy);
+  describe(defaults, usual);
+  return text.text(defaults, "", TableText::Heading::none);
+}
+
 std::vector<WrittenValue> scenario_values(const study::Scenario& scenario) {
   study::Scenario copy = scenario, usual;
   usual.sheet = usual_sheet(scenario);

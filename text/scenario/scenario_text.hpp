@@ -14,6 +14,9 @@ namespace text {
 /// motor's file (motor_sheet). Each of `comments` becomes a line above it.
 std::string scenario_text(const study::Scenario& scenario, const std::vector<std::string>& comments = {});
 
+/// A motor's file with all values of the sheet; it reads back as the same sheet, and names no other file.
+std::string sheet_text(const design::Sheet& sheet);
+
 /// One key as the file has it.
 struct WrittenValue {
   std::string path;  ///< "pwm.period_s"; in lists "require[0].metric"

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "faces/cli/unit_export.hpp"
+
+#include <fmt/format.h>
+#include <CLI/App.hpp>
+
+#include <filesystem>
+#include <optional>
+
+#include "faces/cli/open_or_report.hpp"
+#include "faces/cli/settings.hpp"
+#include "faces/cli/terminal.hpp"
+#include "faces/cli/unit_sources.hpp"
+#include "faces/loop/installed.hpp"
+#include "files/atomic_file.hpp"
+#include "files/text_file.hpp"
+#include "files/zip_file.hpp"
+#include "text/export/fmi_description.hpp"
+
+namespace cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct UnitArguments {
+  std::string file;  ///< the scenario
+  std::string out, fmi = "2", data_dir, command;
+  std::vector<std::string> sets;
+  bool force = false;
+};
+
+/// A file of sources/, at the path by which the others include it.
+struct UnitSource {
+  std::string path, text;
+};
+
+std::vector<UnitSource> unit_sources_of(int fmi) {
+  namespace embedded = unit_sources;
+  std::vector<UnitSource> own = {
+      {"faces/fmu/drive.c", std::string(embedded::drive_c())},
+      {"faces/fmu/drive_files.c", std::string(embedded::drive_files_c())},
+      {"faces/fmu/drive.h", std::string(embedded::drive_h())},
+      {"faces/c/sixstep.h", std::string(embedded::sixstep_h())},
+      {"sixstep/control/own/own_controller.h", std::string(embedded::own_controller_h())}};
+  const auto add = [&own](const char* name, std::string_view text) {
+    own.push_back({std::string("faces/fmu/") + name, std::string(text)});
+  };
+  if (fmi == 2) {
+    add("fmi2.c", embedded::fmi2_c());
+    add("fmi2_types.h", embedded::fmi2_types_h());
+  } else {
+    add("fmi3.c", embedded::fmi3_c());
+    add("fmi3_none.c", embedded::fmi3_none_c());
+    add("fmi3_instance.h", embedded::fmi3_instance_h());
+    add("fmi3_types.h", embedded::fmi3_types_h());
+  }
+  return own;
+}
+
+/// The shared object of a user's own controller goes into the unit, which then names it by its file's name.
+base::Result<std::optional<files::ZipEntry>> own_controller_of(const UnitArguments& a,
+                                                               study::Scenario& scenario) {
+  std::string& name = scenario.control.own.controller;
+  if (scenario.control.drive != study::FirmwareKind::own || name.empty())
+    return std::optional<files::ZipEntry>();
+  const fs::path path = fs::path(a.file).parent_path() / name;
+  base::Result<std::string> code = files::read_regular_text(path.string());
+  if (!code)
+    return base::Problem{"control.own.controller", path.string(), "cannot be put into the unit",
+                         "keep the controller's file beside the scenario"};
+  name = path.filename().string();
+  return std::optional<files::ZipEntry>(
+      {.name = "resources/" + name, .content = std::move(*code), .executable = true});
+}
+
+base::Result<std::string> unit_binary_of(int fmi) {
+  const std::string path = loop::unit_binary(fmi);
+  if (path.empty())
+    return base::Problem{"--fmi", std::to_string(fmi),
+                         "needs the binary of units, which this program came without",
+                         fmt::format("build the target sixstep_fmi{} beside it, with SIXSTEP_C=ON", fmi)};
+  return files::read_text(path);
+}
+
+struct UnitParts {
+  text::UnitTexts texts;
+  std::string binary;
+  std::optional<files::ZipEntry> controller;
+};
+
+/// modelDescription.xml comes first and unpacked: by its beginning the program knows its own units again.
+std::string archive_of(const UnitParts& parts, int fmi) {
+  const std::string folder = fmi == 2 ? "binaries/linux64/" : "binaries/x86_64-linux/";
+  std::vector<files::ZipEntry> entries = {
+      {.name = "modelDescription.xml", .content = parts.texts.description, .packed = false},
+      {.name = folder + parts.texts.identifier + ".so", .content = parts.binary, .executable = true},
+      {.name = "resources/scenario.toml", .content = parts.texts.scenario},
+      {.name = "resources/motor.toml", .content = parts.texts.motor},
+      {.name = "resources/variables.txt", .content = parts.texts.variables}};
+  if (parts.controller) entries.push_back(*parts.controller);
+  for (const UnitSource& source : unit_sources_of(fmi))
+    entries.push_back({.name = "sources/" + source.path, .content = source.text});
+  if (fmi == 3) entries.push_back({.name = "sources/buildDescription.xml", .content = parts.texts.build});
+  return files::zipped(entries);
+}
+
+base::Result<UnitParts> unit_parts_of(const UnitArguments& a, int fmi) {
+  base::Problems problems;
+  const files::ReadOptions options = read_options(a.data_dir, a.sets, problems);
+  if (!problems.empty()) return problems;
+  base::Result<study::Scenario> scenario = files::read_scenario(a.file, options);
+  if (!scenario) return scenario.problems();
+  base::Result<std::optional<files::ZipEntry>> controller = own_controller_of(a, *scenario);
+  if (!controller) return controller.problems();
+  std::vector<std::string> compiled;
+  for (const UnitSource& source : unit_sources_of(fmi))
+    if (source.path.ends_with(".c")) compiled.push_back(source.path);
+  base::Result<text::UnitTexts> texts =
+      text::unit_texts(*scenario, fs::path(a.file).stem().string(),
+                       fmi == 2 ? text::FmiVersion::fmi2 : text::FmiVersion::fmi3, compiled);
+  if (!texts) return texts.problems();
+  base::Result<std::string> binary = unit_binary_of(fmi);
+  if (!binary) return binary.problems();
+  return UnitParts{std::move(*texts), std::move(*binary), std::move(*controller)};
+}
+
+Exit export_unit(const UnitArguments& a) {
+  if (a.fmi != "2" && a.fmi != "3")
+    return refused({{"--fmi", a.fmi, "is no version of FMI that units are written for", "take 2 or 3"}});
+  const int fmi = a.fmi[0] - '0';
+  const base::Result<UnitParts> parts = unit_parts_of(a, fmi);
+  base::Problems problems = parts ? base::Problems() : parts.problems();
+  std::optional<files::AtomicFile> file;
+  open_or_report(file, files::AtomicFile::create({a.out, a.force}), problems);
+  if (!problems.empty()) return refused(problems);
+  file->write(archive_of(*parts, fmi));
+  if (problems = file->commit(); !problems.empty()) return refused(problems);
+  return Exit::ok;
+}
+
+}  // namespace
+
+Verb declare_unit_export(CLI::App& exports) {
+  CLI::App& unit = *exports.add_subcommand(
+      "fmu", "the drive as a functional mock-up unit for co-simulation, for every program that imports FMI");
+  const auto a = std::make_shared<UnitArguments>();
+  unit.add_option("SCENARIO", a->file, "scenario file")->required();
+  unit.add_option("--out", a->out, "the file to write, such as drive.fmu")->required();
+  take_force(unit, a->force);
+  unit.add_option("--fmi", a->fmi, "version of FMI: 2 or 3")->capture_default_str();
+  take_sets(unit, a->sets);
+  take_data(unit, a->data_dir);
+  return {&unit, calling(export_unit, a)};
+}
+
+}  // namespace cli

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "faces/cli/verb.hpp"
+
+namespace cli {
+
+/// `sixstep export fmu SCENARIO`: the scenario as a functional mock-up unit, for every program that imports FMI.
+Verb declare_unit_export(CLI::App& exports);
+
+}  // namespace cli

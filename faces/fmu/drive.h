@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* A drive as a functional mock-up unit, over sixstep.h only: what FMI 2.0 and 3.0 have in common. fmi2.c and fmi3.c check
+ * the order of calls and translate names. C99.
+ *
+ * Resources of the unit: scenario.toml with its motor, and variables.txt, which lists the variables by reference.
+ * An input that has changed acts at the first control tick at or after the communication point. */
+#ifndef SIXSTEP_FMU_DRIVE_H
+#define SIXSTEP_FMU_DRIVE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "faces/c/sixstep.h"
+
+typedef enum { DRIVE_OK, DRIVE_DISCARD, DRIVE_ERROR } drive_result;
+
+/* Phases of an instance as bits, so that a set of them is a number. */
+typedef enum {
+  DRIVE_INSTANTIATED = 1,
+  DRIVE_INITIALIZATION = 2,
+  DRIVE_STEP_COMPLETE = 4,
+  DRIVE_STEP_FAILED = 8,
+  DRIVE_TERMINATED = 16
+} drive_phase;
+
+/* References of variables: a signal has its index in sixstep.h. */
+enum { DRIVE_SIGNALS = 512, DRIVE_FIRST_INPUT = 1000, DRIVE_INPUTS = 8, DRIVE_DIGEST = 2000 };
+
+enum { DRIVE_MESSAGE = 1024 }; /* room for a message */
+
+typedef enum { DRIVE_NONE, DRIVE_REAL, DRIVE_INTEGER } drive_kind;
+
+typedef struct {
+  char token[64]; /* of modelDescription.xml */
+  drive_kind kinds[DRIVE_SIGNALS];
+  double factors[DRIVE_SIGNALS]; /* unit of sixstep.h to that of the variable */
+  int inputs;
+  char keys[DRIVE_INPUTS][64]; /* of an [[at]]: "load.torque_Nm" */
+  double starts[DRIVE_INPUTS];
+} drive_variables;
+
+/* State of an instance, and a saved one. */
+typedef struct drive_state {
+  drive_phase phase;
+  double start_s; /* the communication point at which the run is at t = 0 */
+  double now_s;   /* the present communication point */
+  double stop_s;  /* NaN: none was named */
+  double wanted[DRIVE_INPUTS], applied[DRIVE_INPUTS];
+  char digest[17];           /* empty until the run is terminated */
+  sixstep_session* session;  /* null until the initialization */
+  struct drive_state* next;  /* saved ones of an instance */
+} drive_state;
+
+/* `log` gets each message; category: "logStatusError", "logStatusDiscard" or "logEvents". */
+typedef struct drive {
+  drive_variables variables;
+  drive_state state;
+  drive_state* saved;
+  char scenario[4096]; /* path */
+  void (*log)(struct drive* self, drive_result status, const char* category, const char* message);
+} drive;
+
+/* Logs "where: ..." and returns DRIVE_ERROR. */
+drive_result drive_fail(drive* self, const char* where, const char* message);
+/* Whether the phase is one of `phases`; else logs an error. */
+int drive_allowed(drive* self, const char* function, unsigned phases);
+
+/* Reads the variables. `location`: folder of the resources as a path or as a URI of scheme file. `token` must be that of
+ * the unit. */
+drive_result drive_read(drive* self, const char* location, const char* token);
+/* Frees sessions and saved states. */
+void drive_clear(drive* self);
+/* As after drive_read(). */
+void drive_reset(drive* self);
+
+drive_result drive_set_up(drive* self, double start_s, int has_stop, double stop_s);
+drive_result drive_initialize(drive* self);
+/* Advances to point + size. DRIVE_DISCARD: the run was over before that; state.now_s says when. */
+drive_result drive_step(drive* self, const char* function, double point, double size);
+drive_result drive_terminate(drive* self);
+
+/* One value by its reference. */
+drive_result drive_get(drive* self, const char* function, unsigned reference, drive_kind kind, double* value);
+drive_result drive_set(drive* self, const char* function, unsigned reference, double value);
+
+/* Saved states belong to the instance; a null `*at` gets a new one. */
+drive_result drive_save(drive* self, const char* function, void** at);
+drive_result drive_restore(drive* self, const char* function, const void* from);
+drive_result drive_forget(drive* self, const char* function, void** at);
+/* Bytes of a saved state; 0: it is none. Writes them if they fit in `room`. */
+size_t drive_bytes(drive* self, const void* of, unsigned char* bytes, size_t room);
+drive_result drive_from_bytes(drive* self, const char* function, const unsigned char* bytes, size_t count, void** at);
+
+/* Values of sixstep_change() and settings, with a point in any locale. */
+void drive_number(char* text, size_t room, double value);
+
+#endif

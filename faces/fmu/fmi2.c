@@ -1,0 +1,322 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* FMI 2.0 for co-simulation. A refused call changes nothing: it logs a message and returns fmi2Error, and the instance goes
+ * on. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "faces/fmu/drive.h"
+#include "faces/fmu/fmi2_types.h"
+
+#define ANY_PHASE                                                                                                       \
+  (DRIVE_INSTANTIATED | DRIVE_INITIALIZATION | DRIVE_STEP_COMPLETE | DRIVE_STEP_FAILED | DRIVE_TERMINATED)
+#define READABLE (DRIVE_INITIALIZATION | DRIVE_STEP_COMPLETE | DRIVE_STEP_FAILED | DRIVE_TERMINATED)
+#define SETTABLE (DRIVE_INSTANTIATED | DRIVE_INITIALIZATION | DRIVE_STEP_COMPLETE)
+
+typedef struct {
+  drive unit; /* first: a drive's log finds its instance */
+  char* name;
+  fmi2CallbackFunctions callbacks;
+  int events;         /* changes of inputs are logged */
+  fmi2Status stepped; /* result of the last step */
+} instance;
+
+static const char* const categories[] = {"logStatusError", "logStatusDiscard", "logEvents"};
+
+/* The importer formats the message, so each percent sign is doubled. */
+static void call_logger(const instance* i, fmi2Status status, const char* category, const char* message) {
+  char text[2 * DRIVE_MESSAGE];
+  size_t out = 0;
+  if (!i->callbacks.logger) return;
+  for (; *message && out + 2 < sizeof text; ++message) {
+    if (*message == '%') text[out++] = '%';
+    text[out++] = *message;
+  }
+  text[out] = '\0';
+  i->callbacks.logger(i->callbacks.componentEnvironment, i->name, status, category, text);
+}
+
+static fmi2Status status_of(drive_result result) {
+  return result == DRIVE_OK ? fmi2OK : result == DRIVE_DISCARD ? fmi2Discard : fmi2Error;
+}
+
+static void log_of(drive* unit, drive_result status, const char* category, const char* message) {
+  const instance* i = (const instance*)(const void*)unit;
+  if (status == DRIVE_OK && !i->events) return;
+  call_logger(i, status_of(status), category, message);
+}
+
+static int may(fmi2Component c, const char* function, unsigned phases) {
+  return c && drive_allowed(&((instance*)c)->unit, function, phases);
+}
+
+static fmi2Status fail(fmi2Component c, const char* function, const char* message) {
+  return status_of(drive_fail(&((instance*)c)->unit, function, message));
+}
+
+const char* FMI2(GetTypesPlatform)(void) { return "default"; }
+const char* FMI2(GetVersion)(void) { return "2.0"; }
+
+static int is_category(const char* name) {
+  size_t n;
+  for (n = 0; name && n < sizeof categories / sizeof *categories; ++n)
+    if (strcmp(categories[n], name) == 0) return 1;
+  return 0;
+}
+
+fmi2Status FMI2(SetDebugLogging)(fmi2Component c, fmi2Boolean on, size_t count, const fmi2String names[]) {
+  instance* i = c;
+  int events = count ? i && i->events : on;
+  size_t n;
+  if (!may(c, "fmi2SetDebugLogging", ANY_PHASE)) return fmi2Error;
+  if (count && !names) return fail(c, "fmi2SetDebugLogging", "the categories are null");
+  for (n = 0; n < count; ++n) {
+    if (!is_category(names[n])) return fail(c, "fmi2SetDebugLogging", "a category is none of modelDescription.xml");
+    if (strcmp(names[n], "logEvents") == 0) events = on;
+  }
+  i->events = events;
+  return fmi2OK;
+}
+
+/* A message about an instance that is not made. */
+static fmi2Component refuse(instance* i, const char* message) {
+  call_logger(i, fmi2Error, "logStatusError", message);
+  free(i->name);
+  free(i);
+  return NULL;
+}
+
+fmi2Component FMI2(Instantiate)(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
+                                const fmi2CallbackFunctions* callbacks, fmi2Boolean visible, fmi2Boolean loggingOn) {
+  instance* i = calloc(1, sizeof *i);
+  (void)visible;
+  if (!i) return NULL;
+  if (callbacks) i->callbacks = *callbacks;
+  i->unit.log = log_of;
+  i->events = loggingOn;
+  if (!(i->name = malloc(name ? strlen(name) + 1 : 1))) {
+    free(i);
+    return NULL;
+  }
+  strcpy(i->name, name ? name : "");
+  if (!name || !*name) return refuse(i, "fmi2Instantiate: the instance needs a name");
+  if (type != fmi2CoSimulation) return refuse(i, "fmi2Instantiate: the unit is for co-simulation only");
+  if (drive_read(&i->unit, resources, guid) != DRIVE_OK) return refuse(i, "fmi2Instantiate: no instance was made");
+  return i;
+}
+
+void FMI2(FreeInstance)(fmi2Component c) {
+  instance* i = c;
+  if (!i) return;
+  drive_clear(&i->unit);
+  free(i->name);
+  free(i);
+}
+
+fmi2Status FMI2(SetupExperiment)(fmi2Component c, fmi2Boolean hasTolerance, fmi2Real tolerance, fmi2Real start,
+                                 fmi2Boolean hasStop, fmi2Real stop) {
+  (void)hasTolerance, (void)tolerance; /* a run is exact */
+  if (!may(c, "fmi2SetupExperiment", DRIVE_INSTANTIATED)) return fmi2Error;
+  return status_of(drive_set_up(&((instance*)c)->unit, start, hasStop, stop));
+}
+
+fmi2Status FMI2(EnterInitializationMode)(fmi2Component c) {
+  if (!may(c, "fmi2EnterInitializationMode", DRIVE_INSTANTIATED)) return fmi2Error;
+  return status_of(drive_initialize(&((instance*)c)->unit));
+}
+
+fmi2Status FMI2(ExitInitializationMode)(fmi2Component c) {
+  if (!may(c, "fmi2ExitInitializationMode", DRIVE_INITIALIZATION)) return fmi2Error;
+  ((instance*)c)->unit.state.phase = DRIVE_STEP_COMPLETE;
+  return fmi2OK;
+}
+
+fmi2Status FMI2(Terminate)(fmi2Component c) {
+  if (!may(c, "fmi2Terminate", DRIVE_STEP_COMPLETE | DRIVE_STEP_FAILED)) return fmi2Error;
+  return status_of(drive_terminate(&((instance*)c)->unit));
+}
+
+fmi2Status FMI2(Reset)(fmi2Component c) {
+  if (!may(c, "fmi2Reset", ANY_PHASE)) return fmi2Error;
+  drive_reset(&((instance*)c)->unit);
+  return fmi2OK;
+}
+
+/* ---- Values ---------------------------------------------------------------------------------------------------------- */
+
+static int has_arrays(fmi2Component c, const char* function, unsigned phases, const void* references, size_t count,
+                      const void* values) {
+  if (!may(c, function, phases)) return 0;
+  if (count == 0 || (references && values)) return 1;
+  fail(c, function, "the references or the values are null");
+  return 0;
+}
+
+fmi2Status FMI2(GetReal)(fmi2Component c, const fmi2ValueReference r[], size_t count, fmi2Real values[]) {
+  size_t n;
+  if (!has_arrays(c, "fmi2GetReal", READABLE, r, count, values)) return fmi2Error;
+  for (n = 0; n < count; ++n)
+    if (drive_get(&((instance*)c)->unit, "fmi2GetReal", r[n], DRIVE_REAL, &values[n]) != DRIVE_OK) return fmi2Error;
+  return fmi2OK;
+}
+
+fmi2Status FMI2(GetInteger)(fmi2Component c, const fmi2ValueReference r[], size_t count, fmi2Integer values[]) {
+  double value = 0.0;
+  size_t n;
+  if (!has_arrays(c, "fmi2GetInteger", READABLE, r, count, values)) return fmi2Error;
+  for (n = 0; n < count; ++n) {
+    if (drive_get(&((instance*)c)->unit, "fmi2GetInteger", r[n], DRIVE_INTEGER, &value) != DRIVE_OK) return fmi2Error;
+    values[n] = fabs(value) < 2147483647.0 ? (fmi2Integer)value : 0; /* NaN too is 0 */
+  }
+  return fmi2OK;
+}
+
+fmi2Status FMI2(GetString)(fmi2Component c, const fmi2ValueReference r[], size_t count, fmi2String values[]) {
+  size_t n;
+  if (!has_arrays(c, "fmi2GetString", READABLE, r, count, values)) return fmi2Error;
+  for (n = 0; n < count; ++n) {
+    if (r[n] != DRIVE_DIGEST) return fail(c, "fmi2GetString", "there is no string with this reference");
+    values[n] = ((instance*)c)->unit.state.digest;
+  }
+  return fmi2OK;
+}
+
+fmi2Status FMI2(SetReal)(fmi2Component c, const fmi2ValueReference r[], size_t count, const fmi2Real values[]) {
+  size_t n;
+  if (!has_arrays(c, "fmi2SetReal", SETTABLE, r, count, values)) return fmi2Error;
+  for (n = 0; n < count; ++n)
+    if (drive_set(&((instance*)c)->unit, "fmi2SetReal", r[n], values[n]) != DRIVE_OK) return fmi2Error;
+  return fmi2OK;
+}
+
+/* No variable has these types, or none of them can be set. */
+static fmi2Status none(fmi2Component c, const char* function, unsigned phases, size_t count) {
+  if (!may(c, function, phases)) return fmi2Error;
+  return count == 0 ? fmi2OK : fail(c, function, "the unit has no such variable");
+}
+
+fmi2Status FMI2(GetBoolean)(fmi2Component c, const fmi2ValueReference r[], size_t count, fmi2Boolean values[]) {
+  (void)r, (void)values;
+  return none(c, "fmi2GetBoolean", READABLE, count);
+}
+fmi2Status FMI2(SetInteger)(fmi2Component c, const fmi2ValueReference r[], size_t count, const fmi2Integer values[]) {
+  (void)r, (void)values;
+  return none(c, "fmi2SetInteger", SETTABLE, count);
+}
+fmi2Status FMI2(SetBoolean)(fmi2Component c, const fmi2ValueReference r[], size_t count, const fmi2Boolean values[]) {
+  (void)r, (void)values;
+  return none(c, "fmi2SetBoolean", SETTABLE, count);
+}
+fmi2Status FMI2(SetString)(fmi2Component c, const fmi2ValueReference r[], size_t count, const fmi2String values[]) {
+  (void)r, (void)values;
+  return none(c, "fmi2SetString", SETTABLE, count);
+}
+
+/* ---- State ----------------------------------------------------------------------------------------------------------- */
+
+fmi2Status FMI2(GetFMUstate)(fmi2Component c, fmi2FMUstate* state) {
+  if (!may(c, "fmi2GetFMUstate", ANY_PHASE)) return fmi2Error;
+  return status_of(drive_save(&((instance*)c)->unit, "fmi2GetFMUstate", state));
+}
+fmi2Status FMI2(SetFMUstate)(fmi2Component c, fmi2FMUstate state) {
+  if (!may(c, "fmi2SetFMUstate", ANY_PHASE)) return fmi2Error;
+  return status_of(drive_restore(&((instance*)c)->unit, "fmi2SetFMUstate", state));
+}
+fmi2Status FMI2(FreeFMUstate)(fmi2Component c, fmi2FMUstate* state) {
+  if (!may(c, "fmi2FreeFMUstate", ANY_PHASE)) return fmi2Error;
+  return status_of(drive_forget(&((instance*)c)->unit, "fmi2FreeFMUstate", state));
+}
+
+fmi2Status FMI2(SerializedFMUstateSize)(fmi2Component c, fmi2FMUstate state, size_t* size) {
+  size_t bytes;
+  if (!may(c, "fmi2SerializedFMUstateSize", ANY_PHASE)) return fmi2Error;
+  if (!size) return fail(c, "fmi2SerializedFMUstateSize", "the place for the size is null");
+  bytes = drive_bytes(&((instance*)c)->unit, state, NULL, 0);
+  if (!bytes) return fail(c, "fmi2SerializedFMUstateSize", "the state is not one of this instance");
+  *size = bytes;
+  return fmi2OK;
+}
+fmi2Status FMI2(SerializeFMUstate)(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[], size_t room) {
+  size_t size;
+  if (!may(c, "fmi2SerializeFMUstate", ANY_PHASE)) return fmi2Error;
+  size = drive_bytes(&((instance*)c)->unit, state, (unsigned char*)bytes, room);
+  if (!size) return fail(c, "fmi2SerializeFMUstate", "the state is not one of this instance");
+  return bytes && size <= room ? fmi2OK : fail(c, "fmi2SerializeFMUstate", "the room is smaller than the state");
+}
+fmi2Status FMI2(DeSerializeFMUstate)(fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate* state) {
+  if (!may(c, "fmi2DeSerializeFMUstate", ANY_PHASE)) return fmi2Error;
+  return status_of(drive_from_bytes(&((instance*)c)->unit, "fmi2DeSerializeFMUstate", (const unsigned char*)bytes, size, state));
+}
+
+/* ---- Steps ----------------------------------------------------------------------------------------------------------- */
+
+fmi2Status FMI2(DoStep)(fmi2Component c, fmi2Real point, fmi2Real size, fmi2Boolean noStateBefore) {
+  instance* i = c;
+  (void)noStateBefore;
+  if (!may(c, "fmi2DoStep", DRIVE_STEP_COMPLETE)) return fmi2Error;
+  return i->stepped = status_of(drive_step(&i->unit, "fmi2DoStep", point, size));
+}
+
+fmi2Status FMI2(CancelStep)(fmi2Component c) {
+  return c ? fail(c, "fmi2CancelStep", "no step is pending: each ends before fmi2DoStep returns") : fmi2Error;
+}
+
+static int has_status(fmi2Component c, const char* function, const void* value) {
+  if (!may(c, function, DRIVE_STEP_COMPLETE | DRIVE_STEP_FAILED | DRIVE_TERMINATED)) return 0;
+  if (!value) fail(c, function, "the place for the value is null");
+  return value != NULL;
+}
+
+/* The standard's answer to a status that a unit does not have. */
+static fmi2Status no_status(fmi2Component c, const char* message) {
+  call_logger(c, fmi2Discard, "logStatusDiscard", message);
+  return fmi2Discard;
+}
+
+fmi2Status FMI2(GetStatus)(fmi2Component c, fmi2StatusKind kind, fmi2Status* value) {
+  if (!has_status(c, "fmi2GetStatus", value)) return fmi2Error;
+  if (kind != fmi2DoStepStatus) return no_status(c, "fmi2GetStatus: has fmi2DoStepStatus only");
+  *value = ((instance*)c)->stepped;
+  return fmi2OK;
+}
+fmi2Status FMI2(GetRealStatus)(fmi2Component c, fmi2StatusKind kind, fmi2Real* value) {
+  if (!has_status(c, "fmi2GetRealStatus", value)) return fmi2Error;
+  if (kind != fmi2LastSuccessfulTime) return no_status(c, "fmi2GetRealStatus: has fmi2LastSuccessfulTime only");
+  *value = ((instance*)c)->unit.state.now_s;
+  return fmi2OK;
+}
+fmi2Status FMI2(GetIntegerStatus)(fmi2Component c, fmi2StatusKind kind, fmi2Integer* value) {
+  (void)kind;
+  return has_status(c, "fmi2GetIntegerStatus", value) ? no_status(c, "fmi2GetIntegerStatus: there is none") : fmi2Error;
+}
+fmi2Status FMI2(GetBooleanStatus)(fmi2Component c, fmi2StatusKind kind, fmi2Boolean* value) {
+  if (!has_status(c, "fmi2GetBooleanStatus", value)) return fmi2Error;
+  if (kind != fmi2Terminated) return no_status(c, "fmi2GetBooleanStatus: has fmi2Terminated only");
+  *value = ((instance*)c)->unit.state.phase == DRIVE_STEP_FAILED;
+  return fmi2OK;
+}
+fmi2Status FMI2(GetStringStatus)(fmi2Component c, fmi2StatusKind kind, fmi2String* value) {
+  if (!has_status(c, "fmi2GetStringStatus", value)) return fmi2Error;
+  if (kind != fmi2PendingStatus) return no_status(c, "fmi2GetStringStatus: has fmi2PendingStatus only");
+  *value = "";
+  return fmi2OK;
+}
+
+/* ---- Not offered: modelDescription.xml says so ----------------------------------------------------------------------- */
+
+fmi2Status FMI2(GetDirectionalDerivative)(fmi2Component c, const fmi2ValueReference unknown[], size_t unknowns,
+                                          const fmi2ValueReference known[], size_t knowns, const fmi2Real in[],
+                                          fmi2Real out[]) {
+  (void)unknown, (void)unknowns, (void)known, (void)knowns, (void)in, (void)out;
+  return c ? fail(c, "fmi2GetDirectionalDerivative", "the unit gives no derivatives") : fmi2Error;
+}
+fmi2Status FMI2(SetRealInputDerivatives)(fmi2Component c, const fmi2ValueReference r[], size_t count,
+                                         const fmi2Integer orders[], const fmi2Real values[]) {
+  (void)r, (void)count, (void)orders, (void)values;
+  return c ? fail(c, "fmi2SetRealInputDerivatives", "inputs are constant between communication points") : fmi2Error;
+}
+fmi2Status FMI2(GetRealOutputDerivatives)(fmi2Component c, const fmi2ValueReference r[], size_t count,
+                                          const fmi2Integer orders[], fmi2Real values[]) {
+  (void)r, (void)count, (void)orders, (void)values;
+  return c ? fail(c, "fmi2GetRealOutputDerivatives", "the unit gives no derivatives") : fmi2Error;
+}

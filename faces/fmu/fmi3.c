@@ -1,0 +1,201 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* FMI 3.0 for co-simulation, without event mode. A refused call changes nothing: it logs a message and returns fmi3Error,
+ * and the instance goes on. fmi3_none.c has the functions that such a unit exports and cannot offer. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "faces/fmu/fmi3_instance.h"
+
+typedef struct {
+  drive unit; /* first: a drive's log finds its instance */
+  fmi3LogMessageCallback log;
+  fmi3InstanceEnvironment environment;
+  int events; /* changes of inputs are logged */
+} instance;
+
+static const char* const categories[] = {"logStatusError", "logStatusDiscard", "logEvents"};
+
+static void log_of(drive* unit, drive_result status, const char* category, const char* message) {
+  const instance* i = (const instance*)(const void*)unit;
+  if (!i->log || (status == DRIVE_OK && !i->events)) return;
+  i->log(i->environment, fmi3_status(status), category, message);
+}
+
+FMI3_EXPORT const char* FMI3(GetVersion)(void);
+const char* FMI3(GetVersion)(void) { return "3.0"; }
+
+static int is_category(const char* name) {
+  size_t n;
+  for (n = 0; name && n < sizeof categories / sizeof *categories; ++n)
+    if (strcmp(categories[n], name) == 0) return 1;
+  return 0;
+}
+
+FMI3_FUNCTION(SetDebugLogging, (fmi3Instance c, fmi3Boolean on, size_t count, const fmi3String names[])) {
+  instance* i = c;
+  int events = count ? i && i->events : on;
+  size_t n;
+  if (!fmi3_may(c, "fmi3SetDebugLogging", ANY_PHASE)) return fmi3Error;
+  if (count && !names) return fmi3_fail(c, "fmi3SetDebugLogging", "the categories are null");
+  for (n = 0; n < count; ++n) {
+    if (!is_category(names[n])) return fmi3_fail(c, "fmi3SetDebugLogging", "a category is none of modelDescription.xml");
+    if (strcmp(names[n], "logEvents") == 0) events = on;
+  }
+  i->events = events;
+  return fmi3OK;
+}
+
+FMI3_EXPORT fmi3Instance FMI3(InstantiateCoSimulation)(fmi3String, fmi3String, fmi3String, fmi3Boolean, fmi3Boolean,
+                                                       fmi3Boolean, fmi3Boolean, const fmi3ValueReference[], size_t,
+                                                       fmi3InstanceEnvironment, fmi3LogMessageCallback,
+                                                       fmi3IntermediateUpdateCallback);
+fmi3Instance FMI3(InstantiateCoSimulation)(fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible,
+                                           fmi3Boolean loggingOn, fmi3Boolean eventModeUsed, fmi3Boolean earlyReturnAllowed,
+                                           const fmi3ValueReference intermediate[], size_t intermediates,
+                                           fmi3InstanceEnvironment environment, fmi3LogMessageCallback log,
+                                           fmi3IntermediateUpdateCallback update) {
+  instance* i = calloc(1, sizeof *i);
+  const char* refused = NULL;
+  (void)visible, (void)earlyReturnAllowed, (void)intermediate, (void)update;
+  if (!i) return NULL;
+  i->unit.log = log_of;
+  i->log = log;
+  i->environment = environment;
+  i->events = loggingOn;
+  if (!name || !*name) refused = "the instance needs a name";
+  if (eventModeUsed) refused = "the unit has no event mode";
+  if (intermediates) refused = "the unit has no intermediate variables";
+  if (refused) drive_fail(&i->unit, "fmi3InstantiateCoSimulation", refused);
+  if (refused || drive_read(&i->unit, resources, token) != DRIVE_OK) {
+    free(i);
+    return NULL;
+  }
+  return i;
+}
+
+FMI3_EXPORT void FMI3(FreeInstance)(fmi3Instance);
+void FMI3(FreeInstance)(fmi3Instance c) {
+  if (c) drive_clear(&((instance*)c)->unit);
+  free(c);
+}
+
+FMI3_FUNCTION(EnterInitializationMode, (fmi3Instance c, fmi3Boolean hasTolerance, fmi3Float64 tolerance, fmi3Float64 start,
+                                        fmi3Boolean hasStop, fmi3Float64 stop)) {
+  (void)hasTolerance, (void)tolerance; /* a run is exact */
+  if (!fmi3_may(c, "fmi3EnterInitializationMode", DRIVE_INSTANTIATED)) return fmi3Error;
+  if (drive_set_up(c, start, hasStop, stop) != DRIVE_OK) return fmi3Error;
+  return fmi3_status(drive_initialize(c));
+}
+FMI3_FUNCTION(ExitInitializationMode, (fmi3Instance c)) {
+  if (!fmi3_may(c, "fmi3ExitInitializationMode", DRIVE_INITIALIZATION)) return fmi3Error;
+  ((instance*)c)->unit.state.phase = DRIVE_STEP_COMPLETE;
+  return fmi3OK;
+}
+FMI3_FUNCTION(Terminate, (fmi3Instance c)) {
+  if (!fmi3_may(c, "fmi3Terminate", DRIVE_STEP_COMPLETE | DRIVE_STEP_FAILED)) return fmi3Error;
+  return fmi3_status(drive_terminate(c));
+}
+FMI3_FUNCTION(Reset, (fmi3Instance c)) {
+  if (!fmi3_may(c, "fmi3Reset", ANY_PHASE)) return fmi3Error;
+  drive_reset(c);
+  return fmi3OK;
+}
+
+/* ---- Values ---------------------------------------------------------------------------------------------------------- */
+
+/* Every variable is a scalar: as many values as references. */
+static int has_arrays(fmi3Instance c, const char* function, unsigned phases, const void* references, size_t count,
+                      const void* values, size_t room) {
+  if (!fmi3_may(c, function, phases)) return 0;
+  if (count == room && (count == 0 || (references && values))) return 1;
+  fmi3_fail(c, function, count == room ? "the references or the values are null" : "needs as many values as references");
+  return 0;
+}
+
+FMI3_FUNCTION(GetFloat64, (fmi3Instance c, const fmi3ValueReference r[], size_t count, fmi3Float64 values[], size_t room)) {
+  size_t n;
+  if (!has_arrays(c, "fmi3GetFloat64", READABLE, r, count, values, room)) return fmi3Error;
+  for (n = 0; n < count; ++n)
+    if (drive_get(c, "fmi3GetFloat64", r[n], DRIVE_REAL, &values[n]) != DRIVE_OK) return fmi3Error;
+  return fmi3OK;
+}
+FMI3_FUNCTION(GetInt32, (fmi3Instance c, const fmi3ValueReference r[], size_t count, fmi3Int32 values[], size_t room)) {
+  double value = 0.0;
+  size_t n;
+  if (!has_arrays(c, "fmi3GetInt32", READABLE, r, count, values, room)) return fmi3Error;
+  for (n = 0; n < count; ++n) {
+    if (drive_get(c, "fmi3GetInt32", r[n], DRIVE_INTEGER, &value) != DRIVE_OK) return fmi3Error;
+    values[n] = fabs(value) < 2147483647.0 ? (fmi3Int32)value : 0; /* NaN too is 0 */
+  }
+  return fmi3OK;
+}
+FMI3_FUNCTION(GetString, (fmi3Instance c, const fmi3ValueReference r[], size_t count, fmi3String values[], size_t room)) {
+  size_t n;
+  if (!has_arrays(c, "fmi3GetString", READABLE, r, count, values, room)) return fmi3Error;
+  for (n = 0; n < count; ++n) {
+    if (r[n] != DRIVE_DIGEST) return fmi3_fail(c, "fmi3GetString", "there is no string with this reference");
+    values[n] = ((instance*)c)->unit.state.digest;
+  }
+  return fmi3OK;
+}
+FMI3_FUNCTION(SetFloat64,
+              (fmi3Instance c, const fmi3ValueReference r[], size_t count, const fmi3Float64 values[], size_t room)) {
+  size_t n;
+  if (!has_arrays(c, "fmi3SetFloat64", SETTABLE, r, count, values, room)) return fmi3Error;
+  for (n = 0; n < count; ++n)
+    if (drive_set(c, "fmi3SetFloat64", r[n], values[n]) != DRIVE_OK) return fmi3Error;
+  return fmi3OK;
+}
+
+/* ---- State ----------------------------------------------------------------------------------------------------------- */
+
+FMI3_FUNCTION(GetFMUState, (fmi3Instance c, fmi3FMUState* state)) {
+  if (!fmi3_may(c, "fmi3GetFMUState", ANY_PHASE)) return fmi3Error;
+  return fmi3_status(drive_save(c, "fmi3GetFMUState", state));
+}
+FMI3_FUNCTION(SetFMUState, (fmi3Instance c, fmi3FMUState state)) {
+  if (!fmi3_may(c, "fmi3SetFMUState", ANY_PHASE)) return fmi3Error;
+  return fmi3_status(drive_restore(c, "fmi3SetFMUState", state));
+}
+FMI3_FUNCTION(FreeFMUState, (fmi3Instance c, fmi3FMUState* state)) {
+  if (!fmi3_may(c, "fmi3FreeFMUState", ANY_PHASE)) return fmi3Error;
+  return fmi3_status(drive_forget(c, "fmi3FreeFMUState", state));
+}
+FMI3_FUNCTION(SerializedFMUStateSize, (fmi3Instance c, fmi3FMUState state, size_t* size)) {
+  size_t bytes;
+  if (!fmi3_may(c, "fmi3SerializedFMUStateSize", ANY_PHASE)) return fmi3Error;
+  if (!size) return fmi3_fail(c, "fmi3SerializedFMUStateSize", "the place for the size is null");
+  bytes = drive_bytes(c, state, NULL, 0);
+  if (!bytes) return fmi3_fail(c, "fmi3SerializedFMUStateSize", "the state is not one of this instance");
+  *size = bytes;
+  return fmi3OK;
+}
+FMI3_FUNCTION(SerializeFMUState, (fmi3Instance c, fmi3FMUState state, fmi3Byte bytes[], size_t room)) {
+  size_t size;
+  if (!fmi3_may(c, "fmi3SerializeFMUState", ANY_PHASE)) return fmi3Error;
+  size = drive_bytes(c, state, bytes, room);
+  if (!size) return fmi3_fail(c, "fmi3SerializeFMUState", "the state is not one of this instance");
+  return bytes && size <= room ? fmi3OK : fmi3_fail(c, "fmi3SerializeFMUState", "the room is smaller than the state");
+}
+FMI3_FUNCTION(DeserializeFMUState, (fmi3Instance c, const fmi3Byte bytes[], size_t size, fmi3FMUState* state)) {
+  if (!fmi3_may(c, "fmi3DeserializeFMUState", ANY_PHASE)) return fmi3Error;
+  return fmi3_status(drive_from_bytes(c, "fmi3DeserializeFMUState", bytes, size, state));
+}
+
+/* ---- Steps ----------------------------------------------------------------------------------------------------------- */
+
+FMI3_FUNCTION(DoStep, (fmi3Instance c, fmi3Float64 point, fmi3Float64 size, fmi3Boolean noStateBefore,
+                       fmi3Boolean* eventHandlingNeeded, fmi3Boolean* terminateSimulation, fmi3Boolean* earlyReturn,
+                       fmi3Float64* lastSuccessfulTime)) {
+  drive_result result;
+  (void)noStateBefore;
+  if (!fmi3_may(c, "fmi3DoStep", DRIVE_STEP_COMPLETE)) return fmi3Error;
+  if (!eventHandlingNeeded || !terminateSimulation || !earlyReturn || !lastSuccessfulTime)
+    return fmi3_fail(c, "fmi3DoStep", "a place for a result is null");
+  result = drive_step(c, "fmi3DoStep", point, size);
+  *eventHandlingNeeded = *earlyReturn = false;
+  *terminateSimulation = result == DRIVE_DISCARD;
+  *lastSuccessfulTime = ((instance*)c)->unit.state.now_s;
+  return fmi3_status(result);
+}

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#ifndef SIXSTEP_FMI3_INSTANCE_H
+#define SIXSTEP_FMI3_INSTANCE_H
+
+#include "faces/fmu/drive.h"
+#include "faces/fmu/fmi3_types.h"
+
+#define ANY_PHASE \
+  (DRIVE_INSTANTIATED | DRIVE_INITIALIZATION | DRIVE_STEP_COMPLETE | DRIVE_STEP_FAILED | DRIVE_TERMINATED)
+#define READABLE (DRIVE_INITIALIZATION | DRIVE_STEP_COMPLETE | DRIVE_STEP_FAILED | DRIVE_TERMINATED)
+#define SETTABLE (DRIVE_INSTANTIATED | DRIVE_INITIALIZATION | DRIVE_STEP_COMPLETE)
+
+/* Whether the call is allowed in these phases; else false, with a message. A null instance has no logger. */
+static inline int fmi3_may(fmi3Instance c, const char* function, unsigned phases) {
+  return c && drive_allowed((drive*)c, function, phases);
+}
+static inline fmi3Status fmi3_status(drive_result result) {
+  return result == DRIVE_OK ? fmi3OK : result == DRIVE_DISCARD ? fmi3Discard : fmi3Error;
+}
+static inline fmi3Status fmi3_fail(fmi3Instance c, const char* function, const char* message) {
+  return c ? fmi3_status(drive_fail((drive*)c, function, message)) : fmi3Error;
+}
+
+#endif

@@ -1,0 +1,460 @@
+# SPDX-License-Identifier: Apache-2.0
+"""sixstep export fmu: units of FMI 2.0, driven by an importer of our own. Bits are those of the program, and no call crashes.
+   fmi2_test.py PROGRAM SOURCE LIBRARY [--long]"""
+import concurrent.futures
+import ctypes as C
+import functools
+import json
+import math
+import pathlib
+import random
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+LONG = "--long" in sys.argv and not sys.argv.remove("--long")
+PROGRAM, SOURCE, LIBRARY = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(3))
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import fmi2_importer as fmi  # noqa: E402
+
+FILES = sorted([*(SOURCE / "data/scenarios/thesis").glob("*.toml"), *(SOURCE / "data/scenarios/gallery").glob("*.toml")])
+CURRENT = SOURCE / "data/scenarios/thesis/8b-exact-design.toml"
+SPEED = SOURCE / "data/scenarios/thesis/7.5-position.toml"
+WORK = tempfile.TemporaryDirectory()
+FOLDER = pathlib.Path(WORK.name)
+PLAIN = FOLDER / "plain.toml"
+PLAIN.write_text('motor = "maxon-251601"\nduration_s = 0.01\npwm.period_s = 50e-6\ncontrol.mode = "current"\n'
+                 'control.current = { settle_s = 0.001, damping = 0.9 }\nreference.value = 1.0\n')
+
+
+def sixstep(*words, code=0):
+    done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, timeout=120)
+    assert code is None or done.returncode == code, done.stderr
+    return done
+
+
+@functools.lru_cache(None)
+def ran(file, *words):
+    done = sixstep("run", file, "--json", "-", *words, code=None)
+    return json.loads(done.stdout) if done.returncode in (0, 1, 3) else None
+
+
+@functools.lru_cache(None)
+def exported(file, *words, name=None):
+    out = FOLDER / f"{name or file.stem}.fmu"
+    sixstep("export", "fmu", file, "--out", out, "--force", *words)
+    return fmi.Unit(out)
+
+
+class Bits(unittest.TestCase):
+    def test_steps_of_any_length_have_the_digest_of_the_program(self):
+        short, compared, draw = ("--set", "duration_s=3e-3"), 0, random.Random(39)
+        for file in FILES[::3]:
+            told = ran(file, *short)
+            if told is None or compared == 12:
+                continue
+            unit = exported(file, *short)
+            for step in (1e-3, 37e-6, 10e-6, lambda: draw.uniform(1e-7, 3e-4)):
+                with self.subTest(f"{file.stem} {step}"):
+                    instance = fmi.Instance(unit).begin()
+                    instance.run(step, 3e-3)
+                    self.assertEqual(instance.digest(), told["digest"])
+            compared += 1
+        self.assertEqual(compared, 12)
+
+    def test_outputs_are_the_rows_of_the_run(self):
+        unit = exported(CURRENT)
+        csv = FOLDER / "rows.csv"
+        sixstep("run", CURRENT, "--csv", csv, "--set", "record.grid_s=1e-4", "--quiet")
+        lines = [line for line in csv.read_text().splitlines() if not line.startswith("#")]
+        heads = lines[0].split(",")
+        instance, now, compared = fmi.Instance(unit).begin(), 0.0, 0
+        for line in lines[2:60]:
+            row = dict(zip(heads, line.split(",")))
+            if float(row["t_s"]) <= now:
+                continue
+            self.assertEqual(instance.step(now, float(row["t_s"]) - now), fmi.OK)
+            now = float(row["t_s"])
+            for name in ("i_a_A", "speed_rad_s", "bus_V", "angle_rad"):
+                self.assertAlmostEqual(instance.get(name), float(row[name]), delta=1e-9 * (1 + abs(float(row[name]))))
+            compared += 1
+        self.assertGreater(compared, 20)
+
+    def test_a_changed_input_is_an_at_of_the_scenario(self):
+        """At communication points of 1 ms, with steps of any length between them."""
+        unit, digests, logged = exported(CURRENT), set(), None
+        for step in (1e-3, 1e-4, 37e-6):
+            instance = fmi.Instance(unit, logging=True).begin()
+            now = 0.0
+            for n, (name, value) in enumerate((("supply_voltage", 20.0), ("load_torque", 0.01), ("supply_voltage", 22.5)), 2):
+                now = instance.run(step, n * 1e-3, now)
+                self.assertEqual(instance.put(name, value), fmi.OK)
+                self.assertEqual(instance.get(name), value)
+            instance.run(step, unit.stop(), now)
+            digests.add(instance.digest())
+            logged = [m[2] for m in instance.messages if m[1] == "logEvents"]
+        self.assertEqual(len(digests), 1)
+        at = "".join(f"\n[[at]]\ntime_s = {m[0]}\n{m[1]}\n" for m in (re.search(r"at (\S+) s of the run: (.*)", text).groups() for text in logged))
+        self.assertEqual(at.count("[[at]]"), 3)
+        (FOLDER / "changed.toml").write_text(CURRENT.read_text() + at)
+        self.assertEqual({ran(FOLDER / "changed.toml")["digest"]}, digests)
+
+    def test_an_input_that_is_set_to_its_own_value_changes_nothing(self):
+        unit = exported(CURRENT)
+        start = {name: float(v[0].get("start")) for name, v in unit.variables.items() if v.get("causality") == "input"}
+        self.assertEqual(sorted(start), ["load_torque", "reference", "supply_voltage"])
+        instance, now = fmi.Instance(unit).begin(), 0.0
+        while now < unit.stop():
+            for name, value in start.items():
+                self.assertEqual(instance.put(name, value), fmi.OK)
+            now = instance.run(1e-4, min(unit.stop(), now + 1e-4), now)
+        self.assertEqual(instance.digest(), ran(CURRENT)["digest"])
+
+    def test_a_unit_ends_early_at_a_tick_and_later_if_it_is_asked_to(self):
+        unit = exported(PLAIN)
+        short = fmi.Instance(unit).begin()
+        short.run(1e-4, 4.02e-3)
+        period = float(unit.description.find("DefaultExperiment").get("stepSize"))
+        self.assertEqual(short.digest(), ran(PLAIN, "--set", f"duration_s={math.ceil(4.02e-3 / period) * period!r}")["digest"])
+        longer = fmi.Instance(unit).begin(stop=unit.stop() + 2e-3)
+        longer.run(1e-3, unit.stop() + 2e-3)
+        self.assertEqual(longer.digest(), ran(PLAIN, "--set", f"duration_s={unit.stop() + 2e-3!r}")["digest"])
+        shifted = fmi.Instance(unit).begin(start=5.0)
+        shifted.run(1e-3, 5.0 + unit.stop(), 5.0)
+        self.assertEqual(shifted.digest(), ran(PLAIN)["digest"])
+
+    def test_past_its_end_a_step_is_discarded(self):
+        unit = exported(CURRENT)
+        instance = fmi.Instance(unit).begin()
+        self.assertEqual(instance.step(0, 2 * unit.stop()), fmi.DISCARD)
+        self.assertEqual(instance.messages[-1][:2], (fmi.DISCARD, "logStatusDiscard"))
+        last, over, status = C.c_double(), C.c_int(), C.c_int()
+        self.assertEqual(instance.call("GetRealStatus", fmi.LAST_TIME, C.byref(last)), fmi.OK)
+        self.assertEqual(instance.call("GetBooleanStatus", fmi.TERMINATED, C.byref(over)), fmi.OK)
+        self.assertEqual(instance.call("GetStatus", fmi.DO_STEP, C.byref(status)), fmi.OK)
+        self.assertAlmostEqual(last.value, unit.stop(), delta=1e-12)
+        self.assertEqual((over.value, status.value), (1, fmi.DISCARD))
+        self.assertEqual(instance.step(last.value, 1e-4), fmi.ERROR)
+        self.assertEqual(instance.digest(), ran(CURRENT)["digest"])
+
+    def test_hundred_thousand_steps_have_the_digest_of_the_program(self):
+        steps = 10**6 if LONG else 10**5
+        unit = exported(CURRENT)
+        instance, size = fmi.Instance(unit).begin(), unit.stop() / steps
+        step, c = unit.library.fmi2DoStep, instance.c
+        for n in range(steps):
+            assert step(c, n * size, size, 1) == fmi.OK, instance.messages
+        self.assertEqual(instance.digest(), ran(CURRENT)["digest"])
+
+
+class Instances(unittest.TestCase):
+    def test_two_at_once_are_independent(self):
+        unit = exported(CURRENT)
+        one, other = fmi.Instance(unit).begin(), fmi.Instance(unit).begin()
+        other.put("supply_voltage", 20.0)
+        at = [0.0, 0.0]
+        while min(at) < unit.stop():
+            at[0] = one.run(1e-4, min(unit.stop(), at[0] + 1e-4), at[0])
+            at[1] = other.run(7e-5, min(unit.stop(), at[1] + 7e-5), at[1])
+        self.assertEqual(one.digest(), ran(CURRENT)["digest"])
+        self.assertNotEqual(other.digest(), ran(CURRENT)["digest"])
+
+    def test_threads_share_nothing(self):
+        unit = exported(CURRENT)
+
+        def whole(_):
+            instance = fmi.Instance(unit).begin()
+            instance.run(1e-4, unit.stop())
+            return instance.digest()
+
+        with concurrent.futures.ThreadPoolExecutor(4) as pool:
+            self.assertEqual(set(pool.map(whole, range(8))), {ran(CURRENT)["digest"]})
+
+    def test_reset_begins_again(self):
+        unit = exported(CURRENT)
+        instance = fmi.Instance(unit).begin()
+        instance.put("load_torque", 0.05)
+        instance.run(1e-3, 5e-3)
+        for _ in range(2):
+            self.assertEqual(instance.call("Reset"), fmi.OK)
+            instance.begin().run(1e-3, unit.stop())
+            self.assertEqual(instance.digest(), ran(CURRENT)["digest"])
+
+
+class State(unittest.TestCase):
+    def test_a_state_is_gone_back_to(self):
+        unit = exported(CURRENT)
+        instance, state = fmi.Instance(unit).begin(), C.c_void_p()
+        now = instance.run(1e-4, 4.35e-3)
+        self.assertEqual(instance.call("GetFMUstate", C.byref(state)), fmi.OK)
+        seen = []
+        for _ in range(3):
+            instance.put("load_torque", 0.02)
+            instance.run(1e-4, 8e-3, now)
+            seen.append((instance.get("i_a_A"), instance.get("speed_rad_s")))
+            self.assertEqual(instance.call("SetFMUstate", state), fmi.OK)
+        self.assertEqual(len(set(seen)), 1)
+        instance.run(1e-4, unit.stop(), now)
+        self.assertEqual(instance.digest(), ran(CURRENT)["digest"])
+        self.assertEqual(instance.call("SetFMUstate", state), fmi.OK, "also after the end")
+        self.assertEqual(instance.get("digest"), b"")
+
+    def test_a_state_goes_to_another_process_and_folder(self):
+        unit = exported(CURRENT)
+        instance = fmi.Instance(unit).begin()
+        now = instance.run(1e-4, 3e-3)
+        instance.put("supply_voltage", 21.0)
+        now = instance.run(1e-4, 4e-3, now)
+        (FOLDER / "state").write_bytes(instance.saved())
+        program = ("import sys; sys.path.insert(0, sys.argv[1]); import fmi2_importer as fmi\n"
+                   "unit = fmi.Unit(sys.argv[2]); i = fmi.Instance(unit); assert i.load(open(sys.argv[3], 'rb').read()) == fmi.OK, i.messages\n"
+                   "assert i.get('supply_voltage') == 21.0; i.run(7e-5, unit.stop(), 4e-3); print(i.digest())")
+        there = subprocess.run([sys.executable, "-c", program, pathlib.Path(__file__).parent, FOLDER / f"{CURRENT.stem}.fmu", FOLDER / "state"],
+                               capture_output=True, text=True, timeout=60)
+        instance.run(1e-4, unit.stop(), now)
+        self.assertEqual(there.stdout.strip(), instance.digest(), there.stderr)
+
+    def test_every_phase_is_saved(self):
+        unit = exported(CURRENT)
+        instance = fmi.Instance(unit)
+        saved = [instance.saved()]
+        for call in (("EnterInitializationMode",), ("ExitInitializationMode",), ("DoStep", 0.0, unit.stop(), 1), ("Terminate",)):
+            self.assertEqual(instance.call(*call), fmi.OK, instance.messages)
+            saved.append(instance.saved())
+        for n, data in enumerate(saved):
+            other = fmi.Instance(unit)
+            self.assertEqual(other.load(data), fmi.OK, (n, other.messages))
+            for call in (("EnterInitializationMode",), ("ExitInitializationMode",), ("DoStep", 0.0, unit.stop(), 1), ("Terminate",))[n:]:
+                self.assertEqual(other.call(*call), fmi.OK, other.messages)
+            self.assertEqual(other.get("digest").decode(), ran(CURRENT)["digest"])
+
+    def test_damaged_bytes_and_states_of_others_are_refused(self):
+        unit, draw = exported(CURRENT), random.Random(5)
+        instance = fmi.Instance(unit).begin()
+        instance.run(1e-4, 1e-3)
+        data = instance.saved()
+        for n in range(100):
+            broken = bytearray(data[: draw.randrange(len(data))] if n % 3 == 0 else data)
+            for _ in range(draw.randrange(1, 4)):
+                if broken:
+                    broken[draw.randrange(len(broken))] = draw.randrange(256)
+            other = fmi.Instance(unit)
+            if other.load(bytes(broken)) == fmi.OK:
+                other.call("DoStep", 1e-3, 1e-4, 1)
+        other, state = fmi.Instance(unit).begin(), C.c_void_p()
+        self.assertEqual(other.call("GetFMUstate", C.byref(state)), fmi.OK)
+        self.assertEqual(instance.call("SetFMUstate", state), fmi.ERROR)
+        self.assertEqual(instance.call("SetFMUstate", None), fmi.ERROR)
+        self.assertEqual(other.call("FreeFMUstate", C.byref(state)), fmi.OK)
+        other_unit = exported(PLAIN)
+        self.assertEqual(fmi.Instance(other_unit).load(data), fmi.ERROR)
+
+
+class Misuse(unittest.TestCase):
+    def test_an_instance_needs_its_own_description_and_resources(self):
+        unit = exported(CURRENT)
+        for wrong in ({"guid": "{0}"}, {"resources": "file:///nowhere"}, {"kind": 0}, {"name": b""}, {"name": None}):
+            instance = fmi.Instance(unit, **wrong)
+            self.assertIsNone(instance.c, wrong)
+            self.assertEqual(instance.messages[0][:2], (fmi.ERROR, "logStatusError"), wrong)
+        self.assertTrue(fmi.Instance(unit, resources=str(unit.folder / "resources")).c, "a plain path")
+        self.assertIsNone(unit.library.fmi2Instantiate(None, 1, None, None, None, 0, 0))
+        c = unit.library.fmi2Instantiate(b"without a logger", 1, unit.guid.encode(), unit.resources.encode(), None, 0, 0)
+        self.assertEqual(unit.library.fmi2DoStep(c, 0, 1, 1), fmi.ERROR)
+        unit.library.fmi2FreeInstance(c)
+        unit.library.fmi2FreeInstance(None)
+
+    def test_values_that_are_none_are_refused_with_a_message(self):
+        unit = exported(CURRENT)
+        instance = fmi.Instance(unit).begin()
+        real = (C.c_double * 1)()
+        for call in (lambda: instance.put("i_a_A", 1.0), lambda: instance.put("reference", math.nan), lambda: instance.put("reference", math.inf),
+                     lambda: instance.call("GetReal", (C.c_uint * 1)(99999), 1, real), lambda: instance.call("GetReal", None, 1, real),
+                     lambda: instance.call("GetReal", (C.c_uint * 1)(1), 1, None), lambda: instance.call("SetReal", None, 2, None),
+                     lambda: instance.call("GetReal", (C.c_uint * 1)(unit.reference("hall")), 1, real),
+                     lambda: instance.call("GetString", (C.c_uint * 1)(3), 1, (C.c_char_p * 1)()),
+                     lambda: instance.step(0, 0), lambda: instance.step(0, -1), lambda: instance.step(0, math.nan), lambda: instance.step(1, 1e-4),
+                     lambda: instance.call("SetDebugLogging", 1, 1, (C.c_char_p * 1)(b"nothing")), lambda: instance.call("CancelStep"),
+                     lambda: instance.call("GetFMUstate", None), lambda: instance.call("GetRealStatus", 2, None)):
+            before = len(instance.messages)
+            self.assertEqual(call(), fmi.ERROR)
+            self.assertGreater(len(instance.messages), before)
+        self.assertEqual(instance.call("GetReal", None, 0, None), fmi.OK)
+        instance.run(1e-3, unit.stop())
+        self.assertEqual(instance.digest(), ran(CURRENT)["digest"], "refused calls change nothing")
+
+    def test_an_input_that_the_library_refuses_names_its_limit_and_the_unit_goes_on(self):
+        unit = exported(CURRENT)
+        instance = fmi.Instance(unit).begin()
+        self.assertEqual(instance.put("supply_voltage", -3.0), fmi.OK)
+        self.assertEqual(instance.step(0, 1e-3), fmi.ERROR)
+        self.assertIn("supply.voltage_V = -3 must be above 0", instance.messages[-1][2])
+        self.assertEqual(instance.put("supply_voltage", 24.0), fmi.OK)
+        self.assertEqual(instance.step(0, 1e-3), fmi.OK)
+
+    def test_calls_in_any_order_crash_nothing(self):
+        unit, seed = exported(PLAIN, "--set", "duration_s=1e-3", name="tiny"), random.randrange(10**9)
+        print(f"seed {seed}", file=sys.stderr)
+        draw, statuses = random.Random(seed), {}
+        refs = [*(unit.reference(n) for n in unit.variables), 7777, 0xFFFFFFFF]
+        for _ in range(40):
+            instance, now = fmi.Instance(unit, logging=True), 0.0
+            states = [C.c_void_p() for _ in range(3)]
+            for _ in range(60):
+                name = draw.choice([n for n in fmi.DECLARED if n not in ("Instantiate", "FreeInstance", "GetTypesPlatform", "GetVersion")])
+                count = draw.randrange(3)
+                chosen, values = (C.c_uint * 2)(*(draw.choice(refs) for _ in range(2))), {"Real": (C.c_double * 2)(draw.choice([0, 1, 24, math.nan]), 1),
+                    "Integer": (C.c_int * 2)(), "Boolean": (C.c_int * 2)(), "String": (C.c_char_p * 2)(b"", b"x")}
+                state = draw.choice(states)
+                arguments = {"SetupExperiment": lambda: (0, 0.0, draw.choice([0.0, math.nan, 1.0]), draw.randrange(2), draw.choice([2e-3, -1.0])),
+                             "SetDebugLogging": lambda: (1, 0, None), "GetFMUstate": lambda: (C.byref(state),), "SetFMUstate": lambda: (state,),
+                             "FreeFMUstate": lambda: (C.byref(state),), "SerializedFMUstateSize": lambda: (state, C.byref(C.c_size_t())),
+                             "SerializeFMUstate": lambda: (state, C.create_string_buffer(8), 8),
+                             "DeSerializeFMUstate": lambda: (b"nothing", 7, C.byref(state)),
+                             "GetDirectionalDerivative": lambda: (chosen, 1, chosen, 1, values["Real"], values["Real"]),
+                             "SetRealInputDerivatives": lambda: (chosen, 1, values["Integer"], values["Real"]),
+                             "GetRealOutputDerivatives": lambda: (chosen, 1, values["Integer"], values["Real"]),
+                             "DoStep": lambda: (now, draw.choice([1e-4, 5e-5, 2e-3, 0.0]), 1), "GetStatus": lambda: (draw.randrange(5), C.byref(C.c_int())),
+                             "GetRealStatus": lambda: (draw.randrange(5), C.byref(C.c_double())), "GetIntegerStatus": lambda: (draw.randrange(5), C.byref(C.c_int())),
+                             "GetBooleanStatus": lambda: (draw.randrange(5), C.byref(C.c_int())), "GetStringStatus": lambda: (draw.randrange(5), C.byref(C.c_char_p()))}
+                given = arguments[name]() if name in arguments else () if fmi.DECLARED[name][1] == [C.c_void_p] else (chosen, count, values[name[3:]])
+                before = len(instance.messages)
+                status = instance.call(name, *given)
+                self.assertIn(status, (fmi.OK, fmi.WARNING, fmi.DISCARD, fmi.ERROR))
+                if status in (fmi.DISCARD, fmi.ERROR):
+                    self.assertGreater(len(instance.messages), before, f"{name} of seed {seed} says nothing")
+                if name == "DoStep" and status == fmi.OK:
+                    now += given[1]
+                if name == "Reset" and status == fmi.OK:
+                    now = 0.0
+                statuses[status] = statuses.get(status, 0) + 1
+                self.assertEqual(getattr(unit.library, "fmi2" + name)(None, *given), fmi.ERROR)
+        self.assertGreater(statuses[fmi.OK], 200)
+        self.assertGreater(statuses[fmi.ERROR], 200)
+
+
+class Description(unittest.TestCase):
+    """Rules of the standard, as checks, on the units of many scenarios."""
+
+    def test_every_unit_holds_the_rules_of_the_standard(self):
+        for file in [*FILES[::6], SPEED]:
+            with self.subTest(file.stem):
+                self.check(exported(file))
+
+    def check(self, unit):
+        root = unit.description
+        self.assertEqual((root.tag, root.get("fmiVersion")), ("fmiModelDescription", "2.0"))
+        self.assertTrue(root.get("modelName") and root.get("guid"))
+        self.assertEqual([child.tag for child in root], ["CoSimulation", "UnitDefinitions", "LogCategories", "DefaultExperiment",
+                                                         "ModelVariables", "ModelStructure"], "in the order of the schema")
+        self.assertRegex(unit.name, r"^[A-Za-z_]\w*$")
+        variables = list(root.find("ModelVariables"))
+        names = [v.get("name") for v in variables]
+        keys = [(v[0].tag, v.get("valueReference")) for v in variables]
+        self.assertEqual(len(set(names)), len(names))
+        self.assertEqual(len(set(keys)), len(keys))
+        units = {u.get("name"): [d.get("name") for d in u.findall("DisplayUnit")] for u in root.find("UnitDefinitions")}
+        self.assertEqual(len(units), len(root.find("UnitDefinitions")))
+        for v in variables:
+            self.variable(v, units)
+        self.structure(root, variables)
+        experiment = root.find("DefaultExperiment")
+        self.assertLess(float(experiment.get("startTime")), float(experiment.get("stopTime")))
+        self.assertEqual([v.get("name") for v in variables if v.get("causality") == "independent"], ["time"])
+
+    def variable(self, v, units):
+        of = v[0]
+        causality, variability, initial, start = v.get("causality"), v.get("variability"), v.get("initial"), of.get("start")
+        self.assertIn((causality, variability), {(c, k) for c in ("input", "output", "independent") for k in ("discrete", "continuous")})
+        self.assertTrue(v.get("description"))
+        if variability == "continuous":
+            self.assertEqual(of.tag, "Real", "only a Real is continuous")
+        if causality == "input":
+            self.assertIsNone(initial, "an input has no initial")
+            self.assertIsNotNone(start, "an input has a start")
+            self.assertEqual(repr(float(start)), repr(float(f"{float(start):.17g}")))
+        else:
+            self.assertIsNone(start, "calculated and independent variables have none")
+            self.assertEqual(initial, "calculated" if causality == "output" else None)
+        if of.get("unit"):
+            self.assertIn(of.get("unit"), units)
+            if of.get("displayUnit"):
+                self.assertIn(of.get("displayUnit"), units[of.get("unit")])
+        elif of.tag == "Real":
+            self.fail(v.get("name") + " has no unit")
+
+    def structure(self, root, variables):
+        outputs = [n for n, v in enumerate(variables, 1) if v.get("causality") == "output"]
+        structure = root.find("ModelStructure")
+        for part in ("Outputs", "InitialUnknowns"):
+            self.assertEqual([int(u.get("index")) for u in structure.find(part)], outputs, "complete and in order")
+            for unknown in structure.find(part):
+                self.assertEqual(unknown.get("dependencies"), "")
+
+    def test_units_are_those_of_the_si(self):
+        """A speed of 1 rad/s is 9.549 rpm, and an angle of 1 deg is pi/180 rad."""
+        unit = exported(SPEED)
+        units = {u.get("name"): u for u in unit.description.find("UnitDefinitions")}
+        self.assertAlmostEqual(float(units["rad/s"].find("DisplayUnit").get("factor")), 60 / (2 * math.pi), delta=1e-14)
+        self.assertAlmostEqual(float(units["deg"].find("BaseUnit").get("factor")), math.pi / 180, delta=1e-17)
+        self.assertEqual(dict(units["V"].find("BaseUnit").attrib), {"kg": "1", "m": "2", "s": "-3", "A": "-1"})
+        self.assertEqual(unit.variables["reference"][0].get("unit"), "deg")
+
+
+class Content(unittest.TestCase):
+    def test_the_binary_needs_nothing_but_the_c_library(self):
+        unit = exported(CURRENT)
+        binary = unit.folder / f"binaries/linux64/{unit.name}.so"
+        needed = re.findall(r"NEEDED.*\[(.*)\]", subprocess.run(["readelf", "-d", binary], capture_output=True, text=True, check=True).stdout)
+        self.assertLessEqual({name.split(".")[0] for name in needed}, {"libc", "libm", "ld-linux-x86-64"})
+        symbols = subprocess.run(["nm", "-D", "--defined-only", binary], capture_output=True, text=True, check=True).stdout.split()[2::3]
+        self.assertEqual(sorted(symbols), sorted("fmi2" + name for name in fmi.DECLARED))
+
+    def test_the_sources_are_a_unit_too(self):
+        unit = fmi.Unit(FOLDER / f"{exported(CURRENT) and CURRENT.stem}.fmu")
+        files = [unit.folder / "sources" / f.get("name") for f in unit.description.iter("File")]
+        binary = unit.folder / f"binaries/linux64/{unit.name}.so"
+        binary.unlink()
+        subprocess.run(["gcc", "-std=c99", "-Wall", "-Wextra", "-Werror", "-O1", "-fPIC", "-shared", "-I", unit.folder / "sources", *files, "-o", binary,
+                        LIBRARY, f"-Wl,-rpath,{LIBRARY.parent}", "-lm"], check=True)
+        out = FOLDER / "compiled.fmu"
+        subprocess.run([sys.executable, "-m", "zipfile", "-c", out, *unit.folder.iterdir()], check=True)
+        instance = fmi.Instance(fmi.Unit(out)).begin()
+        instance.run(1e-4, unit.stop())
+        self.assertEqual(instance.digest(), ran(CURRENT)["digest"])
+
+    def test_a_program_in_c_drives_it(self):
+        unit, importer = exported(CURRENT), FOLDER / "importer"
+        subprocess.run(["gcc", "-std=gnu99", "-Wall", "-Wextra", "-Werror", f"-I{SOURCE}", pathlib.Path(__file__).parent / "importer.c", "-o", importer, "-ldl"],
+                       check=True)
+        told = subprocess.run([importer, unit.folder / f"binaries/linux64/{unit.name}.so", unit.resources, unit.guid, repr(unit.stop())],
+                              capture_output=True, text=True, timeout=60)
+        self.assertEqual((told.stdout.strip(), told.returncode), (ran(CURRENT)["digest"], 0), told.stderr)
+
+    def test_a_unit_takes_its_motor_and_its_rows_along(self):
+        """From a folder that is gone when the unit runs."""
+        with tempfile.TemporaryDirectory() as folder:
+            here = pathlib.Path(folder)
+            (here / "mine.toml").write_text((SOURCE / "data/motors/maxon-251601.toml").read_text())
+            (here / "rows.csv").write_text("0,1\n0.001,2\n0.002,-1\n")
+            text = re.sub(r'(?m)^motor *=.*$', 'motor = "mine.toml"', CURRENT.read_text(), count=1)
+            self.assertIn("mine.toml", text)
+            (here / "drive.toml").write_text(text)
+            words = ("--set", "reference={shape='csv', file='rows.csv'}", "--set", "motor_override.resistance_ohm=0.5", "--set", "require=[]",
+                     "--set", "compare=[]")
+            told, unit = ran(here / "drive.toml", *words), exported(here / "drive.toml", *words)
+        instance = fmi.Instance(unit).begin()
+        instance.run(1e-4, unit.stop())
+        self.assertEqual(instance.digest(), told["digest"])
+
+    def test_the_same_scenario_makes_the_same_bytes_and_another_one_another_guid(self):
+        one, again = exported(CURRENT), exported(CURRENT, name="again")
+        self.assertEqual((FOLDER / f"{CURRENT.stem}.fmu").read_bytes(), (FOLDER / "again.fmu").read_bytes())
+        self.assertNotEqual(one.guid, exported(CURRENT, "--set", "supply.voltage_V=23", name="warm").guid)
+        self.assertEqual(one.guid, again.guid)
+
+
+if __name__ == "__main__":
+    unittest.main(warnings="ignore")

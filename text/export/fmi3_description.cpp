@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "sixstep/base/written.hpp"
+#include "text/escape/escape.hpp"
+#include "text/export/fmi_description.hpp"
+
+namespace text {
+namespace {
+
+std::string fmi3_head(const UnitModel& m) {
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<fmiModelDescription generationTool=\"sixstep " SIXSTEP_VERSION
+      "\" fmiVersion=\"3.0\" modelName=\"{}\"\n"
+      "    instantiationToken=\"{}\" description=\"{}\" variableNamingConvention=\"flat\">\n"
+      "  <CoSimulation modelIdentifier=\"{}\" canHandleVariableCommunicationStepSize=\"true\" "
+      "canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\"\n"
+      "      canReturnEarlyAfterIntermediateUpdate=\"false\" hasEventMode=\"false\" "
+      "providesIntermediateUpdate=\"false\"/>\n",
+      markup_text(m.name), m.token, markup_text(m.scenario.title), m.identifier);
+}
+
+std::string fmi3_variable(const FmiVariable& v) {
+  const char* const type = v.kind == FmiKind::integer ? "Int32"
+                           : v.kind == FmiKind::text  ? "String"
+                                                      : "Float64";
+  const char* const causality = v.role == FmiRole::time    ? "independent"
+                                : v.role == FmiRole::input ? "input"
+                                                           : "output";
+  std::string out = fmt::format(
+      "    <{} name=\"{}\" valueReference=\"{}\" causality=\"{}\" variability=\"{}\"{}\n        description=\"{}\"",
+      type, markup_text(v.name), v.reference, causality, v.continuous ? "continuous" : "discrete",
+      v.role == FmiRole::output ? " initial=\"calculated\"" : "", markup_text(v.description));
+  if (v.kind == FmiKind::real && !v.unit.empty()) {
+    out += fmt::format(" unit=\"{}\"", markup_text(v.unit));
+    if (const FmiUnit* const unit = fmi_unit(v.unit); unit != nullptr && !unit->display.empty())
+      out += fmt::format(" displayUnit=\"{}\"", unit->display);
+  }
+  if (v.role == FmiRole::input) out += fmt::format(" start=\"{}\"", base::written(v.start));
+  return out + "/>\n";
+}
+
+/// No output follows an input at once: a change waits for a control tick.
+std::string fmi3_structure(const UnitModel& m) {
+  std::string outputs, unknowns;
+  for (const FmiVariable& v : m.variables) {
+    if (v.role != FmiRole::output) continue;
+    outputs += fmt::format("    <Output valueReference=\"{}\" dependencies=\"\"/>\n", v.reference);
+    unknowns += fmt::format("    <InitialUnknown valueReference=\"{}\" dependencies=\"\"/>\n", v.reference);
+  }
+  return "  <ModelStructure>\n" + outputs + unknowns + "  </ModelStructure>\n";
+}
+
+}  // namespace
+
+std::string fmi3_description(const UnitModel& m) {
+  std::string out = fmi3_head(m) + fmi_unit_lines(m.units());
+  out +=
+      "  <LogCategories>\n"
+      "    <Category name=\"logStatusError\" description=\"refused calls\"/>\n"
+      "    <Category name=\"logStatusDiscard\" description=\"steps that the run did not reach\"/>\n"
+      "    <Category name=\"logEvents\" description=\"changes of inputs, with their instants\"/>\n"
+      "  </LogCategories>\n";
+  out += fmt::format(
+      "  <DefaultExperiment startTime=\"0\" stopTime=\"{}\" stepSize=\"{}\"/>\n  <ModelVariables>\n",
+      base::written(m.scenario.duration_s), base::written(m.scenario.pwm.period_s));
+  for (const FmiVariable& v : m.variables) out += fmi3_variable(v);
+  return out + "  </ModelVariables>\n" + fmi3_structure(m) + "</fmiModelDescription>\n";
+}
+
+std::string fmi3_build(const UnitModel& m) {
+  std::string files;
+  for (const std::string& file : m.sources) files += fmt::format("      <SourceFile name=\"{}\"/>\n", file);
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<fmiBuildDescription fmiVersion=\"3.0\">\n"
+      "  <BuildConfiguration modelIdentifier=\"{}\" description=\"needs libsixstep, the library of sixstep for C\">\n"
+      "    <SourceFileSet language=\"C99\">\n{}      <IncludeDirectory name=\".\"/>\n    </SourceFileSet>\n"
+      "    <Library name=\"sixstep\" external=\"true\"/>\n    <Library name=\"m\" external=\"true\"/>\n"
+      "  </BuildConfiguration>\n</fmiBuildDescription>\n",
+      m.identifier, files);
+}
+
+}  // namespace text

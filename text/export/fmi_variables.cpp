@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/export/fmi_variables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sixstep/base/angle.hpp"
+#include "sixstep/base/linear.hpp"
+#include "sixstep/study/measure/columns.hpp"
+#include "sixstep/study/scenario/choices.hpp"
+#include "sixstep/study/scenario/reference_waveform.hpp"
+#include "sixstep/study/session/session.hpp"
+
+namespace text {
+namespace {
+
+using study::ColumnId;
+
+constexpr unsigned first_input = 1000, digest_reference = 2000;
+constexpr std::string_view acts =
+    "A change acts at the first control tick at or after the communication point at which it was made";
+
+constexpr FmiUnit fmi_units[] = {
+    {.name = "1"},
+    {.name = "s", .s = 1},
+    {.name = "A", .A = 1},
+    {.name = "V", .kg = 1, .m = 2, .s = -3, .A = -1},
+    {.name = "rad", .rad = 1, .display = "deg", .display_factor = 180 / sixstep::base::pi},
+    {.name = "deg", .rad = 1, .factor = sixstep::base::pi / 180},
+    {.name = "rad/s", .s = -1, .rad = 1, .display = "rpm", .display_factor = 30 / sixstep::base::pi},
+    {.name = "N m", .kg = 1, .m = 2, .s = -2},
+    {.name = "m", .m = 1},
+    {.name = "mm", .m = 1, .factor = 1e-3},
+    {.name = "m/s", .m = 1, .s = -1},
+    {.name = "N", .kg = 1, .m = 1, .s = -2},
+    {.name = "degC", .K = 1, .offset = 273.15},
+};
+
+bool is_code(ColumnId id) {
+  return (id >= ColumnId::gate_T1 && id <= ColumnId::sector) ||
+         (id >= ColumnId::encoder_A && id <= ColumnId::absolute_code);
+}
+
+/// Constant between two events: gates, and everything that the controller sets at its samples.
+bool is_held_signal(ColumnId id) {
+  using enum ColumnId;
+  return is_code(id) || id == duty || id == i_ref || id == speed_ref || id == position_ref ||
+         (id >= i_d && id <= v_q);
+}
+
+std::string described_with_frame(const study::Column& column) {
+  return column.frame.empty() ? column.meaning : fmt::format("{} ({})", column.meaning, column.frame);
+}
+
+void add_outputs(const study::Scenario& s, std::vector<FmiVariable>& all) {
+  const std::vector<study::Column>& signals = study::all_columns(s.sheet.kind);
+  for (std::size_t c = 1; c < signals.size(); ++c) {
+    const auto id = static_cast<ColumnId>(c);
+    if (!study::applies(id, s)) continue;
+    all.push_back({.name = signals[c].name,
+                   .reference = static_cast<unsigned>(c),
+                   .kind = is_code(id) ? FmiKind::integer : FmiKind::real,
+                   .continuous = !is_held_signal(id),
+                   .unit = signals[c].unit,
+                   .description = described_with_frame(signals[c]),
+                   .factor = signals[c].per_turning});
+  }
+}
+
+/// Whether a session takes a change at its begin.
+template <class Set>
+bool takes(const study::Session& open, const Set& set) {
+  study::Session tried = open;
+  study::At at;
+  set(at);
+  return static_cast<bool>(tried.change(std::move(at)));
+}
+
+double load_at_start(const study::Load& load) {
+  const bool listed = !load.times_s.empty() && !load.torques_Nm.empty() && load.times_s[0] <= 0.0;
+  return listed ? load.torques_Nm[0] : load.torque_Nm;
+}
+
+FmiVariable fmi_input(const char* name, const char* key, std::string unit, double start,
+                      const std::string& description) {
+  return {.name = name,
+          .role = FmiRole::input,
+          .continuous = false,
+          .unit = std::move(unit),
+          .description = fmt::format("{}. {}", description, acts),
+          .start = start,
+          .key = key};
+}
+
+void add_inputs(const study::Scenario& s, const study::Session& open, std::vector<FmiVariable>& all) {
+  const bool linear = s.sheet.kind == design::MotorKind::linear;
+  std::vector<FmiVariable> inputs;
+  const double reference = study::reference_waveform(s).front().value, load = load_at_start(s.load);
+  const std::string_view of_mode = study::reference_unit(s.control.mode);
+  const base::LinearUnit unit = linear ? base::in_linear(of_mode) : base::LinearUnit{of_mode, of_mode};
+  if (s.control.mode != sixstep::control::Mode::off &&
+      takes(open, [&](study::At& at) { at.reference = study::Reference{.value = reference}; }))
+    inputs.push_back(
+        fmi_input("reference", "reference.value", std::string(unit.linear), reference * unit.factor,
+                  "reference of the controller, in the unit of control.mode; the scenario's own course "
+                  "holds until it first changes"));
+  if (takes(open, [&](study::At& at) { at.load.torque_Nm = load; }))
+    inputs.push_back(
+        linear ? fmi_input("load_force", "load.force_N", "N", load, "load force, against the motion")
+               : fmi_input("load_torque", "load.torque_Nm", "N m", load, "load torque at the shaft"));
+  if (takes(open, [&](study::At& at) { at.supply.voltage_V = s.supply.voltage_V; }))
+    inputs.push_back(fmi_input("supply_voltage", "supply.voltage_V", "V", s.supply.voltage_V,
+                               "open-circuit voltage of the source"));
+  for (FmiVariable& variable : inputs) {
+    variable.reference = first_input + static_cast<unsigned>(&variable - inputs.data());
+    all.push_back(std::move(variable));
+  }
+}
+
+}  // namespace
+
+const FmiUnit* fmi_unit(std::string_view name) {
+  const auto* const found = std::ranges::find(fmi_units, name, &FmiUnit::name);
+  return found == std::end(fmi_units) ? nullptr : found;
+}
+
+base::Result<std::vector<FmiVariable>> fmi_variables(const study::Scenario& scenario) {
+  const base::Result<study::Session> open = study::Session::open(scenario);
+  if (!open) return open.problems();
+  std::vector<FmiVariable> all = {
+      {.name = "time",
+       .role = FmiRole::time,
+       .unit = "s",
+       .description = "time of the importer, at which the run began at its start time"}};
+  add_outputs(scenario, all);
+  add_inputs(scenario, *open, all);
+  all.push_back({.name = "digest",
+                 .reference = digest_reference,
+                 .kind = FmiKind::text,
+                 .continuous = false,
+                 .description =
+                     "16 hexadecimal digits over every event of the run, once it is terminated; equal runs "
+                     "have equal digests, here and in sixstep run"});
+  return all;
+}
+
+}  // namespace text
