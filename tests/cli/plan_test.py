@@ -102,6 +102,11 @@ class Plan(ProgramTest):
             self.assertIn(f"  remark, runs 1, 2: {short[1][0]}\n", table)
             self.assertIn("  remark, all runs: given without effect: ", table)
 
+    def test_a_drive_of_ideal_sensors_is_given_no_seed(self):
+        self.held(SPREAD)
+        self.run_program("run", "a.toml", "--runs", "3", "--json", "s.json", code=None)
+        self.assertEqual(json.loads((self.path / "s.json").read_text())["remarks"], [])
+
     def test_a_controller_is_designed_for_each_value_or_stays_as_it_was(self):
         """What strays meets the gains of the value as written: bit for bit the run that is given them."""
         (self.path / "b.toml").write_text('motor = "maxon-251601"\nduration_s = 4e-3\n[control]\nmode = "current"\n'

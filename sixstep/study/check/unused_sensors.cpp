@@ -3,6 +3,7 @@
 
 #include "sixstep/study/check/unused_list.hpp"
 #include "sixstep/study/scenario/changes.hpp"
+#include "sixstep/study/scenario/draws.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
 
 namespace sixstep::study {
@@ -14,14 +15,6 @@ void of_ideal_rotor(const Scenario& s, Unused& out) {
   out.add("sensors.capture_Hz", x.capture_Hz, usual.capture_Hz, reason);
   out.add("sensors.timeout_s", x.timeout_s, usual.timeout_s, reason);
   out.add("sensors.watched", x.watched, usual.watched, reason);
-}
-
-/// Random numbers are drawn for converters' noise, Hall glitches and a series' drives.
-bool draws_nothing(const Scenario& s) {
-  const Sensors& x = s.sensors;
-  return x.currents == rig::CurrentMeasurement::ideal && x.bus == BusSensing::ideal &&
-         x.rotor == RotorSensing::ideal && !(x.hall_glitches_Hz > 0) &&
-         s.control.drive != FirmwareKind::sensorless && s.spread.empty();
 }
 
 /// Only the lean drive can leave the bus unread; the other drives monitor it or compute with it.

@@ -12,6 +12,7 @@
 #include "sixstep/base/random.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/sheet/sheet_constants.hpp"
+#include "sixstep/study/scenario/draws.hpp"
 #include "sixstep/study/scenario/scenario_description.hpp"
 
 namespace sixstep::study {
@@ -200,8 +201,9 @@ Scenario varied(const Scenario& scenario, std::uint64_t seed, std::uint64_t numb
     const double nominal = *find_number(s, spread.key).number;
     set_number(s, spread.key, nominal + width(spread, nominal) * deviation(spread, seed, number));
   }
-  s.sensors.seed = noise_seed(scenario, seed, number);
   s.spread.clear();
+  // A remark would call a seed without effect one that was given.
+  s.sensors.seed = draws_nothing(s) ? Sensors{}.seed : noise_seed(scenario, seed, number);
   return s;
 }
 

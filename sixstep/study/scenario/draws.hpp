@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Says whether a run of a scenario draws random numbers.
+#pragma once
+#include "sixstep/study/scenario/scenario.hpp"
+
+namespace sixstep::study {
+
+/// Random numbers are drawn for converters' noise, Hall glitches and a series' drives.
+inline bool draws_nothing(const Scenario& s) {
+  const Sensors& x = s.sensors;
+  return x.currents == rig::CurrentMeasurement::ideal && x.bus == BusSensing::ideal &&
+         x.rotor == RotorSensing::ideal && !(x.hall_glitches_Hz > 0) &&
+         s.control.drive != FirmwareKind::sensorless && s.spread.empty();
+}
+
+}  // namespace sixstep::study
