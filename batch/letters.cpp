@@ -39,9 +39,9 @@ auto members(Is<analysis::PlanColumns> auto& columns) {
   return std::tie(keys, strayed, figures);
 }
 auto members(Is<analysis::RunValues> auto& record) {
-  auto& [number, point, strayed, end, problem, figures, digest] = record;
+  auto& [number, point, strayed, end, problem, remarks, figures, digest] = record;
   static_cast<void>(point);
-  return std::tie(number, strayed, end, problem, figures, digest);
+  return std::tie(number, strayed, end, problem, remarks, figures, digest);
 }
 auto members(Is<Begin> auto& x) { return std::tie(x.plan, x.columns, x.jobs, x.made_of); }
 auto members(Is<Runs> auto& x) { return std::tie(x.numbers); }

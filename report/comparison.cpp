@@ -18,6 +18,7 @@
 #include "report/scripts.hpp"
 #include "report/shell.hpp"
 #include "report/verdicts.hpp"
+#include "sixstep/study/scenario/own_numbers.hpp"
 
 namespace report {
 namespace {
@@ -177,6 +178,25 @@ std::string usual_figures(const std::vector<ComparedRun>& runs) {
   return rows + energy_rows(runs);
 }
 
+std::string own_rows(const std::vector<ComparedRun>& runs) {
+  std::vector<std::pair<std::string, std::string>> names;
+  for (const ComparedRun& run : runs)
+    for (const auto& number : sixstep::study::used_numbers(run.scenario.control.own))
+      if (const std::pair<std::string, std::string> name{number.is->name, number.is->unit};
+          std::ranges::find(names, name) == names.end())
+        names.push_back(name);
+  std::string rows;
+  for (const auto& [name, unit] : names)
+    rows += figure_row(name, unit, runs,
+                       [&, name = name, unit = unit](const ComparedRun& run) -> std::optional<Measured> {
+                         for (const auto& number : sixstep::study::used_numbers(run.scenario.control.own))
+                           if (number.is->name == name && number.is->unit == unit)
+                             return Measured{number.value, ""};
+                         return std::nullopt;
+                       });
+  return rows;
+}
+
 std::string gain_table(const std::vector<ComparedRun>& runs) {
   std::string rows;
   for (const char* loop : {"current", "speed", "position"})
@@ -188,6 +208,7 @@ std::string gain_table(const std::vector<ComparedRun>& runs) {
                              if (g.loop == loop) return Measured{g.*gain, ""};
                            return std::nullopt;
                          });
+  rows += own_rows(runs);
   return rows.empty() ? "<p class=\"quiet\">No controller in any run.</p>\n"
                       : table("Gain", runs.size(), rows);
 }

@@ -159,8 +159,8 @@ std::string render_contest(const ContestPage& page) {
   const std::string title =
       escaped(text::visible(fmt::format("Controllers of the {}", c.bench.scenario.motor)));
   const std::string subtitle = fmt::format(
-      "{} controllers, each designed by its rule, on one course: start against half of the full load, load step, deceleration to the lowest speed",
-      c.entries.size());
+      "{}, each designed by its rule, on one course: start against half of the full load, load step, deceleration to the lowest speed",
+      text::compared_controllers(c));
   const std::string body =
       filled(assets::contest_html(), {{"title", title},
                                       {"subtitle", escaped(subtitle)},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints the gains in use with the exact design, and every step of the design.
+// Prints the gains in use with the exact design, every step of the design, and a user's controller's numbers.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -8,6 +8,7 @@
 #include "report/html.hpp"
 #include "report/parameters.hpp"
 #include "sixstep/base/linear.hpp"
+#include "sixstep/study/scenario/own_numbers.hpp"
 
 namespace report {
 namespace {
@@ -85,6 +86,21 @@ std::string gains_section(const sixstep::study::Outcome& outcome) {
         "<div class=\"loop\"><h3>Where the magnet points</h3><p class=\"origin\">designed from the sheet</p>\n" +
         derivation_table(outcome.estimator_steps, linear) + "</div>\n";
   return html.empty() ? "<p class=\"quiet\">No controller: nothing to tune.</p>\n" : html;
+}
+
+std::string own_section(const sixstep::study::Own& own) {
+  std::string rows;
+  for (const sixstep::study::UsedNumber& number : sixstep::study::used_numbers(own))
+    rows += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"num\">{}</td><td>{}</td><td>{}</td></tr>\n",
+                        escaped(number.is->name), escaped(given(number.value, number.is->unit)),
+                        number.preset ? "preset" : "scenario", escaped(number.is->meaning));
+  const std::string name = own.loaded ? escaped(own.loaded->name) : "";
+  if (rows.empty())
+    return "<p class=\"quiet\">A controller of your own, " + name + ": it has no numbers.</p>\n";
+  return "<div class=\"loop\"><h3>" + name +
+         "</h3><table class=\"own\"><thead><tr><th>Number</th><th "
+         "class=\"num\">Value</th><th>From</th><th>Meaning</th></tr></thead><tbody>\n" +
+         rows + "</tbody></table></div>\n";
 }
 
 }  // namespace report

@@ -12,6 +12,8 @@ std::string sheet_section(const sixstep::design::Sheet& sheet);
 std::string model_section(const sixstep::design::MotorModel& motor);
 std::string setup_section(const sixstep::study::Scenario& scenario);
 std::string gains_section(const sixstep::study::Outcome& outcome);
+/// The numbers of a user's controller, those that its own file presets marked.
+std::string own_section(const sixstep::study::Own& own);
 /// The derivation of a design's numbers: symbol, formula, value.
 std::string derivation_table(const std::vector<sixstep::design::DerivationStep>& steps, bool linear);
 

@@ -107,15 +107,16 @@ std::string layout_text(const analysis::Plan& plan) {
 std::string facts(const PlanPageInput& in, std::size_t p) {
   const PagePlan& plan = in.plans[p];
   std::string html =
-      whose(in, p) + "<dl class=\"setup facts\">\n" + plan_fact("Laid out", layout_text(plan.story.plan));
+      whose(in, p) + "<dl class=\"setup facts\">\n" + plan_fact("Sampling", layout_text(plan.story.plan));
   if (plan.story.plan.drives > 0 || plan.story.plan.sampling != analysis::Sampling::grid)
     html += plan_fact("Seed", std::to_string(plan.story.plan.seed));
   for (std::size_t k = 0; k < plan.story.plan.axes.size(); ++k)
     html += plan_fact(escaped(plan.story.columns.keys[k].key), escaped(range_text(plan, k)));
-  if (!plan.story.columns.strayed.empty()) {
+  if (!plan.story.spread.empty()) {
     std::string names;
-    for (const analysis::InputColumn& c : plan.story.columns.strayed)
-      names += (names.empty() ? "" : ", ") + escaped(c.key);
+    for (const text::DriveSpread& one : plan.story.spread)
+      names += (names.empty() ? "" : ", ") +
+               escaped(one.key + " " + (one.width.starts_with("+-") ? "±" + one.width.substr(2) : one.width));
     html += plan_fact("Varies from drive to drive", names);
   }
   return html + plan_fact("Digest of all runs", base::written_hex(plan.story.series.digest)) + "</dl>\n";
@@ -151,7 +152,7 @@ std::string statistics(const PlanPageInput& in) {
       rows += statistics_row(tag(in, p), f, in.plans[p].story.series.runs);
   return "<div class=\"wide\"><table class=\"statistics\">" +
          table_head({"Figure", "#Required", "#Holds", "#Least", "#5\u00a0%", "#Median", "#95\u00a0%",
-                     "#Greatest", "#Mean", "#Deviation"}) +
+                     "#Greatest", "#Mean", "#Std. dev."}) +
          "<tbody>\n" + rows + "</tbody></table></div>\n";
 }
 

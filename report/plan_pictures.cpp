@@ -142,7 +142,9 @@ std::string index_table(const text::PlanStory& story, std::size_t figure) {
     rows += fmt::format("<tr><th scope=\"row\">{}</th>{}{}</tr>\n", escaped(story.columns.keys[k].key),
                         index_bar((*found)[k].first), index_bar((*found)[k].total));
   return head + "<table class=\"indices\">" + table_head({"Key", "#Alone", "", "#In all", ""}) + "<tbody>\n" +
-         rows + "</tbody></table>\n";
+         rows + "</tbody></table>\n" +
+         (analysis::too_few_rows(*found) ? fmt::format("<p class=\"quiet\">{}</p>\n", text::too_few_points)
+                                         : "");
 }
 
 }  // namespace
@@ -176,7 +178,7 @@ std::string index_section(const PagePlan& plan) {
   if (story.plan.sampling != analysis::Sampling::saltelli || story.series.runs == 0) return "";
   std::string html =
       "<h2>What each figure depends on</h2>\n<p class=\"quiet\">Sobol indices: which part of a figure’s variance a key "
-      "explains alone, and which with all others; the line is the middle 95\u00a0% of the estimate.</p>\n<div class=\"columns indices-all\">";
+      "explains alone, and which with all others; the line is the 95\u00a0% confidence interval.</p>\n<div class=\"columns indices-all\">";
   for (std::size_t f = 0; f < story.columns.figures.size(); ++f)
     html += "<div>" + index_table(story, f) + "</div>\n";
   return html + "</div>\n";

@@ -17,14 +17,6 @@ namespace {
 namespace analysis = sixstep::analysis;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-double room_of(const analysis::FigureColumn& f, double x) {
-  if (std::isnan(x)) return -infinite;
-  double room = infinite;
-  if (f.min) room = std::min(room, x - *f.min);
-  if (f.max) room = std::min(room, *f.max - x);
-  return room;
-}
-
 void keep(std::vector<NearRun>& worst, const NearRun& run, std::size_t most) {
   const auto behind = std::upper_bound(worst.begin(), worst.end(), run,
                                        [](const NearRun& a, const NearRun& b) { return a.room < b.room; });
@@ -35,7 +27,7 @@ void keep(std::vector<NearRun>& worst, const NearRun& run, std::size_t most) {
 
 std::string run_text(const PagePlan& plan, std::size_t number) {
   const auto report = plan.reports.find(number);
-  const std::string name = fmt::format("run\u00a0{}", number);
+  const std::string name = fmt::format("{}\u00a0{}", plan.story.plan.axes.empty() ? "drive" : "run", number);
   return report == plan.reports.end()
              ? name
              : fmt::format("<a href=\"{}\">{}</a>", escaped(text::url_of_name(report->second)), name);
@@ -49,8 +41,7 @@ std::string command_cell(const PagePlan& plan, std::size_t number) {
 
 std::string room_text(const analysis::FigureColumn& f, const NearRun& run) {
   if (run.room == -infinite) return std::isnan(run.value) ? "has no value" : "never";
-  return run.room < 0 ? "beyond by " + computed(-run.room, f.unit)
-                      : "within by " + computed(run.room, f.unit);
+  return computed(run.room, f.unit);
 }
 
 std::string figure_table(const PagePlan& plan, const analysis::FigureColumn& f,
@@ -64,7 +55,7 @@ std::string figure_table(const PagePlan& plan, const analysis::FigureColumn& f,
                         escaped(room_text(f, run)), command_cell(plan, run.number));
   }
   return fmt::format("<h3>{}</h3>\n<table class=\"worst\">{}<tbody>\n{}</tbody></table>\n", escaped(f.name),
-                     table_head({"Run", "#Measured", "#Required", "", ""}), rows);
+                     table_head({"Run", "#Measured", "#Required", "Margin", ""}), rows);
 }
 
 std::string casualty_table(const PagePlan& plan, const std::vector<analysis::Casualty>& all,
@@ -91,7 +82,8 @@ std::vector<std::vector<NearRun>> worst_of(const text::PlanStory& story, std::si
     if (record->end == analysis::RunEnd::refused) return;
     for (std::size_t f = 0; f < figures.size(); ++f)
       if (figures[f].required)
-        keep(worst[f], {record->number, record->figures[f], room_of(figures[f], record->figures[f])}, most);
+        keep(worst[f], {record->number, record->figures[f], analysis::margin(figures[f], record->figures[f])},
+             most);
   });
   return worst;
 }

@@ -88,32 +88,32 @@ std::string render(const ReportInput& in) {
       in.scenario.notes.empty() ? "" : "<p class=\"notes\">" + escaped(in.scenario.notes) + "</p>\n";
   const double pole_pairs = in.outcome.motor.machine.pole_pairs;
   const std::optional<Spectra> found = spectra(in.trace, in.scenario, pole_pairs);
-  const std::string body = filled(
-      assets::page_html(),
-      {{"title", title},
-       {"subtitle", subtitle(in)},
-       {"standing_class", verdict.css},
-       {"standing", verdict.word},
-       {"standing_line", verdict.line},
-       {"notes", notes},
-       {"alerts", alerts(in)},
-       {"glance", glance_section(in.scenario, in.outcome, in.trace)},
-       {"requirements", requirements(in.outcome)},
-       {"comparisons", comparisons(in.outcome) + chip_section(in.outcome)},
-       {"setup", setup_section(in.scenario)},
-       {"sheet", sheet_section(in.scenario.sheet)},
-       {"model", model_section(in.outcome.motor)},
-       {"gains", in.scenario.control.drive == sixstep::study::FirmwareKind::own
-                     ? "<p class=\"quiet\">A controller of your own: its gains are in its own source.</p>\n"
-                     : gains_section(in.outcome)},
-       {"energy", in.outcome.energy ? energy_section(*in.outcome.energy, motion_of(in.outcome.motor),
-                                                     stored_beside(in.scenario)) +
-                                          device_section(in.outcome.devices)
-                                    : "<p class=\"quiet\">No books were kept.</p>\n"},
-       {"events", event_section(in.outcome)},
-       {"plots", assets::plots_html()},
-       {"spectra", spectra_section(found)},
-       {"scenario", escaped(in.scenario_text)}});
+  const std::string body =
+      filled(assets::page_html(),
+             {{"title", title},
+              {"subtitle", subtitle(in)},
+              {"standing_class", verdict.css},
+              {"standing", verdict.word},
+              {"standing_line", verdict.line},
+              {"notes", notes},
+              {"alerts", alerts(in)},
+              {"glance", glance_section(in.scenario, in.outcome, in.trace)},
+              {"requirements", requirements(in.outcome)},
+              {"comparisons", comparisons(in.outcome) + chip_section(in.outcome)},
+              {"setup", setup_section(in.scenario)},
+              {"sheet", sheet_section(in.scenario.sheet)},
+              {"model", model_section(in.outcome.motor)},
+              {"gains", in.scenario.control.drive == sixstep::study::FirmwareKind::own
+                            ? own_section(in.scenario.control.own)
+                            : gains_section(in.outcome)},
+              {"energy", in.outcome.energy ? energy_section(*in.outcome.energy, motion_of(in.outcome.motor),
+                                                            stored_beside(in.scenario)) +
+                                                 device_section(in.outcome.devices)
+                                           : "<p class=\"quiet\">No books were kept.</p>\n"},
+              {"events", event_section(in.outcome)},
+              {"plots", assets::plots_html()},
+              {"spectra", spectra_section(found)},
+              {"scenario", escaped(in.scenario_text)}});
   return in_shell(
       {.title = verdict.word + " · " + title, .body = body, .command = in.command, .version = in.version},
       plot_data(in.trace, in.scenario, pole_pairs, size_of(in), found), run_scripts());

@@ -15,6 +15,7 @@
 #include "report/windows.hpp"
 #include "sixstep/base/linear.hpp"
 #include "sixstep/study/measure/trace.hpp"
+#include "sixstep/study/scenario/own_numbers.hpp"
 
 namespace report {
 namespace {
@@ -94,11 +95,19 @@ std::string loop(const LoopGains& g, bool linear) {
   return text;
 }
 
+std::string own_numbers(const Scenario& scenario) {
+  std::string text = "your own";
+  for (const sixstep::study::UsedNumber& number : sixstep::study::used_numbers(scenario.control.own))
+    text += fmt::format("<br>{} {}{}", escaped(number.is->name),
+                        escaped(given(number.value, number.is->unit)), number.preset ? " (preset)" : "");
+  return text;
+}
+
 /// The text for a drive without a loop with gains.
 std::string without_gains(const Scenario& scenario) {
   using sixstep::control::Mode;
   if (scenario.control.mode == Mode::off) return "off";
-  if (scenario.control.drive == sixstep::study::FirmwareKind::own) return "your own";
+  if (scenario.control.drive == sixstep::study::FirmwareKind::own) return own_numbers(scenario);
   if (scenario.control.mode == Mode::duty) return "none: the duty is given";
   return "no gains: the controller chooses the next of all leg states";
 }

@@ -5,6 +5,10 @@
 # own_cost.sh --help              further options; needs the compilers of tools/install.sh target
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
+if [ ! -f "$root/tests/target/own_cost.py" ]; then
+    echo "tools/own_cost.sh needs a checkout: $root has no tests/target; clone the sources, then run tools/install.sh target there" >&2
+    exit 2
+fi
 case " $* " in *" --program "* | *" --help "*) ;; *) "$root/run" --version >/dev/null ;; esac
 export PYTHONDONTWRITEBYTECODE=1
 exec python3 "$root/tests/target/own_cost.py" "$@"

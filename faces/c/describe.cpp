@@ -29,7 +29,8 @@ Json changes() {
   constexpr std::string_view list_name = "at.";
   Json list = Json::array();
   for (const text::KeyEntry& key : text::scenario_keys()) {
-    if (!key.path.starts_with(list_name) || key.type == text::KeyType::table || key.path == "at.time_s") continue;
+    if (!key.path.starts_with(list_name) || key.type == text::KeyType::table || key.path == "at.time_s")
+      continue;
     Json words = Json::array();
     for (const auto& [word, meaning] : key.choices) words.push_back({{"word", word}, {"meaning", meaning}});
     list.push_back({{"key", key.path.substr(list_name.size())},

@@ -28,6 +28,7 @@ std::vector<std::uint8_t> bytes_of(const sixstep_answer& answer) {
 struct Parts {
   Source source;
   std::vector<Command> commands;
+  std::uint64_t conversions = 0;
   double time_s = 0.0;
 };
 
@@ -53,12 +54,14 @@ std::optional<Parts> parts_of(const Cbor& in) {
   const Cbor *what = member(in, "what", Cbor::value_t::string),
              *version = member(in, "version", Cbor::value_t::string),
              *chip = member(in, "chip", Cbor::value_t::number_unsigned),
-             *name = member(in, "name", Cbor::value_t::string), *toml = member(in, "toml", Cbor::value_t::string),
+             *name = member(in, "name", Cbor::value_t::string),
+             *toml = member(in, "toml", Cbor::value_t::string),
              *data = member(in, "data", Cbor::value_t::string),
+             *conversions = member(in, "conversions", Cbor::value_t::number_unsigned),
              *time = member(in, "time_s", Cbor::value_t::number_float),
              *commands = member(in, "commands", Cbor::value_t::array);
   if (!what || *what != magic || !version || *version != SIXSTEP_VERSION || !chip || *chip > 3 || !name ||
-      !toml || !data || !time || !commands)
+      !toml || !data || !conversions || !time || !commands)
     return std::nullopt;
   Parts out{.source = {.name = name->get<std::string>(),
                        .toml = toml->get<std::string>(),
@@ -66,6 +69,7 @@ std::optional<Parts> parts_of(const Cbor& in) {
                        .settings = {},
                        .chip = static_cast<sixstep_chip>(chip->get<int>())},
             .commands = {},
+            .conversions = conversions->get<std::uint64_t>(),
             .time_s = time->get<double>()};
   for (const Cbor& command : *commands)
     if (!read_command(command, out.commands.emplace_back())) return std::nullopt;
@@ -84,6 +88,7 @@ std::vector<std::uint8_t> saved(const Session& session) {
                     {"name", session.source().name},
                     {"toml", text::scenario_text(*session.scenario())},
                     {"data", session.source().data_folder},
+                    {"conversions", session.conversions()},
                     {"time_s", session.time_s()},
                     {"commands", commands}};
   return Cbor::to_cbor(out);
@@ -97,8 +102,9 @@ sixstep_status loaded(std::span<const std::uint8_t> bytes, Session& session) {
                          "load what sixstep_save() of version " SIXSTEP_VERSION " wrote, all of it"}};
     return SIXSTEP_REFUSED;
   }
-  if (const sixstep_status status = session.open(std::move(parts->source)); status != SIXSTEP_OK) return status;
-  return session.replay(parts->commands, parts->time_s);
+  if (const sixstep_status status = session.open(std::move(parts->source)); status != SIXSTEP_OK)
+    return status;
+  return session.replay(parts->commands, parts->conversions, parts->time_s);
 }
 
 }  // namespace c_face

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "faces/c/session.hpp"
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -33,6 +35,23 @@ void hand_over(study::Scenario& s, sixstep_chip chip) {
       .controller = caller_name, .number = {}, .loaded = caller_controller(chip == SIXSTEP_CHIP_LEGS)};
 }
 
+constexpr char change_head[] = "\n[[at]]\ntime_s = ";
+
+/// A change is read as the end of the scenario's text; its lines are counted from its own first one.
+base::Problems in_change(base::Problems found, const Source& source) {
+  const auto lines = std::count(source.toml.begin(), source.toml.end(), '\n') + 3;
+  for (base::Problem& p : found) {
+    const std::string before = source.name + ":";
+    long line = 0;
+    if (!p.where.starts_with(before)) continue;
+    const char *const from = p.where.data() + before.size(), *const last = p.where.data() + p.where.size();
+    const auto [end, wrong] = std::from_chars(from, last, line);
+    if (wrong == std::errc{} && line > lines)
+      p.where = "toml:" + std::to_string(line - lines) + std::string(end, last);
+  }
+  return found;
+}
+
 }  // namespace
 
 Session::Session(const Session& other)
@@ -49,6 +68,9 @@ Session::Session(const Session& other)
 
 sixstep_status Session::refused(base::Problems found) {
   problems = std::move(found);
+  for (base::Problem& p : problems)  // the command line's word for a setting
+    if (constexpr std::string_view option = "--set "; p.where.starts_with(option))
+      p.where.replace(0, option.size(), "options.settings: ");
   return SIXSTEP_REFUSED;
 }
 
@@ -105,16 +127,13 @@ std::int64_t Session::now_ps() const { return sim::to_instant(time_s()).ticks; }
 double Session::time_s() const {
   return run_ ? seen().present().t_s : std::numeric_limits<double>::quiet_NaN();
 }
-double Session::value(int index) const {
-  return seen().present().signals[static_cast<std::size_t>(index)];
-}
+double Session::value(int index) const { return seen().present().signals[static_cast<std::size_t>(index)]; }
 
 sixstep_status Session::reached(bool goes_on) { return goes_on ? SIXSTEP_OK : SIXSTEP_OVER; }
 
 sixstep_status Session::advance(double to_s) {
   if (const sixstep_status status = usable("sixstep_advance"); status != SIXSTEP_OK) return status;
-  if (std::isnan(to_s))
-    return refused({{"to_s", "nan", "must be an instant in seconds", "give a number"}});
+  if (std::isnan(to_s)) return refused({{"to_s", "nan", "must be an instant in seconds", "give a number"}});
   const Exchanging here(exchange_);
   // Past its end a run is over: a larger number changes nothing, and an instant has room for it.
   const double end_s = 2 * seen().scenario().duration_s;
@@ -127,50 +146,76 @@ sixstep_status Session::advance_to_tick() {
   return reached(seen().advance_to_tick());
 }
 
-/// The edge lies within the step: its instant is found in a copy by halving to the picosecond, for few steps have one.
-sixstep_status Session::advance_to_hall_edge(double to_s) {
-  constexpr auto hall = static_cast<std::size_t>(study::ColumnId::hall);
-  if (const sixstep_status status = usable("sixstep_advance_to_hall_edge"); status != SIXSTEP_OK) return status;
+/// Looks on a grid that does not depend on the caller's steps, and halves the step with a change down to a picosecond.
+/// run_, at the last change of the gates, is the past from which that step is simulated again.
+template <class Side>
+sixstep_status Session::advance_to_edge(const char* function, double to_s, const Side& side) {
+  if (const sixstep_status status = usable(function); status != SIXSTEP_OK) return status;
   if (!ahead_)
-    return misuse("sixstep_advance_to_hall_edge", "needs a session whose gates the caller sets",
-                  "open it with SIXSTEP_CHIP_GATES");
+    return misuse(function, "needs a session whose gates the caller sets", "open it with SIXSTEP_CHIP_GATES");
   if (std::isnan(to_s)) return advance(to_s);
-  const double code = ahead_->present().signals[hall];
+  const auto seconds = [](std::int64_t ps) { return static_cast<double>(ps) / sim::ticks_per_second; };
+  const auto before = side(ahead_->present().signals);
   const Exchanging here(exchange_);
-  // No two edges of one line lie within a hundredth of a control period.
-  const double step_s = ahead_->scenario().pwm.period_s / 16;
-  while (time_s() < to_s) {
-    const study::Session before = *ahead_;
-    const double from_s = time_s(), next_s = std::min(to_s, from_s + step_s);
-    if (!ahead_->advance(next_s)) return SIXSTEP_OVER;
-    if (ahead_->present().signals[hall] == code) continue;
-    std::int64_t low = sim::to_instant(from_s).ticks, high = sim::to_instant(next_s).ticks;
+  const study::Scenario& s = ahead_->scenario();
+  const std::int64_t end = sim::to_instant(std::clamp(to_s, 0.0, 2 * s.duration_s)).ticks,
+                     step = std::max<std::int64_t>(1, sim::to_instant(s.pwm.period_s).ticks / 16);
+  while (now_ps() < end) {
+    std::int64_t low = now_ps(), high = std::min(end, (low / step + 1) * step);
+    if (!ahead_->advance(seconds(high))) return SIXSTEP_OVER;
+    if (side(ahead_->present().signals) == before) continue;
+    study::Session at_low = *run_;
+    (void)at_low.advance(seconds(low));
     while (high - low > 1) {
       const std::int64_t middle = low + (high - low) / 2;
-      study::Session tried = before;
-      const bool changed = !tried.advance(static_cast<double>(middle) / sim::ticks_per_second) ||
-                           tried.present().signals[hall] != code;
+      study::Session tried = at_low;
+      const bool changed = !tried.advance(seconds(middle)) || side(tried.present().signals) != before;
       (changed ? high : low) = middle;
     }
-    *ahead_ = before;
-    return reached(ahead_->advance(static_cast<double>(high) / sim::ticks_per_second));
+    *ahead_ = at_low;
+    return reached(ahead_->advance(seconds(high)));
   }
   return SIXSTEP_OK;
+}
+
+sixstep_status Session::advance_to_hall_edge(double to_s) {
+  return advance_to_edge("sixstep_advance_to_hall_edge", to_s, [](const study::FullRow& row) {
+    return row[static_cast<std::size_t>(study::ColumnId::hall)];
+  });
+}
+
+sixstep_status Session::advance_to_crossing(int leg, double level_V, double to_s) {
+  if (const sixstep_status status = usable("sixstep_advance_to_crossing"); status != SIXSTEP_OK)
+    return status;
+  if (leg < 0 || leg > 2)
+    return refused({{"leg", std::to_string(leg), "must be 0, 1 or 2", "give the index of leg a, b or c"}});
+  if (!std::isfinite(level_V))
+    return refused({{"level_V", base::written(level_V), "must be a voltage", "give a number"}});
+  return advance_to_edge("sixstep_advance_to_crossing", to_s, [=](const study::FullRow& row) {
+    using enum study::ColumnId;
+    const double u[] = {row[static_cast<std::size_t>(u_a)], row[static_cast<std::size_t>(u_b)],
+                        row[static_cast<std::size_t>(u_c)]};
+    return u[leg] - (u[0] + u[1] + u[2]) / 3 > level_V;
+  });
 }
 
 sixstep_status Session::change(std::string_view toml, double* at_s) {
   if (const sixstep_status status = usable("sixstep_change"); status != SIXSTEP_OK) return status;
   const base::Result<study::Scenario> with =
-      read("\n[[at]]\ntime_s = " + base::written(time_s()) + "\n" + std::string(toml) + "\n");
-  if (!with) return refused(with.problems());
-  if (with->at.empty()) return refused({{"toml", std::string(toml), "has no change", "name a key of [[at]]"}});
-  const Exchanging here(exchange_);
-  if (ahead_) {  // the run itself goes to this instant too
-    if (const sixstep_status status = set_gates(exchange_.gates); status != SIXSTEP_OK) return status;
-  }
-  const base::Result<double> at = run_->change(with->at.back());
+      read(change_head + base::written(time_s()) + "\n" + std::string(toml) + "\n");
+  if (!with) return refused(in_change(with.problems(), source_));
+  if (with->at.empty())
+    return refused({{"toml", std::string(toml), "has no change", "name a key of [[at]]"}});
+  Session tried(*this);  // a refused change leaves this session as it is
+  if (tried.ahead_)      // the run itself goes to this instant too
+    if (const sixstep_status status = tried.set_gates(exchange_.gates); status != SIXSTEP_OK) return status;
+  const Exchanging here(tried.exchange_);
+  const base::Result<double> at = tried.run_->change(with->at.back());
   if (!at) return refused(at.problems());
   if (at_s != nullptr) *at_s = *at;
+  run_ = std::move(tried.run_);
+  exchange_ = tried.exchange_;
+  commands_ = std::move(tried.commands_);
   note_what_applies();
   if (ahead_) look_ahead();
   return SIXSTEP_OK;
@@ -206,7 +251,8 @@ sixstep_status Session::set_gates(std::uint32_t gates) {
     return misuse("sixstep_set_gates", "needs a session whose gates the caller sets",
                   "open it with SIXSTEP_CHIP_GATES");
   if (gates > 0x3f)
-    return refused({{"gates", std::to_string(gates), "must be 0 to 63: a bit per switch", "clear the others"}});
+    return refused(
+        {{"gates", std::to_string(gates), "must be 0 to 63: a bit per switch", "clear the others"}});
   if (ahead_->over()) return SIXSTEP_OVER;
   const double at_s = time_s();
   const Exchanging here(exchange_);
@@ -233,8 +279,7 @@ sixstep_status Session::convert(sixstep_counts& counts) {
       counts.current[k] = registers_.current_counts(k, current[k], conversions_);
     if (sensors.bus.range > 0) counts.terminal[k] = registers_.terminal_counts(k, terminal[k], conversions_);
   }
-  if (sensors.bus.range > 0)
-    counts.bus = registers_.bus_counts({.bus_V = at(bus_V), .number = conversions_});
+  if (sensors.bus.range > 0) counts.bus = registers_.bus_counts({.bus_V = at(bus_V), .number = conversions_});
   counts.timer = static_cast<std::uint16_t>(registers_.counter(sim::to_instant(time_s())));
   counts.hall = static_cast<std::uint8_t>(at(hall));
   return SIXSTEP_OK;
@@ -255,7 +300,8 @@ sixstep_status Session::finish() {
   return SIXSTEP_OK;
 }
 
-sixstep_status Session::replay(const std::vector<Command>& commands, double to_s) {
+sixstep_status Session::replay(const std::vector<Command>& commands, std::uint64_t conversions, double to_s) {
+  conversions_ = conversions;
   for (const Command& c : commands) {
     const sixstep_status reached = advance(static_cast<double>(c.at_ps) / sim::ticks_per_second);
     if (reached != SIXSTEP_OK) return reached;

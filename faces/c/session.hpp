@@ -42,6 +42,7 @@ class Session {
   sixstep_status advance(double to_s);
   sixstep_status advance_to_tick();
   sixstep_status advance_to_hall_edge(double to_s);
+  sixstep_status advance_to_crossing(int leg, double level_V, double to_s);
   sixstep_status change(std::string_view toml, double* at_s);
   sixstep_status measure(sixstep_measured& measured, double* setpoint);
   sixstep_status command(const sixstep_answer& answer);
@@ -49,7 +50,7 @@ class Session {
   sixstep_status convert(sixstep_counts& counts);
   sixstep_status finish();
   /// Continues at what a saved session had set and reached.
-  sixstep_status replay(const std::vector<Command>& commands, double to_s);
+  sixstep_status replay(const std::vector<Command>& commands, std::uint64_t conversions, double to_s);
 
   /// An independent session in the same state, without its problems and texts.
   Session(const Session& other);
@@ -61,6 +62,7 @@ class Session {
   const study::Scenario* scenario() const { return run_ ? &run_->scenario() : nullptr; }
   const Source& source() const { return source_; }
   const std::vector<Command>& commands() const { return commands_; }
+  std::uint64_t conversions() const { return conversions_; }
   double time_s() const;
   bool applies(int index) const { return applies_[static_cast<std::size_t>(index)]; }
   double value(int index) const;
@@ -69,8 +71,7 @@ class Session {
 
   sixstep_status misuse(const char* function, const char* limit, const char* cure);
 
-  std::string described, written;          ///< texts handed out
-  std::vector<std::uint8_t> saved;         ///< the last result of sixstep_save()
+  std::string described, written;  ///< texts handed out
 
  private:
   /// The run that is read: with gates, it is ahead of run_, which stands at the last change of the gates, so that
@@ -81,6 +82,8 @@ class Session {
   sixstep_status refused(base::Problems found);
   void note_what_applies();
   void look_ahead();
+  template <class Side>
+  sixstep_status advance_to_edge(const char* function, double to_s, const Side& side);
   sixstep_status reached(bool goes_on);
   std::int64_t now_ps() const;
   base::Result<study::Scenario> read(const std::string& more) const;

@@ -120,13 +120,15 @@ size_t sixstep_problem_count(const sixstep_session* session) {
 }
 
 sixstep_status sixstep_problem_at(const sixstep_session* session, size_t number, sixstep_problem* problem) {
-  if (session == nullptr || problem == nullptr || number >= session->is.problems.size()) return SIXSTEP_MISUSE;
+  if (session == nullptr || problem == nullptr || number >= session->is.problems.size())
+    return SIXSTEP_MISUSE;
   const base::Problem& p = session->is.problems[number];
   *problem = {p.where.c_str(), p.value.c_str(), p.limit.c_str(), p.cure.c_str()};
   return SIXSTEP_OK;
 }
 
-sixstep_status sixstep_open_file(const char* path, const sixstep_options* options, sixstep_session** session) {
+sixstep_status sixstep_open_file(const char* path, const sixstep_options* options,
+                                 sixstep_session** session) {
   return made(session, [&](Session& fresh) {
     if (path == nullptr) return misplaced(fresh, "path", "is null", "give the path of a scenario");
     base::Result<std::string> toml = files::read_text(path);
@@ -139,7 +141,8 @@ sixstep_status sixstep_open_file(const char* path, const sixstep_options* option
   });
 }
 
-sixstep_status sixstep_open_text(const char* toml, const sixstep_options* options, sixstep_session** session) {
+sixstep_status sixstep_open_text(const char* toml, const sixstep_options* options,
+                                 sixstep_session** session) {
   return made(session, [&](Session& fresh) {
     if (toml == nullptr) return misplaced(fresh, "toml", "is null", "give the text of a scenario");
     return opened(fresh, {.toml = toml}, options);
@@ -156,6 +159,9 @@ sixstep_status sixstep_advance_to_tick(sixstep_session* session) {
 }
 sixstep_status sixstep_advance_to_hall_edge(sixstep_session* session, double to_s) {
   return with(session, [&](Session& s) { return s.advance_to_hall_edge(to_s); });
+}
+sixstep_status sixstep_advance_to_crossing(sixstep_session* session, int leg, double level_V, double to_s) {
+  return with(session, [&](Session& s) { return s.advance_to_crossing(leg, level_V, to_s); });
 }
 
 double sixstep_time(const sixstep_session* session) {
@@ -186,7 +192,8 @@ int sixstep_signal_index(const char* name) {
   int found = -1;
   (void)guarded([&] {
     const auto& all = columns();
-    const auto at = std::find_if(all.begin(), all.end(), [&](const study::Column& c) { return c.name == name; });
+    const auto at =
+        std::find_if(all.begin(), all.end(), [&](const study::Column& c) { return c.name == name; });
     if (at != all.end()) found = static_cast<int>(at - all.begin());
     return SIXSTEP_OK;
   });
@@ -207,7 +214,8 @@ sixstep_status sixstep_values(const sixstep_session* session, double* values, si
 }
 
 const char* sixstep_describe(sixstep_session* session) {
-  return text_of(session, [](Session& s) -> std::string& { return s.described; }, described);
+  return text_of(
+      session, [](Session& s) -> std::string& { return s.described; }, described);
 }
 
 sixstep_status sixstep_change(sixstep_session* session, const char* toml, double* at_s) {
@@ -246,8 +254,9 @@ sixstep_status sixstep_load(const void* bytes, size_t count, sixstep_session** s
 }
 
 const char* sixstep_scenario(sixstep_session* session) {
-  return text_of(session, [](Session& s) -> std::string& { return s.written; },
-                 [](Session& s) { return text::scenario_text(*s.scenario()); });
+  return text_of(
+      session, [](Session& s) -> std::string& { return s.written; },
+      [](Session& s) { return text::scenario_text(*s.scenario()); });
 }
 
 sixstep_status sixstep_finish(sixstep_session* session) {

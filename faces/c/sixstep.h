@@ -17,7 +17,7 @@
  *
  * Threads. Sessions are independent: each may be used by one thread at a time, different ones at the same time.
  *
- * Texts are UTF-8 and end in '\0'. A text that a function returns belongs to the session, and is valid until the
+ * Texts are UTF-8, but for what a problem repeats of an input that is not, and end in '\0'. A text that a function returns belongs to the session, and is valid until the
  * next call of that function for the session, or its sixstep_free().
  *
  * Units are SI, as in the names of signals: docs/reference/results.md lists their units and frames. */
@@ -90,7 +90,7 @@ typedef struct {
 } sixstep_options;
 #define SIXSTEP_OPTIONS {sizeof(sixstep_options), NULL, NULL, NULL, SIXSTEP_CHIP_OF_SCENARIO}
 
-/* Reads and checks a scenario (docs/reference/scenario.md) and makes its run at t = 0. `options` may be null. After
+/* Reads and checks a scenario (docs/reference/keys/README.md) and makes its run at t = 0. `options` may be null. After
  * SIXSTEP_REFUSED *session is no run, but has the problems; free it too. After SIXSTEP_NO_MEMORY it is null. */
 SIXSTEP_API sixstep_status sixstep_open_file(const char* path, const sixstep_options* options, sixstep_session** session);
 SIXSTEP_API sixstep_status sixstep_open_text(const char* toml, const sixstep_options* options, sixstep_session** session);
@@ -100,7 +100,7 @@ SIXSTEP_API void sixstep_free(sixstep_session* session);
 /* ---- Advance and read ---------------------------------------------------------------------------------------- */
 
 /* Advances to the instant to_s, in s from the start. An instant in the past reads that instant if it lies in the
- * segment between the last two events, else the present one. SIXSTEP_OVER: the run ended before to_s. */
+ * segment between the last two events, else the present one. SIXSTEP_OVER: the run ended at or before to_s. */
 SIXSTEP_API sixstep_status sixstep_advance(sixstep_session* session, double to_s);
 /* Advances to the next control tick after the present instant, before the controller acts on it. */
 SIXSTEP_API sixstep_status sixstep_advance_to_tick(sixstep_session* session);
@@ -146,7 +146,8 @@ SIXSTEP_API sixstep_status sixstep_copy(const sixstep_session* session, sixstep_
  * sixstep_load() simulates the run again up to there, to the bit, also on another machine. */
 SIXSTEP_API size_t sixstep_save(sixstep_session* session, void* bytes, size_t room);
 SIXSTEP_API sixstep_status sixstep_load(const void* bytes, size_t count, sixstep_session** session);
-/* The scenario as TOML with all changes so far; its run has the bits of this session. */
+/* The scenario as TOML with all changes so far; its run has the bits of this session, unless the caller controls it: such a
+ * text names the controller "caller", which sixstep_load() alone knows. */
 SIXSTEP_API const char* sixstep_scenario(sixstep_session* session);
 
 /* ---- Finish -------------------------------------------------------------------------------------------------- */
@@ -180,12 +181,17 @@ SIXSTEP_API sixstep_status sixstep_measure(sixstep_session* session, sixstep_mea
 SIXSTEP_API sixstep_status sixstep_command(sixstep_session* session, const sixstep_answer* answer);
 
 /* SIXSTEP_CHIP_GATES: the gates from the present instant on, as bits 0..5: upper a, lower a, upper b, lower b, upper c,
- * lower c. Dead time is the caller's: both bits of a leg are a shoot-through, which ends the run. Instants of changes are
+ * lower c. Dead time is the caller's: both bits of a leg are a shoot-through, which ends the run at once: the next advance
+ * returns SIXSTEP_OVER. Instants of changes are
  * rounded to 1 ps. */
 SIXSTEP_API sixstep_status sixstep_set_gates(sixstep_session* session, uint32_t gates);
 /* SIXSTEP_CHIP_GATES: advances to the next change of a Hall line, or to to_s if none comes before: sixstep_time() says
  * which. */
 SIXSTEP_API sixstep_status sixstep_advance_to_hall_edge(sixstep_session* session, double to_s);
+/* SIXSTEP_CHIP_GATES: advances to the next instant at which the terminal of leg 0, 1 or 2, less the mean of the three
+ * terminals, changes from above level_V to at most level_V or back, or to to_s if none comes before: the edge of a
+ * comparator for the back-EMF. Two changes within 1/16 of a control period can stay unseen. */
+SIXSTEP_API sixstep_status sixstep_advance_to_crossing(sixstep_session* session, int leg, double level_V, double to_s);
 
 /* Counts that the board's converters have at the present instant, with their offsets, gain errors and noise ([sensors]).
  * A converter that the scenario does not have reads 0. */

@@ -29,7 +29,6 @@
 #include "sixstep/analysis/verify/design_study.hpp"
 #include "sixstep/analysis/verify/scenario_spec.hpp"
 #include "sixstep/base/range_text.hpp"
-#include "sixstep/design/sheet/sheet_check.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/sensors_description.hpp"
 #include "text/keys/key_advice.hpp"
@@ -276,11 +275,7 @@ Exit design_command(const DesignArguments& a) {
   if (interrupted()) return told_interrupted("design " + a.motor);
   if (!s) return refused(in_options(s.problems()));
   put_in_options(*s);
-  if (const auto sheet = design::check_sheet(subject->sheet); sheet && !sheet->consistent)
-    s->warnings.push_back({.what = design::contradiction_words(*sheet),
-                           .cure = fmt::format("sixstep motor check {} shows where", subject->motor),
-                           .grave = false,
-                           .of = design::Concern::other});
+  warn_of_sheet(subject->sheet, subject->motor, s->warnings);
   if (const base::Problems unwritten = write(*s, board ? &*board : nullptr, a, outputs); !unwritten.empty())
     return refused(unwritten);
   if (a.json == "-") print(text::design_json(*s));

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "sixstep/design/loops/spec_use.hpp"
+#include "sixstep/design/sheet/sheet_check.hpp"
 
 namespace cli {
 namespace {
@@ -114,6 +115,16 @@ base::Problems unread_by_optimise(const DesignArguments& a) {
       found.push_back({use.option, "", "applies to a single design; with --optimise the plan gives it",
                        "leave it out, or set it in the plan or its scenario"});
   return found;
+}
+
+void warn_of_sheet(const design::Sheet& sheet, const std::string& motor,
+                   std::vector<design::Warning>& warnings) {
+  const base::Result<design::SheetCheck> check = design::check_sheet(sheet);
+  if (!check || check->consistent) return;
+  warnings.push_back({.what = design::contradiction_words(*check),
+                      .cure = fmt::format("sixstep motor check {} shows where", motor),
+                      .grave = false,
+                      .of = design::Concern::other});
 }
 
 }  // namespace cli

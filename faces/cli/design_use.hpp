@@ -18,6 +18,10 @@ base::Problems of_other_motion(const design::Sheet& sheet, const DesignArguments
 /// Refuses options that a field-oriented design does not read, because the scenario determines it.
 base::Problems unread_by_field_design(const DesignArguments& a);
 
+/// Warns of a sheet that contradicts itself, because gains follow from its values. `motor`: its name or file.
+void warn_of_sheet(const design::Sheet& sheet, const std::string& motor,
+                   std::vector<design::Warning>& warnings);
+
 /// Refuses options that --optimise does not read, because the plan determines it.
 base::Problems unread_by_optimise(const DesignArguments& a);
 

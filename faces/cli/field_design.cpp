@@ -15,8 +15,9 @@ Exit design_field(const DesignArguments& a, const study::Scenario& scenario) {
   if (!a.json.empty() && a.json != "-")
     open_or_report(file, files::AtomicFile::create({a.json, a.force}), found);
   if (!found.empty()) return refused(found);
-  const base::Result<analysis::FieldStudy> s = analysis::study_field(scenario);
+  base::Result<analysis::FieldStudy> s = analysis::study_field(scenario);
   if (!s) return refused(s.problems());
+  warn_of_sheet(scenario.sheet, scenario.motor, s->warnings);
   const std::string json = a.json.empty() ? "" : text::field_design_json(*s);
   if (file) {
     file->write(json);

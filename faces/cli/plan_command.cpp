@@ -125,8 +125,12 @@ class MadePlan {
   analysis::Series series_;
   base::Problems problems_;
   std::size_t beyond_ = 0;
-  text::PlanStory story_{plan_.name, plan_.scenarios->plan(), *plan_.columns, series_,
-                         [this](const auto& visit) { each(visit); }};
+  text::PlanStory story_{plan_.name,
+                         plan_.scenarios->plan(),
+                         *plan_.columns,
+                         series_,
+                         [this](const auto& visit) { each(visit); },
+                         text::drive_spreads(plan_.nominal, *plan_.columns)};
 };
 
 /// Makes the runs that the store lacks, until all are made or an interrupt arrives.

@@ -134,8 +134,8 @@ base::Result<ReadPlan> read_plan(const std::string& file, const RunArguments& ar
   if (!text) return text.problems();
   analysis::Plan& plan = of_file->plan;
   problems = add_options(arguments, plan);
+  if (problems.empty()) problems = without_drives(arguments, plan);
   if (problems.empty()) problems = analysis::check(plan);
-  append(problems, without_drives(arguments, plan));
   in_words_of(arguments, file, plan, problems);
   if (!problems.empty()) return problems;
 

@@ -143,7 +143,7 @@ std::vector<std::string> schema_of(const StoredPlan& plan) {
   const std::vector<std::string> own = own_columns(*plan.columns), shown = text::column_names(*plan.columns);
   std::string table =
       "CREATE TABLE run(run INTEGER PRIMARY KEY, \"end\" TEXT NOT NULL, passed INTEGER NOT NULL, problem TEXT, "
-      "digest TEXT NOT NULL";
+      "remarks TEXT, digest TEXT NOT NULL";
   std::string view = "CREATE VIEW runs AS SELECT run, \"end\", passed";
   for (std::size_t n = 0; n < own.size(); ++n) {
     table += fmt::format(", {}{}", own[n], own[n][0] == 'k' ? "" : " REAL");
@@ -162,7 +162,7 @@ std::string insert_sql(const StoredPlan& plan) {
 }
 
 std::string select_sql(const StoredPlan& plan) {
-  std::string sql = "SELECT run, \"end\", passed, problem, digest";
+  std::string sql = "SELECT run, \"end\", passed, problem, remarks, digest";
   for (const std::string& name : own_columns(*plan.columns)) sql += ", " + name;
   return sql + ", checksum FROM run ORDER BY run";
 }

@@ -12,8 +12,8 @@ namespace files {
 
 /// The application mark in SQLite's header.
 inline constexpr std::string_view store_mark = "SIXS";
-/// Format 1 had no checksums.
-inline constexpr int store_format = 2;
+/// Format 1 had no checksums, format 2 no remarks.
+inline constexpr int store_format = 3;
 
 /// The plan as a store has it: control characters in texts are made visible (text/escape/escape.hpp).
 StoredPlan as_stored(StoredPlan plan);

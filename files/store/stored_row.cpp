@@ -16,7 +16,7 @@ namespace files {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t fixed_cells = 5;
+constexpr std::size_t fixed_cells = 6;
 
 /// Replaces NaN and the sign of zero, which SQLite cannot store.
 Cell number_cell(double x) { return x == x ? Cell(x + 0.0) : Cell(); }
@@ -25,6 +25,21 @@ Cell number_cell(double x) { return x == x ? Cell(x + 0.0) : Cell(); }
 Cell value_cell(const std::string& written) {
   if (const std::optional<double> x = text::number_alone(written)) return number_cell(*x);
   return text::visible(analysis::bare(written));
+}
+
+/// A line each; a line's end inside a remark is made visible.
+std::string remarks_cell(const std::vector<std::string>& remarks) {
+  std::string text;
+  for (const std::string& remark : remarks) text += text::visible(remark) + "\n";
+  return text;
+}
+std::vector<std::string> remarks_of(std::string_view cell) {
+  std::vector<std::string> remarks;
+  for (std::size_t end = cell.find('\n'); end != cell.npos; end = cell.find('\n')) {
+    remarks.emplace_back(cell.substr(0, end));
+    cell.remove_prefix(end + 1);
+  }
+  return remarks;
 }
 
 /// Reads cells one after another, as long as each has the expected kind.
@@ -89,7 +104,9 @@ std::uint64_t checksum_of(const std::vector<Cell>& cells, std::uint64_t before) 
 std::vector<Cell> cells_of(const analysis::RunRecord& record) {
   std::vector<Cell> cells{static_cast<std::int64_t>(record->number),
                           std::string(base::word(analysis::run_ends, record->end)),
-                          std::int64_t{analysis::passed(record)}, text::visible(record->problem),
+                          std::int64_t{analysis::passed(record)},
+                          text::visible(record->problem),
+                          remarks_cell(record->remarks),
                           base::written_hex(record->digest)};
   cells.reserve(cells_in_row(record.columns()));
   for (const std::string& value : record->point) cells.push_back(value_cell(value));
@@ -110,6 +127,7 @@ base::Result<analysis::RunRecord> record_of_cells(const std::vector<Cell>& cells
   const std::optional<analysis::RunEnd> end = end_of(reader.take<std::string>());
   const auto passed = reader.take<std::int64_t>();
   values.problem = reader.take<std::string>();
+  values.remarks = remarks_of(reader.take<std::string>());
   const std::optional<std::uint64_t> digest = from_hex(reader.take<std::string>());
   for (std::size_t n = 0; n < columns->keys.size(); ++n) values.point.push_back(reader.written());
   for (std::size_t n = 0; n < columns->strayed.size(); ++n) values.strayed.push_back(reader.number());

@@ -13,7 +13,7 @@ namespace files {
 /// 64 bits over values, their kinds and their order. Not cryptographic: it detects accidental changes only.
 std::uint64_t checksum_of(const std::vector<Cell>& cells, std::uint64_t before);
 
-/// A stored row: run, end, passed, problem, digest, keys, values of the spread, figures. NaN becomes null, -0
+/// A stored row: run, end, passed, problem, remarks, digest, keys, values of the spread, figures. NaN becomes null, -0
 /// becomes 0, control characters in texts are made visible (text/escape/escape.hpp).
 std::vector<Cell> cells_of(const analysis::RunRecord& record);
 

@@ -114,8 +114,8 @@ class ChipDrive {
 
   sim::Instant at_cycle(std::uint64_t cycle) const {
     const auto whole_s = static_cast<std::int64_t>(cycle / port_.clock_Hz);
-    const double rest =
-        static_cast<double>(cycle % port_.clock_Hz) * (sim::ticks_per_second / static_cast<double>(port_.clock_Hz));
+    const double rest = static_cast<double>(cycle % port_.clock_Hz) *
+                        (sim::ticks_per_second / static_cast<double>(port_.clock_Hz));
     return sim::Instant{whole_s * static_cast<std::int64_t>(sim::ticks_per_second), 0.0}.plus_ticks(rest);
   }
   void note_lateness() {

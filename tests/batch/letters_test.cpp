@@ -39,6 +39,7 @@ analysis::RunValues row(std::size_t number) {
   r.strayed = {0.1, std::bit_cast<double>(0x7FF8'0000'0000'1234)};  // a NaN with a payload
   r.end = analysis::RunEnd::fault;
   r.problem = std::string("t = 1 s\0\n\xFF", 10);
+  r.remarks = {"one", std::string("two\0\n", 5)};
   r.figures = {-0.0, std::numeric_limits<double>::infinity(), 5e-324};
   r.digest = 0xFEDC'BA98'7654'3210;
   return r;
@@ -52,6 +53,7 @@ TEST(Letters, CarryRowsToTheBit) {
     EXPECT_EQ(a.number, b.number);
     EXPECT_EQ(a.end, b.end);
     EXPECT_EQ(a.problem, b.problem);
+    EXPECT_EQ(a.remarks, b.remarks);
     EXPECT_EQ(a.digest, b.digest);
     ASSERT_EQ(a.strayed.size(), b.strayed.size());
     ASSERT_EQ(a.figures.size(), b.figures.size());
@@ -107,11 +109,12 @@ TEST(Letters, ARowTakesEightBytesANumber) {
   };
   analysis::RunValues r = row(1);
   r.problem.clear();
+  r.remarks.clear();
   const std::size_t one = length({r, r}) - length({r});
   r.figures.push_back(1.0);
   EXPECT_EQ(length({r, r}) - length({r}), one + 8);
-  EXPECT_EQ(one, 6 * 8u + 8 * (2 + 3))
-      << "number, end, digest, three lengths; two strayed values, three figures";
+  EXPECT_EQ(one, 7 * 8u + 8 * (2 + 3))
+      << "number, end, digest, four lengths; two strayed values, three figures";
 }
 
 TEST(Letters, WhatWasCutOrBrokenIsNone) {

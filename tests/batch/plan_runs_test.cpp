@@ -175,7 +175,7 @@ TEST(PlanRuns, AFaultIsToldBesideRequirementsThatTheValuesHold) {
   add(series, analysis::record_of(drives.columns, 1, {}, run, stopped));
   EXPECT_EQ(series.passed, 1u);
   EXPECT_EQ(series.figures[0].holds, 2u);
-  EXPECT_FALSE(series.figures[0].first_miss);
+  EXPECT_FALSE(series.figures[0].missed);
   ASSERT_EQ(series.faults.size(), 1u);
   EXPECT_EQ(series.faults[0].number, 1u);
 }

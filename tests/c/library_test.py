@@ -20,10 +20,28 @@ import c_library as c  # noqa: E402
 LIB = c.load(LIBRARY)
 FILES = sorted([*(SOURCE / "data/scenarios/thesis").glob("*.toml"), *(SOURCE / "data/scenarios/gallery").glob("*.toml")])
 CURRENT = SOURCE / "data/scenarios/thesis/8b-exact-design.toml"
-SPINNING = ["initial.speed_rad_s=100", "duration_s=5e-3", "load.locked=false"]
+PLAIN = """motor = "maxon-251601"
+duration_s = 6e-3
+[supply]
+voltage_V = 24
+[initial]
+speed_rad_s = 100
+[control]
+mode = "current"
+[reference]
+value = 1.5
+"""
+HELD = PLAIN.replace("speed_rad_s = 100", "speed_rad_s = 0") + "[load]\nlocked = true\n"
+SINE = PLAIN.replace('"current"', '"duty"').replace("value = 1.5", "value = 0.1") + '[pwm]\nalignment = "centre"\n'
 
 
 def program(file, *words):
+    """The program's own result of a file or a text; None: it refuses it."""
+    if not isinstance(file, pathlib.Path):
+        with tempfile.TemporaryDirectory() as folder:
+            written = pathlib.Path(folder) / "text.toml"
+            written.write_text(file)
+            return program(written, *words)
     done = subprocess.run([PROGRAM, "run", file, "--json", "-", *words], capture_output=True, text=True)
     return json.loads(done.stdout) if done.returncode in (0, 1, 3) else None
 
@@ -35,6 +53,7 @@ def opened(*arguments, **named):
 
 
 def digest(session):
+    session.advance(1)
     assert session.finish() == c.OK, session.problems()
     return f"{session.digest():016x}"
 
@@ -42,14 +61,14 @@ def digest(session):
 class Bits(unittest.TestCase):
     def test_steps_of_any_length_have_the_digest_of_the_program(self):
         """30 of the scenarios that ship, at 1 ms, 37 us, 10 us and drawn steps."""
-        draw, compared = random.Random(39), 0
-        for file in FILES[:: max(1, len(FILES) // 30)][:30]:
+        draw = random.Random(39)
+        short = [file for file in FILES if opened(file).duration() <= 0.06]
+        self.assertGreater(len(short), 30)
+        for file in short[:: len(short) // 30][:30]:
             with self.subTest(file.stem):
-                told = program(file, "--set", "duration_s=3e-3")
-                if told is None:
-                    continue  # a window or a change is after the end of this short run
+                told = program(file)
                 for step in (1e-3, 37e-6, 10e-6, None):
-                    session = opened(file, settings=["duration_s=3e-3"])
+                    session = opened(file)
                     at = 0.0
                     while True:
                         at += step or draw.uniform(1e-7, 3e-4)
@@ -58,18 +77,16 @@ class Bits(unittest.TestCase):
                         session.value_of("i_a_A")
                     self.assertEqual(digest(session), told["digest"])
                 self.assertEqual(json.loads(session.outcome())["require"], told["require"])
-                compared += 1
-        self.assertGreater(compared, 20)
 
     def test_threads_share_nothing(self):
-        expected = digest_of_whole = digest(opened(CURRENT))
+        expected = digest(opened(CURRENT))
         found = []
         threads = [threading.Thread(target=lambda: found.extend(digest(opened(CURRENT)) for _ in range(4))) for _ in range(4)]
         for thread in threads:
             thread.start()
         for thread in threads:
             thread.join()
-        self.assertEqual(found, [digest_of_whole] * 16)
+        self.assertEqual(found, [expected] * 16)
         self.assertEqual(expected, program(CURRENT)["digest"])
 
     def test_a_change_is_that_of_the_scenario(self):
@@ -110,7 +127,7 @@ class Bits(unittest.TestCase):
 class OwnController(unittest.TestCase):
     """The same compiled controller in the run, and called by this program between advances."""
 
-    def controlled(self, name, chip, settings):
+    def controlled(self, name, chip, text):
         own = C.CDLL(str(CONTROLLERS / f"{name}.so"))
 
         class Controller(C.Structure):
@@ -121,7 +138,7 @@ class OwnController(unittest.TestCase):
                         ("hall", C.c_void_p)]
         own.sixstep_own_controller.restype = C.POINTER(Controller)
         step = own.sixstep_own_controller().contents.step
-        session = opened(CURRENT, chip=chip, settings=settings)
+        session = opened(text=text, chip=chip)
         measured, setpoint, answer, saved = c.Measured(), C.c_double(), c.Answer(), None
         for tick in range(10**6):
             self.assertEqual(session.measure(C.byref(measured), C.byref(setpoint)), c.OK, session.problems())
@@ -135,27 +152,25 @@ class OwnController(unittest.TestCase):
         loaded = c.Session.loaded(LIB, saved)  # stands at tick 40, with its command given
         self.assertEqual(loaded.status, c.OK)
         self.assertAlmostEqual(loaded.time(), 40 * session.period(), delta=1e-15)
-        words = [word for s in settings + [f"control.drive=own", f"control.own.controller={CONTROLLERS / name}.so"] for word in ("--set", s)]
-        return session, program(CURRENT, *words)
+        return session, program(text, "--set", "control.drive=own", "--set", f"control.own.controller={CONTROLLERS / name}.so")
 
     def test_of_a_pair_has_the_same_bits_inside_and_outside(self):
-        session, told = self.controlled("pair_of_the_code", c.PAIR, SPINNING)
+        session, told = self.controlled("pair_of_the_code", c.PAIR, PLAIN)
         self.assertIsNone(told["fault"])
         self.assertEqual(digest(session), told["digest"])
         self.assertGreater(abs(session.value_of("i_a_A")) + abs(session.value_of("i_b_A")), 0.05)
 
     def test_of_three_legs_has_the_same_bits_inside_and_outside(self):
-        settings = [*SPINNING, "control.mode=duty", "reference.value=0.1", "pwm.alignment=centre"]
-        session, told = self.controlled("sine_voltage", c.LEGS, settings)
+        session, told = self.controlled("sine_voltage", c.LEGS, SINE)
         self.assertEqual(digest(session), told["digest"])
 
 
 class Gates(unittest.TestCase):
     PAIRS = [(0, 1), (0, 2), (1, 2), (1, 0), (2, 0), (2, 1)]  # source and sink by sector
 
-    def chopped(self, read_step, duty=0.4, period=50e-6, end=6e-3):
+    def chopped(self, read_step, duty=0.4, period=50e-6, end=5e-3):
         """The pair of the sector, its upper switch chopped."""
-        session = opened(CURRENT, chip=c.GATES, settings=["load.locked=false"])
+        session = opened(text=PLAIN.replace("speed_rad_s = 100", "speed_rad_s = 0"), chip=c.GATES)
         for n in range(round(end / period)):
             source, sink = self.PAIRS[int(session.value_of("sector"))]
             for gates, to in ((1 << 2 * source | 2 << 2 * sink, duty), (2 << 2 * sink, 1.0)):
@@ -173,9 +188,9 @@ class Gates(unittest.TestCase):
 
     def test_current_rises_as_the_pair_of_a_held_rotor_does(self):
         """i(t) = U/R_ab (1 - exp(-t R_ab/L_ab)) in the pair, nothing in the third phase, and the bus carries the same current."""
-        session = opened(CURRENT, chip=c.GATES, settings=["load.locked=true"])
+        session = opened(text=HELD, chip=c.GATES)
         session.set_gates(0b001001)  # upper a, lower b
-        R, L, U = self.pair_of(session)
+        R, L, U = 1.03, 0.572e-3, 24  # terminal values of data/motors/maxon-251601.toml
         for t in (20e-6, 130e-6, 1e-3):
             session.advance(t)
             expected = U / R * (1 - math.exp(-t * R / L))
@@ -186,45 +201,84 @@ class Gates(unittest.TestCase):
         session.set_gates(0)  # both diodes conduct: the terminals change sides, less and more by the diodes' voltage
         self.assertLessEqual(session.value_of("u_ab_V"), -U)
 
-    def pair_of(self, session):
-        """Resistance and inductance of a pair with its two switches, from the scenario; ideal switches are required."""
-        text = session.scenario().decode()
-        number = lambda key: float(re.search(rf"(?m)^\s*{key} = ([-+.0-9e]+)", text)[1])
-        motor = json.loads(subprocess.run([PROGRAM, "motor", "show", "maxon-251601", "--json"], capture_output=True, text=True).stdout)
-        R = motor["parameters"]["R_ohm"] if "parameters" in motor else None
-        if R is None:
-            R, L = 0.6, 0.45e-3
-        else:
-            L = motor["parameters"]["L_H"]
-        return 2 * R, 2 * L, number("voltage_V")
-
     def test_hall_edges_are_found_to_the_picosecond(self):
-        session = opened(CURRENT, chip=c.GATES, settings=SPINNING)
+        session = opened(text=PLAIN, chip=c.GATES)
         pole_pairs, found = 8, []
-        while session.advance_to_hall_edge(5e-3 - 1e-6) == c.OK and session.time() < 5e-3 - 2e-6:
+        while session.advance_to_hall_edge(5e-3) == c.OK and session.time() < 5e-3:
             found.append(session.time())
             angle = session.value_of("angle_rad") * pole_pairs / (math.pi / 3)
             self.assertAlmostEqual(angle, round(angle), delta=1e-8)  # at 100 rad/s a picosecond is 8e-10 of a sector
-        self.assertGreater(len(found), 3)
+        self.assertGreater(len(found), 2)
+
+    def test_an_edge_that_does_not_come_ends_at_an_instant_of_any_fraction(self):
+        session = opened(CURRENT, chip=c.GATES, settings=["load.locked=true"])
+        for n in range(1, 60):
+            for search in (session.advance_to_hall_edge, lambda to_s: session.advance_to_crossing(0, 1e3, to_s)):
+                self.assertEqual(search(n * 1e-4 / 7), c.OK)
+                self.assertAlmostEqual(session.time(), n * 1e-4 / 7, delta=1e-12)
+
+    def test_crossings_are_found_to_the_picosecond(self):
+        """A copy is on the old side a picosecond before, and at every tenth of the time until then."""
+        draw, found, jumps = random.Random(5), 0, 0
+        session = opened(CURRENT, chip=c.GATES, settings=["load.locked=false", "initial.speed_rad_s=100"])
+        while session.time() < 4e-3:
+            source, sink = self.PAIRS[int(session.value_of("sector"))]
+            for gates, length in ((1 << 2 * source | 2 << 2 * sink, 20e-6), (2 << 2 * sink, 30e-6), (0, 40e-6)):
+                session.set_gates(gates)
+                leg = draw.choice((source, sink, 3 - source - sink))
+                level = draw.choice((0.0, self.above(session, leg) + draw.uniform(-0.1, 0.1), draw.uniform(-8, 8)))
+                before, begin, end, side = session.copied(), session.time(), session.time() + length, self.above(session, leg) > level
+                self.assertEqual(session.advance_to_crossing(leg, level, end), c.OK)
+                at = session.time()
+                if at < end - 1e-12:
+                    found += 1
+                    self.assertNotEqual(self.above(session, leg) > level, side)
+                    jumps += abs(self.above(session, leg) - level) > 1e-3
+                    for part in (0.1 * k for k in range(1, 10)):
+                        before.advance(begin + part * (at - begin))
+                        self.assertEqual(self.above(before, leg) > level, side)
+                    before.advance(at - 1e-12)
+                    self.assertEqual(self.above(before, leg) > level, side)
+                session.advance(end)
+        self.assertGreater(found, 20)
+        self.assertGreater(jumps, 3)  # a diode turns on or off
+        for arguments in ((3, 0.0, 1.0), (-1, 0.0, 1.0), (0, math.nan, 1.0), (0, 0.0, math.nan)):
+            self.assertEqual(session.advance_to_crossing(*arguments), c.REFUSED)
+
+    def above(self, session, leg):
+        """Voltage of a terminal against the mean of the three."""
+        u = [session.value_of(name) for name in ("u_a_V", "u_b_V", "u_c_V")]
+        return u[leg] - sum(u) / 3
 
     def test_both_switches_of_a_leg_end_the_run(self):
         session = opened(CURRENT, chip=c.GATES)
         session.advance(1e-3)
-        self.assertEqual(session.set_gates(0b000011), c.OVER)
+        self.assertEqual(session.set_gates(0b000011), c.OK)
+        self.assertEqual(session.advance(1.1e-3), c.OVER)
         session.finish()
         self.assertIn("shoot-through", json.loads(session.outcome())["fault"])
 
+    def test_an_early_end_is_within_two_periods(self):
+        session = opened(text=HELD, chip=c.GATES)
+        session.advance(3.31e-3)
+        self.assertEqual(session.finish(), c.OK)
+        end = json.loads(session.outcome())["simulated_s"]
+        self.assertTrue(3.31e-3 <= end <= 3.31e-3 + 2 * session.period(), end)  # a segment may pass the next tick
+
     def test_counts_are_those_of_the_converters(self):
-        settings = ["sensors.currents=phases", "sensors.current_range_A=16", "sensors.bus_range_V=32", "load.locked=true"]
-        session = opened(CURRENT, chip=c.GATES, settings=settings)
+        settings = ["sensors.currents=phases", "sensors.current_range_A=16", "sensors.bus_range_V=32", "sensors.current_noise_A=0.02"]
+        session = opened(text=HELD, chip=c.GATES, settings=settings)
         session.set_gates(0b001001)
         session.advance(300e-6)
         counts = c.Counts()
         self.assertEqual(session.convert(C.byref(counts)), c.OK)
         lsb = 2 * 16 / 4096
-        self.assertLessEqual(abs(counts.current[0] - 2048 - session.value_of("i_a_A") / lsb), 0.51)
-        self.assertLessEqual(abs(counts.current[1] - 2048 - session.value_of("i_b_A") / lsb), 0.51)
+        self.assertLessEqual(abs(counts.current[0] - 2048 - session.value_of("i_a_A") / lsb), 15)
+        self.assertLessEqual(abs(counts.current[1] - 2048 - session.value_of("i_b_A") / lsb), 15)  # five times the noise
         self.assertEqual(counts.hall, int(session.value_of("hall")))
+        loaded, next_here, next_there = c.Session.loaded(LIB, session.saved()), c.Counts(), c.Counts()
+        session.convert(C.byref(next_here)), loaded.convert(C.byref(next_there))
+        self.assertEqual(bytes(next_here), bytes(next_there))  # the same noise
         self.assertLessEqual(abs(counts.bus - session.value_of("bus_V") / (32 / 4096)), 0.51)
 
 
@@ -248,6 +302,25 @@ class Misuse(unittest.TestCase):
             self.assertEqual(session.change(text, None), c.REFUSED, text)
             self.assertTrue(session.problems()[0][2], text)
         self.assertEqual(digest(other), (session.advance(1), digest(session))[1])
+
+    def test_a_change_that_is_refused_late_leaves_gates_as_they_are(self):
+        """bridge.phases needs the general kernel, which only the compiled change shows."""
+        def run(asked):
+            session = opened(text=HELD, chip=c.GATES)
+            session.set_gates(0b001001)
+            session.advance(1.23e-3)
+            if asked:
+                self.assertEqual(session.change(b'bridge.phases = "bca"', None), c.REFUSED)
+            session.advance(2e-3)
+            return digest(session)
+        self.assertEqual(run(True), run(False))
+
+    def test_places_of_a_change_are_counted_from_its_first_line(self):
+        session = opened(CURRENT)
+        self.assertEqual(session.change(b"supply.voltage_V = 20\nsupply.volts = 4", None), c.REFUSED)
+        self.assertRegex(session.problems()[0][0], r"^toml:2:")
+        refused = c.Session.open(LIB, CURRENT, settings=["nonsense=1"])
+        self.assertRegex(refused.problems()[0][0], "^options.settings: nonsense")
 
     def test_null_and_numbers_that_are_none(self):
         session = opened(CURRENT)

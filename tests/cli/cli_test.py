@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The program as a user meets it: exit codes, messages, and files that are whole or absent."""
+import csv
 import json
 import os
 import pathlib
@@ -52,7 +53,7 @@ class CommandLine(ProgramTest):
         for curve in differences:  # exactly zero
             self.assertRegex(curve["data"], r"^A+=*$")
         self.run_program("run", *files, "--html", "both.html", "--csv", "a.csv", code=2)
-        self.assertIn("more than the 5", self.run_program("run", *[files[0]] * 6, "--html", "x.html", code=2).stderr)
+        self.assertIn("must be at most 5", self.run_program("run", *[files[0]] * 6, "--html", "x.html", code=2).stderr)
 
     def test_2_for_bad_input_and_nothing_is_written(self):
         good = self.write("a.toml", 1000)
@@ -148,7 +149,12 @@ class CommandLine(ProgramTest):
     def test_one_drive_of_a_series_is_run_alone_with_its_files(self):
         file = self.write_series(24 / 1.03)
         table = self.run_program("run", file, "--runs", "40", code=1).stdout
-        miss = re.search(r"first miss is drive (\d+)", table).group(1)
+        miss, beyond = re.search(r"worst is drive (\d+), (\S+ \S+) beyond its limit \(--seed 1 --drive \1\)", table).groups()
+        self.run_program("run", file, "--runs", "40", "--csv", "all.csv", code=1)
+        rows = list(csv.DictReader(line for line in (self.path / "all.csv").read_text().splitlines() if not line.startswith("#")))
+        figure = next(name for name in rows[0] if name.startswith("required") or "current" in name)
+        self.assertEqual(max(rows, key=lambda row: float(row[figure]))["run"], miss, "no drive is farther beyond the limit")
+        self.assertIn("each drive: motor_override.resistance_ohm +-10 %", table)
         self.run_program("run", file, "--seed", "1", "--drive", miss, "--json", "miss.json", code=1)
         alone = json.loads((self.path / "miss.json").read_text())["require"][0]
         self.assertFalse(alone["ok"])
@@ -156,6 +162,9 @@ class CommandLine(ProgramTest):
             self.run_program("run", file, "--json", "-").stdout)["require"][0]["measured"])
 
     def test_2_for_a_series_that_is_none(self):
+        told = self.run_program("run", self.write("a.toml", 1000), "--tolerances", code=2).stderr
+        self.assertTrue(told.startswith("--tolerances needs several drives"), told)
+        self.assertNotIn("--vary", told)
         self.assertIn("describes no series", self.run_program("run", self.write("a.toml", 1000), "--runs", "3", code=2).stderr)
         self.assertIn("describes no series", self.run_program("run", "a.toml", "--drive", "3", code=2).stderr)
         file = self.write_series(1000)

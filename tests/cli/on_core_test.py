@@ -55,7 +55,7 @@ class OnCore(ProgramTest):
                             (("drifts.toml", "--on", "avr"), "give its offset and gain from the start"),
                             (("retuned.toml", "--on", "riscv"), "a core is flashed once"),
                             ((SPEED, "--uart", "u.csv"), "no chip runs here"),
-                            ((SPEED, "--on", "cortex-m4", "--uart", "u.csv"), "with --on avr")):
+                            ((SPEED, "--on", "cortex-m4", "--uart", "u.csv"), "add --on avr")):
             with self.subTest(words=words[1:]):
                 made = self.run_program("run", *words, code=2)
                 self.assertIn(said, made.stderr)

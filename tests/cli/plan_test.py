@@ -82,7 +82,25 @@ class Plan(ProgramTest):
         one = json.loads((self.path / "one.json").read_text())
         self.assertEqual(one["digest"], plan["rows"][3][-1])
         self.assertEqual(one["require"][0]["measured"], plan["rows"][3][5])
-        self.assertIn("count from 0 to 5", self.run_program("run", "p.toml", "--only", "6", code=2).stderr)
+        self.assertIn("numbers 0 to 5", self.run_program("run", "p.toml", "--only", "6", code=2).stderr)
+
+    def test_a_run_of_a_plan_has_the_remarks_of_the_run_alone(self):
+        """Neither the table nor a resumed store loses one; a remark with other numbers in other runs is one line."""
+        (self.path / "b.toml").write_text(SHORT.format(limit=1e3).replace("1e-4", "2e-3").replace("locked = true", "dynamometer_times_s = [0]\ndynamometer_rad_s = [2000]"))
+        vary = ["run", "b.toml", "--vary", "pwm.period_s=5us,20us,40us", "--set", "heat.step_s=1"]
+        alone = [json.loads(self.run_program(*vary, "--only", str(n), "--json", "-", code=None).stdout)["remarks"] for n in range(3)]
+        short = [[r for r in remarks if "a commutation step lasts" in r] for remarks in alone]
+        self.assertEqual([len(r) for r in short], [0, 1, 1])
+        for store in ([], ["--store", "s.sqlite"], ["--store", "s.sqlite", "--resume"]):
+            page = f"{len(store)}.json"
+            table = self.run_program(*vary, *store, "--json", page, code=None).stdout
+            told = json.loads((self.path / page).read_text())["remarks"]
+            for n in range(3):
+                self.assertEqual(sum(n in r["runs"] for r in told), len(alone[n]))
+            for remark in told:
+                self.assertIn(remark["text"], alone[remark["runs"][0]])
+            self.assertIn(f"  remark, runs 1, 2: {short[1][0]}\n", table)
+            self.assertIn("  remark, all runs: given without effect: ", table)
 
     def test_a_controller_is_designed_for_each_value_or_stays_as_it_was(self):
         """What strays meets the gains of the value as written: bit for bit the run that is given them."""
@@ -195,6 +213,9 @@ class Plan(ProgramTest):
         told = self.run_program("run", self.held(SPREAD), "--vary", "supply.voltage_V=12:24:7", "--runs", "100", "--dry-run",
                                 "--store", "s.sqlite").stdout
         self.assertIn("7 points of 100 drives each: 700 runs", told)
+        sobol = self.run_program("run", self.held(SPREAD), "--vary", "supply.voltage_V=12:24", "--vary", "load.torque_Nm=0:0.1", "--sampling",
+                                 "saltelli", "--points", "50", "--dry-run").stdout
+        self.assertIn("200 points, 50 x (keys + 2): 200 runs", sobol)
         self.assertRegex(told, r"a run on one core \(16 tried\), about .* on \d+ cores")
         self.assertEqual(self.names(), ["a.toml"])
 
@@ -299,7 +320,7 @@ class Plan(ProgramTest):
         (self.path / "p.toml").write_text(plan)
         told = self.run_program("run", "p.toml", code=2).stderr
         self.assertIn("p.toml:7:1: vary.value", told)
-        self.assertIn("first end of a range", told)
+        self.assertIn("is one end of a range", told)
         (self.path / "p.toml").write_text(PLAN.replace("a.toml", "b.toml"))
         self.assertIn("b.toml", self.run_program("run", "p.toml", code=2).stderr)
 
@@ -400,7 +421,7 @@ class Plan(ProgramTest):
         for p in plans:
             self.run_program("run", p["name"] + ".toml", *vary, "--html", "one.html", code=1)
             self.assertEqual(self.page("one.html")[1][0] | {"repeats": ""}, p | {"repeats": ""})
-        for more, why in ((["a.toml"], "more than the 2"), (["--store", "s.sqlite"], "one plan")):
+        for more, why in ((["a.toml"], "must be at most 2"), (["--store", "s.sqlite"], "one plan")):
             self.assertIn(why, self.run_program("run", "a.toml", "b.toml", *more, *vary, "--html", "x.html", code=2).stderr)
         self.assertNotIn("x.html", self.names())
 

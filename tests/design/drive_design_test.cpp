@@ -254,7 +254,7 @@ TEST(DriveDesign, WarnsOfWhatIsOffAndOfNothingElse) {
       warns(designed({.mode = Mode::current, .settle_s = 0.1e-3, .delay_periods = 1}), "loop is unstable"));
   EXPECT_TRUE(warns(designed({.mode = Mode::speed, .settle_s = 10e-3, .current_settle_s = 8e-3}),
                     "times the frequency"));
-  EXPECT_TRUE(warns(designed({.mode = Mode::current, .settle_s = 0.25e-3}), "asks for"));
+  EXPECT_TRUE(warns(designed({.mode = Mode::current, .settle_s = 0.25e-3}), "is to settle within"));
   EXPECT_TRUE(warns(designed({.mode = Mode::current, .period_s = 60e-6}), "ripple"));
   // A ripple above the nominal current is grave, and the named chokes reduce it to a fifth, for any short L/R.
   for (const double period_s : {10e-6, 1e-3}) {
@@ -346,11 +346,13 @@ TEST(DriveDesign, IsNoFasterThanTorqueAndInertiaAllow) {
       << "what somebody asks for stays";
 }
 
-/// The lowest speed must lie a fifth below 0.9 (U - R I/2)/K_t, where I is the torque limit's or the nominal current.
+/// The lowest speed must lie a fifth below 0.9 (U - R I)/(K_t + 3.6 p L_s I/pi), I half the torque limit's or nominal current, and
+/// the friction's.
 TEST(DriveDesign, RefusesALowestSpeedWithoutRoomAboveIt) {
   MotorModel motor = thesis_motor();
   motor.nominal_current_A = 2.33;
-  const double top = 0.9 * (24 - 1.03 * 2.33 / 2) / 0.0335;
+  const double I = 2.33 / 2 + motor.shaft.B_Nm_s * 24 / (0.0335 * 0.0335);
+  const double top = 0.9 * (24 - 1.03 * I) / (0.0335 + 3.6 * 8 * motor.machine.L_H * I / base::pi);
   DesignSpec spec = on_hall_probes(0, 20e-3);
   spec.lowest_speed_rad_s = std::floor(top / 1.2 / 10) * 10;  // two digits
   EXPECT_TRUE(design_drive(motor, spec));
@@ -359,7 +361,7 @@ TEST(DriveDesign, RefusesALowestSpeedWithoutRoomAboveIt) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(
       to_string(refused.problems()[0]),
-      "lowest_speed_rad_s = 511 leaves no room for a step down to it: on this bus at most 510 rad/s may be the "
+      "lowest_speed_rad_s = 451 leaves no room for a step down to it: on this bus at most 450 rad/s may be the "
       "lowest, with a fifth of it above against half the torque of the nominal current; lower it, or give a higher voltage_V");
   spec.voltage_V = 30;
   EXPECT_TRUE(design_drive(motor, spec)) << "the cure";

@@ -51,7 +51,7 @@ class Names(unittest.TestCase):
         cls.tables = [key for key, schema in cls.scenario["properties"].items() if schema.get("type") in ("object", "array")]
 
     def named_keys(self, text):
-        text = re.sub(r"(?m)^.*(?:is not a key|carries the wrong unit|lacks its unit).*$", "", text)  # quoted messages
+        text = re.sub(r"(?m)^.*(?:is not a key|lacks its unit).*$", "", text)  # quoted messages
         found = re.findall(rf"(?<![\w./-])((?:{'|'.join(self.tables)})(?:\[\d*\])?(?:\.{FILE_NAMES}[A-Za-z_]\w*)+)", text)
         return [re.sub(r"\[\d*\]", "", key).rstrip("_") for key in found]
 

@@ -9,6 +9,7 @@ A comment above each fenced block says how it is tested; a block without one fai
   <!-- test: write NAME -->         is written into the folder in which the page's commands run
   <!-- test: file PATH -->          is that file without its licence line; a scenario passes
   <!-- test: chip --> or host       C++: those of a page compile together, for a chip without a C library or for the host
+  <!-- test: c -->              C: statements that have an open session `drive` of current-square.toml; compiled as C99 and run
   <!-- test: python -->             Python: those of the page run from top to bottom (tests/python/page_test.py)
   <!-- test: programs -->           each line begins with a program of the repository: it exists, may be executed
   <!-- test: measured -->           differs from machine to machine: not compared
@@ -51,6 +52,23 @@ class Page:
         return [block.text for block in self.blocks if block.word == word]
 
 
+C_PROGRAM = """
+#include <sixstep.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+int main(void) {
+  sixstep_session* drive;
+  if (sixstep_open_file("data/scenarios/current-square.toml", NULL, &drive) != SIXSTEP_OK) return 2;
+  {
+%s
+  }
+  sixstep_free(drive);
+  return 0;
+}
+"""
+
+
 class Desk:
     """A scratch copy of what a reader has in front of him, with the built program as ./run and sixstep."""
 
@@ -64,9 +82,14 @@ class Desk:
         for name in ("build/release/sixstep", "bin/sixstep", "run"):  # the real ./run first installs and builds
             (self.folder / name).symlink_to(program)
         (self.folder / "build/dev").symlink_to(program.parent)
-        for name in ("tests", "sixstep"):
+        for name in ("tests", "sixstep", "faces"):
             (self.folder / name).symlink_to(REPOSITORY / name)
-        self.environment = {**os.environ, "PATH": f"{self.folder}/bin:{os.environ['PATH']}"}
+        # libsixstep as if it were installed
+        library = program.parent / "lib"
+        (self.folder / "sixstep.pc").write_text(f"Name: sixstep\nVersion: 0\nDescription: of the build\nLibs: -L{library} -lsixstep\n"
+                                                f"Cflags: -I{REPOSITORY / 'faces/c'} -I{REPOSITORY}\n", encoding="utf-8")
+        self.environment = {**os.environ, "PATH": f"{self.folder}/bin:{os.environ['PATH']}", "PKG_CONFIG_PATH": str(self.folder),
+                            "LD_LIBRARY_PATH": str(library)}
 
     def close(self):
         self._folder.cleanup()
@@ -76,6 +99,11 @@ class Desk:
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
         assert done.returncode == code, f"{command}: exit code {done.returncode}\n{done.stdout}"
         return done.stdout
+
+    def c(self, statements):
+        """What the statements print, compiled with the library."""
+        (self.folder / "block.c").write_text(C_PROGRAM % statements, encoding="utf-8")
+        return self.shell("cc -std=c99 -Wall -Wextra -Werror block.c $(pkg-config --cflags --libs sixstep) -o block && ./block")
 
     def console(self, text, detail):
         """The console block with what its commands print now."""
@@ -105,6 +133,9 @@ def walk(page, desk):
         if block.word == "run":
             printed = None
             printed = desk.shell(block.text, int(block.detail.removeprefix("exit=") or 0))
+        elif block.word == "c":
+            printed = None
+            printed = desk.c(block.text)
         elif block.word == "output":
             now = printed
         elif block.word == "console":

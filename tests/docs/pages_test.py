@@ -92,7 +92,7 @@ class Pages(unittest.TestCase):
         elif block.word == "by":
             self.assertTrue((REPOSITORY / block.detail).is_file(), block.detail)
         else:
-            self.assertIn(block.word, ("run", "write", "measured", "shown", "python", *ALONE), "the block does not say how it is tested")
+            self.assertIn(block.word, ("run", "c", "write", "measured", "shown", "python", *ALONE), "the block does not say how it is tested")
 
     def compile(self, it, desk, kind):
         source = "\n".join(it.texts(kind))

@@ -61,9 +61,9 @@ std::string damaged(std::string bytes, Random& random) {
 }
 
 bool same_row(const analysis::RunRecord& a, const analysis::RunRecord& b) {
-  return a->number == b->number && a->end == b->end && a->problem == b->problem && a->digest == b->digest &&
-         a->figures == b->figures && a->strayed == b->strayed && a->point[0] == b->point[0] &&
-         a->point[1] == analysis::bare(b->point[1]);
+  return a->number == b->number && a->end == b->end && a->problem == b->problem && a->remarks == b->remarks &&
+         a->digest == b->digest && a->figures == b->figures && a->strayed == b->strayed &&
+         a->point[0] == b->point[0] && a->point[1] == analysis::bare(b->point[1]);
 }
 
 TEST_F(DamagedStore, IsToldOrHasNoOtherRowThanThoseThatWereWritten) {
@@ -97,10 +97,11 @@ TEST_F(DamagedStore, IsToldOrHasNoOtherRowThanThoseThatWereWritten) {
 
 TEST_F(DamagedStore, OfEachValueOfARowIsTold) {
   const std::string good = text_of_file();
-  for (const char* change : {"digest = '0123456789abcdef'", "f0 = f0 * 1.0000000001", "f1 = NULL",
-                             "f1 = 1e999", "s0 = s0 + 1e-15", "k0 = 4e-5", "k0 = '3e-05'", "k1 = 'hard'",
-                             "\"end\" = 'fault'", "\"end\" = 'wholu'", "passed = 1 - passed", "problem = 'x'",
-                             "run = 647", "run = -3", "run = 1000000000000000", "checksum = checksum + 1"}) {
+  for (const char* change :
+       {"digest = '0123456789abcdef'", "f0 = f0 * 1.0000000001", "f1 = NULL", "f1 = 1e999", "s0 = s0 + 1e-15",
+        "k0 = 4e-5", "k0 = '3e-05'", "k1 = 'hard'", "\"end\" = 'fault'", "\"end\" = 'wholu'",
+        "passed = 1 - passed", "problem = 'x'", "remarks = 'x'", "run = 647", "run = -3",
+        "run = 1000000000000000", "checksum = checksum + 1"}) {
     write(good);
     tamper(std::string("UPDATE run SET ") + change + " WHERE run = 3");
     EXPECT_THAT(told(), HasSubstr("is damaged: run ")) << change;
@@ -138,8 +139,8 @@ TEST_F(DamagedStore, OfAnotherFormatOrVersionSaysSo) {
   EXPECT_THAT(told(), HasSubstr("(force)"));
   ASSERT_TRUE(PlanStore::create(path(), plan(), true)) << "the cure";
   write(good);
-  tamper("PRAGMA user_version = 3");
-  EXPECT_THAT(told(), HasSubstr("has the format 3"));
+  tamper("PRAGMA user_version = 4");
+  EXPECT_THAT(told(), HasSubstr("has the format 4"));
   write(good);
   tamper("UPDATE about SET value = '0.0.9' WHERE word = 'sixstep'");
   EXPECT_THAT(told(), HasSubstr("was begun by sixstep 0.0.9, and this is "));

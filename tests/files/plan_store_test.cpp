@@ -28,6 +28,7 @@ TEST_F(Store, GivesBackEachRowToTheBitInTheOrderOfItsNumber) {
     odd.figures = {inf, nan};
     odd.end = analysis::RunEnd::fault;
     odd.problem = "t = 1 s: shoot-through";
+    odd.remarks = {"one", "two\nlines"};
     store->add(row(7));
     store->add(row(std::move(odd)));
     store->add(row(0));
@@ -46,6 +47,8 @@ TEST_F(Store, GivesBackEachRowToTheBitInTheOrderOfItsNumber) {
   EXPECT_EQ(rows[1]->figures[0], inf);
   EXPECT_TRUE(std::isnan(rows[1]->figures[1]));
   EXPECT_EQ(rows[1]->problem, "t = 1 s: shoot-through");
+  EXPECT_EQ(rows[1]->remarks, (std::vector<std::string>{"one", "two\\u000alines"}));
+  EXPECT_TRUE(rows[0]->remarks.empty());
   EXPECT_EQ(rows[1]->end, analysis::RunEnd::fault);
   EXPECT_EQ(*store->plan().columns, *plan().columns);
   EXPECT_EQ(store->plan().scenario_text, "x = 1\n");

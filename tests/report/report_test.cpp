@@ -65,6 +65,30 @@ std::vector<Real> decoded(const std::string& text) {
   return values;
 }
 
+TEST(Report, a_users_controller_shows_every_number_with_unit_and_origin) {
+  static constexpr sixstep_parameter numbers[] = {{"kp", "V s/rad", "gain of the error", 0.25, 0.0, 5.0},
+                                                  {"track_s", "s", "time of <tracking>", 0.01, 0.0, 3.0}};
+  static sixstep_controller own{};
+  own.name = "my PI";
+  own.parameters = 2;
+  own.parameter = numbers;
+  SyntheticRun run = synthetic_run(0.001);
+  run.scenario.control.drive = sixstep::study::FirmwareKind::own;
+  run.scenario.control.own.loaded = &own;
+  run.scenario.control.own.number = {{"kp", 0.5}};
+  run.outcome.gains.clear();
+  const std::string html = page(run);
+  EXPECT_THAT(html, HasSubstr("kp</th><td class=\"num\">0.5\u00a0V s/rad</td><td>scenario</td>"));
+  EXPECT_THAT(
+      html,
+      HasSubstr("track_s</th><td class=\"num\">10\u00a0ms</td><td>preset</td><td>time of &lt;tracking"));
+  EXPECT_THAT(html, HasSubstr("track_s 10\u00a0ms (preset)"));
+  const nlohmann::json told = nlohmann::json::parse(text::json_summary(run.scenario, run.outcome));
+  EXPECT_EQ(told["own"]["numbers"],
+            nlohmann::json::parse(R"([{"name": "kp", "value": 0.5, "unit": "V s/rad", "preset": false},
+                                      {"name": "track_s", "value": 0.01, "unit": "s", "preset": true}])"));
+}
+
 TEST(Report, foreign_text_stays_text) {
   SyntheticRun run = synthetic_run(0.001);
   run.scenario.title = "<b>bold</b> & \"quoted\"";

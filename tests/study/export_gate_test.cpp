@@ -299,7 +299,7 @@ TEST(ExportGate, AStopThatEndsInAFaultStandsAgainstIt) {
     EXPECT_EQ(run->clear(), sinks);
     if (sinks) continue;
     ASSERT_THAT(wheres(run->unheld), ElementsAre("protection.brake_current_A"));
-    EXPECT_THAT(run->unheld[0].limit, ::testing::HasSubstr("run command is removed at 0.5 s: over-voltage"));
+    EXPECT_THAT(run->unheld[0].limit, ::testing::HasSubstr("a stop at 0.5 s in a fault: over-voltage"));
   }
   s.protection.off_at_s = 0.4;  // the run shows it, and its requirements judge it
   const auto shown = study::clear_for_export(s);

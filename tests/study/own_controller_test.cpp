@@ -10,6 +10,7 @@
 #include "data/controllers/six_step_again.cpp"
 #include "sixstep/study/check/check.hpp"
 #include "sixstep/study/check/own.hpp"
+#include "sixstep/study/scenario/own_numbers.hpp"
 #include "sixstep/study/session/session.hpp"
 #include "tests/support/scenarios.hpp"
 
@@ -109,6 +110,11 @@ TEST(OwnController, IsDesignedByMotorBoardLoopsAndNumbers) {
   ASSERT_TRUE(study::run(s));
   EXPECT_EQ(last_values[0], 1.0);
   EXPECT_EQ(last_values[1], 2.5);
+  const std::vector<study::UsedNumber> used = study::used_numbers(s.control.own);
+  ASSERT_EQ(used.size(), 2u);
+  for (std::size_t n = 0; n < used.size(); ++n) EXPECT_EQ(used[n].value, last_values[n]);
+  EXPECT_TRUE(used[0].preset);
+  EXPECT_FALSE(used[1].preset);
   EXPECT_EQ(last_given.mode, SIXSTEP_SPEED);
   EXPECT_EQ(last_given.delay_periods, 1);
   EXPECT_EQ(last_given.period_s, 30e-6);

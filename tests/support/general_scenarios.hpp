@@ -144,6 +144,7 @@ inline const AsksForGeneral asks_for_general[] = {
        s.bridge.on_resistance_percent_K = 0.6;
        s.bridge.junction_K_W = 20;
        s.bridge.gate_current_A = 0.5;
+       s.bridge.gate_source_charge_C = 6e-9;
        s.bridge.gate_drain_charge_C = 10e-9;
      }},
     {"switch that opens",

@@ -37,7 +37,7 @@ TEST(BodeText, TellsBothLoopsAndTheirMargins) {
   EXPECT_THAT(text, HasSubstr("locked: current around 5 A, +-0.25 A\n"));
   EXPECT_THAT(text, HasSubstr("designed, dB"));
   EXPECT_THAT(text, HasSubstr("phase margin"));
-  EXPECT_THAT(text, HasSubstr("of the answer's rms is at frequencies that were not excited"));
+  EXPECT_THAT(text, HasSubstr("of the response's rms is at frequencies that were not excited"));
   for (const text::BodeMargin& m : text::bode_margins(s)) EXPECT_THAT(text, HasSubstr(m.designed));
 }
 

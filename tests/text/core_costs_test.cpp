@@ -94,11 +94,26 @@ TEST(CoreCosts, APeriodTooShortForAnImageIsToldAsTheImageHasIt) {
   const double tick_s = std::stod(counted("ATmega2560 speed q15").first) / 16e6;
   EXPECT_NEAR(text::atmega_least_period_s, tick_s, 0.05 * tick_s);
   EXPECT_EQ(text::too_short_for_images(100e-6), "");
-  EXPECT_EQ(text::too_short_for_images(30e-6),
-            "a control period of 30 us is shorter than the ATmega2560's image needs, 100 us");
+  EXPECT_EQ(
+      text::too_short_for_images(30e-6),
+      "a control period of 30 us is shorter than the ATmega2560's image needs, 100 us, and the STM32F303's may "
+      "answer a period late below 69.6 us: watch `missed`");
+  EXPECT_EQ(text::too_short_for_images(69.6e-6),
+            "a control period of 69.6 us is shorter than the ATmega2560's image needs, 100 us");
   EXPECT_EQ(
       text::too_short_for_images(4.2e-6),
-      "a control period of 4.2 us is shorter than either image needs: 22.2 us on the STM32F303, 100 us on the ATmega2560");
+      "a control period of 4.2 us is shorter than either image needs: 22.3 us on the STM32F303, 100 us on the ATmega2560");
+}
+
+/// A printed least period gives the timer the counts that the image needs.
+TEST(CoreCosts, ALeastPeriodIsRoundedUp) {
+  for (const auto& [period_s, words, counts] :
+       {std::tuple{4e-6, "needs: ", 1600.0}, {30e-6, "below ", 5006.0}}) {
+    const std::string told = text::too_short_for_images(period_s);
+    const double us = std::stod(told.substr(told.find(words) + std::string(words).size()));
+    EXPECT_GE(us * 72, counts);
+    EXPECT_LT(us * 72, counts + 0.1 * 72);
+  }
 }
 
 TEST(CoreCosts, EveryLineIsAComment) {

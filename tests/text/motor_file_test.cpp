@@ -79,10 +79,10 @@ TEST_F(MotorFile, EachSlipIsOneClearErrorWithItsCure) {
       {sheet_with("inertia_gcm2 = 0"),
        "m.toml:7:16: inertia_gcm2 = 0 must be above 0; it means: moment of inertia of the rotor, in g cm2"},
       {sheet_with("resistance_kohm = 1.03"),
-       "m.toml:8:1: resistance_kohm carries the wrong unit; write resistance_ohm and give the value in that "
+       "m.toml:8:1: resistance_kohm is not a key here; write resistance_ohm and give the value in that "
        "unit: 1 kohm = 1000 ohm"},
       {sheet_with("torque_constant_Nm_Arms = 0.4"),
-       "m.toml:8:1: torque_constant_Nm_Arms carries the wrong unit; write torque_constant_Nm_A and give the "
+       "m.toml:8:1: torque_constant_Nm_Arms is not a key here; write torque_constant_Nm_A and give the "
        "value in that unit, with a frame that is rms"},
       {sheet_with("poles = 15"),
        "m.toml:8:9: poles = 15 must be an even number from 2 on; magnet poles come in pairs of north and "

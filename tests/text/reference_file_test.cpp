@@ -158,7 +158,7 @@ TEST_F(ReferenceInAFile, WhatCannotChangeDuringARunIsToldWhatCan) {
                          "supply.resistance_ohm = 1\nload.torque_mNm = 1\n"),
               ElementsAre("x.toml:11:5: at.pwm.period_s is not a key here; " + what,
                           "x.toml:12:8: at.supply.resistance_ohm is not a key here; " + what,
-                          "x.toml:13:6: at.load.torque_mNm carries the wrong unit; write torque_Nm and give "
+                          "x.toml:13:6: at.load.torque_mNm is not a key here; write torque_Nm and give "
                           "the value in that unit: 1 mNm = 0.001 Nm"));
 }
 

@@ -67,6 +67,30 @@ TEST_F(Family, ValuesInBracketsAndBracesAreReplacedWhole) {
   EXPECT_THAT(s->reference.values, ElementsAre(7.0));
 }
 
+// Law: a base in braces is worth the same as one under a heading. It replaces what weaker bases have.
+TEST_F(Family, ABaseInBracesIsJoinedLikeOneUnderAHeading) {
+  const std::string common = head + "control.mode = \"speed\"\nreference.value = 100\n";
+  const std::string child = "[load]\ntorque_Nm = 0.02\n[control.speed]\ntorque_limit_Nm = 0.1\n";
+  write("headings.toml",
+        common + "[load]\ntorque_Nm = 0.01\nviscous_Nm_s = 1e-6\n[control.speed]\nsettle_s = 0.05\n");
+  write("braces.toml",
+        common + "control.speed = { settle_s = 0.05 }\nload = { torque_Nm = 0.01, viscous_Nm_s = 1e-6 }\n");
+  const auto under = read("extends = \"headings.toml\"\n" + child);
+  const auto braces = read("extends = \"braces.toml\"\n" + child);
+  ASSERT_TRUE(under) << to_string(under.problems()[0]);
+  ASSERT_TRUE(braces) << to_string(braces.problems()[0]);
+  EXPECT_EQ(scenario_text(*braces), scenario_text(*under));
+  EXPECT_EQ(braces->load.torque_Nm, 0.02);
+  EXPECT_EQ(braces->load.viscous_Nm_s, 1e-6);
+  EXPECT_EQ(*braces->control.speed.settle_s, 0.05);
+
+  write("weaker.toml", "[load]\ncoulomb_Nm = 0.001\n");
+  EXPECT_EQ(read("extends = [\"weaker.toml\", \"headings.toml\"]\n" + child)->load.coulomb_Nm, 0.001);
+  const auto cut = read("extends = [\"weaker.toml\", \"braces.toml\"]\n" + child);
+  ASSERT_TRUE(cut) << to_string(cut.problems()[0]);
+  EXPECT_EQ(scenario_text(*cut), scenario_text(*braces));
+}
+
 TEST_F(Family, EmptyBracesDropATableOfTheBases) {
   write("far.toml", head + "[load]\ntorque_Nm = 0.01\nviscous_Nm_s = 1e-6\n");
   write("base.toml",

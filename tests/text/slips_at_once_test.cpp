@@ -58,7 +58,7 @@ TEST_F(SlipsAtOnce, AScenarioTellsItsOwnSlipsBesideItsMotors) {
                          "current = { settle_ms = 1 }\n"),
               ElementsAre(HasSubstr("x.toml:4:15: bridge.dead_time_s = 1 must be shorter than"),
                           HasSubstr("x.toml:6:10: at.time_s = 3 lies behind the end of the run"),
-                          HasSubstr("x.toml:10:13: control.current.settle_ms carries the wrong unit"),
+                          HasSubstr("x.toml:10:13: control.current.settle_ms is not a key here"),
                           HasSubstr("bad.toml:2:1: polar is not a key here"),
                           HasSubstr("bad.toml:3:18: resistance_ohm = 1.03 must say its frame")));
   EXPECT_THAT(complaints("motor = \"maxon-251601\"\nduration_s = 0.02\n[bridge]\ndead_time_s = 1\n"

@@ -80,7 +80,7 @@ TEST_F(WrongInput, UnknownKeyIsAnsweredWithTheNearest) {
 TEST_F(WrongInput, WrongUnitIsToldAsSuch) {
   EXPECT_THAT(
       complaints(head + "[supply]\nvoltage_mV = 24000\n"),
-      ElementsAre("x.toml:4:1: supply.voltage_mV carries the wrong unit; write voltage_V and give the value "
+      ElementsAre("x.toml:4:1: supply.voltage_mV is not a key here; write voltage_V and give the value "
                   "in that unit: 1 mV = 0.001 V"));
   EXPECT_THAT(
       complaints(head + "[supply]\nvoltage = 24\n"),

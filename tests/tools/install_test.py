@@ -73,7 +73,8 @@ class Installed(unittest.TestCase):
     def test_files_are_where_they_are_looked_for(self):
         for name in FILES:
             self.assertTrue((self.prefix / name).is_file(), name)
-        for name in FOLDERS:  # all of git's files there
+        examples = ["faces/c/example"] if (self.prefix / "lib/libsixstep.so").exists() else []
+        for name in FOLDERS + examples:  # all of git's files there
             listed = subprocess.run(["git", "ls-files", name], cwd=ROOT, capture_output=True, text=True, check=False).stdout.split("\n")
             for file in filter(None, listed):
                 if pathlib.Path(file).name not in ("CMakeLists.txt", ".clang-tidy"):
@@ -130,6 +131,24 @@ class Installed(unittest.TestCase):
                                             '[control.own]\ncontroller = "pi_in_integers.so"\n[reference]\nvalue = 1\n')
         self.call("sixstep", "run", "own.toml")
         self.call("c++", "-std=c++20", "-fsyntax-only", f"-I{self.prefix / 'include'}", own / "six_step_again.cpp")
+
+    def test_a_program_with_the_library(self):
+        """By pkg-config and by CMake, in C and in C++; the installed library is at none of the places that it was configured for."""
+        if not (self.prefix / "lib/libsixstep.so").exists():
+            self.skipTest("built without libsixstep")
+        example = self.share / "faces/c/example/advance.c"
+        scenario = self.share / "data/scenarios/current-square.toml"
+        flags = self.call("pkg-config", "--cflags", "--libs", "sixstep", PKG_CONFIG_PATH=str(self.prefix / "share/pkgconfig")).stdout.strip()
+        self.call("sh", "-c", f"cc -std=c99 '{example}' {flags} -o by_pkg_config")
+        self.call("sh", "-c", f"c++ -x c++ -fsyntax-only '{self.prefix / 'include/sixstep.h'}' {flags}")
+        by_pkg_config = self.call("./by_pkg_config", scenario, LD_LIBRARY_PATH=str(self.prefix / "lib")).stdout
+        (self.here / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.16)\nproject(mine C)\nfind_package(sixstep 0.1 REQUIRED)\n"
+                                                  f'add_executable(mine "{example}")\ntarget_link_libraries(mine PRIVATE sixstep::sixstep)\n')
+        self.call("cmake", "-B", "build", f"-DCMAKE_PREFIX_PATH={self.prefix}")
+        self.call("cmake", "--build", "build")
+        by_cmake = self.call("build/mine", scenario).stdout
+        self.assertEqual(by_cmake, by_pkg_config)
+        self.assertTrue(by_cmake.endswith(self.call("sixstep", "run", scenario, "--json", "-").stdout))
 
     def test_exported_headers(self):
         for words, folder in (((), self.prefix / "include"), (("--single-header",), self.share)):

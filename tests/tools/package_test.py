@@ -35,10 +35,19 @@ class Packages(unittest.TestCase):
         self.assertEqual(self.files["sixstep"].name, f"sixstep_{VERSION}_{architecture}.deb")
         for package in self.files:
             self.assertEqual(self.field(package, "Version"), VERSION)
-            self.assertIn("libstdc++6", self.field(package, "Depends"))
+            if package != "libsixstep-dev":
+                self.assertIn("libstdc++6", self.field(package, "Depends"))
         self.assertNotIn("simavr", self.field("sixstep", "Depends"))
         if "sixstep-avr-board" in self.files:
             self.assertRegex(self.field("sixstep-avr-board", "Depends"), rf"sixstep \(= {re.escape(VERSION)}\).*libsimavr")
+
+    def test_the_library_is_found_by_its_soname(self):
+        if "libsixstep1" not in self.files:
+            self.skipTest("built without libsixstep: cmake --preset release -DSIXSTEP_C=ON")
+        control = said("sh", "-c", f"dpkg-deb --ctrl-tarfile '{self.files['libsixstep1']}' | tar xO ./shlibs ./triggers")
+        self.assertIn(f"libsixstep 1 libsixstep1 (= {VERSION})", control)
+        self.assertIn("ldconfig", control)
+        self.assertIn(f"libsixstep1 (= {VERSION})", self.field("libsixstep-dev", "Depends"))
 
     def test_all_belongs_to_root_and_may_be_read(self):
         for file in self.files.values():

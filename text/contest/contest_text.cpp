@@ -178,7 +178,7 @@ std::vector<std::string> contest_notes(const Contest& c) {
           quantity_text(analysis::most_peak_A(c.bench), "A", 3)));
     if (scenario && scenario->control.drive == study::FirmwareKind::own)
       notes.push_back(
-          fmt::format("{} runs with the parameters that its own file presets, not with those of a "
+          fmt::format("{} runs with the numbers that its own file presets, not with those of a "
                       "scenario's control.own.number",
                       controller_name(c, n)));
     if (scenario && scenario->control.speed.output == study::SpeedOutput::duty)
@@ -217,9 +217,16 @@ std::vector<std::string> contest_legend(const Contest& c) {
           contest_core, arithmetic)};
 }
 
+std::string compared_controllers(const Contest& c) {
+  const auto run = std::count_if(c.entries.begin(), c.entries.end(),
+                                 [](const auto& entry) { return static_cast<bool>(entry.scenario); });
+  const auto all = static_cast<std::ptrdiff_t>(c.entries.size());
+  return run == all ? fmt::format("{} controllers", all) : fmt::format("{} of {} controllers", run, all);
+}
+
 std::string contest_text(const Contest& c) {
-  std::string text = fmt::format("{}: {} controllers, designed by rule for\n",
-                                 visible(c.bench.scenario.motor), c.entries.size());
+  std::string text =
+      fmt::format("{}: {}, designed by rule for\n", visible(c.bench.scenario.motor), compared_controllers(c));
   for (const std::string& rule : c.bench.rules) text += "  - " + rule + "\n";
   for (const ContestTable& one : contest_tables(c)) {
     text += one.title.empty() ? "\n" : "\n" + one.title + "\n\n";

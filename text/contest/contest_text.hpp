@@ -37,6 +37,9 @@ std::vector<ContestTable> contest_tables(const analysis::Contest& contest);
 /// Explains the marks and heads of the tables, one line each.
 std::vector<std::string> contest_legend(const analysis::Contest& contest);
 
+/// "20 controllers", or "16 of 20 controllers" if some cannot run.
+std::string compared_controllers(const analysis::Contest& contest);
+
 /// The common conditions, the tables (nominal and worst) and the sentences.
 std::string contest_text(const analysis::Contest& contest);
 

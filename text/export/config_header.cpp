@@ -39,10 +39,12 @@ std::string timing(const study::Compiled& c, const study::Clearance* clearance) 
   const auto flag = [](bool on) { return std::string(on ? "true" : "false"); };
   const auto us = [](double ps) { return fmt::format("{:.9g} us", ps / 1e6); };
   const double dead = m.in_counts(m.dead_ticks);
+  std::string bridge = "for a bridge";
+  if (!c.product) bridge += " that your firmware protects";
+  if (clearance && clearance->needs_sink)
+    bridge += std::string(c.product ? " whose" : ", and whose") + " supply takes current back";
   return constant("bool", "cleared", flag(cleared),
-                  !cleared                ? "NOT for a bridge: static_assert on it"
-                  : clearance->needs_sink ? "for a bridge whose supply takes current back, by its run"
-                                          : "for a bridge, by its run") +
+                  cleared ? bridge + ", by its run" : "NOT for a bridge: static_assert on it") +
          constant("std::uint8_t", "pole_pairs", std::to_string(static_cast<int>(c.motor.machine.pole_pairs)),
                   "electrical turns per mechanical one") +
          constant("std::uint64_t", "pwm_period_ps", std::to_string(m.period_ticks),

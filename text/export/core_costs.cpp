@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "sixstep/base/decimal.hpp"
 #include "text/cores.hpp"
 
 namespace text {
@@ -109,10 +110,18 @@ std::string too_short_for_images(double period_s) {
   if (period_s >= atmega_least_period_s) return {};
   const std::string period = fmt::format("a control period of {:.4g} us is shorter than", 1e6 * period_s);
   const std::string atmega = fmt::format("{:.0f} us", 1e6 * atmega_least_period_s);
-  if (period_s >= stm32_least_period_s)
+  // Rounded up, because less would not do.
+  const auto stm32 = [](double least_s) {
+    return fmt::format("{} us", sixstep::base::shortened(1e6 * least_s, 3, sixstep::base::Towards::up));
+  };
+  if (period_s >= stm32_sure_period_s)
     return fmt::format("{} the ATmega2560's image needs, {}", period, atmega);
-  return fmt::format("{} either image needs: {:.1f} us on the STM32F303, {} on the ATmega2560", period,
-                     1e6 * stm32_least_period_s, atmega);
+  if (period_s >= stm32_least_period_s)
+    return fmt::format(
+        "{} the ATmega2560's image needs, {}, and the STM32F303's may answer a period late below {}: watch `missed`",
+        period, atmega, stm32(stm32_sure_period_s));
+  return fmt::format("{} either image needs: {} on the STM32F303, {} on the ATmega2560", period,
+                     stm32(stm32_least_period_s), atmega);
 }
 
 std::string other_than_stm32_image(const study::Scenario& s) {

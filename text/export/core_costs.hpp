@@ -24,10 +24,13 @@ std::optional<CoreCost> core_cost(std::string_view core, std::string_view drive,
 /// product drive with another value; else empty.
 std::string other_than_stm32_image(const study::Scenario& scenario);
 
-inline constexpr double stm32_least_period_s = 1600 / 72e6, atmega_least_period_s = 100e-6;
+/// From stm32_sure_period_s on no answer of the STM32F303's image can be late
+/// (docs/howto/compare-a-log.md).
+inline constexpr double stm32_least_period_s = 1600 / 72e6, stm32_sure_period_s = 5006 / 72e6,
+                        atmega_least_period_s = 100e-6;
 
-/// Names the images for which this control period is too short, as a sentence without its full stop; empty if
-/// none.
+/// Names the images for which this control period is or may be too short, as a sentence without its full
+/// stop; empty if none.
 std::string too_short_for_images(double period_s);
 
 /// Lines of // comment.

@@ -131,7 +131,7 @@ base::Problem unknown_key(std::string_view key, std::span<const std::string> kno
         (same == nullptr || edit_distance(candidate, key) < edit_distance(*same, key)))
       same = &candidate;
   if (same != nullptr)
-    return {.limit = unit_suffix(key).empty() ? "lacks its unit" : "carries the wrong unit",
+    return {.limit = unit_suffix(key).empty() ? "lacks its unit" : "is not a key here",
             .cure = fmt::format("write {} and give the value in that unit{}", *same,
                                 conversion_text(unit_suffix(key), unit_suffix(*same)))};
   if (std::optional<std::string> meant = by_meaning(key, known))

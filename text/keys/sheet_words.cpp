@@ -93,7 +93,8 @@ constexpr SheetWords elsewhere[] = {
     {"peaktorque maxtorque maximumtorque", "",
      "leave it out, or write stall_torque_mNm where it is the torque of the held rotor at nominal voltage"},
     {"peakcurrent maxcurrent maximumcurrent lcurrentmax currentlim currentlimit", "",
-     "write control.limits.current_A in the scenario, because this limit belongs to the drive"},
+     "write control.limits.current_A in the scenario, because this limit belongs to the drive; for a design without a "
+     "scenario give a torque limit, K_t times it"},
     {"ratedpower nominalpower maxpower power outputpower", "",
      "leave it out: it follows from nominal_torque_mNm and nominal_speed_rpm"},
     {"weight motorweight mass shaftdiameter statordiameter length diameter phases numberofphases insulationclass",

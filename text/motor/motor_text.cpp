@@ -215,9 +215,11 @@ std::string verdict_line(const SheetCheck& check) {
        : r.verdict == RelationVerdict::doubted ? doubted
                                                : broken);
   if (check.relations.empty()) return "consistent: the sheet prints nothing twice";
-  std::string text =
-      fmt::format("{}: {} of {} relations hold", check.consistent ? "consistent" : "INCONSISTENT", holds,
-                  check.relations.size());
+  std::string text = fmt::format("{}: {} of {} relations hold",
+                                 !check.consistent ? "INCONSISTENT"
+                                 : doubted > 0     ? "not contradictory"
+                                                   : "consistent",
+                                 holds, check.relations.size());
   if (known > 0) text += fmt::format(", {} broken as the file says", known);
   if (doubted > 0) text += fmt::format(", {} in doubt", doubted);
   if (broken > 0) text += fmt::format(", {} broken", broken);

@@ -159,7 +159,16 @@ std::string sensorless_text(const std::vector<sixstep::design::DerivationStep>& 
          "  these runs have Hall edges in place of zero crossings; run the scenario itself to simulate the start\n";
 }
 
-std::string limits_text(const DriveDesign& d) {
+/// A nominal speed that lies above the limit of commutation.
+std::string nominal_above(const DriveDesign& d, const sixstep::design::Sheet& sheet) {
+  if (!sheet.nominal_speed_rpm) return "";
+  const double nominal = sheet.nominal_speed_rpm->value / sixstep::base::rpm_per_rad_s;
+  return nominal > d.commutation_limit_rad_s
+             ? fmt::format("; the nominal speed, {:.3g} rad/s, is above it", nominal)
+             : "";
+}
+
+std::string limits_text(const DriveDesign& d, const sixstep::design::Sheet& sheet) {
   std::string text = fmt::format(
       "\nLimits at the nominal current of {}{}\n"
       "  current ripple      {} peak to peak at worst (duty {}); below a mean current of {} {}\n",
@@ -187,8 +196,8 @@ std::string limits_text(const DriveDesign& d) {
                                        sixstep::design::commutation_emfs(d.motor.machine));
   text += d.commutation_limit_rad_s > 0
               ? motion.words(
-                    fmt::format("  commutation         a duty step holds the torque up to {} rad/s, {}\n",
-                                speed(d.commutation_limit_rad_s, 1), held))
+                    fmt::format("  commutation         a duty step holds the torque up to {} rad/s, {}{}\n",
+                                speed(d.commutation_limit_rad_s, 1), held, nominal_above(d, sheet)))
               : motion.words(fmt::format("  commutation         no duty step holds the torque, {}\n", held));
   if (d.spec.chopping == sixstep::control::Chopping::soft)
     text += motion.words(fmt::format("  braking, soft       held up to {} rad/s, (i/K_t) R\n",

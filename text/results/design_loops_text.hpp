@@ -26,6 +26,6 @@ std::string sensing_text(const design::DriveDesign& design);
 std::string sensorless_text(const std::vector<sixstep::design::DerivationStep>& steps);
 
 /// Ripple, voltage left, braking, period.
-std::string limits_text(const design::DriveDesign& design);
+std::string limits_text(const design::DriveDesign& design, const design::Sheet& sheet);
 
 }  // namespace text

@@ -182,11 +182,9 @@ std::string design_verdict(const analysis::DesignStudy& s) {
   } else if (settling) {
     text += fmt::format(": the {} loop settles within {:g} % in {}", mode, settled_percent(s),
                         quantity_text(settling->measured, "s", 4));
-    const auto& placed = s.design.loops.back().placed;
-    if (placed)
-      text += fmt::format(" (designed: {}, by poles that alone settle within 1 % in {})",
-                          quantity_text(settling->value, "s", 4), quantity_text(placed->settle_s, "s", 4));
     text += at_worst(s, "settling time", settling->measured, 4);
+    if (s.design.loops.back().placed)
+      text += fmt::format(" (designed: {})", quantity_text(settling->value, "s", 4));
   }
   if (overshoot) {
     const double measured = sixstep::analysis::as_read(*overshoot, s.scenario);
@@ -207,7 +205,7 @@ std::string design_text(const analysis::DesignStudy& s, bool colour) {
   for (const LoopDesign& loop : s.design.loops) text += loop_text(loop, motion);
   if (s.position) text += position_text(*s.position, motion);
   text += figures_text(s.design) + sensing_text(s.design) + sensorless_text(s.sensorless) +
-          limits_text(s.design) + simulated_text(s);
+          limits_text(s.design, s.scenario.sheet) + simulated_text(s);
   if (s.robustness) text += robust_text(*s.robustness, s.design);
   if (!s.warnings.empty()) text += "\nWarnings\n";
   for (const auto& w : s.warnings)

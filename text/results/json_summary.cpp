@@ -7,6 +7,7 @@
 
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/run/run.hpp"
+#include "sixstep/study/scenario/own_numbers.hpp"
 #include "text/escape/escape.hpp"
 #include "text/escape/json_number.hpp"
 #include "text/results/core_text.hpp"
@@ -44,6 +45,16 @@ Json gains(const study::Outcome& outcome) {
   for (const study::LoopGains& g : outcome.gains)
     list.push_back({{"loop", g.loop}, {"d1", g.d1}, {"d0", g.d0}, {"origin", g.origin}});
   return list;
+}
+
+Json own(const study::Own& own) {
+  Json numbers = Json::array();
+  for (const study::UsedNumber& number : study::used_numbers(own))
+    numbers.push_back({{"name", number.is->name},
+                       {"value", number.value},
+                       {"unit", number.is->unit},
+                       {"preset", number.preset}});
+  return {{"name", own.loaded->name}, {"numbers", numbers}};
 }
 
 Json devices(const study::Outcome& outcome) {
@@ -132,6 +143,7 @@ std::string json_summary(const study::Scenario& scenario, const study::Outcome& 
   summary["require"] = verdicts(outcome);
   summary["compare"] = comparisons(outcome);
   summary["gains"] = gains(outcome);
+  if (scenario.control.own.loaded) summary["own"] = own(scenario.control.own);
   summary["energy"] = outcome.energy ? energy(*outcome.energy) : Json(nullptr);
   summary["devices"] = devices(outcome);
   summary["laws"] = outcome.laws ? laws(*outcome.laws) : Json(nullptr);

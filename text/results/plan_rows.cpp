@@ -123,6 +123,9 @@ std::string plan_json(const PlanStory& s, const std::string& title, const std::s
   json["passed"] = s.series.passed;
   json["faults"] = s.series.faults.size();
   json["refused"] = s.series.refused.size();
+  json["remarks"] = Json::array();
+  for (const analysis::SeriesRemark& r : s.series.remarks)
+    json["remarks"].push_back({{"text", r.text}, {"runs", r.numbers}});
   json["digest"] = base::written_hex(s.series.digest);
   json.update(columns_json(s));
   if (s.plan.sampling == analysis::Sampling::saltelli) json["indices"] = indices_json(s);

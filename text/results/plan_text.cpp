@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "sixstep/base/written.hpp"
 #include "text/escape/escape.hpp"
 #include "text/keys/decimal_number.hpp"
 #include "text/results/quantity_text.hpp"
@@ -95,11 +96,20 @@ std::string point_table(const PlanStory& story) {
   const std::string of =
       story.plan.drives > 1 ? fmt::format(", medians of {} drives", story.plan.drives) : "";
   return fmt::format("{}{}\n", visible(story.name), of) + rows.text() + legend(story) +
-         casualties_text(story.series, story.plan) + series_sum(story.series, story.plan);
+         casualties_text(story.series, story.plan) + remarks_text(story.series, story.plan) +
+         series_sum(story.series, story.plan);
 }
 
 std::string part(const analysis::Estimated& e) {
   return fmt::format("{:.3f} ({:.3f} .. {:.3f})", e.value, e.low, e.high);
+}
+
+/// The spread of each drive's values, before the table.
+std::string drives_text(const PlanStory& story) {
+  std::string text;
+  for (const DriveSpread& one : story.spread)
+    text += fmt::format("{}{} {}", text.empty() ? "each drive: " : ", ", visible(one.key), one.width);
+  return text.empty() ? "" : text + "\n";
 }
 
 std::string index_table(const PlanStory& story) {
@@ -107,13 +117,14 @@ std::string index_table(const PlanStory& story) {
   for (std::size_t f = 0; f < story.columns.figures.size(); ++f) {
     const auto found = indices_of(story, f);
     text += fmt::format("  {}: {}\n", visible(story.columns.figures[f].name),
-                        found ? "sensitivity indices, first order and total, each with the middle 95 %"
+                        found ? "Sobol indices, first order and total, each with its 95 % confidence interval"
                               : "does not vary, or too few runs have it");
     if (!found) continue;
     Rows rows(Rows::Side::right);
     for (std::size_t k = 0; k < found->size(); ++k)
       rows.add({visible(story.columns.keys[k].key), part((*found)[k].first), part((*found)[k].total)});
     text += rows.text();
+    if (analysis::too_few_rows(*found)) text += fmt::format("    {}\n", too_few_points);
   }
   return text;
 }
@@ -127,13 +138,27 @@ std::optional<std::vector<analysis::SensitivityIndex>> indices_of(const PlanStor
   return analysis::sensitivity(values, story.plan.axes.size(), story.plan.seed);
 }
 
+std::vector<DriveSpread> drive_spreads(const study::Scenario& scenario,
+                                       const analysis::PlanColumns& columns) {
+  std::vector<DriveSpread> all;
+  for (std::size_t n = 0; n < std::min(scenario.spread.size(), columns.strayed.size()); ++n) {
+    const study::Spread& spread = scenario.spread[n];
+    const bool normal = spread.distribution == study::Distribution::normal;
+    const std::string width = spread.relative
+                                  ? base::six_digits(100.0 * *spread.relative) + " %"
+                                  : quantity_text(spread.absolute.value_or(0.0), columns.strayed[n].unit);
+    all.push_back({columns.strayed[n].key, (normal ? "normal, std. dev. " : "+-") + width});
+  }
+  return all;
+}
+
 std::string plan_table(const PlanStory& story) {
   if (story.series.runs > 0 && !story.plan.axes.empty() &&
       analysis::points_of(story.plan) <= most_points_shown)
-    return point_table(story);
+    return drives_text(story) + point_table(story);
   const std::string indices =
       story.series.runs > 0 && story.plan.sampling == analysis::Sampling::saltelli ? index_table(story) : "";
-  return indices + series_table(story.name, story.series, story.plan);
+  return drives_text(story) + indices + series_table(story.name, story.series, story.plan);
 }
 
 }  // namespace text

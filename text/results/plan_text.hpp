@@ -12,6 +12,17 @@
 
 namespace text {
 
+/// A value that differs from drive to drive, and its width: "+-10 %", "normal, std. dev. 0.1 V".
+struct DriveSpread {
+  std::string key, width;
+};
+
+/// Those of the columns.
+std::vector<DriveSpread> drive_spreads(const study::Scenario& scenario, const analysis::PlanColumns& columns);
+
+inline constexpr const char* too_few_points =
+    "too few points: an index is negative or above its total, or the first order adds up to more than 1";
+
 /// A plan and its results; `each` visits the rows with their points in the order of their numbers.
 struct PlanStory {
   const std::string& name;
@@ -19,6 +30,7 @@ struct PlanStory {
   const analysis::PlanColumns& columns;
   const analysis::Series& series;
   std::function<void(const std::function<void(const analysis::RunRecord&)>&)> each;
+  std::vector<DriveSpread> spread = {};  ///< none where the plan has no drives
 };
 
 /// The Sobol indices of a figure, one per key; empty unless the plan is sampled for them (Sampling::saltelli).

@@ -2,9 +2,11 @@
 #include "text/results/series_table.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "text/escape/escape.hpp"
@@ -17,8 +19,8 @@ constexpr std::size_t series_columns = 10;
 constexpr int spread_digits = 4;  // a thousand drives do not give more
 using SeriesRow = std::array<std::string, series_columns>;
 
-std::string cell(const std::optional<double>& x, const std::string& unit) {
-  return x ? quantity_text(*x, unit, spread_digits) : "-";
+std::string cell(const std::optional<double>& x, const std::string& unit, int digits = spread_digits) {
+  return x ? quantity_text(*x, unit, digits) : "-";
 }
 
 std::string required(const analysis::FigureColumn& f) {
@@ -27,17 +29,34 @@ std::string required(const analysis::FigureColumn& f) {
   return f.max ? "<= " + quantity_text(*f.max, f.unit) : "";
 }
 
+/// "0.3 ms beyond its limit", "12 mA within its limits".
+std::string margin_text(const analysis::SpreadFigure& f) {
+  if (!std::isfinite(f.least_margin)) return "without a value within its limit";
+  return fmt::format("{} {} its limit{}",
+                     quantity_text(std::fabs(f.least_margin), f.column.unit, spread_digits),
+                     f.least_margin < 0.0 ? "beyond" : "within", f.column.min && f.column.max ? "s" : "");
+}
+
+/// Enough digits for two of the standard deviation.
+int digits_of(const analysis::Statistics& s) {
+  const std::optional<double> deviation = s.standard_deviation();
+  if (!deviation || !(*deviation > 0.0)) return spread_digits;
+  const double largest = std::max(std::fabs(*s.min()), std::fabs(*s.max()));
+  return std::clamp(static_cast<int>(std::floor(std::log10(largest / *deviation))) + 2, spread_digits, 8);
+}
+
 SeriesRow row_of(const analysis::SpreadFigure& f, std::size_t runs) {
   const analysis::Statistics& s = f.statistics;
   const std::string& unit = f.column.unit;
+  const int digits = digits_of(s);
   return {"  " + f.column.name,
           required(f.column),
-          cell(s.min(), unit),
-          cell(s.quantile(0.05), unit),
-          cell(s.median(), unit),
-          cell(s.quantile(0.95), unit),
-          cell(s.max(), unit),
-          cell(s.mean(), unit),
+          cell(s.min(), unit, digits),
+          cell(s.quantile(0.05), unit, digits),
+          cell(s.median(), unit, digits),
+          cell(s.quantile(0.95), unit, digits),
+          cell(s.max(), unit, digits),
+          cell(s.mean(), unit, digits),
           cell(s.standard_deviation(), unit),
           f.column.required ? fmt::format("{} of {}", f.holds, runs) : ""};
 }
@@ -69,10 +88,40 @@ std::string casualties(const std::vector<analysis::Casualty>& which, const char*
                      which[0].number, visible(which[0].problem));
 }
 
+constexpr std::size_t most_numbers = 8;
+
+/// "run 4", "runs 0, 1, 2", "all runs", or how many and the first.
+std::string those(const std::vector<std::size_t>& numbers, const analysis::Series& series,
+                  const analysis::Plan& plan) {
+  const char* one = one_of(plan);
+  if (numbers.size() == series.runs && series.runs > 1) return fmt::format("all {}s", one);
+  if (numbers.size() > most_numbers)
+    return fmt::format("{} {}s, the first of them {}", numbers.size(), one, numbers.front());
+  return fmt::format("{}{} {}", one, numbers.size() > 1 ? "s" : "", fmt::join(numbers, ", "));
+}
+
 /// It may have missed because of the fault.
 bool stopped(std::size_t number, const analysis::Series& series) {
   return std::any_of(series.faults.begin(), series.faults.end(),
                      [number](const analysis::Casualty& c) { return c.number == number; });
+}
+
+/// If all requirements hold: the one with the least margin as a part of its limit, or of the half distance of its
+/// limits.
+const analysis::SpreadFigure* closest_of(const analysis::Series& series) {
+  const analysis::SpreadFigure* closest = nullptr;
+  double least = 0.0;
+  for (const analysis::SpreadFigure& f : series.figures) {
+    if (!f.worst || (!f.column.min && !f.column.max)) continue;
+    if (f.holds < series.runs) return nullptr;
+    const double limit = f.column.min && f.column.max ? (*f.column.max - *f.column.min) / 2
+                         : f.column.min               ? std::fabs(*f.column.min)
+                                                      : std::fabs(*f.column.max);
+    if (!(limit > 0.0) || (closest && f.least_margin / limit >= least)) continue;
+    closest = &f;
+    least = f.least_margin / limit;
+  }
+  return closest;
 }
 
 bool draws(const analysis::Plan& plan) {
@@ -109,13 +158,22 @@ std::string stopped_text(const analysis::Series& series, const analysis::Plan& p
          casualties(series.refused, "could not run", plan);
 }
 
+std::string remarks_text(const analysis::Series& series, const analysis::Plan& plan) {
+  std::string text;
+  for (const analysis::SeriesRemark& r : series.remarks)
+    text += fmt::format("  remark, {}: {}\n", those(r.numbers, series, plan), visible(r.text));
+  return text;
+}
+
 std::string casualties_text(const analysis::Series& series, const analysis::Plan& plan) {
   std::string text = stopped_text(series, plan);
+  const analysis::SpreadFigure* const closest = closest_of(series);
   for (const analysis::SpreadFigure& f : series.figures)
-    if (f.first_miss)
-      text += fmt::format("  {}: the first miss is {} {}{} ({})\n", visible(f.column.name), one_of(plan),
-                          *f.first_miss, stopped(*f.first_miss, series) ? ", which a fault stopped" : "",
-                          repeats_text(plan, *f.first_miss));
+    if (&f == closest || f.missed)
+      text += fmt::format("  {}: {} {} {}{}, {} ({})\n", visible(f.column.name),
+                          &f == closest ? "closest to its limit is" : "worst is", one_of(plan), *f.worst,
+                          stopped(*f.worst, series) ? ", which a fault stopped" : "", margin_text(f),
+                          repeats_text(plan, *f.worst));
   return text;
 }
 
@@ -123,9 +181,10 @@ std::string series_table(const std::string& name, const analysis::Series& series
                          const analysis::Plan& plan) {
   if (series.runs == 0) return series_sum(series, plan);
   std::vector<SeriesRow> rows = {
-      {name, "required", "min", "5 %", "median", "95 %", "max", "mean", "deviation", "holds"}};
+      {name, "required", "min", "5 %", "median", "95 %", "max", "mean", "std. dev.", "holds"}};
   for (const analysis::SpreadFigure& figure : series.figures) rows.push_back(row_of(figure, series.runs));
-  return aligned(std::move(rows)) + casualties_text(series, plan) + series_sum(series, plan);
+  return aligned(std::move(rows)) + casualties_text(series, plan) + remarks_text(series, plan) +
+         series_sum(series, plan);
 }
 
 }  // namespace text

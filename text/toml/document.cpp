@@ -74,6 +74,14 @@ struct Dropped {
   std::string key;
 };
 
+void fill(toml::table& over, toml::table& base, std::vector<Dropped>& dropped);
+
+/// A base's braces replace what weaker bases have. The mark lets none of them add to the joined table.
+void join(toml::table& over, toml::table& base, std::vector<Dropped>& dropped) {
+  fill(over, base, dropped);
+  if (base.is_inline()) over.is_inline(true);
+}
+
 /// Moves the keys that `over` lacks there from `base`; they keep their place in their file. A dropped table
 /// stays as a mark until all bases are processed, because a weaker one may have it too.
 void fill(toml::table& over, toml::table& base, std::vector<Dropped>& dropped) {
@@ -84,8 +92,8 @@ void fill(toml::table& over, toml::table& base, std::vector<Dropped>& dropped) {
       dropped.push_back({&over, std::string(key.str())});
     else if (!mine)
       node.visit([&, &key = key](auto& value) { over.insert(key, std::move(value)); });
-    else if (a && b && !a->is_inline() && !b->is_inline())
-      fill(*a, *b, dropped);
+    else if (a && b && !a->is_inline())
+      join(*a, *b, dropped);
     else if (mine->is_array_of_tables() && node.is_array_of_tables())
       put_first(*mine->as_array(), *node.as_array());
   }

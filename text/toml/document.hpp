@@ -24,9 +24,10 @@ class Document {
   /// `name` is the file's name in messages.
   static base::Result<Document> parse(std::string name, std::string text);
 
-  /// Lays this file over others, the strongest last; values of this one win. Tables under [headings] are joined
-  /// key by key. Lists of tables are joined, the other's first, unless this one's is empty. Anything in brackets
-  /// or braces is one value. Empty braces over a table remove it, as if it had not been written.
+  /// Lays this file over others, the strongest last; values of this one win. A table under a
+  /// [heading] is joined with the other's key by key, however the other is written. Lists of tables are joined,
+  /// the other's first, unless this one's is empty. Anything else in brackets or braces replaces the other's.
+  /// Empty braces over a table remove it, as if it had not been written.
   void lay_over(std::vector<Document> bases);
 
   /// Applies values of the command line. A text that is no TOML value is read as a word: `chopping=hard`.

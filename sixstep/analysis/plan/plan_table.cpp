@@ -128,6 +128,7 @@ RunRecord record_of(const TableColumns& columns, std::size_t number, std::vector
     return *without_figures("this run has other figures than the table's other runs, or other units");
   values.end = result->fault ? RunEnd::fault : RunEnd::whole;
   if (result->fault) values.problem = base::to_string(*result->fault);
+  values.remarks = result->remarks;
   values.figures = std::move(*figures);
   values.digest = result->digest;
   return *RunRecord::of(columns, std::move(values));

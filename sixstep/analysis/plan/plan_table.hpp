@@ -82,9 +82,10 @@ struct RunValues {
   std::vector<std::string> point;  ///< value of each key, as a file writes it
   std::vector<double> strayed;     ///< in the keys' units; NaN where it could not be drawn
   RunEnd end = RunEnd::whole;
-  std::string problem;          ///< text of a fault or a refusal, in one line
-  std::vector<double> figures;  ///< NaN where there is none
-  std::uint64_t digest = 0;     ///< digest of the trajectory
+  std::string problem;                 ///< text of a fault or a refusal, in one line
+  std::vector<std::string> remarks{};  ///< the outcome's
+  std::vector<double> figures;         ///< NaN where there is none
+  std::uint64_t digest = 0;            ///< digest of the trajectory
 };
 
 /// A row with its columns. of() checks that each column has exactly one value; a row does not change afterwards.

@@ -92,4 +92,13 @@ std::optional<std::vector<SensitivityIndex>> sensitivity(std::span<const double>
   return out;
 }
 
+bool too_few_rows(std::span<const SensitivityIndex> indices) {
+  constexpr double slack = 0.01;
+  double sum = 0.0;
+  for (const SensitivityIndex& key : indices) sum += key.first.value;
+  return sum > 1.0 + slack || std::any_of(indices.begin(), indices.end(), [](const SensitivityIndex& key) {
+           return key.first.value < -slack || key.first.value > key.total.value + slack;
+         });
+}
+
 }  // namespace sixstep::analysis

@@ -31,4 +31,8 @@ struct SensitivityIndex {
 std::optional<std::vector<SensitivityIndex>> sensitivity(std::span<const double> figures, std::size_t keys,
                                                          std::uint64_t seed);
 
+/// Whether the values contradict the indices' laws by more than 0.01, because they are of too few rows: 0 <= S_i <=
+/// T_i, and the first indices add up to 1 at most.
+bool too_few_rows(std::span<const SensitivityIndex> indices);
+
 }  // namespace sixstep::analysis

@@ -63,7 +63,10 @@ void add_cure(std::string& cure, const std::string& words) {
 /// Finds changes for a usable design that remove one of its warnings and add none.
 void advise_usable(const DesignOrder& order, DesignStudy& s) {
   TrialBudget budget{advice_periods};
-  for (const DesignSpec& spec : single_changes(order, s.design)) {
+  std::vector<DesignSpec> changes = single_changes(order, s.design);
+  // First, so that each warning gets its own longest period.
+  if (const auto longer = longer_of_periods(order.spec, s.design)) changes.insert(changes.begin(), *longer);
+  for (const DesignSpec& spec : changes) {
     const std::optional<DriveDesign> d = in_closed_form(order, spec);
     if (!d || !promises(s.warnings, *d)) continue;
     const std::optional<DesignStudy> next = tried(order, spec, budget);

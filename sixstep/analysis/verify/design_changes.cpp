@@ -170,6 +170,17 @@ std::vector<DesignSpec> on_encoders(const DesignOrder& order, const DriveDesign&
   return out;
 }
 
+std::optional<DesignSpec> longer_of_periods(const DesignSpec& w, const DriveDesign& d) {
+  if (shorter_periods(w, d).empty()) return std::nullopt;
+  const double ripple = design::period_for_ripple_s(d.motor, d.bus_V, w.chopping,
+                                                    design::greatest_ripple * d.nominal_current_A);
+  const double period_s = plain(std::max(ripple, d.longest_period_s), base::Towards::down);
+  if (!(period_s < w.period_s)) return std::nullopt;
+  DesignSpec next = w;
+  take_period(next, period_s);
+  return next;
+}
+
 std::vector<DesignSpec> single_changes(const DesignOrder& order, const DriveDesign& d) {
   const DesignSpec& w = order.spec;
   std::vector<DesignSpec> out;

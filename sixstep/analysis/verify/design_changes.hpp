@@ -19,6 +19,11 @@ inline constexpr double usable_ripple = 0.5;
 
 /// Specifications that may be better, each with one change: chopping, period, sensor, method, settling time of
 /// each loop.
+/// The longer of the two periods that leave a low ripple, and 45 degrees of phase; empty unless both are shorter
+/// than the specified one.
+std::optional<design::DesignSpec> longer_of_periods(const design::DesignSpec& spec,
+                                                    const design::DriveDesign& design);
+
 std::vector<design::DesignSpec> single_changes(const DesignOrder& order, const design::DriveDesign& design);
 
 /// Combinations of several changes: complementary chopping, a period that keeps the ripple low, and loops

@@ -195,8 +195,9 @@ void add_speed_figures(const DriveDesign& d, const SpeedTest& t, study::Scenario
       {window_measure(study::MetricKind::peak_to_peak, study::Signal::speed, t.calm, t.end, "speed ripple"),
        0.0, "none wanted"},
       {window_measure(study::MetricKind::peak_to_peak, study::Signal::current, t.calm, t.end,
-                      "current ripple"),
-       expected_ripple_A(d, s.bridge, t.load_A, K * last + R * t.load_A), "PWM alone, without commutation"},
+                      "swing of the current"),
+       expected_ripple_A(d, s.bridge, t.load_A, K * last + R * t.load_A),
+       "PWM alone, without commutation; simulated: as measured, which an edge halves"},
       {of(study::MetricKind::settling_time, false, settling_of_start), linear.settling_s,
        "as designed, without limits"},
       {of(study::MetricKind::overshoot, false, "overshoot of the start"), linear.overshoot * t.first,
@@ -240,9 +241,14 @@ void expect_step(const DriveDesign& design, study::Scenario& s) {
   // The setpoint steps at a period's start; the first sample with it is in the middle of that period.
   const double first_s = design.spec.sampled_in_middle ? design.spec.period_s / 2 : 0.0;
   for (study::Comparison& c : s.compare) {
-    if (c.measure.metric == study::MetricKind::settling_time) c.value = first_s + step.settling_s;
-    if (c.measure.metric == study::MetricKind::overshoot)
+    if (c.measure.metric == study::MetricKind::settling_time) {
+      c.value = first_s + step.settling_s;
+      if (first_s > 0.0) c.source = "designed, and T_s/2 to the first sample, 2 %";
+    }
+    if (c.measure.metric == study::MetricKind::overshoot) {
       c.value = step.overshoot > 1e-9 ? step.overshoot * std::fabs(s.reference.value) : 0.0;
+      if (s.bridge.dead_time_s > 0.0) c.source = "designed, at the samples, without dead time";
+    }
   }
 }
 

@@ -244,7 +244,7 @@ void add_speed_step(DriveDesign& d, double crossover) {
   d.high_speed_left_V = headroom_V(d.motor, d.bus_V, d.nominal_current_A / 2, d.high_speed_rad_s);
   if (!(d.speed_step_rad_s > 0.0)) return;
   d.sensing.push_back(
-      {"w_high", "a tenth below where the bus drives the nominal current", d.high_speed_rad_s, "rad/s"});
+      {"w_high", "0.9 of the speed where \"voltage left\" ends, two digits", d.high_speed_rad_s, "rad/s"});
   d.sensing.push_back({"dw_high", "a step of the measured speed there", d.speed_step_rad_s, "rad/s"});
   d.sensing.push_back({"d1 dw", "of the torque limit: the change of the speed loop's command by that step",
                        d.speed_step_part, ""});

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sixstep/base/angle.hpp"
 #include "sixstep/base/decimal.hpp"
 #include "sixstep/base/elementary.hpp"
 #include "sixstep/design/loops/pole_placement.hpp"
@@ -73,13 +74,22 @@ double speed_for_current_rad_s(const MotorModel& motor, double bus_V, double cur
   return (bus_V - 2.0 * motor.machine.R_ohm * current_A) / motor.K_t_Nm_A;
 }
 
+double commutation_loss(const MotorModel& motor, double current_A) {
+  return 3.0 * motor.machine.pole_pairs * motor.machine.L_H * current_A / (base::pi * motor.K_t_Nm_A);
+}
+
 TestSpeeds test_speeds(const MotorModel& motor, double bus_V, double torque_limit_Nm) {
-  constexpr double part_of_top = 0.9, room_above_lowest = 1.2;
+  constexpr double part_of_top = 0.9, room_above_lowest = 1.2, usual_loss = 1.2;
   const double nominal_A = nominal_current(motor, bus_V).A;
+  const auto reached = [&](double current_A) {
+    return speed_for_current_rad_s(motor, bus_V, current_A) /
+           (1.0 + usual_loss * commutation_loss(motor, current_A));
+  };
   TestSpeeds t{.load_A = std::fmin(nominal_A, torque_limit_Nm / motor.K_t_Nm_A) / 2};
-  t.top_rad_s = part_of_top * speed_for_current_rad_s(motor, bus_V, t.load_A);
-  const double most = std::fmin(t.top_rad_s / room_above_lowest,
-                                high_speed_part * speed_for_current_rad_s(motor, bus_V, nominal_A));
+  const double ideal = bus_V / motor.K_t_Nm_A;
+  const double friction_A = (motor.shaft.B_Nm_s * ideal + motor.shaft.coulomb_Nm) / motor.K_t_Nm_A;
+  t.top_rad_s = part_of_top * reached(t.load_A + friction_A);
+  const double most = std::fmin(t.top_rad_s / room_above_lowest, high_speed_part * reached(nominal_A));
   if (most > 0.0) t.most_lowest_rad_s = base::shortened(most, 2, base::Towards::down);
   return t;
 }

@@ -58,8 +58,13 @@ double speed_for_current_rad_s(const MotorModel& motor, double bus_V, double cur
 /// Part of the highest speed at nominal current that counts as a high speed; the voltage left there is for control.
 inline constexpr double high_speed_part = 0.9;
 
+/// Speed lost during commutations at a current, relative to the speed that is left. In each sector of pi/(3 p w) the
+/// entering phase takes over the current, which costs the bus L_s i of its volt seconds, L_s of a phase: 3 p L_s i/(pi K_t).
+/// Simulated motors lose 0.9 to 1.3 times that.
+double commutation_loss(const MotorModel& motor, double current_A);
+
 /// Speeds at which a speed loop is tested: against half the torque of the nominal current, up to a tenth below the highest speed
-/// with that load.
+/// with that load and its commutations.
 struct TestSpeeds {
   double load_A = 0.0, top_rad_s = 0.0;
   /// Upper bound of the lowest speed: a fifth of it must remain above for a step down to it, and the bus must drive

@@ -42,7 +42,7 @@ std::vector<DerivationStep> derivation(const PolePlacement& p, double z_sum, dou
   const auto [a0, b0] = p.plant;
   const auto [d1, d0] = p.gains;
   return {
-      {"T_reg", "settling time wanted", p.settle_s, "s"},
+      {"T_reg", "settling time wanted, of the poles alone, to 1 %", p.settle_s, "s"},
       {"xi", "damping wanted", p.damping, ""},
       {"T_s", "control period", p.period_s, "s"},
       {"w0", "4.6 / (xi T_reg)", p.w0_rad_s, "rad/s"},

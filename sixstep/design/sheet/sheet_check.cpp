@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "sixstep/base/angle.hpp"
 #include "sixstep/base/linear.hpp"
 #include "sixstep/design/sheet/sheet_description.hpp"
 #include "sixstep/design/sheet/sheet_reader.hpp"
@@ -171,6 +172,12 @@ void doubt_maker(const Sheet& sheet, SheetCheck& check) {
 }
 
 }  // namespace
+
+double commutation_part(const SheetConstants& c, double current_A) {
+  const std::optional<double> pairs = c.electrical_per_mechanical();
+  if (!pairs || !c.L_H || !c.K_t_Nm_A) return 0.0;
+  return edge_current * 3.0 * *pairs * c.L_H->value * current_A / (base::pi * c.K_t_Nm_A->value);
+}
 
 base::Result<SheetCheck> check_sheet(const Sheet& sheet) {
   SheetCheck check;

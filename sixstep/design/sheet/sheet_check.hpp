@@ -66,19 +66,31 @@ std::string contradiction_words(const SheetCheck& check);
 /// flywheel, are reported and kept.
 inline constexpr double slowest_usual_winding_s = 0.2, slowest_usual_rotor_s = 100.0;
 
-/// Effect of commutation on the ideal no-load line, which the relation leaves out: the 251601 simulated to its steady
-/// state turns at 702.6 rad/s, 1.3 % below (U - R I)/K_t.
+/// Least margin of a no-load speed; commutation, which the ideal line leaves out, may need more (commutation_part()).
 inline constexpr double no_load_margin = 0.02;
+
+/// Current at an edge, relative to its mean: 1.2 to 1.4 in simulated motors without load, trapezoid and sine, with 0.3
+/// to 6 ms of L/R; 1 to 1.2 with load.
+inline constexpr double edge_current = 1.4;
+
+/// Speed lost during commutations at this mean current, relative to the speed that is left. In each sector of
+/// pi/(3 p w) the entering phase takes over the edge's current, which costs the bus L_s i of its volt seconds:
+/// 3 p L_s i/(pi K_t), at any speed. 0 where L or the pole pairs are unknown.
+double commutation_part(const SheetConstants& constants, double current_A);
 
 /// Allowed difference between measured or derived friction lines and a printed no-load current: they may be of
 /// another motor, or of another temperature. For the 251601 the sources have 7.3e-6 to 10.6e-6 N m s, 45 % apart. If
 /// one sheet prints both, they agree within rounding: the four windings of Faulhaber's 3564 B to 0.25 %.
 inline constexpr double friction_margin = 0.5;
 
-/// Makers print the nominal speed of a warm motor: its printed drop below the no-load speed is up to this multiple of
-/// the drop R/K_t^2 M_N at 25 degC. In data/motors maxon's are 1.4 to 2.3 times as large. A larger one is a rating
-/// of a controller, or a misprint.
+/// Makers print the nominal speed of a warm motor, and commutation costs speed: the printed drop below the no-load
+/// speed is up to this multiple of the drop R/K_t^2 M_N at 25 degC. In data/motors maxon's are 1.4 to 2.3 times as
+/// large. A larger one is a limit of the drive, or a misprint.
 inline constexpr double most_nominal_drop = 2.5;
+
+/// Resistance of a winding at 150 degC, relative to that at 25 degC. With the time of commutation it may explain a larger
+/// drop than most_nominal_drop.
+inline constexpr double warm_winding = 1.5;
 
 /// Largest part of the voltage that a motor may lose over its winding at no load, if neither I_0 nor all friction is
 /// printed. With x of it the best efficiency is at most (1 - sqrt x)/(1 + sqrt x), a third for x = 1/4: no motor with

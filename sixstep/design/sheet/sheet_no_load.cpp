@@ -34,7 +34,8 @@ struct SheetLine {
 
 class NoLoad {
  public:
-  NoLoad(const Sheet& sheet, const SheetConstants& constants) : s_(sheet), f_(constants.friction) {
+  NoLoad(const Sheet& sheet, const SheetConstants& constants)
+      : s_(sheet), c_(constants), f_(constants.friction) {
     if (constants.R_ohm && s_.resistance_ohm)
       R_ = Term{2.0 * constants.R_ohm->value, relative_doubt(*s_.resistance_ohm)};
     if (constants.K_t_Nm_A) K_t_ = Term{constants.K_t_Nm_A->value, constants.K_e_relative_doubt};
@@ -85,7 +86,7 @@ class NoLoad {
     const Term drop = *R_ * *at.current_A;
     if (!(drop.value < at.U_V->value)) return {};
     Term w = (*at.U_V - drop) / *K_t_;
-    w.doubt += no_load_margin;
+    w.doubt += commutation_margin(*at.current_A);
     return w;
   }
 
@@ -123,7 +124,7 @@ class NoLoad {
                       *at.speed_rpm,
                       "rpm",
                       no_load_margin,
-                      no_load_margin,
+                      commutation_margin(I),
                       "",
                       false};
     if (!printed) without_current(I, sides);
@@ -160,7 +161,13 @@ class NoLoad {
          true});
   }
 
+  /// Speed that commutation may cost beyond the ideal line, at least the margin of any line.
+  double commutation_margin(const Term& I) const {
+    return std::max(no_load_margin, commutation_part(c_, I.value));
+  }
+
   const Sheet& s_;
+  const SheetConstants& c_;
   const Friction& f_;
   std::optional<Term> R_, K_t_;
   SheetLine first_, second_;

@@ -148,6 +148,13 @@ class Relations {
     return rms ? Term{torque_per_rms_A(c_.K_e_V_s->value, c_.shape), K_t_->doubt} : *K_t_;
   }
 
+  /// Slowest nominal speed that a warm motor explains: by the usual drop, or by winding and commutation.
+  double slowest_nominal(const Term& top, const Term& drop, double torque_Nm) const {
+    const double current_A = torque_Nm / K_t_->value + (idle_ ? idle_->value : 0.0);
+    return std::fmin(top.value - most_nominal_drop * drop.value,
+                     (top.value - warm_winding * drop.value) / (1.0 + commutation_part(c_, current_A)));
+  }
+
   /// The nominal point lies on the no-load speed minus gradient times torque, or below it by the additional
   /// drop of a warm motor.
   void nominal_speed() {
@@ -164,7 +171,7 @@ class Relations {
     const Term drop = *R_ / (*K_t_ * *K_t_) * *torque * base::rpm_per_rad_s;
     if (idle && printed->value >= idle->value) return as_fast_as_idle(*idle, *printed);
     const Term line = drop.value < top.value ? top - drop : Term{};
-    const double warm = top.value - most_nominal_drop * drop.value;
+    const double warm = slowest_nominal(top, drop, torque->value);
     const double above = warm > 0.0 ? line.value / warm - 1.0 : HUGE_VAL;
     Relation& r = add("nominal speed", idle ? "n_0 - R/k_M^2 M_N" : "U/k_M - R/k_M^2 M_N", "nominal speed",
                       line, *printed, "rpm", no_load_margin, std::fmin(above, most_above), false);
@@ -172,7 +179,8 @@ class Relations {
     if (r.deviation > 0.0) {
       r.verdict = RelationVerdict::doubted;
       r.remark =
-          "no cold motor is so slow at its nominal torque: a rating of its controller, or a wrong line of the point";
+          "neither a warm winding nor commutation explains it: its drive limits the speed, or a value of the "
+          "nominal point is wrong";
     } else if (r.remark.empty()) {
       r.remark = "the nominal point lies above the line that R and k_M give";
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/study/check/heat.hpp"
 
+#include <algorithm>
+#include <array>
 #include <string>
 #include <utility>
 
@@ -20,12 +22,23 @@ void check_energies(const Bridge& b, base::Problems& out) {
                        ? "and bridge.energies_at_A are missing: energies are given at a voltage and a current"
                        : "is missing: energies_at_V and energies_at_A alone have no effect",
                    "give turn_on_J, turn_off_J, recovery_J, energies_at_V and energies_at_A"});
-  const bool charges = b.gate_source_charge_C > 0 || b.gate_drain_charge_C > 0;
-  if (charges != (b.gate_current_A > 0))
-    out.push_back({"bridge.gate_current_A", base::six_digits(b.gate_current_A),
-                   "and the gate's charges belong together",
-                   "give gate_current_A and gate_drain_charge_C, or neither"});
-  if (charges && energies)
+  if (energies && point && !(b.turn_on_J > 0 && b.turn_off_J > 0))
+    out.push_back({b.turn_on_J > 0 ? "bridge.turn_off_J" : "bridge.turn_on_J", "",
+                   "is missing: each pulse turns a switch on and off",
+                   "give turn_on_J and turn_off_J, both above 0"});
+  const std::array<std::pair<const char*, double>, 3> gate{
+      {{"bridge.gate_current_A", b.gate_current_A},
+       {"bridge.gate_source_charge_C", b.gate_source_charge_C},
+       {"bridge.gate_drain_charge_C", b.gate_drain_charge_C}}};
+  const auto given = std::ranges::count_if(gate, [](const auto& key) { return key.second > 0; });
+  // Voltage and current change one after the other: without one charge the loss would be too small.
+  if (given == 1 || given == 2)
+    for (const auto& [key, value] : gate)
+      if (!(value > 0))
+        out.push_back({key, base::six_digits(value),
+                       "belongs with the driver's current and both gate charges",
+                       "give gate_current_A, gate_source_charge_C and gate_drain_charge_C, or none of them"});
+  if (given == 3 && energies)
     out.push_back({"bridge.gate_drain_charge_C", base::six_digits(b.gate_drain_charge_C),
                    "repeats turn_on_J and turn_off_J", "keep one of the two ways"});
 }

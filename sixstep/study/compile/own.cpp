@@ -2,10 +2,9 @@
 // Gives a user's own controller the data from which it designs itself.
 #include "sixstep/control/own/own_controller.h"
 
-#include <algorithm>
-
 #include "sixstep/design/loops/field_current.hpp"
 #include "sixstep/study/compile/basis.hpp"
+#include "sixstep/study/scenario/own_numbers.hpp"
 
 namespace sixstep::study {
 
@@ -52,13 +51,9 @@ sixstep_given given_of(const Scenario& s, const Basis& basis, const control::Dri
 }
 
 std::vector<double> values_of(const Own& own) {
-  std::vector<double> values(own.loaded->parameters + 1);  // not empty even without numbers
-  for (std::uint32_t n = 0; n < own.loaded->parameters; ++n) {
-    const sixstep_parameter& is = own.loaded->parameter[n];
-    const auto given = std::find_if(own.number.begin(), own.number.end(),
-                                    [&is](const OwnNumber& number) { return number.name == is.name; });
-    values[n] = given == own.number.end() ? is.preset : given->value;
-  }
+  std::vector<double> values;
+  for (const UsedNumber& number : used_numbers(own)) values.push_back(number.value);
+  values.push_back(0.0);  // not empty even without numbers
   return values;
 }
 

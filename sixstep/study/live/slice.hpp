@@ -56,7 +56,9 @@ struct Slice {
     if (whole_run) return;
     const double h = rig.plant().expansion().h;
     const sim::Instant from = rig.now();
-    if (rig.next_tick().ticks - from.ticks > period_ticks) {
+    // A chip with its own clock has no ticks to skip.
+    constexpr bool ticks = !requires { rig.firmware().next_stop(); };
+    if (ticks && rig.next_tick().ticks - from.ticks > period_ticks) {
       // The requested length, not the achieved one: a series that does not converge over all of it is shorter.
       const double wanted = useful_length(rig.plant().constants(), rig.plant().state(), 1e6);
       reach = std::max(reach, sim::Instant{from.plus_seconds(wanted).ticks + 2, 0.0});

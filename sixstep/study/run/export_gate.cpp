@@ -228,6 +228,7 @@ void add_notes(const Scenario& s, const Listeners& listeners, Clearance& c) {
   add(sheet_contradiction(s));
   add(limit_above_nominal(s, c.outcome.motor));
   add(setpoint_bound(s));
+  add(without_protection(s));
   // Without a clearance its conditions have no meaning.
   if (!c.clear()) return;
   WithoutSink other = without_sink(s, c.outcome.motor, listeners);

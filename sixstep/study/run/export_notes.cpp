@@ -12,6 +12,7 @@
 #include "sixstep/study/run/export_protection.hpp"
 #include "sixstep/study/run/export_watch.hpp"
 #include "sixstep/study/run/limit_remarks.hpp"
+#include "sixstep/study/scenario/choices.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
 #include "sixstep/study/scenario/supply_voltages.hpp"
 
@@ -84,20 +85,23 @@ WithoutSink without_sink(const Scenario& s, const design::MotorModel& motor, con
       run(watching_peaks(other),
           {.on_record = {}, .on_event = {}, .keep_going = listeners.keep_going, .keep_books = false});
   base::Problems found = ran ? base::Problems{} : ran.problems();
-  std::string bus;
   if (ran) {
     Outcome outcome = *ran;
     const SeenPeaks peaks = take_peaks(other, outcome);
     found = not_held(outcome);
     look_at_bus(other, peaks, s.sensors.bus == BusSensing::adc, found);
-    bus = ", after it raised the bus to " + few_digits(peaks.bus_V) + " V in its own course";
     if (found.empty()) look_at_stop(other, motor, listeners, found);
   }
   w.holds = found.empty();
-  if (!w.holds)
-    w.note = std::string(condition) + ": with one that takes none back the drive fails" + bus + ": " +
-             first_of(found);
+  if (!w.holds) w.note = std::string(condition) + "; with one that takes none back " + first_of(found);
   return w;
+}
+
+std::string without_protection(const Scenario& s) {
+  if (s.control.drive == FirmwareKind::product) return {};
+  return "control.drive = \"" + std::string(base::word(drive_choices, s.control.drive)) +
+         "\" has no protection: it leaves the bridge on at over-current, over-voltage and a stall; give your "
+         "firmware one, or export control.drive = \"product\" with [protection]";
 }
 
 std::string setpoint_bound(const Scenario& s) {

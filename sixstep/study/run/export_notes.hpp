@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds conditions under which a drive works in its run but perhaps not on a bench: a limit above the nominal
-// current, a sheet that contradicts itself, a supply that takes current back. Export notes them; they are no
+// current, a sheet that contradicts itself, a drive without protection, a supply that takes current back. Export notes them; they are no
 // reasons against it.
 #pragma once
 #include <string>
@@ -30,6 +30,9 @@ struct WithoutSink {
 };
 WithoutSink without_sink(const Scenario& scenario, const design::MotorModel& motor,
                          const Listeners& listeners);
+
+/// A drive without [protection] turns the bridge off at no fault. Empty for the product drive.
+std::string without_protection(const Scenario& scenario);
 
 /// The bound of a product drive's setpoint, which is the scenario's largest reference. Empty for other drives.
 std::string setpoint_bound(const Scenario& scenario);

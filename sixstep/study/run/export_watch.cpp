@@ -137,9 +137,9 @@ void look_at_stop(const Scenario& s, const design::MotorModel& motor, const List
   std::string reasons;
   for (const std::string& reason : outcome->trip->reasons) reasons += (reasons.empty() ? "" : ", ") + reason;
   out.push_back({"protection.brake_current_A", written(s.protection.brake_current_A),
-                 "ends in a fault where the run command is removed at " + base::rounded(off_s, 4) +
-                     " s: " + reasons + " after " + base::three_digits(1e3 * (outcome->trip->at_s - off_s)) +
-                     " ms, the bus at " + base::three_digits(peaks.bus_V) + " V at most",
+                 "ends a stop at " + base::rounded(off_s, 4) + " s in a fault: " + reasons + " after " +
+                     base::three_digits(1e3 * (outcome->trip->at_s - off_s)) + " ms, the bus at " +
+                     base::three_digits(peaks.bus_V) + " V at most",
                  cure_of_stop(outcome->trip->reasons)});
 }
 

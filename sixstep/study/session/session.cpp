@@ -2,6 +2,8 @@
 #include "sixstep/study/session/session.hpp"
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 #include "sixstep/base/written.hpp"
 #include "sixstep/study/check/check.hpp"
@@ -38,8 +40,9 @@ class Run {
 }  // namespace
 
 struct Session::State {
-  Scenario scenario;
-  Compiled compiled;  ///< without the timeline, which the rig holds
+  // Never changed, only replaced: copies of a session share them.
+  std::shared_ptr<const Scenario> scenario;
+  std::shared_ptr<const Compiled> compiled;  ///< without the timeline, which the rig holds
   Observers watchers;
   Run run;
   Present present{};
@@ -50,9 +53,9 @@ struct Session::State {
   bool figures_moved = false;  ///< windows differ from those at the begin
 
   Instant now() const { return run->now(); }
-  std::int64_t period() const { return compiled.board.modulator.period_ticks; }
+  std::int64_t period() const { return compiled->board.modulator.period_ticks; }
   /// Part of the period before its control tick, ps.
-  std::int64_t lead() const { return compiled.board.sampled_in_middle ? period() / 2 : 0; }
+  std::int64_t lead() const { return compiled->board.sampled_in_middle ? period() / 2 : 0; }
   bool is_tick(const Instant& t) const { return t.offset == 0.0 && t.ticks % period() == lead(); }
   Instant tick_after(const Instant& t) const {
     const std::int64_t since = t.ticks - lead();
@@ -66,9 +69,7 @@ struct Session::State {
     }
     return true;
   }
-  Slice slice(const Instant& until) {
-    return {watchers, present, last, until, reach, period()};
-  }
+  Slice slice(const Instant& until) { return {watchers, present, last, until, reach, period()}; }
 };
 
 namespace {
@@ -135,9 +136,9 @@ Session::~Session() = default;
 const Present& Session::present() const { return state_->present; }
 double Session::now_s() const { return state_->now().seconds(); }
 bool Session::over() const { return state_->over; }
-const Scenario& Session::scenario() const { return state_->scenario; }
-const rig::BoardConfig& Session::board() const { return state_->compiled.board; }
-double Session::period_s() const { return state_->scenario.pwm.period_s; }
+const Scenario& Session::scenario() const { return *state_->scenario; }
+const rig::BoardConfig& Session::board() const { return state_->compiled->board; }
+double Session::period_s() const { return state_->scenario->pwm.period_s; }
 
 base::Result<Session> Session::open(const Scenario& scenario, const Listeners& listeners,
                                     const rig::ChipPort& instead) {
@@ -151,13 +152,15 @@ base::Result<Session> Session::open(const Scenario& scenario, const Listeners& l
   rig::Timeline timeline = std::move(compiled->timeline);
   base::Result<std::unique_ptr<AnyRun>> run = detail::made_by(scenario, *compiled, std::move(timeline));
   if (!run) return run.problems();
-  auto state = std::make_unique<State>(State{.scenario = scenario,
-                                             .compiled = std::move(*compiled),
-                                             .watchers = observers_of(scenario, listeners, *indices),
-                                             .run = Run(std::move(*run))});
   const Arithmetic arithmetic = scenario.control.arithmetic;
+  Scenario held = scenario;
   if (arithmetic != Arithmetic::float64 && arithmetic != Arithmetic::float32)
-    state->scenario.control.full_scale = state->run->full_scale();
+    held.control.full_scale = (*run)->full_scale();
+  auto state =
+      std::make_unique<State>(State{.scenario = std::make_shared<const Scenario>(std::move(held)),
+                                    .compiled = std::make_shared<const Compiled>(std::move(*compiled)),
+                                    .watchers = observers_of(scenario, listeners, *indices),
+                                    .run = Run(std::move(*run))});
   Slice first = state->slice({});
   state->run->look(first);
   return Session(std::move(state));
@@ -180,7 +183,7 @@ void Session::call_controller() const {
 
 bool Session::go(const Instant& asked, bool read) {
   State& s = *state_;
-  const Instant end = s.compiled.end;
+  const Instant end = s.compiled->end;
   const bool to_end = !(asked < end);
   if (s.over) return false;
   if (!to_end && !(s.now() < asked)) {
@@ -204,32 +207,32 @@ base::Result<double> Session::change(At at) {
   State& s = *state_;
   const Instant next_tick = s.run->next_tick();
   const Instant when = next_change(s.now(), next_tick, s.reach, s.period());
-  if (s.over || !(when < s.compiled.end))
+  if (s.over || !(when < s.compiled->end))
     return base::Problem{"time_s", base::written(now_s()), "is after the end of the session",
                          "open one with a longer duration_s"};
   at.time_s = when.seconds();
-  Scenario candidate = s.scenario;
+  Scenario candidate = *s.scenario;
   candidate.at.push_back(std::move(at));
   if (base::Problems problems = check(candidate); !problems.empty()) return problems;
   base::Result<Compiled> compiled = compile(candidate);
   if (!compiled) return compiled.problems();
-  if (compiled->general && !s.compiled.general)
+  if (compiled->general && !s.compiled->general)
     return base::Problem{
         "at", "", "needs a function that the session's kernel does not have",
         "begin with an [[at]] at time_s = 0 with bridge.phases = \"abc\": it changes nothing and selects "
         "the general kernel"};
-  if (!same_past(s.scenario, s.compiled, *compiled, s.now()))
+  if (!same_past(*s.scenario, *s.compiled, *compiled, s.now()))
     return base::Problem{"reference", "",
                          "would change the drive's limits, which are fixed at the start of the session",
                          "give the session's scenario a reference as large, by an [[at]] at its end"};
   compiled->board.sensors.decodes_hall = true;
-  compiled->board.chip = s.compiled.board.chip;
+  compiled->board.chip = s.compiled->board.chip;
   rig::Timeline timeline = std::move(compiled->timeline);
   if (base::Problems problems = s.run->take(candidate, *compiled, std::move(timeline)); !problems.empty())
     return problems;
   s.figures_moved = s.figures_moved || candidate.at.back().reference;
-  s.scenario = std::move(candidate);
-  s.compiled = std::move(*compiled);
+  s.scenario = std::make_shared<const Scenario>(std::move(candidate));
+  s.compiled = std::make_shared<const Compiled>(std::move(*compiled));
   return when.seconds();
 }
 
@@ -240,32 +243,32 @@ base::Result<Outcome> Session::close(bool replay) {
     const std::int64_t period = s.period();
     Instant end = next_change(s.now(), next_tick, s.reach, period);
     if (end.ticks == 0) end.ticks = period;
-    if (end < s.compiled.end) {
-      Scenario cut = on_same_kernel(shortened(s.scenario, end.seconds()), s.compiled);
+    if (end < s.compiled->end) {
+      Scenario cut = on_same_kernel(shortened(*s.scenario, end.seconds()), *s.compiled);
       base::Result<Compiled> compiled = compile(cut);
-      if (!compiled || !same_past(cut, s.compiled, *compiled, s.now()))
+      if (!compiled || !same_past(cut, *s.compiled, *compiled, s.now()))
         return base::Problem{"duration_s", base::written(end.seconds()),
                              "leaves out a reference for which the drive's limits were designed",
                              "run the session to its end"};
-      compiled->board.chip = s.compiled.board.chip;
+      compiled->board.chip = s.compiled->board.chip;
       rig::Timeline timeline = std::move(compiled->timeline);
       if (base::Problems problems = s.run->take(cut, *compiled, std::move(timeline)); !problems.empty())
         return problems;
-      s.scenario = std::move(cut);
-      s.compiled = std::move(*compiled);
+      s.scenario = std::make_shared<const Scenario>(std::move(cut));
+      s.compiled = std::make_shared<const Compiled>(std::move(*compiled));
       s.figures_moved = true;
     }
-    advance(s.compiled.end.seconds());
+    advance(s.compiled->end.seconds());
   }
-  Outcome out = outcome_of(s.compiled);
+  Outcome out = outcome_of(*s.compiled);
   if (base::Problems problems = s.run->end(s.stop, s.watchers, out); !problems.empty()) return problems;
-  conclude(s.scenario, s.compiled, s.watchers, out);
-  if (!s.figures_moved || (s.scenario.require.empty() && s.scenario.compare.empty())) {
-    s.watchers.figures.judge(s.scenario, out);
+  conclude(*s.scenario, *s.compiled, s.watchers, out);
+  if (!s.figures_moved || (s.scenario->require.empty() && s.scenario->compare.empty())) {
+    s.watchers.figures.judge(*s.scenario, out);
     return out;
   }
   if (!replay) return out;
-  const base::Result<Outcome> again = run(s.scenario, {.keep_books = false});
+  const base::Result<Outcome> again = run(*s.scenario, {.keep_books = false});
   if (!again) return again.problems();
   out.verdicts = again->verdicts;
   out.comparisons = again->comparisons;

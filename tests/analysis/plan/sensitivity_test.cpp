@@ -69,6 +69,24 @@ Truth of_g() {
   return truth;
 }
 
+// Law: 0 <= S_i <= T_i and sum S_i <= 1, for exact indices and for those of enough rows.
+TEST(Sensitivity, IndicesThatCannotBeAreOfTooFewRows) {
+  const auto judged = [](const std::vector<double>& first, const std::vector<double>& total) {
+    std::vector<SensitivityIndex> indices(first.size());
+    for (std::size_t k = 0; k < first.size(); ++k) {
+      indices[k].first.value = first[k];
+      indices[k].total.value = total[k];
+    }
+    return analysis::too_few_rows(indices);
+  };
+  for (const Truth& truth : {of_ishigami(), of_g()}) EXPECT_FALSE(judged(truth.first, truth.total));
+  EXPECT_TRUE(judged({0.5, 0.109}, {0.6, 0.097})) << "above its total";
+  EXPECT_TRUE(judged({0.5, -0.045}, {0.6, 0.1})) << "negative";
+  EXPECT_TRUE(judged({0.6, 0.54}, {0.6, 0.54})) << "more than the whole";
+  EXPECT_TRUE(analysis::too_few_rows(*analysis::sensitivity(asked(ishigami, 3, 8, 3), 3, 1)));
+  EXPECT_FALSE(analysis::too_few_rows(*analysis::sensitivity(asked(ishigami, 3, 8192, 3), 3, 1)));
+}
+
 void expect_truth(const Function& f, const Truth& truth, std::size_t rows, double within) {
   const std::size_t keys = truth.first.size();
   const auto found = analysis::sensitivity(asked(f, keys, rows, 3), keys, 1);

@@ -2,11 +2,11 @@
 """Which law judges which block. A block is found by its page and a piece of its text or heading."""
 import re
 
-from laws import bench, capacitor, commutation, contest, curve, design, drives, run_output, series, tables
+from laws import bench, capacitor, commutation, contest, curve, design, drives, firmware, run_output, series, tables
 from page import REPOSITORY
 
 # Blocks of a reader's input are no results.
-INPUT = {"run", "write", "file", "chip", "host", "programs", "python"}
+INPUT = {"run", "c", "write", "file", "chip", "host", "programs", "python"}
 
 TEST_NAMED = re.compile(r"`(\w+)\.\*`|`(tests/[\w/*.]+|\w+_test\.cpp|\w+_tests|\w+_test\.py)`")
 
@@ -129,6 +129,43 @@ def session(test, spot):
     test.assertGreater(speeds[1], speeds[0])
 
 
+def held_by_the_supply(test, spot):
+    """A pair on the supply, then through its diodes against the supply: two exponentials of L/R."""
+    from math import exp
+    from gallery_sheet import STALL, TAU
+    on, off = (float(x) for x in re.findall(r"^([\d.]+) A$", spot.text, re.M))
+    test.assertLess(abs(on - STALL * (1 - exp(-100e-6 / TAU))), 1e-6, str(spot))
+    test.assertLess(abs(off - (on + STALL) * exp(-50e-6 / TAU) + STALL), 2e-6, str(spot))
+
+
+def signals_at_2_ms(test, spot):
+    """At a driven pair the currents sum to 0; the current loop holds its 5 A within a ripple of U T/(4 L)."""
+    from gallery_sheet import L, T, U
+    a, b, c = (float(x) for x in re.findall(r"^i_._A = (-?[\d.]+) A", spot.text, re.M))
+    test.assertLess(abs(a + b + c), 2e-4, str(spot))
+    test.assertLess(abs(a - 5), U * T / (4 * L), str(spot))
+    test.assertIn("t_s = 0.0020 s", spot.text)
+
+
+def first_lines(test, spot):
+    """A current of 5 A turns the rotor by K_t 5 A/J, less friction."""
+    from gallery_sheet import J, K_T
+    for t, speed, current in re.findall(r"^([\d.]+) ms +([\d.]+) rad/s +([\d.]+) A$", spot.text, re.M):
+        most = K_T * 5 / J * 1e-3 * float(t)
+        test.assertTrue(0.85 * most < float(speed) < 1.01 * most and abs(float(current) - 5) < 0.4, str(spot))
+
+
+def costs_of_calls(test, spot):
+    """The goals of the library for C; a step costs at least its part of a long one; a load opens and simulates."""
+    us = {name.strip(): float(x) for name, x in re.findall(r"^(.*?) +([\d.]+) us$", spot.text, re.M)}
+    test.assertLess(us["open a file"], 1000)
+    test.assertLess(us["open a file"], us["open the first file"])
+    test.assertLess(us["read a value"], 0.05)
+    test.assertLess(us["a period of one long advance"], us["advance by a period"])
+    test.assertLess(us["copy"], us["open a file"])
+    test.assertLess(us["open a file"], us["load"])
+
+
 def rows_at_the_leader(test, spot):
     """Reading and storing a row is what limits the rows a second that the page promises."""
     times = [float(cells[1].split()[0]) for cells in spot.rows()]
@@ -141,6 +178,8 @@ def rows_at_the_leader(test, spot):
 
 
 BY_TEXT = [
+    ("docs/howto/use-the-c-library.md", "read a value", costs_of_calls), ("docs/howto/use-the-c-library.md", "i_b_A = ", signals_at_2_ms),
+    ("docs/howto/use-the-c-library.md", "| language |", definition), ("docs/howto/use-the-c-library.md", " rad/s  ", first_lines), ("docs/howto/use-the-c-library.md", "725 A\n", held_by_the_supply),
     ("docs/howto/size-a-capacitor.md", "| worst duty |", capacitor.worst_duty), ("docs/howto/size-a-capacitor.md", "--vary", capacitor.capacitor_current),
     ("docs/howto/size-a-capacitor.md", "braking.toml", capacitor.braking),
     ("docs/howto/find-a-wiring-fault.md", "hall_lines=123,213", drives.crossed_loop), ("docs/howto/flash-an-image.md", "kHz pulses", drives.bring_up_avr), ("docs/reference/field-oriented-drive.md", "least that flows", drives.beyond_the_bus),
@@ -173,10 +212,10 @@ BY_TEXT = [
     ("docs/start/tour-bench-and-chip.md", "held as", drives.exported), ("docs/explanation/accuracy.md", "cases match", counted),
     ("docs/start/tour.md", "settles within", design.judge), ("docs/howto/tune-a-speed-loop.md", "", design.judge), ("docs/howto/choose-pwm.md", "verdict", series.judge_plan), ("docs/howto/choose-pwm.md", "$ ./run design", design.judge),
     ("docs/howto/design-", "", design.judge),
-    ("docs/reference/keys/", "| key |", default_in_range),
+    ("docs/howto/run-a-firmware", "ms throttle", firmware.course), ("docs/reference/keys/", "| key |", default_in_range),
 ]
 # Messages of the program, which repeat the input or the allowed values.
-MESSAGES = [("docs/start/tour-bench-and-chip.md", "gives the drive currents"), ("docs/howto/measure-the-back-emf.md", "short.csv: "), ("docs/howto/find-the-hall-order.md", "short.csv: "),
+MESSAGES = [("docs/howto/use-the-c-library.md", "must lie in"), ("docs/start/tour-bench-and-chip.md", "gives the drive currents"), ("docs/howto/measure-the-back-emf.md", "short.csv: "), ("docs/howto/find-the-hall-order.md", "short.csv: "),
             ("docs/start/sheet-questions.md", "coil.toml:4"), ("docs/start/sheet-questions.md", "motor show kv.toml | grep pole"),
             ("docs/start/tour.md", "dampng"), ("docs/start/tour.md", "relations hold"), ("docs/start/tour.md", "line_"), ("docs/start/tour.md", "help control.current.damping"),
             ("docs/explanation/accuracy.md", "'mean current  '"), ("docs/start/tour-bench-and-chip.md", "hot-plug.toml | head"),
@@ -184,7 +223,8 @@ MESSAGES = [("docs/start/tour-bench-and-chip.md", "gives the drive currents"), (
 # Pages and tables of definitions: names, formulas, commands, exit codes, and pages of code.
 DEFINES = ("docs/architecture.md", "docs/contracts.md", "docs/contributing.md", "docs/reference/model", "docs/reference/notation.md",
            "docs/reference/figures.md", "docs/reference/results.md", "docs/reference/command-line.md", "docs/reference/keys/")
-DEFINING = [("README.md", "| task |"), ("docs/reference/glossary.md", "| term |"),
+DEFINING = [("README.md", "| task |"), ("docs/howto/run-a-firmware", "sixstep_status hal_run"), ("docs/howto/run-a-firmware", "static void advance"),
+            ("docs/howto/run-a-firmware", "| file in "), ("docs/howto/run-a-firmware", "| function or macro |"), ("docs/reference/glossary.md", "| term |"),
             ("docs/howto/record-a-motor.md", "| column |"), ("docs/howto/measure-a-frequency-response.md", "| what stands there |"), ("docs/howto/commission-a-drive.md", "| phase |"),
             ("docs/howto/read-the-curve.md", "| row |"), ("docs/howto/read-the-curve.md", "| column |"), ("docs/reference/product-drive.md", "| limit |"), ("docs/howto/put-a-controller-on-a-chip.md", "| what | exit code |"),
             ("docs/reference/loops.md", "| law | what it is |"), ("docs/reference/commutation.md", "| pattern | chopped is |"), ("docs/reference/commutation.md", "| chopped is |"),

@@ -15,6 +15,7 @@
 //   mean of the samples at 3 A: 2.85 .. 3.15 A required, 2.99076 A measured
 //   mean of the samples at 5 A: 4.75 .. 5.25 A required, 4.96589 A measured
 //   greatest current: <= 9 A required, 6.83261 A measured
+// Note: control.drive = "lean" has no protection: it leaves the bridge on at over-current, over-voltage and a stall; give your firmware one, or export control.drive = "product" with [protection]
 // Note: cleared for a supply that takes current back (supply.sinks = true): this stiff bus cannot rise; state supply.resistance_ohm, supply.capacitance_F and sinks = false if yours takes none
 // Assumptions of that run:
 //   supply    24 V, stiff, takes current back
@@ -73,7 +74,7 @@ inline constexpr sixstep::control::Units<Scalar> units{
   .position_deg = 0x1p+0,                                                 // 1 deg
 };
 
-inline constexpr bool cleared = true;                                     // for a bridge whose supply takes current back, by its run
+inline constexpr bool cleared = true;                                     // for a bridge that your firmware protects, and whose supply takes current back, by its run
 inline constexpr std::uint8_t pole_pairs = 8;                             // electrical turns per mechanical one
 inline constexpr std::uint64_t pwm_period_ps = 100000000;                 // 100 us, and the period of the control tick
 inline constexpr bool pwm_centre_aligned = true;                          // else the on-time begins with the period

@@ -53,7 +53,7 @@ constexpr auto pwm_counts =
 /// later and is reported (tests/target/image_load.py).
 constexpr std::uint32_t least_period_counts = 1600;
 static_assert(pwm_counts >= least_period_counts && pwm_counts <= 65536,
-              "TIM1 has 16 bits, and the interrupts take 22.2 us at least");
+              "TIM1 has 16 bits, and the interrupts take 1600 counts: pwm.period_s = 22.3e-6 or more");
 constexpr auto dead_counts =
     static_cast<std::uint32_t>((exported::dead_time_ps * (clock_Hz / 1'000'000) + 999'999) / 1'000'000);
 static_assert(
