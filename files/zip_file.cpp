@@ -43,7 +43,7 @@ bool add(zipFile zip, const ZipEntry& entry) {
   about.dosDate = (1U << 21) | (1U << 16);  // 1980-01-01, the first that the format has
   about.external_fa = (entry.executable ? 0100755U : 0100644U) << 16;
   constexpr uLong made_by_unix = 3U << 8;
-  const int level = entry.packed ? Z_BEST_COMPRESSION : 0;
+  const int level = entry.packed ? Z_DEFAULT_COMPRESSION : 0;
   if (zipOpenNewFileInZip4(zip, entry.name.c_str(), &about, nullptr, 0, nullptr, 0, nullptr,
                            entry.packed ? Z_DEFLATED : 0, level, 0, -MAX_WBITS, DEF_MEM_LEVEL,
                            Z_DEFAULT_STRATEGY, nullptr, 0, made_by_unix, 0) != ZIP_OK)

@@ -82,6 +82,23 @@ class Bits(unittest.TestCase):
             compared += 1
         self.assertGreater(compared, 20)
 
+    def test_a_linear_motor_has_its_own_names_and_units(self):
+        file, csv = SOURCE / "data/scenarios/gallery/linear-motor.toml", FOLDER / "linear.csv"
+        unit = exported(file)
+        self.assertEqual((unit.variables["load_force"][0].get("unit"), unit.variables["speed_m_s"][0].get("unit")), ("N", "m/s"))
+        sixstep("run", file, "--csv", csv, "--quiet", code=None)
+        lines = [line for line in csv.read_text().splitlines() if not line.startswith("#")]
+        row = dict(zip(lines[0].split(","), lines[len(lines) // 2].split(",")))
+        instance = fmi.Instance(unit).begin()
+        self.assertEqual(instance.step(0, float(row["t_s"])), fmi.OK)
+        for name in ("speed_m_s", "position_mm", "force_N"):
+            self.assertAlmostEqual(instance.get(name), float(row[name]), delta=1e-9 * (1 + abs(float(row[name]))))
+        instance.run(1e-3, unit.stop(), float(row["t_s"]))
+        self.assertEqual(instance.digest(), ran(file)["digest"])
+        pushed = fmi.Instance(unit).begin()
+        self.assertEqual((pushed.put("load_force", 1.5), pushed.step(0, 1e-3)), (fmi.OK, fmi.OK))
+        self.assertAlmostEqual(pushed.get("load_N"), 1.5, delta=1e-12)
+
     def test_a_changed_input_is_an_at_of_the_scenario(self):
         """At communication points of 1 ms, with steps of any length between them."""
         unit, digests, logged = exported(CURRENT), set(), None

@@ -44,7 +44,7 @@ class Unit:
     def __init__(self, file, *words):
         out = FOLDER / f"{file.stem}.fmu"
         subprocess.run([PROGRAM, "export", "fmu", file, "--fmi", "3", "--out", out, "--force", *words], check=True, timeout=60)
-        self.folder = FOLDER / (file.stem + " unit")
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="a unit ", dir=FOLDER))  # a loaded file is not written again
         with zipfile.ZipFile(out) as archive:
             archive.extractall(self.folder)
         self.description = ET.parse(self.folder / "modelDescription.xml").getroot()
@@ -117,7 +117,7 @@ class Instance:
 class Fmi3(unittest.TestCase):
     def test_steps_of_any_length_have_the_digest_of_the_program(self):
         short, compared, draw = ("--set", "duration_s=3e-3"), 0, random.Random(3)
-        for file in FILES[:: max(1, len(FILES) // 8)]:
+        for file in FILES[::4]:
             told = ran(file, *short)
             if told is None or compared == 5:
                 continue

@@ -101,6 +101,21 @@ TEST(LinearMotorFile, IsWrittenAsItIsRead) {
   EXPECT_EQ(again->require[0].max, s->require[0].max);
 }
 
+TEST(LinearMotorFile, ItsSheetIsWrittenAsItIsRead) {
+  const auto s = read("[motor_override]\nforce_constant_N_A = 31.5\nmass_kg = 1.25\n");
+  ASSERT_TRUE(s) << first(s.problems());
+  EXPECT_THAT(scenario_text(*s), HasSubstr("force_constant_N_A = 31.5"));
+  const auto again = read_scenario_text("again.toml", scenario_text(*s), {});
+  ASSERT_TRUE(again) << first(again.problems());
+  EXPECT_EQ(sheet_text(again->sheet), sheet_text(s->sheet));
+  const Resolve own = [&](const Naming&) {
+    return base::Result<NamedText>(NamedText{"motor.toml", sheet_text(s->sheet), {}});
+  };
+  const auto motor = read_sheet("motor.toml", own);
+  ASSERT_TRUE(motor) << first(motor.problems());
+  EXPECT_EQ(sheet_text(*motor), sheet_text(s->sheet));
+}
+
 TEST(LinearMotorFile, UnitsAreOfTheMotorsKind) {
   EXPECT_EQ(
       told("[control]\nmode = \"speed\"\nspeed.force_limit_N = 10\n[reference]\nvalue = \"150 mm/s\"\n"), "");

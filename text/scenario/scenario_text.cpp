@@ -92,6 +92,20 @@ class TableText final : public sixstep::base::Visitor {
         return rows_.push_back({std::string(linear->key), toml(spelled_as(member, *linear)), about.required});
     rows_.push_back({std::string(key), toml(member), about.required});
   }
+  /// The file of a linear motor has keys of its own for the values of its sheet, too.
+  void add_row(std::string_view key, const sixstep::base::Quantity& member, const sixstep::base::About& about) {
+    const auto* const linear = linear_motor_ ? sixstep::base::linear_spelling(about) : nullptr;
+    if (linear == nullptr) return rows_.push_back({std::string(key), toml(member), about.required});
+    sixstep::base::Quantity spelled = member;
+    spelled.value = spelled_as(member.value, *linear);
+    if (spelled.last_digit) spelled.last_digit = sixstep::base::as_spelled(*member.last_digit, *linear);
+    if (spelled.range) {
+      spelled.range->low = spelled_as(member.range->low, *linear);
+      spelled.range->high = spelled_as(member.range->high, *linear);
+    }
+    if (!linear->frame.empty()) spelled.frame.clear();
+    rows_.push_back({std::string(linear->key), toml(spelled), about.required});
+  }
   template <class T>
   void add_row(std::string_view key, const std::optional<T>& member, const sixstep::base::About& about) {
     if (member) add_row(key, *member, about);
