@@ -47,7 +47,7 @@ number counts as 0. Some numbers are allowed alone but make no drive together. T
 `extends = "base.toml"`, or a list of files, takes over the keys of other scenarios. A name is relative to the file that contains it.
 
 - This file wins over its bases, a later base over an earlier one, `--set` over all.
-- Tables under headings are joined key by key.
+- A table under a heading is joined with the base's key by key, also with one in braces.
 - Lists of tables, such as `[[require]]`, are joined too, those of the bases first. `require = []` drops those of the bases.
 - A value in brackets or braces replaces the other as a whole. Empty braces drop a table of a base: `load = {}`, or `speed = {}`
   under `[control]`.
