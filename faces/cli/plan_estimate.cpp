@@ -94,8 +94,7 @@ Exit estimate(const RunArguments& arguments, const ReadPlan& plan) {
             "\n";
   const std::size_t points = analysis::points_of(p);
   text += fmt::format("  {} point{}", points, points == 1 ? "" : "s");
-  if (p.sampling == analysis::Sampling::saltelli)
-    text += fmt::format(", {} x (keys + 2)", p.points);
+  if (p.sampling == analysis::Sampling::saltelli) text += fmt::format(", {} x (keys + 2)", p.points);
   if (p.drives > 0) text += fmt::format(" of {} drives each", p.drives);
   text += fmt::format(": {} run{}\n  {} a run on one core ({} tried), about {} on {:.0f} cores\n", all,
                       all == 1 ? "" : "s", time_text(sample.each_s), sample.runs,

@@ -156,7 +156,7 @@ TEST(DesignedSpeed, OfAFlywheelIsUsableAndHeldUpByItsTorque) {
 
 /// The test's speed falls to the lowest speed but not below it, for any lowest speed below the top.
 TEST(DesignedSpeed, IsTriedDownToTheLowestSpeedAndNoFurther) {
-  for (const double lowest_rad_s : {71.0, 300.0, 480.0, 510.0}) {
+  for (const double lowest_rad_s : {71.0, 300.0, 420.0, 450.0}) {
     DesignOrder order = on_a_board(Mode::speed);
     order.spec.lowest_speed_rad_s = lowest_rad_s;
     const auto study = study_design(order);

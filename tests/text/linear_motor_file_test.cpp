@@ -104,7 +104,7 @@ TEST(LinearMotorFile, IsWrittenAsItIsRead) {
 TEST(LinearMotorFile, ItsSheetIsWrittenAsItIsRead) {
   const auto s = read("[motor_override]\nforce_constant_N_A = 31.5\nmass_kg = 1.25\n");
   ASSERT_TRUE(s) << first(s.problems());
-  EXPECT_THAT(scenario_text(*s), HasSubstr("force_constant_N_A = 31.5"));
+  EXPECT_THAT(scenario_text(*s), HasSubstr("force_constant_N_A = { value = 31.5"));
   const auto again = read_scenario_text("again.toml", scenario_text(*s), {});
   ASSERT_TRUE(again) << first(again.problems());
   EXPECT_EQ(sheet_text(again->sheet), sheet_text(s->sheet));

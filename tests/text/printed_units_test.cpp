@@ -62,7 +62,7 @@ TEST(PrintedUnits, ElectricalUnitsWantPolePairsHoweverTheyAreCounted) {
       told(std::string(sine) + constant),
       HasSubstr(
           "m.toml:3:34: speed_constant_rpm_V.value = \"222.2 Hz/V\" carries the unit Hz/V, which counts "
-          "electrical turns, and the pole pairs are not known here; give pole_pairs"));
+          "electrical turns, and the pole pairs are not known here; also give pole_pairs"));
 }
 
 TEST(PrintedUnits, HertzAndMinutesElsewhere) {

@@ -125,7 +125,7 @@ TEST(RecordedDoubts, VoltagesThatAreNamedSayWhatTheyAreByTheirHeadings) {
   };
   const std::string file = plain("time [s],u_ab [V],CH2 [V]\n");
   expect_right(file, 1e-5, named({"u_ab"}), 1);
-  EXPECT_THAT(seen(file, named({"u_ab", "CH2"})).problem, HasSubstr("the headings do not say"));
+  EXPECT_THAT(seen(file, named({"u_ab", "CH2"})).problem, HasSubstr("the headings do not name the points"));
 }
 
 /// A known column is not called unknown: the reason says what it is and which column replaced it.
@@ -207,7 +207,7 @@ TEST(RecordedDoubts, TwoColumnsOfOneNameAreToldApartByPlace) {
   expect_right(file, 1e-5, named({"u_ab", "u_ab"}));
   expect_right(file, 1e-5, named({"column 2", "column 3"}));
   EXPECT_THAT(seen(plain("time [s],a,b\n"), named({"a", "a"})).problem,
-              HasSubstr("asked for its column \"a\" twice"));
+              HasSubstr("has column \"a\" requested twice"));
   EXPECT_THAT(seen(plain("time [s],CH1,CH1\n"), between_lines).channels,
               ElementsAre("CH1", "CH1 (column 3)"));
 }

@@ -188,7 +188,7 @@ TEST(RecordedHall, WhatVoltagesAreOfIsNeverGuessedByTheirNumber) {
     EXPECT_THAT(found.problem, HasSubstr("has 2 voltages of terminals; u_a, u_b and u_c are needed"));
   for (const Seen& found :
        {with("CH4,CH5", two), with("CH4,CH5,CH6", three), with("u_ab,u_b", {"u_ab", "u_b"})})
-    EXPECT_THAT(found.problem, HasSubstr("between is missing: the headings do not say"));
+    EXPECT_THAT(found.problem, HasSubstr("between is missing: the headings do not name the points"));
   EXPECT_EQ(with("u_ab,u_bc").log.voltages, RecordedVoltages::lines);
   EXPECT_EQ(with("u_a,u_b,u_c").log.voltages, RecordedVoltages::terminals);
   // Three voltages between terminals stay such if the user names them.

@@ -154,7 +154,7 @@ TEST(Recording, NumbersBeyondAllInstrumentsAreNamedByTheirRow) {
   for (const char* const huge : {"1e300", "-1e13", "1e308"})
     EXPECT_THAT(told_of_emf(scope(2) + fmt::format("1,{}\n", huge)),
                 AllOf(StartsWith("r.csv: u_ab "), HasSubstr(" in row 201 is too large for any instrument")));
-  EXPECT_THAT(told_of_emf(scope(2) + "1e200,0\n"), StartsWith("r.csv: time 1e+200 in row 201 is beyond"));
+  EXPECT_THAT(told_of_emf(scope(2) + "1e200,0\n"), StartsWith("r.csv: time 1e+200 in row 201 is too large"));
   EXPECT_THAT(told_of_emf(scope(2) + "1,1e999\n"), StartsWith("r.csv:202: u_ab \"1e999\" is not a number"));
 }
 
@@ -222,7 +222,7 @@ TEST(Recording, WrongColumns) {
   EXPECT_THAT(told_of_emf("time [s]\n0\n1\n3\n"),
               StartsWith("r.csv: has no column of voltages: it has time"));
   EXPECT_THAT(told_of_emf(scope(4, 3.0, "time [s],CH1 [V]\n")),
-              StartsWith("between is missing: the headings do not say"));
+              StartsWith("between is missing: the headings do not name the points"));
   EXPECT_THAT(told_of_hall("time [s],hall,u_ab\n0,4,1\n1e-3,4,1\n"),
               StartsWith("r.csv: has 1 voltage of lines; u_ab and u_bc are needed"));
 }

@@ -170,9 +170,10 @@ TEST(UnitTable, HertzOfAShaftAreNobodysTurns) {
 TEST(UnitTable, MinutesAreNoRevolutionsPerMinute) {
   for (const char* unit : {"mV min", "mV*min", "V min"})
     for (const char* wanted : {"V/krpm", "mV s", "mWb"})
-      EXPECT_THAT(refused(std::string("4 ") + unit, wanted), ::testing::HasSubstr("minutes multiply here"))
+      EXPECT_THAT(refused(std::string("4 ") + unit, wanted),
+                  ::testing::HasSubstr("minutes are a factor here"))
           << unit << " in " << wanted;
-  EXPECT_THAT(refused("4 mNm min", "N m s"), ::testing::HasSubstr("minutes multiply here"));
+  EXPECT_THAT(refused("4 mNm min", "N m s"), ::testing::HasSubstr("minutes are a factor here"));
   EXPECT_EQ(*in_unit("2 min", "s"), 120.0);
 }
 

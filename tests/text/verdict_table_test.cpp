@@ -146,7 +146,8 @@ TEST(ChipFaults, AreWhatItsSerialLineGivesAsReasonsEachOnce) {
 
 TEST(ChipFaults, AreToldBelowTheTableAndAWaitIsWhereItIsTheLastRemark) {
   using ::testing::Contains, ::testing::HasSubstr, ::testing::Not;
-  EXPECT_THAT(core_texts(of_chip("# a board\n# fault: hall\n")), Contains(HasSubstr("says why: hall")));
+  EXPECT_THAT(core_texts(of_chip("# a board\n# fault: hall\n")),
+              Contains(HasSubstr("reason on its serial line: hall")));
   EXPECT_THAT(core_texts(of_chip("# a board\n# waits for the middle\n")),
               Contains(HasSubstr("waits for the middle")));
   EXPECT_THAT(core_texts(of_chip("# a board\n# waits for the middle\n# fault: hall\n")),

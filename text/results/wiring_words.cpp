@@ -138,7 +138,7 @@ std::span<const std::pair<std::string_view, std::string_view>> recipe_steps() {
       {"it runs rough",
        "move all three phase wires on by one leg; still rough: once more; then it runs well, the other way"},
       {"it runs well, but backward",
-       "swap the phase wires at legs a and b and the Hall lines at H2 and H3, or reverse the sign of the reference"},
+       "swap the phase wires at legs a and b and the Hall lines at H2 and H3, or invert the reference"},
   };
   return steps;
 }
@@ -169,10 +169,7 @@ std::vector<std::string> wiring_scenario_lines() {
 
 std::string bench_text(const analysis::WiringStudy& s) {
   const analysis::WiringBench& b = s.bench;
-  const char* const is = b.from == analysis::BenchCurrent::nominal ? ", its nominal current"
-                         : b.from == analysis::BenchCurrent::tenth_of_stall
-                             ? ", a tenth of the current at full duty"
-                             : "";
+  const char* const is = b.from == analysis::BenchCurrent::nominal ? ", its nominal current" : "";
   const base::Result<design::MotorModel> motor = design::motor_model(s.subject.sheet);
   const bool rubs = !motor || motor->shaft.coulomb_Nm > 0 || motor->shaft.B_Nm_s > 0;
   return motion_of(s).words(fmt::format(

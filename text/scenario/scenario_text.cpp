@@ -93,7 +93,8 @@ class TableText final : public sixstep::base::Visitor {
     rows_.push_back({std::string(key), toml(member), about.required});
   }
   /// The file of a linear motor has keys of its own for the values of its sheet, too.
-  void add_row(std::string_view key, const sixstep::base::Quantity& member, const sixstep::base::About& about) {
+  void add_row(std::string_view key, const sixstep::base::Quantity& member,
+               const sixstep::base::About& about) {
     const auto* const linear = linear_motor_ ? sixstep::base::linear_spelling(about) : nullptr;
     if (linear == nullptr) return rows_.push_back({std::string(key), toml(member), about.required});
     sixstep::base::Quantity spelled = member;
