@@ -86,7 +86,8 @@ base::Problems write(std::vector<BodeFile>& files, const std::string& name, cons
 base::Problems told(base::Problems problems, const std::string& name) {
   for (base::Problem& p : problems) {
     p.where = name + ": " + p.where;
-    if (p.cure.starts_with("name an amplitude")) p.cure = "name one: --amplitude, in the mode's unit";
+    if (p.cure.starts_with("give an amplitude"))
+      p.cure = "give one by --amplitude, in the mode's unit, or set a final reference other than zero";
   }
   return problems;
 }

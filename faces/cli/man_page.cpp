@@ -136,7 +136,7 @@ constexpr std::string_view examples =
     "sixstep run first.toml \\-\\-html first.html\n"
     "sixstep run first.toml \\-\\-set supply.voltage_V=20\n"
     ".RE\n.fi\n.PP\n"
-    "The PWM period that it needs, and a hundred drives within the makers' tolerances, in\n"
+    "The PWM period that it needs, and a hundred drives within their tolerances, in\n"
     "a file that a later call continues:\n.PP\n.nf\n.RS\n"
     "sixstep run first.toml \\-\\-vary pwm.period_s=20us:60us:3\n"
     "sixstep run first.toml \\-\\-tolerances \\-\\-runs 100 \\-\\-store first.sqlite\n"

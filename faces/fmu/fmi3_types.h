@@ -56,7 +56,7 @@ typedef void (*fmi3ClockUpdateCallback)(fmi3InstanceEnvironment);
 
 /* Head of a function, declared and then defined. */
 #define FMI3_FUNCTION(name, arguments)             \
-  FMI3_EXPORT fmi3Status FMI3(name) arguments; \
+  FMI3_EXPORT fmi3Status FMI3(name) arguments; /* NOLINT(bugprone-macro-parentheses): a parameter list */ \
   fmi3Status FMI3(name) arguments
 
 #endif

@@ -147,9 +147,9 @@ void esc_on_timer(void) {
 /* Greatest current of the three phases, in counts from zero. */
 static uint16_t current(void) {
   uint16_t most = 0;
-  uint8_t k;
+  int k;
   for (k = HAL_CURRENT_A; k <= HAL_CURRENT_C; k++) {
-    const uint16_t i = hal_adc(k);
+    const uint16_t i = hal_adc((uint8_t)k);
     const uint16_t size = (uint16_t)(i > HAL_CURRENT_ZERO ? i - HAL_CURRENT_ZERO : HAL_CURRENT_ZERO - i);
     if (size > most) most = size;
   }
