@@ -38,7 +38,7 @@ inline constexpr ExitMeaning exit_meanings[] = {
     {Exit::hung_up, "ended by SIGHUP when its terminal closed"},
     {Exit::interrupted, "interrupted by Ctrl-C"},
     {Exit::quit, "ended by SIGQUIT"},
-    {Exit::reader_gone, "nobody reads the pipe"},
+    {Exit::reader_gone, "the reader of the pipe has ended"},
     {Exit::terminated, "ended by SIGTERM"},
     {Exit::out_of_time, "ended by SIGXCPU at its limit of processor time"},
 };

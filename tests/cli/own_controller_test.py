@@ -38,7 +38,7 @@ AT_20 = r" in step 20, at t = 0\.600 ms"
 
 # The message about each way to end the program, and the places where it may occur.
 WAYS = {"exit": r"ended the program by exit\(\)", "quick_exit": r"ended the program by exit\(\)", "_exit": r"ended the program by _exit\(\)",
-        "_Exit": r"ended the program by _exit\(\)", "abort": r"gave up by abort\(\) \(SIGABRT\)", "null": r"crashed \(SIGSEGV: .*\)",
+        "_Exit": r"ended the program by _exit\(\)", "abort": r"ended itself by abort\(\) \(SIGABRT\)", "null": r"crashed \(SIGSEGV: .*\)",
         "divide": r"crashed \(SIGFPE: .*\)", "illegal": r"crashed \(SIG(ILL|TRAP).*\)", "recursion": r"crashed \(SIG(SEGV|BUS): .*\)",
         "pthread_exit": r"ended its thread, as by pthread_exit\(\)"}
 PLACES = {"load": " while it was loaded", "design": " in its design", "start": " in its start", "step": AT_20, "hall": r" in its hall\(\) after step \d+, at t = [\d.]+ ms"}
@@ -146,7 +146,7 @@ class OwnController(Started):
         self.assertRegex(told, WHO + WAYS["abort"] + AT_20 + ", of run 2" + ENDS)
         code, out, told = self.behaving("step-abort", *plan, "--resume", "--csv", "o.csv")
         self.assertEqual((code, told), (3, ""))
-        self.assertRegex(out, rf"1 stopped by a fault, the first of them run 2: {re.escape(str(CONTROLLER))}: the controller gave up by abort\(\) \(SIGABRT\) in step 20")
+        self.assertRegex(out, rf"1 stopped by a fault, the first of them run 2: {re.escape(str(CONTROLLER))}: the controller ended itself by abort\(\) \(SIGABRT\) in step 20")
         self.assertIn("4 runs: 3 hold every requirement, 1 do NOT\n", out)
         self.nothing_is_left("o.csv", "s.sqlite")
         code, out, _ = self.behaving("well", *plan, "--resume", "--quiet", "--force", "--csv", "o.csv")
