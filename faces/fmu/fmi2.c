@@ -94,11 +94,12 @@ fmi2Component FMI2(Instantiate)(fmi2String name, fmi2Type type, fmi2String guid,
   if (callbacks) i->callbacks = *callbacks;
   i->unit.log = log_of;
   i->events = loggingOn;
-  if (!(i->name = malloc(name ? strlen(name) + 1 : 1))) {
+  const size_t bytes = name ? strlen(name) + 1 : 1;
+  if (!(i->name = malloc(bytes))) {
     free(i);
     return NULL;
   }
-  strcpy(i->name, name ? name : "");
+  memcpy(i->name, name ? name : "", bytes);
   if (!name || !*name) return refuse(i, "fmi2Instantiate: the instance needs a name");
   if (type != fmi2CoSimulation) return refuse(i, "fmi2Instantiate: the unit is for co-simulation only");
   if (drive_read(&i->unit, resources, guid) != DRIVE_OK) return refuse(i, "fmi2Instantiate: no instance was made");
