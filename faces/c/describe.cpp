@@ -11,16 +11,22 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// Of a linear motor also the name that its files have, its unit, and the factor from the value to it.
 Json signals(const Session& session) {
   Json list = Json::array();
   const std::vector<study::Column>& columns = study::all_columns();
-  for (std::size_t c = 0; c < columns.size(); ++c)
+  const std::vector<study::Column>& of_motor = study::all_columns(session.scenario()->sheet.kind);
+  for (std::size_t c = 0; c < columns.size(); ++c) {
     list.push_back({{"index", c},
                     {"name", columns[c].name},
                     {"unit", columns[c].unit},
                     {"frame", columns[c].frame},
                     {"meaning", columns[c].meaning},
                     {"applies", session.applies(static_cast<int>(c))}});
+    if (of_motor[c].name != columns[c].name)
+      list.back()["linear"] = {
+          {"name", of_motor[c].name}, {"unit", of_motor[c].unit}, {"factor", of_motor[c].per_turning}};
+  }
   return list;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "sixstep/base/hash.hpp"
 #include "text/scenario/scenario_text.hpp"
 
 namespace c_face {
@@ -76,6 +77,25 @@ std::optional<Parts> parts_of(const Cbor& in) {
   return out;
 }
 
+/// Bytes of the checksum behind those that it is of.
+constexpr std::size_t checksum_bytes = 8;
+
+std::uint64_t checksum_of(std::span<const std::uint8_t> bytes) {
+  base::Hash hash;
+  for (const std::uint8_t byte : bytes) hash.word(byte);
+  return hash.value();
+}
+
+/// The part before the checksum; empty if the checksum differs.
+std::span<const std::uint8_t> intact(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() <= checksum_bytes) return {};
+  const auto body = bytes.first(bytes.size() - checksum_bytes);
+  const std::uint64_t is = checksum_of(body);
+  for (std::size_t k = 0; k < checksum_bytes; ++k)
+    if (bytes[body.size() + k] != static_cast<std::uint8_t>(is >> (8 * k))) return {};
+  return body;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> saved(const Session& session) {
@@ -91,11 +111,15 @@ std::vector<std::uint8_t> saved(const Session& session) {
                     {"conversions", session.conversions()},
                     {"time_s", session.time_s()},
                     {"commands", commands}};
-  return Cbor::to_cbor(out);
+  std::vector<std::uint8_t> bytes = Cbor::to_cbor(out);
+  const std::uint64_t checksum = checksum_of(bytes);
+  for (std::size_t k = 0; k < checksum_bytes; ++k)
+    bytes.push_back(static_cast<std::uint8_t>(checksum >> (8 * k)));
+  return bytes;
 }
 
 sixstep_status loaded(std::span<const std::uint8_t> bytes, Session& session) {
-  const Cbor in = Cbor::from_cbor(bytes, true, false);
+  const Cbor in = Cbor::from_cbor(intact(bytes), true, false);
   std::optional<Parts> parts = parts_of(in);
   if (!parts) {
     session.problems = {{"bytes", "", "are not a session that this version of the library saved",

@@ -10,7 +10,7 @@
 
 namespace c_face {
 
-/// CBOR (RFC 8949). `session` must be open.
+/// CBOR (RFC 8949) and a checksum. `session` must be open.
 std::vector<std::uint8_t> saved(const Session& session);
 
 /// Opens `session` and simulates it up to the saved instant.

@@ -39,14 +39,17 @@ constexpr char change_head[] = "\n[[at]]\ntime_s = ";
 
 /// A change is read as the end of the scenario's text; its lines are counted from its own first one.
 base::Problems in_change(base::Problems found, const Source& source) {
-  const auto lines = std::count(source.toml.begin(), source.toml.end(), '\n') + 3;
+  const auto own = std::count(source.toml.begin(), source.toml.end(), '\n') + 1, lines = own + 2;
   for (base::Problem& p : found) {
     const std::string before = source.name + ":";
     long line = 0;
     if (!p.where.starts_with(before)) continue;
     const char *const from = p.where.data() + before.size(), *const last = p.where.data() + p.where.size();
     const auto [end, wrong] = std::from_chars(from, last, line);
-    if (wrong == std::errc{} && line > lines)
+    if (wrong != std::errc{} || line <= own) continue;
+    if (line <= lines)
+      p.where = "toml";  // of all its lines
+    else
       p.where = "toml:" + std::to_string(line - lines) + std::string(end, last);
   }
   return found;
@@ -109,7 +112,7 @@ sixstep_status Session::open(Source source) {
   run_.emplace(std::move(*run));
   registers_ = rig::Registers(run_->board().sensors);
   note_what_applies();
-  if (gates) look_ahead();
+  if (gates) (void)look_ahead(0);
   return SIXSTEP_OK;
 }
 
@@ -118,9 +121,11 @@ void Session::note_what_applies() {
     applies_[c] = study::applies(static_cast<study::ColumnId>(c), run_->scenario());
 }
 
-void Session::look_ahead() {
+/// Makes ahead_ of run_, and reads it at the instant: run_ itself has skipped there.
+bool Session::look_ahead(std::int64_t at_ps) {
   exchange_.stop_ps = Exchange::never_ps;
   ahead_ = run_;
+  return ahead_->advance(static_cast<double>(at_ps) / sim::ticks_per_second);
 }
 
 std::int64_t Session::now_ps() const { return sim::to_instant(time_s()).ticks; }
@@ -129,7 +134,15 @@ double Session::time_s() const {
 }
 double Session::value(int index) const { return seen().present().signals[static_cast<std::size_t>(index)]; }
 
-sixstep_status Session::reached(bool goes_on) { return goes_on ? SIXSTEP_OK : SIXSTEP_OVER; }
+/// A fault that ended the run is told at once, from a copy that is finished in its place.
+sixstep_status Session::reached(bool goes_on) {
+  if (goes_on) return SIXSTEP_OK;
+  if (seen().now_s() >= seen().scenario().duration_s * (1 - 1e-9)) return SIXSTEP_OVER;
+  study::Session copy = seen();
+  if (const base::Result<study::Outcome> outcome = copy.close(false); outcome && outcome->fault)
+    problems = {*outcome->fault};
+  return SIXSTEP_OVER;
+}
 
 sixstep_status Session::advance(double to_s) {
   if (const sixstep_status status = usable("sixstep_advance"); status != SIXSTEP_OK) return status;
@@ -206,6 +219,7 @@ sixstep_status Session::change(std::string_view toml, double* at_s) {
   if (!with) return refused(in_change(with.problems(), source_));
   if (with->at.empty())
     return refused({{"toml", std::string(toml), "has no change", "name a key of [[at]]"}});
+  const std::int64_t now = now_ps();
   Session tried(*this);  // a refused change leaves this session as it is
   if (tried.ahead_)      // the run itself goes to this instant too
     if (const sixstep_status status = tried.set_gates(exchange_.gates); status != SIXSTEP_OK) return status;
@@ -217,71 +231,7 @@ sixstep_status Session::change(std::string_view toml, double* at_s) {
   exchange_ = tried.exchange_;
   commands_ = std::move(tried.commands_);
   note_what_applies();
-  if (ahead_) look_ahead();
-  return SIXSTEP_OK;
-}
-
-sixstep_status Session::measure(sixstep_measured& measured, double* setpoint) {
-  if (const sixstep_status status = usable("sixstep_measure"); status != SIXSTEP_OK) return status;
-  if (source_.chip != SIXSTEP_CHIP_PAIR && source_.chip != SIXSTEP_CHIP_LEGS)
-    return misuse("sixstep_measure", "needs a session whose controller is the caller",
-                  "open it with SIXSTEP_CHIP_PAIR or SIXSTEP_CHIP_LEGS");
-  if (!run_->at_tick())
-    return misuse("sixstep_measure", "needs a control tick", "call sixstep_advance_to_tick() before");
-  const Exchanging here(exchange_);
-  run_->call_controller();
-  measured = exchange_.measured;
-  if (setpoint != nullptr) *setpoint = exchange_.setpoint;
-  return SIXSTEP_OK;
-}
-
-sixstep_status Session::command(const sixstep_answer& answer) {
-  if (const sixstep_status status = usable("sixstep_command"); status != SIXSTEP_OK) return status;
-  if (source_.chip != SIXSTEP_CHIP_PAIR && source_.chip != SIXSTEP_CHIP_LEGS)
-    return misuse("sixstep_command", "needs a session whose controller is the caller",
-                  "open it with SIXSTEP_CHIP_PAIR or SIXSTEP_CHIP_LEGS");
-  exchange_.answer = answer;
-  commands_.push_back({.at_ps = now_ps(), .answer = answer, .gates = 0});
-  return SIXSTEP_OK;
-}
-
-sixstep_status Session::set_gates(std::uint32_t gates) {
-  if (const sixstep_status status = usable("sixstep_set_gates"); status != SIXSTEP_OK) return status;
-  if (!ahead_)
-    return misuse("sixstep_set_gates", "needs a session whose gates the caller sets",
-                  "open it with SIXSTEP_CHIP_GATES");
-  if (gates > 0x3f)
-    return refused(
-        {{"gates", std::to_string(gates), "must be 0 to 63: a bit per switch", "clear the others"}});
-  if (ahead_->over()) return SIXSTEP_OVER;
-  const double at_s = time_s();
-  const Exchanging here(exchange_);
-  exchange_.stop_ps = now_ps();
-  if (at_s > 0 && !run_->skip(static_cast<double>(exchange_.stop_ps) / sim::ticks_per_second))
-    return SIXSTEP_OVER;
-  exchange_.gates = gates;
-  commands_.push_back({.at_ps = exchange_.stop_ps, .answer = {}, .gates = gates});
-  look_ahead();
-  return reached(ahead_->advance(static_cast<double>(commands_.back().at_ps) / sim::ticks_per_second));
-}
-
-sixstep_status Session::convert(sixstep_counts& counts) {
-  if (const sixstep_status status = usable("sixstep_convert"); status != SIXSTEP_OK) return status;
-  const study::FullRow& row = seen().present().signals;
-  const auto at = [&](study::ColumnId id) { return row[static_cast<std::size_t>(id)]; };
-  const rig::SensorsConfig& sensors = run_->board().sensors;
-  using enum study::ColumnId;
-  const double current[] = {at(i_a), at(i_b), at(i_c)}, terminal[] = {at(u_a), at(u_b), at(u_c)};
-  ++conversions_;
-  counts = {};
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (sensors.currents == rig::CurrentMeasurement::phases)
-      counts.current[k] = registers_.current_counts(k, current[k], conversions_);
-    if (sensors.bus.range > 0) counts.terminal[k] = registers_.terminal_counts(k, terminal[k], conversions_);
-  }
-  if (sensors.bus.range > 0) counts.bus = registers_.bus_counts({.bus_V = at(bus_V), .number = conversions_});
-  counts.timer = static_cast<std::uint16_t>(registers_.counter(sim::to_instant(time_s())));
-  counts.hall = static_cast<std::uint8_t>(at(hall));
+  if (ahead_) (void)look_ahead(now);
   return SIXSTEP_OK;
 }
 

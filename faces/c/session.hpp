@@ -81,7 +81,7 @@ class Session {
   sixstep_status usable(const char* function);
   sixstep_status refused(base::Problems found);
   void note_what_applies();
-  void look_ahead();
+  bool look_ahead(std::int64_t at_ps);
   template <class Side>
   sixstep_status advance_to_edge(const char* function, double to_s, const Side& side);
   sixstep_status reached(bool goes_on);

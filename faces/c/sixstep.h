@@ -13,14 +13,16 @@
  *
  * Errors. Every function that can fail returns a sixstep_status and leaves its results unchanged unless that is
  * SIXSTEP_OK or SIXSTEP_OVER. sixstep_problem_at() then names place, value, limit and cure. No function ends the
- * program, throws, prints, or reads a global. A null session is answered by SIXSTEP_MISUSE, NaN, 0 or an empty text.
+ * program, throws, prints, or reads a global. A null session is answered by SIXSTEP_MISUSE, NaN, 0, an empty text or, by
+ * sixstep_outcome(), null.
  *
  * Threads. Sessions are independent: each may be used by one thread at a time, different ones at the same time.
  *
- * Texts are UTF-8, but for what a problem repeats of an input that is not, and end in '\0'. A text that a function returns belongs to the session, and is valid until the
+ * Texts are UTF-8 and end in '\0'. The value of a problem repeats the input, which may be no UTF-8. A text that a function returns belongs to the session, and is valid until the
  * next call of that function for the session, or its sixstep_free().
  *
- * Units are SI, as in the names of signals: docs/reference/results.md lists their units and frames. */
+ * Units are SI, as in the names of signals: docs/reference/results.md lists their units and frames. Of a linear motor 1 m
+ * stands for 1 rad: speed_rad_s is in m/s, angle_rad in m, torque_Nm in N. */
 #ifndef SIXSTEP_H
 #define SIXSTEP_H
 
@@ -49,7 +51,7 @@ SIXSTEP_API const char* sixstep_version(void);
 
 typedef enum {
   SIXSTEP_OK = 0,
-  SIXSTEP_OVER = 1,     /* the run is over: its duration has passed, or a fault stopped it. Reads still work */
+  SIXSTEP_OVER = 1,     /* the run is over: its duration has passed, or a fault stopped it, which is then the problem. Reads still work */
   SIXSTEP_REFUSED = 2,  /* an input is not valid: sixstep_problem_at() says why. Nothing has changed */
   SIXSTEP_MISUSE = 3,   /* a call that this session cannot answer; sixstep_problem_at() says why. Nothing has changed */
   SIXSTEP_NO_MEMORY = 4 /* the session is unchanged */
@@ -65,7 +67,7 @@ typedef struct {
   const char* cure;  /* what to do: "give the PWM period in seconds" */
 } sixstep_problem;
 
-/* Number of problems of the last call that returned SIXSTEP_REFUSED or SIXSTEP_MISUSE; 0 after another status. */
+/* Number of problems of the last call that returned SIXSTEP_REFUSED or SIXSTEP_MISUSE, or SIXSTEP_OVER by a fault; 0 otherwise. */
 SIXSTEP_API size_t sixstep_problem_count(const sixstep_session* session);
 /* Problem `number`, from 0 on. Valid until the next call for the session. SIXSTEP_MISUSE: there is no such problem. */
 SIXSTEP_API sixstep_status sixstep_problem_at(const sixstep_session* session, size_t number, sixstep_problem* problem);
@@ -146,8 +148,8 @@ SIXSTEP_API sixstep_status sixstep_copy(const sixstep_session* session, sixstep_
  * sixstep_load() simulates the run again up to there, to the bit, also on another machine. */
 SIXSTEP_API size_t sixstep_save(sixstep_session* session, void* bytes, size_t room);
 SIXSTEP_API sixstep_status sixstep_load(const void* bytes, size_t count, sixstep_session** session);
-/* The scenario as TOML with all changes so far; its run has the bits of this session, unless the caller controls it: such a
- * text names the controller "caller", which sixstep_load() alone knows. */
+/* The scenario as TOML with all changes so far; its run has the bits of this session, except where the
+ * caller controls the bridge: only sixstep_load() finds the controller "caller" that the text names. */
 SIXSTEP_API const char* sixstep_scenario(sixstep_session* session);
 
 /* ---- Finish -------------------------------------------------------------------------------------------------- */
@@ -167,25 +169,26 @@ SIXSTEP_API uint64_t sixstep_digest(const sixstep_session* session);
  * (sixstep/control/own/own_controller.h), so one function can be both.
  *
  *   do {
- *     sixstep_measure(drive, &measured, &setpoint);
- *     my_controller(&measured, setpoint, &answer);
- *     sixstep_command(drive, &answer);
+ *     if (sixstep_measure(drive, &measured, &setpoint) == SIXSTEP_OK) {
+ *       my_controller(&measured, setpoint, &answer);
+ *       sixstep_command(drive, &answer);
+ *     }
  *   } while (sixstep_advance_to_tick(drive) == SIXSTEP_OK); */
 
 /* Measurement that the controller gets at the control tick of the present instant, through the scenario's sensors,
  * and the setpoint in the mode's unit. `setpoint` may be null. SIXSTEP_MISUSE: the session is not at a control tick:
- * it is there at t = 0 and after sixstep_advance_to_tick(). */
+ * it is there after sixstep_advance_to_tick(), and at t = 0 unless pwm.sample = "middle". */
 SIXSTEP_API sixstep_status sixstep_measure(sixstep_session* session, sixstep_measured* measured, double* setpoint);
 /* Answer to the next control tick and all later ones, until another is given. Before the first, all gates are off.
  * An answer that no timer can execute ends the run at that tick, as in a scenario. */
 SIXSTEP_API sixstep_status sixstep_command(sixstep_session* session, const sixstep_answer* answer);
 
 /* SIXSTEP_CHIP_GATES: the gates from the present instant on, as bits 0..5: upper a, lower a, upper b, lower b, upper c,
- * lower c. Dead time is the caller's: both bits of a leg are a shoot-through, which ends the run at once: the next advance
- * returns SIXSTEP_OVER. Instants of changes are
+ * lower c. Dead time is the caller's: both bits of a leg are a shoot-through, which ends the run: the next advance
+ * returns SIXSTEP_OVER. Gates that are set twice at one instant: the last ones count. Instants of changes are
  * rounded to 1 ps. */
 SIXSTEP_API sixstep_status sixstep_set_gates(sixstep_session* session, uint32_t gates);
-/* SIXSTEP_CHIP_GATES: advances to the next change of a Hall line, or to to_s if none comes before: sixstep_time() says
+/* SIXSTEP_CHIP_GATES: advances to the next change of a Hall line, or to to_s if none comes before; the signal "hall" shows
  * which. */
 SIXSTEP_API sixstep_status sixstep_advance_to_hall_edge(sixstep_session* session, double to_s);
 /* SIXSTEP_CHIP_GATES: advances to the next instant at which the terminal of leg 0, 1 or 2, less the mean of the three
@@ -194,6 +197,7 @@ SIXSTEP_API sixstep_status sixstep_advance_to_hall_edge(sixstep_session* session
 SIXSTEP_API sixstep_status sixstep_advance_to_crossing(sixstep_session* session, int leg, double level_V, double to_s);
 
 /* Counts that the board's converters have at the present instant, with their offsets, gain errors and noise ([sensors]).
+ * SIXSTEP_REFUSED: sensors.current_bandwidth_Hz, current_delay_s or bus_bandwidth_Hz, which only sixstep_measure() has.
  * A converter that the scenario does not have reads 0. */
 typedef struct {
   uint16_t current[3];  /* phases a, b, c; sensors.currents = "phases" */

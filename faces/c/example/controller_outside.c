@@ -35,9 +35,10 @@ int main(int argc, char** argv) {
   double setpoint_A;
   sixstep_answer answer = {0};
   do {
-    sixstep_measure(drive, &measured, &setpoint_A);
-    control(&measured, setpoint_A, &answer);
-    sixstep_command(drive, &answer);
+    if (sixstep_measure(drive, &measured, &setpoint_A) == SIXSTEP_OK) {
+      control(&measured, setpoint_A, &answer);
+      sixstep_command(drive, &answer);
+    }
   } while (sixstep_advance_to_tick(drive) == SIXSTEP_OK);
 
   sixstep_finish(drive);

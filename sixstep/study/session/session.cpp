@@ -168,7 +168,7 @@ base::Result<Session> Session::open(const Scenario& scenario, const Listeners& l
 
 bool Session::advance(double to_s) { return go(sim::to_instant(to_s), true); }
 bool Session::skip(double to_s) { return go(sim::to_instant(to_s), false); }
-bool Session::advance_to_tick() { return go(state_->tick_after(state_->now()), true); }
+bool Session::advance_to_tick() { return go(state_->tick_after(sim::to_instant(state_->present.t_s)), true); }
 bool Session::at_tick() const {
   const Instant now = state_->now(), next = state_->run->next_tick();
   return !state_->over && !(now < next) && !(next < now) && state_->is_tick(now) &&
@@ -208,7 +208,7 @@ base::Result<double> Session::change(At at) {
   const Instant next_tick = s.run->next_tick();
   const Instant when = next_change(s.now(), next_tick, s.reach, s.period());
   if (s.over || !(when < s.compiled->end))
-    return base::Problem{"time_s", base::written(now_s()), "is after the end of the session",
+    return base::Problem{"time_s", base::written(now_s()), "has no control tick behind it in the session",
                          "open one with a longer duration_s"};
   at.time_s = when.seconds();
   Scenario candidate = *s.scenario;
