@@ -156,12 +156,16 @@ static drive_result change_inputs(drive* self, const char* function) {
 
 static drive_result stop_early(drive* self, const char* function, double asked_s) {
   char text[DRIVE_MESSAGE], at[64], asked[64];
+  sixstep_problem fault;
   drive_number(at, sizeof at, self->state.now_s);
   drive_number(asked, sizeof asked, asked_s);
-  snprintf(text, sizeof text,
-           "%s: the run is over at %s s, before %s s: its duration has passed, or a fault stopped it; "
-           "name a later stop time at the set-up, or run the scenario to see the fault",
-           function, at, asked);
+  if (sixstep_problem_at(self->state.session, 0, &fault) == SIXSTEP_OK)
+    snprintf(text, sizeof text, "%s: a fault stopped the run before %s s: %.200s %.200s %.200s; %.200s", function, asked,
+             fault.place, fault.value, fault.limit, fault.cure);
+  else
+    snprintf(text, sizeof text,
+             "%s: the run is over at %s s, before %s s: its duration has passed; name a later stop time at the set-up",
+             function, at, asked);
   self->state.phase = DRIVE_STEP_FAILED;
   self->log(self, DRIVE_DISCARD, "logStatusDiscard", text);
   return DRIVE_DISCARD;
