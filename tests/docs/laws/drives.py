@@ -49,7 +49,8 @@ def beyond_the_bus(test, spot):
 
 
 def bring_up(test, spot):
-    """What the steps should read, by the sheet: a Hall line has p turns of the shaft a second, the current carries load and friction."""
+    """What the steps should read, by the sheet: a Hall line has p turns of the shaft a second, the current carries load and friction,
+    and the log has the ripple's valley."""
     hall_order(test, spot)
     text = spot.text.replace("Hall 1 at ", "")
     steps = re.findall(r"([\d.]+) rad/s, ([\d.]+) A, [\d.]+(?: at 0.02 N m of load)?[;,] ([\d.]+) Hz", text)
@@ -60,6 +61,11 @@ def bring_up(test, spot):
         curve.same(test, spot, f"current at {speed} rad/s", float(current), (0.02 + B * w) / K_T, 0.05)
     limit = float(re.search(r"limit of ([\d.]+) A", text).group(1))
     curve.same(test, spot, "2.5 times the nominal current", limit, 2.5 * I_N, 2e-3)
+    logged = [float(re.search(words, text).group(1)) for words in (r"of the log reads ([\d.]+) A", r"of the log ([\d.]+) A\)", r"Hz \(([\d.]+) A\)")]
+    means = re.findall(r"[\d.]+ rad/s, ([\d.]+) A, (0\.\d+)", text)
+    for valley, (mean, duty) in zip(logged, means, strict=True):
+        half_A = 24 * float(duty) * (1 - float(duty)) * 30e-6 / (4 * 0.286e-3)
+        test.assertLess(abs(valley - (float(mean) - half_A)), 0.012, f"{spot}: the valley of the ripple at a mean of {mean} A")
 
 
 def crossed_loop(test, spot):
