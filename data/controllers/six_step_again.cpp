@@ -3,6 +3,7 @@
 // built-in drive's to the last bit. A place to start from where one block is to be another.
 #include "sixstep/control/drive.hpp"
 #include "sixstep/control/own/own_controller.hpp"
+#include "sixstep/control/own/own_pair.hpp"
 
 namespace {
 
@@ -42,22 +43,11 @@ struct SixStepAgain {
                            {setpoint}, telemetry);
     answer.current_reference_A = telemetry.current_reference_A;
     answer.speed_reference_rad_s = telemetry.speed_reference_rad_s;
-    take(state.command, answer);
+    answer_pair(state.command, answer);
   }
 
   static void hall(const Config& config, State& state, std::uint8_t code, sixstep_answer& answer) {
-    take(on_hall(config, state, code), answer);
-  }
-
-  static void take(const BridgeCommand<sixstep_real>& command, sixstep_answer& answer) {
-    answer.enabled = command.enabled;
-    answer.fault = command.fault;
-    answer.source = static_cast<std::uint8_t>(command.pair.source);
-    answer.sink = static_cast<std::uint8_t>(command.pair.sink);
-    answer.chopping = static_cast<std::uint8_t>(command.chopping);
-    answer.chopped = static_cast<std::uint8_t>(command.chopped);
-    answer.duty = command.duty;
-    answer.overlap = command.overlap;
+    answer_pair(on_hall(config, state, code), answer);
   }
 };
 

@@ -48,4 +48,24 @@ TEST(OwnPair, WhatIsNoNumberStaysOneForTheCheckOfTheAnswer) {
   EXPECT_TRUE(std::isnan(a.duty));
 }
 
+TEST(OwnPair, ACommandComesBackFromItsAnswer) {
+  control::BridgeCommand<double> given{};
+  given.enabled = true;
+  given.pair = {control::Leg::c, control::Leg::a};
+  given.duty = 0.375;
+  given.overlap = 0.25;
+  given.chopping = control::Chopping::complementary;
+  given.chopped = control::ChoppedSwitch::lower;
+  sixstep_answer answer{};
+  control::answer_pair(given, answer);
+  const control::BridgeCommand<double> back = control::pair_command(answer);
+  EXPECT_TRUE(back.enabled);
+  EXPECT_EQ(back.pair.source, given.pair.source);
+  EXPECT_EQ(back.pair.sink, given.pair.sink);
+  EXPECT_EQ(back.duty, given.duty);
+  EXPECT_EQ(back.overlap, given.overlap);
+  EXPECT_EQ(back.chopping, given.chopping);
+  EXPECT_EQ(back.chopped, given.chopped);
+}
+
 }  // namespace SIXSTEP_TEST_FILE

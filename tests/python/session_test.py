@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Sessions and environments: copies, changes and threads, and no bit that depends on steps or workers."""
+import math
 import threading
 import time
 import unittest
@@ -140,6 +141,23 @@ class Environments(unittest.TestCase):
         env.reset_where(over)
         _, _, _, over, _ = env.step(np.zeros((2, 1)))
         self.assertFalse(over.any())
+
+    def test_a_fault_terminates_at_its_step_and_a_drive_begins_anew(self):
+        """From 5 ms on the Hall code is one that no rotor gives: ten periods of 30 us are a step, so the 17th step sees it."""
+        broken = self.scenario(duration_s=20e-3, control={"mode": "speed"}, reference={"value": 100}, load={"locked": True},
+                               at=[{"time_s": 5e-3, "sensors": {"hall_lines": "same", "hall_break": {"line": n}}} for n in (1, 2, 3)])
+        env = sixstep.Env(broken, 2, action="current", hold=10)
+        env.reset()
+        steps = 0
+        terminated = truncated = np.array([False])
+        while not (terminated | truncated).any():
+            _, _, terminated, truncated, _ = env.step(np.full((2, 1), 0.3))
+            steps += 1
+        self.assertEqual(steps, math.floor(5e-3 / (10 * 30e-6)) + 1)
+        self.assertEqual((terminated.tolist(), truncated.tolist()), ([True, True], [False, False]))
+        env.reset_where(np.array([True, False]))
+        _, _, terminated, truncated, _ = env.step(np.full((2, 1), 0.3))
+        self.assertEqual((terminated.tolist(), truncated.tolist()), ([False, True], [False, False]))
 
     def test_wrong_shapes_and_words_are_told(self):
         env = sixstep.Env(self.scenario(), 2)

@@ -86,6 +86,8 @@ class Env:
         self.action_space = _box(np.full((drives, self._columns), self._least), np.full((drives, self._columns), most))
         bound = np.full((drives, len(self.observed)), np.inf)
         self.observation_space = _box(-bound, bound)
+        self.single_action_space = _box(np.full(self._columns, self._least), np.full(self._columns, most))
+        self.single_observation_space = _box(-bound[0], bound[0])
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Array, dict[str, Any]]:
         """Starts all drives anew. `seed` chooses the series of drives that `spread` draws from."""

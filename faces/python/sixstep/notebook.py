@@ -11,9 +11,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 if TYPE_CHECKING:
+    from .plan import Sweep
     from .result import Result
 
 WIDTH, HEIGHT, BINS = 720, 150, 300
+SHOWN_RUNS = 20  # of a sweep
 USUAL = ("speed_rad_s", "speed_m_s", "i_a_A", "torque_Nm", "force_N")
 
 
@@ -29,6 +31,18 @@ def result_html(result: Result) -> str:
     notes = "".join(f"<div>{html.escape(line)}</div>" for line in told)
     return (f"<div><b>{html.escape(str(result.summary['title']))}: {word}</b>, {result.simulated_s:g} s simulated{table}{notes}"
             f"{_charts(result) if len(result.time) else ''}</div>")
+
+
+def sweep_html(sweep: Sweep) -> str:
+    """The first runs of a sweep as a table, with units."""
+    def cell(value: Any) -> str:
+        return html.escape(f"{value:.5g}" if isinstance(value, (float, np.floating)) else str(value))
+
+    heads = "".join(f"<th>{html.escape(name)}{f' [{html.escape(unit)}]' if (unit := sweep.units.get(name)) and not name.endswith(f'_{unit}') else ''}</th>" for name in sweep)
+    shown = min(len(sweep), SHOWN_RUNS)
+    rows = "".join("<tr>" + "".join(f"<td>{cell(sweep[name][n])}</td>" for name in sweep) + "</tr>" for n in range(shown))
+    rest = f"<div>{len(sweep) - shown} more runs: sweep.frame() has all</div>" if shown < len(sweep) else ""
+    return f"<div><b>{len(sweep)} runs, {sweep.passed} hold every requirement</b><table><tr>{heads}</tr>{rows}</table>{rest}</div>"
 
 
 def _limits(low: float | None, high: float | None) -> str:

@@ -84,6 +84,11 @@ class Sweep:
     def __repr__(self) -> str:
         return f"<sixstep.Sweep: {len(self)} runs, {self.passed} hold every requirement>"
 
+    def _repr_html_(self) -> str:
+        from .notebook import sweep_html
+
+        return sweep_html(self)
+
 
 def sweep(scenario: Source, vary: Mapping[str, Any] | None = None, *, drives: int = 0, seed: int = 1, sampling: str = "grid",
           points: int | None = None, store: str | os.PathLike[str] | None = None, resume: bool = False, jobs: int | None = None,

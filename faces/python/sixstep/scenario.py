@@ -137,6 +137,11 @@ class Scenario:
         describe(key)
         return None
 
+    def get(self, key: str, default: Any = None) -> Any:
+        """The value of a key, or `default` where the key has none. An unknown key raises KeyError, as `s[key]` does."""
+        value = self[key]
+        return default if value is None else value
+
     def __setitem__(self, key: str, value: Any) -> None:
         self.update({key: value})
 
@@ -149,7 +154,8 @@ class Scenario:
     def __delitem__(self, key: str) -> None:
         settings = {name: text for name, text in self._settings.items() if name != key}
         if len(settings) == len(self._settings):
-            raise KeyError(f"{key} was not set; only what was set can be removed")
+            describe(key)
+            raise KeyError(f"{key} was not set by s[...]; del removes only such values. A value of the scenario's file or text is replaced: s[{key!r}] = ...")
         self._core = self._checked(settings)
         self._settings = settings
 

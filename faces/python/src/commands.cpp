@@ -72,17 +72,6 @@ void step_legs(const void* config, void*, const sixstep_measured* measured, sixs
     answer->leg[k] = {.state = SIXSTEP_LEG_PWM, .switches = SIXSTEP_PWM_COMPLEMENTARY, .duty = e.action[k]};
 }
 
-void take(const sixstep::control::BridgeCommand<double>& command, sixstep_answer& answer) {
-  answer.enabled = command.enabled;
-  answer.fault = command.fault;
-  answer.source = static_cast<std::uint8_t>(command.pair.source);
-  answer.sink = static_cast<std::uint8_t>(command.pair.sink);
-  answer.chopping = static_cast<std::uint8_t>(command.chopping);
-  answer.chopped = static_cast<std::uint8_t>(command.chopped);
-  answer.duty = command.duty;
-  answer.overlap = command.overlap;
-}
-
 void step_current(const void* config, void* state, const sixstep_measured* measured, sixstep_real setpoint,
                   sixstep_answer* answer) {
   const Opened& opened = of(config);
@@ -101,11 +90,12 @@ void step_current(const void* config, void* state, const sixstep_measured* measu
                                                                .hall = measured->hall},
                          {asked}, told);
   answer->current_reference_A = told.current_reference_A;
-  take(drive.command, *answer);
+  sixstep::control::answer_pair(drive.command, *answer);
 }
 
 void current_at_hall_edge(const void* config, void* state, uint8_t code, sixstep_answer* answer) {
-  take(sixstep::control::on_hall(of(config).loop, *static_cast<DriveState<double>*>(state), code), *answer);
+  auto& drive = *static_cast<DriveState<double>*>(state);
+  sixstep::control::answer_pair(sixstep::control::on_hall(of(config).loop, drive, code), *answer);
 }
 
 constexpr sixstep_controller commanded(uint32_t answers, decltype(sixstep_controller::design) designed,

@@ -28,6 +28,18 @@ constexpr sixstep_real pair_current(const sixstep_measured& measured) {
          2;
 }
 
+/// A command as the answer of a controller that answers pairs. The answer's other members stay as they are.
+constexpr void answer_pair(const BridgeCommand<sixstep_real>& command, sixstep_answer& answer) {
+  answer.enabled = command.enabled;
+  answer.fault = command.fault;
+  answer.source = static_cast<std::uint8_t>(command.pair.source);
+  answer.sink = static_cast<std::uint8_t>(command.pair.sink);
+  answer.chopping = static_cast<std::uint8_t>(command.chopping);
+  answer.chopped = static_cast<std::uint8_t>(command.chopped);
+  answer.duty = command.duty;
+  answer.overlap = command.overlap;
+}
+
 /// A valid answer of a pair as the command of gates.hpp.
 constexpr BridgeCommand<sixstep_real> pair_command(const sixstep_answer& answer) {
   BridgeCommand<sixstep_real> command{};
