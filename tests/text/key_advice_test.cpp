@@ -51,4 +51,9 @@ TEST(LimitOf, SaysTheRangeInWords) {
 }
 
 }  // namespace SIXSTEP_TEST_FILE
+TEST(KeyAdvice, NamesEachKnownKeyOnce) {
+  const std::vector<std::string> known{"speed_rad_s", "speed_rad_s", "bus_V"};
+  EXPECT_EQ(text::unknown_key("zzz", known, "").cure, "known are speed_rad_s, bus_V");
+}
+
 }  // namespace text

@@ -139,8 +139,11 @@ base::Problem unknown_key(std::string_view key, std::span<const std::string> kno
   const std::string near = nearest(key, known);
   if (!near.empty()) return {.limit = "is not a key here", .cure = fmt::format("did you mean {}?", near)};
   constexpr std::size_t most_listed = 30;  // a motor file has some seventy keys
+  std::vector<std::string> each;           // a key and its alias for linear motors may have one name
+  for (const std::string& candidate : known)
+    if (std::find(each.begin(), each.end(), candidate) == each.end()) each.push_back(candidate);
   const std::string all =
-      known.size() > most_listed ? "sixstep help lists them all" : "known are " + join(known);
+      each.size() > most_listed ? "sixstep help lists them all" : "known are " + join(each);
   return {.limit = "is not a key here", .cure = advice.empty() ? all : std::string(advice)};
 }
 
