@@ -141,9 +141,8 @@ TEST(RecordedDoubts, AKnownColumnThatIsNotUsedSaysTrulyWhy) {
                 columns)
         .notes;
   };
-  EXPECT_THAT(
-      notes("u_a,u_b [V]"),
-      ElementsAre("not used: u_a, u_b (a terminal against one point; those between terminals are used)"));
+  EXPECT_THAT(notes("u_a,u_b [V]"),
+              ElementsAre("not used: u_a, u_b (a voltage of a terminal; line-to-line voltages are used)"));
   EXPECT_THAT(notes("hall1,H2,code"),
               ElementsAre("not used: hall1, H2 (a Hall line, no voltage), code (Hall codes, no voltage)"));
   EXPECT_THAT(notes("i_a [A],speed"),

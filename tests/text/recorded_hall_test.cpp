@@ -155,13 +155,13 @@ TEST(RecordedHall, AKnownColumnThatIsNotUsedSaysTrulyWhy) {
   EXPECT_THAT(notes("time,hall1,hall2,hall3,code", "5"),
               ElementsAre("not used: code (Hall codes; the three lines are used)"));
   EXPECT_THAT(notes("time,hall1,hall2,hall3,u_bc,u_ca", "1,2"),
-              ElementsAre("not used: u_bc, u_ca (between terminals, of which u_ab and u_bc are needed)"));
+              ElementsAre("not used: u_bc, u_ca (a line-to-line voltage; u_ab and u_bc are both needed)"));
   EXPECT_THAT(
       notes("time,hall1,hall2,hall3,u_b,aux", "1,2"),
       ElementsAre(
-          "not used: u_b (of terminals, of which u_a, u_b and u_c are needed), aux (its heading has no known meaning)"));
+          "not used: u_b (a voltage of a terminal; u_a, u_b and u_c are all needed), aux (its heading has no known meaning)"));
   EXPECT_THAT(notes("time,hall1,hall2,hall3,u_ab,u_bc,u_a", "1,2,3"),
-              ElementsAre("not used: u_a (a terminal against one point; those between terminals are used)"));
+              ElementsAre("not used: u_a (a voltage of a terminal; line-to-line voltages are used)"));
   std::string file = "time,hall1,hall\n";
   for (int row = 0; row < 300; ++row)
     file += fmt::format("{:.5f},{},{}\n", row * 5e-5, codes[row / 10 % 6] >> 2, codes[row / 10 % 6]);

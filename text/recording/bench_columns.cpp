@@ -17,11 +17,11 @@ std::string why_not_voltage(Meaning meaning, const BenchUse& use) {
   const bool line = meaning == Meaning::between_terminals;
   if (use.voltages_are_asked) return "other voltages are requested";
   if (use.voltages == Meaning::unknown)
-    return line ? "between terminals, of which u_ab and u_bc are needed"
-                : "of terminals, of which u_a, u_b and u_c are needed";
+    return line ? "a line-to-line voltage; u_ab and u_bc are both needed"
+                : "a voltage of a terminal; u_a, u_b and u_c are all needed";
   if (use.voltages == meaning) return "more than are needed";
-  return line ? "between terminals; those against one point are used"
-              : "a terminal against one point; those between terminals are used";
+  return line ? "a line-to-line voltage; those of terminals are used"
+              : "a voltage of a terminal; line-to-line voltages are used";
 }
 
 }  // namespace

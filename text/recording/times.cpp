@@ -121,7 +121,9 @@ base::Result<Times> column_at_interval(const Recording& r, const RecordedColumn&
     std::vector<double> in_s = *t;
     for (double& x : in_s) x /= unit.per_s;
     if (!go_with(in_s, interval_s)) continue;
-    notes.push_back(fmt::format("{} is in {}, as the interval says", column.name, unit.name));
+    notes.push_back(
+        fmt::format("{} has no unit: {} is assumed, since its rows then lie one given interval apart",
+                    column.name, unit.name));
     return times_at_interval(r, std::move(in_s), column, interval_s, notes);
   }
   if (guessed && !go_with(*t, interval_s)) {

@@ -14,7 +14,7 @@ enum class Reason : std::uint8_t {
   hall,            ///< a code that no rotor gives, or a jump over a sector
   calibration,     ///< the offset of a current transducer is out of its tolerance
   over_current,    ///< in the samples
-  current_sensor,  ///< a reading at the converter's end, or three currents whose sum is not zero
+  current_sensor,  ///< a reading at the converter's full scale, or three currents whose sum is not zero
   setpoint_wire,   ///< the potentiometer reads beyond its ends
   comparator,      ///< the power stage's own, at the timer's break input
   clock,           ///< the external clock did not start, or stopped

@@ -81,7 +81,8 @@ class Checker {
       add("drives", std::to_string(plan_.drives), "vary at random, and Sobol indices need planned points",
           "vary these values over their range, with strays = true");
     if (problems_.empty() && too_many())
-      add("points", "", "are more than a thousand million runs", "take fewer values or points");
+      add("points", "", "give more than a thousand million runs, the limit of a plan",
+          "take fewer values, points or drives");
     return std::move(problems_);
   }
 

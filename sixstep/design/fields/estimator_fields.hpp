@@ -51,8 +51,8 @@ void fields(Walk&& w, const control::TurnStartConfig<double>& c, Kept& kept) {
   constexpr control::TurnStartConfig<double> unset{};
   w.signal({"current_A", "A"}, c.current_A, current_A, Base::current);
   w.count({"align_ticks"}, c.align_ticks, align_ticks, unset.align_ticks);
-  w.count({"step", "", "2^-48 turn per tick and tick"}, c.step, step, unset.step);
-  w.count({"enough", "", "2^-48 turn per tick"}, c.enough, enough, unset.enough);
+  w.count({"step", "", "2^-48 turns per tick^2"}, c.step, step, unset.step);
+  w.count({"enough", "", "2^-48 turns per tick"}, c.enough, enough, unset.enough);
   w.count({"good_ticks"}, c.good_ticks, good_ticks, unset.good_ticks);
   w.count({"retries"}, c.retries, retries, unset.retries);
 }

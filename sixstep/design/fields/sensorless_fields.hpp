@@ -86,11 +86,10 @@ void fields(Walk&& w, const control::StartUpConfig<double>& d, Kept& kept) {
   w.count({"align_ticks", "", "of the timer"}, d.align_ticks, align_ticks, unset.align_ticks);
   w.count({"swing_shift"}, d.swing_shift, swing_shift, unset.swing_shift);
   w.count({"swing_threshold", "", "counts of y"}, d.swing_threshold, swing_threshold, unset.swing_threshold);
-  w.count({"first_speed", "", "2^-32 sectors a tick"}, d.first_speed, first_speed, unset.first_speed);
-  w.count({"acceleration", "", "2^-32 sectors a tick, each"}, d.acceleration, acceleration,
-          unset.acceleration);
-  w.count({"jerk", "", "2^-48 sectors a tick, each and each"}, d.jerk, jerk, unset.jerk);
-  w.count({"last_speed", "", "2^-32 sectors a tick"}, d.last_speed, last_speed, unset.last_speed);
+  w.count({"first_speed", "", "2^-32 sectors per tick"}, d.first_speed, first_speed, unset.first_speed);
+  w.count({"acceleration", "", "2^-32 sectors per tick^2"}, d.acceleration, acceleration, unset.acceleration);
+  w.count({"jerk", "", "2^-48 sectors per tick^3"}, d.jerk, jerk, unset.jerk);
+  w.count({"last_speed", "", "2^-32 sectors per tick"}, d.last_speed, last_speed, unset.last_speed);
   w.count({"longest_ticks", "", "of the timer"}, d.longest_ticks, longest_ticks, unset.longest_ticks);
   w.count({"trusted", "", "crossings"}, d.trusted, trusted, unset.trusted);
   w.count({"trusted_ticks", "", "of the timer"}, d.trusted_ticks, trusted_ticks, unset.trusted_ticks);

@@ -155,7 +155,7 @@ base::Problems problems_of(const MotorModel& motor, const PulseSpec& spec) {
   };
   above_0("bus_V", spec.bus_V, "give the voltage of the bus");
   above_0("period_s", spec.period_s, "give the control period");
-  above_0("current_range_A", spec.current_range_A, "give the current at the converter's ends");
+  above_0("current_range_A", spec.current_range_A, "give the current at the converter's full scale");
   if (spec.adc_bits < 6 || spec.adc_bits > 16)
     problems.push_back(
         {"adc_bits", std::to_string(spec.adc_bits), "must be 6 to 16", "choose another converter"});

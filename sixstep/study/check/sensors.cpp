@@ -17,7 +17,7 @@ void check_currents(const Scenario& s, base::Problems& out) {
   if (sensors.currents == CurrentMeasurement::ideal) return;
   if (!sensors.current_range_A)
     out.push_back({"sensors.current_range_A", "", "is missing, and currents go through a converter",
-                   "give the current at the converter's ends, or currents = \"ideal\""});
+                   "give the current at the converter's full scale, or currents = \"ideal\""});
   else if (std::fabs(sensors.current_offset_A) >= *sensors.current_range_A)
     out.push_back({"sensors.current_offset_A", base::written(sensors.current_offset_A),
                    "leaves no range within current_range_A = " + base::written(*sensors.current_range_A),

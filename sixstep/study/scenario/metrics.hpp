@@ -117,10 +117,11 @@ inline constexpr MetricFact metric_facts[] = {
      "mean power over the window that turning on, turning off and reverse recovery cost, by the bridge's energies",
      TakenOf::transitions},
     {MetricKind::commutation_error, "commutation_error_deg", "commutation error", "deg",
-     "largest electrical angle by which the pair changed before or behind the edge of its sector",
+     "largest electrical angle between the change of the pair and the edge of its sector",
      TakenOf::commutations},
     {MetricKind::commutation_error_rms, "commutation_error_rms_deg", "rms commutation error", "deg",
-     "root of the mean square of that angle over all commutations in the window", TakenOf::commutations},
+     "rms, over all commutations in the window, of the electrical angle between the change of the pair and the edge of its sector",
+     TakenOf::commutations},
 };
 
 inline constexpr auto metric_choices = [] {

@@ -86,9 +86,10 @@ inline void describe_currents(base::Visitor& v, Sensors& s) {
   v.choice("currents", s.currents, current_sensing_choices,
            {.meaning = "source of the controller's currents"});
   v.value("adc_bits", s.adc_bits, {.meaning = "bits of the converter", .range = base::between(4, 16)});
-  v.value(
-      "current_range_A", s.current_range_A,
-      {.meaning = "current at the converter's ends, of either sign", .unit = "A", .range = base::above(0)});
+  v.value("current_range_A", s.current_range_A,
+          {.meaning = "current at the converter's full scale: it measures from minus this value to plus it",
+           .unit = "A",
+           .range = base::above(0)});
   v.value("current_offset_A", s.current_offset_A,
           {.meaning = "offset of the amplifiers: reading at zero current", .unit = "A"});
   v.value("current_gain_error", s.current_gain_error,
