@@ -70,7 +70,8 @@ TEST(Highlights, the_largest_step_is_found_with_its_current) {
   EXPECT_DOUBLE_EQ(current->rms_A, std::sqrt(30.0 / 1.5));
   // Half a second of 6 A, then 6 A to 0 in five seconds, then nothing: 18 As in 6.5 s.
   EXPECT_DOUBLE_EQ(*current->then_mean_A, 18.0 / 6.5);
-  EXPECT_EQ(*current->then_span_A, 6.0);
+  EXPECT_EQ(current->then_low_A, 0.0);
+  EXPECT_EQ(current->then_high_A, 6.0);
 }
 
 /// A current step ends at the first Hall edge after the current has come near its goal: a later peak is a commutation's.
@@ -234,7 +235,8 @@ TEST(Conduction, a_leg_carries_the_current_of_the_phase_that_hangs_at_it) {
 TEST(Glance, answers_what_a_reader_asks_first) {
   SyntheticRun run = synthetic_run(0.02);
   std::string html = page(run);
-  EXPECT_THAT(html, HasSubstr("Closest requirement</dt><dd>largest current: 1.5\u00a0% below its limit"));
+  EXPECT_THAT(html,
+              HasSubstr("Closest requirement</dt><dd>largest current: 1.5\u00a0% inside its upper limit"));
   EXPECT_THAT(html, HasSubstr("Current in its step from 5\u00a0A to −5\u00a0A"));
   EXPECT_THAT(html, HasSubstr("given as d1, d0; pole placement says 4.0956, −3.694"));
   EXPECT_THAT(html, HasSubstr("<h2>What it cost</h2>"));
