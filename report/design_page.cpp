@@ -14,6 +14,7 @@
 #include "sixstep/base/angle.hpp"
 #include "sixstep/design/sheet/motion.hpp"
 #include "sixstep/design/thesis/thesis_figures.hpp"
+#include "text/results/design_loops_text.hpp"
 #include "text/results/design_text.hpp"
 
 namespace report {
@@ -53,18 +54,20 @@ std::string simulated(const DesignStudy& s) {
 
 /// The gains that follow from the steps; a position loop has one gain.
 std::string gain_table(const DesignStudy& s) {
-  const sixstep::base::LinearUnit gain = motion_of(s.design.motor).unit("rad/s per deg");
+  const sixstep::base::Motion motion = motion_of(s.design.motor);
+  const sixstep::base::LinearUnit gain = motion.unit("rad/s per deg");
   std::string rows;
   for (const LoopDesign& loop : s.design.loops) {
     const bool one = loop.name == "position";
     rows += fmt::format(
-        "<tr><th scope=\"row\">{}</th>{}{}<td>{}</td></tr>\n", escaped(loop.name),
+        "<tr><th scope=\"row\">{}</th>{}{}<td>{}</td><td>{}</td></tr>\n", escaped(loop.name),
         number_cell(one ? plain(loop.gains.d1 * gain.factor, 6, true) + "\u00a0" + std::string(gain.linear)
                         : plain(loop.gains.d1, 6, true)),
-        number_cell(one ? "–" : plain(loop.gains.d0, 6, true)), escaped(loop.method));
+        number_cell(one ? "–" : plain(loop.gains.d0, 6, true)),
+        one ? std::string() : escaped(text::gain_unit(loop.name, motion)), escaped(loop.method));
   }
-  return "<table>" + table_head({"Loop", "#d<sub>1</sub>", "#d<sub>0</sub>", "Method"}) + "<tbody>\n" + rows +
-         "</tbody></table>\n";
+  return "<table>" + table_head({"Loop", "#d<sub>1</sub>", "#d<sub>0</sub>", "Unit", "Method"}) +
+         "<tbody>\n" + rows + "</tbody></table>\n";
 }
 
 std::string steps(const LoopDesign& loop) {

@@ -94,7 +94,7 @@ std::string told_in(const sixstep::base::Motion& motion, std::string html) {
 }  // namespace
 
 std::string energy_section(const sixstep::study::EnergyBook& b, const sixstep::base::Motion& motion,
-                           StoredBeside beside) {
+                           BookOf drive) {
   // Both accounts share the unit and the length of bars, because each contains the air-gap energy.
   double largest = 0.0;
   for (const double joule :
@@ -102,25 +102,30 @@ std::string energy_section(const sixstep::study::EnergyBook& b, const sixstep::b
     largest = std::max(largest, std::abs(joule));
   const Yardsticks yardsticks{largest, b.scale, b.scale > b.moved ? "stored" : "moved"};
   std::string html = energy_sankey(b) + "<div class=\"columns\"><div><h3>Electrical</h3>";
-  html += account({"Supplied by the bus", "∫ U<sub>s</sub> i dt", b.supplied},
-                  {{"Copper", "∫ R<sub>s</sub> Σi² dt", b.copper},
-                   {"Switches and diodes", "conduction", b.devices},
-                   {"Magnetic field", "Δ ½ L<sub>s</sub> Σi²", b.magnetic},
-                   {"Across the air gap", "∫ T<sub>e</sub> ω dt", b.air_gap}},
-                  b.electrical_residual, yardsticks);
+  html += account(
+      {"Supplied by the bus", "∫ U<sub>s</sub> i dt", b.supplied},
+      {{"Copper", drive.delta ? "∫ R<sub>x</sub> Σj² dt" : "∫ R<sub>s</sub> Σi² dt", b.copper},
+       {"Switches and diodes", "conduction", b.devices},
+       {"Magnetic field", drive.delta ? "Δ ½ L<sub>x</sub> Σj²" : "Δ ½ L<sub>s</sub> Σi²", b.magnetic},
+       {"Across the air gap", "∫ T<sub>e</sub> ω dt", b.air_gap}},
+      b.electrical_residual, yardsticks);
   html += "</div><div><h3>Mechanical</h3>";
   std::vector<Entry> shaft{
       {b.iron != 0.0 ? "Bearing friction" : "Friction", "viscous, Coulomb, in a gear", b.friction - b.iron}};
   if (b.iron != 0.0) shaft.push_back({"Iron drag", "eddy currents and hysteresis", b.iron});
   shaft.push_back({"Load", "∫ T<sub>load</sub> ω dt", b.load});
-  const std::string stored = std::string(beside.twist ? ", twist" : "") + (beside.cogging ? ", cogging" : "");
+  const std::string stored = std::string(drive.twist ? ", twist" : "") + (drive.cogging ? ", cogging" : "");
   shaft.push_back({"Kinetic energy" + stored,
-                   std::string(beside.twist ? "Δ ½ J ω² of both masses, Δ ½ k φ²" : "Δ ½ J ω²") +
-                       (beside.cogging ? ", −∫ T<sub>cog</sub> ω dt" : ""),
+                   std::string(drive.twist ? "Δ ½ J ω² of both masses, Δ ½ k φ²" : "Δ ½ J ω²") +
+                       (drive.cogging ? ", −∫ T<sub>cog</sub> ω dt" : ""),
                    b.kinetic});
   html += account({"Across the air gap", "∫ T<sub>e</sub> ω dt", b.air_gap}, shaft, b.mechanical_residual,
                   yardsticks);
   html += "</div></div>\n";
+  if (drive.delta)
+    html +=
+        "<p class=\"origin\">j, R<sub>x</sub> and L<sub>x</sub> are current, resistance and inductance of one "
+        "branch of the delta.</p>\n";
   if (b.brake_resistor > 0.0)
     html += fmt::format(
         "<p class=\"closing\">the brake resistor took <b>{}</b> from the bus: beside the accounts, which begin at "
@@ -135,15 +140,16 @@ std::string device_section(const std::vector<sixstep::study::DeviceLoss>& device
   std::string html =
       "<table class=\"events\"><thead><tr><th>Switch</th><th class=\"num\">conducts</th><th class=\"num\">turns "
       "on</th><th class=\"num\">turns off</th><th class=\"num\">diode</th><th class=\"num\">recovers</th>";
-  html += known ? "<th class=\"num\">junction</th></tr></thead><tbody>\n" : "</tr></thead><tbody>\n";
+  html += known ? "<th class=\"num\">junction, mean</th></tr></thead><tbody>\n" : "</tr></thead><tbody>\n";
   for (const auto& d : devices) {
     html += fmt::format("<tr><th scope=\"row\">{}</th>", d.device);
     for (const double watt : {d.conduction_W, d.turn_on_W, d.turn_off_W, d.diode_W, d.recovery_W})
       html += fmt::format("<td class=\"num\">{}</td>", watt > 0.0 ? computed(watt, "W") : "");
     html += known ? fmt::format("<td class=\"num\">{} °C</td></tr>\n", fixed(d.junction_degC, 1)) : "</tr>\n";
   }
-  return html +
-         "</tbody></table><p class=\"closing\">mean powers over the run; switching is counted in efficiency and "
+  return html + "</tbody></table><p class=\"closing\">mean powers over the run" +
+         std::string(known ? ", and the junction's temperature at that mean power" : "") +
+         "; switching is counted in efficiency and "
          "temperatures, not in the account above</p>\n";
 }
 

@@ -8,13 +8,14 @@
 
 namespace report {
 
-/// Energies that the book counts as kinetic: the twist of an elastic shaft, and that of cogging.
-struct StoredBeside {
-  bool twist = false, cogging = false;
+/// The drive as far as the book's formulas depend on it. Twist of an elastic shaft and cogging count as kinetic; a
+/// delta's losses and its field are those of its branches, whose currents may flow where no terminal has any.
+struct BookOf {
+  bool twist = false, cogging = false, delta = false;
 };
 /// The section of energies, with the symbols of the motor's kind.
 std::string energy_section(const sixstep::study::EnergyBook& book, const sixstep::base::Motion& motion,
-                           StoredBeside beside);
+                           BookOf drive);
 /// The losses of each switch and diode as a table; empty if the bridge's data do not suffice.
 std::string device_section(const std::vector<sixstep::study::DeviceLoss>& devices);
 

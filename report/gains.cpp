@@ -15,6 +15,12 @@ namespace {
 
 using sixstep::study::LoopGains;
 
+/// Unit of d1 and d0: output per error. An outer loop's output is a part of the largest one.
+std::string_view gain_unit(const LoopGains& g, bool linear) {
+  if (g.loop.starts_with("current")) return "V/A";
+  return linear ? "full output per m/s" : "full output per rad/s";
+}
+
 std::string gain_table(const LoopGains& g, bool linear) {
   const double mm_per_deg = sixstep::base::in_linear("deg").factor;
   if (g.loop == "position")
@@ -24,8 +30,8 @@ std::string gain_table(const LoopGains& g, bool linear) {
         plain(linear ? g.d1 / mm_per_deg : g.d1, 6, true), linear ? "m/s per mm" : "rad/s per degree");
   if (!g.steps.empty())
     return fmt::format(
-        "<table class=\"gains\"><tbody><tr><th scope=\"row\">K</th><td class=\"num strong\">{}</td></tr></tbody></table>\n",
-        plain(g.d1, 6, true));
+        "<table class=\"gains\"><tbody><tr><th scope=\"row\">K</th><td class=\"num strong\">{} {}</td></tr></tbody></table>\n",
+        plain(g.d1, 6, true), gain_unit(g, linear));
   const auto row = [&](const char* symbol, double used, double exact) {
     std::string html =
         fmt::format("<tr><th scope=\"row\">{}</th><td class=\"num strong\">{}</td>", symbol, plain(used, 6));
@@ -36,7 +42,8 @@ std::string gain_table(const LoopGains& g, bool linear) {
     return html + "</tr>\n";
   };
   const auto exact = g.derivation ? g.derivation->gains : sixstep::design::PiGains{};
-  std::string html = "<table class=\"gains\"><thead><tr><th></th><th class=\"num\">used</th>";
+  std::string html = fmt::format("<table class=\"gains\"><thead><tr><th></th><th class=\"num\">used, {}</th>",
+                                 gain_unit(g, linear));
   if (g.derivation) html += "<th class=\"num\">pole placement</th><th class=\"num\">deviation</th>";
   html += "</tr></thead><tbody>\n";
   html += row("d<sub>1</sub> = K", g.d1, exact.d1);

@@ -50,6 +50,17 @@ Group currents(const Trace& trace, bool of_field) {
   return g;
 }
 
+/// The sum of a delta's branch currents, which no terminal shows; a third of it circulates.
+Group loop_current(const Trace& trace) {
+  Group g{.id = "loop-current",
+          .title = "Sum of the delta's branch currents: three times the circulating one",
+          .unit = "A",
+          .height_px = 150,
+          .quantity = "current"};
+  add(g, trace, "loop_A", "j_ab + j_bc + j_ca", "main");
+  return g;
+}
+
 /// The currents that a field-oriented drive controls.
 Group rotor_currents(const Trace& trace) {
   Group g{.id = "rotor-currents",
@@ -198,6 +209,7 @@ Groups chart_groups(const Trace& trace, const sixstep::study::Scenario& scenario
   if (mode == Mode::position || mode == Mode::speed) charts.push_back(speed(trace, linear));
   const bool of_field = scenario.control.drive == sixstep::study::FirmwareKind::field;
   charts.push_back(currents(trace, of_field));
+  charts.push_back(loop_current(trace));
   if (of_field) {
     charts.push_back(rotor_currents(trace));
     charts.push_back(rotor_voltages(trace));

@@ -85,6 +85,14 @@ std::size_t end_of_current_step(const Values* hall, const Values& signal, const 
   return n;
 }
 
+/// Angle in degrees that the shaft is ahead of its count at the run's end: an encoder without a reference counts from
+/// its index, which the shaft may have passed after any number of turns.
+double ahead_of_count(const Scenario& s, double shaft_deg, double asked_deg) {
+  const bool from_index = s.control.mode == Mode::position && !s.sensors.encoder.referenced &&
+                          s.sensors.rotor == sixstep::study::RotorSensing::encoder;
+  return from_index ? 360.0 * std::round((shaft_deg - asked_deg) / 360.0) : 0.0;
+}
+
 /// The whole run, if there is no setpoint.
 Step from_start(const Values& time, const Scenario& scenario) {
   return {.of = "start",
@@ -116,7 +124,10 @@ std::optional<Step> largest_step(const Trace& trace, const Scenario& scenario) {
   const Values* reference = loop ? find_column(trace, loop->reference) : nullptr;
   const Values* signal = loop ? find_column(trace, loop->signal) : nullptr;
   if (!reference || !signal) return from_start(*time, scenario);
-  std::vector<Change> changes = changes_of(*reference, signal->front() * loop->factor);
+  const double ahead = ahead_of_count(scenario, signal->back() * loop->factor, reference->back());
+  Values asked = *reference;
+  for (double& level : asked) level += ahead;
+  std::vector<Change> changes = changes_of(asked, signal->front() * loop->factor);
   for (Change& change : changes)
     if (takes_over_turning(scenario) && change.from == 0.0)
       change.from = (*signal)[change.row] * loop->factor;
@@ -143,6 +154,7 @@ std::optional<Step> largest_step(const Trace& trace, const Scenario& scenario) {
               .at_s = at,
               .from = largest->from,
               .to = largest->to,
+              .index = ahead,
               .next_s = end,
               .held = held_by(scenario),
               .window = {at, std::min(end, at + shown)},
@@ -177,13 +189,29 @@ bool names_a_current(const Values& reference) {
   return std::ranges::any_of(reference, [](double ampere) { return ampere != 0.0; });
 }
 
-/// The row of largest magnitude in a window.
-std::size_t peak_row(const Values& time, const Values& y, const Interval& window) {
+/// The row in the window in which `measure` is largest; the first one of equals.
+template <class Measure>
+std::size_t largest_row(const Values& time, const Interval& window, const Measure& measure) {
   std::size_t row = 0;
-  double largest = -1.0;
+  double largest = -INFINITY;
   for (std::size_t n = 0; n < time.size(); ++n)
-    if (window.holds(time[n]) && std::abs(y[n]) > largest) largest = std::abs(y[n]), row = n;
+    if (window.holds(time[n]) && measure(n) > largest) largest = measure(n), row = n;
   return row;
+}
+
+/// The row of the peak. A step of the current begins at its old level, which may be the larger one: its peak is
+/// the farthest value in the step's direction. Magnitudes of phases come down before they rise to a level of
+/// the other sign. In the step of another quantity the peak is the largest magnitude.
+std::size_t peak_row(const Values& time, const Values& y, const Step& step) {
+  if (step.of != "current")
+    return largest_row(time, step.window, [&](std::size_t n) { return std::abs(y[n]); });
+  const bool crosses = step.from * step.to < 0.0;
+  if (step.held.of_phases && crosses) {
+    const std::size_t lowest = largest_row(time, step.window, [&](std::size_t n) { return -y[n]; });
+    return largest_row(time, {time[lowest], step.window.to}, [&](std::size_t n) { return y[n]; });
+  }
+  const bool up = step.held.of_phases ? std::abs(step.to) > std::abs(step.from) : step.to > step.from;
+  return largest_row(time, step.window, [&](std::size_t n) { return up ? y[n] : -y[n]; });
 }
 
 }  // namespace
@@ -194,14 +222,15 @@ std::optional<StepCurrent> step_current(const Trace& trace, const Step& step) {
   if (!time || !current) return std::nullopt;
   const double shown = step.window.to - step.window.from, rest = step.next_s - step.window.to;
   if (!(shown > 0.0) || !is_whole(trace, step.window)) return std::nullopt;
-  const std::size_t peak = peak_row(*time, *current, step.window);
+  const std::size_t peak = peak_row(*time, *current, step);
   StepCurrent out{.peak_A = (*current)[peak],
                   .peak_after_s = (*time)[peak] - step.at_s,
                   .rms_A = std::sqrt(line_over(*time, *current, step.window).square / shown)};
   if (step.done && rest > 0.0 && is_whole(trace, {step.window.to, step.next_s})) {
     const Line then = line_over(*time, *current, {step.window.to, step.next_s});
     out.then_mean_A = then.integral / rest;
-    out.then_span_A = then.high - then.low;
+    out.then_low_A = then.low;
+    out.then_high_A = then.high;
   }
   const std::optional<Values> asked = asked_values(trace, step.held);
   if (asked && names_a_current(*asked) && std::isfinite((*asked)[peak])) out.asked_A = (*asked)[peak];

@@ -22,6 +22,7 @@ struct Step {
   std::string unit;
   double at_s = 0.0;
   double from = 0.0, to = 0.0;
+  double index = 0.0;   ///< position: angle at which the drive's count is 0, if that is an encoder's index
   double next_s = 0.0;  ///< time of the next change, or the run's end
   HeldCurrent held{};   ///< the current shown with it
   Interval window;      ///< the close-up: 1.5 times the time to within 10 % of the step from its goal
@@ -36,10 +37,12 @@ std::optional<double> last_setpoint_s(const sixstep::study::Trace& trace,
 
 /// The held current during a step; empty if an envelope replaces its rows.
 struct StepCurrent {
-  double peak_A = 0.0, peak_after_s = 0.0;
-  std::optional<double> asked_A{};  ///< the reference at the peak, if there is a current loop
-  double rms_A = 0.0;               ///< over the window
-  std::optional<double> then_mean_A{}, then_span_A{};  ///< from the window's end to the next change
+  double peak_A = 0.0,
+         peak_after_s = 0.0;            ///< of a step of the current: its farthest value in that direction
+  std::optional<double> asked_A{};      ///< the reference at the peak, if there is a current loop
+  double rms_A = 0.0;                   ///< over the window
+  std::optional<double> then_mean_A{};  ///< from the window's end to the next change
+  double then_low_A = 0.0, then_high_A = 0.0;  ///< in that time
 };
 std::optional<StepCurrent> step_current(const sixstep::study::Trace& trace, const Step& step);
 

@@ -68,8 +68,10 @@ std::string comparisons(const sixstep::study::Outcome& outcome) {
          comparison_rows(outcome) + "</tbody></table>\n";
 }
 
-StoredBeside stored_beside(const sixstep::study::Scenario& s) {
-  return {.twist = s.load.stiffness_Nm_rad > 0.0, .cogging = !s.sheet.cogging_orders.empty()};
+BookOf book_of(const sixstep::study::Scenario& s) {
+  return {.twist = s.load.stiffness_Nm_rad > 0.0,
+          .cogging = !s.sheet.cogging_orders.empty(),
+          .delta = s.sheet.connection == sixstep::design::WindingConnection::delta};
 }
 
 /// The user waits for the report after an interrupt, and packing every row would take longest.
@@ -107,7 +109,7 @@ std::string render(const ReportInput& in) {
                             ? own_section(in.scenario.control.own)
                             : gains_section(in.outcome)},
               {"energy", in.outcome.energy ? energy_section(*in.outcome.energy, motion_of(in.outcome.motor),
-                                                            stored_beside(in.scenario)) +
+                                                            book_of(in.scenario)) +
                                                  device_section(in.outcome.devices)
                                            : "<p class=\"quiet\">No books were kept.</p>\n"},
               {"events", event_section(in.outcome)},

@@ -227,9 +227,8 @@ std::string reference(const study::Scenario& s) {
   return text;
 }
 
-}  // namespace
-
-std::string setup_section(const study::Scenario& scenario) {
+/// The set-up in sentences, one for each part of the drive.
+std::string sentences(const study::Scenario& scenario) {
   study::Scenario s = scenario;
   text::in_units_of_its_motor(s);
   std::string html;
@@ -257,6 +256,15 @@ std::string setup_section(const study::Scenario& scenario) {
   if (const std::string text = heat(s.heat); !text.empty()) add("Heat", text);
   if (const std::string text = events(s.at, linear); !text.empty()) add("During the run", text);
   return html;
+}
+
+}  // namespace
+
+std::string setup_section(const study::Scenario& scenario) {
+  std::string rest;
+  for (const auto& [key, value] : other_keys(scenario, sentences))
+    rest += (rest.empty() ? "" : "<br>") + escaped(key + " = " + value);
+  return sentences(scenario) + (rest.empty() ? "" : "<div><dt>Other keys</dt><dd>" + rest + "</dd></div>\n");
 }
 
 }  // namespace report

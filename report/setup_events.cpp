@@ -46,19 +46,27 @@ void add_wires(const study::At& at, const Add& add) {
     add(fmt::format("divider of terminal {} breaks", base::word(study::divider_choices, s.broken_divider)));
 }
 
+/// "line H1 reads high", or that it follows its probe again.
+std::string hall_line(const study::AtHallBreak& at) {
+  if (at.level == study::PinLevel::probe) return fmt::format("line H{} follows its probe again", at.line);
+  return fmt::format("line H{} reads {}", at.line, base::word(study::pin_level_choices, at.level));
+}
+
 /// Encoders and resolvers that fail or recover.
 template <class Add>
 void add_shaft_faults(const study::AtSensors& s, const Add& add) {
   const auto shows = [](study::EncoderLevel level) {
-    return base::word(study::encoder_level_choices, level);
+    return level == study::EncoderLevel::whole
+               ? std::string("is intact again")
+               : fmt::format("reads {}", base::word(study::encoder_level_choices, level));
   };
   if (s.missed_edges) add(fmt::format("{} edges missed", *s.missed_edges));
   if (s.bad_track) add(fmt::format("track {} {}", s.bad_track->track, shows(s.bad_track->level)));
   if (s.encoder_line)
     add(fmt::format("encoder's line {} {}", base::word(study::encoder_line_choices, s.encoder_line->line),
                     shows(s.encoder_line->level)));
-  if (s.false_index.value_or(false)) add("false index");
-  if (s.broken_winding == study::Winding::whole) add("resolver's windings whole");
+  if (s.false_index.value_or(false)) add("a disturbance counted as the index");
+  if (s.broken_winding == study::Winding::whole) add("resolver's windings intact again");
   if (s.broken_winding == study::Winding::cosine || s.broken_winding == study::Winding::sine)
     add(fmt::format("resolver's {} winding breaks", base::word(study::winding_choices, s.broken_winding)));
   if (s.excitation) add(fmt::format("resolver's excitation {} of the full one", *s.excitation));
@@ -75,7 +83,7 @@ std::string events(const std::vector<study::At>& events, bool linear) {
     if (at.supply.sinks) add(*at.supply.sinks ? "supply takes current back" : "supply takes no current back");
     if (at.load.torque_Nm) add("load " + given(*at.load.torque_Nm, linear ? "N" : "Nm"));
     if (at.load.locked) add(*at.load.locked ? "rotor clamped" : "rotor let go");
-    if (at.sensors.hall_break) add(fmt::format("line H{} breaks", at.sensors.hall_break->line));
+    if (at.sensors.hall_break) add(hall_line(*at.sensors.hall_break));
     add_wires(at, add);
     add_shaft_faults(at.sensors, add);
     if (at.motor.broken_wire != study::Wire::none)

@@ -60,6 +60,9 @@ std::string shaft(const study::Load& load, bool linear) {
   if (load.gear != 1.0) text += fmt::format(", gear {} : 1", plain(load.gear, 6, true));
   if (load.gear_efficiency < 1.0) text += " of " + given(100 * load.gear_efficiency, "%");
   if (load.stiffness_Nm_rad != 0.0) text += ", elastic, " + of(load.stiffness_Nm_rad, "Nm/rad", "N/m");
+  if (load.viscous_Nm_s != 0.0) text += ", viscous friction " + of(load.viscous_Nm_s, "Nm s", "N s/m");
+  if (load.coulomb_Nm != 0.0) text += ", Coulomb friction " + of(load.coulomb_Nm, "Nm", "N");
+  if (load.static_Nm != 0.0) text += ", breaks loose at " + of(load.static_Nm, "Nm", "N");
   if (const double square = study::square_law(load).Nm_s2; square != 0.0)
     text += (linear ? ", drag " : ", fan ") + of(square, "Nm s2", "N s2/m2");
   if (load.gravity_Nm != 0.0) text += ", weight " + given(load.gravity_Nm, "Nm");

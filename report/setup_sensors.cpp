@@ -82,7 +82,8 @@ std::string sensors(const study::Sensors& s) {
         fmt::format("; inverted Hall lines: {}", base::word(study::hall_inverted_choices, s.hall_inverted));
   text += shaft_sensor(s) + probes(s);
   if (s.hall_break.at_s)
-    text += fmt::format("; line H{} breaks at {}", s.hall_break.line, given(*s.hall_break.at_s, "s"));
+    text += fmt::format("; line H{} reads {} from {} on", s.hall_break.line,
+                        base::word(study::level_choices, s.hall_break.level), given(*s.hall_break.at_s, "s"));
   return text;
 }
 

@@ -2,7 +2,9 @@
 // Describes a scenario's surroundings, one line each: supply, bridge, load, heat, sensors, and the changes
 // during the run.
 #pragma once
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sixstep/study/scenario/scenario.hpp"
@@ -19,5 +21,10 @@ bool all_ideal(const sixstep::study::Sensors& s);
 /// The first eight values, and their total number.
 std::string listed(const std::vector<double>& values, const char* unit);
 std::string events(const std::vector<sixstep::study::At>& events, bool linear);
+/// Each key with another value than its default that `sentences` do not depend on, and its value with its unit. So a
+/// key that no sentence states is listed, a new one too.
+std::vector<std::pair<std::string, std::string>> other_keys(
+    const sixstep::study::Scenario& scenario,
+    const std::function<std::string(const sixstep::study::Scenario&)>& sentences);
 
 }  // namespace report

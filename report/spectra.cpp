@@ -31,7 +31,7 @@ std::string how(const Spectra& s) {
                                                : std::string("stretch of one setpoint");
   return fmt::format(
       "<p class=\"origin\">Amplitudes over the last {}, from {} to {}: Hann window, one line every {}, a tone between "
-      "two lines placed by both, from means of the recorded curve over {}. The mean itself is left out.</p>\n",
+      "two lines placed by both, one with a known cause at that cause's frequency, from means of the recorded curve over {}. The mean itself is left out.</p>\n",
       part, escaped(given(s.stretch.time.from, "s")), escaped(given(s.stretch.time.to, "s")),
       escaped(computed(lines.spacing_Hz, "Hz")), escaped(computed(lines.cell_s, "s")));
 }
@@ -40,14 +40,17 @@ std::string table(const Spectra& s, const DrawnSpectrum& d) {
   if (d.lines.tones.empty())
     return fmt::format("<div><h3>{}</h3><p class=\"quiet\">No line exceeds the noise.</p></div>\n", d.title);
   constexpr std::size_t most = 6;
-  const double periods = s.period_s > 0.0 ? (s.stretch.time.to - s.stretch.time.from) / s.period_s : 0.0;
+  const double seconds = s.stretch.time.to - s.stretch.time.from;
+  const Causes causes{.turns = s.stretch.turns,
+                      .periods = s.period_s > 0.0 ? seconds / s.period_s : 0.0,
+                      .heat_steps = s.heat_step_s > 0.0 ? seconds / s.heat_step_s : 0.0};
   std::string rows;
   for (std::size_t n = 0; n < std::min(most, d.lines.tones.size()); ++n) {
     const Tone& tone = d.lines.tones[n];
+    const Origin origin = origin_of(tone.line, causes);
     rows += fmt::format("<tr><td class=\"num\">{}</td><td class=\"num\">{}</td><td>{}</td></tr>\n",
-                        escaped(computed(tone.line * d.lines.spacing_Hz, "Hz")),
-                        escaped(computed(tone.amplitude, d.unit)),
-                        escaped(origin_of(tone.line, s.stretch.turns, periods)));
+                        escaped(computed(origin.line * d.lines.spacing_Hz, "Hz")),
+                        escaped(computed(tone.amplitude, d.unit)), escaped(origin.name));
   }
   return fmt::format(
       "<div><h3>{}, strongest lines</h3><table><thead><tr><th class=\"num\">Frequency</th><th "
@@ -74,7 +77,10 @@ std::optional<Spectra> spectra(const sixstep::study::Trace& trace, const sixstep
   if (!stretch) return std::nullopt;
   const bool free_running = scenario.control.current.type == sixstep::study::CurrentLoopType::hysteresis &&
                             scenario.control.mode >= sixstep::control::Mode::current;
-  Spectra out{*stretch, free_running ? 0.0 : scenario.pwm.period_s, {}};
+  Spectra out{*stretch,
+              free_running ? 0.0 : scenario.pwm.period_s,
+              scenario.heat.motor || scenario.heat.devices ? scenario.heat.step_s : 0.0,
+              {}};
   const auto& time = *find_column(trace, "t_s");
   for (const Wanted& w : wanted) {
     const auto* values = find_column(trace, w.column);

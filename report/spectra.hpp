@@ -17,7 +17,8 @@ struct DrawnSpectrum {
 
 struct Spectra {
   Stretch stretch;
-  double period_s = 0.0;  ///< period of the PWM; 0 if comparators switch
+  double period_s = 0.0;     ///< period of the PWM; 0 if comparators switch
+  double heat_step_s = 0.0;  ///< step of the thermal model, which changes the resistance; 0 without it
   std::vector<DrawnSpectrum> all;
 };
 

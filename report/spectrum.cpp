@@ -167,29 +167,34 @@ Lines lines_of(const Values& time, const Values& values, const Interval& stretch
   return out;
 }
 
-std::string origin_of(double at, long long turns, double periods) {
+Origin origin_of(double at, const Causes& causes) {
   constexpr long long highest_side = 12;
-  const double electrical = static_cast<double>(turns);
+  const double electrical = static_cast<double>(causes.turns), periods = causes.periods;
+  const bool turns = causes.turns > 0;
   constexpr double near = 0.3;  // in lines: a tone is placed more precisely, unless another one is near
   const auto times = [](double n, const char* what) {
     return n == 1.0 ? std::string(what) : fmt::format("{} × {}", n, what);
   };
-  const double order = turns > 0 ? std::round(at / electrical) : 0.0;
+  const double order = turns ? std::round(at / electrical) : 0.0;
   const double beat = periods > 0.0 ? std::round(at / periods) : 0.0;
-  if (beat >= 1.0 && std::abs(at - beat * periods) <= near) return times(beat, "PWM");
-  if (beat >= 1.0 && turns > 0) {
+  if (beat >= 1.0 && std::abs(at - beat * periods) <= near) return {times(beat, "PWM"), beat * periods};
+  if (beat >= 1.0 && turns) {
     const double side = std::round((at - beat * periods) / electrical);
     if (std::abs(side) <= static_cast<double>(highest_side) &&
         std::abs(at - beat * periods - side * electrical) <= near)
-      return fmt::format("{} {} {}", times(beat, "PWM"), side < 0 ? "−" : "+",
-                         times(std::abs(side), "electrical"));
+      return {fmt::format("{} {} {}", times(beat, "PWM"), side < 0 ? "−" : "+",
+                          times(std::abs(side), "electrical")),
+              beat * periods + side * electrical};
   }
-  if (beat >= 1.0 && turns > 0 && std::abs(at - beat * periods) < electrical / 2)
-    return "beside " + times(beat, "PWM");
+  if (beat >= 1.0 && turns && std::abs(at - beat * periods) < electrical / 2)
+    return {"beside " + times(beat, "PWM"), at};
   // At high orders every line is near some multiple.
   if (order >= 1.0 && order <= 60.0 && std::abs(at - order * electrical) <= near)
-    return order == 1.0 ? "electrical, the fundamental" : times(order, "electrical");
-  return "";
+    return {order == 1.0 ? "electrical, the fundamental" : times(order, "electrical"), order * electrical};
+  const double step = causes.heat_steps > 0.0 ? std::round(at / causes.heat_steps) : 0.0;
+  if (step >= 1.0 && std::abs(at - step * causes.heat_steps) <= near)
+    return {times(step, "step of the thermal model"), step * causes.heat_steps};
+  return {"", at};
 }
 
 }  // namespace report

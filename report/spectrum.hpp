@@ -48,9 +48,19 @@ struct Lines {
 Lines lines_of(const std::vector<double>& time, const std::vector<double>& values, const Interval& stretch,
                double cell_s);
 
-/// "6 × electrical", "PWM", "PWM − 2 × electrical", "beside 3 × PWM"; empty for any other line. `periods`: PWM
-/// periods in the stretch, 0 if no PWM runs.
-std::string origin_of(double line, long long turns, double periods);
+/// The periodic causes of tones, as their number in the stretch; 0: absent.
+struct Causes {
+  long long turns = 0;      ///< electrical
+  double periods = 0.0;     ///< of the PWM
+  double heat_steps = 0.0;  ///< of the thermal model
+};
+/// "6 × electrical", "PWM", "PWM − 2 × electrical", "2 × step of the thermal model", "beside 3 × PWM"; empty for
+/// any other line. The line of a named cause is exact; that of any other tone is where it was found.
+struct Origin {
+  std::string name;
+  double line = 0.0;
+};
+Origin origin_of(double line, const Causes& causes);
 
 /// Fast Fourier transform in place, decimation in time; the size is a power of two.
 void transform(std::vector<std::complex<double>>& values);

@@ -159,31 +159,48 @@ std::string step_chart(const Trace& trace, const Step& step) {
   return svg_chart(chart);
 }
 
+/// The motor current is no phase's current at a commutation.
+constexpr const char* of_the_pair =
+    "<p class=\"quiet\">The motor current is half the difference of the driven pair's two currents. When the pair "
+    "changes, the new phase has no current yet, and the motor current falls by up to half.</p>";
+
+/// The current in the window of the step, then that until the next one.
+std::string step_sentences(const Step& step, const StepCurrent& current, double end_s) {
+  const bool asked = step.of != "start";
+  const std::string shown = computed(step.window.to - step.at_s, "s");
+  std::string text = fmt::format("In the first {} {}: peak <b>{}</b> after {}", shown,
+                                 asked ? "after the step" : "of the run", computed(current.peak_A, "A"),
+                                 computed(current.peak_after_s, "s"));
+  if (current.asked_A && step.of != "current")
+    text += fmt::format(" ({} asked for then)", computed(*current.asked_A, "A"));
+  text += fmt::format(", {} rms.", computed(current.rms_A, "A"));
+  if (current.then_mean_A)
+    text += fmt::format(" From then until the {}: {} on average, between {} and {}.",
+                        step.next_s < end_s ? "next step" : "end", computed(*current.then_mean_A, "A"),
+                        computed(current.then_low_A, "A"), computed(current.then_high_A, "A"));
+  return "<p>" + text + "</p>" +
+         (current.then_mean_A && step.held.column == std::string_view("i_m_A") ? of_the_pair : "");
+}
+
 std::string step(const Scenario& scenario, const Trace& trace) {
   const auto found = largest_step(trace, scenario);
   const auto current = found ? step_current(trace, *found) : std::nullopt;
   if (!current) return "";
   const bool asked = found->of != "start";
-  std::string text = fmt::format("peak{} <b>{}</b> after {}", asked ? " of the step" : "",
-                                 computed(current->peak_A, "A"), computed(current->peak_after_s, "s"));
-  if (current->asked_A && found->of != "current")
-    text += fmt::format(" ({} asked for then)", computed(*current->asked_A, "A"));
-  text += fmt::format(", {} rms", computed(current->rms_A, "A"));
-  if (current->then_mean_A)
-    text += fmt::format("; from {} after the step on {} on average, {} peak to peak",
-                        computed(found->window.to - found->at_s, "s"), computed(*current->then_mean_A, "A"),
-                        computed(*current->then_span_A, "A"));
   const bool linear = scenario.sheet.kind == sixstep::design::MotorKind::linear;
   const sixstep::base::LinearUnit unit =
       linear ? sixstep::base::in_linear(found->unit) : sixstep::base::LinearUnit{found->unit, found->unit};
   const auto level = [&unit](double x) { return given(x * unit.factor, std::string(unit.linear)); };
-  const std::string title = asked
-                                ? fmt::format("{} from {} to {}",
-                                              found->of == "current" ? "Current in its step"
-                                                                     : "Current in the step of " + found->of,
-                                              level(found->from), level(found->to))
-                                : std::string("Current of the run");
-  return card("step", title, "<p>" + text + "</p>" + step_chart(trace, *found));
+  const std::string title =
+      asked ? fmt::format(
+                  "{} from {} to {}",
+                  found->of == "current" ? "Current in its step" : "Current in the step of " + found->of,
+                  level(found->from), level(found->to)) +
+                  (found->index != 0.0 ? ", " + level(found->to - found->index) + " from the encoder's index"
+                                       : "")
+            : std::string("Current of the run");
+  const double end_s = find_column(trace, "t_s")->back();
+  return card("step", title, step_sentences(*found, *current, end_s) + step_chart(trace, *found));
 }
 
 std::string cost(const Outcome& outcome, const Trace& trace) {

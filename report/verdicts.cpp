@@ -73,7 +73,8 @@ std::string room_words(const Verdict& v) {
   if (v.min && v.max)
     return computed(std::min(*v.max - v.measured, v.measured - *v.min), v.unit) +
            " from the nearer of its limits";
-  return plain(100.0 * *room(v), 2, true) + "\u00a0% " + (v.max ? "below" : "above") + " its limit";
+  return plain(100.0 * *room(v), 2, true) + "\u00a0% " + "inside its " + (v.max ? "upper" : "lower") +
+         " limit";
 }
 
 std::string requirement_rows(const Outcome& outcome) {

@@ -54,7 +54,8 @@ TEST(DesignPage, HasEveryPartOfTheDesign) {
   EXPECT_EQ(count(page, "</svg>"), 6u);
   EXPECT_EQ(count(page, "<table"), count(page, "</table>"));
   for (const char* part : {"0.0158299", "0.017225", "4.09559", "Speed cascade as designed", "J doubled",
-                           "Tolerances", "motor = &quot;&lt;x&gt;&quot;", ">usable, 1 warning<"})
+                           "of the torque limit per rad/s", "Tolerances", "motor = &quot;&lt;x&gt;&quot;",
+                           ">usable, 1 warning<"})
     EXPECT_THAT(page, HasSubstr(part));
 }
 

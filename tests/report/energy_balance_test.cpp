@@ -4,10 +4,15 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "files/scenario_on_disk.hpp"
 #include "report/figures.hpp"
+#include "report/groups.hpp"
+#include "report/kept_rows.hpp"
+#include "report/windows.hpp"
 #include "tests/support/scenarios.hpp"
 #include "text/results/json_summary.hpp"
 
@@ -54,6 +59,40 @@ TEST(Ledger, residuals_are_parts_of_the_scale_and_the_page_says_what_that_is) {
     EXPECT_THAT(html, HasSubstr(inertia > 0.0 ? "of the energy stored" : "of the energy moved"));
     EXPECT_THAT(html, Not(HasSubstr(inertia > 0.0 ? "of the energy moved" : "of the energy stored")));
   }
+}
+
+/// All gates are off: no terminal has a current, and the copper's loss is that of three branches with a third of the
+/// loop's sum each.
+TEST(Ledger, the_copper_of_a_delta_is_that_of_its_branches) {
+  const auto s = files::read_scenario(SIXSTEP_SOURCE_DIR "/data/scenarios/gallery/delta-loop.toml");
+  ASSERT_TRUE(s);
+  report::KeptRows kept(*s);
+  const auto outcome = study::run(*s, {.on_event = [&](study::Row row) { kept.add(row); }});
+  ASSERT_TRUE(outcome);
+  const study::Trace trace = kept.trace();
+  const auto &t = *report::find_column(trace, "t_s"), &sum = *report::find_column(trace, "loop_A");
+  const double R_x = 1.5 * outcome->motor.machine.R_ohm * 2;  // between two terminals: two phases of the star
+  double joule = 0.0;
+  for (std::size_t n = 1; n < t.size(); ++n)
+    joule += (t[n] - t[n - 1]) * 3 * R_x * (sum[n] * sum[n] + sum[n - 1] * sum[n - 1]) / 18;
+  EXPECT_NEAR(outcome->energy->copper, joule, 1e-3 * joule);
+  EXPECT_THAT(report::energy_section(*outcome->energy, {}, {.delta = true}),
+              HasSubstr("∫ R<sub>x</sub> Σj² dt"));
+  const report::Groups groups = report::chart_groups(trace, *s);
+  EXPECT_NE(std::ranges::find(groups.charts, "loop-current", &report::Group::id), groups.charts.end());
+}
+
+/// A junction warms with the current that rises at the start: its mean is below its end, 40 K/W times the mean powers.
+TEST(Ledger, the_table_of_switches_has_the_mean_of_the_junction) {
+  const auto s = files::read_scenario(SIXSTEP_SOURCE_DIR "/data/scenarios/gallery/losses-20-khz.toml");
+  ASSERT_TRUE(s);
+  const auto outcome = study::run(*s);
+  ASSERT_TRUE(outcome && outcome->devices.size() == 6);
+  const study::DeviceLoss& T1 = outcome->devices[0];
+  const double watt = T1.conduction_W + T1.turn_on_W + T1.turn_off_W + T1.diode_W + T1.recovery_W;
+  EXPECT_NEAR(T1.junction_degC, 25 + 40 * watt, 1e-9);
+  EXPECT_LT(T1.junction_degC, outcome->verdicts[2].measured) << "the end, as required";
+  EXPECT_THAT(report::device_section(outcome->devices), HasSubstr("junction, mean</th>"));
 }
 
 TEST(Ledger, what_is_far_below_every_rounding_is_nothing) {

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "files/scenario_on_disk.hpp"
 #include "report/figures.hpp"
 #include "report/highlights.hpp"
 #include "report/kept_rows.hpp"
@@ -144,9 +145,60 @@ TEST(HeldCurrent, the_mean_behind_a_step_is_from_the_moment_told_on) {
   run = ran(s);
   const auto current = step_current(run.trace, *step);
   EXPECT_NEAR(*current->then_mean_A, run.outcome.comparisons[0].measured, 1e-4);
+  EXPECT_THAT(
+      glance_section(s, run.outcome, run.trace),
+      HasSubstr("In the first " + computed(step->window.to - step->at_s, "s") + " after the step: peak <b>"));
   EXPECT_THAT(glance_section(s, run.outcome, run.trace),
-              HasSubstr("; from " + computed(step->window.to - step->at_s, "s") + " after the step on " +
-                        computed(*current->then_mean_A, "A") + " on average"));
+              HasSubstr("From then until the end: " + computed(*current->then_mean_A, "A") + " on average"));
+}
+
+/// At the instant of the step the current still has its old level, which may be the larger one.
+TEST(HeldCurrent, the_peak_of_a_reversal_is_one_of_the_new_sign) {
+  study::Scenario s = maxon_scenario(control::Mode::current, 5.0);
+  s.control.current.settle_s = 1e-3;
+  s.load.locked = true;
+  s.duration_s = 0.01;
+  s.reference = {};
+  s.reference.shape = study::Shape::steps;
+  s.reference.times_s = {0, 0.005};
+  s.reference.values = {5, -5};
+  const auto step = largest_step(ran(s).trace, s);
+  ASSERT_TRUE(step && step->done);
+  EXPECT_EQ(step->to, -5.0);
+  study::Measure lowest = measure(study::MetricKind::minimum, study::Signal::current);
+  lowest.from_s = step->at_s;
+  lowest.to_s = step->window.to;
+  ask(s, lowest);
+  const Ran run = ran(s);
+  const auto current = step_current(run.trace, *step);
+  ASSERT_TRUE(current);
+  EXPECT_NEAR(current->peak_A, run.outcome.comparisons[0].measured, 1e-3);
+  EXPECT_GT(current->peak_after_s, 0.0);
+  EXPECT_LE(current->then_low_A, *current->then_mean_A);
+  EXPECT_GE(current->then_high_A, *current->then_mean_A);
+}
+
+/// Magnitudes of the phases: 5.4 A of the old level, 0 A at the crossing, 5.1 A of the new one.
+TEST(HeldCurrent, the_peak_of_magnitudes_lies_behind_the_crossing) {
+  study::Trace trace;
+  for (const char* name : {"t_s", "i_a_A", "i_b_A", "i_c_A"}) trace.columns.push_back({name, "", "", ""});
+  trace.values = {{0, 1, 2, 3}, {5.4, 0, -5.1, -5}, {-5.4, 0, 5.1, 5}, {0, 0, 0, 0}};
+  Step step{.of = "current", .unit = "A", .from = 5, .to = -5, .next_s = 3, .window = {0, 3}};
+  step.held = {"Largest phase current", "", "i_ref_A", "", "", true};
+  EXPECT_EQ(step_current(trace, step)->peak_A, 5.1);
+}
+
+/// The index passes at 360 degrees, from where the drive counts: 90 degrees are 450 of the shaft.
+TEST(HeldCurrent, an_encoders_step_ends_where_the_shaft_does) {
+  const auto s = files::read_scenario(SIXSTEP_SOURCE_DIR "/data/scenarios/gallery/encoder.toml");
+  ASSERT_TRUE(s);
+  const Ran run = ran(*s);
+  const auto step = largest_step(run.trace, *s);
+  ASSERT_TRUE(step);
+  const double end = find_column(run.trace, "angle_rad")->back() * 180 / base::pi;
+  EXPECT_NEAR(step->to, end, 0.18) << "two counts, as the scenario requires";
+  EXPECT_NEAR(step->from, 6.1 * 180 / base::pi, 1e-9);
+  EXPECT_THAT(glance_section(*s, run.outcome, run.trace), HasSubstr("to 450°, 90° from the encoder's index"));
 }
 
 /// The drive's loop begins with a shaft that turns.

@@ -4,12 +4,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include "files/scenario_on_disk.hpp"
 #include "report/comparison.hpp"
 #include "report/comparison_data.hpp"
 #include "report/html.hpp"
 #include "report/packed_rows.hpp"
+#include "report/parameters.hpp"
 #include "report/scenario_differences.hpp"
 #include "sixstep/study/measure/trace.hpp"
+#include "sixstep/study/scenario/scenario_description.hpp"
 #include "tests/report/synthetic_run.hpp"
 
 namespace SIXSTEP_TEST_FILE {
@@ -131,6 +134,76 @@ TEST(Comparison, foreign_text_stays_text_and_figures_stand_side_by_side) {
       HasSubstr(
           "<td class=\"num bad\">10.83\u00a0A <b>✗ not met</b><small class=\"aside\">+100\u00a0%</small>"));
   EXPECT_THAT(html, HasSubstr("Nothing that changes a run."));
+}
+
+sixstep::study::Scenario shipped(const std::string& name) {
+  auto s = files::read_scenario(SIXSTEP_SOURCE_DIR "/data/scenarios/" + name + ".toml");
+  EXPECT_TRUE(s) << name;
+  return s ? *s : sixstep::study::Scenario();
+}
+
+/// Doubles one number after the other: the n-th one that is not 0, of a single value.
+class Doubled final : public sixstep::base::Visitor {
+ public:
+  explicit Doubled(int n) : left_(n) {}
+  std::string key;
+
+ private:
+  void visit_value(std::string_view name, const sixstep::base::ValueMember& member,
+                   const sixstep::base::About&) override {
+    double* x = nullptr;
+    if (const auto* plain = std::get_if<double*>(&member)) x = *plain;
+    if (const auto* optional = std::get_if<std::optional<double>*>(&member))
+      x = (*optional)->has_value() ? &***optional : nullptr;
+    if (!x || *x == 0.0 || left_-- != 0) return;
+    *x *= 2;
+    key = name;
+  }
+  void visit_table(std::string_view name, sixstep::base::TableMember& member,
+                   const sixstep::base::About&) override {
+    if (member.is_there() && name != "motor_override" && name != "record") member.walk(*this);
+  }
+  int left_;
+};
+
+/// Each number acts on the run, so that two scenarios that differ in one have different set-ups.
+TEST(SetUp, states_each_number_of_a_scenario) {
+  for (const char* name :
+       {"thesis/7.5-position", "gallery/sensorless-noise", "gallery/resolver-skew", "gallery/battery-sag",
+        "gallery/one-shunt", "gallery/losses-20-khz", "gallery/linear-motor"}) {
+    const sixstep::study::Scenario s = shipped(name);
+    const std::string told = setup_section(s);
+    int n = 0;
+    for (;; ++n) {
+      sixstep::study::Scenario other = s;
+      Doubled doubled(n);
+      describe(doubled, other);
+      if (doubled.key.empty()) break;
+      if (doubled.key == "duration_s") continue;
+      EXPECT_NE(setup_section(other), told) << name << ": " << doubled.key;
+    }
+    EXPECT_GT(n, 20) << name;
+  }
+}
+
+TEST(SetUp, of_two_scenarios_that_differ_differs) {
+  const std::pair<const char*, const char*> pairs[] = {{"wind-up", "wind-up-none"},
+                                                       {"position-step", "position-profile"},
+                                                       {"salient-q", "salient-beside"},
+                                                       {"hall-glitch", "hall-glitches"}};
+  for (const auto& [one, two] : pairs)
+    EXPECT_NE(setup_section(shipped(std::string("gallery/") + one)),
+              setup_section(shipped(std::string("gallery/") + two)))
+        << one;
+}
+
+TEST(SetUp, states_what_a_run_is_about) {
+  const auto of = [](const char* name) { return setup_section(shipped(std::string("gallery/") + name)); };
+  EXPECT_THAT(of("hall-glitch"), HasSubstr("sensors.hall_stable_samples = 3"));
+  EXPECT_THAT(of("hall-glitch"), HasSubstr("Coulomb friction 20\u00a0mNm"));
+  EXPECT_THAT(of("wind-up"), HasSubstr("<br>control.speed.anti_windup = 0<br>"));
+  EXPECT_THAT(of("wind-up"), HasSubstr("control.speed.form = positional<br>"));
+  EXPECT_THAT(of("stiction"), HasSubstr("breaks loose at"));
 }
 
 }  // namespace SIXSTEP_TEST_FILE

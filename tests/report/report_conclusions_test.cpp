@@ -70,7 +70,8 @@ TEST(Highlights, the_largest_step_is_found_with_its_current) {
   EXPECT_DOUBLE_EQ(current->rms_A, std::sqrt(30.0 / 1.5));
   // Half a second of 6 A, then 6 A to 0 in five seconds, then nothing: 18 As in 6.5 s.
   EXPECT_DOUBLE_EQ(*current->then_mean_A, 18.0 / 6.5);
-  EXPECT_EQ(*current->then_span_A, 6.0);
+  EXPECT_EQ(current->then_low_A, 0.0);
+  EXPECT_EQ(current->then_high_A, 6.0);
 }
 
 /// A current step ends at the first Hall edge after the current has come near its goal: a later peak is a commutation's.
@@ -234,7 +235,8 @@ TEST(Conduction, a_leg_carries_the_current_of_the_phase_that_hangs_at_it) {
 TEST(Glance, answers_what_a_reader_asks_first) {
   SyntheticRun run = synthetic_run(0.02);
   std::string html = page(run);
-  EXPECT_THAT(html, HasSubstr("Closest requirement</dt><dd>largest current: 1.5\u00a0% below its limit"));
+  EXPECT_THAT(html,
+              HasSubstr("Closest requirement</dt><dd>largest current: 1.5\u00a0% inside its upper limit"));
   EXPECT_THAT(html, HasSubstr("Current in its step from 5\u00a0A to −5\u00a0A"));
   EXPECT_THAT(html, HasSubstr("given as d1, d0; pole placement says 4.0956, −3.694"));
   EXPECT_THAT(html, HasSubstr("<h2>What it cost</h2>"));
@@ -368,27 +370,33 @@ TEST(Spectrum, is_taken_over_whole_electrical_turns_of_the_last_setpoint) {
 
 TEST(Spectrum, lines_are_called_by_what_they_come_from) {
   // 10 turns and 1000 PWM periods in the stretch.
-  EXPECT_EQ(origin_of(60, 10, 1000), "6 × electrical");
-  EXPECT_EQ(origin_of(1000, 10, 1000), "PWM");
-  EXPECT_EQ(origin_of(2000, 0, 1000), "2 × PWM");
-  EXPECT_EQ(origin_of(980, 10, 1000), "PWM − 2 × electrical");
-  EXPECT_EQ(origin_of(1004, 10, 1000), "beside PWM");
-  EXPECT_EQ(origin_of(65, 10, 1000), "");
-  EXPECT_EQ(origin_of(65, 0, 0), "");
-  EXPECT_EQ(origin_of(10, 10, 1000), "electrical, the fundamental");
+  EXPECT_EQ(origin_of(60, {10, 1000}).name, "6 × electrical");
+  EXPECT_EQ(origin_of(1000, {10, 1000}).name, "PWM");
+  EXPECT_EQ(origin_of(2000, {0, 1000}).name, "2 × PWM");
+  EXPECT_EQ(origin_of(980, {10, 1000}).name, "PWM − 2 × electrical");
+  EXPECT_EQ(origin_of(1004, {10, 1000}).name, "beside PWM");
+  EXPECT_EQ(origin_of(65, {10, 1000}).name, "");
+  EXPECT_EQ(origin_of(65, {0, 0}).name, "");
+  EXPECT_EQ(origin_of(10, {10, 1000}).name, "electrical, the fundamental");
   // Three turns, 2.5 lines away from the PWM, are no side line of the electrical frequency, which is at 3.
-  EXPECT_EQ(origin_of(1002.5, 3, 1000), "");
-  EXPECT_EQ(origin_of(1003.1, 3, 1000), "PWM + electrical");
+  EXPECT_EQ(origin_of(1002.5, {3, 1000}).name, "");
+  EXPECT_EQ(origin_of(1003.1, {3, 1000}).name, "PWM + electrical");
+  // A named tone has the line of its cause, another one its own.
+  EXPECT_EQ(origin_of(1003.1, {3, 1000}).line, 1003.0);
+  EXPECT_EQ(origin_of(5.94, {6, 1000}).line, 6.0);
+  EXPECT_EQ(origin_of(65.2, {10, 1000}).line, 65.2);
+  EXPECT_EQ(origin_of(65.2, {0, 1000, 65}).name, "step of the thermal model");
+  EXPECT_EQ(origin_of(130, {0, 1000, 65}).name, "2 × step of the thermal model");
 }
 
 TEST(Spectrum, of_few_turns_the_harmonics_are_named_on_their_own_lines) {
   for (const long long turns : {1, 2, 3, 4, 5, 6}) {
     const auto t = static_cast<double>(turns);
-    EXPECT_EQ(origin_of(t, turns, 1000), "electrical, the fundamental") << turns;
-    EXPECT_EQ(origin_of(5 * t, turns, 1000), "5 × electrical") << turns;
-    EXPECT_EQ(origin_of(6 * t, turns, 1000), "6 × electrical") << turns;
+    EXPECT_EQ(origin_of(t, {turns, 1000}).name, "electrical, the fundamental") << turns;
+    EXPECT_EQ(origin_of(5 * t, {turns, 1000}).name, "5 × electrical") << turns;
+    EXPECT_EQ(origin_of(6 * t, {turns, 1000}).name, "6 × electrical") << turns;
     if (turns > 1) {
-      EXPECT_EQ(origin_of(5 * t + 1, turns, 1000), "") << "between two multiples of " << turns;
+      EXPECT_EQ(origin_of(5 * t + 1, {turns, 1000}).name, "") << "between two multiples of " << turns;
     }
   }
 }

@@ -157,7 +157,13 @@ TEST(Report, shows_what_is_not_ideal_and_who_stopped_the_drive) {
   run.outcome.trip = sixstep::study::Trip{.at_s = 0.305, .reasons = {"a Hall fault"}, .hall_line = 2};
   const std::string html = page(run);  // where numbers and units stick together
   EXPECT_THAT(html, HasSubstr("phase currents through 12 bits over ±20.48\u00a0A"));
-  EXPECT_THAT(html, HasSubstr("line H2 breaks at 300\u00a0ms"));
+  EXPECT_THAT(html, HasSubstr("line H2 reads low from 300\u00a0ms on"));
+  run.scenario.at = {{.time_s = 0.1}, {.time_s = 0.2}};
+  run.scenario.at[0].sensors.hall_break = {.line = 1, .level = sixstep::study::PinLevel::high};
+  run.scenario.at[1].sensors.hall_break = {.line = 1, .level = sixstep::study::PinLevel::probe};
+  EXPECT_THAT(page(run),
+              HasSubstr("100\u00a0ms: line H1 reads high; 200\u00a0ms: line H1 follows its probe again"));
+  EXPECT_THAT(html, HasSubstr("used, V/A</th>"));
   EXPECT_THAT(html, HasSubstr("trips above 15\u00a0A"));
   EXPECT_THAT(html, HasSubstr("a fault stopped the drive at 305\u00a0ms"));
   const auto summary = nlohmann::json::parse(text::json_summary(run.scenario, run.outcome));

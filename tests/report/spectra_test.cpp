@@ -66,6 +66,30 @@ TEST(Spectra, less_than_an_electrical_turn_is_told) {
   }
 }
 
+/// The stretch holds whole turns: the fundamental is their number over its time, however strong a neighbour is.
+TEST(Spectra, the_fundamental_is_the_number_of_turns_over_their_time) {
+  sixstep::study::Trace trace = trace_of(
+      [](double t) { return std::sin(2 * M_PI * 12 * t) + 0.3 * std::sin(2 * M_PI * 9.7 * t); }, rounding);
+  trace.columns.push_back({"angle_rad", "", "", ""});
+  trace.values.emplace_back();
+  for (const double t : trace.values[0]) trace.values.back().push_back(12 * t * 2 * M_PI / 2);
+  const auto found = spectra(trace, scenario(), 2);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->stretch.turns, 6);
+  EXPECT_GT(std::abs(found->all[0].lines.tones[0].line - 6), 0.01) << "the neighbour draws it";
+  EXPECT_THAT(spectra_section(found), HasSubstr("12.00\u00a0Hz</td>"));
+}
+
+/// A thermal step of 10 ms changes the resistance a hundred times a second.
+TEST(Spectra, the_steps_of_the_thermal_model_are_named) {
+  sixstep::study::Scenario s = scenario();
+  s.heat.step_s = 0.01;
+  EXPECT_THAT(spectra_section(spectra(trace_of(rounding, tone), s, 2)), Not(HasSubstr("thermal model")));
+  s.heat.motor = true;
+  EXPECT_THAT(spectra_section(spectra(trace_of(rounding, tone), s, 2)),
+              HasSubstr("<td>step of the thermal model</td>"));
+}
+
 TEST(Spectra, a_tone_is_one_from_a_billionth_of_its_unit_on) {
   for (const double amplitude : {0.9e-9, 1.1e-9, 1e-3}) {
     std::vector<double> time, values;

@@ -2,6 +2,7 @@
 // Every motor and scenario in data/ reads without a problem and has its required texts.
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "files/scenario_on_disk.hpp"
@@ -41,6 +42,34 @@ TEST(ShippedFiles, EveryScenarioReads) {
     ++count;
   }
   EXPECT_GE(count, 50);
+}
+
+/// A peak is a magnitude: a largest value alone would leave out a drive that brakes.
+TEST(ShippedFiles, APeakCurrentIsAMagnitude) {
+  int count = 0;
+  const auto judge = [&](const study::Measure& m) {
+    if (m.label.find("peak current") == std::string::npos) return;
+    ++count;
+    EXPECT_TRUE(m.signal == study::Signal::current_magnitude ||
+                (m.metric == study::MetricKind::largest_error && m.level == 0.0))
+        << m.label;
+  };
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(data / "scenarios")) {
+    if (!entry.is_regular_file()) continue;
+    const study::Scenario s =
+        shipped(fs::relative(entry.path(), data / "scenarios").replace_extension().string());
+    for (const study::Requirement& r : s.require) judge(r.measure);
+    for (const study::Comparison& c : s.compare) judge(c.measure);
+  }
+  EXPECT_GE(count, 8);
+}
+
+/// The bound of a move: full torque up to the speed at which the back-EMF is the bus voltage, and back.
+TEST(ShippedFiles, TheBoundOfTheMoveFollowsFromTheSheet) {
+  const double angle = 1000 * base::pi / 180, K = 33.5e-3, J = 135e-7, torque = 0.78, top = 24 / K;
+  ASSERT_GT(std::sqrt(angle * torque / J), top) << "it reaches the top speed";
+  for (const char* name : {"thesis/7.5-position", "thesis/7.5-position-exact-design"})
+    EXPECT_NEAR(shipped(name).compare[0].value, angle / top + top * J / torque, 1e-12) << name;
 }
 
 TEST(ShippedFiles, TheGallerySaysWhatItTeaches) {

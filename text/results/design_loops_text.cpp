@@ -35,8 +35,8 @@ std::string band_words(const DriveDesign& d, const LoopDesign& loop) {
 
 }  // namespace
 
-std::string gain_unit(const LoopDesign& loop, const Motion& motion) {
-  return loop.name.starts_with("current") ? "V/A" : motion.words("of the torque limit per rad/s");
+std::string gain_unit(std::string_view loop, const Motion& motion) {
+  return loop.starts_with("current") ? "V/A" : motion.words("of the torque limit per rad/s");
 }
 
 std::string loop_text(const LoopDesign& loop, const Motion& motion) {
@@ -57,7 +57,7 @@ std::string loop_text(const LoopDesign& loop, const Motion& motion) {
   if (loop.name != "position")
     text += fmt::format("  -> d1 = {}, d0 = {} {}; K = {}, K_i = {} per sample\n",
                         sixstep::base::six_digits(loop.gains.d1), sixstep::base::six_digits(loop.gains.d0),
-                        gain_unit(loop, motion), sixstep::base::six_digits(loop.gains.d1),
+                        gain_unit(loop.name, motion), sixstep::base::six_digits(loop.gains.d1),
                         sixstep::base::six_digits(loop.gains.d1 + loop.gains.d0));
   if (thesis)
     text +=

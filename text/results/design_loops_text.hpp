@@ -11,7 +11,7 @@
 namespace text {
 
 /// "per rad/s", for a linear motor "per m/s".
-std::string gain_unit(const design::LoopDesign& loop, const base::Motion& motion);
+std::string gain_unit(std::string_view loop, const base::Motion& motion);
 
 /// A loop's derivation and gains.
 std::string loop_text(const design::LoopDesign& loop, const base::Motion& motion);

@@ -223,7 +223,7 @@ std::vector<std::string> design_lines(const analysis::DesignStudy& s, bool of_a_
     line += loop.name == "position"
                 ? fmt::format("{} {}", sixstep::base::six_digits(loop.gains.d1 * gain.factor), gain.linear)
                 : fmt::format("d1 = {}, d0 = {} {}", sixstep::base::six_digits(loop.gains.d1),
-                              sixstep::base::six_digits(loop.gains.d0), gain_unit(loop, motion));
+                              sixstep::base::six_digits(loop.gains.d0), gain_unit(loop.name, motion));
     lines.push_back(line);
   }
   if (!of_a_board && s.scenario.bridge.dead_time_s == analysis::usual_dead_time_s)

@@ -113,8 +113,9 @@ inline constexpr SignalFact signal_facts[] = {
      "voltage across battery_recovery_ohm and battery_recovery_F, by which the battery is below its open-circuit "
      "voltage beside resistance_ohm",
      SignalKind::series},
-    {Signal::loop_current, "loop_A", "loop current of the delta", "A",
-     "sum of a delta's branch currents; no terminal carries it", SignalKind::series},
+    {Signal::loop_current, "loop_A", "sum of the delta's branch currents", "A",
+     "sum of a delta's branch currents, three times the current that circulates; no terminal carries it",
+     SignalKind::series},
     {Signal::winding_temperature, "winding_degC", "temperature of the winding", "degC",
      "temperature of the winding, with heat.motor", SignalKind::series},
     {Signal::housing_temperature, "housing_degC", "temperature of the housing", "degC",
