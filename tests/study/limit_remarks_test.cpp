@@ -58,6 +58,27 @@ TEST(LimitRemarks, ABatteryIsEmptyWhenWhatItHadHasFlowed) {
   EXPECT_THAT(outcome_of(on_battery(1.0, 0.5)).remarks, Not(Contains(HasSubstr("battery was"))));
 }
 
+/// The band that a remark names makes the frequency that it names, and a run with this band has no remark.
+TEST(LimitRemarks, AHysteresisThatNoBridgeSwitchesIsTold) {
+  Scenario s = maxon_scenario(Mode::current, 5.0);
+  s.load.locked = true;
+  s.duration_s = 20e-3;
+  s.control.current = {.type = study::CurrentLoopType::hysteresis, .band_A = 0.01};
+  const auto fast = outcome_of(s);
+  // The current rises and falls by two bands with U - R I and R I; the duty is R I/U.
+  const double d = 5.0 * 1.03 / 24, foretold_Hz = 24 / (0.572e-3 * 2 * 0.01) * d * (1 - d);
+  const double told_Hz = 1e3 * number_behind(fast.remarks, "chop at ");
+  EXPECT_NEAR(told_Hz / foretold_Hz, 1, 0.1);
+  s.pwm.period_s = 60e-6;
+  EXPECT_NEAR(1e3 * number_behind(outcome_of(s).remarks, "chop at ") / told_Hz, 1, 0.02)
+      << "whatever the period";
+  s.control.current.band_A = number_behind(fast.remarks, "band_A = ");
+  const auto slow = outcome_of(s);
+  EXPECT_NEAR(static_cast<double>(slow.turn_ons) / slow.simulated_s / 200e3, 1, 0.1);
+  s.control.current.band_A *= 1.1;
+  EXPECT_THAT(outcome_of(s).remarks, Not(Contains(HasSubstr("comparators chop"))));
+}
+
 /// A cold run whose mean loss the winding withstands by the sheet's values but not by the worse ends.
 TEST(LimitRemarks, AColdWindingIsJudgedByTheWorseEnds) {
   Scenario s = maxon_scenario(Mode::current, 10.0);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sixstep/base/angle.hpp"
+#include "sixstep/base/decimal.hpp"
 #include "sixstep/base/linear.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/sheet/thermal_ranges.hpp"
@@ -27,6 +28,9 @@ std::string on_battery(const Scenario& s, const RunWatch& w) {
            "supply.battery_charge, or give it a chopper";
   return {};
 }
+
+/// A period of 5 us: comparator, gate driver and dead time take 0.5 us or more of each of its halves.
+constexpr double fast_chopping_Hz = 200e3;
 
 /// A rotor may exceed its printed speed by a thousandth without a remark.
 constexpr double past = 1.001;
@@ -77,6 +81,25 @@ std::string on_cold_winding(const Scenario& s, const Outcome& out) {
          " s; here nothing warms up: heat.motor = true computes it";
 }
 
+/// Comparators at the instants of the currents switch as fast as the band lets them. Their frequency is proportional to
+/// 1/band_A.
+std::string on_chopping(const Scenario& s, const Outcome& out) {
+  const CurrentLoop& loop = s.control.current;
+  if (loop.type != CurrentLoopType::hysteresis || loop.comparator != Comparator::event ||
+      !(out.simulated_s > 0.0))
+    return {};
+  const double Hz = static_cast<double>(out.turn_ons) / out.chopped_switches / out.simulated_s;
+  if (!(Hz > fast_chopping_Hz)) return {};
+  const double wider_A = base::shortened(loop.band_A * Hz / fast_chopping_Hz, 2, base::Towards::up);
+  return "the comparators chop at " + few_digits(1e-3 * Hz) +
+         " kHz on average, whatever pwm.period_s is, and few "
+         "bridges for motors switch above " +
+         few_digits(1e-3 * fast_chopping_Hz) +
+         " kHz, where delays of comparator and gate driver, dead times and switching losses fill the period; "
+         "control.current.band_A = " +
+         base::six_digits(wider_A) + " would chop at about that frequency";
+}
+
 }  // namespace
 
 std::string few_digits(double x) {
@@ -86,7 +109,7 @@ std::string few_digits(double x) {
 std::vector<std::string> passed_limits(const Scenario& s, const RunWatch& w, const Outcome& out) {
   std::vector<std::string> all;
   for (std::string text :
-       {on_battery(s, w), on_fastest(s, w), on_bus(s, w), on_cold_winding(s, out)})
+       {on_battery(s, w), on_fastest(s, w), on_bus(s, w), on_cold_winding(s, out), on_chopping(s, out)})
     if (!text.empty()) all.push_back(std::move(text));
   return all;
 }
