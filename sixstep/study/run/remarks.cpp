@@ -258,6 +258,7 @@ void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, Outcom
   add(on_steps(s, c, w));
   add(on_idle_duty_step(s, w));
   add(on_chopped_staying_leg(s, w));
+  add(on_long_overlap(s, c.motor, c.drive.nominal_bus_V, w));
 }
 
 }  // namespace sixstep::study
