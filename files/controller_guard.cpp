@@ -84,6 +84,8 @@ struct Calls {
     const char* wrong = nullptr;
     inside(is().path.c_str(), ControllerPlace::design, [&](ControllerThread& thread) {
       thread.period_s.store(given->period_s, std::memory_order_relaxed);
+      thread.first_step_s.store(given->sampled_in_middle != 0 ? given->period_s / 2 : 0.0,
+                                std::memory_order_relaxed);
       const std::size_t bytes = is().real.config_bytes;
       arena().let_config_change(true);
       std::byte* const own = arena().config.take(bytes);

@@ -39,7 +39,7 @@ ControllerThread* found_thread() {
   return nullptr;
 }
 
-/// "in step 20, at t = 0.600 ms"
+/// "in step 20, at t = 0.000570 s", the instant of its sample, in the words of a run's fault.
 void tell_place(SignalLine& to, const ControllerThread& at) {
   const ControllerPlace place = at.place;
   if (place == ControllerPlace::loading) to << " while it was loaded";
@@ -47,10 +47,12 @@ void tell_place(SignalLine& to, const ControllerThread& at) {
   if (place == ControllerPlace::start) to << " in its start";
   if (place != ControllerPlace::step && place != ControllerPlace::hall) return;
   const std::uint64_t steps = at.steps;
-  const auto us = static_cast<std::uint64_t>(std::llround(static_cast<double>(steps) * at.period_s * 1e6));
-  const std::uint64_t rest = us % 1000;
+  const double periods = steps > 0 ? static_cast<double>(steps - 1) : 0.0;
+  const auto us = static_cast<std::uint64_t>(std::llround((at.first_step_s + periods * at.period_s) * 1e6));
   to << (place == ControllerPlace::hall ? " in its hall() after step " : " in step ") << steps
-     << ", at t = " << us / 1000 << "." << rest / 100 << rest / 10 % 10 << rest % 10 << " ms";
+     << (place == ControllerPlace::hall ? ", after t = " : ", at t = ") << us / 1000000 << ".";
+  for (std::uint64_t weight = 100000; weight > 0; weight /= 10) to << us / weight % 10;
+  to << " s";
 }
 
 void tell(const ControllerThread& at, const char* what, std::string_view more) {

@@ -21,7 +21,8 @@ struct ControllerThread {
   std::atomic<ControllerPlace> place{ControllerPlace::outside};
   std::atomic<std::uint64_t> calls{0}, calls_at_stop{0};
   std::atomic<std::uint64_t> steps{0};  ///< steps of the current run
-  std::atomic<double> period_s{0.0};
+  std::atomic<double> period_s{0.0},
+      first_step_s{0.0};  ///< the instant of step 1: a sample's, not a period's end
   std::atomic<std::uint64_t> runs{
       0};  ///< number in a plan plus 1; 0: no plan. All zero, the table takes no room in the program's file
 };

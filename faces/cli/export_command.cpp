@@ -19,6 +19,7 @@
 #include "sixstep/study/scenario/choices.hpp"
 #include "text/escape/escape.hpp"
 #include "text/export/config_header.hpp"
+#include "text/export/core_costs.hpp"
 #include "text/keys/key_advice.hpp"
 
 namespace cli {
@@ -151,6 +152,18 @@ Exit not_cleared(const ExportArguments& a, const study::Control& control, const 
   return graver(cli::exit_of(c.outcome), told);
 }
 
+/// Prints each condition of the clearance that the header's comment states.
+void tell_conditions(const study::Scenario& scenario, const study::Clearance& c) {
+  const auto tell = [](const char* kind, const std::string& text) {
+    print(fmt::format("{}: {}\n", kind, text::visible(text)), stderr);
+  };
+  for (const base::Problems* problems : {&c.unmeasured, &c.unheld})
+    for (const base::Problem& p : *problems) tell("overridden", to_string(p));
+  for (const std::string& remark : c.outcome.remarks) tell("warning", remark);
+  for (const std::string& note : c.notes) tell("note", note);
+  for (const std::string& note : text::notes_for_images(scenario)) tell("note", note);
+}
+
 Exit export_header(const ExportArguments& a) {
   base::Problems problems;
   const design::OperatingRange range = range_of(a, problems);
@@ -179,8 +192,7 @@ Exit export_header(const ExportArguments& a) {
   if (!clearance->clear() && !a.despite) return not_cleared(a, scenario->control, *clearance);
   if (a.despite && clearance->clear())
     print("--despite was not needed: the run holds, and the header states it\n", stderr);
-  for (const std::string& note : clearance->notes)
-    print(fmt::format("note: {}\n", text::visible(note)), stderr);
+  tell_conditions(*scenario, *clearance);
   wanted.clearance = &*clearance;
   const base::Result<std::string> text = text::config_header(wanted);
   if (!text) return refused(within(a.file, text.problems()));

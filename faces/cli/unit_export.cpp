@@ -76,9 +76,16 @@ base::Result<std::optional<files::ZipEntry>> own_controller_of(const UnitArgumen
 base::Result<std::string> unit_binary_of(int fmi) {
   const std::string path = loop::unit_binary(fmi);
   if (path.empty())
-    return base::Problem{"--fmi", std::to_string(fmi),
-                         "needs the binary of units, which this program came without",
-                         fmt::format("build the target sixstep_fmi{} beside it, with SIXSTEP_C=ON", fmi)};
+    return base::Problem{
+        "export fmu", "",
+        fmt::format(
+            "needs sixstep-fmi{0}.so, the library of functional mock-up units of FMI {0}, and this program "
+            "came without it",
+            fmi),
+        fmt::format(
+            "install the package sixstep, which has it, or build the target sixstep_fmi{} with the CMake "
+            "option SIXSTEP_C=ON",
+            fmi)};
   return files::read_text(path);
 }
 

@@ -30,6 +30,38 @@ class Conditions(ProgramTest):
         within = self.run_program("run", CORTEX, "--set", "control.speed.torque_limit_Nm=0.078", "--json", "-", code=None).stdout
         self.assertNotIn("nominal current", within)
 
+    def test_the_worse_ends_of_the_thermal_ranges_are_told_beside_the_values(self):
+        """A motor file with these ends as its values has the same time, and it is the bound of protection.stall_s."""
+        def seconds(*words):
+            return float(re.search(r"for ([\d.]+) s; no protection", self.run_program("run", CORTEX, *words).stdout).group(1))
+        ends = seconds()
+        worse = ("resistance_winding_housing_K_W=5.3", "time_constant_winding_s=11.7")
+        told = self.run_program("run", CORTEX, *(w for end in worse for w in ("--set", f"motor_override.thermal_{end}"))).stdout
+        self.assertAlmostEqual(float(re.search(r"withstands it for ([\d.]+) s from 25", told).group(1)), ends, delta=0.02 * ends)
+        for part, code in ((0.98, 0), (1.02, 2)):
+            self.run_program("export", "header", CORTEX, "--set", f"protection.stall_s={part * ends}", "--out", "d.hpp", "--force", code=code)
+
+    def test_all_that_a_clearance_states_is_printed(self):
+        """Each warning and note of the header's comment, and each reason that was overridden, is a line on the terminal too."""
+        (self.path / "bare.toml").write_text("\n".join(line for line in SHEET.splitlines() if not re.match("thermal_|max_|nominal_current", line)))
+        bare = (SOURCE / "data/scenarios/firmware/cortex-m.toml").read_text().replace('"maxon-251601"', '"bare.toml"')
+        (self.path / "bare-drive.toml").write_text(bare)
+        limit = ("--set", "motor_override.max_speed_rpm=2000")
+        for words, said in (((CORTEX, *limit), "the rotor reached 3"), ((CORTEX,), "withstands it for 12.8 s"),
+                            ((CORTEX, "--set", "bridge.dead_time_s=50e-9"), "dead_time_s = 50 ns is short"),
+                            ((CORTEX, "--set", "protection.over_speed_rad_s=3000", "--despite", "a trial"), "protects nothing"),
+                            (("bare-drive.toml",), "not checked: whether the winding withstands")):
+            made = self.run_program("export", "header", *words)
+            told = [line.split(": ", 1)[1] for line in made.stderr.splitlines()]
+            self.assertTrue(any(said in line for line in told), (words, made.stderr))
+            comment = made.stdout.split("#pragma once")[0]
+            stated = re.findall(r"^// Note: (.*?)\.?$", comment, re.M)
+            for heading in ("Warnings of that run:", "What was overridden:"):
+                if heading in comment:
+                    lines = comment.split(f"// {heading}\n")[1].splitlines()
+                    stated += [line[5:] for line in lines[:next(n for n, line in enumerate(lines) if not line.startswith("//   "))]]
+            self.assertEqual(sorted(told), sorted(stated), words)
+
     def test_a_clearance_names_the_supply_that_it_needs(self):
         """The same drive with the stated supply decides: where it fails by itself, the note must be there."""
         brakes = ("--set", "protection.brake_current_A=2", "--set", "supply.capacitance_F=1e-3")

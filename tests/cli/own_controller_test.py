@@ -34,14 +34,14 @@ max = 1000
 """
 WHO = rf"^{re.escape(str(CONTROLLER))}: the controller "
 ENDS = "; the program ends here, and unfinished results are lost\n$"
-AT_20 = r" in step 20, at t = 0\.600 ms"
+AT_20 = r" in step 20, at t = 0\.000570 s"
 
 # The message about each way to end the program, and the places where it may occur.
 WAYS = {"exit": r"ended the program by exit\(\)", "quick_exit": r"ended the program by exit\(\)", "_exit": r"ended the program by _exit\(\)",
         "_Exit": r"ended the program by _exit\(\)", "abort": r"ended itself by abort\(\) \(SIGABRT\)", "null": r"crashed \(SIGSEGV: .*\)",
         "divide": r"crashed \(SIGFPE: .*\)", "illegal": r"crashed \(SIG(ILL|TRAP).*\)", "recursion": r"crashed \(SIG(SEGV|BUS): .*\)",
         "pthread_exit": r"ended its thread, as by pthread_exit\(\)"}
-PLACES = {"load": " while it was loaded", "design": " in its design", "start": " in its start", "step": AT_20, "hall": r" in its hall\(\) after step \d+, at t = [\d.]+ ms"}
+PLACES = {"load": " while it was loaded", "design": " in its design", "start": " in its start", "step": AT_20, "hall": r" in its hall\(\) after step \d+, after t = [\d.]+ s"}
 
 
 class OwnController(Started):
@@ -121,7 +121,7 @@ class OwnController(Started):
             with self.subTest(deed):
                 code, out, _ = self.behaving(deed, "run", "a.toml")
                 self.assertEqual(code, 3)
-                self.assertRegex(out, rf"STOPPED by a fault: t = .* s {re.escape(str(CONTROLLER))}: the controller answered [\w\[\].]+ = .* in step 20\b")
+                self.assertRegex(out, rf"STOPPED by a fault: t = 0\.000570 s {re.escape(str(CONTROLLER))}: the controller answered [\w\[\].]+ = .* in step 20\b")
                 code, out, told = self.behaving(deed, "run", "a.toml", "--quiet")
                 self.assertEqual((code, out), (3, ""))
                 self.assertRegex(told, "^a: stopped by a fault: .+\n$", "a quiet run says why")

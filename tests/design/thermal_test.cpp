@@ -96,6 +96,39 @@ TEST(ThermalRanges, TheWorseEndsWarmTheWindingMost) {
     }
 }
 
+/// No corner of the ranges ends sooner than the worse ends, and the values themselves end later.
+TEST(ThermalRanges, NoCornerEndsSoonerThanTheWorseEnds) {
+  const design::Sheet sheet = ranged_sheet();
+  for (const double copper_W : {12.0, 35.0, 560.0}) {
+    const design::Heating heating{.copper_W = copper_W};
+    const auto times = design::withstand_times(sheet, heating);
+    ASSERT_TRUE(times && times->by_values && times->by_worse_ends);
+    EXPECT_TRUE(times->differ());
+    EXPECT_LT(*times->by_worse_ends, *times->by_values);
+    for (int corner = 0; corner < 32; ++corner) {
+      design::Sheet at = sheet;
+      int bit = 0;
+      for (auto* q : {&at.thermal_resistance_winding_housing_K_W, &at.thermal_resistance_housing_ambient_K_W,
+                      &at.thermal_time_constant_winding_s, &at.thermal_time_constant_motor_s,
+                      &at.max_winding_temperature_degC})
+        *q = ranged((corner >> bit++) % 2 == 0 ? (*q)->range->low : (*q)->range->high, 1, 1);
+      for (auto* q : {&at.thermal_resistance_winding_housing_K_W, &at.thermal_resistance_housing_ambient_K_W,
+                      &at.thermal_time_constant_winding_s, &at.thermal_time_constant_motor_s,
+                      &at.max_winding_temperature_degC})
+        (*q)->range.reset();
+      const auto there = design::withstand_times(at, heating);
+      ASSERT_TRUE(there);
+      EXPECT_FALSE(there->differ());
+      EXPECT_GE(there->by_values.value_or(HUGE_VAL), *times->by_worse_ends * (1 - 1e-9)) << corner;
+    }
+  }
+  design::Sheet without = sheet;
+  without.thermal_time_constant_motor_s.reset();
+  const auto none = design::withstand_times(without, {.copper_W = 12.0});
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.problems().front().where, "thermal_time_constant_motor_s");
+}
+
 TEST(ThermalRanges, ARangeWithoutAWorseEndIsNone) {
   design::Sheet sheet = ranged_sheet();
   for (auto* q :

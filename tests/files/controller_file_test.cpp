@@ -36,7 +36,7 @@ TEST(ControllerFile, WhatIsNoneIsToldAsSuch) {
   EXPECT_EQ(
       told("other_interface.so"),
       folder +
-          "/other_interface.so has a controller whose interface = 2 is not the interface of this program: compile it "
+          "/other_interface.so has a controller whose interface = 2 is not 1, the interface of this program: compile it "
           "with this program's own_controller.h; see sixstep/control/own/own_controller.h");
   EXPECT_EQ(told("in_float.so"),
             folder +

@@ -110,6 +110,45 @@ TEST(Arithmetic, AnIntegralThatSeesNoDigitIsAProblem) {
   EXPECT_TRUE(study::run(s));
 }
 
+/// The message's own numbers are a bound: what it names fits, and a hundredth beyond it does not.
+TEST(Arithmetic, AnEdgeTimerBeyondTheSumIsToldWithTheNumbersThatFit) {
+  for (const study::FirmwareKind drive : {study::FirmwareKind::product, study::FirmwareKind::lean}) {
+    Scenario s = product_scenario(control::Mode::speed, 100.0);
+    if (drive == study::FirmwareKind::lean) s.protection = {};
+    s.control.drive = drive;
+    s.control.arithmetic = Arithmetic::q15;
+    s.sensors.capture_Hz = 400e6;
+    s.sensors.speed_edges = 6;
+    s.duration_s = 1e-4;
+    const auto told = [&s]() -> std::string {
+      const auto out = study::run(s);
+      if (out) return "";
+      for (const base::Problem& p : out.problems())
+        if (to_string(p).find("times the range") != std::string::npos) return to_string(p);
+      return "";
+    };
+    const std::string text = told();
+    const auto number = [&text](const std::string& word) {
+      const std::size_t at = text.find(word);
+      EXPECT_NE(at, std::string::npos) << word << " in " << text;
+      return at == std::string::npos ? 1.0 : std::stod(text.substr(at + word.size()));
+    };
+    const bool lean = drive == study::FirmwareKind::lean;
+    const double times = number(lean ? "speed_edges is " : "number of edges is ");
+    const double base = number(lean ? "control.full_scale.speed_rad_s of " : "a base of the speed of ");
+    const double most_Hz = lean ? number("take a timer of ") : 400e6 / times;
+    for (const double beyond : {0.999, 1.01}) {
+      s.sensors.capture_Hz = most_Hz * beyond;
+      EXPECT_EQ(told().empty(), beyond < 1) << text;
+    }
+    s.sensors.capture_Hz = 400e6;
+    for (const double beyond : {1.0, 0.99}) {
+      s.control.full_scale.speed_rad_s = base * beyond;
+      EXPECT_EQ(told().empty(), beyond == 1) << text;
+    }
+  }
+}
+
 TEST(Arithmetic, EveryModeRunsInEveryFormat) {
   for (const control::Mode mode : {control::Mode::off, control::Mode::duty, control::Mode::current,
                                    control::Mode::speed, control::Mode::position})

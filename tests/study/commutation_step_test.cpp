@@ -222,6 +222,57 @@ TEST(CommutationStep, TellsAPatternThatChopsTheStayingLeg) {
   }
 }
 
+/// An overlap longer than a sector lowers the torque below that of the duty step. The speed from which it does follows
+/// from the leaving current's fall, U - 2 E - 3 R I/2, and the run names it.
+TEST(CommutationStep, AnOverlapLongerThanASectorLowersTheTorqueAndIsTold) {
+  const double current_A = 5.0;
+  const double limit_rad_s = (U - 1.5 * R * current_A) / (8 * L * current_A / base::sector_rad + K_t);
+  for (const double part : {0.85, 0.94, 1.04, 1.1}) {
+    const auto seen = [&](CurrentCommutation commutation) {
+      Scenario s = turned(commutation, PwmPattern::pwm_on, part * limit_rad_s, current_A);
+      s.duration_s = 30e-3;
+      ask_torque(s, MetricKind::mean, 10e-3);
+      const auto out = study::run(s);
+      EXPECT_TRUE(out) << (out ? "" : to_string(out.problems()[0]));
+      const bool told = out && std::any_of(out->remarks.begin(), out->remarks.end(), [](const auto& text) {
+                          return text.find("\"overlap\" lowers the torque at") != text.npos;
+                        });
+      return std::pair(out ? out->comparisons[0].measured : 0.0, told);
+    };
+    const auto [overlapped_Nm, told] = seen(CurrentCommutation::overlap);
+    const auto [stepped_Nm, never] = seen(CurrentCommutation::duty_step);
+    EXPECT_EQ(told, part > 1) << part;
+    EXPECT_FALSE(never);
+    if (told)
+      EXPECT_LT(overlapped_Nm, 0.95 * stepped_Nm) << part;
+    else
+      EXPECT_GT(overlapped_Nm, 0.97 * stepped_Nm) << part;
+  }
+}
+
+/// Where the duty is 1 with the duty step and without it, the bits are the same, and the run says so, whatever the
+/// pattern; below that speed it acts.
+TEST(CommutationStep, IsIdleWhereTheDutyIsOneAnyway) {
+  for (const PwmPattern pattern : {PwmPattern::pwm_on, PwmPattern::upper})
+    for (const double speed_rad_s : {200.0, 640.0}) {
+      const auto seen = [&](CurrentCommutation commutation) {
+        Scenario s = turned(commutation, pattern, speed_rad_s, 5.0);
+        const auto out = study::run(s);
+        EXPECT_TRUE(out) << (out ? "" : to_string(out.problems()[0]));
+        return out ? *out : study::Outcome{};
+      };
+      const study::Outcome with = seen(CurrentCommutation::duty_step);
+      const auto has = [&with](const char* words) {
+        return std::any_of(with.remarks.begin(), with.remarks.end(),
+                           [words](const auto& text) { return text.find(words) != text.npos; });
+      };
+      const bool idle = with.digest == seen(CurrentCommutation::plain).digest;
+      EXPECT_EQ(idle, speed_rad_s > 400) << speed_rad_s;
+      EXPECT_EQ(has("has no effect in this run"), idle);
+      EXPECT_EQ(has("a larger peak of the current"), !idle && pattern == PwmPattern::upper);
+    }
+}
+
 /// A drive without a duty of its own, or without a pair to hold it, is refused.
 TEST(CommutationStep, IsRefusedWhereNothingHolds) {
   const auto told = [](const Scenario& s) {

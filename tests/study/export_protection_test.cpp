@@ -10,6 +10,7 @@
 #include "sixstep/design/sheet/thermal.hpp"
 #include "sixstep/study/check/check.hpp"
 #include "sixstep/study/run/export_gate.hpp"
+#include "sixstep/study/run/export_notes.hpp"
 #include "tests/support/bench.hpp"
 #include "tests/support/product_scenarios.hpp"
 
@@ -107,6 +108,97 @@ TEST(ExportProtection, AStallThatTheWindingDoesNotStandStandsAgainstIt) {
     else
       EXPECT_THAT(unmeasured(s), ElementsAre("protection.stall_s")) << stall_s;
   }
+}
+
+/// A winding with a lower heat capacity at the other end of its ranges: the shorter time decides, and it bounds
+/// the accepted time from below by the heating without any cooling there.
+TEST(ExportProtection, AStallTimeIsJudgedByTheWorseEndsOfTheThermalRanges) {
+  Scenario s = limited_by_torque();
+  s.protection.stall_current_A = 4.0;
+  s.sheet = curve_sheet();
+  s.sheet.nominal_current_A->frame = "terminal";
+  const double amps = 0.195 / 33.5e-3, watts = amps * amps * 1.03;
+  const auto first_refused = [&s] {
+    double low = 1e-3, high = 1e3;
+    while (high > low * (1 + 1e-6)) {
+      s.protection.stall_s = std::sqrt(low * high);
+      (study::never_measured(s).empty() ? low : high) = *s.protection.stall_s;
+    }
+    return low;
+  };
+  const double by_values_s = first_refused();
+  s.sheet.thermal_time_constant_winding_s->range = base::Interval{11.7, 17.7};
+  s.sheet.thermal_resistance_winding_housing_K_W->range = base::Interval{4.0, 5.3};
+  const double by_ends_s = first_refused();
+  // Without cooling and with copper as cold as at the start nothing lasts longer, with its final loss nothing shorter.
+  EXPECT_LT(by_ends_s, 0.6 * by_values_s);
+  EXPECT_GT(by_ends_s, 11.7 / 5.3 * 100 / (1.393 * watts));
+  s.sheet.thermal_time_constant_winding_s = base::Quantity{11.7, "", ""};
+  s.sheet.thermal_resistance_winding_housing_K_W = base::Quantity{5.3, "", ""};
+  EXPECT_NEAR(first_refused() / by_ends_s, 1, 1e-5) << "a motor file with these values says the same";
+}
+
+/// An accepted offset uses up the converter's range in one direction: what is left must show the over-current.
+TEST(ExportProtection, AnAcceptedOffsetLeavesTheRangeThatTheOverCurrentNeeds) {
+  Scenario s = limited_by_torque();
+  const double range_A = *s.sensors.current_range_A;
+  for (const double over_A : {7.0, 15.0, 20.0})
+    for (const double part : {0.02, 0.2, 0.3, 0.45, 0.55, 0.9}) {
+      s.protection.over_current_A = over_A;
+      s.protection.offset_tolerance_A = part * range_A;
+      const double left_A = range_A - part * range_A;
+      const bool shows = left_A >= over_A && left_A >= range_A / 2;
+      EXPECT_EQ(unmeasured(s).empty(), shows) << over_A << " A, " << part;
+    }
+}
+
+/// Gate charges over the driver's current give the time until a switch is off.
+TEST(ExportProtection, ADeadTimeShorterThanTheGateNeedsStandsAgainstIt) {
+  Scenario s = limited_by_torque();
+  s.bridge.gate_current_A = 0.1;
+  s.bridge.gate_source_charge_C = 5e-9;
+  s.bridge.gate_drain_charge_C = 10e-9;  // 150 ns
+  for (const double dead_s : {50e-9, 140e-9, 160e-9, 500e-9}) {
+    s.bridge.dead_time_s = dead_s;
+    EXPECT_EQ(unmeasured(s).empty(), dead_s > 150e-9) << dead_s;
+    EXPECT_EQ(study::short_dead_time(s), "") << "the charges decide";
+  }
+  s.bridge.gate_current_A = s.bridge.gate_source_charge_C = s.bridge.gate_drain_charge_C = 0;
+  for (const double dead_s : {25e-9, 50e-9, 99e-9, 101e-9, 500e-9}) {
+    s.bridge.dead_time_s = dead_s;
+    EXPECT_EQ(study::short_dead_time(s).empty(), dead_s > 100e-9) << dead_s;
+  }
+  s.bridge.device = study::Device::igbt;
+  s.bridge.dead_time_s = 400e-9;
+  EXPECT_NE(study::short_dead_time(s), "");
+}
+
+/// Each check that lacks a line of the sheet is named, and is not where the sheet has the line.
+TEST(ExportProtection, AChecksMissingLineIsNamed) {
+  using ::testing::HasSubstr;
+  Scenario s = limited_by_torque();
+  s.protection.stall_current_A = 4.0;
+  s.protection.stall_s = 60.0;
+  s.sheet = curve_sheet();
+  s.sheet.nominal_current_A.reset();
+  s.sheet.max_speed_rpm = base::Quantity{8000, "", ""};
+  const auto told = [&s] {
+    std::string text;
+    for (const std::string& one : study::unchecked(s, *design::motor_model(s.sheet))) text += one + '\n';
+    return text;
+  };
+  EXPECT_EQ(told(), "");
+  EXPECT_THAT(study::limit_above_nominal(s, *design::motor_model(s.sheet)),
+              HasSubstr("lets 5.82 A flow: by the"))
+      << "the thermal values bound the current without a nominal one";
+  s.sheet.max_speed_rpm.reset();
+  EXPECT_THAT(told(),
+              HasSubstr("protection.over_speed_rad_s = 500 rad/s: the motor file has no max_speed_rpm"));
+  s.sheet.thermal_time_constant_winding_s.reset();
+  EXPECT_THAT(
+      told(),
+      HasSubstr("for protection.stall_s = 60 s: the motor file has no thermal_time_constant_winding_s"));
+  EXPECT_THAT(told(), HasSubstr("withstands 5.82 A, control.speed.torque_limit_Nm over K_t, continuously"));
 }
 
 TEST(ExportProtection, AnOverSpeedThatNothingReachesStandsAgainstIt) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -139,6 +140,49 @@ TEST(ExportVerdict, TheCureOfAStallThatIsNeverPassedHolds) {
     s.protection.stall_current_A = std::stod(cure.substr(lower.size()));
     EXPECT_EQ(of_stall(study::never_measured(s)), "") << bits << ": " << cure;
   }
+}
+
+/// Braking and the windings' energy raise the bus until shortly after the trip. Then the load turns the coasting rotor
+/// backwards, J dw/dt = M - B w, until its back-EMF is above that: the message names the cause of the run's highest voltage.
+TEST(ExportVerdict, ABusThatALoadRaisesAfterATripIsNotBlamedOnBraking) {
+  Scenario s = product_scenario(Mode::speed, 0.0);
+  s.pwm.delay_periods = 1;
+  s.bridge.dead_time_s = 500e-9;
+  s.reference = {};
+  s.reference.shape = study::Shape::steps;
+  s.reference.times_s = {0.0, 0.3};
+  s.reference.values = {400.0, 50.0};
+  s.supply.resistance_ohm = 0.05;
+  s.supply.capacitance_F = 100e-6;
+  s.supply.sinks = false;
+  s.sensors.bus_range_V = 100.0;
+  s.protection.over_voltage_V = 30.0;
+  s.protection.over_speed_rad_s = 700.0;
+  s.control.speed.settle_s = 40e-3;
+  s.load.coulomb_Nm = 0.0;
+  s.require.push_back({measure(study::MetricKind::maximum, study::Signal::current), {}, 15.0});
+  const double B = s.sheet.viscous_friction_Nm_s->value;
+  for (const double torque_Nm : {0.02, 0.0})
+    for (const double coasting_s : {0.05, 2.5}) {
+      s.load.torque_Nm = torque_Nm;
+      s.duration_s = 0.3 + coasting_s;
+      const auto c = study::clear_for_export(s);
+      ASSERT_TRUE(c) << to_string(c.problems()[0]);
+      ASSERT_TRUE(c->outcome.trip);
+      EXPECT_EQ(c->outcome.trip->reasons, std::vector<std::string>{"over-voltage"});
+      const auto bus = std::find_if(c->unheld.begin(), c->unheld.end(),
+                                    [](const base::Problem& p) { return p.where == "the bus"; });
+      ASSERT_NE(bus, c->unheld.end());
+      const double last_rad_s = torque_Nm / B, lasts_s = 1.35e-5 / B;
+      const double speed_rad_s = last_rad_s - (last_rad_s + 400.0) * std::exp(-coasting_s / lasts_s);
+      const double by_load_V = 33.5e-3 * speed_rad_s;
+      const bool later = by_load_V > 45.0;
+      EXPECT_EQ(later, torque_Nm > 0 && coasting_s > 1);
+      EXPECT_THAT(bus->limit, HasSubstr(later ? "after the trip at 0.3" : "was raised by braking"));
+      if (!later) continue;
+      EXPECT_THAT(bus->limit, HasSubstr("load.torque_Nm = 0.02 turns the shaft"));
+      EXPECT_NEAR(std::stod(bus->value) / by_load_V, 1, 0.1);
+    }
 }
 
 }  // namespace SIXSTEP_TEST_FILE

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sixstep/base/angle.hpp"
@@ -55,6 +56,51 @@ TEST(LimitRemarks, ABatteryIsEmptyWhenWhatItHadHasFlowed) {
   const double flowed_As = outcome_of(s).comparisons.at(0).measured * empty_s;
   EXPECT_NEAR(flowed_As, 0.5 * 1e-3 * 3600, 0.01 * flowed_As);
   EXPECT_THAT(outcome_of(on_battery(1.0, 0.5)).remarks, Not(Contains(HasSubstr("battery was"))));
+}
+
+/// The band that a remark names makes the frequency that it names, and a run with this band has no remark.
+TEST(LimitRemarks, AHysteresisThatNoBridgeSwitchesIsTold) {
+  Scenario s = maxon_scenario(Mode::current, 5.0);
+  s.load.locked = true;
+  s.duration_s = 20e-3;
+  s.control.current = {.type = study::CurrentLoopType::hysteresis, .band_A = 0.01};
+  const auto fast = outcome_of(s);
+  // The current rises and falls by two bands with U - R I and R I; the duty is R I/U.
+  const double d = 5.0 * 1.03 / 24, foretold_Hz = 24 / (0.572e-3 * 2 * 0.01) * d * (1 - d);
+  const double told_Hz = 1e3 * number_behind(fast.remarks, "chop at ");
+  EXPECT_NEAR(told_Hz / foretold_Hz, 1, 0.1);
+  s.pwm.period_s = 60e-6;
+  EXPECT_NEAR(1e3 * number_behind(outcome_of(s).remarks, "chop at ") / told_Hz, 1, 0.02)
+      << "whatever the period";
+  s.control.current.band_A = number_behind(fast.remarks, "band_A = ");
+  const auto slow = outcome_of(s);
+  EXPECT_NEAR(static_cast<double>(slow.turn_ons) / slow.simulated_s / 200e3, 1, 0.1);
+  s.control.current.band_A *= 1.1;
+  EXPECT_THAT(outcome_of(s).remarks, Not(Contains(HasSubstr("comparators chop"))));
+}
+
+/// A cold run whose mean loss the winding withstands by the sheet's values but not by the worse ends.
+TEST(LimitRemarks, AColdWindingIsJudgedByTheWorseEnds) {
+  Scenario s = maxon_scenario(Mode::current, 10.0);
+  s.load.locked = true;
+  s.duration_s = 2.0;
+  s.pwm.period_s = 100e-6;
+  s.sheet.thermal_resistance_winding_housing_K_W = base::Quantity{4.0, "", ""};
+  s.sheet.thermal_resistance_housing_ambient_K_W = base::Quantity{4.0, "", ""};
+  s.sheet.thermal_time_constant_winding_s = base::Quantity{10.0, "", ""};
+  s.sheet.thermal_time_constant_motor_s = base::Quantity{200.0, "", ""};
+  s.sheet.max_winding_temperature_degC = base::Quantity{125.0, "", ""};
+  // 206 J into 2.5 J/K are less than 100 K, into 1 J/K more.
+  const auto told = [&s] {
+    const auto remarks = outcome_of(s).remarks;
+    return std::any_of(remarks.begin(), remarks.end(),
+                       [](const auto& text) { return text.find("past its limit of 125 degC") != text.npos; });
+  };
+  EXPECT_FALSE(told());
+  s.sheet.thermal_time_constant_winding_s->range = base::Interval{4.0, 10.0};
+  EXPECT_TRUE(told());
+  s.sheet.thermal_time_constant_winding_s->range = base::Interval{9.9, 10.0};
+  EXPECT_FALSE(told());
 }
 
 /// A spinning rotor brakes into a small battery.

@@ -232,6 +232,31 @@ TEST(OwnController, ACurrentBeyondWhatItWasGivenIsRemarked) {
   EXPECT_EQ(remarks(0.303, 0.3 * stall_A), std::pair(0, 1));
 }
 
+/// A key that no value for the controller is computed from is named; the controller gets the same with and without it.
+TEST(OwnController, KeysThatNothingReachesItFromAreNamed) {
+  told = {};
+  const auto remarks = [](const Scenario& s) {
+    const auto out = study::run(s);
+    EXPECT_TRUE(out) << (out ? "" : to_string(out.problems()[0]));
+    std::string all;
+    for (const std::string& text : out ? out->remarks : std::vector<std::string>{}) all += text + '\n';
+    return all;
+  };
+  Scenario s = with(&pair_puppet, maxon_scenario(control::Mode::current, 3.0));
+  s.control.speed.torque_limit_Nm.reset();
+  s.duration_s = 1e-3;
+  EXPECT_EQ(remarks(s).find("without effect"), std::string::npos);
+  const double limit_A = last_given.current_limit_A;
+  s.control.current.limit_A = 2.0;
+  EXPECT_NE(remarks(s).find("given without effect: control.current.limit_A (control.mode has no speed loop)"),
+            std::string::npos);
+  EXPECT_EQ(last_given.current_limit_A, limit_A);
+  s = with(&pair_puppet, cascade());
+  s.control.current.limit_A = 2.0;
+  EXPECT_EQ(remarks(s).find("without effect"), std::string::npos);
+  EXPECT_EQ(last_given.current_limit_A, 2.0) << "a cascade gives it to the controller";
+}
+
 std::vector<std::string> places(const base::Problems& problems) {
   std::vector<std::string> out;
   for (const base::Problem& p : problems) out.push_back(p.where);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sixstep/study/compile/compile.hpp"
@@ -313,6 +314,24 @@ TEST(Remarks, FewSamplesInACommutationStep) {
   EXPECT_THAT(remarks_on(s), Contains(HasSubstr("lasts 4.36 control periods")));
   s.initial.speed_rad_s = 70.0;
   EXPECT_THAT(remarks_on(s), IsEmpty());
+}
+
+/// Three legs switch in each period, and no current changes its phase at an edge.
+TEST(Remarks, AFieldOrientedDriveHasNoCommutationSteps) {
+  Scenario s = drive_of(Mode::current, 0.0);
+  s.sheet.back_emf = design::BackEmfShape::sine;
+  s.duration_s = 2e-3;
+  s.pwm.period_s = 300e-6;
+  s.control.current.settle_s = 10e-3;
+  s.initial.speed_rad_s = 100.0;
+  for (const bool field : {false, true}) {
+    s.pwm.alignment = field ? study::Alignment::centre : study::Alignment::edge;
+    s.control.drive = field ? study::FirmwareKind::field : study::FirmwareKind::lean;
+    const auto out = study::run(s);
+    ASSERT_TRUE(out) << to_string(out.problems()[0]);
+    const auto named = [](const std::string& text) { return text.find("commutation step") != text.npos; };
+    EXPECT_EQ(std::count_if(out->remarks.begin(), out->remarks.end(), named), field ? 0 : 1);
+  }
 }
 
 TEST(Remarks, ASessionTellsThemToo) {

@@ -147,8 +147,6 @@ std::string assumptions(const ClearanceText& t) {
   text += entry("currents", currents(s.sensors)) + entry("bus", bus(s.sensors)) +
           entry("rotor", rotor(s.sensors)) + entry("wires", wires(s)) + entry("load", load(s.load)) +
           entry("heat", heat(s.heat));
-  if (s.control.drive == study::FirmwareKind::product && !s.protection.stall_s)
-    text += entry("stall", "not watched: protection.stall_current_A and stall_s are not given");
   if (t.other_scale) text += entry("scale", "the scenario's own; the range below was proved, not run");
   return text;
 }

@@ -128,10 +128,7 @@ std::string header(const ConfigHeader& w, const study::Compiled& c, std::string_
   std::string text = header_comment(w, c);
   if (!rows.empty()) text += proof(rows);
   text += core_cost_lines(c);
-  if (const std::string note = too_short_for_images(w.scenario.pwm.period_s); !note.empty())
-    text += fmt::format("// Note: {}.\n", note);
-  if (const std::string note = other_than_stm32_image(w.scenario); !note.empty())
-    text += fmt::format("// Note: {}.\n", note);
+  for (const std::string& note : notes_for_images(w.scenario)) text += fmt::format("// Note: {}.\n", note);
   text +=
       "#pragma once\n#if __cplusplus < 201709L && !defined(_MSC_VER)\n"
       "#error \"C++20 is needed: avr-gcc 5 and 7, of Debian 12 and the Arduino IDE, have none; take clang 19 for the AVR\"\n"

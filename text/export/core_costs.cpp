@@ -137,6 +137,13 @@ std::string other_than_stm32_image(const study::Scenario& s) {
   return keys.empty() ? "" : "the STM32F303's image needs " + keys;
 }
 
+std::vector<std::string> notes_for_images(const study::Scenario& s) {
+  std::vector<std::string> notes;
+  for (std::string note : {too_short_for_images(s.pwm.period_s), other_than_stm32_image(s)})
+    if (!note.empty()) notes.push_back(std::move(note));
+  return notes;
+}
+
 std::string core_cost_lines(const study::Compiled& c) {
   if (c.sensorless)
     return "//\n// docs/reference/block-costs.md counts the costs of its entries on a core: sensorless_drive_step, sensorless_drive_commutate and\n// sensorless_drive_hall.\n";

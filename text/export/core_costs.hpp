@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sixstep/study/compile/compile.hpp"
 #include "text/rooms.hpp"
@@ -32,6 +33,9 @@ inline constexpr double stm32_least_period_s = 1600 / 72e6, stm32_sure_period_s 
 /// Names the images for which this control period is or may be too short, as a sentence without its full
 /// stop; empty if none.
 std::string too_short_for_images(double period_s);
+
+/// Both, for a header's comment and the terminal: conditions of the images, a sentence each without its full stop.
+std::vector<std::string> notes_for_images(const study::Scenario& scenario);
 
 /// Lines of // comment.
 std::string core_cost_lines(const study::Compiled& compiled);

@@ -135,8 +135,8 @@ bool Scale<Scalar>::prove(const control::PiPositionalConfig<double>& pi) {
                                "take K_i/K, or floating point"});
   if (braked + weighted + integral > 14.0 * full_scale<Scalar>)
     proof_.problems.push_back(
-        {"speed derivative and integral", base::written(braked + weighted + integral),
-         "of full output are above " + base::written(14.0 * full_scale<Scalar>),
+        {"speed derivative and integral", at_least(braked + weighted + integral),
+         "of full output are above " + at_most(14.0 * full_scale<Scalar>),
          "take K_b nearer K_i/K, a longer filter of the derivative, or a format with more "
          "bits before the point"});
   proof_.rows.push_back(
@@ -157,8 +157,7 @@ bool Scale<Scalar>::prove(const control::AdcConfig<double>& adc, const AdcUse& u
   const double furthest = std::max(adc.offset_counts + tolerance, top - adc.offset_counts + tolerance);
   const double most = static_cast<double>(control::detail::greatest<typename Scalar::Storage>);
   if (8 * furthest > most)
-    proof_.problems.push_back({name, base::written(furthest) + " counts",
-                               "in eighths are above " + base::written(most),
+    proof_.problems.push_back({name, at_least(furthest) + " counts", "in eighths are above " + at_most(most),
                                "take 32 bits, or convert fewer bits"});
   proof_.fits(name.c_str(), 8 * (furthest - tolerance) * std::fabs(adc.per_eighth), value(use.base));
   return true;
@@ -171,9 +170,11 @@ bool Scale<Scalar>::prove(const control::HallSpeedConfig<double>& speed) {
   const double most = static_cast<double>(control::detail::greatest<typename Scalar::WideInt>);
   if (raw > most)
     proof_.problems.push_back(
-        {"speed.sector_rad_s_ticks", base::written(speed.sector_rad_s_ticks),
-         "over this number of edges is " + base::written(raw / most) + " times the range of its sum",
-         "take a slower timer, fewer edges or 32 bits"});
+        {"speed.sector_rad_s_ticks", at_least(speed.sector_rad_s_ticks),
+         "over this number of edges is " + at_least(raw / most) + " times the range of its sum: at most " +
+             at_most(speed.sector_rad_s_ticks * most / raw) + " fits",
+         "take a timer slower by this factor, a base of the speed of " +
+             at_least(b_.speed_rad_s * raw / most) + " rad/s or more, fewer edges, or 32 bits"});
   return true;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "sixstep/base/decimal.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/scaling/scaling.hpp"
 
@@ -13,6 +14,14 @@ namespace sixstep::design::detail {
 
 template <class Scalar>
 inline constexpr double full_scale = static_cast<double>(Scalar::max());
+
+/// Four digits for messages, rounded away from the other number of a comparison.
+inline std::string at_least(double x) {
+  return base::written(base::shortened(x, 4, x < 0 ? base::Towards::down : base::Towards::up));
+}
+inline std::string at_most(double x) {
+  return base::written(base::shortened(x, 4, x < 0 ? base::Towards::up : base::Towards::down));
+}
 
 /// Lines of the proof, and the problems that break it.
 template <class Scalar>
@@ -25,8 +34,9 @@ struct Proof {
     rows.push_back({name, largest, end});
     // A whole base counts as fitting if the format ends one digit below it (Q15, Q31).
     if (std::fabs(largest) > end + base * static_cast<double>(Scalar::from_raw(1)))
-      problems.push_back({name, base::written(largest), "is above full scale, " + base::written(end),
-                          "take a larger base or a format with more bits before the point"});
+      problems.push_back({name, at_least(largest), "is above full scale, " + at_most(end),
+                          "take a base of " + at_least(std::fabs(largest) / full_scale<Scalar>) +
+                              " or more, or a format with more bits before the point"});
   }
 
   /// A threshold must be below full scale, otherwise no signal can pass it. A threshold of 0 always fits.
@@ -40,11 +50,13 @@ struct Proof {
     const double most = static_cast<double>(control::detail::greatest<typename Scalar::Storage>);
     const double least = std::ldexp(1.0, (bits - 2) - control::Gain<Scalar>::most_right);
     if (std::fabs(per_unit) > most)
-      problems.push_back({name, base::written(per_unit), "per unit is above " + base::written(most),
-                          "take a larger base of its output or a smaller one of its input"});
+      problems.push_back({name, at_least(per_unit), "per unit is above " + at_most(most),
+                          "take a base of its output that is larger by a factor of " +
+                              at_least(std::fabs(per_unit) / most) + ", or a smaller one of its input"});
     else if (per_unit != 0 && std::fabs(per_unit) < least)
-      problems.push_back({name, base::written(per_unit), "per unit is below " + base::written(least),
-                          "take a smaller base of its output, or 32 bits"});
+      problems.push_back({name, at_most(per_unit), "per unit is below " + at_least(least),
+                          "take a base of its output that is smaller by a factor of " +
+                              at_least(least / std::fabs(per_unit)) + ", or 32 bits"});
     return control::Gain<Scalar>(per_unit);
   }
 
@@ -55,9 +67,10 @@ struct Proof {
     const double vanishes = std::ldexp(1.0, -1 - control::Accumulator<Scalar>::guard_bits);
     if (K_i != 0 && std::fabs(K_i_pu) < vanishes)
       problems.push_back(
-          {name + ".K_i", base::written(K_i_pu),
-           "per unit leaves an error of one digit unseen: it must reach " + base::written(vanishes),
-           "take 32 bits, a longer control period or a smaller base of the output"});
+          {name + ".K_i", at_most(K_i_pu),
+           "per unit leaves an error of one digit unseen: it must reach " + at_least(vanishes),
+           "take 32 bits, a longer control period, or a base of the output that is smaller by a factor of " +
+               at_least(vanishes / std::fabs(K_i_pu))});
     fits((name + ".limit").c_str(), c.limit, out);
     fits((name + " integral increment").c_str(), std::fabs(K_i) * largest_error, 14 * out);
   }

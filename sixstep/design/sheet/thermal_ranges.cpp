@@ -40,6 +40,21 @@ std::optional<WorseEnds> at_worse_ends(const Sheet& s) {
   return out;
 }
 
+base::Result<WithstandTimes> withstand_times(const Sheet& s, const Heating& heating) {
+  const base::Result<ThermalModel> model = thermal_model(s);
+  if (!model) return model.problems();
+  WithstandTimes out{.by_values = permissible_seconds(*model, heating),
+                     .by_worse_ends = {},
+                     .limit_degC = model->max_winding_degC,
+                     .worse_limit_degC = model->max_winding_degC};
+  out.by_worse_ends = out.by_values;
+  if (const std::optional<WorseEnds> worse = at_worse_ends(s)) {
+    out.by_worse_ends = permissible_seconds(worse->model, heating);
+    out.worse_limit_degC = worse->model.max_winding_degC;
+  }
+  return out;
+}
+
 double greater_rise(const ThermalModel& m, const ThermalModel& w) {
   const auto capacity = [](double s, double K_W) { return s / K_W; };
   return std::max(

@@ -18,6 +18,17 @@ struct WorseEnds {
 /// are worse. Empty if the sheet's thermal lines are incomplete or no range has an end worse than its value.
 std::optional<WorseEnds> at_worse_ends(const Sheet& sheet);
 
+/// How long a winding that starts at ambient temperature withstands a heating, s. Empty: without end.
+struct WithstandTimes {
+  std::optional<double> by_values, by_worse_ends;   ///< equal if no range has an end worse than its value
+  double limit_degC = 0.0, worse_limit_degC = 0.0;  ///< the winding's limit, which may have a range too
+
+  bool differ() const { return by_values != by_worse_ends; }
+};
+
+/// A verdict on safety uses `by_worse_ends`. Problem: the sheet's thermal lines that are missing.
+base::Result<WithstandTimes> withstand_times(const Sheet& sheet, const Heating& heating);
+
 /// Largest factor on the temperature rise above ambient by `model`, at a constant loss: both resistances and both
 /// heat capacities deviate by the largest deviation of one of them.
 double greater_rise(const ThermalModel& model, const ThermalModel& worse);

@@ -101,7 +101,9 @@ base::Problems check_controller(const sixstep_controller& is) {
              "is compiled for float, and this program needs double",
              "compile it without -DSIXSTEP_REAL=float"}};
   refuse(is.interface != SIXSTEP_OWN_INTERFACE, "interface", std::to_string(is.interface),
-         "is not the interface of this program: compile it with this program's own_controller.h");
+         ("is not " + std::to_string(SIXSTEP_OWN_INTERFACE) +
+          ", the interface of this program: compile it with this program's own_controller.h")
+             .c_str());
   if (!out.empty()) return out;
   refuse(is.answers != SIXSTEP_ANSWERS_PAIR && is.answers != SIXSTEP_ANSWERS_LEGS, "answers",
          std::to_string(is.answers), "must be SIXSTEP_ANSWERS_PAIR or SIXSTEP_ANSWERS_LEGS");

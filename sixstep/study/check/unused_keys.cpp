@@ -80,7 +80,6 @@ void of_control(const Scenario& s, Unused& out) {
 void of_idle_loops(const Scenario& s, Unused& out) {
   using control::Mode;
   const bool position = comes_into(s, Mode::position), speed = position || comes_into(s, Mode::speed);
-  if (s.control.drive == FirmwareKind::own) return;
   if (!position) {
     constexpr char none[] = "control.mode has no position loop";
     const PositionLoop usual, &x = s.control.position;

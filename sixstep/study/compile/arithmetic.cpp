@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sixstep/base/angle.hpp"
+#include "sixstep/base/decimal.hpp"
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/fields/estimator_fields.hpp"
 #include "sixstep/design/fields/product_fields.hpp"
@@ -57,6 +58,10 @@ base::Problems under_the_key(const Scenario& s, const base::Problems& problems) 
   return out;
 }
 
+std::string shortest(double x, base::Towards towards) {
+  return base::written(base::shortened(x, 4, towards));
+}
+
 /// Speed from captured edges (hall_speed.hpp): (pi/3)/p f_timer k is a wide number with the format's digits.
 template <class Scalar>
 base::Problems unheld_speed(const Scenario& s, const Compiled& c, const design::Bases& b) {
@@ -69,8 +74,11 @@ base::Problems unheld_speed(const Scenario& s, const Compiled& c, const design::
   const double most = static_cast<double>(control::detail::greatest<Wide>);
   if (digits <= most) return {};
   return {{"sensors.capture_Hz", base::written(s.sensors.capture_Hz),
-           "times speed_edges is " + base::written(digits / most) + " times the range of the format's sum",
-           "take a slower timer, fewer edges, or a 32-bit format"}};
+           "times speed_edges is " + base::rounded(digits / most, 4) + " times the range of the format's sum",
+           "take a timer of " + shortest(s.sensors.capture_Hz * most / digits, base::Towards::down) +
+               " Hz or less, control.full_scale.speed_rad_s of " +
+               shortest(b.speed_rad_s * digits / most, base::Towards::up) +
+               " or more, fewer edges, or a 32-bit format"}};
 }
 
 rig::Bases units_of(Mode mode, const design::Bases& b) {

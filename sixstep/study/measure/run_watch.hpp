@@ -20,7 +20,11 @@ struct RunWatch {
   double winding_degC = 0.0, junction_degC = 0.0;    ///< the hottest; only with kernels that warm up
   double shunt_least_duty = -1.0;  ///< a shunt shows a current above this duty; negative: no shunt
   std::int64_t samples = 0, hidden_samples = 0;  ///< samples of the shunt
-  bool held_a_commutation = false;               ///< the drive's duty step acted at least once
+  bool held_a_commutation = false;  ///< the drive's duty step held the staying phase at least once
+  bool held_other_duty = false;     ///< and its duty or the one before it was below 1
+  double duty_before = 0.0;         ///< the drive's last duty outside of a duty step, magnitude
+  double held_rad_s = 0.0,
+         held_A = 0.0;  ///< speed and current reference of the duty step with their largest product
 
   template <class Rig>
   void segment(const Rig& rig) {
@@ -32,17 +36,37 @@ struct RunWatch {
       emf_bus_V = state.bus;
     }
     if (state.bus > highest_bus_V) highest_bus_V = state.bus;
-    for (const auto i : state.i)
-      if (const double ampere = std::fabs(static_cast<double>(i)); ampere > highest_phase_A)
-        highest_phase_A = ampere;
-    if constexpr (requires { rig.firmware().holds_commutation(); })
-      held_a_commutation = held_a_commutation || rig.firmware().holds_commutation();
+    double ampere = 0.0;
+    for (const auto i : state.i) ampere = std::fmax(ampere, std::fabs(static_cast<double>(i)));
+    if (ampere > highest_phase_A) highest_phase_A = ampere;
+    if constexpr (requires { rig.firmware().holds_commutation(); }) look_at_commutation(rig, speed);
     if constexpr (requires { rig.plant().more(); }) look_at_charge(rig.plant().more().charge.value, rig);
     if (shunt_least_duty >= 0.0 && rig.ticked()) {
       ++samples;
       const double duty = signed_duty(ModulatorView(rig.modulator()), rig.board_sector());
       hidden_samples += std::fabs(duty) <= shunt_least_duty ? 1 : 0;
     }
+  }
+
+  /// A duty of 1 before and during the duty step is the same command as without it. A fixed-point duty of 1 may be
+  /// some digits less.
+  template <class Rig>
+  void look_at_commutation(const Rig& rig, double speed) {
+    constexpr double full = 0.999;
+    const double told = std::fabs(static_cast<double>(rig.telemetry().duty));
+    if (!rig.firmware().holds_commutation()) {
+      duty_before = told;
+      return;
+    }
+    held_a_commutation = true;
+    const double asked = std::fabs(rig.current_reference_A());
+    if (speed * asked > held_rad_s * held_A) {
+      held_rad_s = speed;
+      held_A = asked;
+    }
+    if (held_other_duty) return;
+    const double in_effect = std::fabs(signed_duty(ModulatorView(rig.modulator()), rig.board_sector()));
+    held_other_duty = duty_before < full || told < full || in_effect < full;
   }
 
   /// Ignores rounding, and a thousandth of the charge that flows back into a full battery.

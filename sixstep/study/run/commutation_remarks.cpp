@@ -1,16 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sixstep/study/run/commutation_remarks.hpp"
 
+#include "sixstep/base/angle.hpp"
 #include "sixstep/study/run/limit_remarks.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 
 namespace sixstep::study {
 
+namespace {
+
+/// Above their limit, 4 E + 3 R I = U, the duty step stays at 1; the overlap acts there too.
+bool acted(const Scenario& s, const RunWatch& w) {
+  return w.held_a_commutation &&
+         (w.held_other_duty || s.control.current.commutation == CurrentCommutation::overlap);
+}
+
+std::string named(const Scenario& s) {
+  return "control.current.commutation = \"" +
+         std::string(base::word(current_commutation_choices, s.control.current.commutation)) + "\"";
+}
+
+/// The part of a phase's back-EMF constant that counts twice while the leaving current falls: on its flat top all of
+/// it, of a sine the mean of top and half.
+double emf_share(const design::MotorModel& motor) {
+  return motor.machine.back_emf == plant::BackEmf::sine ? 1.5 : 2.0;
+}
+
+}  // namespace
+
 std::string on_idle_duty_step(const Scenario& s, const RunWatch& w) {
-  const CurrentCommutation kind = s.control.current.commutation;
-  if (kind == CurrentCommutation::plain || w.held_a_commutation) return {};
-  return "control.current.commutation = \"" + std::string(base::word(current_commutation_choices, kind)) +
-         "\" has no effect in this run: it acts only at edges of a motor that drives, where the leaving phase's "
+  if (s.control.current.commutation == CurrentCommutation::plain || acted(s, w)) return {};
+  if (w.held_a_commutation)
+    return named(s) +
+           " has no effect in this run: the duty is 1 at each commutation with it and without it; the bus is too low "
+           "for this speed and current: use a higher supply.voltage_V or a lower speed";
+  return named(s) +
+         " has no effect in this run: it acts only at edges of a motor that drives, where the leaving phase's "
          "current lasts longer than (1/2 + pwm.delay_periods) pwm.period_s = " +
          few_digits(1e6 * (0.5 + s.pwm.delay_periods) * s.pwm.period_s) +
          " us; no edge of this run is one: a shorter pwm.period_s makes it act sooner";
@@ -19,15 +44,38 @@ std::string on_idle_duty_step(const Scenario& s, const RunWatch& w) {
 std::string on_chopped_staying_leg(const Scenario& s, const RunWatch& w) {
   using control::PwmPattern;
   const PwmPattern pattern = s.pwm.pattern;
-  if (s.control.current.commutation == CurrentCommutation::plain || !w.held_a_commutation ||
+  if (s.control.current.commutation == CurrentCommutation::plain || !acted(s, w) || !w.held_other_duty ||
       pattern == PwmPattern::pwm_on || pattern == PwmPattern::pwm_on_pwm)
     return {};
-  return "control.current.commutation = \"" +
-         std::string(base::word(current_commutation_choices, s.control.current.commutation)) +
-         "\" with pwm.pattern = \"" + std::string(base::word(pattern_choices, pattern)) +
-         "\" leaves a larger peak of the current and a deeper dip of the torque than with \"pwm-on\": where the "
-         "staying leg is chopped, the duty that holds its current is above 1/2, and acts for up to a period after the "
-         "commutation";
+  return named(s) + " with pwm.pattern = \"" + std::string(base::word(pattern_choices, pattern)) +
+         "\" leaves a larger peak of the current and a deeper dip of the torque than with \"pwm-on\": at some "
+         "commutations this pattern chops the staying leg; the duty that holds its current is then above 1/2, and "
+         "it stays in effect for up to one period after the commutation has ended";
+}
+
+double longest_overlap_rad_s(const design::MotorModel& motor, double current_A, double bus_V) {
+  constexpr double ripple = 0.97;
+  const plant::Machine& m = motor.machine;
+  const double per_rad_s = m.pole_pairs * m.L_H * current_A / (base::pi / 3);
+  return ripple * (bus_V - 1.5 * m.R_ohm * current_A) / (per_rad_s + emf_share(motor) * m.K_e_V_s);
+}
+
+std::string on_long_overlap(const Scenario& s, const design::MotorModel& motor, double bus_V,
+                            const RunWatch& w) {
+  if (s.control.current.commutation != CurrentCommutation::overlap || !(w.held_A > 0.0)) return {};
+  const double limit_rad_s = longest_overlap_rad_s(motor, w.held_A, bus_V);
+  if (w.held_rad_s <= limit_rad_s) return {};
+  const plant::Machine& m = motor.machine;
+  const double left_V = bus_V - emf_share(motor) * m.K_e_V_s * w.held_rad_s - 1.5 * m.R_ohm * w.held_A;
+  const double sector_s = base::pi / 3 / (m.pole_pairs * w.held_rad_s);
+  std::string text = named(s) + " lowers the torque at " + few_digits(w.held_rad_s) +
+                     " rad/s and a reference of " + few_digits(w.held_A) + " A: ";
+  text += left_V > 0.0 ? "the leaving phase's current takes " + few_digits(1e3 * m.L_H * w.held_A / left_V) +
+                             " ms to end, and a sector lasts " + few_digits(1e3 * sector_s) + " ms"
+                       : "the leaving phase's current does not end within a sector";
+  if (limit_rad_s > 0.0)
+    text += "; at this current and bus that is so above " + few_digits(limit_rad_s) + " rad/s";
+  return text + "; use \"duty-step\" or a higher bus there";
 }
 
 }  // namespace sixstep::study

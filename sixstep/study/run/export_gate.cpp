@@ -138,19 +138,28 @@ void look_at_delay(const Scenario& s, base::Problems& out) {
                    "set delay_periods = 1, or sample = \"middle\""});
 }
 
+/// The time in which a gate driver moves a MOSFET's charges: the current's fall and the voltage's rise. 0: not given.
+double turn_off_s(const Bridge& b) {
+  return b.gate_current_A > 0 ? (b.gate_source_charge_C + b.gate_drain_charge_C) / b.gate_current_A : 0.0;
+}
+
 /// Applies to every drive: when the torque reverses, a leg changes from one switch to the other, with every
 /// kind of chopping.
 void look_at_dead_time(const Scenario& s, base::Problems& out) {
   constexpr double shortest_s = 20e-9;  // two clocks of a fast timer; no switch turns off faster
-  const double counted_s = dead_time_in_counts_s(s.bridge.dead_time_s, s.pwm);
-  if (s.control.mode != Mode::off && s.bridge.dead_time_s > 0 && counted_s < shortest_s)
-    out.push_back({"bridge.dead_time_s", written(s.bridge.dead_time_s),
-                   "is over before any switch is off: less than 20e-9",
+  if (s.control.mode == Mode::off) return;
+  const double counted_s = dead_time_in_counts_s(s.bridge.dead_time_s, s.pwm), own_s = turn_off_s(s.bridge);
+  const auto refuse = [&](const std::string& limit) {
+    out.push_back({"bridge.dead_time_s", written(s.bridge.dead_time_s), limit,
                    "give the gate drivers' dead time, as 500e-9"});
-  if (s.control.mode != Mode::off && !(s.bridge.dead_time_s > 0))
-    out.push_back({"bridge.dead_time_s", written(s.bridge.dead_time_s),
-                   "turns one switch of a leg on while the other turns off, and real ones short the bus then",
-                   "give the gate drivers' dead time, as 500e-9"});
+  };
+  if (!(s.bridge.dead_time_s > 0))
+    refuse("turns one switch of a leg on while the other turns off, and real ones short the bus then");
+  else if (counted_s < std::fmax(shortest_s, own_s))
+    refuse(own_s > shortest_s ? "is over before the other switch is off: the driver needs " +
+                                    base::three_digits(1e9 * own_s) +
+                                    " ns for gate_source_charge_C + gate_drain_charge_C at gate_current_A"
+                              : "is over before any switch is off: less than 20e-9");
 }
 
 /// A chip keeps its configured constants, and the bridge its dead time.
@@ -227,7 +236,9 @@ void add_notes(const Scenario& s, const Listeners& listeners, Clearance& c) {
   };
   add(sheet_contradiction(s));
   add(limit_above_nominal(s, c.outcome.motor));
+  for (std::string& text : unchecked(s, c.outcome.motor)) add(std::move(text));
   add(setpoint_bound(s));
+  add(short_dead_time(s));
   add(without_protection(s));
   // Without a clearance its conditions have no meaning.
   if (!c.clear()) return;
@@ -254,7 +265,7 @@ base::Result<Clearance> clear_for_export(const Scenario& scenario, const Listene
     if (auto unstable = unstable_current_loop(scenario, c.outcome.motor, gains))
       c.unheld.push_back(std::move(*unstable));
   if (reads_currents(scenario)) look_at_current_range(scenario, peaks, c.unheld);
-  look_at_bus(scenario, peaks, reads_bus(scenario), c.unheld);
+  look_at_bus(scenario, peaks, reads_bus(scenario), listeners, c.unheld);
   if (c.unheld.empty()) look_at_stop(scenario, c.outcome.motor, listeners, c.unheld);
   add_notes(scenario, listeners, c);
   return c;

@@ -27,6 +27,16 @@ bool is_rectifier(const Supply& s) {
 
 constexpr const char* condition = "cleared for a supply that takes current back (supply.sinks = true)";
 
+/// ": ... withstands it for 12.8 s from 25 degC, and by the worse ends of their ranges for 6.82 s".
+std::string withstood(const design::WithstandTimes& times, double ambient_degC) {
+  const auto duration = [](const std::optional<double>& t) {
+    return t ? "for " + few_digits(*t) + " s" : std::string("without end");
+  };
+  return ": by the sheet's thermal values the winding withstands it " + duration(times.by_values) + " from " +
+         few_digits(ambient_degC) + " degC" +
+         (times.differ() ? ", and by the worse ends of their ranges " + duration(times.by_worse_ends) : "");
+}
+
 /// The first reason why the drive does not hold on such a supply.
 std::string first_of(const base::Problems& found) {
   const base::Problem& p = found.front();
@@ -38,26 +48,49 @@ std::string first_of(const base::Problems& found) {
 std::string limit_above_nominal(const Scenario& s, const design::MotorModel& motor) {
   const bool cascade = s.control.mode == Mode::speed || s.control.mode == Mode::position;
   const double nominal_A = motor.nominal_current_A;
-  if (!cascade || s.control.drive == FirmwareKind::field || !(nominal_A > 0.0)) return {};
+  if (!cascade || s.control.drive == FirmwareKind::field) return {};
   const std::optional<MostCurrent> most = most_current(s, motor);
   // A limit that is set to the nominal current itself may be rounded.
   if (!most || !(most->ampere > 1.005 * nominal_A)) return {};
-  const auto thermal = design::thermal_model(s.sheet);
-  std::string stands = "; the sheet has no thermal values that say how long the winding withstands it";
-  if (thermal) {
-    // Block commutation: two phases carry the current.
-    const double copper_W = 2 * motor.machine.R_ohm * most->ampere * most->ampere;
-    const std::optional<double> stands_s = design::permissible_seconds(
-        *thermal, {.copper_W = copper_W, .housing_W = 0.0, .ambient_degC = s.heat.ambient_degC});
-    if (!stands_s) return {};
-    stands = ": by the sheet's thermal values the winding withstands it for " + few_digits(*stands_s) +
-             " s from " + few_digits(s.heat.ambient_degC) + " degC";
-  }
+  const auto times = withstand_times_of(s, motor, *most);
+  if (!times && !(nominal_A > 0.0)) return {};
+  if (times && !times->by_values && !times->by_worse_ends) return {};
   const bool linear = s.sheet.kind == design::MotorKind::linear;
-  return most->by + " lets " + few_digits(most->ampere) + " A flow, " + few_digits(most->ampere / nominal_A) +
-         " times the nominal current of " + few_digits(nominal_A) + " A" + stands +
-         "; nothing in the drive ends that while " + (linear ? "the slide moves" : "the rotor turns") +
-         ", so lower the limit unless the load is short";
+  const std::string stands =
+      times ? withstood(*times, s.heat.ambient_degC)
+            : "; the sheet has no thermal values that say how long the winding withstands it";
+  const std::string multiple = nominal_A > 0.0
+                                   ? ", " + few_digits(most->ampere / nominal_A) +
+                                         " times the nominal current of " + few_digits(nominal_A) + " A"
+                                   : "";
+  return most->by + " lets " + few_digits(most->ampere) + " A flow" + multiple + stands +
+         "; no protection of the drive ends this current while " +
+         (linear ? "the slide moves" : "the rotor turns") + ": lower the limit, or apply the load for " +
+         (times ? "less than that time" : "a short time only");
+}
+
+std::vector<std::string> unchecked(const Scenario& s, const design::MotorModel& motor) {
+  std::vector<std::string> all;
+  const bool cascade = s.control.mode == Mode::speed || s.control.mode == Mode::position;
+  const std::optional<MostCurrent> most = most_current(s, motor);
+  const auto thermal = design::thermal_model(s.sheet);
+  const auto add = [&all](const std::string& what, const std::string& missing) {
+    all.push_back("not checked: " + what + ": the motor file has no " + missing +
+                  "; give it there or in [motor_override]");
+  };
+  if (!thermal && most && s.control.drive == FirmwareKind::product && s.protection.stall_s)
+    add("whether the winding withstands " + few_digits(most->ampere) + " A, " + most->by +
+            ", for protection.stall_s = " + base::six_digits(*s.protection.stall_s) + " s",
+        thermal.problems().front().where);
+  const bool known = thermal || motor.nominal_current_A > 0.0 || s.control.drive == FirmwareKind::field;
+  if (cascade && most && !known)
+    add("whether the motor withstands " + few_digits(most->ampere) + " A, " + most->by + ", continuously",
+        "nominal_current_A and no thermal values");
+  if (s.control.drive == FirmwareKind::product && s.protection.over_speed_rad_s && !s.sheet.max_speed_rpm)
+    add("whether the rotor withstands protection.over_speed_rad_s = " +
+            base::six_digits(*s.protection.over_speed_rad_s) + " rad/s",
+        "max_speed_rpm");
+  return all;
 }
 
 std::string sheet_contradiction(const Scenario& s) {
@@ -89,7 +122,7 @@ WithoutSink without_sink(const Scenario& s, const design::MotorModel& motor, con
     Outcome outcome = *ran;
     const SeenPeaks peaks = take_peaks(other, outcome);
     found = not_held(outcome);
-    look_at_bus(other, peaks, s.sensors.bus == BusSensing::adc, found);
+    look_at_bus(other, peaks, s.sensors.bus == BusSensing::adc, listeners, found);
     if (found.empty()) look_at_stop(other, motor, listeners, found);
   }
   w.holds = found.empty();
@@ -97,8 +130,22 @@ WithoutSink without_sink(const Scenario& s, const design::MotorModel& motor, con
   return w;
 }
 
+std::string short_dead_time(const Scenario& s) {
+  const bool igbt = s.bridge.device == Device::igbt;
+  const double usual_s = igbt ? 500e-9 : 100e-9, dead_s = s.bridge.dead_time_s;
+  if (s.control.mode == Mode::off || s.bridge.gate_current_A > 0.0 || !(dead_s > 0.0 && dead_s < usual_s))
+    return {};
+  return "bridge.dead_time_s = " + few_digits(1e9 * dead_s) + " ns is short: most " +
+         (igbt ? "IGBTs" : "MOSFETs") + " with their drivers need " + few_digits(1e9 * usual_s) +
+         " ns or more from the command until they are off, and the bus is shorted until then; compare it with "
+         "the switch's turn-off delay and fall time, or give bridge.gate_current_A and the gate's charges";
+}
+
 std::string without_protection(const Scenario& s) {
-  if (s.control.drive == FirmwareKind::product) return {};
+  if (s.control.drive == FirmwareKind::product)
+    return s.protection.stall_s
+               ? ""
+               : "no stall is detected: protection.stall_current_A and stall_s are not given";
   return "control.drive = \"" + std::string(base::word(drive_choices, s.control.drive)) +
          "\" has no protection: it leaves the bridge on at over-current, over-voltage and a stall; give your "
          "firmware one, or export control.drive = \"product\" with [protection]";

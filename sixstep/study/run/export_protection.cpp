@@ -8,7 +8,7 @@
 
 #include "sixstep/base/decimal.hpp"
 #include "sixstep/base/written.hpp"
-#include "sixstep/design/sheet/thermal.hpp"
+#include "sixstep/design/sheet/thermal_ranges.hpp"
 #include "sixstep/study/check/product.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
 #include "sixstep/study/scenario/supply_voltages.hpp"
@@ -46,6 +46,13 @@ std::optional<MostCurrent> most_current(const Scenario& s, const design::MotorMo
                                                                 : "the usual torque limit over K_t"};
 }
 
+base::Result<design::WithstandTimes> withstand_times_of(const Scenario& s, const design::MotorModel& motor,
+                                                        const MostCurrent& most) {
+  const double copper_W = 2 * motor.machine.R_ohm * most.ampere * most.ampere;
+  return design::withstand_times(
+      s.sheet, {.copper_W = copper_W, .housing_W = 0.0, .ambient_degC = s.heat.ambient_degC});
+}
+
 namespace {
 
 void look_at_stalling(const Scenario& s, const MostCurrent& most, base::Problems& out) {
@@ -78,18 +85,19 @@ void look_at_over_current(const Scenario& s, const MostCurrent& most, base::Prob
 /// A blocked rotor has its current in two phases, and no friction.
 void look_at_stall_time(const Scenario& s, const design::MotorModel& motor, const MostCurrent& most,
                         base::Problems& out) {
-  const auto thermal = design::thermal_model(s.sheet);
-  if (!s.protection.stall_s || !thermal) return;
-  const double copper_W = 2 * motor.machine.R_ohm * most.ampere * most.ampere;
-  const std::optional<double> stands_s = design::permissible_seconds(
-      *thermal, {.copper_W = copper_W, .housing_W = 0.0, .ambient_degC = s.heat.ambient_degC});
-  if (!stands_s || *s.protection.stall_s <= *stands_s) return;
-  out.push_back(
-      {"protection.stall_s", written(*s.protection.stall_s),
-       "is longer than the winding withstands the stall current: " + base::three_digits(most.ampere) +
-           " A, " + most.by + ", heats it to " + base::three_digits(thermal->max_winding_degC) +
-           " degC within " + base::three_digits(*stands_s) + " s",
-       "shorten it, as to " + rounded_down(0.5 * *stands_s)});
+  if (!s.protection.stall_s) return;
+  const auto times = withstand_times_of(s, motor, most);
+  if (!times || !times->by_worse_ends || *s.protection.stall_s <= *times->by_worse_ends) return;
+  std::string within = base::three_digits(*times->by_worse_ends) + " s";
+  if (times->differ())
+    within += " by the worse ends of the motor file's thermal ranges, " +
+              (times->by_values ? "within " + base::three_digits(*times->by_values) + " s" : "never") +
+              " by its values";
+  out.push_back({"protection.stall_s", written(*s.protection.stall_s),
+                 "is longer than the winding withstands the stall current: " +
+                     base::three_digits(most.ampere) + " A, " + most.by + ", heats it to " +
+                     base::three_digits(times->worse_limit_degC) + " degC within " + within,
+                 "shorten it, as to " + rounded_down(0.5 * *times->by_worse_ends)});
 }
 
 void look_at_over_speed(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
@@ -101,8 +109,27 @@ void look_at_over_speed(const Scenario& s, const design::MotorModel& motor, base
   out.push_back({"protection.over_speed_rad_s", written(*over),
                  "protects nothing: without a load the bus turns the motor at " +
                      base::three_digits(highest_open_V(s) / motor.K_t_Nm_A) +
-                     " rad/s, and this is more than " + base::three_digits(beyond_no_load) + " times that",
+                     " rad/s, and the threshold is above " + base::three_digits(beyond_no_load) +
+                     " times that speed (" + base::three_digits(fastest) + " rad/s)",
                  "lower it to the highest speed that motor and machine withstand"});
+}
+
+/// With an accepted offset, the converter must still show the over-current threshold in both directions.
+void look_at_offset(const Scenario& s, base::Problems& out) {
+  const std::optional<double>&tolerance_A = s.protection.offset_tolerance_A,
+        &range_A = s.sensors.current_range_A;
+  if (!tolerance_A || !range_A || s.sensors.currents == rig::CurrentMeasurement::ideal) return;
+  const double seen_A = *range_A / 2, over_A = s.protection.over_current_A.value_or(seen_A);
+  const double most_A = std::min(seen_A, *range_A - over_A);
+  if (*tolerance_A <= most_A) return;
+  const bool by_half = seen_A <= *range_A - over_A;
+  out.push_back(
+      {"protection.offset_tolerance_A", written(*tolerance_A),
+       "accepts a faulty sensor: with such an offset the converter ends at " +
+           base::three_digits(*range_A - *tolerance_A) + " A in one direction" +
+           (by_half ? ", less than half of sensors.current_range_A = " + written(*range_A)
+                    : ", and protection.over_current_A = " + written(over_A) + " is not exceeded there"),
+       "lower it to " + rounded_down(most_A) + " at most; 2 % of the range are usual"});
 }
 
 }  // namespace
@@ -113,6 +140,7 @@ void look_at_protection(const Scenario& s, const design::MotorModel& motor, base
     look_at_stalling(s, *most, out);
     look_at_stall_time(s, motor, *most, out);
   }
+  look_at_offset(s, out);
   look_at_over_speed(s, motor, out);
 }
 

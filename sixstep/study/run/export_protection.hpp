@@ -7,6 +7,7 @@
 
 #include "sixstep/base/problem.hpp"
 #include "sixstep/design/sheet/parameters.hpp"
+#include "sixstep/design/sheet/thermal_ranges.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
 
 namespace sixstep::study {
@@ -20,8 +21,14 @@ struct MostCurrent {
 /// Empty if nothing requests or limits a current.
 std::optional<MostCurrent> most_current(const Scenario& scenario, const design::MotorModel& motor);
 
+/// How long the winding withstands that current in two phases, as in block commutation and at a blocked rotor.
+base::Result<design::WithstandTimes> withstand_times_of(const Scenario& scenario,
+                                                        const design::MotorModel& motor,
+                                                        const MostCurrent& most);
+
 /// Finds a stall threshold above the drive's largest requested current, a stall time longer than the winding
-/// withstands that current, and an over-speed that neither bus nor motor approaches.
+/// withstands that current by the worse ends of the motor file's thermal ranges,
+/// an accepted offset of the current converter that hides an over-current, and an over-speed that neither bus nor motor approaches.
 void look_at_protection(const Scenario& scenario, const design::MotorModel& motor, base::Problems& out);
 
 }  // namespace sixstep::study

@@ -54,6 +54,38 @@ double end_of_the_highest(const Scenario& s) {
   return highest + 1 < levels.size() ? std::min(levels[highest + 1].at_s, s.duration_s) : s.duration_s;
 }
 
+std::string reasons_of(const Trip& trip) {
+  std::string reasons;
+  for (const std::string& reason : trip.reasons) reasons += (reasons.empty() ? "" : ", ") + reason;
+  return reasons;
+}
+
+/// The highest bus voltage until the currents of a trip have ended: braking, or the windings' energy, made it.
+double bus_until_the_trip_V(const Scenario& scenario, const Trip& trip, const Listeners& listeners) {
+  constexpr double currents_end_s = 10e-3;
+  Scenario s = scenario;
+  s.require.clear();
+  s.compare.clear();
+  watch(MetricKind::maximum, Signal::bus_voltage, s);
+  s.compare.back().measure.to_s = trip.at_s + currents_end_s;
+  const base::Result<Outcome> until =
+      run(s, {.on_record = {}, .on_event = {}, .keep_going = listeners.keep_going, .keep_books = false});
+  return until && !until->comparisons.empty() ? until->comparisons.front().measured : HUGE_VAL;
+}
+
+base::Problem raised_after(const Scenario& s, const Trip& trip, const std::string& bus) {
+  const bool turned = !s.load.locked && s.load.torque_Nm != 0.0;
+  return {"the bus", bus + " V",
+          "was reached after the trip at " + base::rounded(trip.at_s, 4) + " s (" + reasons_of(trip) +
+              ") with the bridge off: " +
+              (turned ? "load.torque_Nm = " + written(s.load.torque_Nm) +
+                            " turns the shaft, as a hanging weight does"
+                      : std::string("the load turns the shaft")) +
+              ", and the back-EMF feeds the bus through the diodes",
+          std::string("prevent the trip") +
+              (turned ? "; load.coulomb_Nm is a load that does not turn the shaft" : "")};
+}
+
 /// A weaker brake feeds less power into the bus, for a longer time.
 std::string cure_of_stop(const std::vector<std::string>& reasons) {
   if (std::find(reasons.begin(), reasons.end(), "over-voltage") == reasons.end())
@@ -73,7 +105,7 @@ Scenario watching_peaks(const Scenario& scenario) {
 }
 
 SeenPeaks take_peaks(const Scenario& scenario, Outcome& outcome) {
-  SeenPeaks e;
+  SeenPeaks e{.trip = outcome.trip};
   const std::size_t own = scenario.compare.size();
   for (std::size_t n = own; n < outcome.comparisons.size(); ++n) {
     const double x = outcome.comparisons[n].measured;
@@ -97,7 +129,8 @@ void look_at_current_range(const Scenario& s, const SeenPeaks& peaks, base::Prob
                  "widen it, or lower the drive's current limit"});
 }
 
-void look_at_bus(const Scenario& s, const SeenPeaks& peaks, bool is_read, base::Problems& out) {
+void look_at_bus(const Scenario& s, const SeenPeaks& peaks, bool is_read, const Listeners& listeners,
+                 base::Problems& out) {
   const std::string bus = base::three_digits(peaks.bus_V);
   if (is_read && s.sensors.bus == BusSensing::adc && s.sensors.bus_range_V) {
     const double end = bus_end_V(s.sensors);
@@ -108,6 +141,8 @@ void look_at_bus(const Scenario& s, const SeenPeaks& peaks, bool is_read, base::
                      "widen it, or keep the bus lower"});
   }
   if (peaks.bus_V <= allowed_bus_V(s)) return;
+  if (peaks.trip && bus_until_the_trip_V(s, *peaks.trip, listeners) < 0.99 * peaks.bus_V)
+    return out.push_back(raised_after(s, *peaks.trip, bus));
   out.push_back(
       {"the bus", bus + " V",
        "was raised by braking, from " + base::three_digits(highest_open_V(s)) + " V, and nothing bounds it",
@@ -134,8 +169,7 @@ void look_at_stop(const Scenario& s, const design::MotorModel& motor, const List
   const SeenPeaks peaks = take_peaks(stop, *outcome);
   // Braking does not raise the speed; after the bridge turns off, a driving load can.
   if (!outcome->trip || outcome->trip->reasons == std::vector<std::string>{"over-speed"}) return;
-  std::string reasons;
-  for (const std::string& reason : outcome->trip->reasons) reasons += (reasons.empty() ? "" : ", ") + reason;
+  const std::string reasons = reasons_of(*outcome->trip);
   out.push_back({"protection.brake_current_A", written(s.protection.brake_current_A),
                  "ends a stop at " + base::rounded(off_s, 4) + " s in a fault: " + reasons + " after " +
                      base::three_digits(1e3 * (outcome->trip->at_s - off_s)) + " ms, the bus at " +

@@ -5,9 +5,10 @@
 #include <cmath>
 
 #include "sixstep/base/angle.hpp"
+#include "sixstep/base/decimal.hpp"
 #include "sixstep/base/linear.hpp"
 #include "sixstep/base/written.hpp"
-#include "sixstep/design/sheet/thermal.hpp"
+#include "sixstep/design/sheet/thermal_ranges.hpp"
 #include "sixstep/study/scenario/supply_voltages.hpp"
 
 namespace sixstep::study {
@@ -27,6 +28,9 @@ std::string on_battery(const Scenario& s, const RunWatch& w) {
            "supply.battery_charge, or give it a chopper";
   return {};
 }
+
+/// A period of 5 us: comparator, gate driver and dead time take 0.5 us or more of each of its halves.
+constexpr double fast_chopping_Hz = 200e3;
 
 /// A rotor may exceed its printed speed by a thousandth without a remark.
 constexpr double past = 1.001;
@@ -64,16 +68,36 @@ std::string on_bus(const Scenario& s, const RunWatch& w) {
 /// Applies the mean copper loss to the sheet's thermal model, starting at ambient temperature.
 std::string on_cold_winding(const Scenario& s, const Outcome& out) {
   if (s.heat.motor || !out.energy || !(out.simulated_s > 0.0)) return {};
-  const auto model = design::thermal_model(s.sheet);
-  if (!model) return {};
   const double mean_W = out.energy->copper / out.simulated_s;
-  const auto stands_s =
-      design::permissible_seconds(*model, {.copper_W = mean_W, .ambient_degC = s.heat.ambient_degC});
-  if (!stands_s || !(*stands_s < out.simulated_s)) return {};
+  const auto times =
+      design::withstand_times(s.sheet, {.copper_W = mean_W, .ambient_degC = s.heat.ambient_degC});
+  if (!times || !times->by_worse_ends || !(*times->by_worse_ends < out.simulated_s)) return {};
+  const bool by_values = times->by_values && *times->by_values < out.simulated_s;
   return "the copper loss of " + few_digits(mean_W) + " W in the mean takes the winding past its limit of " +
-         few_digits(model->max_winding_degC) + " degC within " + few_digits(*stands_s) +
-         " s by the sheet's thermal values, and the run lasts " + few_digits(out.simulated_s) +
+         few_digits(by_values ? times->limit_degC : times->worse_limit_degC) + " degC within " +
+         few_digits(by_values ? *times->by_values : *times->by_worse_ends) + " s by " +
+         (by_values ? "the sheet's thermal values" : "the worse ends of the sheet's thermal ranges") +
+         ", and the run lasts " + few_digits(out.simulated_s) +
          " s; here nothing warms up: heat.motor = true computes it";
+}
+
+/// Comparators at the instants of the currents switch as fast as the band lets them. Their frequency is proportional to
+/// 1/band_A.
+std::string on_chopping(const Scenario& s, const Outcome& out) {
+  const CurrentLoop& loop = s.control.current;
+  if (loop.type != CurrentLoopType::hysteresis || loop.comparator != Comparator::event ||
+      !(out.simulated_s > 0.0))
+    return {};
+  const double Hz = static_cast<double>(out.turn_ons) / out.chopped_switches / out.simulated_s;
+  if (!(Hz > fast_chopping_Hz)) return {};
+  const double wider_A = base::shortened(loop.band_A * Hz / fast_chopping_Hz, 2, base::Towards::up);
+  return "the comparators chop at " + few_digits(1e-3 * Hz) +
+         " kHz on average, whatever pwm.period_s is, and few "
+         "bridges for motors switch above " +
+         few_digits(1e-3 * fast_chopping_Hz) +
+         " kHz, where delays of comparator and gate driver, dead times and switching losses fill the period; "
+         "control.current.band_A = " +
+         base::six_digits(wider_A) + " would chop at about that frequency";
 }
 
 }  // namespace
@@ -84,7 +108,8 @@ std::string few_digits(double x) {
 
 std::vector<std::string> passed_limits(const Scenario& s, const RunWatch& w, const Outcome& out) {
   std::vector<std::string> all;
-  for (std::string text : {on_battery(s, w), on_fastest(s, w), on_bus(s, w), on_cold_winding(s, out)})
+  for (std::string text :
+       {on_battery(s, w), on_fastest(s, w), on_bus(s, w), on_cold_winding(s, out), on_chopping(s, out)})
     if (!text.empty()) all.push_back(std::move(text));
   return all;
 }

@@ -199,7 +199,10 @@ std::string on_heat(const Scenario& s, const RunWatch& w, const Outcome& out) {
 }
 
 std::string on_steps(const Scenario& s, const Compiled& c, const RunWatch& w) {
-  if (s.control.mode == control::Mode::off || w.fastest_rad_s == 0.0) return {};
+  // A field-oriented drive has no commutation steps.
+  if (s.control.mode == control::Mode::off || s.control.drive == FirmwareKind::field ||
+      w.fastest_rad_s == 0.0)
+    return {};
   const double periods = sector_s(c, w.fastest_rad_s) / s.pwm.period_s;
   if (periods >= least_periods_per_step) return {};
   return "at " + speed(s, w.fastest_rad_s) + " a commutation step lasts " + few_digits(periods) +
@@ -255,6 +258,7 @@ void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, Outcom
   add(on_steps(s, c, w));
   add(on_idle_duty_step(s, w));
   add(on_chopped_staying_leg(s, w));
+  add(on_long_overlap(s, c.motor, c.drive.nominal_bus_V, w));
 }
 
 }  // namespace sixstep::study

@@ -17,7 +17,8 @@ namespace sixstep::study {
 ///   - a back-EMF above the bus,
 ///   - a winding or a junction above its limit,
 ///   - the sentences of passed_limits() (limit_remarks.hpp),
-///   - fewer than five control periods in a commutation step.
+///   - fewer than five control periods in a commutation step of a six-step drive,
+///   - a duty step or an overlap that does not act as expected (commutation_remarks.hpp).
 /// `compiled`: the scenario's; its timeline is not read. `watch`: of the whole run.
 void add_remarks(const Scenario& scenario, const Compiled& compiled, const RunWatch& watch, Outcome& outcome);
 
