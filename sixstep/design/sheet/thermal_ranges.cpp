@@ -40,6 +40,15 @@ std::optional<WorseEnds> at_worse_ends(const Sheet& s) {
   return out;
 }
 
+base::Result<ThermalModel> safe_thermal_model(const Sheet& s) {
+  if (const std::optional<WorseEnds> worse = at_worse_ends(s)) return worse->model;
+  return thermal_model(s);
+}
+
+std::string safe_thermal_words(const Sheet& s) {
+  return at_worse_ends(s) ? "the worse ends of the sheet's thermal values" : "the sheet's thermal values";
+}
+
 double greater_rise(const ThermalModel& m, const ThermalModel& w) {
   const auto capacity = [](double s, double K_W) { return s / K_W; };
   return std::max(

@@ -6,7 +6,7 @@
 
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/sheet/sheet_check.hpp"
-#include "sixstep/design/sheet/thermal.hpp"
+#include "sixstep/design/sheet/thermal_ranges.hpp"
 #include "sixstep/study/check/check.hpp"
 #include "sixstep/study/run/export_gate.hpp"
 #include "sixstep/study/run/export_protection.hpp"
@@ -42,7 +42,7 @@ std::string limit_above_nominal(const Scenario& s, const design::MotorModel& mot
   const std::optional<MostCurrent> most = most_current(s, motor);
   // A limit that is set to the nominal current itself may be rounded.
   if (!most || !(most->ampere > 1.005 * nominal_A)) return {};
-  const auto thermal = design::thermal_model(s.sheet);
+  const auto thermal = design::safe_thermal_model(s.sheet);
   std::string stands = "; the sheet has no thermal values that say how long the winding withstands it";
   if (thermal) {
     // Block commutation: two phases carry the current.
@@ -50,8 +50,8 @@ std::string limit_above_nominal(const Scenario& s, const design::MotorModel& mot
     const std::optional<double> stands_s = design::permissible_seconds(
         *thermal, {.copper_W = copper_W, .housing_W = 0.0, .ambient_degC = s.heat.ambient_degC});
     if (!stands_s) return {};
-    stands = ": by the sheet's thermal values the winding withstands it for " + few_digits(*stands_s) +
-             " s from " + few_digits(s.heat.ambient_degC) + " degC";
+    stands = ": by " + design::safe_thermal_words(s.sheet) + " the winding withstands it for " +
+             few_digits(*stands_s) + " s from " + few_digits(s.heat.ambient_degC) + " degC";
   }
   const bool linear = s.sheet.kind == design::MotorKind::linear;
   return most->by + " lets " + few_digits(most->ampere) + " A flow, " + few_digits(most->ampere / nominal_A) +

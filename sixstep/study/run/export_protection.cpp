@@ -8,7 +8,7 @@
 
 #include "sixstep/base/decimal.hpp"
 #include "sixstep/base/written.hpp"
-#include "sixstep/design/sheet/thermal.hpp"
+#include "sixstep/design/sheet/thermal_ranges.hpp"
 #include "sixstep/study/check/product.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
 #include "sixstep/study/scenario/supply_voltages.hpp"
@@ -78,7 +78,7 @@ void look_at_over_current(const Scenario& s, const MostCurrent& most, base::Prob
 /// A blocked rotor has its current in two phases, and no friction.
 void look_at_stall_time(const Scenario& s, const design::MotorModel& motor, const MostCurrent& most,
                         base::Problems& out) {
-  const auto thermal = design::thermal_model(s.sheet);
+  const auto thermal = design::safe_thermal_model(s.sheet);
   if (!s.protection.stall_s || !thermal) return;
   const double copper_W = 2 * motor.machine.R_ohm * most.ampere * most.ampere;
   const std::optional<double> stands_s = design::permissible_seconds(

@@ -7,7 +7,7 @@
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/linear.hpp"
 #include "sixstep/base/written.hpp"
-#include "sixstep/design/sheet/thermal.hpp"
+#include "sixstep/design/sheet/thermal_ranges.hpp"
 #include "sixstep/study/scenario/supply_voltages.hpp"
 
 namespace sixstep::study {
@@ -64,15 +64,15 @@ std::string on_bus(const Scenario& s, const RunWatch& w) {
 /// Applies the mean copper loss to the sheet's thermal model, starting at ambient temperature.
 std::string on_cold_winding(const Scenario& s, const Outcome& out) {
   if (s.heat.motor || !out.energy || !(out.simulated_s > 0.0)) return {};
-  const auto model = design::thermal_model(s.sheet);
+  const auto model = design::safe_thermal_model(s.sheet);
   if (!model) return {};
   const double mean_W = out.energy->copper / out.simulated_s;
   const auto stands_s =
       design::permissible_seconds(*model, {.copper_W = mean_W, .ambient_degC = s.heat.ambient_degC});
   if (!stands_s || !(*stands_s < out.simulated_s)) return {};
   return "the copper loss of " + few_digits(mean_W) + " W in the mean takes the winding past its limit of " +
-         few_digits(model->max_winding_degC) + " degC within " + few_digits(*stands_s) +
-         " s by the sheet's thermal values, and the run lasts " + few_digits(out.simulated_s) +
+         few_digits(model->max_winding_degC) + " degC within " + few_digits(*stands_s) + " s by " +
+         design::safe_thermal_words(s.sheet) + ", and the run lasts " + few_digits(out.simulated_s) +
          " s; here nothing warms up: heat.motor = true computes it";
 }
 
