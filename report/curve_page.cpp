@@ -101,11 +101,11 @@ std::string thermal_facts(const analysis::CurveRequest& r, const analysis::Curve
   if (!curve.thermal) return "";
   std::string html = fact(fmt::format("Current at {}\u00a0°C ambient", plain(r.ambient_degC, 3, true)),
                           stands_fact(analysis::thermal_limits(*curve.thermal, r, 0.0)));
-  if (curve.worse_ends)
-    html += fact("At the worse ends of the motor file's ranges",
-                 stands_fact(analysis::thermal_limits(curve.worse_ends->model, r, 0.0)) + ": " +
-                     curve.worse_ends->values);
-  return html + fact("The curve itself can be held continuously", lasting_fact(curve, u));
+  html += fact("The curve itself can be held continuously", lasting_fact(curve, u));
+  if (!curve.by_values) return html;
+  return html + fact("All limits are at the worse ends of the motor file's ranges", curve.worse_ends) +
+         fact("Current by the motor file's values themselves",
+              stands_fact(analysis::thermal_limits(*curve.by_values, r, 0.0)));
 }
 
 std::string facts(const analysis::CurveRequest& r, const analysis::Curve& curve, const CurveUnits& u) {
@@ -163,10 +163,14 @@ std::string table(const analysis::CurveRequest& r, const analysis::Curve& curve,
   return html + "</tbody></table>\n";
 }
 
-std::string alerts(const analysis::Curve& curve, const base::Motion& motion) {
-  if (curve.thermal) return "";
-  return fmt::format("<p class=\"notes\">No thermal limits: {}.</p>\n",
-                     escaped(motion.words(to_string(curve.thermal_missing[0]))));
+std::string alerts(const analysis::CurveRequest& r, const analysis::Curve& curve,
+                   const base::Motion& motion) {
+  std::string notes;
+  if (const std::string bound = analysis::without_friction(r); !bound.empty())
+    notes = fmt::format("<p class=\"notes\">{}</p>\n", escaped(motion.words(bound)));
+  if (curve.thermal) return notes;
+  return notes + fmt::format("<p class=\"notes\">No thermal limits: {}.</p>\n",
+                             escaped(motion.words(to_string(curve.thermal_missing[0]))));
 }
 
 }  // namespace
@@ -179,7 +183,7 @@ std::string render_curve(const CurvePageInput& in) {
                                                          {"title", title},
                                                          {"subtitle", escaped(subtitle(in.request))},
                                                          {"facts", facts(in.request, in.curve, u)},
-                                                         {"notes", alerts(in.curve, u.motion)},
+                                                         {"notes", alerts(in.request, in.curve, u.motion)},
                                                          {"table", table(in.request, in.curve, u)},
                                                          {"sheet", sheet_section(in.request.sheet)},
                                                          {"model", model_section(in.request.bench.motor)}});

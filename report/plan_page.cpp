@@ -118,6 +118,7 @@ std::string facts(const PlanPageInput& in, std::size_t p) {
       names += (names.empty() ? "" : ", ") +
                escaped(one.key + " " + (one.width.starts_with("+-") ? "±" + one.width.substr(2) : one.width));
     html += plan_fact("Varies from drive to drive", names);
+    if (!plan.story.not_drawn.empty()) html += plan_fact("Not drawn", escaped(plan.story.not_drawn));
   }
   return html + plan_fact("Digest of all runs", base::written_hex(plan.story.series.digest)) + "</dl>\n";
 }

@@ -124,8 +124,9 @@ Verb declare_commission(CLI::App& motor) {
   verb.add_option("--voltage", a->voltage_V, "bus voltage, V; without it the sheet's nominal voltage");
   verb.add_option(
       "--current", a->current_A,
-      "test current, A; the motor must withstand it for seconds. Default: twice the nominal current; if the sheet "
-      "names none, a fifth of the current at full duty. At most half of the current that the bus drives through the motor at rest");
+      "test current, A; the motor must withstand it for seconds. At most 0.41 U/R_s, R_s of a phase, which the "
+      "bus drives at rest; less for a salient rotor. Default: twice the nominal current (if the sheet names none, a "
+      "fifth of U/(2 R_s)), but at most half of that bound");
   verb.add_option("--phases", a->phases,
                   "phases of the motor at legs a, b, c: abc, bca, cab, acb, cba or bac")
       ->capture_default_str();

@@ -148,7 +148,7 @@ analysis::CarriedOver designed_scenario(analysis::DesignStudy& s, const study::S
   // The verdict on a sensorless drive's loops does not cover its file, which lacks the commutation.
   if (!carried.lost.empty()) warn(carried.lost, board->control.drive != study::FirmwareKind::sensorless);
   if (!carried.differs.empty())
-    warn("with " + carried.kept + " of the board's scenario, which the designed file keeps, a run shows " +
+    warn("the designed file keeps " + carried.kept + " of the board's scenario, so its run shows " +
              carried.differs,
          false);
   if (const std::string keys = analysis::left_out(*board, carried.scenario); !keys.empty())

@@ -111,8 +111,11 @@ Exit help_command(const CLI::App& app, const std::string& key) {
     return Exit::ok;
   }
   const CLI::App* const verb = command_of(app, key);
+  const KeyEntry* const same = text::find_key(scenario, key);
+  if (verb && same)
+    print(fmt::format("{0} is a command, and a key of a scenario, which stands below the command.\n\n", key));
   if (verb) print(verb->help(app.get_name()));
-  if (const KeyEntry* entry = text::find_key(scenario, key)) {
+  if (const KeyEntry* entry = same) {
     if (verb) print(fmt::format("The key {} of a scenario:\n", key));
     print(is_table(*entry) ? of_table(scenario, *entry) : of_key(*entry));
     return Exit::ok;
@@ -155,13 +158,34 @@ Exit help_command(const CLI::App& app, const std::string& key) {
   return Exit::bad_input;
 }
 
+/// `sixstep help motor new` means `sixstep motor new --help`.
+Exit help_of_words(const CLI::App& app, const std::vector<std::string>& words) {
+  if (words.size() < 2) return help_command(app, words.empty() ? "" : words.front());
+  const CLI::App* at = &app;
+  std::string before = app.get_name();
+  for (std::size_t n = 0; n < words.size(); ++n) {
+    const CLI::App* const next = command_of(*at, words[n]);
+    if (next == nullptr) {
+      complain({{.where = words[n],
+                 .limit = "is no command of " + before,
+                 .cure = before + " --help lists them; one key at a time is explained"}});
+      return Exit::bad_input;
+    }
+    at = next;
+    if (n + 1 < words.size()) before += " " + words[n];
+  }
+  print(at->help(before));
+  return Exit::ok;
+}
+
 }  // namespace
 
 Verb declare_help(CLI::App& app) {
   CLI::App& help = *app.add_subcommand("help", "explain a key, a table, a command, or all keys");
-  const auto key = std::make_shared<std::string>();
-  help.add_option("KEY", *key, "as supply.voltage_V, pwm or resistance_ohm");
-  return {&help, [&app, key](const std::string&) { return help_command(app, *key); }};
+  const auto words = std::make_shared<std::vector<std::string>>();
+  help.add_option("KEY", *words, "as supply.voltage_V, pwm or resistance_ohm; or a command's words")
+      ->expected(0, 3);
+  return {&help, [&app, words](const std::string&) { return help_of_words(app, *words); }};
 }
 
 }  // namespace cli

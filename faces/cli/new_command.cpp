@@ -93,6 +93,7 @@ Exit new_command(const NewArguments& a) {
   if (const auto sheet = design::check_sheet(scenario->sheet); sheet && !sheet->consistent)
     print(fmt::format("note: {}; sixstep motor check {} shows where\n",
                       text::visible(design::contradiction_words(*sheet)), text::shell_word(a.motor)));
+  if (!scenario->notes.empty()) print(fmt::format("note: {}\n", text::visible(scenario->notes)));
   if (const std::string note = text::starter_note(*scenario); !note.empty())
     print(fmt::format("note: {}\n", note));
   if (scenario->pwm.period_s < text::stm32_least_period_s)

@@ -23,6 +23,7 @@
 #include "faces/cli/stop_watch.hpp"
 #include "faces/cli/terminal.hpp"
 #include "files/controller_watch.hpp"
+#include "sixstep/analysis/verify/robust.hpp"
 #include "text/escape/escape.hpp"
 #include "text/plan/plan_file.hpp"
 #include "text/results/junit.hpp"
@@ -125,12 +126,14 @@ class MadePlan {
   analysis::Series series_;
   base::Problems problems_;
   std::size_t beyond_ = 0;
-  text::PlanStory story_{plan_.name,
-                         plan_.scenarios->plan(),
-                         *plan_.columns,
-                         series_,
-                         [this](const auto& visit) { each(visit); },
-                         text::drive_spreads(plan_.nominal, *plan_.columns)};
+  text::PlanStory story_{
+      plan_.name,
+      plan_.scenarios->plan(),
+      *plan_.columns,
+      series_,
+      [this](const auto& visit) { each(visit); },
+      text::drive_spreads(plan_.nominal, *plan_.columns),
+      plan_.scenarios->made_of().sheet_tolerances ? analysis::tolerances_not_drawn(plan_.nominal) : ""};
 };
 
 /// Makes the runs that the store lacks, until all are made or an interrupt arrives.

@@ -210,10 +210,12 @@ void declare_plan_options(CLI::App& run, PlanArguments& a) {
   run.add_option("--vary", a.vary, "KEY=FROM:TO:POINTS, or KEY=VALUE,VALUE; several make a grid");
   run.add_option("--sampling", a.sampling,
                  "arrangement of the points: grid, latin-hypercube, sobol, monte-carlo, saltelli");
-  run.add_option("--points", a.points, "number of points; a grid has its own")
+  run.add_option("--points", a.points,
+                 "number of points; a grid has its own, saltelli makes points x (keys + 2)")
       ->check(integer_in(1, 1'000'000'000));
-  run.add_flag("--tolerances", a.tolerances,
-               "drives of --runs also vary in R, L and K_t, which the sheet states without tolerances");
+  run.add_flag(
+      "--tolerances", a.tolerances,
+      "drives of --runs also vary in R, L, K_t and Hall edges, which the sheet states without tolerances");
   take_store(run, a.store, "keep each finished run in this SQLite file");
   run.add_flag("--resume", a.resume, "continue the runs of --store, or of --out as it was");
   run.add_flag("--dry-run", a.dry_run, "print only number, duration and file size of the runs");

@@ -126,6 +126,18 @@ TEST(Curve, MarksOfAChoppedOneLieWithinItsPrecision) {
         *curve.marks.best_efficiency->efficiency);
 }
 
+/// Friction only takes power: without it efficiency and no-load speed are above those of the same motor with friction.
+TEST(Curve, WithoutFrictionSaysThatItsFiguresAreUpperBounds) {
+  const CurveRequest with = request(3);
+  CurveRequest without = request(3);
+  without.bench.motor.shaft.B_Nm_s = without.bench.motor.shaft.coulomb_Nm = 0.0;
+  EXPECT_EQ(analysis::without_friction(with), "");
+  EXPECT_NE(analysis::without_friction(without).find("upper bounds"), std::string::npos);
+  const Curve a = whole(with), b = whole(without);
+  EXPECT_GT(*b.marks.best_efficiency->efficiency, *a.marks.best_efficiency->efficiency);
+  EXPECT_GT(b.no_load.point.speed_rad_s, a.no_load.point.speed_rad_s);
+}
+
 TEST(Curve, WithoutThermalLinesSaysWhatIsMissing) {
   CurveRequest r = request(3);
   r.sheet.thermal_time_constant_motor_s.reset();
@@ -172,12 +184,12 @@ TEST(Curve, WhatTheWindingStandsIsToldOfBothEndsOfARange) {
   r.sheet.thermal_time_constant_winding_s->range = base::Interval{11.7, 17.7};
   r.sheet.thermal_resistance_winding_housing_K_W->range = base::Interval{4.5, 5.3};
   const Curve curve = whole(r);
-  ASSERT_TRUE(curve.thermal && curve.worse_ends);
-  const design::ThermalModel& worse = curve.worse_ends->model;
+  ASSERT_TRUE(curve.thermal && curve.by_values);
+  const design::ThermalModel& worse = *curve.thermal;
   EXPECT_EQ(worse.winding_s, 11.7);
   EXPECT_EQ(worse.winding_housing_K_W, 5.3);
-  EXPECT_EQ(worse.motor_s, curve.thermal->motor_s);
-  const analysis::ThermalLimits by_values = analysis::thermal_limits(*curve.thermal, r, 0.0),
+  EXPECT_EQ(worse.motor_s, curve.by_values->motor_s);
+  const analysis::ThermalLimits by_values = analysis::thermal_limits(*curve.by_values, r, 0.0),
                                 at_worst = analysis::thermal_limits(worse, r, 0.0);
   const auto winding = [&](double current, double seconds) {
     return design::temperatures_after(worse, {current * current * 1.03, 0.0, 25}, {25, 25}, seconds)
@@ -188,6 +200,24 @@ TEST(Curve, WhatTheWindingStandsIsToldOfBothEndsOfARange) {
     EXPECT_GT(winding(by_values.short_A[n], analysis::short_times_s[n]), 126);
   }
   EXPECT_LT(at_worst.continuous_A, by_values.continuous_A);
+}
+
+/// Second way: a file without ranges that has the worse ends as its values gives the same limits, times and mark.
+TEST(Curve, LimitsOfRangesAreThoseOfAFileWithTheirWorseEnds) {
+  CurveRequest ranged = request(3), plain = request(3);
+  ranged.sheet.thermal_time_constant_winding_s->range = base::Interval{11.7, 17.7};
+  ranged.sheet.thermal_resistance_winding_housing_K_W->range = base::Interval{4.5, 5.3};
+  plain.sheet.thermal_time_constant_winding_s->value = 11.7;
+  plain.sheet.thermal_resistance_winding_housing_K_W->value = 5.3;
+  const Curve a = whole(ranged), b = whole(plain);
+  ASSERT_TRUE(a.marks.for_ever && b.marks.for_ever && a.by_values && !b.by_values);
+  EXPECT_EQ(a.marks.for_ever->speed_rad_s, b.marks.for_ever->speed_rad_s);
+  EXPECT_GT(a.marks.for_ever->speed_rad_s, whole(request(3)).marks.for_ever->speed_rad_s);
+  for (std::size_t n = 0; n < a.points.size(); ++n) {
+    EXPECT_EQ(a.limits[n].continuous_Nm, b.limits[n].continuous_Nm);
+    EXPECT_EQ(a.limits[n].short_Nm, b.limits[n].short_Nm);
+    EXPECT_EQ(a.warming[n].permissible_s, b.warming[n].permissible_s);
+  }
 }
 
 /// No torque is allowed where ambient temperature or friction alone heats the winding beyond its limit.

@@ -97,6 +97,22 @@ TEST(LinearDesign, IsToldInMetres) {
   EXPECT_EQ(linear.scenario.reference.unit, "mm");
 }
 
+/// Two sectors of 54 and 66 degrees in place of 60: a tenth of the lowest speed.
+TEST(LinearDesign, ErrorsOfASpeedAreNamedAsTheSpeed) {
+  DesignOrder order{.subject = {"m", unrolled(maxon_sheet()), {}}, .spec = design::on_a_board()};
+  order.spec.mode = Mode::speed;
+  order.spec.rotor.edges = 1;
+  order.spec.lowest_speed_rad_s = 2.0;
+  const DesignStudy s = studied(order);
+  double error_m_s = 0.0;
+  for (const auto& step : s.design.sensing) {
+    EXPECT_EQ((step.symbol + " " + step.formula).find("w_low"), std::string::npos) << step.formula;
+    EXPECT_FALSE(step.symbol.starts_with("dw") || step.symbol.starts_with("w_m")) << step.symbol;
+    if (step.symbol == "dv_3") error_m_s = step.value;
+  }
+  EXPECT_NEAR(error_m_s, 0.2, 1e-12);
+}
+
 TEST(LinearDesign, TellsItsProblemsInItsOwnWords) {
   DesignOrder order{.subject = {"m", unrolled(maxon_sheet()), {}}, .spec = design::on_a_board()};
   order.spec.mode = Mode::speed;

@@ -229,7 +229,11 @@ class CommandLine(ProgramTest):
         self.assertIn("did you mean supply.voltage_V?", self.run_program("help", "suply.voltage_V", code=2).stderr)
         self.assertEqual(self.run_program("help", "run").stdout, self.run_program("run", "--help").stdout)
         both = self.run_program("help", "motor").stdout
-        self.assertTrue(both.startswith(self.run_program("motor", "--help").stdout), "the command comes first")
+        self.assertIn(self.run_program("motor", "--help").stdout, both)
+        self.assertLess(both.index("Usage: sixstep motor"), both.index("The key motor of a scenario"), "the command comes first")
+        for words in (["motor", "new"], ["motor", "check"], ["export", "fmu"]):
+            self.assertEqual(self.run_program("help", *words).stdout, self.run_program(*words, "--help").stdout)
+        self.assertIn("is no command of sixstep motor", self.run_program("help", "motor", "mew", code=2).stderr)
         self.assertIn("looked up beside the scenario", both)
 
 

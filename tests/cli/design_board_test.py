@@ -82,7 +82,7 @@ over_speed_rad_s = OVER
     def test_what_the_boards_drive_changes_is_told_as_the_file_runs(self):
         """The product drive measures its offsets first, so that a step of the current settles later."""
         told, _ = self.designed_for(self.HELD.replace("MODE", "current").replace("LIMITS", "").replace("OVER", "300").replace("value = 100", "value = 2"))
-        line = re.search(r"with control.drive and \[protection\] of the board's scenario, which the designed file keeps, a run shows (.*)", told).group(1)
+        line = re.search(r"the designed file keeps control.drive and \[protection\] of the board's scenario, so its run shows (.*)", told).group(1)
         run = json.loads(self.run_program("run", "d.toml", "--json", "-", code=None).stdout)
         ran = {c["figure"]: c["measured"] for c in run["compare"]}
         named = [(figure, float(value) * (1e-3 if unit == "ms" else 1)) for figure, value, unit in

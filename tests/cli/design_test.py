@@ -62,7 +62,7 @@ class Design(ProgramTest):
         """Ripple and phase margin have bounds of their own: at a cure its warning is gone, at a period 5 % longer it is there."""
         def cures(period_s):
             told = self.run_program("design", "maxon-251601", "--quick", "--chopping", "complementary", "--period", f"{period_s!r}").stdout
-            found = {word: re.search(rf"  - .*{word}.*\n(?:    with (?!--period).*\n)*(?:    with --period (\S+) it is gone)?", told) for word in ("degrees of phase", "PWM ripple")}
+            found = {word: re.search(rf"  - .*{word}.*\n(?:    with (?!--period).*\n)*(?:    with --period (\S+) this warning does not appear)?", told) for word in ("degrees of phase", "PWM ripple")}
             return {word: m and float(m[1] or "nan") for word, m in found.items()}
         both = cures(69.6e-6)
         self.assertGreater(both["degrees of phase"], 1.2 * both["PWM ripple"])
@@ -118,6 +118,24 @@ class Design(ProgramTest):
             self.assertLess(abs(float(percent)), 3, f"{motor}: {expected}, {measured}")
             settling = re.search(r"settling time +([\d.]+) us +([\d.]+) us", rows)
             self.assertLessEqual(abs(float(settling.group(1)) - float(settling.group(2))), 30.1, motor)
+
+    def test_a_mean_above_the_samples_is_bounded_by_the_ripple_at_its_duty(self):
+        """R = 0.4 ohm, L = 0.65 mH of a phase: at 1 A of 24 V the duty d is 2 R/U, and the ripple U d (1 - d) T/(2 L)."""
+        told = self.run_program("new", "held", "--mode", "current", "--motor", "anaheim-bly172s").stdout
+        self.assertIn("note: The current is sampled at the start of each period", told)
+        text = (self.path / "held.toml").read_text()
+        amperes, period = (float(re.search(rf"(?m)^{key} = (\S+)", text).group(1)) for key in ("value", "period_s"))
+        duty = 2 * 0.4 * amperes / 24
+        ripple = 24 * duty * (1 - duty) * period / (2 * 0.65e-3)
+        self.assertAlmostEqual(float(re.search(r"(?m)^max = (\S+)", text).group(1)), 1.02 * amperes + ripple / 2, delta=1e-3 * amperes)
+
+    def test_a_usable_verdict_says_a_little_phase_margin(self):
+        for settle, little in (("1 ms", False), ("0.5 ms", True)):
+            told = self.run_program("design", "maxon-251601", "--settle", settle, "--chopping", "complementary", "--quick").stdout
+            margin = float(re.search(r"phase margin, one period late +([\d.]+) deg", told).group(1))
+            self.assertEqual(margin < 45, little)
+            words = re.search(r"^usable, with little phase margin \(([\d.]+) deg\), ", told)
+            self.assertEqual(float(words.group(1)) if words else None, margin if little else None)
 
     def test_design_prints_verdict_first_then_every_step(self):
         text = self.run_program("design", "maxon-251601").stdout

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "sixstep/base/angle.hpp"
+#include "sixstep/base/written.hpp"
 #include "tests/design/sheets.hpp"
 
 namespace SIXSTEP_TEST_FILE {
@@ -87,10 +88,61 @@ TEST(SheetCheck, TheReferenceMotorsRelationsByTheNumbers) {
 }
 
 /// A no-load speed of 55000 rpm with mechanics for 15000 rpm is a misread line; a winding for 1.5 times the mechanics' speed is valid.
+/// Of U/R, the stall current and the stall torque each single slip is found by the other two: 780 mNm = k_M 24/1.03.
+TEST(SheetCheck, OneBadValueOfTheStallPointBreaksItsOwnRelationAlone) {
+  Sheet s = printed_251601();
+  s.stall_current_A->value = 46.6;
+  const SheetCheck check = checked(s);
+  EXPECT_EQ(relation(check, "stall current").verdict, RelationVerdict::broken);
+  EXPECT_NE(relation(check, "stall current").remark.find("suspect the stall current"), std::string::npos);
+  EXPECT_EQ(relation(check, "stall torque").verdict, RelationVerdict::holds);
+  EXPECT_NEAR(relation(check, "stall torque").left, 33.5 * 24 / 1.03, 1e-9);
+  s.known_deviation = {"stall current", "nominal torque"};
+  EXPECT_TRUE(checked(s).consistent);
+  s = printed_251601();
+  s.stall_torque_mNm->value *= 2;  // the two others agree
+  EXPECT_EQ(relation(checked(s), "stall current").verdict, RelationVerdict::holds);
+  EXPECT_EQ(relation(checked(s), "stall torque").remark, "a factor 2: terminal against phase?");
+}
+
+/// 0.572 mH/1.03 ohm = 0.555 ms in either frame, if both have the same.
+TEST(SheetCheck, AnElectricalTimeConstantIsLOverR) {
+  Sheet s = printed_251601();
+  s.electrical_time_constant_ms = Quantity{0.555, "", ""};
+  EXPECT_NEAR(relation(checked(s), "electrical time constant").left, 0.572 / 1.03, 1e-12);
+  EXPECT_EQ(relation(checked(s), "electrical time constant").verdict, RelationVerdict::holds);
+  s.inductance_mH->frame = "phase";
+  EXPECT_EQ(relation(checked(s), "electrical time constant").remark, "a factor 2: terminal against phase?");
+}
+
+TEST(SheetCheck, ALineKeepsTheValueOfItsOwnKey) {
+  Sheet s = printed_251601();
+  s.inertia_gcm2 = Quantity{.value = 60000, .key = "inertia_kgm2"};
+  const SheetCheck check = checked(s);
+  for (const LineUse& line : check.lines)
+    if (line.key == "inertia_kgm2") {
+      EXPECT_NEAR(line.in_file, 0.006, 1e-17);
+    }
+}
+
+/// Commutation may take 3 p L_s i/(pi K_t) of the speed that is left, if the current is smooth.
+TEST(SheetCheck, ANominalSpeedOnTheIdealLineSaysWhatCommutationTakes) {
+  Sheet s = printed_251601();
+  s.nominal_speed_rpm = Quantity{5980, "", ""};
+  EXPECT_EQ(relation(checked(s), "nominal speed").verdict, RelationVerdict::holds);
+  const double part = 3 * 8 * 0.286e-3 * (83.4 / 33.5 + 0.185) / (base::pi * 0.0335);
+  const std::string remark = relation(checked(s), "nominal speed").remark;
+  EXPECT_NE(remark.find("about " + base::rounded(100 * part / (1 + part), 2) + " % of the speed on it"),
+            std::string::npos)
+      << remark;
+}
+
 TEST(SheetCheck, ANoLoadSpeedFarAboveTheMechanicsIsADoubt) {
   Sheet sheet = printed_251601();
   sheet.max_speed_rpm = Quantity{.value = 6710 / 1.5};
-  for (const Relation& r : checked(sheet).relations) EXPECT_NE(r.name, "maximum speed");
+  EXPECT_EQ(relation(checked(sheet), "maximum speed").verdict, RelationVerdict::holds);
+  EXPECT_NEAR(relation(checked(sheet), "maximum speed").deviation, 0.5, 1e-12);
+  EXPECT_NE(relation(checked(sheet), "maximum speed").remark, "");
   sheet.max_speed_rpm->value = 6710 / 3.7;
   const SheetCheck check = checked(sheet);
   EXPECT_EQ(relation(check, "maximum speed").verdict, RelationVerdict::broken);
@@ -176,7 +228,8 @@ TEST(SheetCheck, AWellKnownFactorIsNamed) {
   Sheet s = printed_251601();
   s.resistance_ohm->value *= 2;
   EXPECT_EQ(relation(checked(s), "stall current").remark,
-            "a factor 2: terminal against phase, or poles against pole pairs?");
+            "a factor 2: terminal against phase? the stall torque agrees with the stall current: suspect the "
+            "resistance, or the voltage");
   s = printed_251601();
   s.stall_torque_mNm->value /= 10;
   EXPECT_EQ(relation(checked(s), "stall torque").remark, "a factor 10: the point, or the unit?");

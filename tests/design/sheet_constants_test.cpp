@@ -95,6 +95,16 @@ TEST(SheetConstants, AMissingFrameIsToldWithWhatEachWouldMean) {
       "resistance_ohm = 1.03 must say its frame: \"terminal\" means R_s = 0.515 ohm, stall current 23.3 "
       "A; \"phase\" means R_s = 1.03 ohm, stall current 11.7 A; write frame = \"terminal\" or \"phase\"; "
       "the printed stall current, 23.3 A, fits \"terminal\"");
+  const auto ends = [](const Sheet& sheet, const std::string& words) {
+    const std::string line = told(sheet).substr(0, told(sheet).find('\n'));
+    EXPECT_TRUE(line.ends_with(words)) << line;
+  };
+  s.stall_current_A->value = 24 / 1.03 / 2;
+  ends(s, "fits \"phase\"");
+  s.stall_current_A->value = 24 / 1.03 * 2;
+  ends(s, "fits neither: it is U over half of the resistance");
+  s.stall_current_A->value = 30;
+  ends(s, "30 A, fits neither");
   s = printed_251601();
   s.inductance_mH->frame.clear();
   EXPECT_EQ(
@@ -102,6 +112,8 @@ TEST(SheetConstants, AMissingFrameIsToldWithWhatEachWouldMean) {
       "inductance_mH = 0.572 must say its frame: \"terminal\" means L_s = 0.286 mH, time constant L/R = "
       "0.555 ms; \"phase\" means L_s = 0.572 mH, time constant L/R = 1.11 ms; write frame = "
       "\"terminal\" or \"phase\"");
+  s.electrical_time_constant_ms = Quantity{1.11, "", ""};
+  EXPECT_TRUE(told(s).ends_with("the printed electrical time constant, 1.11 ms, fits \"phase\"")) << told(s);
   s = without_constant();
   s.speed_constant_rpm_V = Quantity{920, "", ""};
   EXPECT_EQ(told(s),

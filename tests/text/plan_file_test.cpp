@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "sixstep/analysis/verify/robust.hpp"
 #include "sixstep/study/run/run.hpp"
 #include "sixstep/study/scenario/spread.hpp"
 #include "text/plan/planned_scenarios.hpp"
@@ -216,17 +217,28 @@ TEST(PlannedScenarios, StrayInThePlacesOfHallEdges) {
     });
   };
   EXPECT_EQ(edges(PlannedScenarios({"a.toml", hall, {}, true}, {.axes = {}, .drives = 2}).nominal()), 6);
-  EXPECT_EQ(edges(PlannedScenarios({"a.toml", scenario, {}, true}, {.axes = {}, .drives = 2}).nominal()), 0);
+  const auto ideal = PlannedScenarios({"a.toml", scenario, {}, true}, {.axes = {}, .drives = 2}).nominal();
+  EXPECT_EQ(edges(ideal), 0);
+  EXPECT_THAT(analysis::tolerances_not_drawn(*ideal), HasSubstr("Hall edges"));
+  EXPECT_EQ(analysis::tolerances_not_drawn(
+                *PlannedScenarios({"a.toml", hall, {}, true}, {.axes = {}, .drives = 2}).nominal()),
+            "");
 }
 
 TEST(PlannedScenarios, StrayInWhatASheetDoesNotPromise) {
-  const PlannedScenarios plan({"a.toml", scenario, {}, true}, {.axes = {}, .drives = 2});
-  const base::Result<study::Scenario> nominal = plan.nominal();
-  std::vector<std::string> keys;
-  for (const study::Spread& spread : nominal->spread) keys.push_back(spread.key);
-  EXPECT_THAT(keys, ElementsAre("motor_override.resistance_ohm", "motor_override.inductance_mH",
-                                "motor_override.torque_constant_mNm_A"));
-  EXPECT_EQ(nominal->spread[0].relative, 0.1) << "what the file says stays";
+  for (const char* mode : {"duty", "current"}) {
+    const PlannedScenarios plan(
+        {"a.toml", scenario, {.overrides = {{"control.mode", mode}}, .resolve = {}}, true},
+        {.axes = {}, .drives = 2});
+    const base::Result<study::Scenario> nominal = plan.nominal();
+    ASSERT_TRUE(nominal) << to_string(nominal.problems()[0]);
+    std::vector<std::string> keys;
+    for (const study::Spread& spread : nominal->spread) keys.push_back(spread.key);
+    EXPECT_THAT(keys, ElementsAre("motor_override.resistance_ohm", "motor_override.inductance_mH",
+                                  "motor_override.torque_constant_mNm_A"))
+        << mode;
+    EXPECT_EQ(nominal->spread[0].relative, 0.1) << "what the file says stays";
+  }
 }
 
 }  // namespace SIXSTEP_TEST_FILE

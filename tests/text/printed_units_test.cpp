@@ -228,8 +228,6 @@ TEST(PrintedUnits, AMakersWordLeadsToTheKeyOfItsMeaning) {
 
 TEST(PrintedUnits, AWordWithoutAKeyIsToldWhereItBelongs) {
   EXPECT_THAT(told("name = \"m\"\ngear_ratio = 10\n"), HasSubstr("write load.gear in the scenario"));
-  EXPECT_THAT(told("name = \"m\"\nelectrical_time_constant_ms = 1\n"),
-              HasSubstr("follows from resistance and inductance"));
   EXPECT_THAT(told("name = \"m\"\npeak_current_A = 10\n"), HasSubstr("control.limits.current_A"));
   EXPECT_THAT(told("name = \"m\"\nresistnce_ohm = 10\n"), HasSubstr("did you mean resistance_ohm?"));
   double unused = 0.0;

@@ -18,7 +18,7 @@ base::Result<study::Scenario> scenario_of(const analysis::Contestant& who,
   if (!scenario) return scenario;
   scenario->title = std::string(who.name) + ": " + scenario->title;
   scenario->notes = who.sentence;
-  scenario->spread = analysis::tolerance_spread(scenario->sheet, scenario->control.mode);
+  scenario->spread = analysis::tolerance_spread(scenario->sheet);
   return scenario;
 }
 

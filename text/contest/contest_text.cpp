@@ -167,12 +167,13 @@ std::vector<std::string> contest_notes(const Contest& c) {
     else if (!problem.empty())
       notes.push_back(fmt::format("{} stopped: {}", controller_name(c, n), problem));
     else if (c.rows[n].nominal && !c.rows[n].nominal_held)
-      notes.push_back(fmt::format("{} does not hold the required speed, and wins nothing: {}",
-                                  controller_name(c, n), missed_speed(c.rows[n])));
+      notes.push_back(
+          fmt::format("{} does not hold the required speed, so none of its figures counts as the least: {}",
+                      controller_name(c, n), missed_speed(c.rows[n])));
     else if (c.rows[n].nominal_held && !analysis::may_win(c, n))
       notes.push_back(fmt::format(
-          "{} starts with a peak of {}, {:.1f} times the current of the torque limit, and wins nothing: "
-          "commutation and ripple explain up to {}",
+          "{} starts with a peak of {}, {:.1f} times the current of the torque limit; commutation and ripple "
+          "explain up to {}, so none of its figures counts as the least",
           controller_name(c, n), quantity_text(c.rows[n].values[analysis::peak_figure], "A", 3),
           c.rows[n].values[analysis::peak_figure] / c.bench.design.current_at_full_torque_A,
           quantity_text(analysis::most_peak_A(c.bench), "A", 3)));
@@ -206,6 +207,9 @@ std::vector<std::string> contest_legend(const Contest& c) {
           "* least of those that hold the course and start with a peak of at most {}: 1.5 times the torque "
           "limit's current, and the PWM's ripple",
           quantity_text(analysis::most_peak_A(c.bench), "A", 3)),
+      fmt::format("load settles: 0 s if the load step leaves the speed within {:g} % of {} rad/s, {} rad/s",
+                  100 * analysis::settled_part, base::rounded(c.bench.course.high_rad_s, 4),
+                  base::rounded(analysis::settled_part * c.bench.course.high_rad_s, 3)),
       "lowest: slowest speed held against the full load, found by halving the speed",
       fmt::format(
           "ripple to turn-ons: at the high speed against half of the full load; slow swing, slow ripple: at "

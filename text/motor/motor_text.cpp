@@ -200,10 +200,10 @@ std::string coarse_lines(const SheetCheck& check) {
   constexpr double wide = 0.05;
   std::string text;
   for (const design::LineUse& line : check.lines)
-    if (line.doubt > wide && line.value == std::floor(line.value) &&
+    if (line.doubt > wide && line.in_file == std::floor(line.in_file) &&
         line.key.find("voltage") == std::string::npos)
-      text += trimmed(fmt::format("  {} = {} is taken as {} +- {:.2g} %", line.key, shortest(line.value),
-                                  shortest(line.value), 100.0 * line.doubt));
+      text += trimmed(fmt::format("  {} = {} is taken as {} +- {:.2g} %", line.key, shortest(line.in_file),
+                                  shortest(line.in_file), 100.0 * line.doubt));
   return text;
 }
 

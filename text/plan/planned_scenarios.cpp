@@ -73,7 +73,7 @@ base::Result<study::Scenario> PlannedScenarios::read(const ReadOptions& options)
     for (study::Spread& spread : spreads)
       if (!spread_already(*scenario, spread)) scenario->spread.push_back(std::move(spread));
   };
-  add(analysis::tolerance_spread(scenario->sheet, scenario->control.mode));
+  add(analysis::tolerance_spread(scenario->sheet));
   add(analysis::hall_edge_spread(*scenario));
   if (base::Problems problems = study::check_spread(*scenario); !problems.empty()) return problems;
   return scenario;

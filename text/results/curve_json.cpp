@@ -106,10 +106,13 @@ std::string curve_json(const analysis::CurveRequest& r, const analysis::Curve& c
   out["for_ever_from"] = loose(r, curve, curve.marks.for_ever);
   out["nominal"] = nominal(r, curve);
   out["thermal"] = curve.thermal ? stands(r, *curve.thermal) : Json(nullptr);
-  out["thermal_at_worse_ends"] = curve.worse_ends ? stands(r, curve.worse_ends->model) : Json(nullptr);
+  out["thermal_at_worse_ends"] = curve.by_values ? Json(curve.worse_ends) : Json(nullptr);
+  out["thermal_by_values"] = curve.by_values ? stands(r, *curve.by_values) : Json(nullptr);
   out["thermal_missing"] =
       curve.thermal ? Json(nullptr) : Json(motion.words(to_string(curve.thermal_missing[0])));
   if (!r.bench.motor.left_to_a_run.empty()) out["left_to_a_run"] = motion.words(r.bench.motor.left_to_a_run);
+  if (const std::string bound = analysis::without_friction(r); !bound.empty())
+    out["without_friction"] = motion.words(bound);
   out["points"] = Json::array();
   for (const CurveRow& row : curve_rows(r, curve)) out["points"].push_back(point(row));
   out = under_names_of(motion, out);

@@ -286,11 +286,12 @@ std::string too_fast(const analysis::CurveRequest& r, const analysis::Curve& cur
 
 std::string thermal(const analysis::CurveRequest& r, const analysis::Curve& curve, const Units& u) {
   if (!curve.thermal) return fmt::format("No thermal limits: {}.\n", to_string(curve.thermal_missing[0]));
-  std::string text = stands(fmt::format("At {:g} degC ambient", r.ambient_degC), *curve.thermal, r, u);
-  if (curve.worse_ends)
-    text += stands(fmt::format("At the worse ends of the motor file's ranges ({})", curve.worse_ends->values),
-                   curve.worse_ends->model, r, u);
-  return text + lasting(curve, u);
+  std::string when = fmt::format("At {:g} degC ambient", r.ambient_degC);
+  if (!curve.by_values) return stands(when, *curve.thermal, r, u) + lasting(curve, u);
+  when += fmt::format(" and the worse ends of the motor file's ranges ({})", curve.worse_ends);
+  return stands(when, *curve.thermal, r, u) + lasting(curve, u) +
+         "All these limits, and the columns cont. and held, are at the worse ends.\n" +
+         stands("By the motor file's values themselves", *curve.by_values, r, u);
 }
 
 std::string certainty(const analysis::Curve& curve, const Units& u) {
@@ -326,6 +327,7 @@ std::string curve_table(const analysis::CurveRequest& r, const analysis::Curve& 
   const Units u = units_of(r, curve);
   std::string words = locked(curve.points.front(), u) + ideal(b, u) + no_load(curve.no_load, u);
   if (curve.nominal) words += nominal(r, curve, u);
+  if (const std::string bound = analysis::without_friction(r); !bound.empty()) words += bound + "\n";
   words += thermal(r, curve, u) + too_fast(r, curve, u) + certainty(curve, u) + left_out(b);
   return text + points(r, curve) + u.motion.words(words);
 }

@@ -164,7 +164,10 @@ std::string nominal_above(const DriveDesign& d, const sixstep::design::Sheet& sh
   if (!sheet.nominal_speed_rpm) return "";
   const double nominal = sheet.nominal_speed_rpm->value / sixstep::base::rpm_per_rad_s;
   return nominal > d.commutation_limit_rad_s
-             ? fmt::format("; the nominal speed, {:.3g} rad/s, is above it", nominal)
+             ? fmt::format(
+                   "; the sheet's nominal speed, {:.3g} rad/s, is above it: the curve has the "
+                   "speed that the model reaches",
+                   nominal)
              : "";
 }
 

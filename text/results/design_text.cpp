@@ -9,6 +9,7 @@
 #include "sixstep/analysis/verify/run_warnings.hpp"
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/written.hpp"
+#include "sixstep/design/loops/design_warnings.hpp"
 #include "sixstep/design/sheet/motion.hpp"
 #include "sixstep/study/measure/figures.hpp"
 #include "sixstep/study/scenario/choices.hpp"
@@ -139,6 +140,31 @@ double settled_percent(const analysis::DesignStudy& s) {
   return 100 * sixstep::design::settling_band(s.design);
 }
 
+/// Why the speed's band is wider than the usual 2 %.
+std::string band_reason(const analysis::DesignStudy& s) {
+  const bool wide = s.design.spec.mode == Mode::speed && sixstep::design::settling_band(s.design) > 0.02;
+  return wide ? "; 10 %, because a speed from Hall edges is coarse" : "";
+}
+
+/// "with little phase margin (30.5 deg, 24 deg at worst), ": the least of all loops, if it is below that of a sound
+/// loop.
+std::string margin_words(const analysis::DesignStudy& s) {
+  constexpr double tenth_of_a_degree = 0.1;
+  double nominal = HUGE_VAL, worst = HUGE_VAL;
+  const bool sensed = s.design.lag.delay_s() > 0.0;
+  for (const auto& loop : s.design.loops) {
+    const auto& phase = loop.figures.phase_rad;
+    if (phase) nominal = std::min(nominal, *phase);
+    if (sensed && loop.built.phase_rad) nominal = std::min(nominal, *loop.built.phase_rad);
+  }
+  nominal *= 180.0 / sixstep::base::pi;
+  if (!(nominal < sixstep::design::least_phase_deg - tenth_of_a_degree)) return "";
+  if (s.robustness)
+    for (const RobustFigure& f : s.robustness->phases) worst = std::min(worst, f.worst);
+  return fmt::format("with little phase margin ({}{}), ", quantity_text(nominal, "deg", 3),
+                     worst < nominal ? fmt::format(", {} at worst", quantity_text(worst, "deg", 3)) : "");
+}
+
 /// The conditions of the verdict.
 std::string conditions(const analysis::DesignStudy& s) {
   const DriveDesign& d = s.design;
@@ -171,7 +197,7 @@ study::ComparisonResult as_shown(study::ComparisonResult c, const study::Scenari
 std::string design_verdict(const analysis::DesignStudy& s) {
   const std::string mode = s.design.loops.back().name;
   std::string text = s.warnings.empty() ? "good"
-                     : s.usable()       ? "usable, " + counted(s.warnings.size(), "warning")
+                     : s.usable()       ? "usable, " + margin_words(s) + counted(s.warnings.size(), "warning")
                                         : "NOT USABLE";
   if (!s.usable())
     for (const auto& w : s.warnings)
@@ -184,7 +210,7 @@ std::string design_verdict(const analysis::DesignStudy& s) {
                         quantity_text(settling->measured, "s", 4));
     text += at_worst(s, "settling time", settling->measured, 4);
     if (s.design.loops.back().placed)
-      text += fmt::format(" (designed: {})", quantity_text(settling->value, "s", 4));
+      text += fmt::format(" (designed: {}{})", quantity_text(settling->value, "s", 4), band_reason(s));
   }
   if (overshoot) {
     const double measured = sixstep::analysis::as_read(*overshoot, s.scenario);

@@ -109,6 +109,7 @@ std::string drives_text(const PlanStory& story) {
   std::string text;
   for (const DriveSpread& one : story.spread)
     text += fmt::format("{}{} {}", text.empty() ? "each drive: " : ", ", visible(one.key), one.width);
+  if (!text.empty() && !story.not_drawn.empty()) text += "\nnot drawn: " + story.not_drawn;
   return text.empty() ? "" : text + "\n";
 }
 

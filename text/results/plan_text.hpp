@@ -31,6 +31,7 @@ struct PlanStory {
   const analysis::Series& series;
   std::function<void(const std::function<void(const analysis::RunRecord&)>&)> each;
   std::vector<DriveSpread> spread = {};  ///< none where the plan has no drives
+  std::string not_drawn = {};            ///< tolerances that drives do not have, with reasons
 };
 
 /// The Sobol indices of a figure, one per key; empty unless the plan is sampled for them (Sampling::saltelli).

@@ -172,7 +172,9 @@ void TableReader::read(std::string_view given, std::vector<double>& member, cons
   const toml::array* items = node->as_array();
   if (!items) {
     complaints_.value(*node, at(key),
-                      {.limit = "must be a list of numbers", .cure = "write it in brackets: [0, 0.1]"});
+                      {.limit = "must be a list of numbers",
+                       .cure = node->is_number() ? "write it in brackets, also one value: [10]"
+                                                 : "write numbers in brackets: [10, 20]"});
     return;
   }
   member.clear();

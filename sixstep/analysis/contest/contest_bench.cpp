@@ -17,7 +17,6 @@ namespace {
 /// Part of the speed up to which the bus drives the nominal current.
 constexpr double high_part = 0.6;
 /// Part of the high speed within which start and load step count as settled.
-constexpr double settled_part = 0.02;
 /// Means must lie within this part of the reference.
 constexpr double holds_high = 0.02, holds_slow = 0.05;
 constexpr double electrical_turns = 10.0;

@@ -23,6 +23,9 @@
 
 namespace sixstep::analysis {
 
+/// Band about a speed within which it counts as settled, as a part of it.
+inline constexpr double settled_part = 0.02;
+
 struct ContestSpec {
   std::string motor{};                ///< name or path, for the scenarios
   design::Sheet sheet{};              ///< sheet of the motor

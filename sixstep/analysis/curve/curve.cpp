@@ -134,12 +134,15 @@ base::Result<Curve> curve_of(const CurveRequest& r, const CurvePlan& plan,
   out.points.push_back(plan.no_load.point);
   std::vector<OperatingPoint> sweep(found.begin() + points, found.begin() + points + sweep_steps);
   sweep.push_back(plan.no_load.point);
-  const base::Result<design::ThermalModel> model = design::thermal_model(r.sheet);
+  const base::Result<design::ThermalModel> model = design::safe_thermal_model(r.sheet);
   if (model)
     out.thermal = *model;
   else
     out.thermal_missing = model.problems();
-  out.worse_ends = design::at_worse_ends(r.sheet);
+  if (const auto worse = design::at_worse_ends(r.sheet)) {
+    out.worse_ends = worse->values;
+    out.by_values = *design::thermal_model(r.sheet);
+  }
   base::Result<Marks> marks = find_marks(r.bench,
                                          {out.thermal, r.ambient_degC, design::on_R(r.motor_degC),
                                           scaled_point(r.sheet.nominal_torque_mNm, 1e-3)},
@@ -153,6 +156,13 @@ base::Result<Curve> curve_of(const CurveRequest& r, const CurvePlan& plan,
     out.warming.push_back(warming(*out.thermal, r, p));
   }
   return out;
+}
+
+std::string without_friction(const CurveRequest& r) {
+  const plant::Shaft& shaft = r.bench.motor.shaft;
+  if (shaft.B_Nm_s > 0.0 || shaft.coulomb_Nm > 0.0) return "";
+  return "The sheet has no friction and no iron loss, so efficiency and no-load speed are upper bounds: give its "
+         "no-load speed and current, or its friction.";
 }
 
 SpeedDrop speed_drop(const CurveRequest& r, const Curve& curve) {

@@ -65,11 +65,13 @@ struct Curve {
   NoLoad no_load{};
   Marks marks{};
   std::optional<NominalPoint> nominal{};
-  std::optional<design::ThermalModel> thermal{};
+  std::optional<design::ThermalModel> thermal{};  ///< by which all limits are: design::safe_thermal_model()
   std::vector<ThermalLimits> limits{};            ///< one per point; empty without thermal lines
   std::vector<Warming> warming{};                 ///< one per point, like the element above
-  std::optional<design::WorseEnds> worse_ends{};  ///< where the sheet's thermal lines have ranges
-  base::Problems thermal_missing{};               ///< why `thermal` is empty
+  std::string worse_ends{};  ///< the values in which `thermal` differs from the sheet's own: "key = 5.3"
+  std::optional<design::ThermalModel>
+      by_values{};                   ///< the sheet's own values where `thermal` differs from them
+  base::Problems thermal_missing{};  ///< why `thermal` is empty
 };
 
 /// First step of a curve: the no-load point, and the speeds whose points can be computed independently. These are
@@ -86,6 +88,9 @@ base::Result<CurvePlan> plan_curve(const CurveRequest& request);
 base::Result<Curve> curve_of(const CurveRequest& request, const CurvePlan& plan,
                              const std::vector<OperatingPoint>& found, const ForEach& for_each);
 SpeedDrop speed_drop(const CurveRequest& request, const Curve& curve);
+
+/// "no friction: ..": why efficiency and no-load speed are upper bounds; empty where the model has friction.
+std::string without_friction(const CurveRequest& request);
 
 ThermalLimits thermal_limits(const design::ThermalModel& model, const CurveRequest& request,
                              double speed_rad_s);

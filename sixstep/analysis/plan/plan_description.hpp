@@ -65,7 +65,8 @@ inline void describe(base::Visitor& v, PlanEntry& s) {
   v.value("notes", s.notes, {.meaning = "question that the plan answers, shown on its page"});
   v.choice("sampling", s.sampling, sampling_choices, {.meaning = "arrangement of the points"});
   v.value("points", s.points,
-          {.meaning = "number of points, except for a grid", .range = base::between(0, 1e9)});
+          {.meaning = "number of points, except for a grid; saltelli makes points x (keys + 2)",
+           .range = base::between(0, 1e9)});
   v.value(
       "drives", s.drives,
       {.meaning = "drives of the series that [[spread]] describes, at each point; 0: the drive as written",
@@ -73,8 +74,9 @@ inline void describe(base::Visitor& v, PlanEntry& s) {
   v.value("seed", s.seed,
           {.meaning = "another series of drives and of points that are drawn", .range = base::from(0)});
   v.value("sheet_tolerances", s.sheet_tolerances,
-          {.meaning = "whether drives also vary by the usual tolerances of resistance, inductance and torque "
-                      "constant, for values that [[spread]] does not have"});
+          {.meaning =
+               "whether drives also vary by the usual tolerances of resistance, inductance, torque constant "
+               "and of the places of Hall edges, for values that [[spread]] does not have"});
   v.value(
       "minimise", s.minimise,
       {.meaning =

@@ -57,7 +57,7 @@ std::optional<DriveDesign> in_closed_form(const DesignOrder& order, const Design
 }
 
 void add_cure(std::string& cure, const std::string& words) {
-  cure += (cure.empty() ? "with " : ", or with ") + words + " it is gone";
+  cure += (cure.empty() ? "with " : ", or with ") + words + " this warning does not appear";
 }
 
 /// Finds changes for a usable design that remove one of its warnings and add none.

@@ -197,7 +197,7 @@ void add_speed_figures(const DriveDesign& d, const SpeedTest& t, study::Scenario
       {window_measure(study::MetricKind::peak_to_peak, study::Signal::current, t.calm, t.end,
                       "swing of the current"),
        expected_ripple_A(d, s.bridge, t.load_A, K * last + R * t.load_A),
-       "PWM alone, without commutation; simulated: as measured, which an edge halves"},
+       "ripple of the PWM alone; simulated: also the drop of the measured current at each commutation"},
       {of(study::MetricKind::settling_time, false, settling_of_start), linear.settling_s,
        "as designed, without limits"},
       {of(study::MetricKind::overshoot, false, "overshoot of the start"), linear.overshoot * t.first,

@@ -194,6 +194,27 @@ bool foretell_in_middle(design::DesignSpec spec, study::Scenario& s) {
                       [](const design::Warning& w) { return w.grave; });
 }
 
+/// Largest mean of the whole signal above samples at the ripple's lowest point: half of the ripple at the duty of the
+/// held rotor, or if the run needs it at the worst duty.
+void judge_above_the_samples(study::Scenario& s, const DesignStudy& study) {
+  s.notes =
+      "The current is sampled at the start of each period, where its ripple is lowest: with samples in the middle of "
+      "centred pulses, whose answer comes half a period later, this drive does not hold its requirements. So the "
+      "upper limit of the mean allows half of the ripple.";
+  study::Requirement& mean = s.require.front();
+  mean.measure.sampled = false;
+  mean.measure.label = "mean of the last ten periods, upper limit with half the ripple";
+  if (!mean.max) return;
+  const design::DriveDesign& d = study.design;
+  const double held_V = 2 * d.motor.machine.R_ohm * std::fabs(s.reference.value),
+               duty = design::duty_for_voltage(s.pwm.chopping, held_V / s.supply.voltage_V);
+  const double samples_most = *mean.max,
+               here_A = design::current_ripple_A(d.motor, s.supply.voltage_V, s.pwm.period_s, s.pwm.chopping,
+                                                 duty);
+  *mean.max = samples_most + std::min(here_A, d.ripple.worst_A) / 2;
+  if (!runs_and_passes(s)) *mean.max = samples_most + d.ripple.worst_A / 2;
+}
+
 /// Sets the requirement on the mean current. The controller's samples are in the trough of the ripple, and so
 /// is the mean that it controls. Samples in the middle of a centred pulse have the mean; but an answer then
 /// comes half a period later, so that this is kept only if it passes. A pulse that begins a dead time late
@@ -218,12 +239,7 @@ void judge_the_mean(study::Scenario& s, const DesignStudy& study) {
     s = middle;
     return;
   }
-  // Samples are at the ripple's lowest point: the mean is above them by half of the ripple.
-  mean = s.require.front();
-  mean.measure.sampled = false;
-  mean.measure.label = "mean of the last ten periods, half the ripple above the samples";
-  if (mean.max) *mean.max += study.design.ripple.worst_A / 2;
-  s.require.front() = mean;
+  judge_above_the_samples(s, study);
 }
 
 /// The design's test as a scenario for the user.

@@ -20,11 +20,13 @@ constexpr LinearStep linear_steps[] = {
     {"w_low", "v_low", ""},
     {"w_high", "v_high", ""},
     {"dw_high", "dv_high", ""},
+    {"dw", "dv", "v_low s/(k tau/3), k sectors that are s off by probes beside their places"},
+    {"dw_3", "dv_3", ""},
+    {"w_min", "v_min", ""},
     {"d1 dw", "d1 dv", ""},
     {"du", "du", "that part of F_max/K_f times the current loop's d1"},
     {"u_left", "u_left", "of the bus at v_high and half the nominal current"},
     {"T", "T", "(tau/3)/v_low, a sector at that speed"},
-    {"delay", "delay", "(k + 1)/2 sectors, the most from v_low up"},
     {"q", "q", "tau/3, a Hall step"},
 };
 
@@ -37,6 +39,7 @@ void tell(std::vector<design::DerivationStep>& steps) {
         break;
       }
     s.formula = base::linear_words(s.formula);
+    for (std::size_t at = 0; (at = s.formula.find("w_low", at)) != std::string::npos;) s.formula[at] = 'v';
   }
 }
 

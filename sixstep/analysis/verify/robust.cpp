@@ -187,9 +187,9 @@ std::vector<Tolerance> sheet_tolerances(const design::Sheet& sheet, control::Mod
   return out;
 }
 
-std::vector<study::Spread> tolerance_spread(const design::Sheet& sheet, control::Mode mode) {
+std::vector<study::Spread> tolerance_spread(const design::Sheet& sheet) {
   std::vector<study::Spread> spreads;
-  for (const Tolerance& tolerance : sheet_tolerances(sheet, mode)) {
+  for (const Tolerance& tolerance : sheet_tolerances(sheet, control::Mode::speed)) {
     const double least = tolerance.levels.front().factor;
     if (least >= 1.0) continue;  // to one side only
     const char* key = tolerance.quantity == Strays::resistance   ? "motor_override.resistance_ohm"
@@ -215,6 +215,16 @@ std::vector<study::Spread> hall_edge_spread(const study::Scenario& scenario) {
                        .absolute = mounted_hall_edge_deg,
                        .source = "Hall edge +-3 deg"});
   return spreads;
+}
+
+std::string tolerances_not_drawn(const study::Scenario& scenario) {
+  std::string text;
+  if (design::is_salient(scenario.sheet))
+    text = "the inductances, because no key changes both of a salient rotor";
+  if (hall_edge_spread(scenario).empty())
+    text +=
+        std::string(text.empty() ? "" : "; ") + "the places of Hall edges, because the drive reads no probes";
+  return text;
 }
 
 std::vector<Variation> variations(const std::vector<Tolerance>& tolerances) {

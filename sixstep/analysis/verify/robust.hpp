@@ -33,9 +33,9 @@ struct Tolerance {
 std::vector<Tolerance> sheet_tolerances(const design::Sheet& sheet, control::Mode mode);
 
 /// The same for [[spread]], each quantity evenly to both sides: deviations in a series of drives that no
-/// maker excludes. Temperatures and loads are no tolerance of the motor, and the two inductances of a salient
+/// maker excludes, in any mode: a rotor that turns has a back-EMF. Temperatures and loads are no tolerance of the motor, and the two inductances of a salient
 /// rotor have no key that could deviate.
-std::vector<study::Spread> tolerance_spread(const design::Sheet& sheet, control::Mode mode);
+std::vector<study::Spread> tolerance_spread(const design::Sheet& sheet);
 
 /// Largest displacement of a probe's edge from its place, in electrical degrees.
 inline constexpr double mounted_hall_edge_deg = 3.0;
@@ -43,6 +43,9 @@ inline constexpr double mounted_hall_edge_deg = 3.0;
 /// Spread of six Hall edges for a drive that reads probes, each by this displacement to both sides. It models
 /// the mounting of probes, but not a common delay of all edges.
 std::vector<study::Spread> hall_edge_spread(const study::Scenario& scenario);
+
+/// What neither of the two spreads has for this scenario, each with its reason; empty: nothing is missing.
+std::string tolerances_not_drawn(const study::Scenario& scenario);
 
 /// A motor that deviates within the tolerances.
 struct Variation {

@@ -111,10 +111,11 @@ std::vector<DerivationStep> lag_steps(const RotorSensing& sensing, double pole_p
       {"T", "(pi/3)/(p w_low), a sector at that speed", sector_s(pole_pairs, speed_rad_s), "s"}};
   add_crossover(crossover_rad_s, steps);
   if (sensing.edges == 0)
-    steps.push_back({"T_6",
-                     "pi/8 12/7 / w_c: the speed is averaged over six edges if they come within this time, "
-                     "else over one",
-                     hall_window_s(crossover_rad_s), "s"});
+    steps.push_back(
+        {"T_6",
+         "(pi/8)(12/7)/w_c: six edges within this time cost at most pi/8 of phase, and the speed is "
+         "averaged over them; else over one",
+         hall_window_s(crossover_rad_s), "s"});
   else
     steps.push_back(
         {"k", "number of edges over which the speed is averaged", static_cast<double>(sensing.edges), ""});
@@ -122,8 +123,11 @@ std::vector<DerivationStep> lag_steps(const RotorSensing& sensing, double pole_p
     steps.push_back({"dw", "w_low s/(k pi/3), k sectors that are s off by probes beside their places",
                      speed_rad_s * sensing.stray_rad / (std::max(sensing.edges, 1) * base::pi / 3), "rad/s"});
   else if (one_edge_at(sensing, pole_pairs, speed_rad_s, crossover_rad_s))
-    steps.push_back({"dw_3", "w_low 6/60, if neighbouring edges lie 3 deg off to opposite sides; 0 here",
-                     speed_rad_s * 6 / 60, "rad/s"});
+    steps.push_back(
+        {"dw_3",
+         "w_low 6/60, the error if neighbouring edges lie 3 deg off to opposite sides; these probes have "
+         "none",
+         speed_rad_s * 6 / 60, "rad/s"});
   if (sensing.timeout_s > 0.0)
     steps.push_back({"w_min", "(pi/3)/(p timeout_s), slowest speed that does not read as 0",
                      sector_s(pole_pairs, 1.0) / sensing.timeout_s, "rad/s"});

@@ -83,7 +83,7 @@ struct Sheet {
   std::optional<base::Quantity> stall_torque_mNm, stall_current_A;
   std::optional<base::Quantity> max_efficiency_percent;
   std::optional<base::Quantity> speed_torque_gradient_rpm_mNm;
-  std::optional<base::Quantity> mechanical_time_constant_ms;
+  std::optional<base::Quantity> mechanical_time_constant_ms, electrical_time_constant_ms;
   std::optional<base::Quantity> max_speed_rpm;
 
   std::optional<base::Quantity> thermal_resistance_winding_housing_K_W;

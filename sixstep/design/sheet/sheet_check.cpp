@@ -33,6 +33,7 @@ constexpr Reason reasons[] = {
     {"max_efficiency_percent", "follows from the other lines"},
     {"speed_torque_gradient_rpm_mNm", "follows from R and K_t"},
     {"mechanical_time_constant_ms", "follows from R, J and K_t"},
+    {"electrical_time_constant_ms", "follows from L and R"},
     {"max_speed_rpm", "a limit of the mechanics"},
     {"rotor_radius_mm", "the inertia is printed, and counts"},
     {"rotor_inner_radius_mm", "the inertia is printed, and counts"},
@@ -69,8 +70,15 @@ class Lines final : public base::Visitor {
                                     : body   ? std::string_view("rotor_radius_mm")
                                              : key;
     const auto& used = constants_.used;
-    LineUse line{SheetReader::key_of(key, *q), q->value, std::string(about.unit),
-                 relative_doubt(*q),           false,    ""};
+    LineUse line{.key = SheetReader::key_of(key, *q),
+                 .value = q->value,
+                 .unit = std::string(about.unit),
+                 .in_file = q->value,
+                 .doubt = relative_doubt(*q),
+                 .used = false,
+                 .why = ""};
+    for (const base::Spelling& spelling : about.also)
+      if (spelling.key == q->key) line.in_file = base::as_spelled(q->value, spelling);
     line.used = std::find(used.begin(), used.end(), judged) != used.end();
     if (!line.used) line.why = why_not(key);
     lines.push_back(std::move(line));
@@ -214,8 +222,10 @@ std::string contradiction_words(const SheetCheck& check) {
   std::string names;
   for (std::size_t n = 0; n < broken.size(); ++n)
     names += (n == 0 ? "" : n + 1 == broken.size() ? " and " : ", ") + broken[n];
-  return "the motor's sheet contradicts itself: " + names + (broken.size() == 1 ? " does" : " do") +
-         " not hold; correct its file, or name them in known_deviation if the maker prints them so";
+  return "the motor's sheet contradicts itself: " + names +
+         (broken.size() == 1 ? " disagrees" : " disagree") +
+         " with its other values; correct its file, or name " + (broken.size() == 1 ? "it" : "them") +
+         " in known_deviation if the maker prints " + (broken.size() == 1 ? "it" : "them") + " so";
 }
 
 }  // namespace sixstep::design

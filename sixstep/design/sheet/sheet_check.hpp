@@ -37,8 +37,9 @@ struct LineUse {
   std::string key;     ///< as the file writes it
   double value = 0.0;  ///< value in the unit of the standard key
   std::string unit;
-  double doubt = 0.0;  ///< relative rounding error of the printed value
-  bool used = false;   ///< the model uses it
+  double in_file = 0.0;  ///< value in the unit of `key`
+  double doubt = 0.0;    ///< relative rounding error of the printed value
+  bool used = false;     ///< the model uses it
   std::string why;
 };
 
@@ -57,8 +58,8 @@ struct SheetCheck {
 /// names no relation or one that holds.
 base::Result<SheetCheck> check_sheet(const Sheet& sheet);
 
-/// "the motor's sheet contradicts itself: stall current and no-load speed do not hold; correct ..", in the
-/// check's own names; empty if it is consistent.
+/// "the motor's sheet contradicts itself: stall current and no-load speed disagree with its other values;
+/// correct ..", in the check's own names; empty if it is consistent.
 std::string contradiction_words(const SheetCheck& check);
 
 /// In data/motors the slowest winding has L/R = 11 ms and the slowest rotor R J/K_t^2 = 1.2 s. A

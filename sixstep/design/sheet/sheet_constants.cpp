@@ -20,6 +20,20 @@ std::string from_frame(std::string_view key, const Quantity& q) {
   return SheetReader::key_of(key, q) + (q.frame == "phase" ? ", phase: as it is" : ", terminal: halved");
 }
 
+/// Whether a value computed from `with` is the printed one: up to both roundings and 2 %.
+bool fits(double computed, const Quantity& with, const Quantity& printed) {
+  constexpr double besides = 0.02;
+  return std::abs(computed / printed.value - 1.0) <= relative_doubt(with) + relative_doubt(printed) + besides;
+}
+
+/// Which frame of `with` another printed value has: "fits \"terminal\"", or neither.
+std::string fitting_frame(const std::array<double, 2>& terminal_phase, const Quantity& with,
+                          const Quantity& printed) {
+  if (fits(terminal_phase[0], with, printed)) return "fits \"terminal\"";
+  if (fits(terminal_phase[1], with, printed)) return "fits \"phase\"";
+  return "fits neither";
+}
+
 void read_resistance(SheetReader& reader) {
   const std::optional<Quantity>& q = reader.sheet.resistance_ohm;
   if (!q)
@@ -40,10 +54,11 @@ void read_resistance(SheetReader& reader) {
   };
   std::string hint;
   if (reader.sheet.stall_current_A && reader.out.nominal_voltage_V) {
-    const double ratio = *reader.out.nominal_voltage_V / *R / reader.sheet.stall_current_A->value;
-    const bool terminal = std::abs(ratio - 1.0) < std::abs(ratio / 2.0 - 1.0);
-    hint = "; the printed stall current, " + rounded(reader.sheet.stall_current_A->value) + " A, fits \"" +
-           (terminal ? "terminal" : "phase") + "\"";
+    const Quantity& stall = *reader.sheet.stall_current_A;
+    const double per_terminal = *reader.out.nominal_voltage_V / *R;
+    hint = "; the printed stall current, " + rounded(stall.value) + " A, " +
+           fitting_frame({per_terminal, per_terminal / 2.0}, *q, stall);
+    if (fits(2.0 * per_terminal, *q, stall)) hint += ": it is U over half of the resistance";
   }
   const std::array<FrameMeaning, 2> candidates = {{{"terminal", means(*R / 2.0)}, {"phase", means(*R)}}};
   unknown_frame(reader, "resistance_ohm", *q, candidates, hint);
@@ -92,7 +107,14 @@ void read_inductance(SheetReader& reader) {
     return text;
   };
   const std::array<FrameMeaning, 2> candidates = {{{"terminal", means(*L / 2.0)}, {"phase", means(*L)}}};
-  unknown_frame(reader, "inductance_mH", *q, candidates);
+  std::string hint;
+  if (reader.sheet.electrical_time_constant_ms && reader.out.R_ohm) {
+    const Quantity& printed = *reader.sheet.electrical_time_constant_ms;
+    const double ms = *L / reader.out.R_ohm->value * 1e3;
+    hint = "; the printed electrical time constant, " + rounded(printed.value) + " ms, " +
+           fitting_frame({ms / 2.0, ms}, *q, printed);
+  }
+  unknown_frame(reader, "inductance_mH", *q, candidates, hint);
 }
 
 /// The nominal current is not part of the model. Its frame is required for the comparison with the nominal torque.

@@ -214,6 +214,8 @@ void describe_ratings(base::Visitor& v, Sheet& s) {
               .unit = "ms",
               .range = base::above(0),
               .also = spellings::mechanical_time_constant});
+  v.quantity("electrical_time_constant_ms", s.electrical_time_constant_ms,
+             {.meaning = "time constant of the winding, L/R", .unit = "ms", .range = base::above(0)});
   v.quantity("max_speed_rpm", s.max_speed_rpm,
              {.meaning = "speed the mechanics allow",
               .unit = "rpm",

@@ -2,11 +2,11 @@
 #include "sixstep/design/sheet/sheet_relations.hpp"
 
 #include <cmath>
-#include <string_view>
 
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/linear.hpp"
 #include "sixstep/design/sheet/sheet_check.hpp"
+#include "sixstep/design/sheet/sheet_factors.hpp"
 #include "sixstep/design/sheet/sheet_no_load.hpp"
 #include "sixstep/design/sheet/sheet_term.hpp"
 
@@ -14,21 +14,6 @@ namespace sixstep::design {
 namespace {
 
 using base::Quantity;
-
-struct Factor {
-  double ratio;
-  std::string_view words;
-  bool of_frames = true;  ///< applies only to a constant between terminals or of a phase, of a peak or rms
-};
-constexpr Factor factors[] = {
-    {2.0, "a factor 2: terminal against phase, or poles against pole pairs?"},
-    {1.7320508075688772, "a factor sqrt 3: line against phase?"},
-    {1.4142135623730951, "a factor sqrt 2: peak against rms?"},
-    {2.449489742783178, "a factor sqrt 6: line peak against phase rms?"},
-    {1.5, "a factor 3/2: torque of the q axis against one phase's EMF?"},
-    {10.0, "a factor 10: the point, or the unit?", false},
-    {1000.0, "a factor 1000: the unit?", false},
-};
 
 /// Limit of a printed tolerance: a wider one would show nothing.
 constexpr double most_above = 9.99;
@@ -91,26 +76,35 @@ class Relations {
     constexpr double arithmetic = 1e-12;
     const bool holds = r.deviation >= r.lowest - arithmetic && r.deviation <= r.highest + arithmetic;
     r.verdict = holds ? RelationVerdict::holds : RelationVerdict::broken;
-    if (!holds) r.remark = looks_like(left.value / right.value, rounding, frames);
+    if (!holds) r.remark = well_known_factor(left.value / right.value, rounding, frames);
     return found_.emplace_back(std::move(r));
   }
 
-  /// Words for a ratio that is a well-known factor within the rounding, at least half a percent; the nearest two of
-  /// these factors are 6 % apart.
-  static std::string looks_like(double ratio, double rounding, bool frames) {
-    const double size = ratio < 1.0 ? 1.0 / ratio : ratio, reach = rounding > 0.005 ? rounding : 0.005;
-    for (const Factor& factor : factors)
-      if ((frames || !factor.of_frames) && std::abs(size / factor.ratio - 1.0) <= reach)
-        return std::string(factor.words);
-    return "";
+  static bool near(const Term& left, const Term& right) {
+    return std::abs(left.value / right.value - 1.0) <= left.doubt + right.doubt;
   }
 
+  /// One bad value of U/R, I_stall and the stall torque is named where the other two agree.
   void stall() {
-    if (U_ && R_ && s_.stall_current_A)
-      add("stall current", "U / R", "stall current", *U_ / *R_, *stall_, "A");
-    if (const std::optional<Term> torque = term(s_.stall_torque_mNm); torque && K_t_ && stall_)
-      add("stall torque", s_.stall_current_A ? "k_M I_stall" : "k_M U / R", "stall torque",
-          *K_t_ * *stall_ * 1e3, *torque, "mNm");
+    const std::optional<Term> torque = term(s_.stall_torque_mNm);
+    const bool computed = U_ && R_, printed = s_.stall_current_A.has_value();
+    std::string suspect;
+    bool by_U = !printed;
+    if (computed && printed && !near(*U_ / *R_, *stall_) && torque && K_t_) {
+      by_U = near(*K_t_ * (*U_ / *R_) * 1e3, *torque);
+      if (by_U)
+        suspect = "the stall torque agrees with k_M U / R: suspect the stall current";
+      else if (near(*K_t_ * *stall_ * 1e3, *torque))
+        suspect = "the stall torque agrees with the stall current: suspect the resistance, or the voltage";
+    }
+    if (computed && printed) {
+      Relation& r = add("stall current", "U / R", "stall current", *U_ / *R_, *stall_, "A");
+      if (!suspect.empty()) r.remark += (r.remark.empty() ? "" : " ") + suspect;
+    }
+    if (computed && by_U) stall_ = *U_ / *R_;  // also for the efficiency
+    if (torque && K_t_ && stall_)
+      add("stall torque", by_U ? "k_M U / R" : "k_M I_stall", "stall torque", *K_t_ * *stall_ * 1e3, *torque,
+          "mNm");
   }
 
   /// Compares constants that are printed in addition to the one used.
@@ -121,10 +115,16 @@ class Relations {
         add("speed constant", "k_M k_n", "30000 / pi", *K_t_ * 1e3 * Term{k_n->value, other.relative_doubt},
             exact(1000.0 * base::rpm_per_rad_s), "rpm/V mNm/A");
       else
-        add("K_e by " + other.key, "K_e used", "K_e by " + other.key,
-            Term{c_.K_e_V_s->value * 1e3, c_.K_e_relative_doubt},
-            Term{other.K_e_V_s * 1e3, other.relative_doubt}, "mV s");
+        with_pole_pairs(add("K_e by " + other.key, "K_e used", "K_e by " + other.key,
+                            Term{c_.K_e_V_s->value * 1e3, c_.K_e_relative_doubt},
+                            Term{other.K_e_V_s * 1e3, other.relative_doubt}, "mV s"));
     }
+  }
+
+  /// A constant per electrical angle is converted by the pole pairs.
+  static void with_pole_pairs(Relation& r) {
+    if (r.remark == well_known_factors[0].words)
+      r.remark = "a factor 2: terminal against phase, or poles against pole pairs?";
   }
 
   void no_load() {
@@ -175,6 +175,7 @@ class Relations {
     const double above = warm > 0.0 ? line.value / warm - 1.0 : HUGE_VAL;
     Relation& r = add("nominal speed", idle ? "n_0 - R/k_M^2 M_N" : "U/k_M - R/k_M^2 M_N", "nominal speed",
                       line, *printed, "rpm", no_load_margin, std::fmin(above, most_above), false);
+    if (r.verdict == RelationVerdict::holds) r.remark = beside_the_line(torque->value);
     if (r.verdict != RelationVerdict::broken) return;
     if (r.deviation > 0.0) {
       r.verdict = RelationVerdict::doubted;
@@ -184,6 +185,17 @@ class Relations {
     } else if (r.remark.empty()) {
       r.remark = "the nominal point lies above the line that R and k_M give";
     }
+  }
+
+  /// The line has no commutation, which the model has. Empty where it takes less than a twentieth of the speed.
+  std::string beside_the_line(double torque_Nm) const {
+    constexpr double worth_it = 0.05;
+    const double part =
+        commutation_part(c_, (torque_Nm / K_t_->value + (idle_ ? idle_->value : 0.0)) / edge_current);
+    if (!(part > worth_it)) return "";
+    return "the line is ideal: in the model commutation takes about " +
+           rounded(100.0 * part / (1.0 + part), 2) +
+           " % of the speed on it; the curve has the speed that the model reaches";
   }
 
   void as_fast_as_idle(const Term& idle, const Term& printed) {
@@ -228,6 +240,11 @@ class Relations {
   }
 
   void dynamics() {
+    if (const std::optional<Term> printed = term(s_.electrical_time_constant_ms); printed && c_.L_H && R_) {
+      const double doubt = s_.inductance_mH ? relative_doubt(*s_.inductance_mH) : 0.0;
+      add("electrical time constant", "L / R", "electrical time constant",
+          Term{2e3 * c_.L_H->value, doubt} / *R_, *printed, "ms");
+    }
     if (!R_ || !K_t_) return;
     const Term steepness = *R_ / (*K_t_ * *K_t_);  // rad/s per N m
     if (const std::optional<Term> printed = term(s_.mechanical_time_constant_ms); printed && J_)
@@ -267,10 +284,13 @@ class Relations {
     const std::optional<Term> allowed = term(s_.max_speed_rpm), printed = term(s_.no_load_speed_rpm);
     if (!allowed || !(printed || (U_ && K_t_))) return;
     const Term ideal = printed ? *printed : *U_ / *K_t_ * base::rpm_per_rad_s;
-    if (!(ideal.value > (1.0 + max_speed_margin) * allowed->value)) return;
+    if (!(ideal.value > allowed->value)) return;
     Relation& r = add("maximum speed", printed ? "no-load speed" : "U / k_M", "maximum speed", ideal,
                       *allowed, "rpm", 1.0, max_speed_margin, false);
-    if (r.remark.empty())
+    if (r.verdict == RelationVerdict::holds)
+      r.remark =
+          "no load at the nominal voltage is above the speed that the mechanics allow: limit speed or voltage";
+    else if (r.remark.empty())
       r.remark = "at its nominal voltage it would turn far faster than its mechanics allow";
   }
 

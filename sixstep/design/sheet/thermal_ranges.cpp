@@ -55,6 +55,11 @@ base::Result<WithstandTimes> withstand_times(const Sheet& s, const Heating& heat
   return out;
 }
 
+base::Result<ThermalModel> safe_thermal_model(const Sheet& s) {
+  if (const std::optional<WorseEnds> worse = at_worse_ends(s)) return worse->model;
+  return thermal_model(s);
+}
+
 double greater_rise(const ThermalModel& m, const ThermalModel& w) {
   const auto capacity = [](double s, double K_W) { return s / K_W; };
   return std::max(

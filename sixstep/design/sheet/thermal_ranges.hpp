@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A motor file may give a range for a thermal value where sources differ. The limits of a winding are then computed
-// twice: with the values, and with the ends of their ranges at which the winding gets warmest.
+// A motor file may give a range for a thermal value where sources differ. A limit of a winding is then computed with the
+// ends of the ranges at which the winding gets warmest; the one by the values is a note beside it.
 #pragma once
 #include <optional>
 #include <string>
@@ -28,6 +28,10 @@ struct WithstandTimes {
 
 /// A verdict on safety uses `by_worse_ends`. Problem: the sheet's thermal lines that are missing.
 base::Result<WithstandTimes> withstand_times(const Sheet& sheet, const Heating& heating);
+
+/// The model by which a limit is safe: at the worse ends where there are any, else by the values. Problems: those of
+/// thermal_model().
+base::Result<ThermalModel> safe_thermal_model(const Sheet& sheet);
 
 /// Largest factor on the temperature rise above ambient by `model`, at a constant loss: both resistances and both
 /// heat capacities deviate by the largest deviation of one of them.

@@ -6,7 +6,7 @@
 
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/sheet/sheet_check.hpp"
-#include "sixstep/design/sheet/thermal.hpp"
+#include "sixstep/design/sheet/thermal_ranges.hpp"
 #include "sixstep/study/check/check.hpp"
 #include "sixstep/study/run/export_gate.hpp"
 #include "sixstep/study/run/export_protection.hpp"

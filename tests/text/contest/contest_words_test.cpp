@@ -79,8 +79,8 @@ TEST(ContestWords, WhoeverStartsBeyondTheLimitWinsNothing) {
   EXPECT_THAT(text::contest_words(c), Not(Contains(HasSubstr(name(1) + " has the least"))));
   EXPECT_THAT(text::contest_notes(c),
               ElementsAre(name(1) + " starts with a peak of 6.1 A, 1.5 times the current of "
-                                    "the torque limit, and wins nothing: commutation and ripple "
-                                    "explain up to 6 A"));
+                                    "the torque limit; commutation and ripple explain up to "
+                                    "6 A, so none of its figures counts as the least"));
   for (const text::ContestTable& table : text::contest_tables(c))
     for (const std::string& cell : table.rows.back()) EXPECT_THAT(cell, Not(HasSubstr("*")));
 }
