@@ -62,9 +62,9 @@ TEST(OperatingPoint, RippleAndRmsAreOrderedAsTheyMustBe) {
   for (const double speed : speeds) {
     const OperatingPoint p = at(maxon_bench(), speed);
     SCOPED_TRACE(speed);
-    EXPECT_LE(p.ripple_rms_Nm, p.ripple_Nm / 2 * (1 + 1e-12));  // Popoviciu
+    EXPECT_LE(p.ripple_rms_Nm, p.ripple_Nm / 2 * (1 + 1e-12));  // Popoviciu's inequality
     EXPECT_LE(p.phase_rms_A, p.phase_peak_A);
-    EXPECT_LE(p.motor_current_A, p.winding_current_A * (1 + 1e-12));  // a triangle's inequality
+    EXPECT_LE(p.motor_current_A, p.winding_current_A * (1 + 1e-12));  // triangle inequality
     // Half the sum of three currents that cancel is the largest one, and its square at most 2/3 of the sum of squares.
     EXPECT_LE(p.winding_current_A, std::sqrt(2.0) * p.phase_rms_A * (1 + 1e-12));
   }
@@ -129,7 +129,8 @@ TEST(OperatingPoint, WithoutInductanceIsTheIdealLine) {
     };
     const double coarse = missing(1e-3), fine = missing(0.5e-3);
     EXPECT_GT(coarse, 0.0) << speed;
-    // The difference is linear in L: the next term relative to the first equals the first relative to the whole.
+    // The torque lost to inductance is linear in L at first order. Its relative error of second order is the lost torque over the ideal
+    // one.
     EXPECT_NEAR(fine / coarse, 0.5, 2 * coarse / ideal) << speed;
     EXPECT_NEAR(2 * fine - coarse, 0.0, 2 * coarse * coarse / ideal) << speed;
   }
@@ -160,7 +161,7 @@ TEST(OperatingPoint, MirroredItIsTheSame) {
   }
 }
 
-/// Mean over rotors held at many angles, with Gauss quadrature on each piece of the shape, exact where it is linear.
+/// Mean over rotors held at many angles, by Gauss quadrature on each piece of the back-EMF's shape; it is exact where the shape is linear.
 struct HeldMeans {
   double torque = 0.0, square = 0.0, low = 1e9, high = -1e9;
 };
@@ -243,8 +244,7 @@ TEST(OperatingPoint, SlowRotationLeadsToStandstill) {
   }
 }
 
-/// Dry friction stays constant as the rotor slows down. A rotor that just turns has the friction of slow rotation, but at most its driving
-/// torque.
+/// Dry friction stays constant as the rotor slows down. At speed 0 the friction is that of slow rotation, but at most the driving torque.
 TEST(OperatingPoint, WhatJustTurnsHasTheFrictionOfSlowRotation) {
   Bench b = maxon_bench();
   b.motor.shaft.coulomb_Nm = 0.1;

@@ -113,8 +113,8 @@ TEST(Hall, ABrokenLineIsNamed) {
             ASSERT_TRUE(fault.line == line || fault.line == 0)
                 << apart << ' ' << direction << ' ' << line << ' ' << level << ' ' << breaks_at;
           }
-  // A false edge between 3/4 and 8/9 of a sector is as early as that of a rotor with a speed change of a quarter. The next sectors differ
-  // too: one in six breaks makes an early false edge.
+  // A false edge between 3/4 and 8/9 of a sector is as early as that of a rotor whose speed changes by a quarter, so that no line is named.
+  // The next sectors differ too: one in six breaks makes an early false edge.
   std::printf("named %d, not told %d\n", named, untold);
   EXPECT_LE(untold, named / 30);
 }

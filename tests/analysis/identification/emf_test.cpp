@@ -61,7 +61,8 @@ TEST(EmfCalibration, IntervalsHoldTheTruth) {
   // Four of 4400 recordings are refused: their round tops have no noise that would show them unclipped.
   EXPECT_LE(taken_for_clipped, 1 + count / 300);
   for (const HeldOften* held : {&frequency, &flux, &peak, &fifth, &seventh}) held->expect_95();
-  // An absent harmonic has an interval with one end; two probes have the same hum.
+  // The interval of an absent harmonic starts at 0, so that it misses on one side only. Hum is equal in both channels, so that it cancels
+  // in their phase.
   none.expect_at_least_95(count);
   lag.expect_at_least_95();
 }

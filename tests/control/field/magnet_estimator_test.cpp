@@ -38,7 +38,7 @@ AlphaBeta<double> change(double v, double at, double magnet) {
   return {i_d * std::cos(magnet) - i_q * std::sin(magnet), i_d * std::sin(magnet) + i_q * std::cos(magnet)};
 }
 
-/// The value h after some periods, with an answer `late` periods later, added to a current along a parabola.
+/// The response h after ten periods of injection. The voltage acts `late` periods later, and its current is added to a parabola over time.
 template <class Scalar>
 Dq<Scalar> pulsed(double axis, double magnet, std::uint8_t late, double parabola_A) {
   const InjectionConfig<Scalar> c{static_cast<Scalar>(V), Scalar(1)};
