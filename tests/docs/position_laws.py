@@ -11,12 +11,13 @@ def late(degrees):
     return 1 - degrees**2 / 7200
 
 
-SEEN_LATE = PAIRS * 300 * 100e-6 * 180 / pi  # an edge behind a filter of 100 us
-PASSED_LATE = PAIRS * 300 * 3 * 2 * L_S / (U + 2 * K_E * 300) * 180 / pi  # until the current has commutated to the next phase
-SWING = 2 * pi * sqrt(J / (PAIRS * K_T * 1.5 * I_N))  # about the pair's rest angle
+SEEN_LATE = PAIRS * 300 * 100e-6 * 180 / pi  # electrical degrees by which a filter of 100 us delays an edge at 300 rad/s
+# electrical degrees until the current has commutated to the next phase
+PASSED_LATE = PAIRS * 300 * 3 * 2 * L_S / (U + 2 * K_E * 300) * 180 / pi
+SWING = 2 * pi * sqrt(J / (PAIRS * K_T * 1.5 * I_N))  # s; period of the swing about the pair's rest angle
 SLOWEST, RAMP = 0.05 * U / K_T, (K_T * I_N * (1.5 - 0.5) - 0.01) / (2 * J)  # rad/s at the hand-over, rad/s^2
 LONGEST_RAMP = 2 * 2 * SLOWEST / RAMP + 12 * pi / 3 / PAIRS / SLOWEST
-LISTENED = 6 * L_S * 2.5 * I_N / U + 2 * T + 2 * pi / 3 / PAIRS / SLOWEST  # for a rotor that turns already
+LISTENED = 6 * L_S * 2.5 * I_N / U + 2 * T + 2 * pi / 3 / PAIRS / SLOWEST  # s of listening to a rotor that turns already
 
 
 def two_period_pulses():

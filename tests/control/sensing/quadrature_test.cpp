@@ -90,7 +90,7 @@ TEST(Quadrature, AnIndexReportsAndMendsMissedCounts) {
       turn();
       ASSERT_TRUE(state.referenced);
       const std::int32_t turns = state.turns;
-      quadrature_moved(config, state, -lost);  // the same number too few
+      quadrature_moved(config, state, -lost);  // then as many counts too few
       while (state.corrections == 0 && place != 30 + 128 * direction) step(config, state, place += direction);
       EXPECT_EQ(state.direction, direction) << "of the rotor, not of the mending";
       while (place != 30 + 128 * direction) step(config, state, place += direction);

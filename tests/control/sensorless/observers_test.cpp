@@ -70,7 +70,8 @@ TEST(Luenberger, ItsErrorFollowsTheTwoPolesThatWerePlaced) {
   EXPECT_LT(std::fabs(error.back()), 1e-12);
 }
 
-/// A leg without current and with a ramp as back-EMF: its mean is the value at the period's middle.
+/// Lag, in periods, of an observer of a leg without current whose back-EMF is a ramp. The ramp's mean over a period is its value at the
+/// period's middle.
 template <class Step>
 double lag_of_a_ramp(Step&& step) {
   const double per_period = 0.1;
@@ -124,7 +125,7 @@ TEST(SlidingMode, OutsideTheLayerItIsDrivenInByTheWholeGain) {
   EXPECT_LE(periods, 40 * k / (k - g) + 2);
 }
 
-/// Either estimate in the given scalar, with current and voltage in SI as rounded inputs.
+/// The observers in the given scalar. Their inputs are a current and a voltage in SI, rounded to that scalar.
 template <class Scalar>
 class Observers : public ::testing::Test {};
 using ObserverScalars = ::testing::Types<float, Q15, Q14, Q31, Q30>;
@@ -181,8 +182,8 @@ void expect_level_at_thirty_degrees(double ticks, double growth) {
     S part{};
     if (!flux_level_comes(config, state, part)) continue;
     const double at = t + 1 + static_cast<double>(part), error_deg = 60 * (x_of(at) - 0.5);
-    // The peak of psi lies between two samples: the error is at most 1/8 of the slope of e, relative to a fall of (ticks/2)^2/2 of it. The
-    // interpolation within the last period and the rounding by half a digit per period add to it.
+    // The peak of psi lies between two samples. The error is at most 1/8 of the slope of e, relative to a fall of psi of (ticks/2)^2/2 of
+    // this slope. The interpolation within the last period and the rounding by half a digit per period add to it.
     const double missed = 1.0 / (ticks * ticks) + 0.5 / (ticks * ticks);
     const double rounded = is_fixed<S> ? ticks * digit<S>() / 0.25 : 1e-5;
     EXPECT_LT(std::fabs(error_deg), 30 * (missed + rounded) + 0.02) << ticks << " periods, growth " << growth;

@@ -116,7 +116,7 @@ TEST(SensorlessDrive, TheDefaultNeverDrives) {
   }
 }
 
-/// The duty after the ramp: it has no jump, then changes by a fixed step per tick.
+/// After the ramp the duty continues without a jump, and then changes by a fixed step per tick.
 TEST(SensorlessDrive, ApproachesADutyFromWhereTheStartLeavesIt) {
   const SensorlessDriveConfig<double> config = chip<double>();
   SensorlessDriveState<double> state;
