@@ -9,9 +9,9 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-/// The fuzzer found it: the conversion from degrees to radians and by the pole pairs moved a start off its
-/// edge by a rounding error. At rest the rotor leaves as t^3, so that 2e-16 rad delayed the commutation by
-/// nanoseconds.
+/// The fuzzer found this case: the conversion from degrees to radians and by the pole pairs moved a start off
+/// its edge by a rounding error. At rest the rotor leaves as t^3, so that 2e-16 rad delayed the commutation
+/// by nanoseconds.
 TEST(Start, AnAngleOnASectorEdgeIsOnIt) {
   for (int pole_pairs = 1; pole_pairs <= 21; ++pole_pairs)
     for (int edge = -14; edge <= 14; ++edge) {

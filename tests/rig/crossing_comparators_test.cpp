@@ -85,8 +85,8 @@ TEST(CrossingComparators, OffsetAndHysteresisShiftTheEdges) {
   expect_edges(edges_of(board, 20e-3), rise, -fall);
 }
 
-/// The mean of all three cancels the star point, chopped or not, and with it the bus: a floating leg shows
-/// e_k less the mean of e, which a sine does not have.
+/// The mean of the three terminals cancels the star point's voltage, chopped or not, and with it the bus. A
+/// floating leg shows e_k less the mean of e, which is zero for sines.
 TEST(CrossingComparators, ChoppingIsNotSeenAgainstTheVirtualStar) {
   Board board = flywheel({.lag_s = tau, .hysteresis_V = 0.1});
   board.start.speed_rad_s = 0;
@@ -94,8 +94,8 @@ TEST(CrossingComparators, ChoppingIsNotSeenAgainstTheVirtualStar) {
   EXPECT_TRUE(edges_of(board, 20e-3).size() <= 2);  // of the driven pair, once each
 }
 
-/// Half the bus as reference does not cancel it: a floating leg at u_n = 0 or U/2 has the mean d U/2 and the
-/// ripple about it.
+/// Half the bus as reference does not cancel the star point's voltage. A floating leg at u_n = 0 or U/2 has
+/// the mean d U/2, and the ripple about it.
 TEST(CrossingComparators, HalfTheBusIsPassedAtEveryChopWhereTheRippleReachesIt) {
   Board board = flywheel({.lag_s = tau, .against = rig::CrossingReference::half_bus});
   board.shaft.locked = true;

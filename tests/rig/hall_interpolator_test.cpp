@@ -95,8 +95,8 @@ rig::HallInterpolator<double> interpolator(const rig::SensorsConfig& config) {
 /// Electrical degrees in a tick of the timer.
 double tick_deg(double w) { return p * std::fabs(w) * 180 / base::pi / capture_Hz; }
 
-// The learned angle of an edge has an error of a tick at either end of its turn, the time since an edge one
-// tick, and the slope's sector two ends with a tick of time and two of angle each.
+// Errors in ticks: one at either end of the turn over which an edge's angle was learned, and one in the time
+// since an edge. The slope's sector has two ends, each with one tick of time and two of angle.
 TEST(HallInterpolator, LearnsWhereTheEdgesAreAndThenSeesTheTrueAngle) {
   for (const double w : {100.0, -100.0, 300.0}) {
     rig::SensorsConfig config = reading(HallAngleFrom::learned_edges, 6);
@@ -116,7 +116,7 @@ TEST(HallInterpolator, LearnsWhereTheEdgesAreAndThenSeesTheTrueAngle) {
   }
 }
 
-// Six edges are a turn, over which their angle errors cancel.
+// Six edges are a turn, over which the edges' angle errors cancel.
 TEST(HallInterpolator, SpeedOverSixEdgesNeedsNoPlaces) {
   auto six = interpolator(reading(HallAngleFrom::angle, 6));
   EXPECT_LT(steady(100).drive(six, 0.1, 0.2).speed_rad_s, 100 * 2 * tick_deg(100) / 360 + 100 * 0.1);

@@ -162,7 +162,7 @@ TEST(Probes, HysteresisHoldsAgainstARotorThatTurnsBack) {
     if (sectors.empty() || sectors.back() != sector) sectors.push_back(sector);
   }
   // The lines change at 70 forward on the way from 0 to 75, at 50 back to 45, at 70 forward to 75, and at 50
-  // back to 0; 0 is not -10.
+  // back to 0. The edge at -10 is not reached.
   EXPECT_EQ(sectors, (std::vector<int>{0, 1, 0, 1, 0}));
 }
 

@@ -9,8 +9,8 @@ using namespace sixstep;
 using namespace sixstep::testing;
 using control::LockLoss;
 
-/// The converter and the timer resolve a filter's effect; the filter's bandwidth is 1.1 times the required
-/// one.
+/// A bench whose converter and timer resolve the filter's effect. The filter's bandwidth is 1.1 times the
+/// required one.
 SensorlessBench bench_of(const SensorlessMotor& motor, bool filtered,
                          control::Chopping chopping = control::Chopping::soft) {
   SensorlessBench bench(motor, control::Mode::speed, chopping);
@@ -27,8 +27,8 @@ SensorlessBench bench_of(const SensorlessMotor& motor, bool filtered,
 
 constexpr int commutations = 600;
 
-/// The mean delay of the commutations behind the sector's edge at constant speed; ahead of it the value is
-/// negative.
+/// The mean delay, s, of the commutations after the sector's edge at constant speed; negative where they are
+/// before the edge.
 double mean_late_s(SensorlessBench bench, double w) {
   bench.setpoint(0, w);
   auto rig = bench.rig();

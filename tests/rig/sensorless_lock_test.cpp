@@ -44,8 +44,8 @@ TEST(Sensorless, BrakesARotorThatSpinsTheOtherWayAndTurnsItRound) {
   }
 }
 
-/// The rotor runs at half the no-load speed at the cause: the name of the loss, and the commutations until
-/// it.
+/// A loss of a rotor that ran at half the no-load speed when the cause came: its name, and the commutations
+/// from the cause until the loss.
 struct Lost {
   LockLoss named = LockLoss::none;
   int commutations = 0;
@@ -92,7 +92,8 @@ TEST(Sensorless, ALoadThatTurnsTheRotorBackIsSeenWithinTwoCommutations) {
     bench.act(cause_s, rig::ActionKind::load_torque, 10 * bench.nominal_A() * bench.motor.K_t_Nm_A);
     auto rig = bench.rig();
     run_until(rig, cause_s);
-    // The drive may follow the rotor while it turns forward; from then on it has two commutations.
+    // The drive may follow the rotor while the rotor turns forward. After that it may commutate at most
+    // twice.
     ASSERT_GT(
         run_until_true(rig, cause_s + 0.3, bench.spec.period_s, [&] { return rig.plant().state().w <= 0; }),
         0);

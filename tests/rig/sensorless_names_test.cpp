@@ -172,8 +172,9 @@ void expect_divider_named(const SensorlessMotor& motor, int sign, Follow followe
   EXPECT_LE(l.commutations, looks_crossed ? 3 : 2) << where;
 }
 
-/// A reading of a leg driven high contradicts the command: terminals. A floating leg's 0 is a diode's rail,
-/// which hides the crossing, or a back-EMF that does not come.
+/// A reading of 0 from a leg that is driven high contradicts the command: the loss is named `terminals`. From
+/// a floating leg, 0 looks like a diode's rail, which hides the crossing, or like a back-EMF that does not
+/// come.
 TEST(SensorlessNames, ADividerThatBreaksIsOneOfThree) {
   int n = 0;
   for (const SensorlessMotor& motor : three_motors)

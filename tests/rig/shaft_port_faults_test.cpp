@@ -87,7 +87,7 @@ TEST(StuckLine, ReadsAsNoSpeedAtAll) {
   }
 }
 
-// The last captured edge is the free line's.
+// The last captured edge is one of the free line.
 TEST(StuckLine, CapturesTheOtherLinesEdges) {
   constexpr std::int64_t lines = 500;
   for (const int line : {line_A, line_B}) {
@@ -116,7 +116,7 @@ int indexes(ShaftPorts& ports, const Motion& m, double from_s, double to_s) {
 }
 
 TEST(StuckIndex, IsLostUntilItIsWhole) {
-  const Motion m{0.5, 100, 0};  // 2 pi at 57.8 ms, and each 62.8 ms
+  const Motion m{0.5, 100, 0};  // passes 2 pi at 57.8 ms, and a further turn each 62.8 ms
   for (const bool high : {false, true}) {
     ShaftPorts ports = encoder(500, m);
     EXPECT_EQ(indexes(ports, m, 0, 0.1), 1);
@@ -162,7 +162,8 @@ TEST(AbsolutePort, ATrackIsWholeAgain) {
   }
 }
 
-// V_1 and V_2 scale with the excitation; a broken winding's is zero; after repair both are whole.
+// V_1 and V_2 scale with the excitation. A broken winding's voltage is zero; after repair both voltages have
+// their full amplitude.
 TEST(ResolverPort, ShowsThePartOfItsExcitation) {
   const Motion m{0.7, 0, 0};
   ShaftPorts ports({.kind = rig::ShaftSensor::resolver,

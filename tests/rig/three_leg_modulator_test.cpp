@@ -98,8 +98,8 @@ TEST(ThreeLegModulator, DeadTimeIsPerLegAndOnlyWhereItsCommandChanges) {
   EXPECT_EQ(edges(m, period), (Edges{{1.0, "a+b+c-"}, {15.0, "a+c-"}, {16.0, "a+b-c-"}}));
 }
 
-/// The off-time is shorter than the dead time: the lower switch never turns on, and the upper one waits
-/// nevertheless.
+/// The off-time is shorter than the dead time: the lower switch is commanded on and off and never turns on,
+/// and the upper one waits nevertheless.
 TEST(ThreeLegModulator, TheUpperSwitchWaitsFromTheTurnOffCommandOfTheLowerEvenIfThatNeverCameOn) {
   ThreeLegModulator m{ModulatorConfig{.dead_ticks = 1e6}};
   m.start_period(at(0), legs(pwm(0.98), low, low));

@@ -49,7 +49,8 @@ double torque_factor(const Wiring& wires, double electrical_deg) {
 }
 
 enum class Does { forward, backward, stands };
-/// One sign in every sector turns the rotor; both signs hold it, because their mean over the turn is zero.
+/// A torque of one sign in every sector turns the rotor. Torques of both signs hold it, because their mean
+/// over the turn is zero.
 Does expected(const Wiring& wires) {
   double least = 9, most = -9, sum = 0;
   for (int sector = 0; sector < 6; ++sector) {
@@ -125,7 +126,8 @@ Board phase_hysteresis() {
   return b;
 }
 
-/// Both runs have the same currents in the board's legs; the second rotor turns `way` times as the first.
+/// Both runs have the same currents in the board's legs. The second rotor turns by `way` times the first
+/// one's angle.
 void expect_the_board_sees_no_difference(const Wiring& wires, double straight_deg, double crossed_deg,
                                          double way) {
   const Board boards[] = {Board::duty(0.5), Board::duty(0.7, control::Chopping::hard),

@@ -73,9 +73,9 @@ Torque torque_of(CurrentLoopType type, CurrentFeedback feedback) {
              : Torque{};
 }
 
-/// A commutation halves the mean of the new pair's currents, and a loop that measures it reacts at once: the
-/// deadbeat loop within a period, the PI within its settling time. The staying phase's current shows the
-/// present torque, and not the coming dip.
+/// A commutation halves the mean of the new pair's currents, and a loop that measures this mean reacts at
+/// once: the deadbeat loop within a period, the PI within its settling time. The staying phase's current
+/// shows the present torque, and not the coming dip.
 TEST(Deadbeat, TakesOffTheRippleOfCommutation) {
   using enum CurrentFeedback;
   const Torque pi = torque_of(CurrentLoopType::pi, mean),

@@ -120,7 +120,7 @@ TEST(ExportGate, ComparatorsNeedNeitherConverterNorDelay) {
   EXPECT_THAT(unmeasured(s), ElementsAre("sensors.currents", "pwm.delay_periods"));
 }
 
-/// A reversal switches a leg over in every kind of chopping.
+/// In every kind of chopping a reversal changes a leg from one switch to the other, which needs a dead time.
 TEST(ExportGate, ADriveWithoutDeadTimeIsRefused) {
   for (const Mode mode : {Mode::duty, Mode::current, Mode::speed, Mode::position})
     for (const auto chopping :

@@ -42,7 +42,7 @@ TEST(HallAngle, PlacesThatWereLearnedNoLongerShakeTheLoop) {
   EXPECT_GT(outcome_of(strayed(HallAngleFrom::sectors)).comparisons[0].measured,
             gain_A * w * (60.0 / 55 - 60.0 / 66));
   const double ripple = outcome_of(strayed(HallAngleFrom::learned_edges)).comparisons[0].measured;
-  // The bound has both directions and the shaft's own oscillation.
+  // The bound covers both directions and the shaft's own oscillation.
   EXPECT_LT(ripple, gain_A * (w * 2 * 2 * 3 / 1200.0 + 0.2));
 }
 

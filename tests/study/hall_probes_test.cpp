@@ -64,8 +64,8 @@ TEST(HallOffset, CostsWhatTheRampsTake) {
   }
 }
 
-// At 90 degrees the sum over a sector is zero; at 180 degrees it drives backward, and the back-EMF increases
-// the current.
+// At an offset of 90 degrees the torques over a sector add up to zero. At 180 degrees the torque drives
+// backward, and the back-EMF increases the current.
 TEST(HallOffset, TurnsTheTorqueRound) {
   const double plain = mean_torque(on_a_bench(0.5));
   Scenario s = on_a_bench(0.5);

@@ -190,8 +190,8 @@ TEST(Product, NoReferenceIsShownWhileTheWindingsAreShorted) {
   EXPECT_EQ(figure(s, MetricKind::maximum, Signal::speed_reference, 0.1002), 0.0);
 }
 
-/// The line breaks just after its own edge: the sector that this ends has no length, and so any speed. The
-/// fault is the line, not over-speed.
+/// The line breaks just after its own edge: the sector between this edge and the false one has no length, and
+/// so any speed. The fault is the line, not over-speed.
 TEST(Product, ABrokenHallLineIsNoOverSpeed) {
   Scenario s = product_scenario(Mode::speed, 100.0);
   s.protection.over_speed_rad_s = 300.0;
@@ -233,7 +233,7 @@ TEST(SpeedForm, FixedPointWindsUpNoMoreThanDouble) {
   }
 }
 
-/// kp T_d a = 1.8 of full torque.
+/// The derivative part is kp T_d a = 1.8 of full torque.
 TEST(SpeedForm, ADerivativeAboveFullTorqueIsTheSameInFixedPoint) {
   Scenario s = maxon_scenario(Mode::speed, 0.0);
   s.duration_s = 0.3;

@@ -35,7 +35,7 @@ Scenario on_a_scale(Scenario s) {
   return s;
 }
 
-/// The reading of a metre: a degree of the rotary motor.
+/// The position reading for 1 m: the linear motor's metre is the rotary motor's radian, in degrees.
 constexpr double deg = 180 / base::pi;
 
 // In each sample the position is that of the quarter of a line, the speed that between two edges, and the
