@@ -10,7 +10,7 @@
 
 namespace sixstep::testing {
 
-/// Currents of +-20.48 A in 12 bits, 10 mA a count; 40.96 V; Hall edges against 1 MHz.
+/// Currents of +-20.48 A in 12 bits, 10 mA a count; bus up to 40.96 V; Hall edges captured at 1 MHz.
 inline study::Sensors board_sensors(int bits = 12) {
   study::Sensors s;
   s.currents = rig::CurrentMeasurement::phases;

@@ -296,8 +296,9 @@ speed_rad_s = -372.60553875793
   EXPECT_TRUE(outcome) << to_string(outcome.problems()[0]);
 }
 
-/// Two currents are at the noise and one at twice it: the small one becomes zero, the balance reduces the
-/// large one to the noise, and it becomes zero too. It had stayed on a diode that no mode allows.
+/// Two currents are at the noise and the third is at twice the noise. A small one becomes zero, the balance
+/// reduces the large one to the noise, and then this one becomes zero too. Before, it stayed on a diode that
+/// no mode allows.
 TEST(HostileInput, CurrentsThatBalancingBringsToTheNoiseAreZero) {
   const auto scenario = read_scenario_text("x.toml", R"(title = "drawn"
 motor = "maxon-488607"
