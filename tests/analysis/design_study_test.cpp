@@ -146,8 +146,8 @@ TEST(DesignedSpeedLoop, DoesInTheSimulationWhatWasDesigned) {
   const double ripple = measured(o, "speed ripple"), band = 0.02 * 10;
   EXPECT_LT(ripple, 2 * band);
   EXPECT_NEAR(measured(o, "overshoot"), foretold(o, "overshoot"), ripple);
-  // The response decays near its end as exp(-xi w0 t), xi w0 = 4.6/T_reg: a level that is off by a is reached log(1 + a/band)/(xi w0)
-  // later.
+  // Near its end the response decays as exp(-xi w0 t), xi w0 = 4.6/T_reg. A level that differs by a is therefore reached log(1 +
+  // a/band)/(xi w0) later.
   EXPECT_NEAR(measured(o, "settling time"), foretold(o, "settling time"),
               std::log(1 + ripple / band) * 10e-3 / 4.6);
 }

@@ -105,8 +105,8 @@ TEST(OperatingPoint, IsTheTailOfALongRunTo1e9) {
       Bench b = maxon_bench();
       if (!ideal) b.devices = {.R_on_ohm = 0.02, .V_f_V = 0.7, .r_d_ohm = 0.01};
       const OperatingPoint p = at(b, speed);
-      // The window has whole electrical turns; its ends are rounded to picoseconds: 1e-12 s of 40 A in 0.02 s and more. It begins after 60
-      // time constants.
+      // The window has whole electrical turns and begins after 60 time constants. Its ends are rounded to picoseconds: 1e-12 s of 40 A in
+      // 0.02 s and more.
       const double turn_s = 2 * base::pi / (8 * std::fabs(speed));
       const study::Outcome run = long_run(b, speed, 0.035, std::ceil(0.02 / turn_s) * turn_s);
       const auto measured = [&](std::size_t n) { return run.comparisons[n].measured; };

@@ -31,7 +31,7 @@ double swing_of(const DesignStudy& study) {
   return 0.0;
 }
 
-/// A Hall step with one pole pair is 60 degrees, so that the rotor swings over a few of them about its target.
+/// A Hall step with one pole pair is 60 degrees, so that the rotor swings over a few such steps about its target.
 TEST(UsableDesign, APositionOnHallProbesOfOnePolePairIsNone) {
   DesignOrder order = on_a_board(Mode::position);
   order.subject.sheet.pole_pairs = 1;

@@ -138,7 +138,8 @@ std::uint8_t named(double w, double a, double at_s, int line, int level) {
   return 0;
 }
 
-/// Times cannot distinguish the lines where the rotor slows down, reverses or starts: the decoder then names none, and never another line.
+/// Where the rotor slows down, reverses or starts, times cannot distinguish the lines: the decoder then names no line, and never a wrong
+/// one.
 TEST(Hall, NoOtherLineIsNamedWhereTheRotorTurnsBack) {
   int right = 0, wrong = 0, untold = 0;
   for (const double w : {0.0, 3.0, 8.0, 15.0, 30.0})

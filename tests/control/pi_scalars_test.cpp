@@ -137,8 +137,8 @@ TYPED_TEST(PiScalars, BackCalculationHoldsTheIntegralNearTheLimit) {
       << "without it the integral winds up";
 }
 
-/// The product K e far exceeds 16 times a signal's range, where every fixed sum ends. The integral stays at the limit, and the first small
-/// error leaves it.
+/// The product K e far exceeds 16 times a signal's range, which is the limit of every fixed-point sum. The integral stays at the limit, and
+/// the first small error leaves it.
 TYPED_TEST(PiScalars, NothingWindsUpWhereTheProportionalPartSaturates) {
   using S = TypeParam;
   const double K = 200, K_i = 20, K_b = K_i / K;

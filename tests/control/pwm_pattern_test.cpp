@@ -80,7 +80,7 @@ TEST(PwmPattern, ACommandOfTheOtherSignKeepsTheLeg) {
   }
 }
 
-/// Every switch is chopped for the same time over a turn: only the patterns upper and lower heat some switches more.
+/// With these patterns every switch is chopped for the same time over a turn. Only the patterns upper and lower heat some switches more.
 TEST(PwmPattern, ShareTheChoppingAmongSixSwitches) {
   for (const PwmPattern pattern : {PwmPattern::pwm_on, PwmPattern::on_pwm, PwmPattern::pwm_on_pwm}) {
     const Turning rotor;

@@ -30,7 +30,7 @@ DeadbeatConfig<double> config_of(double wait_periods, double correction = design
   return design::deadbeat(s)->config;
 }
 
-/// A drive of this loop and that winding: the answer takes effect `wait` periods after the sample.
+/// A drive with this loop on that winding. The answer takes effect `wait` periods after the sample.
 struct Loop {
   DeadbeatConfig<double> config;
   double wait, L_H = L;

@@ -95,8 +95,8 @@ TEST(FieldEstimate, TheFluxIsFollowedWhereTheBackEmfIsATenthOfTheCircle) {
   EXPECT_NEAR(static_cast<double>(c.start.enough), c.high_rad_s * unit, 1.0);
 }
 
-/// A rotor behind an axis that accelerates by x of the largest torque, against friction of y of it: a pendulum without damping. True if the
-/// rotor still follows after 20 turns of the axis. Angles are in units of the pendulum's time.
+/// A rotor behind a field axis that accelerates by x of the largest torque, against a friction of y of the largest torque: a pendulum
+/// without damping. True if the rotor still follows after 20 turns of the axis. Angles are in units of the pendulum's time.
 bool is_taken_along(double x, double y, double before) {
   double behind = -before, axis = 0.0, rotor = 0.0;  // speeds
   constexpr double dt = 1e-3;

@@ -228,7 +228,7 @@ TEST(SheetCheck, AKnownDeviationMustBeOneAndIsOne) {
             "known_deviation = \"stall\" names no relation of this sheet; it has: stall");
 }
 
-/// Units too large by a thousand break no relation of a sheet with few values.
+/// In a sheet with few values, units that are too large by a thousand break no relation. The values are then doubted for their size.
 TEST(SheetCheck, ASlowWindingOrRotorIsDoubted) {
   const auto doubts = [](const Sheet& sheet) {
     std::vector<std::string> out;

@@ -194,7 +194,8 @@ HELD = hypot(R / 2 * 5.5 + 20 * K_E_SINE, 20 * PAIRS * L_S * 5.5) * T / 4 / L_S
 
 F_1 = 4 / pi * sin(pi / 6) / (pi / 6)  # of the trapezoid with a flat top of 120 degrees
 SHAPED = 1.5 * K_E * F_1 * 4  # torque of 4 A
-# The torque change for the shape's largest vector, 4/3, in both: a quarter of a period of the holding voltage.
+# Bound of the torque change, N m: current and shape vector have their largest size, 4/3, and a quarter of a period of the holding voltage
+# is missing.
 LEFT = 1.5 * K_E * 4 / 3 * hypot(R / 2 * 4 + 20 * K_E * 4 / 3, 20 * PAIRS * L_S * 4) * T / 4 / L_S
 COPPER = 1.5 * R / 2 * 4**2
 

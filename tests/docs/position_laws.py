@@ -144,8 +144,8 @@ LAWS = {
     "hall-misplaced": [(LOOP_GAIN * 100 * (60 / 55 - 60 / 66), None),
                        (None, K_T / J * LOOP_GAIN * 100 * (60 / 55 - 60 / 66) * SECTOR)],
     "hall-misplaced-six": [(None, K_T / J * (LOOP_GAIN * 100 * (1 - 60 / 66) * SECTOR / 10 + 0.6 * 2 * T)), near(100, T / SECTOR + 0.004)],
-    # The bound: places to two ticks of 1 us, times to one more, at either end of the narrowest sector, in both directions, and held for the
-    # widest.
+    # The bound. Places are right to two ticks of 1 us and times to one more, at both ends of the narrowest sector and in both directions.
+    # The error is held for the widest sector.
     "hall-calibrated": [(None, K_T / J * (LOOP_GAIN * 100 * 4 * 3e-6 / (SECTOR * 55 / 60) * SECTOR * 66 / 60 + 0.6 * 2 * T)), near(100, T / SECTOR + 0.004)],
     "encoder": [(450 - 2 * 360 / 4096, 450 + 2 * 360 / 4096)],
     "absolute-encoder": [(1000 - 2 * 360 / 2**14, 1000 + 2 * 360 / 2**14), (None, 2 * 360 / 2**14)],

@@ -54,7 +54,7 @@ bool asks_for_nothing(const DrawnDrive& d) {
   });
 }
 
-/// The comparison ends once the perturbed run has diverged: from there on both may differ.
+/// The comparison ends once the perturbed run has diverged from the exact one, because from then on double may differ as well.
 Outcome compare(std::uint64_t seed) {
   const DrawnDrive drive(seed), other = nearly(drive);
   if (drive.drive.mode != control::Mode::duty && asks_for_nothing(drive)) return {.tame = false};

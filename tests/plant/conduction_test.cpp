@@ -83,7 +83,8 @@ TEST(Rail, ATerminalWithinTheDropFloatsAtOnce) {
   for (const bool high : {true, false}) {
     Drivetrain setup;
     setup.devices.V_f_V = 0.7;
-    // c at its top against the mean of a's bottom and b's zero (or mirrored) is 1.5 K_e w beyond the rail.
+    // The terminal of c, whose EMF is at its top, is 1.5 K_e w beyond the rail; a's EMF is at its bottom and
+    // b's is zero (or all three are mirrored).
     setup.start = {.speed_rad_s = 0.35 / (1.5 * setup.machine.K_e_V_s),
                    .angle_rad = at_electrical_deg(high ? 270.0 : 90.0),
                    .bus_V = 24.0};

@@ -109,8 +109,8 @@ TEST(GeneralSupply, ABatterySagsAndRecoversAsItsCircuitDoes) {
   EXPECT_LT(held.plant().more().charge.value, 0.5) << "the middle point was passed";
 }
 
-/// U_s behind a rectifier that conducts a sine of amplitude V, less `drop`, from `t_on` on: the RC circuit's
-/// response to a sine.
+/// U_s where a rectifier conducts from `t_on` on, fed by a sine of amplitude V less `drop`: the RC circuit's
+/// response to that sine.
 struct Conducting {
   double V, w, drop, R_b, R, C;
   double steady(double t) const {

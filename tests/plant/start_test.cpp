@@ -25,8 +25,8 @@ TEST(Start, AnAngleOnASectorEdgeIsOnIt) {
     }
 }
 
-/// The rotor starts with the edge behind it, forwards and backwards; at rest the sector is the one ahead
-/// (model.md 4b).
+/// The rotor has just passed the edge, forwards or backwards. At rest on an edge, the sector is the one that
+/// the rotor will enter (model.md 4b).
 TEST(Start, OnASectorEdgeTheRotorIsInTheSectorItTurnsInto) {
   for (const double flat_deg : {120.0, 100.0})  // one piece of back-EMF per sector, and three
     for (int edge = -7; edge <= 7; ++edge)

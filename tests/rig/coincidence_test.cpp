@@ -123,7 +123,7 @@ TEST(Pitfall01_CoincidentInstants, TickAndPwmEdgeBothHappen) {
 
 TEST(Pitfall01_CoincidentInstants, TickAndPwmEdgeTheTickComesFirst) {
   // The dead time is half a period: at each tick one dead time would end as the next begins. The tick
-  // replaces that edge; an edge before the tick would be counted.
+  // replaces the edge at the end of the first one; an edge before the tick would be counted.
   Board b = locked(Board::duty(0.5, Chopping::complementary));
   b.board.modulator.dead_ticks = 15e6;
   auto rig = b.rig();

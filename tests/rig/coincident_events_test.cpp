@@ -16,8 +16,8 @@ using control::Chopping;
 using rig::EventKind;
 
 TEST(Pitfall01_CoincidentInstants, PwmEdgeAndComparator) {
-  // The chopping is complementary with a dead time of 1 us. A step turns the leg off at 500 us; its dead time
-  // ends exactly when the next step turns it on again.
+  // The chopping is complementary with a dead time of 1 us. A step turns the upper switch off at 500 us. The
+  // dead time after it ends exactly when the next step turns the switch on again.
   Board b = locked(Board::hysteresis(20.0, 0.25, Chopping::complementary));
   b.board.modulator.dead_ticks = 1e6;
   b.setpoint(500'000'000, 1.0);
@@ -155,7 +155,8 @@ TEST(Pitfall01_CoincidentInstants, ComparatorAndCurrentZeroBothHappen) {
     EXPECT_EQ(rig.event_count(EventKind::comparator), 1);
     EXPECT_FALSE(rig.modulator().source_on());
     EXPECT_EQ(rig.plant().gates(), all_off());
-    // The current ends for good, by its own event or, with the comparator first, within rounding of it.
+    // The current ends for good: by its own event, or, where the comparator is first, within rounding of that
+    // instant.
     EXPECT_LE(rig.event_count(EventKind::diode_off), 1);
     EXPECT_EQ(rig.plant().state().i[1], 0.0);
     EXPECT_TRUE(plant::is_floating(rig.plant().mode().legs[1]));

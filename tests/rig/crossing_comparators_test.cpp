@@ -50,8 +50,9 @@ std::vector<Edge> edges_of(const Board& board, double end_s) {
 
 double amplitude() { return 0.01675 * w / std::hypot(1, w_e * tau); }
 
-/// Each edge from 2 ms on, when the start has decayed (40 time constants), is at its closed-form angle. Line
-/// a rises late after the crossing of e_a at -30 degrees, and each other line a third of a turn later.
+/// Each edge after 2 ms, when the start has decayed (40 time constants), is at its closed-form angle. Line a
+/// rises `rises_late_rad` after the lagged crossing of e_a at -30 degrees, and each other line a third of a
+/// turn later.
 void expect_edges(const std::vector<Edge>& edges, double rises_late_rad, double falls_late_rad) {
   std::uint8_t before = 0;
   int seen = 0;

@@ -50,7 +50,8 @@ std::vector<Edge> edges_of(const plant::HallPlacement& placed, double sign, doub
   for (int n = -2000; n <= 2000; ++n) {
     const double place = 60.0 * n + placed.offset_deg + own(n);
     const double met = place + sign * placed.hysteresis_deg / 2;
-    // Forward the first edge is the first beyond 0 without hysteresis; backward it is the last at or below 0.
+    // Forward, the first edge is the first one beyond 0, apart from the hysteresis. Backward, it is the last
+    // one at or below 0.
     if (sign > 0 ? place <= 0 : place > 0) continue;
     const double at_s = sign * met / deg_s;
     if (at_s < until_s) edges.push_back({at_s, (((sign > 0 ? n : n - 1) % 6) + 6) % 6});

@@ -72,7 +72,8 @@ TEST(SensorlessComparators, ChoppingDelaysAnEdgeByAPauseAtMost) {
     }
 }
 
-/// Samples of 8 bits have errors of up to half a step each; edges on the same board do not.
+/// Samples of 8 bits have errors of up to half a step each. Captured edges on the same board have no such
+/// error.
 TEST(SensorlessComparators, CommutatesEvenlyWhereSamplesAreRounded) {
   const auto spread_deg = [](bool by_edges) {
     SensorlessBench bench(three_motors[0], control::Mode::speed, Chopping::hard);

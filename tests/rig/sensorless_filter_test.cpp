@@ -50,9 +50,9 @@ double mean_late_s(SensorlessBench bench, double w) {
   return sum_s / commutations;
 }
 
-/// The remaining error: 3 % of tau, because the legs are 3.5 tau behind their edge; a tick; and the mean of
-/// the crossings' rounding, a step of the converter up or down each, with y falling through 4 K_e w in a
-/// sector.
+/// The remaining error, s, has three parts. 3 % of tau, because the driven legs are sampled 3.5 tau after
+/// their edge. A timer tick. And the mean of the crossings' rounding, a step of the converter up or down
+/// each, where y falls by 4 K_e w in a sector.
 double remainder_s(const SensorlessBench& bench, double w) {
   const double lsb_V = 1.25 * bench.spec.bus_V / 4096, K_e = bench.motor.machine.K_e_V_s;
   const double sector_s = base::sector_rad / (bench.motor.machine.pole_pairs * w);

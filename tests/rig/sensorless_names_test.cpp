@@ -21,7 +21,7 @@ struct Lost {
   int commutations = 0;  ///< since the cause
 };
 
-/// Runs until the drive loses the rotor. `caused`: whether the plant shows the cause by then.
+/// Runs until the drive loses the rotor. `caused` returns whether the plant shows the cause at that time.
 template <class Rig, class Caused>
 Lost lost(Rig&& rig, const SensorlessBench& bench, double cause_s, Caused&& caused) {
   run_until(rig, cause_s);
@@ -124,8 +124,8 @@ TEST(SensorlessNames, AHeldRotorMasksItsCrossing) {
 constexpr double broken_s = 1.4;
 
 /// The divider of one leg breaks on the board and reads 0. The reading is wrong once the terminal has another
-/// voltage, and matters unless the leg floats behind its crossing. Ahead of a falling crossing the chip takes
-/// 0 for that crossing, which is right for the next two sectors.
+/// voltage. It matters unless the leg floats after its crossing. Before a falling crossing the chip takes 0
+/// for that crossing, which gives the right pair for the next two sectors.
 template <class Scalar, std::size_t leg>
 struct BrokenDivider : BuiltDrive<Scalar> {
   using BuiltDrive<Scalar>::BuiltDrive;

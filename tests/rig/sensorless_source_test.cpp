@@ -31,7 +31,8 @@ void choose(SensorlessBench& bench, BuiltRig::Tunings& tunings, double t_s, Roto
   bench.act(t_s, rig::ActionKind::retune, static_cast<double>(tunings.size() - 1));
 }
 
-/// Runs until `source` commutates, at most `most_s`; checks that the drive followed the rotor until then.
+/// Runs until `source` commutates, for at most `most_s` s, and checks that the drive followed the rotor until
+/// then.
 void expect_source(BuiltRig& rig, RotorSource source, double most_s, const std::string& where) {
   const double t = run_until_true(rig, rig.now().seconds() + most_s, 1e-4,
                                   [&] { return rig.firmware().source().source == source; });
@@ -145,8 +146,8 @@ TEST(SensorlessSource, CatchesASpinningRotorUnderLoad) {
       }
 }
 
-/// A slow rotor against half of its torque stops before the drive catches it: the drive loses it once, and
-/// starts it.
+/// A slow rotor against half of its torque stops before the drive catches it. The drive reports one loss of
+/// the rotor, and starts it.
 TEST(SensorlessSource, StartsARotorThatStoppedWhileItWasCaught) {
   SensorlessBench bench = on_built_board(three_motors[2]);
   bench.load_part = 0.5;

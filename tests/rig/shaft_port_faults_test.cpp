@@ -29,8 +29,9 @@ std::int64_t quarters(const Motion& m, std::int64_t lines, double t) {
   return static_cast<std::int64_t>(std::floor(4 * static_cast<double>(lines) * m.theta(t) / (2 * base::pi)));
 }
 
-// A stuck line A or B leaves the other one's edges, which count up and down by one. After the fault the count
-// follows the lines again, so that the loss is a whole number of lines: all those passed, to within one.
+// With line A or B stuck, the other line's edges remain and count up and down by one. After the fault the
+// count follows the lines again, so that it has lost a whole number of lines: all those passed, to within
+// one.
 TEST(StuckLine, LosesWholeLines) {
   constexpr std::int64_t lines = 1000;
   for (const int line : {line_A, line_B})

@@ -154,9 +154,9 @@ TEST(CrossedWires, ThatMoveOnTogetherRunAsIfTheyWereStraight) {
   expect_the_board_sees_no_difference({WireOrder::cab, WireOrder::cab}, 17, 240 + 17, 1);
 }
 
-/// The pair of phases a and b has H1 with u_ab: to swap a and b reverses u_ab and exchanges u_bc with u_ca
-/// and H2 with H3. The board then sees a motor whose angle counts in the other direction, and which turns
-/// backwards.
+/// Phases a and b are the pair whose voltage u_ab has the signs of H1. Swapping a and b reverses u_ab and
+/// exchanges u_bc with u_ca, and with them H2 with H3. The board then sees a motor whose angle counts in the
+/// other direction, and which turns backwards.
 TEST(CrossedWires, OfTwoPhasesAndTheTwoProbesBesideThemRunTheMirroredMotor) {
   expect_the_board_sees_no_difference({WireOrder::bac, WireOrder::acb}, 17, 60 - 17, -1);
   expect_the_board_sees_no_difference({WireOrder::cba, WireOrder::bac}, 17, 180 - 17, -1);

@@ -185,8 +185,8 @@ TEST(CommutationStep, TellsARunInWhichItNeverActs) {
       }
 }
 
-/// A pattern that chops the staying leg has a larger peak and a deeper dip than PWM-ON, and a remark states
-/// it.
+/// A pattern that chops the staying leg gives a larger peak and a deeper dip of the current than PWM-ON does,
+/// and a remark states this.
 TEST(CommutationStep, TellsAPatternThatChopsTheStayingLeg) {
   struct Seen {
     double least_Nm, most_A;

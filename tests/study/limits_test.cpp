@@ -36,7 +36,8 @@ std::string refusal(const Scenario& s) {
   return out ? "not refused" : to_string(out.problems()[0]);
 }
 
-/// The current is full, and a ripple sampled at its minimum of 0 A leaves pulses that still drive.
+/// Full current. Where the sample shows the ripple's minimum of 0 A, the limit of speed leaves short pulses,
+/// which still drive the rotor.
 TEST(Limits, OwnTorqueStaysWithinTheLimitOfSpeedInEveryChopping) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary}) {
     Scenario s = maxon_scenario(Mode::current, 6.99);
@@ -103,8 +104,8 @@ TEST(Limits, ACurrentThatOnePulsePassesIsRefused) {
   EXPECT_TRUE(study::run(s));
 }
 
-/// A salient rotor runs, but the drive does not guarantee its limits, and names each: the bounds have no
-/// proof for it.
+/// A salient rotor runs, but the drive does not guarantee its limits, because the bounds are not proved for
+/// such a rotor. A message names each limit.
 TEST(Limits, OfASalientRotorAreNotPromised) {
   Scenario s = maxon_scenario(Mode::current, 3.0);
   s.sheet.inductance_mH.reset();

@@ -205,8 +205,8 @@ Scenario at_100_rad_s() {
 }
 
 TEST(Sensors, SpeedFromHallEdgesHoldsTheSpeed) {
-  // The speed loop is soft: the exact placement assumes a speed without delay, but edges give it an
-  // electrical turn late.
+  // The speed loop is slow: the exact pole placement assumes a speed without delay, but edges give the speed
+  // an electrical turn late.
   Scenario s = at_100_rad_s();
   s.control.speed.settle_s = 0.1;
   s.control.speed.damping = 0.9;

@@ -166,9 +166,9 @@ Scenario on_the_load(SensorShaft shaft, double torque_Nm) {
   return s;
 }
 
-// The coupling at rest is twisted by T/k: the motor's encoder holds the motor, the load's holds the load, and
-// the motor is ahead by the twist times the gear. A speed below a count in eight samples reads as zero or as
-// that: the shaft oscillates within the position loop's reaction to it.
+// The coupling at rest is twisted by T/k. The motor's encoder holds the motor, the load's encoder holds the
+// load, and the motor is ahead by the twist times the gear. A speed below a count in eight samples reads as
+// zero or as one such count: the shaft oscillates within the position loop's reaction to that reading.
 TEST(LoadSideSensor, HoldsTheLoadWhateverTwistsTheCoupling) {
   const double told_rad_s = 2 * base::pi / 0x1p20 / (8 * 30e-6),
                hunts_deg = 2 * 360 / 0x1p16 + told_rad_s / 0.3;

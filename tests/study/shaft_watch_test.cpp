@@ -58,8 +58,8 @@ TEST(ShaftWatch, ABrokenWindingIsNamedWhereHalfTheSquareIsLost) {
     s.at.back().sensors.broken_winding = Winding::cosine;
     const Outcome out = outcome_of(s);
     EXPECT_THAT(fault_of(out), HasSubstr("cosine winding nothing"));
-    // A count of the converter moves the square's border by as much; the fault is the second of two results,
-    // each half a peak late.
+    // A count of the converter moves the instant at which the square passes its limit. The fault is the
+    // second of two results, each half a peak late.
     EXPECT_NEAR(out.simulated_s, time_at(135), 2.5 * s.pwm.period_s + 1.25 / 2048 / w);
     s.at.back().sensors.broken_winding = Winding::sine;
     const Outcome sine = outcome_of(s);

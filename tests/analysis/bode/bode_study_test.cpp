@@ -97,7 +97,7 @@ TEST(Bode, ASampleInTheMiddleIsHalfAPeriodLater) {
     ASSERT_TRUE(b->designed && b->figures && b->measured.phase_rad);
     EXPECT_LT(off_by(*b, 0.3, 30), 0.02) << delay;
     EXPECT_NEAR(*b->measured.phase_rad, *b->figures->phase_rad, 5e-3);
-    // Pulses that begin with the period end before the sample below a duty of 1/2, so that the loop is not linear.
+    // Pulses that begin with the period end before the sample where the duty is below 1/2, so that the loop is not linear.
     s.pwm.alignment = study::Alignment::edge;
     const auto edge = analysis::study_bode(s);
     ASSERT_TRUE(edge) << to_string(edge.problems()[0]);

@@ -124,7 +124,8 @@ class Shaft {
   bool pushing_ = false;
 };
 
-/// Switching of the probes: an edge has its place, shifted by half the hysteresis and by a new jitter each time. Its signal is delayed.
+/// Switching of the probes. Each edge has its own place, shifted by half the hysteresis and by a new jitter each time. The line shows the
+/// edge after a delay.
 class Probes {
  public:
   Probes(const HallTruth& t, Draw& draw, double angle_deg) : t_(t), draw_(draw) {
@@ -180,7 +181,7 @@ class Probes {
   double up_ = 0.0, down_ = 0.0;
 };
 
-/// A contact that is loose at times: then one line is wrong in every other row, at random.
+/// A contact that is loose at times, drawn at random. While it is loose, one line is wrong in every other row.
 class LooseContact {
  public:
   explicit LooseContact(const HallTruth& t) : t_(t), draw_(t.seed ^ 0x9e3779b9u) {}

@@ -84,8 +84,8 @@ TEST(Emf, ATrapezoidBetweenLinesIsFoundAgain) {
     EXPECT_NEAR(h.in_phase, t.cos_part[order], 2e-6) << h.order;
     EXPECT_NEAR(h.across, 0.0, 2e-6) << h.order;
   }
-  // A trapezoid of 120 degrees has its line peak of 2 K_e at one angle only. The lines do not show orders that are equal in all phases;
-  // without those, torque per ampere is that of the trapezoid.
+  // A trapezoid of 120 degrees has its line peak of 2 K_e at one angle only. The lines do not show the harmonics that are equal in all
+  // phases. Without these harmonics the torque per ampere is still that of the trapezoid.
   const design::ShapeFactors ideal = design::shape_factors(design::BackEmfShape::trapezoid, 120.0);
   const double K_t = found->shape_sector_mean * found->constants.phase_peak.value;
   EXPECT_NEAR(K_t / found->constants.phase_fundamental.value, ideal.sector_mean / ideal.fundamental, 2e-3);

@@ -161,7 +161,7 @@ TYPED_TEST(FiniteSet, NoOtherStateComesNearer) {
   EXPECT_GT(changed, 500);
 }
 
-/// A sort gives the same state: cost by cost, from the block's own prediction of each state alone.
+/// A sort of all states by their costs, from the block's own prediction of each state alone, selects the same state.
 TYPED_TEST(FiniteSet, IsTheFirstOfAllStatesSorted) {
   const Machine m;
   std::mt19937 random(9);

@@ -121,7 +121,8 @@ TYPED_TEST(HarmonicCurrent, ASineGetsWhatItHadWithoutIt) {
   }
 }
 
-/// The weakening current is perpendicular to g: it makes no torque, and the sum of both stays within the limit that `least` keeps.
+/// The weakening current is perpendicular to g and makes no torque. Its sum with the torque's current stays within the limit that `least`
+/// keeps.
 TYPED_TEST(HarmonicCurrent, AWeakenedFieldChangesNoTorque) {
   const auto c = of_the_trapezoid<TypeParam>();
   const double limit = 5.0, weakening = -3.0;
@@ -139,7 +140,7 @@ TYPED_TEST(HarmonicCurrent, AWeakenedFieldChangesNoTorque) {
   EXPECT_NEAR(along, weakening, 0.01 * std::fabs(weakening)) << "the turn of g takes up to 0.6 % of it";
 }
 
-/// The angle used is the one `lead` later, in both directions of rotation.
+/// The drive uses the shape at the angle that the magnet reaches `lead` later, in both directions of rotation.
 TYPED_TEST(HarmonicCurrent, TheAngleIsThatOfTheCurrentToCome) {
   auto c = of_the_trapezoid<TypeParam>();
   c.lead_rad_s = static_cast<TypeParam>(2e-3);

@@ -214,8 +214,8 @@ TEST(ShortBus, ItIsHeldWhateverIsAskedForUpToTwiceTheSpeedWithoutALoad) {
   }
 }
 
-/// A start beyond the bus voltage without a current: the whole voltage is too small for the holdable current at first. The current swings
-/// about that one by at most the initial difference, and settles there.
+/// The drive starts beyond the bus voltage without a current. At first the whole voltage is too small for the current that it can hold. The
+/// current swings about this final value by at most the initial difference, and settles there.
 TEST(ShortBus, BegunBeyondTheBusItSwingsOnce) {
   const unsigned seed = 20261128;
   SCOPED_TRACE("seed " + std::to_string(seed));

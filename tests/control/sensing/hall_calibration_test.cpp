@@ -82,7 +82,8 @@ TEST(HallCalibration, IsRightToATick) {
       }
 }
 
-/// The edges' times do not show a common offset, which is given separately; two directions separate it from the hysteresis.
+/// The edges' times do not show the offset that all edges have in common, which is therefore given. Runs in two directions separate it from
+/// the hysteresis.
 TEST(HallCalibration, OffsetAndHysteresisPartWhereBothDirectionsAreGiven) {
   Drawn drawn{2};
   const HallCalibrationConfig config;
@@ -174,7 +175,8 @@ TEST(HallCalibration, LongRunsDoNotOverflow) {
     hall_calibrate(config, state, static_cast<std::uint8_t>(n % 6), 1, t + (n % 6 == 3 ? sector / 10 : 0));
   ASSERT_EQ(state.result, HallCalibration::done);
   const HallDeviations found = hall_deviations(state);
-  // One edge is 6 degrees off, and the mean of six is subtracted: 5 and -1; sums keep 32 bits of a turn, rounded down.
+  // One edge is 6 degrees off. The mean of the six, 1 degree, is subtracted, which gives 5 and -1. Sums keep 32 bits of a turn, rounded
+  // down.
   for (int n = 0; n < 6; ++n) EXPECT_NEAR(degrees_of(found.at[n]), n == 3 ? 5 : -1, 4 * 360 / 4294967296.0);
 }
 

@@ -27,7 +27,7 @@ PulseSpeedConfig<S> config(double base = 1.0) {
   return {static_cast<TickRatio<S>>(timer_Hz / counts_per_rad / base), 200000};
 }
 
-/// An encoder whose place (counts) is a monotonic function of time between two control ticks: all its edges, each at its timer count.
+/// An encoder whose position, in counts, is a monotonic function of time between two control ticks. Each edge gets its own timer count.
 class Encoder {
  public:
   explicit Encoder(std::function<double(double)> place) : place_(std::move(place)) {

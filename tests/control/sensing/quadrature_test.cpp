@@ -104,7 +104,7 @@ TEST(Quadrature, AnIndexReportsAndMendsMissedCounts) {
     }
 }
 
-/// An index whose edges are less than two counts early or late is still evaluated at its place.
+/// An index whose edges are less than two counts early or late is still evaluated at the right count.
 TEST(Quadrature, AnIndexMayBeLessThanTwoCountsOff) {
   const QuadratureConfig config = quadrature_of_lines(16);
   for (const int direction : {1, -1})

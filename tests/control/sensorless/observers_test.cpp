@@ -121,7 +121,7 @@ TEST(SlidingMode, OutsideTheLayerItIsDrivenInByTheWholeGain) {
     EXPECT_LT(state.error_A, before) << "it only shrinks: k is above the back-EMF";
     before = state.error_A;
   }
-  // Each period removes b (k - g), and the decay some more.
+  // Each period reduces the error by b (k - g), and the winding's decay reduces it further.
   EXPECT_LE(periods, 40 * k / (k - g) + 2);
 }
 
