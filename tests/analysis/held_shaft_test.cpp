@@ -49,8 +49,8 @@ TEST(HeldShaft, TwelvePlacesSeparateStraightWires) {
     }
 }
 
-/// Six angles, each in the middle of a sector, have equal torque with an early pair, half of that with straight wires. They do not reveal
-/// the fault.
+/// At six angles, each in the middle of a sector, a pair one sector early has the same torque everywhere: half of the torque with straight
+/// wires. Six angles therefore do not show the fault.
 TEST(HeldShaft, SixPlacesDoNotShowAnEarlyPair) {
   const rig::Wiring early{.phases = rig::WireOrder::bac, .probes = rig::WireOrder::bac};
   ASSERT_TRUE(analysis::sectors_ahead(early));

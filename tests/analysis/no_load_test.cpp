@@ -86,7 +86,8 @@ TEST(NoLoad, ChoppedAFreeRotorLiesWithinTheInterval) {
     b.chopping = chopping;
     const NoLoad n = found(b);
     EXPECT_GT(n.half_width_rad_s, 0.0);
-    // The found speed is where the torque's interval holds zero: the speed is off by one half width, and the interval by another.
+    // The search ends where the torque's interval contains zero. The speed found there has an error of up to one half width; the interval
+    // of the true speed adds another.
     EXPECT_NEAR(n.free_speed_rad_s, n.point.speed_rad_s, 2 * n.half_width_rad_s + swing_rad_s(b, n))
         << name_of(chopping);
   }

@@ -65,7 +65,8 @@ TEST(OperatingPoint, RippleAndRmsAreOrderedAsTheyMustBe) {
     EXPECT_LE(p.ripple_rms_Nm, p.ripple_Nm / 2 * (1 + 1e-12));  // Popoviciu's inequality
     EXPECT_LE(p.phase_rms_A, p.phase_peak_A);
     EXPECT_LE(p.motor_current_A, p.winding_current_A * (1 + 1e-12));  // triangle inequality
-    // Half the sum of three currents that cancel is the largest one, and its square at most 2/3 of the sum of squares.
+    // The sum of the three currents is zero, so that half the sum of their magnitudes is the largest magnitude. The square of that is at
+    // most 2/3 of the sum of squares.
     EXPECT_LE(p.winding_current_A, std::sqrt(2.0) * p.phase_rms_A * (1 + 1e-12));
   }
 }
@@ -280,7 +281,7 @@ TEST(OperatingPoint, ChoppedIntervalCoversARunTenTimesAsLong) {
     missed += std::fabs(p.torque_Nm - s.torque / s.seconds) > p.half_width_Nm;
     missed += std::fabs(p.bus_current_A - s.supplied / s.seconds / 24) > p.half_width_A;
   }
-  // More than one miss in 16 intervals of 99 % occurs once in 90 times with drawn phases; these phases are spread evenly.
+  // With random phases, 16 intervals of 99 % have more than one miss in one of 90 runs. The phases of this test are evenly spread.
   EXPECT_LE(missed, 1) << "seed " << seed;
 }
 

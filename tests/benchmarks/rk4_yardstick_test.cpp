@@ -65,8 +65,8 @@ TEST(Rk4Textbook, HasFirstOrderErrorsUnderSoftChoppingToo) {
   const Errors coarse = errors<Rk4Textbook>(1e-6), fine = errors<Rk4Textbook>(1e-7);
   std::printf("textbook: %.2f %% of peak current at 1 us, %.3f %% at 0.1 us\n", 100 * coarse.current,
               100 * fine.current);
-  // The error is ten times the tuned one's: conditions are evaluated inside a stage too, where a diode's current may seem reversed. An
-  // independent program of this kind has 6 % and 1 %.
+  // The error is ten times that of the tuned solver: this one evaluates conditions inside a stage too, where a diode's current may seem
+  // reversed. An independent program of this kind has 6 % and 1 %.
   EXPECT_LT(coarse.current, 6e-2);
   EXPECT_LT(fine.current, 1e-2);
   EXPECT_LT(fine.current, coarse.current / 4);

@@ -26,7 +26,7 @@ double slope(Pair pair, Leg staying, ChoppedSwitch chopped, double duty, double 
   v[at(pair.sink)] = chopped == ChoppedSwitch::lower ? (1 - duty) * U : 0.0;
   e[at(pair.source)] = E_V;
   e[at(pair.sink)] = -E_V;
-  // then the leaving current flows out of the motor into the upper diode
+  // If the source stays, the sink leaves: its current flows out of the motor into the upper diode.
   const bool was_sink = staying == pair.source;
   v[at(leaving)] =
       was_sink ? (1 + overlap) * U : overlap * U;  // its lower or its upper switch opposes the rail

@@ -270,7 +270,7 @@ TYPED_TEST(HallMotion, PositionRunsOnThroughSectorsAndBackToWhereItWas) {
     const S fraction = sector_fraction(config, speed, now + since);
     return static_cast<double>(hall_position(position, count, speed.direction, fraction)) / sector;
   };
-  // The error of a gain is 2^-15 of itself in 16 bits, over 30 sectors; the roundings of sum and fraction add to it.
+  // A 16-bit gain has a relative error of 2^-15, here over 30 sectors. The roundings of sum and fraction add to it.
   const double near = 3 * digit<S>() / sector + 30 * digit<S>();
   EXPECT_NEAR(at(0), 0.5, near) << "nothing known: the middle of the sector";
   for (int n = 1; n <= 30; ++n) {

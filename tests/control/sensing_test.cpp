@@ -112,7 +112,8 @@ TYPED_TEST(Sensing, DerivativeOfARampSettlesAtItsSlopeWithTheFilterTimeConstant)
   for (int n = 1; n <= 64; ++n) {
     const S seen = ScalarTraits<S>::signal(derivative_step(config, state, S(0.25 + r * n)));
     const double y = static_cast<double>(seen);
-    // The output is y[n] = g r (1 - (1-b)^n)/b. Fixed point rounds the fed-back y to a digit: at most b/2/b of it remains.
+    // The output is y[n] = g r (1 - (1-b)^n)/b. Fixed point rounds the y that is fed back through b: an error of b/2 digits a sample, which
+    // adds up to half a digit.
     EXPECT_NEAR(y, 32 * r * (1 - std::pow(0.875, n)), 2 * digit<S>()) << n;
   }
 }

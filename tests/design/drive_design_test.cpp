@@ -157,7 +157,7 @@ TEST(DriveDesign, HalfAPeriodCostsHalfThePhaseOfOne) {
   EXPECT_NEAR(*start.sooner(s).phase_rad - *middle.sooner(m).phase_rad, half, 0.04 * half);
   EXPECT_EQ(late_words(middle.spec.late_periods()), "1.5 periods late");
   EXPECT_EQ(late_words(middle.spec.sooner_periods()), "half a period late");
-  // 45 degrees of phase remain at the longest period, as reported for a sample at the start too.
+  // The reported longest period leaves 45 degrees of phase, for samples in the middle of a period as for samples at its start.
   const DriveDesign longest = designed({.mode = Mode::current,
                                         .period_s = middle.longest_period_s,
                                         .delay_periods = 1,

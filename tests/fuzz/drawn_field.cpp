@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The field-oriented drive: some lean drives become one, without the keys of six-step. It is drawn last, so that a seed's other values stay
-// the same.
+// The field-oriented drive: some lean drives become one, without the keys of six-step. Its keys are drawn last, so that a seed's other
+// values stay the same.
 #include "sixstep/design/loops/field_current.hpp"
 #include "sixstep/design/sheet/parameters.hpp"
 #include "tests/fuzz/drawn_parts.hpp"

@@ -159,8 +159,8 @@ void ask(Scenario& s) {
   add(MetricKind::maximum, Signal::bus_voltage);
 }
 
-/// Largest error of a sensor: half a count of a converter, or half a digit of 16 bits. The range has twice the largest value, because it
-/// holds differences.
+/// Largest error of a sensor: half a count of a converter, or half a digit of 16 bits. The format's range is twice the largest value,
+/// because it also holds differences.
 double digits(const Scenario& s, double largest) {
   const bool narrow = s.control.arithmetic == Arithmetic::q15 || s.control.arithmetic == Arithmetic::q14;
   return largest *

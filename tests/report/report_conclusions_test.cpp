@@ -300,8 +300,8 @@ TEST(Spectrum, of_a_saw_is_the_fourier_series) {
     EXPECT_NEAR(lines.tones[n].line, turns * (static_cast<double>(n) + 1), 1e-3);
 }
 
-/// The interval is no whole number of teeth: every harmonic lies between two lines and still has its
-/// frequency and amplitude.
+/// The interval is no whole number of teeth, so that every harmonic lies between two lines. The spectrum
+/// still gives its frequency and amplitude.
 TEST(Spectrum, a_tone_between_two_lines_has_its_own_amplitude_and_frequency) {
   const Saw s = saw(37);
   for (const double end : {0.9871, 0.9932, 0.9999}) {

@@ -96,7 +96,8 @@ rig::HallInterpolator<double> interpolator(const rig::SensorsConfig& config) {
 double tick_deg(double w) { return p * std::fabs(w) * 180 / base::pi / capture_Hz; }
 
 // Errors in ticks: one at either end of the turn over which an edge's angle was learned, and one in the time
-// since an edge. The slope's sector has two ends, each with one tick of time and two of angle.
+// since an edge. The speed is measured over a sector, each of whose two ends has one tick of time and two of
+// angle.
 TEST(HallInterpolator, LearnsWhereTheEdgesAreAndThenSeesTheTrueAngle) {
   for (const double w : {100.0, -100.0, 300.0}) {
     rig::SensorsConfig config = reading(HallAngleFrom::learned_edges, 6);
@@ -108,7 +109,8 @@ TEST(HallInterpolator, LearnsWhereTheEdgesAreAndThenSeesTheTrueAngle) {
     EXPECT_LT(learned.speed_rad_s, std::fabs(w) * 2 * (1 + 2) * tick_deg(w) / 55) << w;
     EXPECT_LE(learned.wrong_sectors, learned.samples * ticks * tick_deg(w) / 60) << w;
 
-    // Assumed angles are as wrong as the probes, and the speed is wrong by 60/55 and 60/66.
+    // Evenly spaced edges are assumed: the angle is as wrong as the probes' places, and the measured speed is
+    // 60/55 or 60/66 of the true one.
     auto trusting = interpolator(reading(HallAngleFrom::angle, 1));
     const Errors trusted = steady(w).drive(trusting, 0.1, 0.2);
     EXPECT_GT(trusted.position_deg, 3.9 / p);

@@ -20,7 +20,7 @@ using namespace sixstep::testing;
 constexpr double p = 8, w = 120.0;  // rad/s, mechanical
 constexpr double deg_s = p * w * 180 / base::pi;
 
-/// An external drive turns the rotor at w or -w; the bridge is off. Stuck lines and wires are in order.
+/// An external drive turns the rotor at w or -w; the bridge is off.
 GeneralRig turned(const rig::ProbeGiven& probes, double sign, rig::Timeline timeline = {}) {
   GeneralSetup setup;
   setup.shaft.dynamometer = true;

@@ -15,8 +15,9 @@ TEST(Sensorless, CatchesASpinningRotor) {
       SensorlessBench bench(motor);
       bench.at.speed_rad_s = part * bench.no_load_rad_s();
       bench.at.angle_rad = 1.0;
-      // Soft chopping cannot limit a braking current near the no-load speed: the test holds that speed and
-      // slows down the others.
+      // Soft chopping cannot limit a braking current near the no-load speed. At 0.9 of that speed the
+      // setpoint is therefore the rotor's own speed; otherwise the setpoint is lower, so that the drive
+      // brakes.
       bench.setpoint(0, (std::fabs(part) > 0.8 ? 1.0 : 0.6) * part * bench.no_load_rad_s());
       auto rig = bench.rig();
       const double listen_s = bench.start.rotor.spin.listen_ticks / bench.spec.capture_Hz;

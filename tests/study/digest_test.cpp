@@ -63,7 +63,7 @@ std::uint64_t digest_of(const Scenario& s, const Listeners& listeners = {}) {
 /// The end state alone, to compare runs with and without a digest.
 std::uint64_t end_state(const Rig& rig) { return Digest{}.after(rig); }
 
-/// Calls `each` at every control tick of a snapshot's life, after the tick's event.
+/// Calls each(rig, digest) at every control tick, after the tick's event.
 template <class Each>
 struct AtTicks {
   Digest digest;

@@ -191,7 +191,7 @@ TEST(ExportGate, WhatTheRunMissedStandsAgainstItInDigitsThatTellItFromTheLimit) 
   EXPECT_EQ(missed->outcome.digest, held->outcome.digest);
 }
 
-/// A dead time of 0.4 us on counts of 1 us is zero, 1.4 us is 1 us.
+/// The timer counts whole microseconds: it makes a dead time of 0.4 us zero, and one of 1.4 us 1 us.
 TEST(ExportGate, ADeadTimeThatTheTimerShortensIsRefused) {
   Scenario s = on_a_board(Mode::current);
   s.pwm.timer_Hz = 1e6;

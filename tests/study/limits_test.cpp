@@ -72,12 +72,14 @@ TEST(Limits, TheBusStaysWithinItsBoundInEveryChopping) {
       s.pwm.delay_periods = delay;
       const double most = figure(s, MetricKind::maximum, Signal::bus_voltage);
       std::printf("limit 30 V, at most %.6g V\n", most);
-      // The bound is a coast from 6.25 A, sqrt((30 - 20)^2 + L I^2/C) - 10 V, and one period of it.
+      // The bound is the switch-off of 6.25 A at the limit, with 20 V of back-EMF: the bus rises by sqrt((30
+      // - 20)^2 + L I^2/C) - 10 V, and by one period of that current.
       EXPECT_LE(most, 20 + std::sqrt(100 + 0.572e-3 * 6.25 * 6.25 / 10e-3) + 6.25 * 30e-6 / 10e-3);
     }
 }
 
-/// 145 V at a limit of 13.8 V: 220 uF hold 21 mJ at 13.8 V, and a winding at 20 A holds as much again.
+/// After a switch-off at 30 V the winding's 5 A still charge the 220 uF, with 20 V of back-EMF: to 20 V +
+/// sqrt((30 - 20)^2 + L I^2/C) V = 33 V.
 TEST(Limits, ABusThatCannotHoldItsLimitIsRefusedWithWhatWould) {
   Scenario s = braking(Chopping::hard);
   s.supply.capacitance_F = 220e-6;

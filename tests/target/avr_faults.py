@@ -71,8 +71,8 @@ BREAKS |= {"the source's transducer at its middle": (dead_source, "current-senso
            "Hall 000": (hall(0), "hall"), "Hall 111": (hall(7), "hall")}
 
 
-# Cycles until the gates are off. Hall: a running interrupt and the Hall interrupt. The other two: three periods, because every second
-# period checks the value. Any other fault: a millisecond.
+# Cycles until the gates are off. Hall: a running interrupt and the Hall interrupt. Over-current and setpoint wire: three periods, because
+# every second period checks the value. Any other fault: a millisecond.
 WITHIN = {"hall": 640, "over-current": 3 * 1600, "setpoint-wire": 3 * 1600}
 
 

@@ -151,7 +151,7 @@ TEST(HallAngle, IsItsDefinitionForAnyTimes) {
         const double to_next = std::fabs(misplaced.at(m + direction) - misplaced.at(m));
         const double way = std::min(width * since / ticks, to_next + margin) + width * 120 / ticks;
         const double expected = switches(misplaced, m, direction) + direction * way;
-        // The ticks of a turn are whole: their error is half a tick, over the angle.
+        // The decoder rounds the ticks of a turn to a whole number: an error of half a tick a turn, here over the angle `way`.
         const double turn_ticks = ticks * 360 / width;
         ASSERT_LE(std::fabs(off_deg(found.angle, expected)), 0.5 / (turn_ticks - 0.5) * way + 1e-6)
             << "seed " << seed;

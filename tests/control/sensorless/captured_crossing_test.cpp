@@ -122,7 +122,8 @@ TEST(CapturedCrossing, AgainstHalfTheBusThePausesMiddleStandsForItsEdges) {
   EXPECT_EQ(at(now - 300, tick), now - 300) << "there is no pause";
 }
 
-/// Edges before the earliest possible crossing do not count at once; then the crossing is at that earliest time.
+/// An edge before the earliest possible crossing does not count at once. It counts from that earliest time on, and the crossing then has
+/// that time.
 TEST(CapturedCrossing, AnEdgeTooEarlyCountsWhenItMay) {
   Sector s;
   capture_lines(s.captured, s.before(), 0xfffff000u);

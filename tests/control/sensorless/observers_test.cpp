@@ -301,7 +301,7 @@ TEST(Observer, GoesOverFromLegToLeg) {
         command.pair = way > 0 ? positive_pair(sector) : swapped(positive_pair(sector));
         const TerminalSample s = driven_sample(sector, deg, way * E, static_cast<std::uint32_t>(n));
         const Observed o = observer_step(config, state, s, command, {.bus_V = 24.0}, sector);
-        // The poles' response to the previous sector has decayed: y equals the true one, delayed by the lag.
+        // The poles' response to the previous sector has decayed: y equals the true y, delayed by the lag.
         const double since = std::fmod(n + 0.25, ticks);
         if (n < ticks || since < 8) continue;
         const double y = 2 * E * (1 - 2 * (since - lag) / ticks);

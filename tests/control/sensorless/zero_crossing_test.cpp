@@ -110,7 +110,8 @@ TEST(ZeroCrossing, NoneWithinTheMarginBehindTheFreewheelsEnd) {
   }
 }
 
-/// Until the filter has settled it still shows the previous pair, which gives neither the freewheel's end nor a crossing.
+/// Until the filter has settled, the filtered voltage still belongs to the previous pair. It then gives neither the freewheel's end nor a
+/// crossing.
 TEST(ZeroCrossing, NothingIsLookedAtBeforeTheFiltersHaveSettled) {
   for (const std::uint32_t settle : {0u, 50u, 51u}) {
     ZeroCrossingConfig c = config;
