@@ -32,7 +32,8 @@ const design::Warning* of_shunt(const DesignStudy& s) {
   return nullptr;
 }
 
-/// The unmeasured current equals 24 V/1.03 ohm times the duty of two settling times of 1 us in a period of 30 us.
+/// The shunt needs two settling times of 1 us in a period of 30 us. The current at that duty, 24 V/1.03 ohm times 2/30, is the smallest
+/// that it measures.
 TEST(BlindShunt, ASmallerStepThanItSeesIsGrave) {
   const double unseen_A = 2 * 1e-6 / 30e-6 * 24 / 1.03;
   for (const double part : {0.5, 1.2}) {
@@ -54,7 +55,8 @@ TEST(BlindShunt, TheStepThatNobodyChoseIsSeen) {
   }
 }
 
-/// The design is fine at half the nominal torque. Without a load the speed swings, which a run here shows as well as the design.
+/// With half the nominal torque as load, the run with one shunt passes. Without a load, the same shunt makes the speed swing; phase
+/// currents do not.
 TEST(BlindShunt, ASpeedThatSwingsWithoutALoadIsNotUsable) {
   for (const auto currents : {rig::CurrentMeasurement::dc_link, rig::CurrentMeasurement::phases}) {
     const auto study = designed("teknic-m2310p", Mode::speed, {}, currents);

@@ -32,7 +32,7 @@ CommissionSubject subject_of(const char* motor) {
 struct OnBench {
   const char* motor;
   double voltage_V;        ///< 0: nominal
-  double current_A = 0.0;  ///< 0: the usual one
+  double current_A = 0.0;  ///< 0: the default test current
 };
 constexpr OnBench benches[] = {
     {"anaheim-bly172s", 0}, {"baldor-bsm90n-175", 0}, {"dji-2212-920kv", 0, 19}, {"maxon-200142", 0},
@@ -40,7 +40,7 @@ constexpr OnBench benches[] = {
     {"maxon-488607", 0},    {"maxon-651607", 0},      {"maxon-651609", 0},       {"maxon-651614", 0},
     {"teknic-m2310p", 0},   {"hoverboard-hub", 36},   {"mjbots-mj5208", 24},     {"gmcc-ksk89d53u", 100}};
 
-/// Every motor with SIXSTEP_ALL_MOTORS (ctest --preset long), else one in four.
+/// With SIXSTEP_ALL_MOTORS (ctest --preset long) every motor is tested, otherwise one in four.
 bool in_full() { return std::getenv("SIXSTEP_ALL_MOTORS") != nullptr; }
 
 TEST(Commission, FindsTheMotorsOfTheLibraryWithinItsBounds) {
@@ -79,7 +79,7 @@ TEST(Commission, FindsTheMotorsOfTheLibraryWithinItsBounds) {
   }
 }
 
-/// The test current without a rated one is low: twice a tenth of the current at full duty through two phases.
+/// For a sheet without a nominal current the default test current is low: a fifth of the current at full duty through two phases.
 TEST(Commission, ASheetWithoutNominalCurrentIsTestedWithTheStandIn) {
   CommissionSubject drone = subject_of("dji-2212-920kv");
   const auto usual = analysis::commission_bench(drone);
@@ -97,8 +97,8 @@ TEST(Commission, ASheetWithoutNominalCurrentIsTestedWithTheStandIn) {
   EXPECT_EQ(text::stand_in_words(*printed), "");
 }
 
-/// The board's forward is the motor's with an even number of crossed phases, and its backward with an odd number. The edges lie at the
-/// board's angles in both cases.
+/// An even permutation of the phases keeps the motor's direction; an odd one reverses it. The edges are found at the board's angles in both
+/// cases.
 TEST(Commission, FindsTheLinesOfCrossedWires) {
   InPart some;
   constexpr WireOrder orders[] = {WireOrder::abc, WireOrder::bca, WireOrder::cab,
@@ -149,8 +149,8 @@ TEST(Commission, BoundsShrinkWithTheCurrentOverOneRange) {
   EXPECT_LT(more->bounds.edge_deg, less->bounds.edge_deg);
 }
 
-/// The fundamental of a trapezoid with slopes 2 g wide is 4 sin g/(pi g) (model.md 1), of harmonics the first, of a table the integral:
-/// 8/pi^2 for a triangle.
+/// The fundamental of a trapezoid with slopes 2 g wide is 4 sin g/(pi g) (model.md 1). For given harmonics it is the first one. For a table
+/// it is the Fourier integral, 8/pi^2 for a triangle.
 TEST(Commission, KnowsTheFundamentalOfEachShape) {
   plant::general::Machine m{.R_ohm = {1, 1, 1}, .K_e_V_s = {0.02, 0.02, 0.02}, .L_H = 1e-3, .pole_pairs = 4};
   for (const double flat_deg : {60.0, 100.0, 120.0, 150.0}) {

@@ -50,7 +50,7 @@ TEST(Curve, ComparesTheNominalPointAtItsTorque) {
   EXPECT_EQ(*curve.nominal->current_A, 2.33);
   EXPECT_EQ(curve.nominal->at_speed->speed_rad_s, *curve.nominal->speed_rad_s);
   EXPECT_NEAR(curve.nominal->at_torque->shaft_torque_Nm, 83.4e-3, 1e-12);
-  // The torque is 12 % lower at the speed, and the speed 3.5 % lower at the torque: the same difference.
+  // Curve and sheet differ: at the nominal speed the torque is 12 % lower, which equals a speed 3.5 % lower at the nominal torque.
   const double slower = curve.nominal->at_torque->speed_rad_s / *curve.nominal->speed_rad_s - 1;
   EXPECT_LT(curve.nominal->at_speed->shaft_torque_Nm, 0.89 * 83.4e-3);
   EXPECT_GT(slower, -0.04);
@@ -75,7 +75,7 @@ TEST(Curve, TellsTheSheetsGradientFromItsTwoPoints) {
   EXPECT_NEAR(d.ideal, 1.03 / (0.0335 * 0.0335), 1e-9);
   EXPECT_NEAR(*d.printed, 8.8 * per_mNm, 1e-9);
   EXPECT_NEAR(*d.sheet, (6710 - 5240) / 83.4 * per_mNm, 1e-9);
-  // Both are twice the gradient: commutation has the same effect in the sheet and in the simulation.
+  // Sheet and simulation both have more than twice the ideal gradient, because commutation lowers the speed in both.
   EXPECT_GT(*d.curve, 2 * d.ideal);
   EXPECT_NEAR(*d.curve, *d.sheet, 0.15 * *d.sheet);
 }
@@ -177,8 +177,8 @@ TEST(Curve, ContinuousTorqueWarmsTheWindingToItsLimit) {
   }
 }
 
-/// The network's equations are the second way: the allowed current at the worse ends heats that motor's winding exactly to its limit, and
-/// the allowed current at the values exceeds it.
+/// The thermal network's equations check the limits. The current allowed at the worse ends of the ranges heats the winding of that motor
+/// exactly to its limit. The current allowed at the middle values heats it beyond the limit.
 TEST(Curve, WhatTheWindingStandsIsToldOfBothEndsOfARange) {
   CurveRequest r = request(3);
   r.sheet.thermal_time_constant_winding_s->range = base::Interval{11.7, 17.7};
@@ -250,7 +250,7 @@ TEST(Curve, AWarmMotorTurnsFasterAndPullsLess) {
   EXPECT_NEAR(a.continuous_A, b.continuous_A, 1e-12);
   EXPECT_NEAR(a.continuous_Nm, b.continuous_Nm, 1e-14);
   EXPECT_NEAR(a.short_Nm[0], b.short_Nm[0], 1e-14);
-  // The same current heats it to the same final temperature.
+  // The permissible time follows from the point's current, the resistance of the cold winding and the ambient temperature.
   const analysis::OperatingPoint& p = here.points.front();
   const design::Heating heating{p.winding_current_A * p.winding_current_A * 1.03, 0, 25};
   EXPECT_NEAR(*here.warming.front().permissible_s, *design::permissible_seconds(*here.thermal, heating),

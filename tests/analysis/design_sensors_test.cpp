@@ -94,7 +94,7 @@ TEST(DesignSensors, BehindAGearTheLoopsAreOfTheMotorsShaft) {
   EXPECT_NEAR(figure(s, "settling time"), figure(t, "settling time"), 0.1 * figure(t, "settling time"));
 }
 
-/// A probe edge 3 degrees late and the next 2 degrees early make a sector of 60 degrees one of 55 or 65.
+/// A probe edge 3 degrees late and the next one 2 degrees early leave 55 degrees between them instead of 60.
 TEST(DesignSensors, ProbesBesideTheirPlacesMakeTheSpeedStray) {
   study::Scenario board = board_with(RotorSensing::hall);
   board.sensors.hall_edges_deg = {3, -2, 0, 0, 0, 0};
@@ -114,7 +114,8 @@ TEST(DesignSensors, ProbesBesideTheirPlacesMakeTheSpeedStray) {
     }
   }
   EXPECT_EQ(told, 2);
-  // Edges taken as exact print the step for probes 3 degrees off to alternate sides; six edges have no step.
+  // Without given edges, the derivation prints dw_3: the step of the speed for probes 3 degrees off to alternate sides. A speed from six
+  // edges has no such step.
   const auto dw = [&board](std::vector<double> edges_deg, const char* symbol, int speed_edges) {
     board.sensors.hall_edges_deg = std::move(edges_deg);
     board.sensors.speed_edges = speed_edges;
@@ -125,7 +126,7 @@ TEST(DesignSensors, ProbesBesideTheirPlacesMakeTheSpeedStray) {
   EXPECT_NEAR(dw({}, "dw_3", 1), dw({3, -3, 3, -3, 3, -3}, "dw", 1), 1e-12);
   EXPECT_EQ(dw({}, "dw_3", 6), 0.0);
   board.sensors.hall_edges_deg = {3, -2, 0, 0, 0, 0};
-  // The faults cancel over a whole turn, and learned edges have none.
+  // Over a whole electrical turn the errors of the edges cancel, and learned edges have no error.
   board.sensors.speed_edges = 6;
   EXPECT_EQ(rotor_sensing_of(board).stray_rad, 0.0);
   board.sensors.speed_edges = 1;
@@ -144,7 +145,8 @@ TEST(DesignSensors, AnotherSensorThanTheBoardsTakesItsPlaceWhole) {
   EXPECT_EQ(board.sensors.shaft, SensorShaft::motor);
 }
 
-/// A sampled resolver has its peaks on control periods: 10 kHz has them 50 us apart.
+/// Peaks of the excitation coincide with control ticks: half an excitation period is a whole number of control periods, near 50 us (10
+/// kHz).
 TEST(DesignSensors, AResolverIsExcitedInStepWithTheControl) {
   for (const double period_s : {10e-6, 25e-6, 30e-6, 40e-6, 50e-6, 100e-6}) {
     const study::Sensors s = with_rotor({}, RotorSensing::resolver, period_s);

@@ -61,8 +61,8 @@ TEST(DesignedCurrentLoop, DoesInTheSimulationWhatWasDesigned) {
       const DriveDesign d = designed({.mode = Mode::current, .method = method, .delay_periods = late});
       const Outcome o = ran(design_scenario(d, subject));
       EXPECT_TRUE(o.passed());
-      // The design holds the mean voltage through the period; the PWM applies it at the period's start. At the next sample the current is
-      // lower by up to exp(-(1 - d) R T/L) against the mean of exp, here by at most 2.7 % of the gain. The settling time may differ by one
+      // The design holds the mean voltage over the period. The PWM applies the pulse at the period's start, so that its effect decays
+      // longer until the next sample. The current is lower there, by at most 2.7 % of the gain here. The settling time may differ by one
       // sample.
       EXPECT_NEAR(measured(o, "settling time"), foretold(o, "settling time"), 1.001 * period_s);
       EXPECT_NEAR(measured(o, "overshoot"), foretold(o, "overshoot"), 0.027 * 2);
@@ -70,8 +70,8 @@ TEST(DesignedCurrentLoop, DoesInTheSimulationWhatWasDesigned) {
   }
 }
 
-/// Samples of centred pulses are half a period later: the linear loop predicts the overshoot to x/4 = 1.4 %, by which half a pulse differs
-/// from half a held voltage, x = R T/L.
+/// With samples in the middle of centred pulses a duty acts half a period later. The linear loop predicts the overshoot to x/4 = 1.4 %, x =
+/// R T/L: half a pulse differs by this part from half a held voltage.
 TEST(DesignedCurrentLoop, DoesSoOnSamplesInTheMiddleToo) {
   for (const int late : {0, 1}) {
     const DriveDesign d = designed({.mode = Mode::current, .delay_periods = late, .sampled_in_middle = true});
@@ -84,7 +84,7 @@ TEST(DesignedCurrentLoop, DoesSoOnSamplesInTheMiddleToo) {
   }
 }
 
-/// One shunt is sampled in the middle in any specification; a board states its own sample.
+/// With one shunt any specification samples in the middle of the period; a board's scenario states its own sample.
 TEST(DesignStudy, TakesTheSamplesPlaceFromItsBoard) {
   const auto late_of = [](const DesignSubject& on) {
     const auto s =
@@ -103,7 +103,7 @@ TEST(DesignStudy, TakesTheSamplesPlaceFromItsBoard) {
 }
 
 TEST(DesignedCurrentLoop, HasTheRippleOfTwoExponentials) {
-  // A locked rotor at constant duty has only the bus and the pair. After 20 time constants exp(-20) of the start remains.
+  // A locked rotor at constant duty is an R-L circuit at the bus. After 20 time constants exp(-20) of the start remains.
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary}) {
     for (const double duty : {0.6, 0.8}) {
       const DriveDesign d = designed({.mode = Mode::current, .chopping = chopping});
@@ -122,7 +122,8 @@ TEST(DesignedCurrentLoop, HasTheRippleOfTwoExponentials) {
   }
 }
 
-/// The diode sets the pair's voltage to -0.7 V, and the mean of that and 24 V equals R I: straight lines, computed by hand.
+/// Ripple of straight current lines, computed by hand. The pair's voltage is 24 V during the pulse and -0.7 V while the diode conducts, and
+/// its mean equals R I.
 TEST(DesignedCurrentLoop, ExpectsTheRippleThatTheDiodeMakes) {
   const DriveDesign d = designed({.mode = Mode::current});
   DesignSubject on = subject;
@@ -140,13 +141,13 @@ TEST(DesignedSpeedLoop, DoesInTheSimulationWhatWasDesigned) {
   const DriveDesign d = designed({.mode = Mode::speed});
   const Outcome o = ran(design_scenario(d, subject));
   EXPECT_TRUE(o.passed());
-  // The linear design has no torque ripple of the commutations, which this test measures: it moves the crossing of the 2 % band by ripple
-  // over slope, and the peak by its own height.
+  // The linear design contains no ripple of the commutations, so that this test measures it and allows for it. The ripple moves the
+  // crossing of the 2 % band by ripple over slope, and the peak by its own height.
   const double ripple = measured(o, "speed ripple"), band = 0.02 * 10;
   EXPECT_LT(ripple, 2 * band);
   EXPECT_NEAR(measured(o, "overshoot"), foretold(o, "overshoot"), ripple);
-  // The response decays near its end as exp(-xi w0 t), xi w0 = 4.6/T_reg: a level that is off by a is reached log(1 + a/band)/(xi w0)
-  // later.
+  // Near its end the response decays as exp(-xi w0 t), xi w0 = 4.6/T_reg. A level that differs by a is therefore reached log(1 +
+  // a/band)/(xi w0) later.
   EXPECT_NEAR(measured(o, "settling time"), foretold(o, "settling time"),
               std::log(1 + ripple / band) * 10e-3 / 4.6);
 }
@@ -222,7 +223,7 @@ TEST(Variations, ChangeTheMotorAndNotTheController) {
 TEST(Robustness, FindsThePlantedTolerance) {
   const DriveDesign d = designed({.mode = Mode::current});
   const Scenario s = design_scenario(d, subject);
-  // The halved inductance doubles the loop's gain and its ripple; the other tolerances are small.
+  // The planted tolerance is the halved inductance, which doubles the loop's gain and its ripple. The other tolerances are small.
   const std::vector<Tolerance> planted{{Strays::resistance, {{"R -1 %", 0.99}, {"R +1 %", 1.01}}},
                                        {Strays::inductance, {{"L halved", 0.5}}},
                                        {Strays::torque_constant, {{"K_t +1 %", 1.01}}}};
@@ -304,7 +305,7 @@ TEST(DesignStudy, CountsTheLoadsInertiaIn) {
                                .tolerances = {{Strays::inertia, {{"J +50 %", 1.5}}}}});
   ASSERT_TRUE(s && s->usable());
   EXPECT_EQ(s->outcome.gains[1].d1, s->design.loop("speed").gains.d1);
-  // Integrator: the same poles on 3.35/1.35 of the inertia need gains in that ratio, apart from friction.
+  // The shaft is nearly an integrator: the same poles with 3.35/1.35 times the inertia need gains in that ratio, apart from friction.
   const DriveDesign bare = designed({.mode = Mode::speed, .settle_s = 20e-3});
   EXPECT_NEAR(s->design.loop("speed").gains.d1 / bare.loop("speed").gains.d1, 3.35 / 1.35, 0.01);
   const Scenario heavy =

@@ -77,7 +77,7 @@ TEST(FieldStudy, ASalientRotorHasAnAxisEach) {
   const LoopDesign &d = f.design.loops[0], &q = f.design.loops[1];
   EXPECT_EQ(d.name, "current d");
   EXPECT_EQ(q.name, "current q");
-  // Each zero cancels its own winding's pole, and both axes have the same loop.
+  // The zero of each axis cancels the pole of its own winding inductance, so that both axes have the same loop.
   EXPECT_NEAR(value(d.steps, "a0"), -std::exp(-R * T / 0.2e-3), 1e-12);
   EXPECT_NEAR(value(q.steps, "a0"), -std::exp(-R * T / 0.4e-3), 1e-12);
   EXPECT_NEAR(*d.figures.crossover_rad_s / *q.figures.crossover_rad_s, 1.0, 1e-9);
@@ -85,7 +85,7 @@ TEST(FieldStudy, ASalientRotorHasAnAxisEach) {
   EXPECT_NEAR(value(f.axes, "k"), 0.2e-3 * 8 / (2 * K_e), 1e-12);
 }
 
-/// |L| equals full torque times the PI over J w; the current loop and the sampling change it by less than w T.
+/// At the crossover |L| is the full torque times the PI's gain over J w. The current loop and the sampling change it by less than w T.
 TEST(FieldStudy, TheSpeedLoopTurnsByTheTorqueOfIq) {
   study::Scenario s = field_oriented(Mode::speed, 300.0);
   s.control.speed.settle_s = 0.1;
@@ -105,7 +105,7 @@ TEST(FieldStudy, TheSpeedLoopTurnsByTheTorqueOfIq) {
 TEST(FieldStudy, TheCircleBoundsSpeedAndCurrent) {
   study::Scenario s = field_oriented(Mode::speed, 600.0);
   s.control.speed.settle_s = 0.1;
-  s.control.current.limit_A = 6.0;  // less than at full torque
+  s.control.current.limit_A = 6.0;  // below the current at full torque
   FieldStudy f = studied(s);
   const double circle = 24 / std::numbers::sqrt3;
   EXPECT_NEAR(value(f.limits, "U_s/sqrt 3"), circle, 1e-12);
@@ -126,7 +126,7 @@ TEST(FieldStudy, TheCircleBoundsSpeedAndCurrent) {
   EXPECT_NEAR(value(f.limits, "w_1"), 0.95 * circle / (K_e - 8 * L * 5), 1e-9);
 }
 
-/// The linear loop predicts the switching simulation: a step of i_q into the locked rotor, at the samples.
+/// The linear loop predicts the simulated settling time of a step of i_q at a locked rotor, to one sample.
 TEST(FieldStudy, TheStepIsTheRuns) {
   study::Scenario s = field_oriented(Mode::current, 2.0);
   s.load.locked = true;
@@ -138,7 +138,7 @@ TEST(FieldStudy, TheStepIsTheRuns) {
   EXPECT_NEAR(figures_of(s)[0], f.design.loops[0].step.settling_s, T);
 }
 
-/// The rule of six-step loops applies: below 20 degrees of phase, or unstable, is grave.
+/// As for six-step loops, a phase margin below 20 degrees or an unstable loop gives a grave warning.
 TEST(FieldStudy, LittlePhaseIsGrave) {
   int usable = 0, little = 0;
   for (double settle_s = 0.5e-3; settle_s < 20e-3; settle_s *= 1.1) {

@@ -19,7 +19,7 @@ double trapezoid(double deg) {
 }
 double sine(double deg) { return std::cos((deg - 60) * pi / 180); }
 
-/// Least and largest torque per ampere at `places` angles from `first_deg` on.
+/// Least and largest torque per ampere, relative to K_e of a phase, at `places` equal steps of an electrical turn from `first_deg` on.
 std::pair<double, double> pulls(const rig::Wiring& wiring, double (*emf)(double), double first_deg,
                                 int places) {
   double least = 1e9, most = -1e9;
@@ -49,7 +49,8 @@ TEST(HeldShaft, TwelvePlacesSeparateStraightWires) {
     }
 }
 
-/// Six angles at the same part of their sectors have equal torque, half of the straight one.
+/// At six angles, each in the middle of a sector, a pair one sector early has the same torque everywhere: half of the torque with straight
+/// wires. Six angles therefore do not show the fault.
 TEST(HeldShaft, SixPlacesDoNotShowAnEarlyPair) {
   const rig::Wiring early{.phases = rig::WireOrder::bac, .probes = rig::WireOrder::bac};
   ASSERT_TRUE(analysis::sectors_ahead(early));

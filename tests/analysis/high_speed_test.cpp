@@ -46,8 +46,9 @@ double held(const design::DriveDesign& d, DesignSubject subject, double rad_s) {
   return outcome ? outcome->verdicts.front().measured : 0.0;
 }
 
-/// The limit clips d1's response to a tick where it exceeds the torque that the load leaves. The speed stays where the two are equal, d1
-/// w/(f T) = 1 - load/limit, with T one period to within a count.
+/// A jump of the measured speed by one timer tick makes the speed loop respond with d1. The torque limit clips this response where it
+/// exceeds the torque that the load leaves. The speed stays where both are equal, d1 w/(f T) = 1 - load/limit, with T one period to within
+/// a count.
 TEST(HighSpeed, StandsWhereATickIsWhatTheLoadLeavesOfTheLimit) {
   const DesignOrder order = on_encoder_board();
   const auto s = study_design(order);
@@ -72,7 +73,7 @@ TEST(HighSpeed, OfAFasterClockIsHeld) {
   EXPECT_NEAR(held(s->design, order.subject, s->design.high_speed_rad_s), s->design.high_speed_rad_s, 1.0);
 }
 
-/// The advice was tried: a design with the named clock is usable.
+/// A design with the timer clock that the advice names is usable.
 TEST(HighSpeed, IsAdvisedAClockThatHolds) {
   DesignOrder order = on_encoder_board();
   order.advises = true;
@@ -83,7 +84,8 @@ TEST(HighSpeed, IsAdvisedAClockThatHolds) {
       << s->warnings.front().cure;
 }
 
-/// The largest error of a speed from edges in whole ticks, by counting: edges are `edge_s` apart, and up to 2 % closer or farther.
+/// The largest error of a speed from edges in whole timer ticks, found by counting. The edges are `edge_s` apart, and up to 2 % closer or
+/// farther.
 double counted_step(double edge_s, int edges, double f_Hz, double speed) {
   double most = 0.0;
   for (int near = -20; near <= 20; ++near) {
@@ -112,7 +114,7 @@ TEST(HighSpeed, StepsOfTheMeasuredSpeedAreThoseThatATimerMakes) {
   EXPECT_NEAR(step, counted_step(count, counts, f, speed), 0.15 * step);
 }
 
-/// Misplaced probes: the speed over one sector longer by s is off by s of 60 degrees; over a turn the errors cancel.
+/// Misplaced probes: a sector that is longer by s makes its speed wrong by the part s/(60 degrees). Over a whole turn the errors cancel.
 TEST(HighSpeed, StepsOfProbesBesideTheirPlacesAreTheirs) {
   const double p = 4, speed = 300, stray = 5 * base::pi / 180;
   design::RotorSensing hall{.hall = true, .edges = 1, .stray_rad = stray};

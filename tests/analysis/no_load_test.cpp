@@ -29,8 +29,8 @@ double swing_rad_s(const Bench& b, const NoLoad& n) {
 }
 
 TEST(NoLoad, OfThe251601IsThatOfTheIndependentSolver) {
-  // The values are 702.6128 rad/s and 0.15310 A +- 1e-4 of it from data/scenarios/thesis/7.2-no-load.toml: half a last digit, and the same
-  // again because that mean's window cuts a sector.
+  // data/scenarios/thesis/7.2-no-load.toml gives 702.6128 rad/s and 0.15310 A. The speed may differ by half a last digit. The current may
+  // differ by 1e-4 of itself, and as much again because the window of its mean cuts a sector.
   const NoLoad n = found(maxon_bench());
   EXPECT_NEAR(n.point.speed_rad_s, 702.6128, 5e-5);
   EXPECT_NEAR(n.point.winding_current_A, 0.15310, 3e-5);
@@ -41,7 +41,7 @@ TEST(NoLoad, OfThe251601IsThatOfTheIndependentSolver) {
 
 TEST(NoLoad, SaysWhereAFreeRotorHadTooLittleTime) {
   Bench b = maxon_bench();
-  b.motor.shaft.J_kg_m2 *= 100;  // 3.5 s
+  b.motor.shaft.J_kg_m2 *= 100;  // a time constant of 3.5 s
   const NoLoad n = found(b);
   EXPECT_FALSE(n.settled);
   EXPECT_NEAR(n.time_constant_s, 3.5, 0.1);
@@ -86,7 +86,8 @@ TEST(NoLoad, ChoppedAFreeRotorLiesWithinTheInterval) {
     b.chopping = chopping;
     const NoLoad n = found(b);
     EXPECT_GT(n.half_width_rad_s, 0.0);
-    // The found speed is where the torque's interval holds zero: the speed is off by one half width, and the interval by another.
+    // The search ends where the torque's interval contains zero. The speed found there has an error of up to one half width; the interval
+    // of the true speed adds another.
     EXPECT_NEAR(n.free_speed_rad_s, n.point.speed_rad_s, 2 * n.half_width_rad_s + swing_rad_s(b, n))
         << name_of(chopping);
   }

@@ -62,10 +62,11 @@ TEST(OperatingPoint, RippleAndRmsAreOrderedAsTheyMustBe) {
   for (const double speed : speeds) {
     const OperatingPoint p = at(maxon_bench(), speed);
     SCOPED_TRACE(speed);
-    EXPECT_LE(p.ripple_rms_Nm, p.ripple_Nm / 2 * (1 + 1e-12));  // Popoviciu
+    EXPECT_LE(p.ripple_rms_Nm, p.ripple_Nm / 2 * (1 + 1e-12));  // Popoviciu's inequality
     EXPECT_LE(p.phase_rms_A, p.phase_peak_A);
-    EXPECT_LE(p.motor_current_A, p.winding_current_A * (1 + 1e-12));  // a triangle's inequality
-    // Half the sum of three currents that cancel is the largest one, and its square at most 2/3 of the sum of squares.
+    EXPECT_LE(p.motor_current_A, p.winding_current_A * (1 + 1e-12));  // triangle inequality
+    // The sum of the three currents is zero, so that half the sum of their magnitudes is the largest magnitude. The square of that is at
+    // most 2/3 of the sum of squares.
     EXPECT_LE(p.winding_current_A, std::sqrt(2.0) * p.phase_rms_A * (1 + 1e-12));
   }
 }
@@ -105,8 +106,8 @@ TEST(OperatingPoint, IsTheTailOfALongRunTo1e9) {
       Bench b = maxon_bench();
       if (!ideal) b.devices = {.R_on_ohm = 0.02, .V_f_V = 0.7, .r_d_ohm = 0.01};
       const OperatingPoint p = at(b, speed);
-      // The window has whole electrical turns; its ends are rounded to picoseconds: 1e-12 s of 40 A in 0.02 s and more. It begins after 60
-      // time constants.
+      // The window has whole electrical turns and begins after 60 time constants. Its ends are rounded to picoseconds: 1e-12 s of 40 A in
+      // 0.02 s and more.
       const double turn_s = 2 * base::pi / (8 * std::fabs(speed));
       const study::Outcome run = long_run(b, speed, 0.035, std::ceil(0.02 / turn_s) * turn_s);
       const auto measured = [&](std::size_t n) { return run.comparisons[n].measured; };
@@ -129,7 +130,8 @@ TEST(OperatingPoint, WithoutInductanceIsTheIdealLine) {
     };
     const double coarse = missing(1e-3), fine = missing(0.5e-3);
     EXPECT_GT(coarse, 0.0) << speed;
-    // The difference is linear in L: the next term relative to the first equals the first relative to the whole.
+    // The torque lost to inductance is linear in L at first order. Its relative error of second order is the lost torque over the ideal
+    // one.
     EXPECT_NEAR(fine / coarse, 0.5, 2 * coarse / ideal) << speed;
     EXPECT_NEAR(2 * fine - coarse, 0.0, 2 * coarse * coarse / ideal) << speed;
   }
@@ -160,7 +162,7 @@ TEST(OperatingPoint, MirroredItIsTheSame) {
   }
 }
 
-/// Mean over rotors held at many angles, with Gauss quadrature on each piece of the shape, exact where it is linear.
+/// Mean over rotors held at many angles, by Gauss quadrature on each piece of the back-EMF's shape; it is exact where the shape is linear.
 struct HeldMeans {
   double torque = 0.0, square = 0.0, low = 1e9, high = -1e9;
 };
@@ -243,8 +245,7 @@ TEST(OperatingPoint, SlowRotationLeadsToStandstill) {
   }
 }
 
-/// Dry friction stays constant as the rotor slows down. A rotor that just turns has the friction of slow rotation, but at most its driving
-/// torque.
+/// Dry friction stays constant as the rotor slows down. At speed 0 the friction is that of slow rotation, but at most the driving torque.
 TEST(OperatingPoint, WhatJustTurnsHasTheFrictionOfSlowRotation) {
   Bench b = maxon_bench();
   b.motor.shaft.coulomb_Nm = 0.1;
@@ -280,7 +281,7 @@ TEST(OperatingPoint, ChoppedIntervalCoversARunTenTimesAsLong) {
     missed += std::fabs(p.torque_Nm - s.torque / s.seconds) > p.half_width_Nm;
     missed += std::fabs(p.bus_current_A - s.supplied / s.seconds / 24) > p.half_width_A;
   }
-  // More than one miss in 16 intervals of 99 % occurs once in 90 times with drawn phases; these phases are spread evenly.
+  // With random phases, 16 intervals of 99 % have more than one miss in one of 90 runs. The phases of this test are evenly spread.
   EXPECT_LE(missed, 1) << "seed " << seed;
 }
 

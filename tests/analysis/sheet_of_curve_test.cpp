@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bounds for the time of commutation, judged by the simulated motor: a sheet's tolerances, the speed of a design's test.
+// Bounds that allow for the time of commutation: the tolerances of a sheet's speeds, and the speed of a design's test. The simulated motor
+// judges both.
 #include <gtest/gtest.h>
 
 #include "sixstep/analysis/curve/curve.hpp"
@@ -75,7 +76,7 @@ TEST(SheetOfCurve, TheSimulatedMotorsPointsHold) {
       Sheet silent = s;
       silent.no_load_speed_rpm.reset();
       EXPECT_EQ(verdict(silent, "nominal speed"), RelationVerdict::holds) << c.L_mH << " " << c.idle_mA;
-      // A speed above the ideal line has no such reason.
+      // Commutation only lowers the speed, so that a no-load speed above the ideal line breaks the relation.
       Sheet fast = s;
       fast.no_load_speed_rpm->value =
           1.05 * (24 - 1.5e-3 * s.no_load_current_mA->value) / 35e-3 * base::rpm_per_rad_s;
@@ -91,7 +92,7 @@ TEST(SheetOfCurve, TheMarginBelowTheLineIsThatOfTheCommutations) {
   EXPECT_EQ(verdict(s, "nominal speed"), RelationVerdict::doubted);
 }
 
-/// The speed from which a speed loop is tested leaves torque for the test's load, also with 8 % more torque constant.
+/// The top speed of a speed loop's test leaves torque for the test's load, also where the torque constant is 8 % larger.
 TEST(SheetOfCurve, TheTestSpeedIsReachedAgainstItsLoad) {
   for (const double L_mH : {0.5, 2.1, 8.4}) {
     Sheet s = motor(design::BackEmfShape::trapezoid, L_mH, 4, 300);

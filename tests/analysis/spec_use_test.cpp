@@ -87,7 +87,7 @@ TEST(SpecUse, EachMemberChangesTheDesignOrIsRefusedByName) {
         for (const bool bandwidth : {false, true}) {
           if (method == GainMethod::symmetrical_optimum && mode == Mode::current) continue;
           if (method == GainMethod::pole_placement && bandwidth) continue;
-          // A position loop contains the speed loop of the same method.
+          // A position loop contains the speed loop of the same method, so that the speed mode covers these methods.
           if (method != GainMethod::pole_placement && mode == Mode::position) continue;
           DesignSpec w = design::on_a_board();
           w.mode = mode;

@@ -26,7 +26,7 @@ TEST(Statistics, KnowsMeanAndDeviation) {
 TEST(Statistics, QuantilesAreValuesThatOccurred) {
   const Statistics s = of({30, 10, 40, 20});
   EXPECT_EQ(s.quantile(0.0), 10.0);
-  EXPECT_EQ(s.quantile(0.25), 10.0);  // one value of four is not above it: exactly 25 %
+  EXPECT_EQ(s.quantile(0.25), 10.0);  // one value of four, exactly 25 %, is at or below 10
   EXPECT_EQ(s.quantile(0.2500001), 20.0);
   EXPECT_EQ(s.quantile(0.5), 20.0);
   EXPECT_EQ(s.quantile(0.75), 30.0);
@@ -47,7 +47,7 @@ TEST(Statistics, TheMedianIsTheMiddleOrTheMeanOfTheTwoThere) {
   EXPECT_EQ(of({1, 2, never}).median(), 2.0);
   EXPECT_EQ(of({never, never}).median(), never);
   EXPECT_EQ(of({most, most}).median(), most);
-  // Mirrored values have the mirrored median, unlike with either one of the two middle values.
+  // Mirrored values have the mirrored median. One of the two middle values alone would not have this symmetry.
   EXPECT_EQ(*of({-30, -10, -40, -20}).median(), -*of({30, 10, 40, 20}).median());
 }
 

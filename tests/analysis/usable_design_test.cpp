@@ -31,7 +31,7 @@ double swing_of(const DesignStudy& study) {
   return 0.0;
 }
 
-/// A Hall step with one pole pair is 60 degrees, so that the rotor swings over a few of them about its target.
+/// A Hall step with one pole pair is 60 degrees, so that the rotor swings over a few such steps about its target.
 TEST(UsableDesign, APositionOnHallProbesOfOnePolePairIsNone) {
   DesignOrder order = on_a_board(Mode::position);
   order.subject.sheet.pole_pairs = 1;
@@ -58,7 +58,7 @@ void holds_its_figures(const DesignStudy& study) {
   }
 }
 
-/// The overshoot is below the step, the start ends, and the rotor rests near its target.
+/// With every tolerance the overshoot is below the step, the start settles, and the rotor rests near its target.
 TEST(UsableDesign, HoldsItsOwnFiguresOutOfToleranceToo) {
   int usable = 0;
   for (const Mode mode : {Mode::speed, Mode::position}) {
@@ -75,7 +75,8 @@ TEST(UsableDesign, HoldsItsOwnFiguresOutOfToleranceToo) {
   EXPECT_GE(usable, 2);
 }
 
-/// A move of height h with torque T takes 2 sqrt(h J/T), and h/top + top J/T where the bus voltage ends the acceleration earlier.
+/// A move of height h with torque T takes 2 sqrt(h J/T). Where the bus voltage ends the acceleration at the speed `top`, it takes h/top +
+/// top J/T.
 TEST(DesignedMove, IsExpectedAsFastAsTorqueAndBusAllow) {
   for (const double bus_V : {6.0, 24.0, 200.0}) {
     DesignOrder order = on_a_board(Mode::position);
@@ -86,13 +87,14 @@ TEST(DesignedMove, IsExpectedAsFastAsTorqueAndBusAllow) {
     const study::Scenario s = design_scenario(*d, order.subject);
     const double h = 1000 * base::pi / 180, a = d->torque_limit_Nm / d->motor.shaft.J_kg_m2;
     const double top = bus_V / d->motor.K_t_Nm_A;
-    double least = 0.0;  // stepwise: full acceleration up to the top speed, and the same time down
+    double least = 0.0;  // integrated in steps of 1 us over the first half of the move, and doubled
     for (double x = 0.0, dt = 1e-6; x < h / 2; least += 2 * dt) x += std::min(a * least / 2, top) * dt;
     EXPECT_NEAR(s.compare.front().value, least, 2e-3 * least) << bus_V;
   }
 }
 
-/// Two turns accelerate the rotor to 167 rad/s. With a largest speed of 130 rad/s in the sheet the loop limits the speed below that.
+/// A move of two turns accelerates the rotor to 167 rad/s. With a largest speed of 130 rad/s in the sheet, the loop keeps the speed below
+/// that.
 TEST(DesignedMove, IsNoFasterThanTheSheetAllows) {
   for (const double most_rad_s : {0.0, 130.0}) {
     DesignOrder order = on_a_board(Mode::position);
@@ -111,7 +113,7 @@ TEST(DesignedMove, IsNoFasterThanTheSheetAllows) {
   }
 }
 
-/// A position's run must rest as well as not overshoot; otherwise the design's export is refused.
+/// The requirements of a position's run are no overshoot and rest at the target; without them the design's export is refused.
 TEST(DesignedMove, IsRequiredToRest) {
   DesignOrder order = on_a_board(Mode::position);
   const auto d = design::design_drive(*design::motor_model(order.subject.sheet), order.spec);
@@ -131,7 +133,7 @@ TEST(DesignedSpeed, BeyondTheBusIsRefusedByName) {
   EXPECT_EQ(study.problems().front().where, "lowest_speed_rad_s");
 }
 
-/// The torque takes J w/T_max for the step. A flywheel's default settling time and run time exceed that.
+/// At full torque the step takes J w/T_max. With a flywheel, the default settling time and the run time are longer than that.
 TEST(DesignedSpeed, OfAFlywheelIsUsableAndHeldUpByItsTorque) {
   DesignOrder order = on_a_board(Mode::speed);
   order.spec.load_inertia_kg_m2 = 1e-3;
@@ -141,7 +143,7 @@ TEST(DesignedSpeed, OfAFlywheelIsUsableAndHeldUpByItsTorque) {
   const double soonest = 1.0135e-3 * 35.5 / 0.195;
   EXPECT_GT(*usual->design.spec.settle_s, soonest);
   for (const design::Warning& w : usual->warnings) EXPECT_NE(w.of, design::Concern::settling) << w.what;
-  // A settling time that is too short: the run is long enough to show the real one, and the advice is a slower loop.
+  // With a settling time that is too short, the run is still long enough to show the real one, and the advice is a slower loop.
   order.spec.settle_s = 0.037;
   order.advises = true;
   const auto hasty = study_design(order);
@@ -203,7 +205,7 @@ TEST(Advice, OffersABusAboveTheSheetsOnlyWhereNothingElseHelps) {
   EXPECT_GE(slower, 1);
 }
 
-/// A placed pair has a positive d1 while 2 x 4.6/T_reg is above R/L.
+/// Pole placement gives a positive d1 while 2 x 4.6/T_reg is above R/L.
 TEST(UsualCurrentLoop, OfAnyWindingGainsPositively) {
   for (const double times : {1.0, 0.3, 0.1, 0.03}) {
     design::MotorModel motor = *design::motor_model(sixstep::testing::maxon_sheet());

@@ -114,7 +114,8 @@ TEST(WiringRuns, OfASalientMotorWithCoggingDoWhatTheorySays) {
 /// Half the torque does not overcome this friction, although theory without friction predicts rotation: the study reports it.
 TEST(WiringRuns, ThatFrictionHoldsDisagreeAndSayHow) {
   design::Sheet sheet = nominal_sheet();
-  sheet.coulomb_friction_mNm = base::Quantity{60, "", ""};  // the whole motor has 78 mNm
+  // at this current the motor's whole torque is 78 mNm
+  sheet.coulomb_friction_mNm = base::Quantity{60, "", ""};
   const WiringStudy s = studied(sheet);
   EXPECT_EQ(s.agreeing(), 24u);
   for (const WiringCase& c : s.cases)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The theory of the 36 ways to connect a motor. Independent tables and shapes integrated numerically are the second way, and renamed phases
-// and probes are the invariance.
+// The theory of the 36 ways to connect a motor, checked by independent tables and numerically integrated shapes. Renaming phases and probes
+// together must change nothing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ const std::string words[] = {"abc", "bca", "cab", "acb", "cba", "bac"};
 constexpr int probes[6][3] = {{1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}, {1, 0, 1}};
 constexpr int pairs[6][2] = {{0, 1}, {0, 2}, {1, 2}, {1, 0}, {2, 0}, {2, 1}};
 
-/// The end at each place: one letter each.
+/// The phase at each leg and the probe at each pin, as one letter per place.
 struct Words {
   std::string phases, probes;
 };
@@ -111,8 +111,8 @@ std::vector<Motor> motors() {
 
 constexpr double current = 3.0;
 
-/// The midpoint rule has h = pi/18000. A line with corners is off by h^2/8 of the change of slope at each, (180/pi)/30 K a line, six of
-/// them: 2e-8 K in all. A cosine's (h^2/24) f'' is less.
+/// The midpoint rule with h = pi/18000 errs at a corner by h^2/8 times the change of slope. Six corners with a change of (180/pi)/30 K per
+/// line give 2e-8 K in all. A cosine's error, (h^2/24) f'', is smaller.
 struct BruteForce {
   std::array<double, 6> sector{};
   double mean = 0, square = 0, first = 0, second = 0;
@@ -168,7 +168,7 @@ TEST(WiringTheory, IsTheTorqueIntegratedByBruteForce) {
   });
 }
 
-/// Three ways run well and three backward, six are rough in each direction, and eighteen hum, for each shape.
+/// For each shape, three wirings run well forward and three backward, six are rough in each direction, and eighteen hum.
 TEST(WiringTheory, CountsTheWays) {
   for (const Motor& m : motors()) {
     // A large current makes a salient rotor turn almost as well one sector ahead, apart from the end of each sector.
@@ -195,8 +195,8 @@ TEST(WiringTheory, OfAlikePhasesHasHalfTheTorqueASectorOff) {
   });
 }
 
-/// Flat tops give mean(g^2) of a pair one sector off as 4/3 of its mean's square, K^2: it runs 1.5 times as fast, with half of the stalled
-/// current.
+/// With flat tops, a pair one sector off has mean(g^2) = 4/3 K^2, where K is the mean of g. Without load the motor runs 1.5 times as fast
+/// as with straight wires and draws half of the stalled current.
 TEST(WiringTheory, KnowsWhatATrapezoidDrawsWithoutLoad) {
   const Motor m = motors()[0];
   const analysis::PairTorque torque(m.machine, current);
@@ -206,7 +206,7 @@ TEST(WiringTheory, KnowsWhatATrapezoidDrawsWithoutLoad) {
   EXPECT_NEAR(early.idle_current_part, 0.5, 1e-12);
   EXPECT_NEAR(early.least_part, 0, 1e-12);
   const WiringTheory well = analysis::wiring_theory(torque, {});
-  EXPECT_NEAR(well.idle_current_part, 0, 1e-7);  // the root of the rounding error
+  EXPECT_NEAR(well.idle_current_part, 0, 1e-7);  // square root of a rounding error
   EXPECT_NEAR(well.least_part, 1, 1e-12);
 }
 
@@ -321,7 +321,7 @@ TEST(Cures, OfThePhaseWiresAloneReachNoMoreThanARunBackwardWhereTwoHallLinesAreS
     const bool keeps = analysis::keeps_the_turn(w.probes);
     EXPECT_EQ(count[static_cast<int>(WiringDoes::forward)], keeps ? 1 : 0);
     EXPECT_EQ(count[static_cast<int>(WiringDoes::backward)], keeps ? 0 : 1);
-    // Rough wires run in the other direction.
+    // The rough wirings run in the opposite direction.
     EXPECT_EQ(count[static_cast<int>(WiringDoes::backward_early)], keeps ? 1 : 0);
     EXPECT_EQ(count[static_cast<int>(WiringDoes::forward_late)], keeps ? 0 : 1);
     EXPECT_EQ(count[static_cast<int>(WiringDoes::hums)], 3);

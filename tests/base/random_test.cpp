@@ -41,7 +41,7 @@ double mean_of_power(const std::vector<double>& x, double centre, int power) {
   return sum / static_cast<double>(x.size());
 }
 
-/// The mean of n draws has the standard deviation sqrt(variance/n); it exceeds five times that once in 1.7 million.
+/// The mean of n draws has the standard deviation sqrt(variance/n). One mean in 1.7 million is farther off than five of them.
 double five_sigma(double variance) { return 5.0 * std::sqrt(variance / count); }
 
 TEST(Random, UniformHasItsMoments) {
@@ -84,7 +84,7 @@ TEST(Random, BothFollowTheirDistribution) {
       << "seed " << seed;
 }
 
-/// Neighbours in each of the three coordinates are independent: the product of two centred uniforms has variance 1/144.
+/// Neighbours in seed, stream and counter are independent: the product of two centred uniforms has variance 1/144.
 TEST(Random, NeighboursAreNotCorrelated) {
   double by_seed = 0.0, by_stream = 0.0, by_counter = 0.0;
   for (std::uint64_t n = 0; n < count; ++n) {

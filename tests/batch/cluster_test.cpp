@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plan on a cluster has the rows of one process, for any distribution of the runs. Threads with mailboxes replace its processes.
+// A plan on a cluster has the rows of one process, for any distribution of the runs. Threads with mailboxes replace the cluster's
+// processes.
 #include "batch/cluster.hpp"
 
 #include <gmock/gmock.h>
@@ -61,7 +62,7 @@ base::Result<analysis::PlannedRun> drive(const study::Scenario& s, std::uint64_t
   return analysis::planned_drive(s, seed, n);
 }
 
-/// A leader and `others`; each of these has requested its seed from the leader.
+/// A leader and its followers, `others`. Each follower has requested its seed from the leader.
 struct Together {
   study::Scenario scenario = half_ms();
   analysis::Plan plan{.axes = {}, .drives = 60, .seed = 5};

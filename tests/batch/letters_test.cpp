@@ -127,7 +127,7 @@ TEST(Letters, WhatWasCutOrBrokenIsNone) {
   unknown[0] = 9;
   EXPECT_FALSE(read(unknown));
   std::string endless = whole;
-  endless[15] = '\x7F';  // 2^62 rows: the reader reserves no memory for them
+  endless[15] = '\x7F';  // claims 2^62 rows: the reader must reserve no memory for them
   EXPECT_FALSE(read(endless));
 }
 

@@ -114,7 +114,7 @@ TEST(Optimise, WithoutRequirementsEndsInTheCornerOfTheLeastCurrent) {
   EXPECT_TRUE(found.best->limits[1].upper);
 }
 
-/// A sufficient number of points ends in the corner, where the law's I = 6 V/4 ohm is the smallest; a small one does not, and reports it.
+/// With enough points the search ends in the corner of the smallest current, I = 6 V/4 ohm. With too few it stops before and reports this.
 TEST(Optimise, SaysWhetherItEndedByItself) {
   const Found enough = search({}, 400), few = search({}, 4);
   ASSERT_TRUE(enough.best && few.best);
@@ -139,7 +139,7 @@ TEST(Optimise, StopsAtARequirementAndNamesIt) {
   EXPECT_FALSE(found.best->limits[0].upper);
 }
 
-/// The drive with the largest resistance decides among the varied ones.
+/// Of the varied drives, the one with the largest resistance decides.
 TEST(Optimise, IsRobustOverTheDrives) {
   const Held held{.min = 10.0, .drives = 6, .spread = 0.1};
   const Found found = search(held, 60, 2);

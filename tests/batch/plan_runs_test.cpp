@@ -163,7 +163,8 @@ TEST(PlanRuns, CountWhatCouldNotStartAndGoOn) {
   EXPECT_EQ(series.figures[0].statistics.missing(), 3u);
 }
 
-/// The series equals the single run: its values hold, and a fault stopped it.
+/// As in a single run, the measured values fulfil the requirements although a fault stopped the run. The report names the fault beside
+/// them.
 TEST(PlanRuns, AFaultIsToldBesideRequirementsThatTheValuesHold) {
   const Drives drives(stall(100.0), 2, 1);
   const base::Result<study::Outcome> whole = study::run(stall(100.0));

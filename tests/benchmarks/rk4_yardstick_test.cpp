@@ -65,8 +65,8 @@ TEST(Rk4Textbook, HasFirstOrderErrorsUnderSoftChoppingToo) {
   const Errors coarse = errors<Rk4Textbook>(1e-6), fine = errors<Rk4Textbook>(1e-7);
   std::printf("textbook: %.2f %% of peak current at 1 us, %.3f %% at 0.1 us\n", 100 * coarse.current,
               100 * fine.current);
-  // The error is ten times the tuned one's: conditions are evaluated inside a stage too, where a diode's current may seem reversed. An
-  // independent program of this kind has 6 % and 1 %.
+  // The error is ten times that of the tuned solver: this one evaluates conditions inside a stage too, where a diode's current may seem
+  // reversed. An independent program of this kind has 6 % and 1 %.
   EXPECT_LT(coarse.current, 6e-2);
   EXPECT_LT(fine.current, 1e-2);
   EXPECT_LT(fine.current, coarse.current / 4);
@@ -85,8 +85,8 @@ TEST(Yardsticks, RunUpAsTheReference) {
                  tuned = errors<Rk4Tuned>(step_s, true, "R2.csv", 1.0);
     std::printf("full voltage at %.1f us: textbook %.3f %%, tuned %.3f %% of peak current\n", 1e6 * step_s,
                 100 * plain.current, 100 * tuned.current);
-    // Commutations are up to one step late, and later again by the resulting angle: the error is of first order. An independent program of
-    // this kind has 1.2 % at 1 us and 0.12 % at 0.1 us.
+    // Commutations are up to one step late, and the resulting error of the angle delays the later ones: the error is of first order. An
+    // independent program of this kind has 1.2 % at 1 us and 0.12 % at 0.1 us.
     EXPECT_NEAR(plain.current, 1.2e4 * step_s, 0.05e4 * step_s);
     EXPECT_NEAR(tuned.current, 1.2e4 * step_s, 0.05e4 * step_s);
   }

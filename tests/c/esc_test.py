@@ -14,7 +14,7 @@ EXAMPLE = SOURCE / "faces/c/example/esc"
 STRICT = ["-std=c99", "-Wall", "-Wextra", "-Werror"]
 UPPER, LOWER = (1, 4, 16), (2, 8, 32)
 PERIOD_s, DEAD_ps, HOLD_ps = 50e-6, 500_000, 2_000_000
-CLAMPED_s, RELEASED_s = 0.50, 0.51  # main.c
+CLAMPED_s, RELEASED_s = 0.50, 0.51  # s; main.c clamps and releases the rotor at these instants
 # DJI 2212 920 KV and the scenario of main.c
 POLE_PAIRS, K_E, R_PAIR, L_s, BUS_V = 7, 6.741e-3, 2 * (0.1153 + 5e-3), 17.6e-6, 12.0
 K_T = 3 * math.sqrt(3) / math.pi * K_E  # of a pair, sine back-EMF, over a sector
@@ -117,7 +117,7 @@ class Firmware(unittest.TestCase):
             elif word == "taken":
                 self.assertGreaterEqual(at, changed + HOLD_ps)
                 if at > changed + HOLD_ps and 0.44e12 < at < CLAMPED_s * 1e12:  # full duty: no diode of the free phase conducts
-                    self.assertAlmostEqual(abs(number), 20e6, delta=100)  # nV; 35 nV a picosecond
+                    self.assertAlmostEqual(abs(number), 20e6, delta=100)  # nV; the back-EMF changes by 35 nV per picosecond
                     exact += 1
         self.assertGreater(exact, 300)
 
@@ -140,7 +140,8 @@ class Firmware(unittest.TestCase):
         rows = self.course.rows
         sector_s = 2 * math.pi / (6 * POLE_PAIRS * rows[480][0])
         off = next(at for at, _, gates in self.course.of("gates") if at >= CLAMPED_s * 1e12 and gates == 0) * 1e-12
-        self.assertLess(off - CLAMPED_s, (1 + 4 * 1.5) * sector_s + PERIOD_s)  # four sectors of one and a half each
+        # up to one sector, then four missed crossings of 1.5 sectors each
+        self.assertLess(off - CLAMPED_s, (1 + 4 * 1.5) * sector_s + PERIOD_s)
         self.assertEqual(rows[520][2], "wait")
         self.assertEqual([rows[ms][5] for ms in (480, 520, 920)], [0, 1, 1])
         self.assertEqual(rows[760][2], "run")  # 20 ms of waiting, 150 ms of alignment, 80 ms of ramp
@@ -179,7 +180,7 @@ class Chip(unittest.TestCase):
                 subprocess.run(["arm-none-eabi-gcc", f"-mcpu={core}", "-mthumb", "-ffreestanding", "-Os", *STRICT, "-c",
                                 EXAMPLE / "esc.c", "-o", part], check=True)
                 shown = subprocess.run(["arm-none-eabi-nm", "-u", part], capture_output=True, text=True, check=True).stdout
-                own = ("hal_", "__aeabi_", "__gnu_")  # the layer, and the compiler's division and tables
+                own = ("hal_", "__aeabi_", "__gnu_")  # functions of the hardware layer, and the compiler's division and tables
                 self.assertFalse([name for name in shown.split() if name != "U" and not name.startswith(own)], shown)
 
     def test_it_includes_nothing_but_the_layer(self):

@@ -213,7 +213,7 @@ class Gates(unittest.TestCase):
             self.assertAlmostEqual(session.value_of("i_b_A"), -expected, delta=2e-9 * expected)
             self.assertAlmostEqual(session.value_of("bus_A"), expected, delta=2e-9 * expected)
             self.assertAlmostEqual(session.value_of("i_c_A"), 0, delta=1e-12)
-        session.set_gates(0)  # both diodes conduct: the terminals change sides, less and more by the diodes' voltage
+        session.set_gates(0)  # both diodes conduct: each terminal moves to the other rail, and beyond it by the diode's voltage
         self.assertLessEqual(session.value_of("u_ab_V"), -U)
 
     def test_hall_edges_are_found_to_the_picosecond(self):

@@ -12,7 +12,7 @@ from program import SOURCE, Started
 
 RECORDINGS = SOURCE / "data/recordings"
 CODES = [0b100, 0b110, 0b010, 0b011, 0b001, 0b101]  # docs/reference/notation.md, forward
-OWN_DEG = [3, -1, 2, -4, 1, -1]  # place of each edge, late in degrees
+OWN_DEG = [3, -1, 2, -4, 1, -1]  # how late each edge is, in degrees
 TURN_S = 0.05
 
 

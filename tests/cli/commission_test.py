@@ -39,7 +39,8 @@ class Commission(Started):
             with self.subTest(wires):
                 hall = self.found("maxon-251601", "--wires", wires, "--inverted", inverted)["hall"]
                 self.assertFalse(hall["straight"])
-                # Each pin has the probe connected to it, unless all lines moved on together, which equals a shifted angle.
+                # Each pin has the probe connected to it, unless all three lines are shifted by the same number of pins. Such a shift equals
+                # a shifted angle.
                 self.assertEqual(len({row["code"] for row in hall["sectors"]}), 6)
                 turned = DIGITS.index(wires) < 3
                 found = "".join(map(str, hall["probes_at_pins"]))

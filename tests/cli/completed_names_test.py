@@ -65,9 +65,9 @@ class CompletedNames(ProgramTest):
                 # The shell is in the file's own folder, because a name may begin with any character.
                 self.typed(terminal, f"cd {self.path}/d{number}; sixstep here\n")
                 found = self.typed(terminal, "sixstep run \t\n")
-                if name.startswith(b"-"):  # fish offers none that begins with a point
+                if name.startswith(b"-"):  # fish completes no word that begins with a dot
                     self.assertIn(found, ([b"run", b"./" + name + b".toml"], [b"run"] if shell == "fish" else []))
-                elif is_visible(name):  # the program offers none of the others; the shell may offer them itself
+                elif is_visible(name):  # the program offers no other names; the shell may offer them itself
                     self.assertEqual(found, [b"run", name + b".toml"])
         self.typed(terminal, f"cd {self.path}; sixstep here\n")
         self.assertEqual(self.typed(terminal, "sixstep run d0/\t\n"), [b"run", b"d0/" + FILES[0] + b".toml"])

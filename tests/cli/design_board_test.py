@@ -160,7 +160,7 @@ position = {gain_rad_s_per_deg = 0.1, speed_limit_rad_s = 50}
         scenarios = SOURCE / "data" / "scenarios"
         self.run_program("design", "--scenario", str(scenarios / "firmware" / "cortex-m.toml"), "--mode", "speed", "--quick", "--quiet", "--toml", "kept.toml")
         board, kept = (tomllib.loads(path.read_text()) for path in (scenarios / "firmware" / "cortex-m.toml", self.path / "kept.toml"))
-        for key in ("off_at_s", "voltage_samples"):  # of the board's own course; a default value
+        for key in ("off_at_s", "voltage_samples"):  # off_at_s belongs to the board's own test; voltage_samples has its default value
             board["protection"].pop(key, None)
         self.assertEqual(kept["protection"], board["protection"])
         self.assertEqual(kept["control"]["drive"], "product")

@@ -161,7 +161,7 @@ class Design(ProgramTest):
                 self.assertEqual(gains["loop"], loop["name"])
                 self.assertEqual(gains["d1"], loop["gain_rad_s_per_deg"] if mode == "position" and gains["loop"] == mode
                                  else loop["gains"]["d1"])
-            # Its test has a board's dead time, the one that usual gate drivers need.
+            # The design's test uses a board's dead time, as usual gate drivers need it.
             self.assertRegex((self.path / "d.toml").read_text(), r"(?m)^# bridge\.dead_time_s: usual for gate drivers of small bridges")
             self.run_program("export", "header", "d.toml", "--out", "d.hpp")
             d1 = float(designed["loops"][0]["gains"]["d1"]).hex()

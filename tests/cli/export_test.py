@@ -9,7 +9,7 @@ import unittest
 from program import PROGRAM, SOURCE, ProgramTest, some
 
 DESPITE = ["--despite", "the tests look at its text"]
-BOARD = "current-square-board"  # passes: it has converters, and a period for the answer
+BOARD = "current-square-board"  # may be exported: it has converters, and the answer has a period of delay
 
 
 class Export(ProgramTest):
@@ -81,7 +81,7 @@ class Export(ProgramTest):
         small = told(position, "--arithmetic", "q15", "--set", "control.speed.d1=1e-9", "--set", "control.speed.d0=-0.9e-9")
         self.assertIn(f"{position}: control.arithmetic = \"q15\" cannot hold this drive: speed.K_i = ", small)
         self.assertIn("take 32 bits", small)
-        # The ratio of such bases does not fit 16 bits: the message names the gain.
+        # The ratio of such bases does not fit 16 bits, so that the message names the gain.
         self.assertIn("position_gain = ", told(position, "--arithmetic", "q15", "--set", "control.position.gain_rad_s_per_deg=1e6"))
         self.run_program("export", code=2)
         self.run_program("export", "heder", position, code=2)

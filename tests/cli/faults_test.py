@@ -61,7 +61,7 @@ class Faults(ProgramTest):
             self.assertNotIn("internal error", told)
             self.assertRegex(told, r"\w+ \w+", "it says why")
         for name, text in self.whole().items():
-            if name == "o.xml" and code == 2:  # it describes the run, and says that it was stopped
+            if name == "o.xml" and code == 2:  # o.xml describes the run and says that it was stopped
                 self.assertTrue(text == files[name] or b"<error" in text, text)
                 continue
             self.assertTrue(text == files[name], f"{name} stands whole, and differs")

@@ -14,7 +14,7 @@ import urllib.parse
 from hostile import FILES, TEXTS, is_visible
 from program import BRISK, PROGRAM, SHORT, SOURCE, ProgramTest, hall_log
 
-if os.path.isdir("/dev/shm"):  # hundreds of files, each synchronised to its disk
+if os.path.isdir("/dev/shm"):  # a file system in memory, because the test writes hundreds of files, each synchronised to its disk
     tempfile.tempdir = "/dev/shm"
 UTF8 = [text.decode() for text in TEXTS if text == text.decode(errors="ignore").encode()]
 quoted = lambda text: json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")  # a string of TOML

@@ -83,7 +83,7 @@ class Ends(Started):
             except subprocess.TimeoutExpired:
                 self.fail(f"{words} goes on after {sent.name} at {wait:.3f} s, seed {SEED}")
             self.slowest = max(self.slowest, time.monotonic() - begin)
-        # The signal itself ends the program before it listens to signals, or where no output needs closing.
+        # The signal itself ends the program before the handler is installed, or where no output needs closing.
         self.assertIn(program.returncode, (TOLD[sent], -sent), (words, wait, SEED, out + told))
         return program.returncode > 0, out + told
 

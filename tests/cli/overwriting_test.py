@@ -11,7 +11,7 @@ from program import BRISK, SHORT, SOURCE, WIRING, Started, hall_log
 
 LETTER = "Dear reader,\nthis is nobody's trace.\n"
 EMF = f"motor emf {SOURCE}/data/recordings/bly172s-emf.csv --pole-pairs 4"
-# The outputs of each verb; {} is the file. A run of minutes shows that the refusal comes before it.
+# The outputs of each verb; {} is the file. slow.toml runs for minutes, so that the time shows that the refusal comes before the run.
 OUTPUTS = {"run --csv": "run slow.toml --csv {}", "run --mat": "run slow.toml --mat {}", "run --mat73": "run slow.toml --mat73 {}",
            "run --vcd": "run slow.toml --vcd {}", "run --json": "run slow.toml --json {}", "run --html": "run slow.toml --html {}",
            "run --html of two": "run slow.toml slow.toml --html {}",

@@ -36,7 +36,7 @@ class RefusedKeys(Started):
                 self.assertIn(cause, told)
                 if "control.mode" not in cause:
                     self.assertNotIn("control.mode", told)
-                if cure:  # the advice works
+                if cure:  # following the advice must work
                     sets = [word for part in cure.split() for word in ("--set", part)]
                     made = self.run_program("run", "a.toml", "--set", f'record.columns=["{column}"]', "--csv", "o.csv", "--quiet", "--force", *sets)
                     self.assertEqual(made.stderr, "")

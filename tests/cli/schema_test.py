@@ -34,7 +34,7 @@ metric = "final"
 max = 1000
 """
 
-# Each is one edit of BASE that must be refused, by the schema and by the program, at the same key.
+# Each entry is one edit of BASE that must be refused, by the schema and by the program, at the same key.
 MUTANTS = [
     ("motor = \"maxon-251601\"", "", "motor"),
     ("duration_s = 1e-4", "duration_s = 0", "duration_s"),

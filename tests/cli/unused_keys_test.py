@@ -56,7 +56,7 @@ metric = "mean"
 min = 0
 """
 
-# Keys with an effect outside of this run: their range is out of its reach, or they affect only a written file.
+# Keys without effect on this run: it cannot reach their range, or they affect only a written file.
 ELSEWHERE = {
     "motor_override.magnet_loss_percent_K": "acts through [heat], and in the tolerances of designs",
     "heat.ambient_degC": "from it a remark warms the motor by the sheet's thermal values",

@@ -35,8 +35,8 @@ class Wiring(Started):
                 phases, probes = TURN[w["phases"]], DIGITS.index(w["hall_lines"])
                 does = w["measured"]["does"]
                 self.assertEqual(does, w["theory"]["does"])
-                # A reversed order of only one of the two makes the motor hum. With both or neither, the difference of the two shifts
-                # decides.
+                # The motor hums where the order of either the phases or the probes is reversed, but not of both. Otherwise the difference
+                # of their two shifts decides.
                 self.assertEqual(does == "hums", (phases < 3) != (probes < 3))
                 if phases < 3 and probes < 3:
                     self.assertEqual(does, ["forward", "backward_early", "backward_late"][(phases - probes) % 3])

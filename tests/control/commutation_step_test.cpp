@@ -26,7 +26,8 @@ double slope(Pair pair, Leg staying, ChoppedSwitch chopped, double duty, double 
   v[at(pair.sink)] = chopped == ChoppedSwitch::lower ? (1 - duty) * U : 0.0;
   e[at(pair.source)] = E_V;
   e[at(pair.sink)] = -E_V;
-  const bool was_sink = staying == pair.source;  // its current flows out of the motor into the upper diode
+  // If the source stays, the sink leaves: its current flows out of the motor into the upper diode.
+  const bool was_sink = staying == pair.source;
   v[at(leaving)] =
       was_sink ? (1 + overlap) * U : overlap * U;  // its lower or its upper switch opposes the rail
   e[at(leaving)] = was_sink ? -E_V : E_V;
@@ -75,8 +76,8 @@ TYPED_TEST(CommutationStepOf, HoldsTheStayingPhase) {
   EXPECT_EQ(overlapping, 6 * 2 * 2 * 2);  // the two larger currents at the highest speed
 }
 
-/// The step holds while the leaving current falls by T (2 E + 3 R I/2)/L a period. It ends once less than half of that remains, because the
-/// answer would act too late.
+/// The step lasts while the leaving current falls by T (2 E + 3 R I/2)/L a period. It ends once less than half of one period's fall
+/// remains, because the next answer would act too late.
 TYPED_TEST(CommutationStepOf, LastsWhileACurrentLeaves) {
   using S = TypeParam;
   const CommutationStepConfig<S> config{Gain<S>(0.5), Gain<S>(0.25),
@@ -110,7 +111,7 @@ TYPED_TEST(CommutationStepOf, LastsWhileACurrentLeaves) {
   overlaps.overlap_bus_V = S(0.4);
   watch_leaving(overlaps, state, with(0.0, 0.5, -0.5), 2, false);
   EXPECT_NEAR(static_cast<double>(state.least_A), 0.01875, 8 * digit<S>());
-  // The flank begins a quarter of it after the edge; a tick covers an eighth: 4 E - 2 E f.
+  // The flank of the back-EMF begins a quarter of its length after the edge, and a tick covers an eighth: the voltage is 4 E - 2 E f.
   CommutationStepConfig<S> flanked = config;
   flanked.flanks_per_rad_s = Gain<S>(0.3125);
   flanked.ahead_per_rad_s = Gain<S>(0.3125);
@@ -125,8 +126,8 @@ TYPED_TEST(CommutationStepOf, LastsWhileACurrentLeaves) {
   EXPECT_NEAR(static_cast<double>(state.driven_A), 0.5, 2 * digit<S>());
 }
 
-/// The drive's Hall interrupt sets the duty at once, ticks keep it while the current leaves, and the PI pauses. Then the PI continues from
-/// its last output.
+/// The drive's Hall interrupt sets the duty of the step at once. Ticks keep that duty while the current leaves, and the PI pauses. Then the
+/// PI continues from its last output.
 TEST(CommutationStep, TheLoopRestsMeanwhile) {
   DriveConfig<double> config{};
   config.mode = Mode::current;

@@ -119,7 +119,7 @@ TYPED_TEST(Extras, BackEmfAndMeasuredBusEnterTheDuty) {
   b.config.extras.bus.lowest_bus_V = S(0.5);
   b.measured.bus_V = S(1.0);
   EXPECT_NEAR(static_cast<double>(b.tick(0.125).duty), 0.5, 3 * digit<S>());
-  // The sum of both stays within the PI's limit, and the PI does not wind up against it.
+  // The PI's limit also holds for the sum of its output and the feed-forward. The PI does not wind up against this limit.
   for (int n = 0; n < 10; ++n) EXPECT_LE(b.tick(1.5).duty, S(0.75));
   EXPECT_EQ(b.tick(1.5).duty, S(0.75));
   b.tick(1.25);

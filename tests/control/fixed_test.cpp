@@ -65,7 +65,7 @@ using Formats = ::testing::Types<Q15, Q31, Fixed<std::int16_t, 12>, Q14, Fixed<s
                                  Fixed<std::int32_t, 27>>;
 TYPED_TEST_SUITE(FixedFormats, Formats);
 
-/// The ends of the range are half of the draws, because fixed point fails there.
+/// Half of the draws are numbers at or near the limits of the range, because fixed point fails there.
 template <class Storage>
 Storage drawn(std::mt19937_64& random) {
   constexpr Storage corners[] = {0,
@@ -129,7 +129,8 @@ TYPED_TEST(FixedFormats, GainsAboveAndBelowOneRoundOnce) {
     const F x = F::from_raw(drawn<Storage>(random)), y = F::from_raw(drawn<Storage>(random));
     const I128 m = gain.mantissa, scale = I128{1} << gain.right;
     ASSERT_EQ(ScalarTraits<F>::product(x, gain).raw, fitted<F>(rounded(x.raw * m, scale)));
-    // The accumulator's result: a difference of signals, 2^guard finer, saturated at its own ends.
+    // The accumulator's result: a difference of signals with 2^guard finer digits, saturated at the
+    // accumulator's own limits.
     using Raw = typename Accumulator<F>::Raw;
     const I128 fine = rounded((I128{x.raw} - y.raw) * m << Accumulator<F>::guard_bits, scale);
     const I128 high = detail::greatest<Raw>, low = detail::least<Raw>;

@@ -113,8 +113,8 @@ TEST(Hall, ABrokenLineIsNamed) {
             ASSERT_TRUE(fault.line == line || fault.line == 0)
                 << apart << ' ' << direction << ' ' << line << ' ' << level << ' ' << breaks_at;
           }
-  // A false edge between 3/4 and 8/9 of a sector is as early as that of a rotor with a speed change of a quarter. The next sectors differ
-  // too: one in six breaks makes an early false edge.
+  // A false edge between 3/4 and 8/9 of a sector is as early as that of a rotor whose speed changes by a quarter, so that no line is named.
+  // The next sectors differ too: one in six breaks makes an early false edge.
   std::printf("named %d, not told %d\n", named, untold);
   EXPECT_LE(untold, named / 30);
 }
@@ -138,7 +138,8 @@ std::uint8_t named(double w, double a, double at_s, int line, int level) {
   return 0;
 }
 
-/// Times cannot distinguish the lines where the rotor slows down, reverses or starts: the decoder then names none, and never another line.
+/// Where the rotor slows down, reverses or starts, times cannot distinguish the lines: the decoder then names no line, and never a wrong
+/// one.
 TEST(Hall, NoOtherLineIsNamedWhereTheRotorTurnsBack) {
   int right = 0, wrong = 0, untold = 0;
   for (const double w : {0.0, 3.0, 8.0, 15.0, 30.0})
@@ -269,7 +270,7 @@ TYPED_TEST(HallMotion, PositionRunsOnThroughSectorsAndBackToWhereItWas) {
     const S fraction = sector_fraction(config, speed, now + since);
     return static_cast<double>(hall_position(position, count, speed.direction, fraction)) / sector;
   };
-  // The error of a gain is 2^-15 of itself in 16 bits, over 30 sectors; the roundings of sum and fraction add to it.
+  // A 16-bit gain has a relative error of 2^-15, here over 30 sectors. The roundings of sum and fraction add to it.
   const double near = 3 * digit<S>() / sector + 30 * digit<S>();
   EXPECT_NEAR(at(0), 0.5, near) << "nothing known: the middle of the sector";
   for (int n = 1; n <= 30; ++n) {

@@ -21,7 +21,7 @@ static_assert(sizeof(JerkProfileState<float>) <= 384, "what a drive without a pr
 
 constexpr double degrees = 180 / pi;
 
-/// Relative to 1.
+/// Resolution of S relative to 1.
 template <class S>
 constexpr double ulp = static_cast<double>(std::numeric_limits<S>::epsilon());
 

@@ -151,7 +151,7 @@ TYPED_TEST(Modulation, BothReachTheVoltagesBetweenTheTerminalsWithinTheirRange) 
 
 TYPED_TEST(Modulation, ClampsBeyondItsRangeAndNotBefore) {
   using S = TypeParam;
-  // A vector along a leaves the hexagon last, and one 30 degrees on leaves it at U_s/sqrt 3.
+  // A vector along phase a points to a corner and leaves the hexagon last. A vector 30 degrees further leaves the hexagon at U_s/sqrt 3.
   const double reach = bus / std::numbers::sqrt3, thirty = std::numbers::pi / 6;
   const auto within = [](const LegCommands<S>& legs) {
     bool free = true;

@@ -145,7 +145,8 @@ TYPED_TEST(Limits, ChoppingIsComplementaryWhereverTheCurrentMayReverse) {
   EXPECT_EQ(at(true, -0.5), Chopping::soft) << "the same current driven by a negative one";
 }
 
-/// Only the off-time's gates act at d -> 0+ and d -> 0-: complementary chopping has the same gates at both.
+/// At d -> 0+ and d -> 0- only the off-time's gates act. Complementary chopping has the same gates at both;
+/// the other kinds of chopping do not.
 TEST(Chopping, OnlyComplementaryIsContinuousThroughZero) {
   const auto off_time = [](bool reversed, Chopping chopping) {
     const Pair p{Leg::a, Leg::b};

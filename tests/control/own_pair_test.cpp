@@ -9,9 +9,8 @@ namespace SIXSTEP_TEST_FILE {
 
 using namespace sixstep;
 
-/// Back-EMF shapes of the three phases in the middle of a sector (docs/reference/model.md 3): the phase of the positive pair's source is at
-/// +1, that of its sink at -1. A pair's torque per ampere is their difference.
-/// source is at +1, that of its sink at -1. A pair's torque per ampere is their difference.
+/// Difference of the two driven phases' back-EMF shapes in the middle of a sector, which is the pair's torque per ampere. The source of the
+/// positive pair is at +1, its sink at -1 (docs/reference/model.md 3).
 double torque_per_ampere(std::uint8_t sector, const sixstep_answer& a) {
   const control::Pair positive = control::positive_pair(sector);
   const auto shape = [&](int leg) {

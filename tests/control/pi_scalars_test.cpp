@@ -37,7 +37,7 @@ TYPED_TEST(PiScalars, FollowsExactArithmeticOnTheSameGains) {
   double u = 0, before = 0;
   double worst = 0;
   for (int n = 0; n < 2000; ++n) {
-    // The random error avoids the limits: a clamp in only one of the two would separate them permanently.
+    // The random error avoids the limits: a clamp in only one of the two calculations would separate them permanently.
     const auto e = static_cast<S>(any(random) - 0.05 * static_cast<double>(u));
     u = u + d1 * (static_cast<double>(e) - before) + K_i * before;
     before = static_cast<double>(e);
@@ -137,8 +137,8 @@ TYPED_TEST(PiScalars, BackCalculationHoldsTheIntegralNearTheLimit) {
       << "without it the integral winds up";
 }
 
-/// The product K e far exceeds 16 times a signal's range, where every fixed sum ends. The integral stays at the limit, and the first small
-/// error leaves it.
+/// The product K e far exceeds 16 times a signal's range, which is the limit of every fixed-point sum. The integral stays at the limit, and
+/// the first small error leaves it.
 TYPED_TEST(PiScalars, NothingWindsUpWhereTheProportionalPartSaturates) {
   using S = TypeParam;
   const double K = 200, K_i = 20, K_b = K_i / K;

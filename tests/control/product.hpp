@@ -10,7 +10,7 @@
 
 namespace sixstep::control {
 
-// The values of 1.0. Signals end at 2, so differences of full-scale signals still fit.
+// Bases: the physical values of 1.0. Signals end at 2, so that differences of full-scale signals still fit.
 inline constexpr double base_A = 20, base_V = 25, base_rad_s = 500, base_deg = 2000;
 // maxon 251601 (model.md 6) at the terminals; the thesis's period; a timer of 1 MHz.
 inline constexpr double R = 1.03, L = 0.572e-3, K_t = 33.5e-3, J = 135e-7, T = 30e-6, U = 24;
@@ -50,7 +50,7 @@ struct Motor {
   template <class S>
   void run(const BridgeCommand<S>& c) {
     const Pair positive = positive_pair(sector_of_hall(pins()));
-    double u = K_t * w;  // floating: no current
+    double u = K_t * w;  // bridge off: the terminals float without current
     if (c.enabled) {
       const bool forward = c.pair == positive, backward = c.pair == swapped(positive);
       u = (forward ? 1 : backward ? -1 : 0) * static_cast<double>(c.duty) * U;

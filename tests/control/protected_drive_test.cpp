@@ -114,7 +114,7 @@ TYPED_TEST(Product, AWronglyWiredRotorFailsTheAlignment) {
   Plant<S> p;
   p.config.align = {S(2 / base_A), 100, 10, 0};
   p.request.run = true;
-  p.motor.theta_e = 1.5;  // the angle to which the pair of sector 0 turns it
+  p.motor.theta_e = 1.5;  // the angle to which the pair of sector 0 turns the rotor
   p.ticks(25);
   EXPECT_EQ(p.telemetry.activity, Activity::align);
   EXPECT_EQ(p.command.pair, positive_pair(0));

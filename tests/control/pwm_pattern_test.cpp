@@ -38,7 +38,7 @@ bool chops(PwmPattern pattern, bool upper, bool begun, bool second_half) {
     case PwmPattern::pwm_on_pwm:
       break;
   }
-  return begun == second_half;  // its first 30 degrees and its last
+  return begun == second_half;  // the first 30 degrees of the switch's 120, and the last
 }
 
 template <class Scalar>
@@ -59,7 +59,7 @@ TYPED_TEST(PwmPatternOf, ChopsWhatItsNameSaysBothWays) {
           const ChoppedSwitch chopped = chopped_switch(config, state, rotor.sector(n), rotor.pair(n));
           const bool begun = rotor.pair(n - 1).source == rotor.pair(n).source;  // in the first sector too
           if (pattern == PwmPattern::pwm_on_pwm && is_fixed<S> && k == ticks / 2)
-            continue;  // a digit early or late
+            continue;  // rounding of S decides on which side of the middle this tick lies
           EXPECT_EQ(chopped == ChoppedSwitch::upper, chops(pattern, true, begun, k >= ticks / 2))
               << int(pattern) << backward << " sector " << n << " tick " << k;
           EXPECT_EQ(chopped == ChoppedSwitch::lower, chops(pattern, false, !begun, k >= ticks / 2));
@@ -80,7 +80,7 @@ TEST(PwmPattern, ACommandOfTheOtherSignKeepsTheLeg) {
   }
 }
 
-/// Every switch is chopped for the same time over a turn: only the patterns upper and lower heat some switches more.
+/// With these patterns every switch is chopped for the same time over a turn. Only the patterns upper and lower heat some switches more.
 TEST(PwmPattern, ShareTheChoppingAmongSixSwitches) {
   for (const PwmPattern pattern : {PwmPattern::pwm_on, PwmPattern::on_pwm, PwmPattern::pwm_on_pwm}) {
     const Turning rotor;

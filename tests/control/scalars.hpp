@@ -12,7 +12,7 @@ namespace sixstep::control {
 
 using Scalars = testing::Types<double, float, Q14, Q30>;
 
-/// Scalars that include those with a largest number below 1: decoders reach it, at half a turn and at the sine's peak.
+/// The scalars, including those whose largest number is below 1. A decoder's result may be 1: at half a turn, or at the sine's peak.
 using SensingScalars = testing::Types<double, float, Q15, Q14, Q31, Q30>;
 
 template <class Scalar>

@@ -73,7 +73,8 @@ TYPED_TEST(Sensing, OneShuntShowsTheDrivenCurrentInTheOnTimeOnly) {
       << "the default sees nothing";
 }
 
-/// The commutation is exponential: the incoming phase rises to the constant current. i_m is the mean of both.
+/// In this exponential commutation the incoming phase's current rises to the constant current of the staying phase. i_m is the mean of the
+/// two.
 TYPED_TEST(Sensing, OneShuntCorrectsForTheIncomingPhase) {
   using S = TypeParam;
   OneShuntState<S> state;
@@ -111,7 +112,8 @@ TYPED_TEST(Sensing, DerivativeOfARampSettlesAtItsSlopeWithTheFilterTimeConstant)
   for (int n = 1; n <= 64; ++n) {
     const S seen = ScalarTraits<S>::signal(derivative_step(config, state, S(0.25 + r * n)));
     const double y = static_cast<double>(seen);
-    // The output is y[n] = g r (1 - (1-b)^n)/b. Fixed point rounds the fed-back y to a digit: at most b/2/b of it remains.
+    // The output is y[n] = g r (1 - (1-b)^n)/b. Fixed point rounds the y that is fed back through b: an error of b/2 digits a sample, which
+    // adds up to half a digit.
     EXPECT_NEAR(y, 32 * r * (1 - std::pow(0.875, n)), 2 * digit<S>()) << n;
   }
 }
@@ -127,7 +129,7 @@ TYPED_TEST(Sensing, ADerivativeMayExceedTheSignalItIsTakenOff) {
   for (int n = 1; n <= 4; ++n) {
     exact = exact / 2 + 8 * 0.4;
     const Accumulator<S> y = derivative_step(config, state, S(-0.8 + 0.4 * n));
-    // A quarter of it is within the signal's range again. The error of each x is half a digit, which g multiplies to four.
+    // A quarter of the output is within the signal's range again. Each x has an error of half a digit, which g multiplies to four.
     EXPECT_NEAR(4 * static_cast<double>(T::signal(T::share(y, Gain<S>(0.25)))), exact, 20 * digit<S>()) << n;
   }
   EXPECT_GT(exact, 5.9);

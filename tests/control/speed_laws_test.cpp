@@ -103,8 +103,8 @@ TYPED_TEST(SpeedLaws, ObservedSpeedHoldsItsSetpointWhateverTheModelLacks) {
   EXPECT_NEAR(bench.w, 20.0, this->roundings(20, 100));
 }
 
-/// The observer at the limit uses the limited torque, and so estimates the load alone. After leaving the limit the drive behaves as if it
-/// had never been there.
+/// At the limit the observer uses the limited torque, so that it estimates the load alone. After leaving the limit the drive behaves as if
+/// it had never reached it.
 TYPED_TEST(SpeedLaws, ObservedSpeedDoesNotWindUp) {
   using S = TypeParam;
   Bench<S> bench;
@@ -166,7 +166,7 @@ TYPED_TEST(SpeedLaws, ObservedSpeedBeginsWhereTheShaftIs) {
   EXPECT_NEAR(bench.u, 0.0, this->roundings(1, 20));
 }
 
-// The law has q = 1 - p; on the surface the pole is z_o.
+// The law has q = 1 - p: on the surface the speed error has the pole p. Within the layer the surface's value has the pole z_o.
 template <class S>
 SlidingSpeedConfig<S> sliding(double reach) {
   return {S(1 - p), S((1 - p) / b), S(reach), S(reach * b / (1 - z_o))};
@@ -196,7 +196,7 @@ TYPED_TEST(SpeedLaws, SlidingSpeedFollowsItsSetpointOnTheSurface) {
   }
 }
 
-/// The state moves from s_0 towards the layer by b (R - l) a sample.
+/// Outside the layer the surface's value falls from s_0 by b (R - l) a sample, with the reach R and the load l.
 TYPED_TEST(SpeedLaws, SlidingSpeedReachesItsLayerInTheTimeOfItsLaw) {
   using S = TypeParam;
   for (const double load : {0.0, 0.25, -0.25}) {
@@ -208,7 +208,7 @@ TYPED_TEST(SpeedLaws, SlidingSpeedReachesItsLayerInTheTimeOfItsLaw) {
     bench.state.m = w_0 + S(s_0);
     const double layer = 0.5 * b / (1 - z_o), per_sample = b * (0.5 - load);
     const int due = static_cast<int>(std::ceil((s_0 - layer) / per_sample));
-    // The setpoint equals the speed, so that no error adds to it.
+    // The setpoint equals the speed, so that the term of the error is 0.
     int n = 0;
     for (; bench.surface() > S(layer) && n < 1000; ++n) {
       const S s = bench.surface();
@@ -219,7 +219,7 @@ TYPED_TEST(SpeedLaws, SlidingSpeedReachesItsLayerInTheTimeOfItsLaw) {
   }
 }
 
-/// The surface in the layer follows s[n+1] = z_o s[n] + b l; at rest the switching part equals the load.
+/// Within the layer the surface's value follows s[n+1] = z_o s[n] + b l. At rest the switching part of the torque equals the load l.
 TYPED_TEST(SpeedLaws, SlidingSpeedBearsALoadWithoutAnErrorThatStays) {
   using S = TypeParam;
   SlidingBench<S> bench{sliding<S>(0.5)};
@@ -237,8 +237,8 @@ TYPED_TEST(SpeedLaws, SlidingSpeedBearsALoadWithoutAnErrorThatStays) {
   EXPECT_NEAR(bench.surface(), 0.4 * b / (1 - z_o), this->roundings(4, 200));
 }
 
-/// The drive starts far from its setpoint: full torque until it removes q e of the error e a sample, and up to q/(1 - z_o) of that error
-/// sooner, because the surface is not left at once; then along the surface.
+/// The drive starts far from its setpoint at full torque, until the law needs less: the error e is to fall by q e a sample. The torque
+/// falls earlier by up to q/(1 - z_o) of that error, because the surface is not left at once. Then the speed follows the surface.
 TYPED_TEST(SpeedLaws, SlidingSpeedDoesNotWindUp) {
   using S = TypeParam;
   SlidingBench<S> bench{sliding<S>(1.0)};
@@ -302,7 +302,7 @@ TYPED_TEST(SpeedLaws, AnotherLawBeginsWithTheTorqueOfTheOneBefore) {
       Measurement<S> m{};
       m.hall = 0b101;
       m.speed_rad_s = S(50);
-      // The shaft loses speed until the law has reached the torque that holds it.
+      // The shaft loses speed until the law has reached the torque that balances the load of 0.5.
       for (int n = 0; n < 40000; ++n) {
         step(config, state, m, {S(50)}, telemetry);
         const S t = telemetry.current_reference_A / S(10);

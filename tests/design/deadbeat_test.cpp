@@ -17,7 +17,7 @@ using namespace sixstep::control;
 constexpr double R = 1.03, L = 0.572e-3, T = 30e-6;
 constexpr design::DeadbeatSpec spec{.R_ohm = R, .L_H = L, .K_t_Nm_A = 0.0335, .period_s = T, .limit_V = 24.0};
 
-/// The winding itself, with any inductance, over `time_s`.
+/// Current, A, after `time_s` of a constant voltage less back-EMF on a winding with the inductance L_H.
 double winding(double i, double u_minus_e, double time_s, double L_H = L) {
   const double a = std::exp(-R * time_s / L_H);
   return a * i + (1 - a) / R * u_minus_e;
@@ -30,7 +30,7 @@ DeadbeatConfig<double> config_of(double wait_periods, double correction = design
   return design::deadbeat(s)->config;
 }
 
-/// A drive of this loop and that winding: the answer takes effect `wait` periods after the sample.
+/// A drive with this loop on that winding. The answer takes effect `wait` periods after the sample.
 struct Loop {
   DeadbeatConfig<double> config;
   double wait, L_H = L;
@@ -70,7 +70,7 @@ TEST(Deadbeat, ReachesItsReferenceOnePeriodAfterTheAnswerBegins) {
 TEST(Deadbeat, AnAnswerHalfAPeriodAfterItsSampleReachesItWhereThePeriodEnds) {
   Loop loop{config_of(0.5), 0.5};
   loop.tick(0.8, 0.0);
-  // Its voltage holds for half a period more, after the next sample.
+  // The answer's voltage holds for half a period more, after the next sample.
   EXPECT_NEAR(winding(loop.i, loop.in_effect, 0.5 * T), 0.8, 1e-12);
 }
 
@@ -110,8 +110,7 @@ TEST(Deadbeat, WhatTheLimitCutsOffIsForeseenAndNothingWindsUp) {
     before = loop.i;
     ++ticks;
   }
-  // The current at full voltage is i(t) = U/R (1 - exp(-R t/L)): the ticks are that number of periods, the last one shortened, plus the
-  // wait.
+  // The current at full voltage is i(t) = U/R (1 - exp(-R t/L)). Reaching 10 A takes that many periods, rounded up, plus the wait of one.
   const double least = -L / R * std::log1p(-10.0 * R / 24.0) / T;
   EXPECT_EQ(ticks, static_cast<int>(std::ceil(least)) + 1);
 }
@@ -131,8 +130,8 @@ template <class Scalar>
 class DeadbeatScalars : public ::testing::Test {};
 TYPED_TEST_SUITE(DeadbeatScalars, Scalars);
 
-/// The bases are 40 A, 60 V and 1500 rad/s: each format follows double within its digits. The measured current is the winding's, so that
-/// errors stay those of one tick: its roundings, times 1/b in volts.
+/// The bases are 40 A, 60 V and 1500 rad/s, and each format follows double within its digits. The measured current is the winding's, so
+/// that errors do not accumulate: each tick has its own roundings, times 1/b in volts.
 TYPED_TEST(DeadbeatScalars, FollowsTheDoubleOne) {
   using S = TypeParam;
   constexpr double A = 40, V = 60, W = 1500;

@@ -111,8 +111,9 @@ TEST(DriveDesign, TheClosedLoopsAreTheCascadeWrittenOut) {
   }
 }
 
-/// A locked rotor of 1.03 ohm and 0.572 mH, 30 us, a step of 2 A: i' = a_h (a_h i + b_h u_first) + b_h u_then, with a_h over half a period.
-/// A sample in the middle of a period has its voltage in the second half of the interval to the next sample.
+/// Overshoot, A, of a step of 2 A by the recurrence i' = a_h (a_h i + b_h u_first) + b_h u_then, with a_h over half a period. The rotor is
+/// locked, with 1.03 ohm and 0.572 mH at 30 us. The voltage of a sample in the middle of a period acts in the second half of the interval
+/// to the next sample.
 double overshoot_of_recurrence_A(const PiGains& g, int delay_periods, bool middle) {
   const double a = std::exp(-1.03 * 15e-6 / 0.572e-3), b = (1 - a) / 1.03;
   double i = 0, before = 0, highest = 0, volts[3] = {0, 0, 0};
@@ -145,7 +146,8 @@ TEST(DriveDesign, ASampleInTheMiddleMakesTheLoopHalfAPeriodLater) {
   }
 }
 
-/// A delay costs w times itself in phase at the crossover, which hardly changes: half a period costs half as much as one.
+/// At the crossover w a delay costs w times the delay in phase, and w hardly changes. Half a period therefore costs half as much as a
+/// period.
 TEST(DriveDesign, HalfAPeriodCostsHalfThePhaseOfOne) {
   const DriveDesign start = designed({.mode = Mode::current, .delay_periods = 1});
   const DriveDesign middle = designed({.mode = Mode::current, .delay_periods = 1, .sampled_in_middle = true});
@@ -155,7 +157,7 @@ TEST(DriveDesign, HalfAPeriodCostsHalfThePhaseOfOne) {
   EXPECT_NEAR(*start.sooner(s).phase_rad - *middle.sooner(m).phase_rad, half, 0.04 * half);
   EXPECT_EQ(late_words(middle.spec.late_periods()), "1.5 periods late");
   EXPECT_EQ(late_words(middle.spec.sooner_periods()), "half a period late");
-  // 45 degrees of phase remain at the longest period, as reported for a sample at the start too.
+  // The reported longest period leaves 45 degrees of phase, for samples in the middle of a period as for samples at its start.
   const DriveDesign longest = designed({.mode = Mode::current,
                                         .period_s = middle.longest_period_s,
                                         .delay_periods = 1,
@@ -224,7 +226,8 @@ bool warns(const DriveDesign& d, const std::string& of) {
   return false;
 }
 
-/// A loop with little phase is not usable: |1 + L| at the crossover is 2 sin(phase/2), so that it amplifies at least 2.9 times.
+/// A loop with little phase is not usable: |1 + L| at the crossover is 2 sin(phase/2), so that at 20 degrees it amplifies disturbances 2.9
+/// times.
 TEST(DriveDesign, LittlePhaseIsGrave) {
   int usable = 0, unusable = 0;
   for (double settle_s = 0.15e-3; settle_s < 0.5e-3; settle_s *= 1.03) {
@@ -282,11 +285,11 @@ TEST(DriveDesign, AsksForWhatTheMotorStandsWhereNobodySaid) {
   MotorModel motor = thesis_motor();
   motor.nominal_current_A = 2.33;
   EXPECT_DOUBLE_EQ(design_drive(motor, {.mode = Mode::speed})->current_at_full_torque_A, 2.5 * 2.33);
-  // The current without a printed one is a tenth of the stall current, 24/1.03/10 A, and the design is marked so.
+  // Without a printed nominal current the design takes a tenth of the stall current, 24/1.03/10 A, and is marked so.
   const auto silent = design_drive(thesis_motor(), {.mode = Mode::speed});
   EXPECT_FALSE(silent->nominal_printed);
   EXPECT_DOUBLE_EQ(silent->current_at_full_torque_A, 2.5 * 24 / 1.03 / 10);
-  // The current is at most that of the whole bus through the held rotor.
+  // The current at full torque is at most that of the whole bus through the held rotor.
   motor.nominal_current_A = 20.0;
   EXPECT_DOUBLE_EQ(design_drive(motor, {.mode = Mode::speed})->current_at_full_torque_A, 24 / 1.03);
 }
@@ -331,8 +334,8 @@ TEST(DriveDesign, AnUnstableLoopIsCalledSo) {
   for (const Warning& w : d.warnings) EXPECT_EQ(w.what.find("inf"), std::string::npos) << w.what;
 }
 
-/// T_max changes the speed of J by half the lowest speed in J w_low/(2 T_max) at best: the default settling time is 1.5 times that. A small
-/// inertia keeps the thesis's 10 ms.
+/// At best, T_max changes the speed of J by half the lowest speed within J w_low/(2 T_max). The default settling time is 1.5 times that.
+/// With a small inertia it stays at the thesis's 10 ms.
 TEST(DriveDesign, IsNoFasterThanTorqueAndInertiaAllow) {
   for (const double load_kg_m2 : {0.0, 1e-4, 1e-3, 1e-2}) {
     const DriveDesign d = designed({.mode = Mode::speed, .load_inertia_kg_m2 = load_kg_m2});
@@ -346,8 +349,8 @@ TEST(DriveDesign, IsNoFasterThanTorqueAndInertiaAllow) {
       << "what somebody asks for stays";
 }
 
-/// The lowest speed must lie a fifth below 0.9 (U - R I)/(K_t + 3.6 p L_s I/pi), I half the torque limit's or nominal current, and
-/// the friction's.
+/// 1.2 times the lowest speed must lie below 0.9 (U - R I)/(K_t + 3.6 p L_s I/pi). I is half the current of the torque limit, or half the
+/// nominal current, plus the current of friction.
 TEST(DriveDesign, RefusesALowestSpeedWithoutRoomAboveIt) {
   MotorModel motor = thesis_motor();
   motor.nominal_current_A = 2.33;

@@ -57,7 +57,8 @@ TEST(FieldEstimate, TheTrackingLoopStaysBetweenAHundredthAndATwentiethOfTheContr
   }
 }
 
-/// The pulse is within a quarter of the voltage circle and a fifth of the current; the polarity's criterion keeps the saliency's sign.
+/// The pulse is within a quarter of the voltage circle and a fifth of the current. The current of the polarity test keeps the sign of the
+/// saliency.
 TEST(FieldEstimate, ThePulseIsNoLargerThanWhatIsThere) {
   for (const double I : {0.5, 4.0, 30.0})
     for (const bool along : {false, true}) {
@@ -88,14 +89,14 @@ TEST(FieldEstimate, TheFluxIsFollowedWhereTheBackEmfIsATenthOfTheCircle) {
   EXPECT_NEAR(c.low_rad_s, c.high_rad_s / 2, 1e-12);
   EXPECT_NEAR(c.flux.pull, 1 - std::exp(-4 * c.high_rad_s * T), 1e-12);
   EXPECT_NEAR(c.flux.magnet_Vs, 0.01675 / 8, 1e-15);
-  // The acceleration is an eighth of the current's, and the start ends at the upper speed.
+  // The start accelerates by an eighth of what the full current gives, and ends at the upper speed.
   const double unit = 8 * T / (2 * std::numbers::pi) * std::ldexp(1.0, 48);
   EXPECT_NEAR(static_cast<double>(c.start.step), 0.125 * 1.5 * 0.01675 * 4 / 135e-7 * T * unit, 1.0);
   EXPECT_NEAR(static_cast<double>(c.start.enough), c.high_rad_s * unit, 1.0);
 }
 
-/// A rotor behind an axis that accelerates by x of the largest torque, against friction of y of it: a pendulum without damping. True if the
-/// rotor still follows after 20 turns of the axis. Angles are in units of the pendulum's time.
+/// A rotor behind a field axis that accelerates by x of the largest torque, against a friction of y of the largest torque: a pendulum
+/// without damping. True if the rotor still follows after 20 turns of the axis. Angles are in units of the pendulum's time.
 bool is_taken_along(double x, double y, double before) {
   double behind = -before, axis = 0.0, rotor = 0.0;  // speeds
   constexpr double dt = 1e-3;

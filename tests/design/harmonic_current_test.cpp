@@ -24,8 +24,8 @@ general::Machine machine_of(general::Shape shape, double K_e = 0.02) {
           .shape = std::move(shape)};
 }
 
-/// The trapezoid's vector is a hexagon's inradius, 2/sqrt 3, along q in the middle of a sector, and 4/3 at its corner. At d rad from the
-/// middle it has moved 4/pi d along the side.
+/// The trapezoid's shape vector moves along a hexagon. In the middle of a sector it lies along q with the inradius, 2/sqrt 3; at the
+/// sector's end it is at a corner, 4/3. At d rad from the middle it has moved 4/pi d along the side.
 TEST(HarmonicShape, OfTheTrapezoidIsAHexagon) {
   const double f1 = 4 / pi * 0.5 / (pi / 6);
   const auto c = harmonic_shape(machine_of({.flat_deg = 120}), 0.02 * f1);
@@ -43,8 +43,8 @@ TEST(HarmonicShape, OfTheTrapezoidIsAHexagon) {
   EXPECT_NEAR(f.copper, f1 * f1 * std::numbers::sqrt3 * pi / 8, 2e-4);
 }
 
-/// The fundamental cos(theta - 60) is constantly (0, 1). A fifth harmonic of size c rotates against it six times, a seventh with it, a
-/// third vanishes.
+/// The fundamental cos(theta - 60) gives the constant vector (0, 1). A fifth harmonic of size c rotates backwards in the magnet's frame,
+/// six times a turn. A seventh rotates forwards, six times a turn. A third vanishes.
 TEST(HarmonicShape, OfHarmonicsIsTheirSequence) {
   const auto sine = harmonic_shape(machine_of({.harmonics = {{1, 1.0}, {3, 0.3}}}), 0.02);
   EXPECT_TRUE(is_sine(sine));
@@ -64,7 +64,8 @@ TEST(HarmonicShape, OfHarmonicsIsTheirSequence) {
   }
 }
 
-/// The same trapezoid from its corners, and with phases that deviate to both sides: the mean.
+/// A table of the trapezoid's corners gives the trapezoid's vector. Phases that deviate from the trapezoid to both sides give that of their
+/// mean.
 TEST(HarmonicShape, OfATableAndOfPhasesThatStrayIsTheirMean) {
   const auto trapezoid = harmonic_shape(machine_of({.flat_deg = 120}), 0.02);
   const auto table =

@@ -88,8 +88,8 @@ TEST(Headroom, EndsWhereTheBusIsUsedUp) {
   EXPECT_NEAR(soft_braking_limit_rad_s(m, 2.33), 2.33 / 0.0335 * 1.03, 1e-12);
 }
 
-/// The whole bus just holds the staying phase's current at the limit, by the star's equations with the plant's own shapes: L di/dt = v_k -
-/// e_k - R i_k - v_star, the leaving leg at the rail of the staying one.
+/// At the limit the whole bus just holds the staying phase's current. The star's equations with the plant's own shapes are L di/dt = v_k -
+/// e_k - R i_k - v_star. The leaving leg is at the rail of the staying one.
 TEST(CommutationLimit, IsTheSpeedAtWhichAWholeDutyHoldsTheStayingCurrent) {
   const auto rate = [](const MotorModel& m, double bus_V, double i, double w) {
     const plant::Machine& x = m.machine;

@@ -78,8 +78,8 @@ TEST(MotorModel, PhaseFrameIsTakenAsItIs) {
 }
 
 TEST(MotorModel, TorquePerAmpereIsTheSectorMeanOfTheShape) {
-  // The shape itself is the second way: midpoint rule over the first sector, with the pair a, b. Piecewise linear shapes with ramps ending
-  // on the grid are integrated exactly; others to the rule's h^2/24 f''.
+  // Check by the shape itself: the midpoint rule over the first sector, with the pair a, b. It integrates piecewise linear shapes with
+  // ramps ending on the grid exactly, others to h^2/24 f''.
   for (const double flat : {10.0, 60.0, 90.0, 119.0, 120.0, 121.0, 150.0, 179.0}) {
     Sheet s = maxon();
     s.flat_deg = flat;

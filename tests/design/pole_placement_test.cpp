@@ -65,7 +65,7 @@ TEST(PolePlacement, TheClosedLoopsPolynomialHasTheWantedRoots) {
       for (const ZohPlant& plant : {current, speed, speed_plant(0.78, 1.35e-5, 0.0, period_s)}) {
         const auto p = place_poles(plant, settle_s, damping, period_s);
         ASSERT_TRUE(p);
-        // The second way is independent of the code: the pole in long double, in (z - 1)(z + a0) + b0 (d1 z + d0).
+        // An independent check of the code: the pole in long double, inserted into (z - 1)(z + a0) + b0 (d1 z + d0).
         const Wide w0 = 4.6L / (Wide(damping) * settle_s);
         const std::complex<Wide> s{-damping * w0, w0 * std::sqrt(1.0L - Wide(damping) * damping)};
         const std::complex<Wide> z = std::exp(s * Wide(period_s));

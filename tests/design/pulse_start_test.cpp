@@ -82,7 +82,8 @@ TEST(PulseStartDesign, BoundsWhatThePulsesTurn) {
   EXPECT_TRUE(!refused || refused->turned_deg <= 15.0) << "a quarter of a sector";
 }
 
-/// The required pulse is unknown without a saturation current: it is as long as the limits allow, and one period more exceeds one.
+/// Without a saturation current the needed pulse is unknown. The design takes the longest pulse within its limits: one period more would
+/// exceed one of them.
 TEST(PulseStartDesign, AsksAsLoudAsItMayWhereTheSheetIsSilent) {
   design::PulseSpec silent = salient;
   silent.saturation_A = 0;

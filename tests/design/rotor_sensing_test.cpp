@@ -82,8 +82,8 @@ TEST(SensedFigures, AreTheLoopsLessThePhaseOfTheDelay) {
   EXPECT_NEAR(*sensed.crossover_rad_s, crossover, 0.01 * crossover);
   EXPECT_NEAR(*bare.phase_rad - *sensed.phase_rad, *sensed.crossover_rad_s * 0.2e-3, 0.005);
   EXPECT_TRUE(sensed.stable);
-  // A hold over 2 D turns the phase by v D and reduces the gain by sinc(v D): the phase margin ends at v D = pi/2 with |L H| = 1, at v =
-  // w_c 2/pi, D = (pi/2)^2/w_c. Multiples of it must not count as stable.
+  // A hold over 2 D turns the phase by v D and reduces the gain by sinc(v D). The phase margin ends at v D = pi/2 with |L H| = 1: v = w_c
+  // 2/pi and D = (pi/2)^2/w_c. Multiples of this D must not count as stable.
   const double D = base::pi / 2 * base::pi / 2 / crossover;
   for (const double times : {1.05, 6.0, 25.0})
     EXPECT_FALSE(sensed_figures({loop, {0.0, 2 * times * D}, {}}, period).stable) << times;

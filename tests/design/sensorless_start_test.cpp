@@ -36,7 +36,7 @@ TEST(SensorlessStart, FollowsItsClosedForms) {
   EXPECT_GT(c.speed.timeout_ticks, c.lock.longest_ticks) << "a time-out would end the history";
 }
 
-/// The delay of the pulse's start shortens the half of the pulse before its middle.
+/// A pulse that begins late has a shorter first half before its middle, where the sample is taken.
 TEST(SensorlessStart, APulseThatBeginsLateNeedsMoreDuty) {
   design::SensorlessSpec late = spec;
   late.pulse_late_s = 1e-6;
@@ -139,8 +139,8 @@ TEST(SensorlessStart, HandsOverTheRampsTorqueAndItsDrag) {
   EXPECT_EQ(design::sensorless_start(rubbing, spec, 1.0)->start_output, 1.0);
 }
 
-/// The virtual star limits 5 tau to half a sector at no load, 183 us; half the bus limits 7 tau to the least on-time, 1.5 us. The offset
-/// and half the hysteresis add to the lock's threshold and to the lowest speed.
+/// With the virtual star as reference, 5 tau may last half a sector at no load, 183 us. With half the bus as reference, 7 tau may last the
+/// least on-time, 1.5 us. The offset and half the hysteresis add to the lock's threshold and to the lowest speed.
 TEST(SensorlessStart, ComparatorsSetLeadLockAndLowestSpeed) {
   const double sector_s = base::pi / 3 / 8 * 0.0335 / 24;
   const auto with = [](const design::ComparatorSpec& comparators) {

@@ -127,8 +127,8 @@ TEST(ResolverSpeed, IsAsLateAndAsNoisyAsItsLoopIsSaidToBe) {
     const double told = control::tracking_speed(noisy) * told_unit;
     if (n >= skipped) squares += told * told / (steps - skipped);
   }
-  // The sampled loop differs from the continuous one by w_n T_s = 6 % in time, by three times that in the cube; the random sample is
-  // accurate to 2 %.
+  // Sampling changes the loop's time scale by w_n T_s = 6 %. The noise's variance goes with the cube of w_n, so that its rms changes by 1.5
+  // times that. The random sample is accurate to 2 %.
   EXPECT_NEAR(std::sqrt(squares) / speed_jitter_rad_s(sensing, 0), 1, 1.5 * loop->natural_rad_s * T_s + 0.02);
 }
 

@@ -86,7 +86,8 @@ TEST(ShapeTable, OfTheTrapezoidsCornersHasTheTrapezoidsFactors) {
 }
 
 TEST(ShapeTable, OfManySamplesApproachesWhatWasSampled) {
-  // A chord differs by at most h^2/8 from a curve whose second derivative is at most 1 + 25 0.1; the factors are means of it.
+  // A chord differs from the curve by at most h^2/8 times the second derivative, which is at most 1 + 25 0.1. The factors are means over
+  // the curve.
   const int count = 720;
   const double h = 2 * base::pi / count, bound = 3.5 * h * h;
   const auto f = [](double x) {

@@ -47,7 +47,7 @@ TEST(SheetCheck, NominalTorqueAllowsTheFrictionToItsRounding) {
   EXPECT_NEAR(r.lowest, -(I_half / I + K_half / K + 0.5 / 108), 1e-9);
 }
 
-/// Numbered lines are only maxon's.
+/// Only maxon numbers the lines of a sheet.
 TEST(SheetCheck, ANumberedLineOfAnotherMakerIsDoubted) {
   Sheet s = printed_251601();
   EXPECT_TRUE(checked(s).doubts.empty());
@@ -77,7 +77,7 @@ TEST(SheetCheck, TheReferenceMotorsRelationsByTheNumbers) {
   EXPECT_EQ(check.relations.size(), std::size(expected));
   for (const auto& e : expected) {
     const Relation r = relation(check, e.name);
-    EXPECT_NEAR(r.left, e.left, 6e-5 * e.left) << e.name;  // the digits above
+    EXPECT_NEAR(r.left, e.left, 6e-5 * e.left) << e.name;  // the digits of the table above
     EXPECT_NEAR(r.right, e.right, 1e-5 * e.right) << e.name;
     EXPECT_EQ(r.verdict == RelationVerdict::holds, e.holds) << e.name << " " << r.deviation;
   }
@@ -147,7 +147,7 @@ TEST(SheetCheck, ANoLoadSpeedFarAboveTheMechanicsIsADoubt) {
   const SheetCheck check = checked(sheet);
   EXPECT_EQ(relation(check, "maximum speed").verdict, RelationVerdict::broken);
   EXPECT_NEAR(relation(check, "maximum speed").deviation, 2.7, 0.01);
-  sheet.no_load_speed_rpm.reset();  // then from U and k_M
+  sheet.no_load_speed_rpm.reset();  // then the speed follows from U and k_M
   EXPECT_NEAR(relation(checked(sheet), "maximum speed").deviation,
               24 / 33.5e-3 * 30 / base::pi / 6710 * 3.7 - 1, 0.02);
 }
@@ -203,7 +203,7 @@ TEST(SheetCheck, EverySlipOfALineThatIsPrintedTwiceIsNoticed) {
         &Sheet::mechanical_time_constant_ms, &Sheet::nominal_voltage_V})
     for (const double slip : {0.5, 0.9, 1.1, 2.0}) {
       Sheet s = printed_251601();
-      s.nominal_torque_mNm.reset();  // outside of what the print allows
+      s.nominal_torque_mNm.reset();  // this line deviates by more than the print's rounding already
       (s.*line)->value *= slip;
       if (s.max_efficiency_percent->value >= 100) continue;
       EXPECT_FALSE(checked(s).consistent) << (s.*line)->value;
@@ -246,7 +246,7 @@ TEST(SheetCheck, AWellKnownFactorIsNamed) {
 }
 
 TEST(SheetCheck, EfficiencyLiesBetweenAllCoulombAndAllViscous) {
-  // The motor itself is the second way: eta = w (i - I_f(w))/(U i) K_t with w = (U - R i)/K_t, maximised over i.
+  // Check by the motor's own equations: eta = w (i - I_f(w))/(U i) K_t with w = (U - R i)/K_t, maximised over i.
   const double U = 24, R = 1.03, K = 0.0335, I_0 = 0.185, stall = U / R, w_0 = (U - R * I_0) / K;
   double coulomb = 0.0, viscous = 0.0;
   for (double i = I_0; i < stall; i += 1e-4) {
@@ -281,7 +281,7 @@ TEST(SheetCheck, AKnownDeviationMustBeOneAndIsOne) {
             "known_deviation = \"stall\" names no relation of this sheet; it has: stall");
 }
 
-/// Units too large by a thousand break no relation of a sheet with few values.
+/// In a sheet with few values, units that are too large by a thousand break no relation. The values are then doubted for their size.
 TEST(SheetCheck, ASlowWindingOrRotorIsDoubted) {
   const auto doubts = [](const Sheet& sheet) {
     std::vector<std::string> out;

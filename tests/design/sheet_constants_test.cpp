@@ -227,7 +227,7 @@ TEST(SheetConstants, FrictionLiesBetweenItsExtremesAndTwoPointsSplitIt) {
   const double w0 = 6710 * base::pi / 30, loss = 0.0335 * 0.185;
   EXPECT_NEAR(*one.all_viscous_Nm_s, loss / w0, 4 * eps * loss / w0);
   EXPECT_NEAR(*one.all_coulomb_Nm, loss, 4 * eps * loss);
-  EXPECT_EQ(one.B_Nm_s, *one.all_viscous_Nm_s);  // the default
+  EXPECT_EQ(one.B_Nm_s, *one.all_viscous_Nm_s);  // by default all friction is viscous
   // A motor with T = 3e-6 w + 2e-3, and its currents at two speeds.
   const double B = 3e-6, T_c = 2e-3, w[] = {200.0, 700.0};
   s.no_load_speed_rpm = Quantity{w[1] * 30 / base::pi, "", ""};

@@ -42,7 +42,8 @@ Temperatures integrated(const ThermalModel& m, const Heating& h, Temperatures at
 }
 
 TEST(Thermal, ClosedFormIsTheEquationsSolution) {
-  for (const double copper_W : {0.0, 3.0, 11.0, 40.0, 400.0})  // the last one is unstable
+  // with 400 W the temperature grows without bound
+  for (const double copper_W : {0.0, 3.0, 11.0, 40.0, 400.0})
     for (const double seconds : {0.1, 5.0, 60.0, 900.0}) {
       if (copper_W == 400.0 && seconds > 60) continue;  // 1e40 degrees
       const Heating h{copper_W, 1.5, 30.0};

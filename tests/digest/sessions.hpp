@@ -11,7 +11,7 @@ namespace sixstep::testing {
 struct LivedCase {
   std::string name;
   base::Result<study::Outcome> outcome;
-  study::Scenario written;  ///< its run has the same digest
+  study::Scenario written;  ///< the scenario that the session wrote; its run has the session's digest
 };
 
 std::vector<LivedCase> lived_cases();

@@ -63,8 +63,8 @@ def made_up(settle, damping, full_torque, steps, end):
     return middle - sampling, middle + sampling
 
 
-FLOATING = 2 / 3 * K_E * 100 * 0.75 * T / L_S  # largest pulse of the free phase
-FLOATING_LATE = 2 / 3 * (2 * K_E * 100 / SECTOR) * T**2 / 2 / L_S  # of an off-time that contains the middle of the sector
+FLOATING = 2 / 3 * K_E * 100 * 0.75 * T / L_S  # A; largest pulse of the free phase
+FLOATING_LATE = 2 / 3 * (2 * K_E * 100 / SECTOR) * T**2 / 2 / L_S  # A; the same for an off-time that contains the middle of the sector
 BURST = (K_T * 1.25 - 0.02) * 0.02 / J
 BRAKE = (K_T * 100 - 2 * R) / U  # duty that holds 2 A of braking current at 100 rad/s
 IN_BAND = 1e-9 / 0.4
@@ -86,7 +86,7 @@ def commutation_held(emf, current, speed):
 
 
 COMMUTATING = K_E * 150  # V
-PAIR_RIPPLE = (2 * COMMUTATING + 3 * R) * (1 - (2 * COMMUTATING + 3 * R) / U) * T / (2 * L)  # half of it, at 3 A
+PAIR_RIPPLE = (2 * COMMUTATING + 3 * R) * (1 - (2 * COMMUTATING + 3 * R) / U) * T / (2 * L)  # A; half of the current ripple at 3 A
 
 
 def fifth(x):
@@ -113,12 +113,12 @@ RINGS = sqrt(1 / (2e-6 * 470e-6) - FADES**2)
 LOAD_J = 4e-5
 SHAFT = sqrt(2 * (1 / J + 1 / LOAD_J))
 GEARED = K_T * 5 / (J + 1.215e-4 / 9) * 5e-3
-RADIUS = 0.02  # at which the linear motor is the 251601 unrolled
+RADIUS = 0.02  # m; with this radius the linear motor is the 251601 unrolled
 MASS = J / RADIUS**2
 
-R_B, R_1, C_1, C_BUS = 0.08, 0.05, 0.4, 470e-6  # of the battery and its capacitor
+R_B, R_1, C_1, C_BUS = 0.08, 0.05, 0.4, 470e-6  # ohm, ohm, F, F: the battery's model and the bus capacitor
 SAG = U / (R + R_B + R_1)
-TAKEN = (0.3 * U + R_1 * C_1 * SAG * R_1 + R * C_BUS * (SAG * R - U) - L * SAG) / (R + R_B + R_1)  # in 0.3 s, A s
+TAKEN = (0.3 * U + R_1 * C_1 * SAG * R_1 + R * C_BUS * (SAG * R - U) - L * SAG) / (R + R_B + R_1)  # A s, taken in 0.3 s
 
 
 def recovered(t):
@@ -137,7 +137,7 @@ def mains(pulses):
     """Limits behind a rectifier of so many pulses per period, duty 0.2 on the held rotor, 4.7 mF."""
     d, period = 0.2, 1 / 50 / pulses
     fall = (d**2 * TOPS / R * period + d * (1 - d) * d * TOPS / R * T) / 4.7e-3
-    feeds = acos((TOPS - fall + 2 * 0.8) / (sqrt(2) * 18)) / pi / 50  # at most this time
+    feeds = acos((TOPS - fall + 2 * 0.8) / (sqrt(2) * 18)) / pi / 50  # s, upper bound
     off, least = period - feeds, d * (TOPS - fall) / R
     return [(None, TOPS), (d * least * off / 4.7e-3, fall), (least * sqrt(d * off / period * (1 + d * off / feeds)), None)]
 
@@ -155,8 +155,8 @@ WATER, CHURN = 0.056 / 200 + B, 0.004 / 100 + B
 CLOSES = PUMP_J / WATER * log((0.06 + 300 * B) / (0.004 + 100 * B))
 C_W, C_H, R_WH = 17.7 / 4.5, 212 / 4.25, 4.5
 HOT = C_W * (100 + 0.00393 * 100**2 / 2) * R / 12**2
-BUILD = 2 * L / (U - K_T * 20) / (pi / 3 / PAIRS / 20)  # part of a sector in which 2 A come up at 20 rad/s
-PASSES = 1.5 * 2 * L / U / (pi / 3 / PAIRS / 20)  # and in which they change to another phase
+BUILD = 2 * L / (U - K_T * 20) / (pi / 3 / PAIRS / 20)  # part of a sector in which the current of 2 A rises at 20 rad/s
+PASSES = 1.5 * 2 * L / U / (pi / 3 / PAIRS / 20)  # part of a sector in which 2 A change to another phase
 
 
 def pulse(sign):
@@ -171,7 +171,7 @@ def losses(period):
     a, b = exp(-d * period / tau), exp(-(1 - d) * period / tau)
     high = stall * (1 - a) / (1 - a * b)
     low, lacks = high * b, stall - high * b
-    on = stall**2 * d * period - 2 * stall * lacks * tau * (1 - a) + lacks**2 * tau / 2 * (1 - a**2)  # of i^2
+    on = stall**2 * d * period - 2 * stall * lacks * tau * (1 - a) + lacks**2 * tau / 2 * (1 - a**2)  # integral of i^2 over the on-time
     off = high**2 * tau / 2 * (1 - b**2)
     switching = U / 2 * (low + high) * 20e-9 / 0.1 / period
     return [near(switching), near(0.02 * (on + off) / period), near(25 + 40 * (switching + 0.01 * on / period))]
@@ -179,7 +179,8 @@ def losses(period):
 
 def weakened(w):
     """Effective phase current whose voltage is 0.95 of the circle at a speed that friction alone brakes, by halving of i_d."""
-    turns = w * PAIRS * T / 2  # for a vector constant over a period while the rotor turns by twice that, the factor is sin(x)/x
+    # with a constant vector over a period, while the rotor turns by twice that angle, the voltage has the factor sin(x)/x
+    turns = w * PAIRS * T / 2
     circle, i_q, low, high = 0.95 * U / sqrt(3) * sin(turns) / turns, B * w / (1.5 * K_E_SINE), -K_E_SINE / PAIRS / L_S, 0.0
     for _ in range(100):
         i_d = (low + high) / 2
@@ -193,7 +194,8 @@ HELD = hypot(R / 2 * 5.5 + 20 * K_E_SINE, 20 * PAIRS * L_S * 5.5) * T / 4 / L_S
 
 F_1 = 4 / pi * sin(pi / 6) / (pi / 6)  # of the trapezoid with a flat top of 120 degrees
 SHAPED = 1.5 * K_E * F_1 * 4  # torque of 4 A
-# The torque change for the shape's largest vector, 4/3, in both: a quarter of a period of the holding voltage.
+# Bound of the torque change, N m: current and shape vector have their largest size, 4/3, and a quarter of a period of the holding voltage
+# is missing.
 LEFT = 1.5 * K_E * 4 / 3 * hypot(R / 2 * 4 + 20 * K_E * 4 / 3, 20 * PAIRS * L_S * 4) * T / 4 / L_S
 COPPER = 1.5 * R / 2 * 4**2
 

@@ -8,7 +8,7 @@ PERIOD, LIMIT, COULOMB = 50e-6, 0.1, 5e-3  # s, N m, N m
 PEAK = K_T / (2 * sqrt(3) * 0.5 * 3 / pi)  # V s: of a sine, whose mean over a pair's sector is 3/pi of its largest value, sqrt 3 PEAK
 CIRCLE, FULL_A = U / sqrt(3), LIMIT / (1.5 * PEAK)
 
-# The effect of half a digit in four readings on the pulses' answer, relative to the pulse.
+# The effect of half a digit of rounding in each of four readings, relative to the current's response to the injected pulse.
 L_D, L_Q, DIGIT = 0.24e-3, 0.34e-3, 2 * 10.24 / 2**12
 PULSE = min(CIRCLE / 4, FULL_A / 5 * L_D / PERIOD)
 ROUNDED = degrees(DIGIT / 2 * 8 / 4 / (PULSE * PERIOD * (1 / L_D - 1 / L_Q)))

@@ -11,12 +11,13 @@ def late(degrees):
     return 1 - degrees**2 / 7200
 
 
-SEEN_LATE = PAIRS * 300 * 100e-6 * 180 / pi  # an edge behind a filter of 100 us
-PASSED_LATE = PAIRS * 300 * 3 * 2 * L_S / (U + 2 * K_E * 300) * 180 / pi  # until the current has commutated to the next phase
-SWING = 2 * pi * sqrt(J / (PAIRS * K_T * 1.5 * I_N))  # about the pair's rest angle
+SEEN_LATE = PAIRS * 300 * 100e-6 * 180 / pi  # electrical degrees by which a filter of 100 us delays an edge at 300 rad/s
+# electrical degrees until the current has commutated to the next phase
+PASSED_LATE = PAIRS * 300 * 3 * 2 * L_S / (U + 2 * K_E * 300) * 180 / pi
+SWING = 2 * pi * sqrt(J / (PAIRS * K_T * 1.5 * I_N))  # s; period of the swing about the pair's rest angle
 SLOWEST, RAMP = 0.05 * U / K_T, (K_T * I_N * (1.5 - 0.5) - 0.01) / (2 * J)  # rad/s at the hand-over, rad/s^2
 LONGEST_RAMP = 2 * 2 * SLOWEST / RAMP + 12 * pi / 3 / PAIRS / SLOWEST
-LISTENED = 6 * L_S * 2.5 * I_N / U + 2 * T + 2 * pi / 3 / PAIRS / SLOWEST  # for a rotor that turns already
+LISTENED = 6 * L_S * 2.5 * I_N / U + 2 * T + 2 * pi / 3 / PAIRS / SLOWEST  # s of listening to a rotor that turns already
 
 
 def two_period_pulses():
@@ -143,8 +144,8 @@ LAWS = {
     "hall-misplaced": [(LOOP_GAIN * 100 * (60 / 55 - 60 / 66), None),
                        (None, K_T / J * LOOP_GAIN * 100 * (60 / 55 - 60 / 66) * SECTOR)],
     "hall-misplaced-six": [(None, K_T / J * (LOOP_GAIN * 100 * (1 - 60 / 66) * SECTOR / 10 + 0.6 * 2 * T)), near(100, T / SECTOR + 0.004)],
-    # The bound: places to two ticks of 1 us, times to one more, at either end of the narrowest sector, in both directions, and held for the
-    # widest.
+    # The bound. Places are right to two ticks of 1 us and times to one more, at both ends of the narrowest sector and in both directions.
+    # The error is held for the widest sector.
     "hall-calibrated": [(None, K_T / J * (LOOP_GAIN * 100 * 4 * 3e-6 / (SECTOR * 55 / 60) * SECTOR * 66 / 60 + 0.6 * 2 * T)), near(100, T / SECTOR + 0.004)],
     "encoder": [(450 - 2 * 360 / 4096, 450 + 2 * 360 / 4096)],
     "absolute-encoder": [(1000 - 2 * 360 / 2**14, 1000 + 2 * 360 / 2**14), (None, 2 * 360 / 2**14)],

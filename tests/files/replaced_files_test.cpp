@@ -189,7 +189,8 @@ TEST_F(ReplacedFiles, WhoWaitsForAPipesOtherEndHearsASignal) {
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   const ::pthread_t here = ::pthread_self();
   const auto signalled = [&](const auto& work) {
-    const std::jthread caller([&](const std::stop_token& stop) {  // repeated: one may come too early
+    // repeated, because one signal may come before the call blocks
+    const std::jthread caller([&](const std::stop_token& stop) {
       while (!stop.stop_requested()) {
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
         ::pthread_kill(here, SIGUSR1);

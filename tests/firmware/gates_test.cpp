@@ -49,8 +49,8 @@ TEST(CortexM, TheTimersOutputsAreTheGates) {
 }
 
 /// For each change between two commands: a leg that changes from one switch to the other without the timer's dead time is off in between,
-/// and no other leg is. No leg conducts in between by a switch that neither command has. tests/target/transitions.py checks the executed
-/// image, clock by clock.
+/// and no other leg is off. In between, no leg conducts by a switch that neither command has. tests/target/transitions.py checks the
+/// executed image, clock by clock.
 TEST(CortexM, ALegThatChangesSidesIsOffOnTheWay) {
   using firmware::BridgeOutputs;
   const auto can = [](const BridgeOutputs& o, bool pulse) { return gates_of(firmware::registers(o), pulse); };

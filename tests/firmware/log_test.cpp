@@ -171,7 +171,7 @@ TEST(Commands, AStopCountsAnywhereAndNothingElseInASpoiledLine) {
   }
 }
 
-/// The commands that the main loop reads from a ring that the interrupt filled at once with `typed`; the line lost the characters in
+/// The commands that the main loop reads after the interrupt has put all of `typed` into the ring. The line has lost the characters in
 /// `missing`.
 std::vector<firmware::Command> obeyed(const std::string& typed, const std::string& missing = "") {
   firmware::Ring<16> ring;

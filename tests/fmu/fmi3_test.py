@@ -44,7 +44,8 @@ class Unit:
     def __init__(self, file, *words):
         out = FOLDER / f"{file.stem}.fmu"
         subprocess.run([PROGRAM, "export", "fmu", file, "--fmi", "3", "--out", out, "--force", *words], check=True, timeout=60)
-        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="a unit ", dir=FOLDER))  # a loaded file is not written again
+        # in a new folder, because a library that is loaded must not be overwritten
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="a unit ", dir=FOLDER))
         with zipfile.ZipFile(out) as archive:
             archive.extractall(self.folder)
         self.description = ET.parse(self.folder / "modelDescription.xml").getroot()

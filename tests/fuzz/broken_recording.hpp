@@ -11,7 +11,7 @@ struct BrokenRecording {
   std::string text;
 };
 
-/// The seed determines everything.
+/// A damaged recording; the seed determines the table and its damage.
 BrokenRecording broken_recording(std::uint64_t seed);
 
 }  // namespace sixstep::testing

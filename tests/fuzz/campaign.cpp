@@ -18,13 +18,13 @@
 namespace sixstep::testing {
 namespace {
 
-/// CPU time of a thread, which a busy machine does not stretch: no valid case takes that long.
+/// s of a thread's CPU time, which a busy machine does not lengthen. No valid case takes that long.
 constexpr double hung_s = 60.0;
 constexpr std::size_t most_broken = 200;
 
 struct Worker {
   std::atomic<std::uint64_t> seed{0};
-  std::atomic<double> since_s{0.0};  ///< its CPU time at the start of the case
+  std::atomic<double> since_s{0.0};  ///< CPU time of the worker's thread, s, at the start of the case
   std::atomic<bool> done{false};
   std::thread thread;
   CampaignResult result;

@@ -11,7 +11,7 @@ using control::Mode;
 
 namespace {
 
-/// Gains in one of their three ways; `natural` is a proportional gain of ordinary size.
+/// Gains in one of three forms: settling time with damping, d1 with d0, k_p with k_i. `natural` is a proportional gain of ordinary size.
 template <class Loop>
 void draw_gains(Draw& draw, Loop& loop, double natural, double period_s, double slowest_periods) {
   const double d1 = natural * draw.decades(0.1, 1.5), ratio = draw.between(-1.0, -0.6);

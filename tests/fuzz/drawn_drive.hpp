@@ -58,7 +58,7 @@ struct DrawnDrive : Board {
                  draw.chance(0.7) ? draw.decades(1e-3, 0.3) * machine.R_ohm : 0.0};
     start.bus_V = supply.V_0_V;
     if (!draw.chance(0.4)) return;
-    // The capacitor absorbs the winding's energy at stall, so that the bus does not fall below the negative rail.
+    // C is at least L/R^2, so that the winding's stall current cannot discharge the capacitor below 0 V.
     const double least = machine.L_H / (machine.R_ohm * machine.R_ohm);
     supply.R_b_ohm = draw.decades(1e-2, 0.5) * machine.R_ohm;
     supply.C_F = draw.decades(1.0, 300.0) * least;
@@ -91,7 +91,7 @@ struct DrawnDrive : Board {
     drive.current = {d1, d1 * draw.between(-1.1, -0.5), supply.V_0_V};
     if (draw.chance(0.5)) {
       drive.current_control = CurrentControl::hysteresis;
-      // The current crosses the band in this number of periods at full voltage.
+      // The first factor is the number of periods in which the current crosses the band at full voltage.
       drive.hysteresis.band_A = draw.decades(0.1, 10.0) * period_s() / L_tt() * supply.V_0_V;
       drive.hysteresis.watch = static_cast<Watch>(draw.one_of(3));
       if (drive.hysteresis.watch != Watch::none) board.delayed = false;

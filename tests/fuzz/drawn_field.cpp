@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The field-oriented drive: some lean drives become one, without the keys of six-step. It is drawn last, so that a seed's other values stay
-// the same.
+// The field-oriented drive: some lean drives become one, without the keys of six-step. Its keys are drawn last, so that a seed's other
+// values stay the same.
 #include "sixstep/design/loops/field_current.hpp"
 #include "sixstep/design/sheet/parameters.hpp"
 #include "tests/fuzz/drawn_parts.hpp"
@@ -69,7 +69,8 @@ void leave_sensors(Draw& draw, Scenario& s, const Scales& of) {
   if (draw.chance(0.2)) f.angle_bandwidth_Hz = draw.decades(2e-3, 0.05) / s.pwm.period_s;
 }
 
-/// Harmonic currents and the selection of the legs' states. They are drawn after the keys above, so that a seed keeps those.
+/// Harmonic currents and the selection of the legs' states. They are drawn after the keys above, so that a seed keeps the values of those
+/// keys.
 void draw_more_keys(Draw& draw, Scenario& s) {
   Field& f = s.control.field;
   if (!design::is_salient(s.sheet) && draw.chance(0.4)) f.harmonic_current = true;

@@ -17,7 +17,7 @@ namespace {
 void draw_supply(Draw& draw, Scenario& s, const design::MotorModel& motor) {
   s.supply.voltage_V = motor.nominal_voltage_V * draw.decades(0.4, 1.5);
   if (!draw.chance(0.35)) return;
-  // The capacitor absorbs the winding's energy at stall, so that the bus does not fall below the negative rail.
+  // C is at least L/R^2, so that the winding's stall current cannot discharge the capacitor below 0 V.
   const double R = motor.machine.R_ohm, least = motor.machine.L_H / (R * R);
   s.supply.resistance_ohm = draw.decades(1e-2, 0.5) * R;
   s.supply.capacitance_F = draw.decades(1.0, 300.0) * least;

@@ -18,7 +18,7 @@ struct Scales {
 void draw_control(Draw& draw, study::Scenario& s, Scales& of);
 void draw_sensors(Draw& draw, study::Scenario& s, const Scales& of);
 void draw_protection(Draw& draw, study::Scenario& s, const Scales& of);
-/// `left_s`: the remaining time.
+/// A reference of any shape that fits into the remaining time `left_s`, s.
 study::Reference drawn_reference(Draw& draw, const study::Scenario& s, const Scales& of, double left_s);
 void draw_events(Draw& draw, study::Scenario& s, const Scales& of);
 void draw_measures(Draw& draw, study::Scenario& s);

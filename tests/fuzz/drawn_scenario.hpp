@@ -14,7 +14,7 @@ struct DrawnScenario {
   std::string text;  ///< a file's text, with the drawn motor's values among its overrides
 };
 
-/// The seed determines everything.
+/// A scenario that the seed alone determines.
 DrawnScenario drawn_scenario(std::uint64_t seed);
 
 }  // namespace sixstep::testing

@@ -23,7 +23,7 @@ bool never(const Scenario& s, Has has) {
   return std::none_of(s.at.begin(), s.at.end(), has);
 }
 
-/// Hard chopping, from the start or from an event on.
+/// True if the drive chops hard, from the start or from an event on.
 bool chops_both(const Scenario& s) {
   const bool hard = s.pwm.chopping == control::Chopping::hard && !s.control.smooth_chopping.on;
   return hard || !never(s, [](const At& at) { return at.pwm.chopping == AtChopping::hard; });

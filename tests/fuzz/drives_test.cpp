@@ -41,7 +41,7 @@ void run_one(std::uint64_t seed) {
   EXPECT_EQ(run_to(rig, drive.length_s, watchdog), sim::Stop::end)
       << "at " << rig.now().seconds() << " fault " << int(rig.fault());
   EXPECT_TRUE(finite(rig.plant().state()));
-  // The tolerance is a tenth of that for every run: none of 100 000 drives exceeded 1e-13.
+  // A tenth of the tolerance that the other tests allow a run: none of 100 000 drives exceeded 1e-13.
   watchdog.laws.expect_all(1e-12);
 }
 

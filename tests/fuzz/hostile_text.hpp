@@ -11,7 +11,7 @@ struct BrokenText {
   std::string text;
 };
 
-/// The seed determines everything.
+/// A damaged scenario text that the seed alone determines.
 BrokenText broken_text(std::uint64_t seed);
 
 }  // namespace sixstep::testing

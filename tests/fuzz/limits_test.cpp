@@ -88,7 +88,7 @@ void DrawnLimits::draw_limits(Draw& draw) {
   s.control.speed.settle_s = draw.between(5e-3, 50e-3);
   s.control.speed.damping = 0.9;
   s.control.speed.torque_limit_Nm = draw.between(1.0, 1.5) * current_A * motor.K_t_Nm_A;
-  // The acceleration to top speed takes 4 to 20 ms, or longer if the rotor alone is slower.
+  // Accelerating to top speed takes 4 to 20 ms, or longer if the rotor's own inertia is larger.
   const double way = draw.between(4e-3, 20e-3) * current_A * motor.K_t_Nm_A / top_rad_s;
   s.load.inertia_kg_m2 = std::max(0.0, way - motor.shaft.J_kg_m2);
   s.duration_s = 50e-3;
@@ -103,9 +103,9 @@ void DrawnLimits::draw_limits(Draw& draw) {
   s.supply.resistance_ohm = draw.between(0.02, 0.2) * R;
   const double headroom_V = draw.between(0.05, 0.4) * bus_V;
   s.control.regeneration.limit_V = bus_V + headroom_V;
-  // The capacitance is about the one that the windings' energy needs.
+  // The capacitance is 0.7 to 30 times the one that takes the windings' energy within the headroom.
   s.supply.capacitance_F = draw.decades(0.7, 30) * L * std::pow(2 * current_A / headroom_V, 2);
-  // The rotor's energy exceeds the headroom's.
+  // The rotor's energy exceeds the energy that the headroom takes, so that the limit must act.
   const double enough = 6 * s.supply.capacitance_F * bus_V * headroom_V / (top_rad_s * top_rad_s);
   s.load.inertia_kg_m2 = std::max(s.load.inertia_kg_m2, enough);
 }
@@ -159,7 +159,8 @@ void ask(Scenario& s) {
   add(MetricKind::maximum, Signal::bus_voltage);
 }
 
-/// A sensor's largest error: half a count, or half a digit of 16 bits over a range that holds differences.
+/// Largest error of a sensor: half a count of a converter, or half a digit of 16 bits. The format's range is twice the largest value,
+/// because it also holds differences.
 double digits(const Scenario& s, double largest) {
   const bool narrow = s.control.arithmetic == Arithmetic::q15 || s.control.arithmetic == Arithmetic::q14;
   return largest *

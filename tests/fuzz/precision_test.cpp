@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Double against long double on drawn drives. The growth of rounding errors depends on the drive (a comparator that just misses its level,
-// a rotor that just breaks away). A third run in long double, with parameters off by 1e-13, measures it. Double may differ by four times
-// that (it is one direction of many), and by 1e-11 of the machine's scales.
+// Double against long double on drawn drives. The growth of rounding errors depends on the drive: for example on a comparator that just
+// misses its level, or on a rotor that just breaks away. A third run in long double, with parameters off by 1e-13, measures this growth.
+// Double may differ by 1e-11 of the machine's scales plus four times the third run's difference, because that run tries only one of many
+// directions.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -53,7 +54,7 @@ bool asks_for_nothing(const DrawnDrive& d) {
   });
 }
 
-/// The comparison ends once the perturbed run has diverged: from there on both may differ.
+/// The comparison ends once the perturbed run has diverged from the exact one, because from then on double may differ as well.
 Outcome compare(std::uint64_t seed) {
   const DrawnDrive drive(seed), other = nearly(drive);
   if (drive.drive.mode != control::Mode::duty && asks_for_nothing(drive)) return {.tame = false};

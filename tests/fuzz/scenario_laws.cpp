@@ -137,7 +137,7 @@ constexpr Law of_a_run[] = {
      [](const Evidence& e) { return yes_no(e.breaks_a_hall_line || !says(*e.outcome, "does not follow")); }},
 };
 
-/// The plant's laws (tests/support/laws.hpp) hold within each segment, with a tenth of the tolerance of the energy balance there.
+/// Relative tolerance of the energy balance, a tenth of the default. The plant's laws hold within each segment (tests/support/laws.hpp).
 constexpr double energy_tolerance = 1e-12;
 
 void ask(const Evidence& e, Examined& out) {

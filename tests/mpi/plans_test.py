@@ -233,7 +233,7 @@ class Mpi(ProgramTest):
         before = self.children_s()
         self.run_program(*words, code=1)
         alone = self.children_s() - before
-        # mpirun does not count its processes' time: a shell around each of them does.
+        # mpirun does not count its processes' time. A shell around each process counts it.
         counted = ["bash", "-c", '"$0" "$@"; times >cpu.$OMPI_COMM_WORLD_RANK', PROGRAM, *words]
         subprocess.run([*mpirun(4)[:-1], *counted], cwd=self.path, env=ENVIRONMENT, timeout=300, check=True)
         took = [sum(60 * float(m) + float(s) for m, s in re.findall(r"(\d+)m([\d.]+)s", (self.path / f"cpu.{rank}").read_text()))

@@ -16,14 +16,14 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-/// The fuzzer found it: the load accelerates the shaft and brakes it to rest, so that the sum of its energy
-/// is zero. The balance then divided the rounding of both parts by almost nothing.
+/// The fuzzer found this case: the load accelerates the shaft and brakes it to rest, so that its energies add
+/// up to zero. The balance then divided the rounding of both parts by almost nothing.
 TEST(Audit, ALoadThatTakesBackWhatItGaveIsAYardstickStill) {
   Board b = Board::duty(0.0);
   b.drive.mode = control::Mode::off;
   b.start.angle_rad = at_electrical_deg(30.0);
   b.shaft.B_Nm_s = 0.0;
-  b.shaft.static_Nm = 0.01;  // at rest it stays there
+  b.shaft.static_Nm = 0.01;  // holds the shaft once it is at rest
   b.load(0, -0.05);
   b.load(1'000'000'000, 0.009);
   auto rig = b.rig();
@@ -34,7 +34,7 @@ TEST(Audit, ALoadThatTakesBackWhatItGaveIsAYardstickStill) {
   laws.expect_all(1e-11);
 }
 
-/// The fuzzer found it: pulses of 1e-22 s moved 1e-34 J, of which no digit is known.
+/// The fuzzer found this case: pulses of 1e-22 s moved 1e-34 J, of which no digit is known.
 TEST(Audit, LessEnergyThanANoiseCurrentHoldsIsNotBalanced) {
   Drivetrain setup;
   setup.start.angle_rad = 0.02;
@@ -46,8 +46,8 @@ TEST(Audit, LessEnergyThanANoiseCurrentHoldsIsNotBalanced) {
   laws.expect_all(1e-11);
 }
 
-/// The fuzzer found it: the plant drops a diode's current that is below the noise when its switch opens. It
-/// is 1e-12 A, but a motor at a thousandth of its stall current lost it in every period.
+/// The fuzzer found this case: where a switch opens, the plant drops a diode's current that is below the
+/// noise. It is 1e-12 A, but a motor at a thousandth of its stall current lost its energy in every period.
 TEST(Audit, WhatACurrentBelowTheNoiseTookAlongIsKnown) {
   Board b = Board::duty(0.008, control::Chopping::complementary);
   b.board.modulator.dead_ticks = 90'000;

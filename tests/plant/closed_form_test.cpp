@@ -36,7 +36,7 @@ TEST(Stall, DeviceDropsEnterAsTheyShould) {
   setup.devices = {.R_on_ohm = 0.01, .V_f_V = 0.7, .r_d_ohm = 0.02};
   Held<> bench(setup, a_to_b());
   ASSERT_EQ(bench.run_to(1e-3), Stop::end);
-  const double R = setup.R_tt() + 0.02;  // two channels
+  const double R = setup.R_tt() + 0.02;  // the channels of two switches
   const double exact = -24.0 / R * std::expm1(-1e-3 * R / setup.L_tt());
   EXPECT_NEAR(bench.state().i[0], exact, 1e-13 * exact);
 }
@@ -55,7 +55,8 @@ TEST(CoastDown, SpeedFallsExponentiallyWithViscousFriction) {
   EXPECT_EQ(laws.highest_current_A(), 0.0);
 }
 
-/// A snapshot within a segment, while the state is that of its beginning.
+/// Largest error, rad, of the angle in snapshots within a segment. The state is still that of the segment's
+/// beginning.
 struct Between {
   double worst = 0.0;
   void segment(const Held<>& bench, double s) {

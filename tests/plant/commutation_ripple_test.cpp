@@ -45,7 +45,7 @@ HeldGeneral bench<HeldGeneral>(double R_ohm) {
   return HeldGeneral(s, pair(0, 2));
 }
 
-/// Phase a carries I to c; then b takes a's place, on a bus of `ratio` E.
+/// Phase a carries I to c. Then b takes a's place, and the bus has the voltage `ratio` E.
 template <class Bench>
 struct Commutation {
   Bench held;
@@ -76,7 +76,7 @@ struct Commutation {
   double risen_s() const { return -L / R * std::log1p(-1.5 * R * I / (U - E)); }
 };
 
-/// The torque's relative change when the part that depends on the bus alone ends.
+/// The torque's relative change at the end of the part of the commutation that depends on the bus alone.
 double exact_change(double U, double I, double R) {
   const double left = U - 4 * E - 3 * R * I;
   return left >= 0 ? left / (2 * (U - E)) : left / (U + 2 * E + 3 * R * I);
@@ -84,7 +84,7 @@ double exact_change(double U, double I, double R) {
 double carlsons_change(double ratio) {
   return ratio >= 4 ? (ratio - 4) / (2 * (ratio - 1)) : (ratio - 4) / (ratio + 2);
 }
-/// The bound on errors from currents that the kernels take for zero.
+/// Bound of the relative error that comes from currents that the kernels take for zero.
 double noise(double R, double U, double I) { return 1e-11 + 64 * eps * std::fmax(U, charging_V) / R / I; }
 
 template <class Bench>
@@ -133,8 +133,8 @@ TYPED_TEST(CarlsonsRipple, AtTwiceTheBackEmfTheNewCurrentNeverRisesAgain) {
   }
 }
 
-/// From the instant at which the new phase carries I, chopping holds it there: the torque falls with the old
-/// phase's current.
+/// From the instant at which the new phase carries I, chopping holds its current there: the torque falls with
+/// the old phase's current.
 TYPED_TEST(CarlsonsRipple, IsAtItsPeakWhenChoppingBegins) {
   Commutation<TypeParam> c(8.0, 1e-4);
   c.run_until(c.begin.plus_seconds(c.risen_s()));

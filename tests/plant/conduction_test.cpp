@@ -51,7 +51,7 @@ TEST(Rail, RealDiodeConductsWhereTheEmfReachesItsDrop) {
   LawChecker<> laws;
   ASSERT_EQ(bench.run_to(0.3e-3, laws), Stop::end);
   laws.expect_all();
-  // e_a - e_b = K_e w (theta - 300)/30 on the ramp; equals V_f.
+  // On the ramp e_a - e_b = K_e w (theta - 300)/30. The diode conducts where this equals V_f.
   const double behind_edge = 30.0 * 0.7 / (setup.machine.K_e_V_s * 400.0);
   const double exact = at_electrical_deg(30.0 + behind_edge) / 400.0;
   // Angles of 270 degrees carry an error of eps each; the ramp's slope adds that of its own terms.
@@ -59,8 +59,8 @@ TEST(Rail, RealDiodeConductsWhereTheEmfReachesItsDrop) {
               32 * eps * at_electrical_deg(330.0) / 400.0);
 }
 
-/// a's lower switch connects a, whose EMF is the lowest, while b's EMF is at its top, 2 K_e w. b's voltage is
-/// constant and the rail falls to it: U_s = V_0 + (U_s(0) - V_0) exp(-t/(R_b C)).
+/// a's lower switch connects a, whose EMF is the lowest, while b's EMF is at its top: b's terminal voltage is
+/// 2 K_e w. The bus falls to this constant voltage: U_s = V_0 + (U_s(0) - V_0) exp(-t/(R_b C)).
 TEST(Rail, AFallingRailMeetsTheTerminalAtTheClosedFormInstant) {
   Drivetrain setup;
   setup.shaft = {.J_kg_m2 = 1e9};
@@ -83,7 +83,8 @@ TEST(Rail, ATerminalWithinTheDropFloatsAtOnce) {
   for (const bool high : {true, false}) {
     Drivetrain setup;
     setup.devices.V_f_V = 0.7;
-    // c at its top against the mean of a's bottom and b's zero (or mirrored) is 1.5 K_e w beyond the rail.
+    // The terminal of c, whose EMF is at its top, is 1.5 K_e w beyond the rail; a's EMF is at its bottom and
+    // b's is zero (or all three are mirrored).
     setup.start = {.speed_rad_s = 0.35 / (1.5 * setup.machine.K_e_V_s),
                    .angle_rad = at_electrical_deg(high ? 270.0 : 90.0),
                    .bus_V = 24.0};
@@ -176,8 +177,8 @@ TEST(Rectifier, BackwardsItDoesTheSame) {
 }
 
 TEST(Standstill, FreeLegOnTheRailDoesNotConduct) {
-  // The devices are ideal and the rotor is at rest: the third leg is exactly at the star point's voltage,
-  // between the rails. With one leg low it is exactly at the rail. A leg at equality floats.
+  // The devices are ideal and the rotor is at rest. A free terminal has exactly the star point's voltage:
+  // that of the one driven leg's rail, or a voltage between the rails. At equality with a rail a leg floats.
   Drivetrain setup;
   for (const plant::Gates& g :
        {gates({}, {true, false, false}), gates({true, false, false}, {}), all_off()}) {
@@ -191,7 +192,8 @@ TEST(Standstill, FreeLegOnTheRailDoesNotConduct) {
 
 TEST(Pitfall03_RestartOnABoundary, RotorStartingOnASectorEdgeLeavesOnce) {
   for (int sector = 0; sector < 6; ++sector) {
-    // The gates are those of the positive pair of the sector that the rotor enters: theta ~ t^3.
+    // The gates are those of the positive pair of the sector that the rotor enters, so that it leaves the
+    // edge as theta ~ t^3.
     static constexpr int pair[6][2] = {{0, 1}, {0, 2}, {1, 2}, {1, 0}, {2, 0}, {2, 1}};
     plant::Gates g;
     g.high[pair[sector][0]] = g.low[pair[sector][1]] = true;

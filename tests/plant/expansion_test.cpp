@@ -16,10 +16,10 @@ namespace SIXSTEP_TEST_FILE {
 using namespace sixstep;
 using namespace sixstep::testing;
 
-/// The resistance is almost zero, and the torque begins with zero at the edge where b's bottom begins and a's
-/// ends. A load pulls: x ~ t^2, i ~ t, and i and w have the orders 1, 4, 7, 10 alone. A series that ended at
-/// the zeros between them would miss 3e-7 of the speed. In slices of 1 us all but the first begin with a
-/// current and have no such zeros.
+/// The resistance is almost zero. At the first edge, where b's bottom begins and a's ends, the pair has no
+/// torque. A load pulls: x ~ t^2 and i ~ t, so that i and w have terms of the orders 1, 4, 7, 10 alone. A
+/// series that ended at the zero terms between them would miss 3e-7 of the speed. In slices of 1 us all but
+/// the first begin with a current and have no such zeros.
 TEST(Series, ASymmetrysZeroIsNotTheirEnd) {
   Drivetrain setup;
   setup.machine = {.R_ohm = 1e-9, .L_H = 1e-3, .K_e_V_s = 0.01, .pole_pairs = 1};

@@ -100,10 +100,10 @@ struct FreePhase {
   }
 };
 
-/// PWM-ON-PWM puts the star point at the lower rail while off in one half of the sector, at the upper rail in
-/// the other. The free phase's back-EMF then drives current through its diodes only in the off-time in which
-/// it changes its sign: by 2 K_e w in a sector, L di/dt = -2/3 e. Each other pattern has a half sector in
-/// which it does.
+/// With PWM-ON-PWM the star point is at the lower rail in the off-times of one half of the sector, and at the
+/// upper rail in those of the other half. The free phase's back-EMF then drives current through its diodes
+/// only in the off-time in which this EMF changes its sign. The EMF changes by 2 K_e w in a sector, and L
+/// di/dt = -2/3 e. With each other pattern the current flows throughout half a sector.
 TEST(PwmPattern, OnlyPwmOnPwmLeavesTheFreePhaseWithoutCurrent) {
   using control::PwmPattern;
   constexpr double T = 30e-6;

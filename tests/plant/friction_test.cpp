@@ -110,7 +110,8 @@ TEST(Friction, RotorStopsAtTheClosedFormInstantAndStays) {
       if (e.id == plant::guard::standstill) stopped = e.at.seconds(), ++stops;
     EXPECT_EQ(stops, 1);
     const double exact = 50.0 * setup.shaft.J_kg_m2 / 0.005;
-    // The error of w is the guard's noise, 64 eps of the speed scale; that of the time is it over T_c/J.
+    // The error of w is the guard's noise, 64 eps of the speed scale. The error of the time is that of w over
+    // T_c/J.
     EXPECT_NEAR(stopped, exact, 64 * eps * 766.4 * setup.shaft.J_kg_m2 / 0.005);
     const double way = 50.0 * exact / 2;
     EXPECT_NEAR(bench.angle() - 0.02, w > 0 ? way : -way, 1e-12 * way);
@@ -140,9 +141,9 @@ TEST(Friction, LockedRotorNeedsNone) {
   EXPECT_TRUE(bench.events.empty());
 }
 
-/// The fuzzer found it: a rotor that a load accelerates for a picosecond has an EMF of a few rounding errors.
-/// The plant found the conducting leg only with a wider noise, and that noise set the speed to zero too: the
-/// rotor neither turned nor stood.
+/// The fuzzer found this case: a rotor that a load accelerates for a picosecond has an EMF of a few rounding
+/// errors. The plant found the conducting leg only with a wider noise, and that noise set the speed to zero
+/// too: the rotor neither turned nor stood.
 TEST(Pitfall05_SnapFirst, ARotorThatHardlyTurnsStillTurns) {
   for (int decade = -130; decade <= -60; ++decade)
     for (const double sign : {1.0, -1.0})

@@ -207,8 +207,8 @@ TEST(GeneralClosedForms, AWireThatBreaksWhileItCarriesCurrentOpensAtTheNextZero)
   for (int k = 0; k < 3; ++k) EXPECT_EQ(held.plant().state().i[k], 0);
 }
 
-// A terminal behind a broken wire has no rails. The other two are symmetric about the middle of theirs, and
-// the windings' EMFs determine the third.
+// A terminal behind a broken wire has no rails. The other two terminals are symmetric about the middle of
+// their rails, and the windings' EMFs determine the third.
 TEST(GeneralClosedForms, AStarBehindABrokenWireHangsMidwayBetweenTheOthersRails) {
   for (unsigned broken = 0; broken < 3; ++broken) {
     HeldGeneral held(free_rotor(300));

@@ -70,7 +70,7 @@ TEST(GeneralShaft, AGearWithLossesHoldsALoadThatCannotDriveIt) {
   s.shaft.gear = 5;
   s.shaft.efficiency = 0.5;
   s.shaft.load.torque_Nm = 2e-3;
-  s.shaft.coulomb_Nm = 3e-4;  // above 2e-3/5 * 0.5
+  s.shaft.coulomb_Nm = 3e-4;  // more than the load behind the gear's loss, 2e-3/5 * 0.5
   HeldGeneral held(s);
   ASSERT_EQ(run_to(held, 0.1), sim::Stop::end);
   EXPECT_EQ(held.plant().state().w, 0);

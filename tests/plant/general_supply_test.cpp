@@ -109,8 +109,8 @@ TEST(GeneralSupply, ABatterySagsAndRecoversAsItsCircuitDoes) {
   EXPECT_LT(held.plant().more().charge.value, 0.5) << "the middle point was passed";
 }
 
-/// U_s behind a rectifier that conducts a sine of amplitude V, less `drop`, from `t_on` on: the RC circuit's
-/// response to a sine.
+/// U_s where a rectifier conducts from `t_on` on, fed by a sine of amplitude V less `drop`: the RC circuit's
+/// response to that sine.
 struct Conducting {
   double V, w, drop, R_b, R, C;
   double steady(double t) const {
@@ -135,7 +135,8 @@ TEST(GeneralSupply, ARectifierChargesAtTheTopsAndLeavesTheRestToTheCapacitor) {
     for (int n = 0; n < 200; ++n) (f((low + high) / 2) > 0 ? low : high) = (low + high) / 2;
     return low;
   };
-  const auto whole_us = [](double t) { return std::round(t * 1e6) / 1e6; };  // an instant is one of whole ps
+  // whole microseconds are whole ps of the run's clock
+  const auto whole_us = [](double t) { return std::round(t * 1e6) / 1e6; };
   const auto open = [&](double t) { return V * std::fabs(std::sin(w * t)) - drop; };
   double t_on = root(0, 5e-3, [&](double t) { return 10 * std::exp(-t / (R * C)) - open(t); });
   double U = 10 * std::exp(-t_on / (R * C));
@@ -149,7 +150,8 @@ TEST(GeneralSupply, ARectifierChargesAtTheTopsAndLeavesTheRestToTheCapacitor) {
     const double U_off = law.at(t_off - shift, t_on - shift, U);
     t_on = root(t_off + 1e-5, shift + 15e-3,
                 [&](double t) { return U_off * std::exp(-(t - t_off) / (R * C)) - open(t); });
-    // Between two pulses the open voltage is below the bus: the root above is the last one before the peak.
+    // Between two pulses the open voltage is below the bus: the root above is the instant at which the
+    // rectifier conducts again.
     ASSERT_EQ(run_to(held, t_after), sim::Stop::end);
     EXPECT_NEAR(held.plant().state().bus, U_off * std::exp(-(t_after - t_off) / (R * C)), 1e-10) << pulse;
     U = U_off * std::exp(-(t_on - t_off) / (R * C));
@@ -168,7 +170,7 @@ TEST(GeneralSupply, ThreePhasesLeaveTheRippleOfSixPulses) {
     ASSERT_EQ(run_to(held, t), sim::Stop::end);
     double open = 0;
     for (int k = 0; k < 6; ++k) open = std::max(open, V * std::cos(w * t - base::pi / 3 * k) - 1.6);
-    EXPECT_NEAR(held.plant().state().bus, open * 10 / 10.05, 0.02) << t;  // C is small, not none
+    EXPECT_NEAR(held.plant().state().bus, open * 10 / 10.05, 0.02) << t;  // a small C still has a small lag
   }
 }
 

@@ -26,8 +26,8 @@ GeneralSetup saturating(double electrical_deg, double I_sat) {
   return s;
 }
 
-/// A pulse along the magnet's axis from a to b: i_d = (2/sqrt 3) i, sqrt 3 lambda_d + 2 R (integral of i) = U t, so that
-/// t(i) is elementary. sign: with the magnet or against it.
+/// A pulse along the magnet's axis from a to b: i_d = (2/sqrt 3) i, and sqrt 3 lambda_d + 2 R (integral of i) = U t, so that t(i) has a
+/// closed form. `sign` is 1 for a pulse with the magnet and -1 against it.
 TEST(GeneralWinding, APulseAlongTheMagnetTellsNorthFromSouth) {
   const double R = 0.515, L = 0.24e-3, U = 24, I_sat = 40;
   const auto time_of = [&](double i, double sign) {

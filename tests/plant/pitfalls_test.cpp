@@ -52,8 +52,8 @@ TEST(Pitfall04_TangentialStart, ADiodeThatStartsTangentiallyGoesOnWithoutChatter
   }
 }
 
-/// A six-step drive that follows the sectors at once and in each of them drives the rotor back into the
-/// other.
+/// A six-step drive that follows the sectors without delay. On either side of the edge it drives the rotor
+/// back to the other side.
 struct TornAtAnEdge : Held<> {
   explicit TornAtAnEdge(const Drivetrain& setup) : Held<>(setup, all_off()) { drive(); }
   void apply(int id) {

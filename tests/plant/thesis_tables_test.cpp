@@ -21,7 +21,7 @@ using Terms = std::array<double, 4>;
 
 struct TableRow {
   int table = 0, sector = 0;
-  std::array<char, 3> sign{};  // of i_a, i_b, i_c: + - 0, * where the row does not name it
+  std::array<char, 3> sign{};  // of i_a, i_b, i_c: + - 0, or * where the row gives none
   Terms ab{}, bc{};            // u_ab - e_ab and u_bc - e_bc
   std::string text;
 };

@@ -14,7 +14,7 @@ import zipfile
 
 SOURCE = pathlib.Path(sys.argv.pop(1)).resolve()
 POLICY = {"libc.so.6", "libm.so.6", "libdl.so.2", "librt.so.1", "libpthread.so.0", "libstdc++.so.6", "libgcc_s.so.1", "libz.so.1",
-          "ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1"}  # of PEP 600
+          "ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1"}  # the libraries that PEP 600 allows
 TEN_LINES = """
 import matplotlib
 matplotlib.use("Agg")

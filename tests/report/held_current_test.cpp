@@ -94,7 +94,8 @@ TEST(HeldCurrent, of_a_sensorless_drive_is_the_largest_of_the_phases) {
   EXPECT_NEAR(*current->asked_A, 1.5 * 2.33, 1e-9) << "1.5 times the nominal current pull it";
 }
 
-/// The probes are at other pins: the board drives another pair than the rotor's.
+/// The probes are connected to other pins, so that the board drives another pair than that of the rotor's
+/// sector.
 TEST(HeldCurrent, of_a_drive_whose_probes_are_elsewhere_too) {
   study::Scenario s = maxon_scenario(control::Mode::duty, 1.0);
   s.duration_s = 300e-6;
@@ -201,7 +202,7 @@ TEST(HeldCurrent, an_encoders_step_ends_where_the_shaft_does) {
   EXPECT_THAT(glance_section(*s, run.outcome, run.trace), HasSubstr("to 450°, 90° from the encoder's index"));
 }
 
-/// The drive's loop begins with a shaft that turns.
+/// The shaft already turns when the drive's speed loop begins: the step starts from that speed.
 TEST(HeldCurrent, of_an_observers_drive_the_step_begins_at_the_speed_that_is_taken_over) {
   study::Scenario s;
   s.control.mode = control::Mode::speed;

@@ -82,7 +82,8 @@ TEST(PackedRows, ComeBackWithinHalfAStep) {
   expect_back(*packed, rows);
 }
 
-/// The rows that are too large with quick compression are compressed thoroughly before they are left out.
+/// Rows that are too large after quick compression are compressed thoroughly. They are left out only if they
+/// are still too large.
 TEST(PackedRows, AreLeftOutOnlyWhereNoWayIsSmallEnough) {
   const Rows rows = some_rows();
   const auto quick = packed_rows(rows.time, {&rows.wave, &rows.noise}, 1'000'000);

@@ -208,7 +208,8 @@ TEST(PlanPage, HoldsNamesAsText) {
   EXPECT_EQ(data_of(page)["plans"][0]["columns"][3]["name"], bad);
 }
 
-/// The card's values equal the terminal's, which have u for µ and a space that breaks.
+/// The card's values equal the terminal's, except that the terminal prints u for µ and a space that may
+/// break.
 TEST(PlanPage, values_of_an_axis_are_told_as_the_terminal_tells_them) {
   const std::vector<std::string> written{"2e-07", "1e-06", "0.0035", "12", "\"ideal\""};
   SyntheticPlan made =

@@ -22,7 +22,7 @@ using sixstep_tests::synthetic_run;
 using sixstep_tests::SyntheticRun;
 using ::testing::HasSubstr;
 
-/// A run of three rows: a current that jumps in the middle, on its own events; and its grid of two.
+/// A run with three rows at events, whose current jumps in the middle, and with a grid of two rows.
 SyntheticRun ramp_run(double height) {
   SyntheticRun run = synthetic_run(0.001);
   run.trace.columns = {{"t_s", "s", "", ""}, {"i_m_A", "A", "", ""}};

@@ -30,7 +30,7 @@ using ::testing::HasSubstr;
 
 std::string page(const SyntheticRun& run) { return glance_section(run.scenario, run.outcome, run.trace); }
 
-/// The rows' times need no rounding: a speed step, a current that rises, stays and falls.
+/// A speed step with a current that rises, stays and falls. The rows' times need no rounding.
 SyntheticRun stepped_run() {
   SyntheticRun run = synthetic_run(0.001);
   run.scenario.control.mode = sixstep::control::Mode::speed;
@@ -59,7 +59,7 @@ TEST(Highlights, the_largest_step_is_found_with_its_current) {
   EXPECT_EQ(step->from, 0.0);
   EXPECT_EQ(step->to, 50.0);
   EXPECT_EQ(step->next_s, 9.0);
-  EXPECT_EQ(step->window.to, 2.5);  // the last row away from the goal is 1 s behind the step
+  EXPECT_EQ(step->window.to, 2.5);  // the last row away from the goal is 1 s after the step
   EXPECT_TRUE(step->done);
   const auto current = step_current(run.trace, *step);
   ASSERT_TRUE(current);
@@ -139,7 +139,7 @@ TEST(Highlights, a_field_oriented_drive_steps_across_the_magnet) {
   EXPECT_EQ(step->at_s, 1.0);
   const auto held = step_current(run.trace, *step);
   ASSERT_TRUE(held);
-  EXPECT_EQ(held->peak_A, 2.0);  // of i_q in the window, which ends half a second on; i_m has 6 A there
+  EXPECT_EQ(held->peak_A, 2.0);  // A of i_q in the window, which ends half a second later; i_m has 6 A there
   EXPECT_EQ(held->asked_A, 4.0);
   const Groups groups = chart_groups(run.trace, run.scenario);
   EXPECT_EQ(std::ranges::find(groups.charts, "currents", &Group::id), groups.charts.end())
@@ -288,10 +288,10 @@ TEST(Spectrum, of_a_saw_is_the_fourier_series) {
   ASSERT_EQ(lines.amplitude.size(), cells / 8 + 1u);
   for (int n = 1; n * turns + 1 < cells / 8; ++n) {
     const auto k = static_cast<std::size_t>(n * turns);
-    // The cells fold the harmonics at m cells -+ k, m = 1, 2 .., onto a line. A cell's mean keeps k/(m cells
-    // -+ k) of each, and the correction divides by the same for k. Their amplitude is at most 2/pi turns/(m
-    // cells - k), so their sum is below 2/pi turns k/cells^2 times twice the sum of 1/(m - 1/8)^2, which is
-    // less than 4.
+    // The cells alias the harmonics at m cells -+ k, m = 1, 2 .., onto line k. A cell's mean keeps k/(m cells
+    // -+ k) of each, and the correction divides by the same for k. The aliased amplitudes are at most 2/pi
+    // turns/(m cells - k). Their sum is below 2/pi turns k/cells^2 times twice the sum of 1/(m - 1/8)^2,
+    // which is less than 4.
     const double folded = 4 * 2 / M_PI * turns * (n * turns) / (static_cast<double>(cells) * cells);
     EXPECT_NEAR(lines.amplitude[k], 2 / (M_PI * n), folded + 1e-12) << n;
     EXPECT_NEAR(lines.amplitude[k + 1], 1 / (M_PI * n), folded + 1e-12) << "Hann: half of it beside the line";
@@ -302,8 +302,8 @@ TEST(Spectrum, of_a_saw_is_the_fourier_series) {
     EXPECT_NEAR(lines.tones[n].line, turns * (static_cast<double>(n) + 1), 1e-3);
 }
 
-/// The interval is no whole number of teeth: every harmonic lies between two lines and still has its
-/// frequency and amplitude.
+/// The interval is no whole number of teeth, so that every harmonic lies between two lines. The spectrum
+/// still gives its frequency and amplitude.
 TEST(Spectrum, a_tone_between_two_lines_has_its_own_amplitude_and_frequency) {
   const Saw s = saw(37);
   for (const double end : {0.9871, 0.9932, 0.9999}) {

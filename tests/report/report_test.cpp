@@ -155,7 +155,7 @@ TEST(Report, shows_what_is_not_ideal_and_who_stopped_the_drive) {
   run.scenario.protection.over_current_A = 15.0;
   run.outcome.fault = sixstep::base::Problem{"t = 0.305 s", "", "the drive tripped", "look"};
   run.outcome.trip = sixstep::study::Trip{.at_s = 0.305, .reasons = {"a Hall fault"}, .hall_line = 2};
-  const std::string html = page(run);  // where numbers and units stick together
+  const std::string html = page(run);  // keeps each number together with its unit
   EXPECT_THAT(html, HasSubstr("phase currents through 12 bits over ±20.48\u00a0A"));
   EXPECT_THAT(html, HasSubstr("line H2 reads low from 300\u00a0ms on"));
   run.scenario.at = {{.time_s = 0.1}, {.time_s = 0.2}};
@@ -174,7 +174,7 @@ TEST(Report, shows_what_is_not_ideal_and_who_stopped_the_drive) {
 TEST(Report, curves_without_a_number_are_left_out) {
   const auto data = data_of(page(synthetic_run(0.001)));
   for (const auto& chart : data["charts"]) {
-    EXPECT_NE(chart["id"], "bus");  // stiff
+    EXPECT_NE(chart["id"], "bus");  // a stiff bus has no chart
     if (chart["id"] == "speed") {
       EXPECT_EQ(chart["curves"].size(), 1u);  // its reference is NaN throughout
     }

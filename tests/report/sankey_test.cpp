@@ -84,7 +84,7 @@ TEST(Sankey, a_motoring_run_goes_from_the_bus_to_the_load) {
                      "the bus 2.000 J. Sinks: Load 1.000 J, Into kinetic energy 0.4500 J, Friction 0.05000 "
                      "J, Copper 0.4000 J, Switches and diodes 0.1000 J.\""));
   EXPECT_THAT(svg, HasSubstr("across the air gap 1.500 J"));
-  EXPECT_THAT(svg, Not(HasSubstr("magnetic")));  // nothing stayed there
+  EXPECT_THAT(svg, Not(HasSubstr("magnetic")));  // no energy remained in the field
 }
 
 TEST(Sankey, a_braking_run_feeds_back_what_the_rotor_gave) {

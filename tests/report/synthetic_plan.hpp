@@ -41,7 +41,7 @@ struct SyntheticPlan {
   }
 };
 
-/// Settling time and current trade against each other over two numbers; a word costs some current.
+/// A lower settling time costs a higher current, over two numbers; the word axis adds some current.
 inline SyntheticPlan synthetic_plan(sixstep::analysis::Plan plan, double shift = 0.0) {
   using sixstep::analysis::RunEnd;
   SyntheticPlan made{.plan = std::move(plan)};

@@ -36,7 +36,7 @@ struct PlayedChip {
   bool waits_for_counts = false;
 
   std::uint32_t wanted(std::uint64_t at, std::uint32_t pins) const {
-    if (at >= bad_from) return 3;  // both of leg a
+    if (at >= bad_from) return 3;  // both gates of leg a
     control::BridgeCommand<double> c{};
     c.enabled = true;
     c.pair = control::positive_pair(control::sector_of_hall(static_cast<std::uint8_t>(pins)));
@@ -163,7 +163,7 @@ TEST(ChipDrive, OneThatSamplesNoLongerHasStalled) {
   EXPECT_NEAR(chip.now().seconds(), 0.9e-3 + 30e-3, 0.1e-3);
 }
 
-/// An AVR's shortest watchdog resets the chip after 16 ms, of an oscillator that may be 10 % slow; then the
+/// An AVR's shortest watchdog resets the chip after 16 ms, by an oscillator that may be 10 % slow. Then the
 /// chip restarts.
 TEST(ChipDrive, OneThatAWatchdogResetGoesOn) {
   OnChip on;

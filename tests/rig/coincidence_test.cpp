@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Each test has two events at one instant, one test per pair of: scenario step, control tick, PWM edge,
-// comparator, sector edge, current zero. Both must happen, once, with the effect of model.md 4b's order
+// comparator, sector edge, current zero. Each of the two must take effect once, in model.md 4b's order
 // (pitfall 1: a lost tick passes every energy balance). This file has the pairs with a scenario step or a
 // control tick. The counts show whether an edge was done before the tick that should have replaced it.
 #include <gtest/gtest.h>
@@ -52,7 +52,8 @@ TEST(Pitfall01_CoincidentInstants, StepAndPwmEdge) {
 
 TEST(Pitfall01_CoincidentInstants, StepAndComparator) {
   Board b = locked(Board::hysteresis(10.0, 0.25, Chopping::soft));
-  b.setpoint(123'456'789, 1.0);  // the current is in between: the comparator trips at that very instant
+  // a level below the present current: the comparator trips at that very instant
+  b.setpoint(123'456'789, 1.0);
   auto rig = b.rig();
   ASSERT_EQ(run_to(rig, 123.456788 * us), sim::Stop::end);
   ASSERT_TRUE(rig.modulator().source_on());
@@ -98,8 +99,8 @@ TEST(Pitfall01_CoincidentInstants, StepAndCurrentZero) {
 
 TEST(Pitfall01_CoincidentInstants, TickAndPwmEdgeBothHappen) {
   // The PWM is centre-aligned at half duty with a dead time of a quarter period: the lower switch's turn-on
-  // falls on the tick. The edges are at 7.5 us (end of the first dead time, on), 15, 22.5 (off), 30 us (end
-  // of its dead time).
+  // falls on the tick. The edges are at 7.5 us (end of the first dead time, and turn-on command), 15 us, 22.5
+  // us (turn-off command) and 30 us (end of the dead time after it).
   for (const double next : {0.5, 1.0}) {
     Board b = locked(Board::duty(0.5, Chopping::complementary));
     b.board.modulator.centre_aligned = true;
@@ -112,7 +113,8 @@ TEST(Pitfall01_CoincidentInstants, TickAndPwmEdgeBothHappen) {
     ASSERT_EQ(run_to(rig, 30 * us), sim::Stop::end);
     EXPECT_EQ(rig.event_count(EventKind::tick), 2);
     EXPECT_EQ(rig.telemetry().duty, next);
-    // At full duty the tick comes first and turns on; the dead time that would have ended begins anew.
+    // At full duty the tick comes first and commands the upper switch on, so that a new dead time replaces
+    // the one that would have ended.
     EXPECT_EQ(rig.event_count(EventKind::pwm_edge), next < 1.0 ? 4 : 3);
     EXPECT_EQ(rig.plant().gates().low[0], next < 1.0);
     EXPECT_FALSE(rig.plant().gates().high[0]);
@@ -121,7 +123,7 @@ TEST(Pitfall01_CoincidentInstants, TickAndPwmEdgeBothHappen) {
 
 TEST(Pitfall01_CoincidentInstants, TickAndPwmEdgeTheTickComesFirst) {
   // The dead time is half a period: at each tick one dead time would end as the next begins. The tick
-  // replaces that edge; an edge before the tick would be counted.
+  // replaces the edge at the end of the first one; an edge before the tick would be counted.
   Board b = locked(Board::duty(0.5, Chopping::complementary));
   b.board.modulator.dead_ticks = 15e6;
   auto rig = b.rig();
@@ -174,7 +176,8 @@ TEST(Pitfall01_CoincidentInstants, TickAndSectorEdge) {
     EXPECT_EQ(rig.event_count(EventKind::tick), 2);
     EXPECT_EQ(rig.telemetry().duty, 0.25);
     EXPECT_EQ(rig.plant().sector(), 1);
-    // With commutation at the sample, rounding may put the edge just behind this sample.
+    // With commutation at the sample, rounding may put the edge just after this sample, so that the next one
+    // commutates.
     ASSERT_EQ(run_to(rig, at_sample ? 60 * us : 31 * us), sim::Stop::end);
     EXPECT_EQ(source_leg(rig), 0);
     EXPECT_EQ(sink_leg(rig), 2);
@@ -183,7 +186,7 @@ TEST(Pitfall01_CoincidentInstants, TickAndSectorEdge) {
 
 TEST(Pitfall01_CoincidentInstants, TickAndSectorEdgeAtTheStartBackwards) {
   // The rotor starts on the edge and turns back, so that the tick of t = 0 falls exactly on the edge. The
-  // tick comes after it: the run begins in the sector that the rotor enters.
+  // tick comes after the edge: the run begins in the sector that the rotor enters.
   Board b = turning(Board::duty(0.5), 30 * us);
   b.start.angle_rad = 0.0;
   b.start.speed_rad_s = -100.0;

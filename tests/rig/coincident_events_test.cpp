@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Each test has two events at one instant, one test per pair of: scenario step, control tick, PWM edge,
-// comparator, sector edge, current zero. Both must happen, once, with the effect of model.md 4b's order
+// comparator, sector edge, current zero. Each of the two must take effect once, in model.md 4b's order
 // (pitfall 1: a lost tick passes every energy balance). This file has the pairs of PWM edge, comparator,
 // sector edge, current zero.
 #include <gtest/gtest.h>
@@ -16,8 +16,8 @@ using control::Chopping;
 using rig::EventKind;
 
 TEST(Pitfall01_CoincidentInstants, PwmEdgeAndComparator) {
-  // The chopping is complementary with a dead time of 1 us. A step turns the leg off at 500 us; its dead time
-  // ends exactly when the next step turns it on again.
+  // The chopping is complementary with a dead time of 1 us. A step turns the upper switch off at 500 us. The
+  // dead time after it ends exactly when the next step turns the switch on again.
   Board b = locked(Board::hysteresis(20.0, 0.25, Chopping::complementary));
   b.board.modulator.dead_ticks = 1e6;
   b.setpoint(500'000'000, 1.0);
@@ -123,8 +123,8 @@ TEST(Pitfall01_CoincidentInstants, ComparatorAndSectorEdgeBothHappen) {
 
 TEST(Pitfall01_CoincidentInstants, ComparatorAndSectorEdgeWhereTheEdgeTakesTheCauseAway) {
   // The comparator measures the motor current: at the edge i_m becomes another mean, half as large. If the
-  // edge is first, nothing trips. If the comparator is first (rounding), it is evaluated again just behind
-  // the edge and is on.
+  // edge is first, nothing trips. If rounding puts the comparator first, it is evaluated again just after the
+  // edge and turns the switch on again.
   const double edge_s = 70 * us;
   const Board b = turning(Board::hysteresis(5.0, 0.25, Chopping::soft), edge_s);
   const double level = current_at(b, edge_s - 1e-12) / (1 - 1e-12 / edge_s);
@@ -139,8 +139,8 @@ TEST(Pitfall01_CoincidentInstants, ComparatorAndSectorEdgeWhereTheEdgeTakesTheCa
 }
 
 TEST(Pitfall01_CoincidentInstants, ComparatorAndCurrentZeroBothHappen) {
-  // After a Hall edge the old sink's current decays in a diode while the source's rises: the comparator's
-  // level is the one at which that current ends.
+  // After a Hall edge the old sink's current decays in a diode while the source's current rises. The
+  // comparator's level is the source's current at the instant at which the old sink's current ends.
   const Board b = turning(Board::hysteresis(5.0, 0.25, Chopping::hard), 70 * us);
   Board free = b;
   free.timeline[0].value = 1e3;
@@ -155,7 +155,8 @@ TEST(Pitfall01_CoincidentInstants, ComparatorAndCurrentZeroBothHappen) {
     EXPECT_EQ(rig.event_count(EventKind::comparator), 1);
     EXPECT_FALSE(rig.modulator().source_on());
     EXPECT_EQ(rig.plant().gates(), all_off());
-    // The current ends for good, by its own event or, with the comparator first, within rounding of it.
+    // The current ends for good: by its own event, or, where the comparator is first, within rounding of that
+    // instant.
     EXPECT_LE(rig.event_count(EventKind::diode_off), 1);
     EXPECT_EQ(rig.plant().state().i[1], 0.0);
     EXPECT_TRUE(plant::is_floating(rig.plant().mode().legs[1]));

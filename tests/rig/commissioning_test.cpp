@@ -30,7 +30,7 @@ struct Allowed {
     // A period's ripple hides at most (T/tau)^2/4 of the current's step.
     const double x = 65536.0 / found.winding.tau;
     L = R + std::log(2 * apart) / apart + x * x / 4;
-    // R i is at most v.
+    // R i is at most the applied voltage v.
     const double v_over_e = static_cast<double>(found.magnet.applied) / found.magnet.emf;
     const double i_A = found.v * bench.at.bus_V / control::whole_bus / bench.machine.R_ohm[0];
     flux = v_over_e * (R + bus) + bench.machine.L_H * i_A / bench.flux_linkage() * L;
@@ -53,7 +53,7 @@ void expect_found(const CommissioningBench& bench, const control::CommissioningS
   EXPECT_LT(std::fabs(of_flux), allowed.flux) << name;
 }
 
-/// The values in brackets are the errors that rounding allows.
+/// The test prints the errors that rounding allows in brackets.
 TEST(Commissioning, FindsResistanceInductanceAndFluxLinkage) {
   InPart some;
   for (const CommissionedMotor& motor : commissioned_motors)
@@ -76,8 +76,8 @@ TEST(Commissioning, FindsResistanceInductanceAndFluxLinkage) {
     }
 }
 
-/// The error in degrees from the trapezoid's field: 1.12 at rest (hall_survey.hpp), more as the ripple's
-/// frequency nears the swing's.
+/// The error, in degrees, that comes from the trapezoid of the field. It is 1.12 at rest (hall_survey.hpp),
+/// and more as the frequency of the shape's ripple approaches that of the rotor's swing.
 double of_shape_deg(const CommissioningBench& bench) {
   const double p = bench.machine.pole_pairs;
   const double swing =
@@ -86,9 +86,9 @@ double of_shape_deg(const CommissioningBench& bench) {
   return 1.12 / (1 - ripple * ripple / (swing * swing));
 }
 
-/// Each edge has its own angle, a hysteresis, and friction of a tenth of the test current's torque. The error
-/// with a sine is the capture timer's count in both directions and the swing; with a trapezoid it is the
-/// shape's, and a twentieth more for the friction's effect on the swing.
+/// Each edge has its own angle and a hysteresis, and friction takes a tenth of the test current's torque.
+/// With a sine the error is the swing and the capture timer's count in both directions. With a trapezoid it
+/// is the shape's error, and a twentieth more because friction affects the swing.
 TEST(Commissioning, FindsWhereEachHallEdgeStands) {
   InPart some;
   for (const CommissionedMotor& motor : commissioned_motors)

@@ -50,8 +50,9 @@ std::vector<Edge> edges_of(const Board& board, double end_s) {
 
 double amplitude() { return 0.01675 * w / std::hypot(1, w_e * tau); }
 
-/// Each edge from 2 ms on, when the start has decayed (40 time constants), is at its closed-form angle. Line
-/// a rises late after the crossing of e_a at -30 degrees, and each other line a third of a turn later.
+/// Each edge after 2 ms, when the start has decayed (40 time constants), is at its closed-form angle. Line a
+/// rises `rises_late_rad` after the lagged crossing of e_a at -30 degrees, and each other line a third of a
+/// turn later.
 void expect_edges(const std::vector<Edge>& edges, double rises_late_rad, double falls_late_rad) {
   std::uint8_t before = 0;
   int seen = 0;
@@ -85,8 +86,8 @@ TEST(CrossingComparators, OffsetAndHysteresisShiftTheEdges) {
   expect_edges(edges_of(board, 20e-3), rise, -fall);
 }
 
-/// The mean of all three cancels the star point, chopped or not, and with it the bus: a floating leg shows
-/// e_k less the mean of e, which a sine does not have.
+/// The mean of the three terminals cancels the star point's voltage, chopped or not, and with it the bus. A
+/// floating leg shows e_k less the mean of e, which is zero for sines.
 TEST(CrossingComparators, ChoppingIsNotSeenAgainstTheVirtualStar) {
   Board board = flywheel({.lag_s = tau, .hysteresis_V = 0.1});
   board.start.speed_rad_s = 0;
@@ -94,8 +95,8 @@ TEST(CrossingComparators, ChoppingIsNotSeenAgainstTheVirtualStar) {
   EXPECT_TRUE(edges_of(board, 20e-3).size() <= 2);  // of the driven pair, once each
 }
 
-/// Half the bus as reference does not cancel it: a floating leg at u_n = 0 or U/2 has the mean d U/2 and the
-/// ripple about it.
+/// Half the bus as reference does not cancel the star point's voltage. A floating leg at u_n = 0 or U/2 has
+/// the mean d U/2, and the ripple about it.
 TEST(CrossingComparators, HalfTheBusIsPassedAtEveryChopWhereTheRippleReachesIt) {
   Board board = flywheel({.lag_s = tau, .against = rig::CrossingReference::half_bus});
   board.shaft.locked = true;

@@ -52,7 +52,8 @@ TEST(DeadTime, HoldsInEveryLegOverWholeRuns) {
         }
 }
 
-/// A commutation has two turn-ons: of the leg that the current enters and of the leg that it leaves by.
+/// A commutation has two turn-ons: in the leg through which the current enters the motor, and in the leg
+/// through which it leaves.
 TEST(DeadTime, AtCommutationDelaysSourceAndSinkAlsoAtTheSampleAndOnlyWhereItIsAskedFor) {
   for (const bool at_sample : {false, true})
     for (const bool asked : {false, true}) {

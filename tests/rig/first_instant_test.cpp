@@ -37,7 +37,8 @@ TEST(FirstInstant, TheFirstTurnOnWaitsTheDeadTimeWithDutyPiAndHysteresis) {
     }
 }
 
-/// The first samples show the sector that the rotor turns into: backwards at 0 deg it is 5, c to b.
+/// The first samples show the sector that the rotor turns into: backwards at 0 deg this is sector 5, with the
+/// pair c to b.
 TEST(FirstInstant, OnASectorEdgeTurningBackwardsTheFirstTickUsesTheSectorThatIsEntered) {
   for (int edge = 0; edge < 6; ++edge)
     for (const double speed : {300.0, -300.0}) {

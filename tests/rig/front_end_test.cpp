@@ -41,7 +41,7 @@ LookingRig rig_of(const Board& board) {
   return LookingRig(board.plant(), board.drive, board.board, board.timeline);
 }
 
-/// The output of a lag from x for the input a + b exp(-t/T).
+/// Output at t of a lag tau that starts at x, for the input a + b exp(-t/T).
 double lagged(double x, double a, double b, double T, double tau, double t) {
   const double particular = b / (1 - tau / T);
   return a + particular * std::exp(-t / T) + (x - a - particular) * std::exp(-t / tau);

@@ -95,8 +95,9 @@ rig::HallInterpolator<double> interpolator(const rig::SensorsConfig& config) {
 /// Electrical degrees in a tick of the timer.
 double tick_deg(double w) { return p * std::fabs(w) * 180 / base::pi / capture_Hz; }
 
-// The learned angle of an edge has an error of a tick at either end of its turn, the time since an edge one
-// tick, and the slope's sector two ends with a tick of time and two of angle each.
+// Errors in ticks: one at either end of the turn over which an edge's angle was learned, and one in the time
+// since an edge. The speed is measured over a sector, each of whose two ends has one tick of time and two of
+// angle.
 TEST(HallInterpolator, LearnsWhereTheEdgesAreAndThenSeesTheTrueAngle) {
   for (const double w : {100.0, -100.0, 300.0}) {
     rig::SensorsConfig config = reading(HallAngleFrom::learned_edges, 6);
@@ -108,7 +109,8 @@ TEST(HallInterpolator, LearnsWhereTheEdgesAreAndThenSeesTheTrueAngle) {
     EXPECT_LT(learned.speed_rad_s, std::fabs(w) * 2 * (1 + 2) * tick_deg(w) / 55) << w;
     EXPECT_LE(learned.wrong_sectors, learned.samples * ticks * tick_deg(w) / 60) << w;
 
-    // Assumed angles are as wrong as the probes, and the speed is wrong by 60/55 and 60/66.
+    // Evenly spaced edges are assumed: the angle is as wrong as the probes' places, and the measured speed is
+    // 60/55 or 60/66 of the true one.
     auto trusting = interpolator(reading(HallAngleFrom::angle, 1));
     const Errors trusted = steady(w).drive(trusting, 0.1, 0.2);
     EXPECT_GT(trusted.position_deg, 3.9 / p);
@@ -116,7 +118,7 @@ TEST(HallInterpolator, LearnsWhereTheEdgesAreAndThenSeesTheTrueAngle) {
   }
 }
 
-// Six edges are a turn, over which their angle errors cancel.
+// Six edges are a turn, over which the edges' angle errors cancel.
 TEST(HallInterpolator, SpeedOverSixEdgesNeedsNoPlaces) {
   auto six = interpolator(reading(HallAngleFrom::angle, 6));
   EXPECT_LT(steady(100).drive(six, 0.1, 0.2).speed_rad_s, 100 * 2 * tick_deg(100) / 360 + 100 * 0.1);

@@ -78,8 +78,8 @@ TEST(OneHour, OfChoppingCountsEveryPeriod) {
   const sim::Instant end{seconds() * second_ticks, 0.0};
   ASSERT_EQ(sim::run(rig, end, way).stop, sim::Stop::end);
   EXPECT_EQ(rig.now(), end);
-  // The actions due at the end are done: a tick at it, and the off edge of a period that ends in its second
-  // half.
+  // The actions due at the end are done: a tick at that instant, and the off edge of a period that ends in
+  // its second half.
   const std::int64_t whole = end.ticks / period_ticks, rest = end.ticks % period_ticks;
   EXPECT_EQ(rig.event_count(EventKind::tick), whole + 1);
   EXPECT_EQ(rig.event_count(EventKind::pwm_edge), whole + (rest >= period_ticks / 2));

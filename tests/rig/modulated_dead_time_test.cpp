@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The dead times of six-step's switches, edge by edge, and the state that a Hall edge passes on (model.md 3,
-// 11). Ticks are picoseconds, the period is 30 us.
+// The dead times of six-step's switches, edge by edge, and the state of a leg that a commutation transfers to
+// another leg (model.md 3, 11). Ticks are picoseconds, the period is 30 us.
 #include <gtest/gtest.h>
 
 #include "tests/support/maxon.hpp"
@@ -37,7 +37,8 @@ TEST(Modulator, APulseShorterThanTheDeadTimeNeverTurnsOn) {
   EXPECT_EQ(on(m), "a-b-");
 }
 
-/// The first command of a run changes every leg, whatever its source (model.md 11).
+/// The first command of a run changes every leg's state (model.md 11), whether a duty or a hysteresis gives
+/// the command.
 TEST(Modulator, TheFirstTurnOnOfARunWaitsInEveryChoppingForDutyAndHysteresis) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
     for (const double duty : {0.5, 1.0})
@@ -52,7 +53,8 @@ TEST(Modulator, TheFirstTurnOnOfARunWaitsInEveryChoppingForDutyAndHysteresis) {
       }
 }
 
-/// No switch of the leg received a turn-off command.
+/// No dead time is needed, because no switch of the leg received a turn-off command since the leg was last
+/// on.
 TEST(Modulator, LaterTurnOnsOfSoftAndHardChoppingNeedNoDeadTime) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard}) {
     SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
@@ -78,8 +80,8 @@ TEST(Modulator, WithoutAChangeOfTheLegsCommandThereIsNoDeadTime) {
     }
 }
 
-/// The off-time is 0.3 us: the lower switch received on and off commands and never turned on, but its
-/// turn-off starts the dead time nevertheless.
+/// In an off-time of 0.3 us the lower switch is commanded on and off and never turns on. Its turn-off command
+/// starts the dead time nevertheless.
 TEST(Modulator, AGapShorterThanTheDeadTimeKeepsTheUpperSwitchWaitingForAllOfIt) {
   SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
   m.start_period(at(0), command(0.99, Chopping::complementary));
@@ -117,8 +119,8 @@ TEST(Modulator, ACentredOnTimeWaitsAtAReversalToo) {
   }
 }
 
-/// The lower switch of complementary chopping turns off with the command; the upper one of soft chopping
-/// waits.
+/// With complementary chopping the lower switch is on until the new command turns it off. The upper switch of
+/// the soft chopping that follows waits for the dead time.
 TEST(Modulator, AnotherChoppingWaitsForTheLowerSwitch) {
   for (const bool centred : {false, true}) {
     SixStepModulator m{ModulatorConfig{.centre_aligned = centred, .dead_ticks = 1e6}};
@@ -133,7 +135,8 @@ TEST(Modulator, AnotherChoppingWaitsForTheLowerSwitch) {
   }
 }
 
-/// The current of a moves from its upper to its lower switch, which changes a's command too.
+/// Leg a changes from source to sink: its command changes from the upper to the lower switch, which waits for
+/// the dead time.
 TEST(Modulator, AReversalWaitsWhereTheSinkWasTheSource) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
     for (const double duty : {0.98, 1.0}) {
@@ -150,7 +153,7 @@ TEST(Modulator, AReversalWaitsWhereTheSinkWasTheSource) {
     }
 }
 
-/// Both switches of the pair have been off since the middle of the period.
+/// Both switches of the pair have been off since the middle of the period, longer than the dead time.
 TEST(Modulator, AHardSignFlipDoesNotWaitWhereTheOtherSwitchIsLongOff) {
   SixStepModulator m{ModulatorConfig{.dead_ticks = 2e6}};
   m.start_period(at(0), command(0.5, Chopping::hard));
@@ -193,18 +196,18 @@ TEST(Modulator, AHysteresisThatWasOffWakesOn) {
 TEST(Modulator, AHallEdgeMovesTheStateAsItIs) {
   SixStepModulator m{ModulatorConfig{.dead_ticks = 1e6}};
   m.start_period(at(0), command(0.5, Chopping::complementary));
-  m.commutate(at(500'000), {Leg::a, Leg::c});  // dead
+  m.commutate(at(500'000), {Leg::a, Leg::c});  // in the dead time
   EXPECT_EQ(on(m), "");
   EXPECT_EQ(do_next(m), at(1'000'000));
   EXPECT_EQ(on(m), "a+c-");
-  m.commutate(at(2'000'000), {Leg::b, Leg::c});  // on
+  m.commutate(at(2'000'000), {Leg::b, Leg::c});  // in the on-time
   EXPECT_EQ(on(m), "b+c-") << "no dead time of its own";
   EXPECT_EQ(do_next(m), at(period / 2)) << "PWM is not restarted";
-  m.commutate(at(15'500'000), {Leg::a, Leg::c});  // dead
+  m.commutate(at(15'500'000), {Leg::a, Leg::c});  // in the dead time
   EXPECT_EQ(on(m), "c-");
   EXPECT_EQ(do_next(m), at(16'000'000)) << "nor is the dead time";
   EXPECT_EQ(on(m), "a-c-");
-  m.commutate(at(20'000'000), {Leg::b, Leg::c});  // low
+  m.commutate(at(20'000'000), {Leg::b, Leg::c});  // in the off-time
   EXPECT_EQ(on(m), "b-c-");
   EXPECT_EQ(m.turn_ons(), 1);
 }

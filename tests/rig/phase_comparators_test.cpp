@@ -11,8 +11,8 @@ using namespace sixstep;
 using namespace sixstep::testing;
 using control::Chopping;
 
-/// Counts the states after both gates of the pair were on: both off, only the source's off, only the sink's
-/// off.
+/// Counts the first states that follow after both gates of the pair were on: both off, only the source's off,
+/// or only the sink's off.
 struct FirstStates {
   bool both_on = false;
   int both_off = 0, source_off = 0, sink_off = 0;

@@ -20,7 +20,7 @@ using namespace sixstep::testing;
 constexpr double p = 8, w = 120.0;  // rad/s, mechanical
 constexpr double deg_s = p * w * 180 / base::pi;
 
-/// An external drive turns the rotor at w or -w; the bridge is off. Stuck lines and wires are in order.
+/// An external drive turns the rotor at w or -w; the bridge is off.
 GeneralRig turned(const rig::ProbeGiven& probes, double sign, rig::Timeline timeline = {}) {
   GeneralSetup setup;
   setup.shaft.dynamometer = true;
@@ -50,7 +50,8 @@ std::vector<Edge> edges_of(const plant::HallPlacement& placed, double sign, doub
   for (int n = -2000; n <= 2000; ++n) {
     const double place = 60.0 * n + placed.offset_deg + own(n);
     const double met = place + sign * placed.hysteresis_deg / 2;
-    // Forward the first edge is the first beyond 0 without hysteresis; backward it is the last at or below 0.
+    // Forward, the first edge is the first one beyond 0, apart from the hysteresis. Backward, it is the last
+    // one at or below 0.
     if (sign > 0 ? place <= 0 : place > 0) continue;
     const double at_s = sign * met / deg_s;
     if (at_s < until_s) edges.push_back({at_s, (((sign > 0 ? n : n - 1) % 6) + 6) % 6});
@@ -162,7 +163,7 @@ TEST(Probes, HysteresisHoldsAgainstARotorThatTurnsBack) {
     if (sectors.empty() || sectors.back() != sector) sectors.push_back(sector);
   }
   // The lines change at 70 forward on the way from 0 to 75, at 50 back to 45, at 70 forward to 75, and at 50
-  // back to 0; 0 is not -10.
+  // back to 0. The edge at -10 is not reached.
   EXPECT_EQ(sectors, (std::vector<int>{0, 1, 0, 1, 0}));
 }
 

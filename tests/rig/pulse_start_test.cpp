@@ -76,9 +76,10 @@ double off_deg(const PulsePositionReading& reading, double electrical_deg) {
   return std::remainder(reading.electrical * (360.0 / 4294967296.0) - electrical_deg, 360.0);
 }
 
-/// The error of the finer angle has two parts: half of its second harmonic's noise, 1/(signal over noise) rad
-/// of 2 x with two equal components, and saturation. With m = L_d I/(2 I_sat L_S) the latter adds m/4 of the
-/// current times 3 m/8 over L_D/L_S. The bound has five times the noise of all hundred.
+/// The error of the finer angle has two parts, noise and saturation. The noise is half of that of its second
+/// harmonic: 1/(signal over noise) rad of 2 x, with two equal components. With m = L_d I/(2 I_sat L_S),
+/// saturation adds m/4 of the current times 3 m/8 over L_D/L_S. The bound has five times the noise, for all
+/// hundred angles.
 TEST(PulseStart, SeesARotorThatIsSalientAndSaturatesAtAnyAngle) {
   const unsigned seed = 20'261'123;
   std::mt19937 draw(seed);

@@ -63,7 +63,7 @@ TEST(Rig, ThePositionCountsDegreesOfTheShaftOverTurns) {
   }
 }
 
-/// The speed is constant, with the first edge at 40 us, between two ticks.
+/// A drive at constant speed, whose first sector edge is at 40 us, between two ticks.
 Board edge_between_ticks() {
   Board b = Board::duty(0.9);
   b.shaft.J_kg_m2 = 1e9;

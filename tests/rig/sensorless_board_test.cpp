@@ -125,8 +125,8 @@ TEST(SensorlessBoard, ObserversHoldFivePercent) {
     }
 }
 
-/// The losses of the rotor during a speed step between two parts of the no-load speed; the drive catches the
-/// rotor again.
+/// Number of times that the drive loses the rotor during a speed step between two parts of the no-load speed.
+/// The drive catches the rotor again.
 int losses_of_step(SensorlessBench& bench, double from, double to, const std::string& where) {
   const double no_load = bench.no_load_rad_s(), step_s = aligned_s(bench) + 0.7;
   bench.setpoint(0, from * no_load);
@@ -140,8 +140,8 @@ int losses_of_step(SensorlessBench& bench, double from, double to, const std::st
   return rig.firmware().diagnosis().losses;
 }
 
-/// The page excludes this case: at the current's limit an old current may outlast a crossing. The drive
-/// catches the rotor again.
+/// docs/reference/sensorless-drive.md excludes this case: at the current's limit an old current may outlast a
+/// crossing. The drive catches the rotor again.
 TEST(SensorlessBoard, ASpeedStepMayLoseTheRotorOnce) {
   for (const SensorlessMotor& motor : three_motors) {
     int up = 0, down = 0;

@@ -16,7 +16,8 @@ using rig::CrossingReference;
 
 constexpr CrossingReference references[] = {CrossingReference::virtual_star, CrossingReference::half_bus};
 
-/// u_f less the mean of all three falls through 4 K_e w/3 in a sector, less half the bus through 2 K_e w.
+/// Slope of the compared voltage in V per electrical rad. In a sector, u_f less the mean of all three falls
+/// by 4 K_e w/3, and u_f less half the bus by 2 K_e w.
 double slope_V_rad(const SensorlessBench& bench, CrossingReference against, double w) {
   return (against == CrossingReference::half_bus ? 2.0 : 4.0 / 3.0) * bench.motor.machine.K_e_V_s * w /
          base::sector_rad;
@@ -71,7 +72,8 @@ TEST(SensorlessComparators, ChoppingDelaysAnEdgeByAPauseAtMost) {
     }
 }
 
-/// Samples of 8 bits have errors of up to half a step each; edges on the same board do not.
+/// Samples of 8 bits have errors of up to half a step each. Captured edges on the same board have no such
+/// error.
 TEST(SensorlessComparators, CommutatesEvenlyWhereSamplesAreRounded) {
   const auto spread_deg = [](bool by_edges) {
     SensorlessBench bench(three_motors[0], control::Mode::speed, Chopping::hard);
@@ -168,7 +170,8 @@ TEST(SensorlessComparators, NamesWhatWentWrong) {
       const double cause_s = aligned_s(held) + 0.6;
       held.act(cause_s, rig::ActionKind::shaft_locked, 1);
       EXPECT_EQ(named(held, cause_s), LockLoss::masked_crossing) << where;
-      if (against == CrossingReference::half_bus) continue;  // its handover is at twice that speed
+      // with half the bus the handover is at twice that speed
+      if (against == CrossingReference::half_bus) continue;
       SensorlessBench struck = bench_at(-0.1);
       const double blow_s = 4 * struck.spec.period_s;
       struck.act(cause_s, rig::ActionKind::load_torque,

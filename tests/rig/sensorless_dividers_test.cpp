@@ -10,8 +10,8 @@ using namespace sixstep::testing;
 
 constexpr double gain_error[] = {0.01, -0.006, 0.003};
 
-/// The crossing has u_f = U/2 with the legs at U and 0: y = U (g_f - g_high), and y falls through 4 K_e w in
-/// a sector.
+/// Shift of a crossing in electrical rad. There u_f = U/2, and the driven legs are at U and 0. With the gain
+/// errors g of the dividers y = U (g_f - g_high), and y falls by 4 K_e w in a sector.
 double shift_rad(const SensorlessBench& bench, std::uint8_t sector, double w) {
   const std::size_t f = control::floating_leg(sector);
   const auto high = static_cast<std::size_t>(control::positive_pair(sector).source);
@@ -31,7 +31,7 @@ TEST(SensorlessDividers, ACrossingIsSeenBesideItsPlaceByMismatchTimesBusOverSlop
   const double step_rad = 2 * 30.0 / 4096 / (4 * bench.motor.machine.K_e_V_s * w) * base::sector_rad;
   for (std::uint8_t k = 0; k < 6; ++k) {
     ASSERT_GT(seen.count[k], 50);
-    // The mean's error is a step of the converter, of each of the three legs at their rails.
+    // The error of the mean is one step of the converter for each of the three legs.
     EXPECT_NEAR(seen.late_rad[k], shift_rad(bench, k, w), step_rad) << int(k);
   }
 }

@@ -9,8 +9,8 @@ using namespace sixstep;
 using namespace sixstep::testing;
 using control::LockLoss;
 
-/// The converter and the timer resolve a filter's effect; the filter's bandwidth is 1.1 times the required
-/// one.
+/// A bench whose converter and timer resolve the filter's effect. The filter's bandwidth is 1.1 times the
+/// required one.
 SensorlessBench bench_of(const SensorlessMotor& motor, bool filtered,
                          control::Chopping chopping = control::Chopping::soft) {
   SensorlessBench bench(motor, control::Mode::speed, chopping);
@@ -27,8 +27,8 @@ SensorlessBench bench_of(const SensorlessMotor& motor, bool filtered,
 
 constexpr int commutations = 600;
 
-/// The mean delay of the commutations behind the sector's edge at constant speed; ahead of it the value is
-/// negative.
+/// The mean delay, s, of the commutations after the sector's edge at constant speed; negative where they are
+/// before the edge.
 double mean_late_s(SensorlessBench bench, double w) {
   bench.setpoint(0, w);
   auto rig = bench.rig();
@@ -50,9 +50,9 @@ double mean_late_s(SensorlessBench bench, double w) {
   return sum_s / commutations;
 }
 
-/// The remaining error: 3 % of tau, because the legs are 3.5 tau behind their edge; a tick; and the mean of
-/// the crossings' rounding, a step of the converter up or down each, with y falling through 4 K_e w in a
-/// sector.
+/// The remaining error, s, has three parts. 3 % of tau, because the driven legs are sampled 3.5 tau after
+/// their edge. A timer tick. And the mean of the crossings' rounding, a step of the converter up or down
+/// each, where y falls by 4 K_e w in a sector.
 double remainder_s(const SensorlessBench& bench, double w) {
   const double lsb_V = 1.25 * bench.spec.bus_V / 4096, K_e = bench.motor.machine.K_e_V_s;
   const double sector_s = base::sector_rad / (bench.motor.machine.pole_pairs * w);

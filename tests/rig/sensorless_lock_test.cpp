@@ -15,8 +15,9 @@ TEST(Sensorless, CatchesASpinningRotor) {
       SensorlessBench bench(motor);
       bench.at.speed_rad_s = part * bench.no_load_rad_s();
       bench.at.angle_rad = 1.0;
-      // Soft chopping cannot limit a braking current near the no-load speed: the test holds that speed and
-      // slows down the others.
+      // Soft chopping cannot limit a braking current near the no-load speed. At 0.9 of that speed the
+      // setpoint is therefore the rotor's own speed; otherwise the setpoint is lower, so that the drive
+      // brakes.
       bench.setpoint(0, (std::fabs(part) > 0.8 ? 1.0 : 0.6) * part * bench.no_load_rad_s());
       auto rig = bench.rig();
       const double listen_s = bench.start.rotor.spin.listen_ticks / bench.spec.capture_Hz;
@@ -44,8 +45,8 @@ TEST(Sensorless, BrakesARotorThatSpinsTheOtherWayAndTurnsItRound) {
   }
 }
 
-/// The rotor runs at half the no-load speed at the cause: the name of the loss, and the commutations until
-/// it.
+/// A loss of a rotor that ran at half the no-load speed when the cause came: its name, and the commutations
+/// from the cause until the loss.
 struct Lost {
   LockLoss named = LockLoss::none;
   int commutations = 0;
@@ -92,7 +93,8 @@ TEST(Sensorless, ALoadThatTurnsTheRotorBackIsSeenWithinTwoCommutations) {
     bench.act(cause_s, rig::ActionKind::load_torque, 10 * bench.nominal_A() * bench.motor.K_t_Nm_A);
     auto rig = bench.rig();
     run_until(rig, cause_s);
-    // The drive may follow the rotor while it turns forward; from then on it has two commutations.
+    // The drive may follow the rotor while the rotor turns forward. After that it may commutate at most
+    // twice.
     ASSERT_GT(
         run_until_true(rig, cause_s + 0.3, bench.spec.period_s, [&] { return rig.plant().state().w <= 0; }),
         0);

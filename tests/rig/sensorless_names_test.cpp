@@ -21,7 +21,7 @@ struct Lost {
   int commutations = 0;  ///< since the cause
 };
 
-/// Runs until the drive loses the rotor. `caused`: whether the plant shows the cause by then.
+/// Runs until the drive loses the rotor. `caused` returns whether the plant shows the cause at that time.
 template <class Rig, class Caused>
 Lost lost(Rig&& rig, const SensorlessBench& bench, double cause_s, Caused&& caused) {
   run_until(rig, cause_s);
@@ -124,8 +124,8 @@ TEST(SensorlessNames, AHeldRotorMasksItsCrossing) {
 constexpr double broken_s = 1.4;
 
 /// The divider of one leg breaks on the board and reads 0. The reading is wrong once the terminal has another
-/// voltage, and matters unless the leg floats behind its crossing. Ahead of a falling crossing the chip takes
-/// 0 for that crossing, which is right for the next two sectors.
+/// voltage. It matters unless the leg floats after its crossing. Before a falling crossing the chip takes 0
+/// for that crossing, which gives the right pair for the next two sectors.
 template <class Scalar, std::size_t leg>
 struct BrokenDivider : BuiltDrive<Scalar> {
   using BuiltDrive<Scalar>::BuiltDrive;
@@ -172,8 +172,9 @@ void expect_divider_named(const SensorlessMotor& motor, int sign, Follow followe
   EXPECT_LE(l.commutations, looks_crossed ? 3 : 2) << where;
 }
 
-/// A reading of a leg driven high contradicts the command: terminals. A floating leg's 0 is a diode's rail,
-/// which hides the crossing, or a back-EMF that does not come.
+/// A reading of 0 from a leg that is driven high contradicts the command: the loss is named `terminals`. From
+/// a floating leg, 0 looks like a diode's rail, which hides the crossing, or like a back-EMF that does not
+/// come.
 TEST(SensorlessNames, ADividerThatBreaksIsOneOfThree) {
   int n = 0;
   for (const SensorlessMotor& motor : three_motors)

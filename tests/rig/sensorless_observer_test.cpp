@@ -60,8 +60,8 @@ constexpr Strayed strayed[] = {{1.3, 1, 1},     {0.7, 1, 1},     {1, 1.3, 1},   
                                {1.3, 0.7, 1.1}, {1.3, 0.7, 0.9}, {0.7, 1.3, 1.1}, {0.7, 1.3, 0.9},
                                {0.7, 0.7, 1.1}, {0.7, 0.7, 0.9}};
 
-/// The rotor runs from rest to 8 % and, in steps of 5 %, to 70 % of the no-load speed. The test judges the
-/// commutations at both and the losses.
+/// The rotor runs from rest to 8 % of the no-load speed and then, in steps of 5 %, to 70 %. The test judges the commutations at both
+/// speeds, and the losses.
 template <class Firmware, class Config>
 void expect_lock(SensorlessBench& bench, const Config& chip, double load, const std::string& where) {
   bench.load_part = load;
@@ -90,7 +90,7 @@ TEST(SensorlessObserver, KeepsLockOnMotorsThatStrayFromTheirSheet) {
   InPart some;
   for (int which = 0; which < 2; ++which)
     for (const Strayed& s : strayed) {
-      if (which > 0 && (s.R == 1 || s.L == 1)) continue;  // the second motor: corners
+      if (which > 0 && (s.R == 1 || s.L == 1)) continue;  // the second motor: only where both R and L differ
       for (const Follow observer : three_observers) {
         if (some.leaves_out()) continue;
         SensorlessBench bench(three_motors[which]);
@@ -163,8 +163,8 @@ TEST(SensorlessObserver, ThrottleStepsKeepLock) {
     }
 }
 
-/// The design is for less than the usual 5 %: the lowest speed to which each follows a rotor against 30 % of
-/// its torque.
+/// The design is for less than the usual 5 % of the no-load speed. The test prints the lowest speed to which each observer follows a rotor
+/// against 30 % of its torque.
 TEST(SensorlessObserver, TellsTheLowestSpeedThatItHolds) {
   for (int which = 0; which < 2; ++which)
     for (const Follow follower : every_follow) {

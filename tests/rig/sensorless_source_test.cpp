@@ -31,7 +31,8 @@ void choose(SensorlessBench& bench, BuiltRig::Tunings& tunings, double t_s, Roto
   bench.act(t_s, rig::ActionKind::retune, static_cast<double>(tunings.size() - 1));
 }
 
-/// Runs until `source` commutates, at most `most_s`; checks that the drive followed the rotor until then.
+/// Runs until `source` commutates, for at most `most_s` s, and checks that the drive followed the rotor until
+/// then.
 void expect_source(BuiltRig& rig, RotorSource source, double most_s, const std::string& where) {
   const double t = run_until_true(rig, rig.now().seconds() + most_s, 1e-4,
                                   [&] { return rig.firmware().source().source == source; });
@@ -76,8 +77,8 @@ void expect_taken_over(const BuiltRig& rig, double w, const std::string& where) 
   EXPECT_NEAR(rig.plant().state().w, w, 0.1 * std::fabs(w)) << where;
 }
 
-/// A dead line that hid an edge makes the handover a sector late; the drive may name that, and catches the
-/// rotor again.
+/// A dead line that hid an edge makes the handover a sector late. The drive may then report one loss of the
+/// rotor, and catches it again.
 TEST(SensorlessSource, GoesOnWithoutALineThatDiesBothWays) {
   int n = 0, caught_again = 0;
   for (const SensorlessMotor& motor : three_motors)
@@ -98,7 +99,7 @@ TEST(SensorlessSource, GoesOnWithoutALineThatDiesBothWays) {
   std::printf("a Hall line dies: %d of %d go on, %d of them caught again\n", n, n, caught_again);
 }
 
-/// The code at power-up may be valid nevertheless: then the first sectors show the fault.
+/// With a dead line the code at power-up may still be valid: then the first sectors show the fault.
 TEST(SensorlessSource, StartsWithALineThatWasDeadBefore) {
   int n = 0;
   for (const SensorlessMotor& motor : three_motors)
@@ -118,8 +119,8 @@ TEST(SensorlessSource, StartsWithALineThatWasDeadBefore) {
     }
 }
 
-/// Soft chopping cannot limit a braking current near the no-load speed: the test holds that speed and slows
-/// down the others.
+/// Soft chopping cannot limit a braking current near the no-load speed. At 0.8 of that speed the setpoint is
+/// therefore the rotor's own speed; otherwise the setpoint is lower, so that the drive brakes.
 TEST(SensorlessSource, CatchesASpinningRotorUnderLoad) {
   int n = 0;
   for (const SensorlessMotor& motor : three_motors)
@@ -145,8 +146,8 @@ TEST(SensorlessSource, CatchesASpinningRotorUnderLoad) {
       }
 }
 
-/// A slow rotor against half of its torque stops before the drive catches it: the drive loses it once, and
-/// starts it.
+/// A slow rotor against half of its torque stops before the drive catches it. The drive reports one loss of
+/// the rotor, and starts it.
 TEST(SensorlessSource, StartsARotorThatStoppedWhileItWasCaught) {
   SensorlessBench bench = on_built_board(three_motors[2]);
   bench.load_part = 0.5;

@@ -17,7 +17,7 @@ using control::SensorlessPhase;
 
 struct Started {
   bool holds = false;
-  bool at_once = false;  ///< without a second try
+  bool at_once = false;  ///< without a second start
   double after_s = 0.0;
 };
 

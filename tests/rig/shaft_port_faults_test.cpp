@@ -29,8 +29,9 @@ std::int64_t quarters(const Motion& m, std::int64_t lines, double t) {
   return static_cast<std::int64_t>(std::floor(4 * static_cast<double>(lines) * m.theta(t) / (2 * base::pi)));
 }
 
-// A stuck line A or B leaves the other one's edges, which count up and down by one. After the fault the count
-// follows the lines again, so that the loss is a whole number of lines: all those passed, to within one.
+// With line A or B stuck, the other line's edges remain and count up and down by one. After the fault the
+// count follows the lines again, so that it has lost a whole number of lines: all those passed, to within
+// one.
 TEST(StuckLine, LosesWholeLines) {
   constexpr std::int64_t lines = 1000;
   for (const int line : {line_A, line_B})
@@ -87,7 +88,7 @@ TEST(StuckLine, ReadsAsNoSpeedAtAll) {
   }
 }
 
-// The last captured edge is the free line's.
+// The last captured edge is one of the free line.
 TEST(StuckLine, CapturesTheOtherLinesEdges) {
   constexpr std::int64_t lines = 500;
   for (const int line : {line_A, line_B}) {
@@ -116,7 +117,7 @@ int indexes(ShaftPorts& ports, const Motion& m, double from_s, double to_s) {
 }
 
 TEST(StuckIndex, IsLostUntilItIsWhole) {
-  const Motion m{0.5, 100, 0};  // 2 pi at 57.8 ms, and each 62.8 ms
+  const Motion m{0.5, 100, 0};  // passes 2 pi at 57.8 ms, and a further turn each 62.8 ms
   for (const bool high : {false, true}) {
     ShaftPorts ports = encoder(500, m);
     EXPECT_EQ(indexes(ports, m, 0, 0.1), 1);
@@ -162,7 +163,8 @@ TEST(AbsolutePort, ATrackIsWholeAgain) {
   }
 }
 
-// V_1 and V_2 scale with the excitation; a broken winding's is zero; after repair both are whole.
+// V_1 and V_2 scale with the excitation. A broken winding's voltage is zero; after repair both voltages have
+// their full amplitude.
 TEST(ResolverPort, ShowsThePartOfItsExcitation) {
   const Motion m{0.7, 0, 0};
   ShaftPorts ports({.kind = rig::ShaftSensor::resolver,

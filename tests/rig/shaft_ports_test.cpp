@@ -87,7 +87,7 @@ TEST(EncoderPort, MissesEdgesAndLatchesItsCountAtTheIndex) {
   }
 }
 
-// The missed edges span the index: those behind it stay missing from the count since the index.
+// The missed edges span the index: those after the index stay missing from the count since the index.
 TEST(EncoderPort, EdgesMissedBehindTheIndexAreMissingFromItsCount) {
   const Motion m{-3.5 * 2 * base::pi / 2000, 100, 0};  // 4 edges to the index, the fourth its own
   ShaftPorts ports = encoder(500, m);
@@ -196,7 +196,8 @@ TEST(ResolverPort, IsAsNoisyAsItIsSaidToBeAndTheSeedsOwn) {
     square += (x * x + y * y) / 2;
     product += x * y;
   }
-  // Rounding to counts adds 1/12; 8000 values give the deviation to 0.8 %, 4000 products the mean to 1/63.
+  // Rounding to counts adds 1/12 to the variance; 8000 values give the deviation to 0.8 %, 4000 products the
+  // mean to 1/63.
   const double wanted = 100 + 1.0 / 12;
   EXPECT_NEAR(std::sqrt(square / samples / wanted), 1, 5 * 0.008);
   EXPECT_NEAR(product / samples / wanted, 0, 5.0 / 63) << "the windings' noise is each one's own";
@@ -218,7 +219,7 @@ rig::ShaftSensorConfig converter(int bits, double latency_s = 0.0) {
   return given;
 }
 
-/// The chip's angle less p_r theta(t), in turns, by the shorter way.
+/// The chip's angle less p_r theta(t), in turns, between -1/2 and 1/2.
 double off_turns(const ShaftPorts& ports, const Motion& m, double t) {
   const double turns = 2 * m.theta(t) / (2 * base::pi);
   const double off = ports.converter().angle() * 0x1p-32 - turns;
@@ -240,7 +241,7 @@ TEST(ConverterChip, FollowsASteadyShaftToItsCount) {
     }
 }
 
-// The lag stays at the acceleration over K_a.
+// The lag stays at the acceleration divided by K_a.
 TEST(ConverterChip, LagsAnAccelerationByItOverKa) {
   const Motion m{0.1, 0, 40000};
   ShaftPorts ports(converter(16), capture_Hz, 0, m.shaft(0));

@@ -98,8 +98,8 @@ TEST(ThreeLegModulator, DeadTimeIsPerLegAndOnlyWhereItsCommandChanges) {
   EXPECT_EQ(edges(m, period), (Edges{{1.0, "a+b+c-"}, {15.0, "a+c-"}, {16.0, "a+b-c-"}}));
 }
 
-/// The off-time is shorter than the dead time: the lower switch never turns on, and the upper one waits
-/// nevertheless.
+/// The off-time is shorter than the dead time: the lower switch is commanded on and off and never turns on,
+/// and the upper one waits nevertheless.
 TEST(ThreeLegModulator, TheUpperSwitchWaitsFromTheTurnOffCommandOfTheLowerEvenIfThatNeverCameOn) {
   ThreeLegModulator m{ModulatorConfig{.dead_ticks = 1e6}};
   m.start_period(at(0), legs(pwm(0.98), low, low));
@@ -207,8 +207,8 @@ TEST(ThreeLegModulator, SixStepAsLegsIsSixStep) {
     ThreeLegModulator three{config};
     for (int k = 0; k < 200; ++k) {
       SCOPED_TRACE(::testing::Message() << "seed " << seed << " board " << board << " period " << k);
-      // A new pair takes over a dead time, which independent legs do not: any pair may follow only without a
-      // dead time.
+      // In six-step a new pair takes over the state of the legs that it replaces, and with it a dead time.
+      // Independent legs do not. Other phases therefore take part only without a dead time.
       const bool reversed = random() % 4 == 0;
       Pair pair = reversed ? Pair{Leg::b, Leg::a} : Pair{Leg::a, Leg::b};
       if (!(config.dead_ticks > 0) && random() % 2 == 0) pair = {Leg::c, Leg::b};

@@ -41,8 +41,8 @@ struct SixStepLegs {
   }
 };
 
-/// The rotor runs up over 20 sectors with commutation at the sample: the results have the same bits,
-/// including freewheeling floating legs.
+/// The rotor runs up over 20 sectors with commutation at the sample. Six-step as three legs has the same bits
+/// as six-step, including freewheeling floating legs.
 TEST(ThreeLegs, SixStepAsThreeLegsHasTheBitsOfSixStep) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary})
     for (const bool centred : {false, true})
@@ -146,8 +146,8 @@ struct TenPeriods {
   }
 };
 
-/// After all legs turn off, the currents flow back through the diodes: L di/dt = -U against both, until they
-/// end.
+/// After all legs turn off, the currents flow back through the diodes until they end: L di/dt = -U over both
+/// phases.
 TEST(ThreeLegs, TurningOffLetsTheCurrentsEndInTheDiodes) {
   Board b = locked_at(10.0);
   auto rig = three_leg_rig(b, TenPeriods{});

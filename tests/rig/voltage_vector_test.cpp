@@ -111,7 +111,8 @@ Complex pulsed(const TurningVector& v, bool centred) {
 /// changes its sign over half a turn; x/4 has V/(4 U), the cube at most 2/8.
 double pulse_shape_V(double V) { return (V + U) / 4 * w * T * w * T / 24; }
 
-/// The bound covers the solver (6.5e-12 of full scale, model.md 12), the quadrature and 45 time constants.
+/// The bound covers the solver (6.5e-12 of full scale, model.md 12), the quadrature, and the start's
+/// remainder after 45 time constants.
 constexpr double tolerance_A = 1e-10 * 23.3;
 
 TEST(VoltageVector, ItsCurrentIsThatOfThePhasorSolution) {

@@ -49,7 +49,8 @@ double torque_factor(const Wiring& wires, double electrical_deg) {
 }
 
 enum class Does { forward, backward, stands };
-/// One sign in every sector turns the rotor; both signs hold it, because their mean over the turn is zero.
+/// A torque of one sign in every sector turns the rotor. Torques of both signs hold it, because their mean
+/// over the turn is zero.
 Does expected(const Wiring& wires) {
   double least = 9, most = -9, sum = 0;
   for (int sector = 0; sector < 6; ++sector) {
@@ -125,7 +126,8 @@ Board phase_hysteresis() {
   return b;
 }
 
-/// Both runs have the same currents in the board's legs; the second rotor turns `way` times as the first.
+/// Both runs have the same currents in the board's legs. The second rotor turns by `way` times the first
+/// one's angle.
 void expect_the_board_sees_no_difference(const Wiring& wires, double straight_deg, double crossed_deg,
                                          double way) {
   const Board boards[] = {Board::duty(0.5), Board::duty(0.7, control::Chopping::hard),
@@ -152,9 +154,9 @@ TEST(CrossedWires, ThatMoveOnTogetherRunAsIfTheyWereStraight) {
   expect_the_board_sees_no_difference({WireOrder::cab, WireOrder::cab}, 17, 240 + 17, 1);
 }
 
-/// The pair of phases a and b has H1 with u_ab: to swap a and b reverses u_ab and exchanges u_bc with u_ca
-/// and H2 with H3. The board then sees a motor whose angle counts in the other direction, and which turns
-/// backwards.
+/// Phases a and b are the pair whose voltage u_ab has the signs of H1. Swapping a and b reverses u_ab and
+/// exchanges u_bc with u_ca, and with them H2 with H3. The board then sees a motor whose angle counts in the
+/// other direction, and which turns backwards.
 TEST(CrossedWires, OfTwoPhasesAndTheTwoProbesBesideThemRunTheMirroredMotor) {
   expect_the_board_sees_no_difference({WireOrder::bac, WireOrder::acb}, 17, 60 - 17, -1);
   expect_the_board_sees_no_difference({WireOrder::cba, WireOrder::bac}, 17, 180 - 17, -1);

@@ -34,8 +34,8 @@ long double first_error(int points) {
 
 template <int points>
 void expect_gauss() {
-  // Literals of 21 digits have errors of 5e-22 at most, a node of s^j j times that; sums have 8 terms in long
-  // double.
+  // Literals of 21 digits have errors of 5e-22 at most, and a node's power s^j has j times that. Sums have 8
+  // terms in long double.
   const long double tolerance = 64 * 0x1p-63L;
   for (int j = 0; j < 2 * points; ++j)
     EXPECT_NEAR(static_cast<double>(power_integral<points>(j) * (j + 1) - 1), 0.0,

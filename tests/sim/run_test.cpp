@@ -119,7 +119,8 @@ TEST(Run, BallBouncesAtTheClosedFormTimes) {
   long double t = std::sqrt(2.0L / 9.81L), v = 9.81L * t;
   ASSERT_EQ(ball.bounces_s.size(), 9u);
   for (std::size_t n = 0; n < ball.bounces_s.size(); ++n) {
-    // Each bounce adds a root (to eps of the run) and a speed (to eps): the interval is 2 v/g.
+    // Each bounce adds the error of a root, eps of the run's time, and that of a speed, eps of itself: the
+    // interval is 2 v/g.
     const double bound = 8.0 * static_cast<double>(n + 1) * eps * 3.5;
     EXPECT_NEAR(ball.bounces_s[n], static_cast<double>(t), bound) << n;
     v *= static_cast<long double>(ball.restitution);

@@ -51,12 +51,12 @@ TEST(Arithmetic, BasesHoldTwiceTheReferenceAgainstIt) {
   EXPECT_NEAR(u.current_A, 15.0, 15.0 * 0x1p-30);
   EXPECT_NEAR(u.voltage_V, 24.0, 24.0 * 0x1p-30);
   EXPECT_EQ(u.setpoint, u.current_A);
-  // Q30 has two bits before the point: half the base has the same ends.
+  // Q30 has two bits before the point: with half the base it has the same limits.
   EXPECT_NEAR((units<control::Q30>(current_square()).current_A), 7.5, 7.5 * 0x1p-30);
 }
 
-/// The drive's over-speed threshold fits each format, above the speed that the bus allows (716 rad/s) or
-/// below.
+/// Each format holds the drive's over-speed threshold, whether this is above or below the speed that the bus
+/// allows, 716 rad/s.
 TEST(Arithmetic, AnyOverSpeedFits) {
   for (const double over : {400.0, 716.0, 717.0, 800.0, 900.0})
     for (const auto arithmetic : {study::Arithmetic::q14, study::Arithmetic::q15, study::Arithmetic::q31}) {

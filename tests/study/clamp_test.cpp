@@ -24,7 +24,8 @@ class Clamp : public ::testing::TestWithParam<bool> {
 };
 INSTANTIATE_TEST_SUITE_P(Kernels, Clamp, ::testing::Bool());
 
-/// A random scenario found it: no segment is clamped, but the kinetic energy is lost.
+/// A random scenario found this case: the clamp grips and releases at one instant, so that no segment is
+/// clamped, but the kinetic energy is lost.
 TEST_P(Clamp, ThatLetsGoAtTheInstantItGripsHasTheKineticEnergyInTheBook) {
   study::Scenario s = coasting();
   s.initial.speed_rad_s = 60.0;
@@ -41,7 +42,8 @@ TEST_P(Clamp, ThatLetsGoAtTheInstantItGripsHasTheKineticEnergyInTheBook) {
   EXPECT_LT(std::fabs(outcome->energy->mechanical_residual), 1e-13);
 }
 
-/// Random scenarios found it: only the magnets did work, and the clamp takes that energy.
+/// Random scenarios found this case: only the cogging of the magnets did work, and the clamp takes that
+/// energy.
 TEST(ClampOnCogging, TakesWhatTheMagnetsGaveARotorFromRest) {
   study::Scenario s = maxon_scenario(control::Mode::off, 0.0);
   s.sheet.cogging_orders = {48};

@@ -63,8 +63,8 @@ TEST(CommutationError, IsTheAngleOfTheDelay) {
   EXPECT_NEAR(e.rms, e.worst, 1e-6);
 }
 
-// The error at samples lies between 0 and the angle of one period. A uniform distribution has that angle over
-// the root of 3 as rms, which 30 commutations give to a fifth.
+// The error at samples lies between 0 and the angle of one period. A uniform distribution has the rms of that
+// angle over sqrt(3), which 30 commutations give to a fifth.
 TEST(CommutationError, IsSpreadOverAPeriodAtSamples) {
   Scenario s = turned(61);
   s.pwm.commutation = CommutationAt::sample;

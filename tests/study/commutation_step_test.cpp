@@ -41,11 +41,11 @@ void ask_torque(Scenario& s, MetricKind metric, double from_s) {
   ask(s, figure);
 }
 
-/// The staying phase's current when the leaving one has reached zero, with the voltage u between the entering
-/// phase and it (model.md 1, the leaving terminal at the lower rail).
+/// The staying phase's current, A, when the leaving one has reached zero. u is the voltage between the
+/// entering and the staying phase (model.md 1, the leaving terminal at the lower rail).
 double after_commutation_A(double E, double I, double u) {
   const double leaving = (u + 2 * E) / (3 * R), staying = (4 * E - u) / (3 * R);
-  const double faded = leaving / (leaving + I);  // exp(-t R/L) when it is zero
+  const double faded = leaving / (leaving + I);  // exp(-t R/L) when the leaving current is zero
   return (I + staying) * faded - staying;
 }
 
@@ -55,7 +55,7 @@ double least_current_A(CurrentCommutation commutation, PwmPattern pattern, doubl
                        double current_A) {
   Scenario s = turned(commutation, pattern, speed_rad_s, current_A);
   const double sector_s = base::sector_rad / (8 * speed_rad_s);
-  s.sheet.flat_deg = 170;  // lasts over the leaving phase's decay
+  s.sheet.flat_deg = 170;  // the flat tops last over the leaving phase's decay
   s.pwm.period_s = 0.5e-6;
   s.control.current.settle_s = 0.3 * sector_s;
   s.duration_s = 1.9 * sector_s;
@@ -147,7 +147,7 @@ TEST(CommutationStep, HalvesTheRippleBehindTheLoop) {
       }
 }
 
-/// The chip's arithmetic deviates from double's run no more than without the step.
+/// The torque's ripple in the chip's arithmetic equals that in double, to the torque of 0.02 A.
 TEST(CommutationStep, InTheNumbersOfAChip) {
   for (const study::Arithmetic arithmetic :
        {study::Arithmetic::float32, study::Arithmetic::q15, study::Arithmetic::q31})
@@ -185,8 +185,8 @@ TEST(CommutationStep, TellsARunInWhichItNeverActs) {
       }
 }
 
-/// A pattern that chops the staying leg has a larger peak and a deeper dip than PWM-ON, and a remark states
-/// it.
+/// A pattern that chops the staying leg gives a larger peak and a deeper dip of the current than PWM-ON does,
+/// and a remark states this.
 TEST(CommutationStep, TellsAPatternThatChopsTheStayingLeg) {
   struct Seen {
     double least_Nm, most_A;

@@ -27,9 +27,9 @@ double first_figure(const Scenario& s) {
   return out ? out->comparisons[0].measured : -1e9;
 }
 
-/// A step of 1 A into a held rotor takes the delay and one period. Its error is that of a pulse at the
-/// beginning of its period against a voltage over the whole period: (1 - f) of the step's voltage, L/T per
-/// ampere.
+/// A step of 1 A into a held rotor takes the delay and one period. A pulse at the beginning of its period has
+/// another effect than a voltage over the whole period. The error is therefore (1 - f) of the step's voltage,
+/// which is L/T per ampere.
 TEST(Deadbeat, AStepIsThereAPeriodAfterTheAnswerBegins) {
   for (const auto arithmetic : {study::Arithmetic::float64, study::Arithmetic::float32,
                                 study::Arithmetic::q15, study::Arithmetic::q31})
@@ -73,9 +73,9 @@ Torque torque_of(CurrentLoopType type, CurrentFeedback feedback) {
              : Torque{};
 }
 
-/// A commutation halves the mean of the new pair's currents, and a loop that measures it reacts at once: the
-/// deadbeat loop within a period, the PI within its settling time. The staying phase's current shows the
-/// present torque, and not the coming dip.
+/// A commutation halves the mean of the new pair's currents, and a loop that measures this mean reacts at
+/// once: the deadbeat loop within a period, the PI within its settling time. The staying phase's current
+/// shows the present torque, and not the coming dip.
 TEST(Deadbeat, TakesOffTheRippleOfCommutation) {
   using enum CurrentFeedback;
   const Torque pi = torque_of(CurrentLoopType::pi, mean),

@@ -28,7 +28,8 @@ using control::Mode;
 using Rig = rig::LeanRig<double>;
 static_assert(std::is_copy_constructible_v<Rig>, "a copy of the rig is its snapshot");
 
-/// Settling-time design, bus behind R and C, dead time: states that a snapshot could omit.
+/// A scenario whose states a snapshot could omit: a loop designed by its settling time, a bus behind R and C,
+/// and dead time.
 Scenario rich() {
   Scenario s = current_square();
   s.control.current.d1 = s.control.current.d0 = std::nullopt;
@@ -62,7 +63,7 @@ std::uint64_t digest_of(const Scenario& s, const Listeners& listeners = {}) {
 /// The end state alone, to compare runs with and without a digest.
 std::uint64_t end_state(const Rig& rig) { return Digest{}.after(rig); }
 
-/// Calls `each` at every control tick of a snapshot's life, after the tick's event.
+/// Calls each(rig, digest) at every control tick, after the tick's event.
 template <class Each>
 struct AtTicks {
   Digest digest;

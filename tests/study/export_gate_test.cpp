@@ -120,7 +120,7 @@ TEST(ExportGate, ComparatorsNeedNeitherConverterNorDelay) {
   EXPECT_THAT(unmeasured(s), ElementsAre("sensors.currents", "pwm.delay_periods"));
 }
 
-/// A reversal switches a leg over in every kind of chopping.
+/// In every kind of chopping a reversal changes a leg from one switch to the other, which needs a dead time.
 TEST(ExportGate, ADriveWithoutDeadTimeIsRefused) {
   for (const Mode mode : {Mode::duty, Mode::current, Mode::speed, Mode::position})
     for (const auto chopping :
@@ -191,7 +191,7 @@ TEST(ExportGate, WhatTheRunMissedStandsAgainstItInDigitsThatTellItFromTheLimit) 
   EXPECT_EQ(missed->outcome.digest, held->outcome.digest);
 }
 
-/// A dead time of 0.4 us on counts of 1 us is zero, 1.4 us is 1 us.
+/// The timer counts whole microseconds: it makes a dead time of 0.4 us zero, and one of 1.4 us 1 us.
 TEST(ExportGate, ADeadTimeThatTheTimerShortensIsRefused) {
   Scenario s = on_a_board(Mode::current);
   s.pwm.timer_Hz = 1e6;

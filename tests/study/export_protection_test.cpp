@@ -84,8 +84,8 @@ TEST(ExportProtection, AnOverCurrentBelowTheLimitThatBindsStandsAgainstIt) {
   EXPECT_EQ(told(3.1), "");
 }
 
-/// The winding's time follows from the thermal model: I^2 R heats it from cold to its limit in the closed
-/// form's time. The sheet's values bound that time: it is longer than without any cooling, and finite.
+/// The longest stall that the winding stands follows from the thermal model: I^2 R heats the winding from
+/// cold to its limit in the closed form's time. This time is finite, and longer than without any cooling.
 TEST(ExportProtection, AStallThatTheWindingDoesNotStandStandsAgainstIt) {
   Scenario s = product_scenario(Mode::current, 15.0);
   s.pwm.delay_periods = 1;

@@ -46,7 +46,7 @@ Scenario inner_magnets(Mode mode, double reference) {
   return s;
 }
 
-/// 250 mA offset-free 12 bit converters of +-10 A, dead time.
+/// Phase currents through 12-bit converters of +-10 A, with 5 mA of noise.
 void with_real_sensors(Scenario& s) {
   s.sensors.currents = rig::CurrentMeasurement::phases;
   s.sensors.current_range_A = 10.0;

@@ -134,8 +134,8 @@ TEST(FieldOriented, TheVectorStaysWithinTheCircleOfTheBus) {
   EXPECT_NEAR(longest, 24 / std::numbers::sqrt3, 1e-9) << "and is used up";
 }
 
-/// A free rotor without load reaches the speed at which the magnet's back-EMF fills the circle; with
-/// weakening it exceeds it.
+/// A free rotor without load reaches the speed at which the magnet's back-EMF equals the radius of the
+/// voltage circle. With field weakening it exceeds this speed.
 TEST(FieldOriented, WeakeningTakesItBeyondTheSpeedOfTheBackEmf) {
   Scenario s = field_oriented(Mode::speed, 1100.0);
   s.duration_s = 0.4;
@@ -153,8 +153,8 @@ TEST(FieldOriented, WeakeningTakesItBeyondTheSpeedOfTheBackEmf) {
     EXPECT_LE(std::hypot(tick.reference.d, tick.reference.q), 20.0 * 1.001);
 }
 
-/// A salient rotor gets more torque from the same i_q with the current along the magnet, with |i| as the law
-/// gives it.
+/// A salient rotor gets more torque from the same reference where a part of the current is along the magnet.
+/// The law gives |i|.
 TEST(FieldOriented, ASalientRotorGetsMostTorquePerAmpere) {
   Scenario s = field_oriented(Mode::current, 12.0);
   s.sheet.inductance_mH = std::nullopt;
@@ -255,8 +255,8 @@ TEST(FieldOriented, WhatItHoldsIsRecordedAndMeasured) {
     }
     EXPECT_NEAR(out->comparisons[k].measured, sum / 80, 1e-13 * 24) << s.record.columns[k];
   }
-  // Without a level i_q's level is the setpoint: the last sample beyond 2 % of a step holds for its whole
-  // period.
+  // Without a given level, the level of i_q is the setpoint. The last sample beyond 2 % of a step holds for
+  // its whole period.
   double last_out_s = 0.0;
   for (const Tick& t : ticks)
     if (t.t_s >= 1e-3 && std::fabs(t.measured.q - 3.0) > 0.02 * 2.0) last_out_s = t.t_s + 50e-6 - 1e-3;
@@ -283,7 +283,7 @@ Scenario hand_brake(double reference_A, std::optional<double> weakening_A) {
 }
 
 /// The plant includes pulses; short_bus_test.cpp has the law. The least current is (35.84 - 34.64) V/|Z| =
-/// 7.6 A; it had been 460 A.
+/// 7.6 A. Without the limitation it was 460 A.
 TEST(FieldOriented, TurnedBeyondTheBusItHoldsItsCurrent) {
   for (const double reference_A : {0.0, 80.0, -80.0})
     for (const std::optional<double> weakening_A : {std::optional<double>{}, std::optional<double>{5.0}}) {

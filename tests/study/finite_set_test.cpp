@@ -27,8 +27,8 @@ using namespace sixstep::study;
 using control::Mode;
 
 constexpr double T = 20e-6, U = 24.0, R = 0.515, L = 0.286e-3, K_e = 0.01675;
-/// The current of a voltage over a period, and the largest distance from any reference to the nearest of the
-/// seven.
+/// b is the current of a voltage over a period, A/V. band_A is the largest distance from any reference to the
+/// nearest of the seven currents.
 const double b = (1 - std::exp(-R * T / L)) / R, band_A = 2 / (3 * std::numbers::sqrt3) * b * U;
 
 /// The 251601 with a sine of the same peak, and so much inertia that its speed is constant; 50 kHz.
@@ -132,8 +132,8 @@ TEST(FiniteSet, ItsFrequencyIsTheMeanOfTheLegs) {
   EXPECT_NEAR(f[0], (f[1] + f[2] + f[3]) / 3, 1e-9 / T);
 }
 
-/// A weight s on a leg reduces its turn-ons. The cost of the nearest state, three legs at most, bounds the
-/// distance.
+/// A weight on a leg's switching reduces its turn-ons. The nearest state costs at most three switched legs,
+/// which bounds the distance.
 TEST(FiniteSet, AWeightOnSwitchingSlowsIt) {
   double last = 1 / T;
   for (const double weight : {0.0, 0.6, 1.2}) {

@@ -92,7 +92,8 @@ TEST(FrontEnd, ASlowAmplifierReadsTheRippleLate) {
   }
 }
 
-/// A pulse in the link begins at zero: the amplifier's lag over half a pulse is missing.
+/// A pulse in the link begins at zero. After half a pulse the amplifier still lags, and the reading is too
+/// small by that lag.
 TEST(FrontEnd, TheLinksAmplifierHasToCatchUp) {
   Scenario s = held_at_5_A(CurrentMeasurement::dc_link, 20.48);
   s.sensors.current_bandwidth_Hz = 300e3;
@@ -112,7 +113,7 @@ TEST(FrontEnd, TheProductDriveSeesTheSameAmplifier) {
   m.from_s = 25e-3;
   ask(s, m);
   s.sensors.current_bandwidth_Hz = 30e3;
-  const double count = 2 * 20.48 / (1 << 16);  // 3 A are exactly one
+  const double count = 2 * 20.48 / (1 << 16);  // A; 3 A are a whole number of counts
   EXPECT_NEAR(Ripple(mean_of(s), lag_s(30e3)).phase_at(0), 3.0, 1.01 * count / 2);
 }
 

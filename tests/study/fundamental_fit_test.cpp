@@ -58,7 +58,7 @@ void see(FundamentalFit& fit, long double from, long double to, const Curve& sig
   fit.add(phase_of(static_cast<double>(std::fmod(from, 2 * pi))), part);
 }
 
-/// The fit, with rotated rows in long double as a second way.
+/// The fit, and rotated rows in long double as an independent check.
 struct BothWays {
   FundamentalFit fit;
   RotatedRows rows;

@@ -74,7 +74,7 @@ TEST(Gauge, ExtremesAndFinalValue) {
 }
 
 TEST(Gauge, SettlingAndReachTimeOfAnExponential) {
-  // The slope at the instant is 0.02: an error of eps in the value moves it by eps/0.02.
+  // The slope at the instant is 0.02: an error of eps in the value moves the instant by eps/0.02.
   EXPECT_NEAR(gauged(MetricKind::settling_time, rise, 6.0, 1.0, 0.0), std::log(50.0), 64 * eps / 0.02);
   EXPECT_NEAR(gauged(MetricKind::reach_time, rise, 6.0, 1.0, 0.0), std::log(50.0), 64 * eps / 0.02);
   const auto half = [](Measure& m) {

@@ -36,13 +36,14 @@ Scenario strayed(HallAngleFrom from) {
 }
 
 // Readings of 60/55 and 60/66 of the true speed move the reference by the loop's gain. A learned edge has an
-// error of two ticks of 1 us in a sector of 1.2 ms or more, and its time one more at either end.
+// error of two ticks of 1 us in a sector of 1.2 ms or more. The sector's time has an error of one more tick
+// at either end.
 TEST(HallAngle, PlacesThatWereLearnedNoLongerShakeTheLoop) {
   const double gain_A = 1.582e-3 * 0.78 / 33.5e-3, w = 100;
   EXPECT_GT(outcome_of(strayed(HallAngleFrom::sectors)).comparisons[0].measured,
             gain_A * w * (60.0 / 55 - 60.0 / 66));
   const double ripple = outcome_of(strayed(HallAngleFrom::learned_edges)).comparisons[0].measured;
-  // The bound has both directions and the shaft's own oscillation.
+  // The bound covers both directions and the shaft's own oscillation.
   EXPECT_LT(ripple, gain_A * (w * 2 * 2 * 3 / 1200.0 + 0.2));
 }
 

@@ -22,8 +22,9 @@ using control::HallArrangement;
 using control::Mode;
 using ::testing::HasSubstr;
 
-/// An external drive turns the motor slowly over six electrical turns: i follows d U - e, except for L/R =
-/// 0.56 ms behind each edge. Complementary chopping is linear: a slow one has the same means.
+/// An external drive turns the motor slowly over six electrical turns, so that i follows d U - e, except
+/// during L/R = 0.56 ms after each edge. Complementary chopping is linear, so that a slow PWM gives the same
+/// means.
 Scenario on_a_bench(double w_rad_s) {
   Scenario s = maxon_scenario(Mode::duty, 0.1);
   s.load.dynamometer_times_s = {0.0};
@@ -64,8 +65,8 @@ TEST(HallOffset, CostsWhatTheRampsTake) {
   }
 }
 
-// At 90 degrees the sum over a sector is zero; at 180 degrees it drives backward, and the back-EMF increases
-// the current.
+// At an offset of 90 degrees the torques over a sector add up to zero. At 180 degrees the torque drives
+// backward, and the back-EMF increases the current.
 TEST(HallOffset, TurnsTheTorqueRound) {
   const double plain = mean_torque(on_a_bench(0.5));
   Scenario s = on_a_bench(0.5);

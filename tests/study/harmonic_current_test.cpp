@@ -106,8 +106,8 @@ TEST(HarmonicCurrent, TheLoopAloneFollowsWithinItsLag) {
   }
 }
 
-/// A fifth harmonic of 5 %: the torque of i_q alone ripples by it, cos 6 theta, and that of the shape's
-/// current does not. The general kernel runs it.
+/// A fifth harmonic of 5 %: the torque of i_q alone ripples by it, as cos 6 theta, and that of the shape's
+/// current does not. The general kernel runs this machine.
 TEST(HarmonicCurrent, FollowsHarmonicsOfASineToo) {
   const auto fifth = [](bool harmonic) {
     Scenario s = trapezoid(20, harmonic);

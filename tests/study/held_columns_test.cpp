@@ -72,7 +72,8 @@ TEST(HeldColumns, TemperaturesUnderAPowerAreThoseOfTheInstant) {
     EXPECT_NEAR(coarse[n][1], fine[n][1], 0.00393 * rise * rise) << "row " << n;
 }
 
-/// C_1 dv_1/dt = i_src - v_1/R_1: its final value equals the charge from the recorded source current.
+/// C_1 dv_1/dt = i_src - v_1/R_1: integrating the recorded source current gives the recorded final value of
+/// v_1.
 TEST(HeldColumns, ABatterysRecoveringVoltageIsWhatItsCurrentMakesIt) {
   Scenario s = maxon_scenario(control::Mode::duty, 0.5);
   for (const AsksForGeneral& ask : asks_for_general)

@@ -36,7 +36,8 @@ std::string refusal(const Scenario& s) {
   return out ? "not refused" : to_string(out.problems()[0]);
 }
 
-/// The current is full, and a ripple sampled at its minimum of 0 A leaves pulses that still drive.
+/// Full current. Where the sample shows the ripple's minimum of 0 A, the limit of speed leaves short pulses,
+/// which still drive the rotor.
 TEST(Limits, OwnTorqueStaysWithinTheLimitOfSpeedInEveryChopping) {
   for (const Chopping chopping : {Chopping::soft, Chopping::hard, Chopping::complementary}) {
     Scenario s = maxon_scenario(Mode::current, 6.99);
@@ -71,12 +72,14 @@ TEST(Limits, TheBusStaysWithinItsBoundInEveryChopping) {
       s.pwm.delay_periods = delay;
       const double most = figure(s, MetricKind::maximum, Signal::bus_voltage);
       std::printf("limit 30 V, at most %.6g V\n", most);
-      // The bound is a coast from 6.25 A, sqrt((30 - 20)^2 + L I^2/C) - 10 V, and one period of it.
+      // The bound is the switch-off of 6.25 A at the limit, with 20 V of back-EMF: the bus rises by sqrt((30
+      // - 20)^2 + L I^2/C) - 10 V, and by one period of that current.
       EXPECT_LE(most, 20 + std::sqrt(100 + 0.572e-3 * 6.25 * 6.25 / 10e-3) + 6.25 * 30e-6 / 10e-3);
     }
 }
 
-/// 145 V at a limit of 13.8 V: 220 uF hold 21 mJ at 13.8 V, and a winding at 20 A holds as much again.
+/// After a switch-off at 30 V the winding's 5 A still charge the 220 uF, with 20 V of back-EMF: to 20 V +
+/// sqrt((30 - 20)^2 + L I^2/C) V = 33 V.
 TEST(Limits, ABusThatCannotHoldItsLimitIsRefusedWithWhatWould) {
   Scenario s = braking(Chopping::hard);
   s.supply.capacitance_F = 220e-6;
@@ -103,8 +106,8 @@ TEST(Limits, ACurrentThatOnePulsePassesIsRefused) {
   EXPECT_TRUE(study::run(s));
 }
 
-/// A salient rotor runs, but the drive does not guarantee its limits, and names each: the bounds have no
-/// proof for it.
+/// A salient rotor runs, but the drive does not guarantee its limits, because the bounds are not proved for
+/// such a rotor. A message names each limit.
 TEST(Limits, OfASalientRotorAreNotPromised) {
   Scenario s = maxon_scenario(Mode::current, 3.0);
   s.sheet.inductance_mH.reset();
@@ -190,8 +193,8 @@ TEST(Product, NoReferenceIsShownWhileTheWindingsAreShorted) {
   EXPECT_EQ(figure(s, MetricKind::maximum, Signal::speed_reference, 0.1002), 0.0);
 }
 
-/// The line breaks just after its own edge: the sector that this ends has no length, and so any speed. The
-/// fault is the line, not over-speed.
+/// The line breaks just after its own edge: the sector between this edge and the false one has no length, and
+/// so any speed. The fault is the line, not over-speed.
 TEST(Product, ABrokenHallLineIsNoOverSpeed) {
   Scenario s = product_scenario(Mode::speed, 100.0);
   s.protection.over_speed_rad_s = 300.0;
@@ -233,7 +236,7 @@ TEST(SpeedForm, FixedPointWindsUpNoMoreThanDouble) {
   }
 }
 
-/// kp T_d a = 1.8 of full torque.
+/// The derivative part is kp T_d a = 1.8 of full torque.
 TEST(SpeedForm, ADerivativeAboveFullTorqueIsTheSameInFixedPoint) {
   Scenario s = maxon_scenario(Mode::speed, 0.0);
   s.duration_s = 0.3;

@@ -35,7 +35,7 @@ Scenario on_a_scale(Scenario s) {
   return s;
 }
 
-/// The reading of a metre: a degree of the rotary motor.
+/// The position reading for 1 m: the linear motor's metre is the rotary motor's radian, in degrees.
 constexpr double deg = 180 / base::pi;
 
 // In each sample the position is that of the quarter of a line, the speed that between two edges, and the
@@ -69,8 +69,8 @@ TEST(LinearEncoder, TellsAPlaceToAQuarterOfItsPitch) {
       ASSERT_GT(below, -1e-12) << n;
       ASSERT_LT(below, pitch_m / 4 + unit + 1e-12) << n;
       if (n > 20) {
-        // The bound is a tick of the timer over the time between the edges of two samples, which is a
-        // sample's less an edge's.
+        // The bound is one timer tick over the time between the last edges of two samples. This time is at
+        // least the sampling period less the time between two edges.
         const double apart = h - pitch_m / 4 / std::fabs(v);
         if (apart > 0) {
           ASSERT_NEAR(m.speed_rad_s, v, std::fabs(v) * 2 / (apart * config.capture_Hz)) << n;

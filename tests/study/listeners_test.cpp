@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run's listeners receive it in order and do not change it.
+// A run's listeners receive the run's events in order and do not change the run.
 #include <gtest/gtest.h>
 
 #include <cmath>

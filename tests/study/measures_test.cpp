@@ -222,8 +222,8 @@ TEST(Measures, ErrorsLookAtTheEndOfEachLevelOrAtTheWindow) {
 }
 
 TEST(Measures, BandFiguresKeepToTheirWindow) {
-  // The rotor turns backwards, and the EMF drives the current while the bridge freewheels: it leaves the band
-  // until the rotor stops.
+  // The rotor turns backwards, and the EMF drives the current while the bridge freewheels: the current leaves
+  // the band until the rotor stops.
   Scenario s = maxon_scenario(Mode::current, 5.0);
   s.initial.speed_rad_s = -600.0;
   s.duration_s = 40e-3;

@@ -58,7 +58,7 @@ std::vector<Scenario> six_step_scenarios() {
     all.push_back(s);
     s.pwm.commutation = study::CommutationAt::sample;
     s.sheet.back_emf = design::BackEmfShape::sine;
-    s.sensors.hall_offset_deg = 1.5;  // of the general kernel
+    s.sensors.hall_offset_deg = 1.5;  // needs the general kernel
     all.push_back(s);
   }
   return all;
@@ -132,7 +132,7 @@ TEST(OwnController, IsDesignedByMotorBoardLoopsAndNumbers) {
             "control.own puppet cannot have five; change the scenario or the controller's numbers");
 }
 
-/// The magnet's direction is as exact as the sensors: with Hall codes it is a sector of 60 degrees.
+/// The magnet's direction is as exact as the sensors: Hall codes give it to a sector of 60 degrees.
 TEST(OwnController, SeesTheMagnetAsItsSensorsDo) {
   told = {};
   const auto electrical_deg = [](study::RotorSensing rotor, rig::HallAngleFrom angle) {

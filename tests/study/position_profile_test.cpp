@@ -158,8 +158,8 @@ TEST(PositionProfile, EveryDriveWithAPositionLandsThere) {
   }
 }
 
-/// The defaults are four fifths of the torque limit, nine tenths of the speed that the bus allows at it, and
-/// the speed loop's settling time.
+/// The defaults are four fifths of the torque limit, nine tenths of the speed that the bus allows at that
+/// torque, and the speed loop's settling time.
 TEST(PositionProfile, WhatIsNotGivenFollowsFromTheDrive) {
   Scenario s = move(true);
   s.control.position.profile = {};

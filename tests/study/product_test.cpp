@@ -20,7 +20,7 @@ using study::Signal;
 using ::testing::HasSubstr;
 
 constexpr double T = 30e-6;
-// 64 samples of calibration behind the first tick, which finds the request to run.
+// 64 samples of calibration after the first tick, which finds the request to run.
 constexpr double calibrated_s = 64 * T;
 
 /// Runs with a witness: no leg ever has both switches on.

@@ -135,7 +135,7 @@ TEST(Remarks, AShuntBehindADeadTime) {
   EXPECT_NEAR(study::least_visible_duty(s), 4.0 / 30, 1e-15);
   const double hidden_A = study::unseen_at_rest_A(s, 1.03 / 2);
   EXPECT_NEAR(hidden_A, 24 * 3e-6 / 30e-6 / 1.03, 1e-12);
-  // A current above it is measured and so held; one below it is not.
+  // A current above hidden_A is measured and so held; a smaller one is not.
   s.reference.value = 1.1 * hidden_A;
   EXPECT_THAT(remarks_on(s), Not(Contains(HasSubstr("the shunt"))));
   s.reference.value = 0.5 * hidden_A;

@@ -114,9 +114,10 @@ TEST(SensorlessPulses, FindsTheRotorFromAnyAngleAndLeavesItWhereItStands) {
               worst_turn, most_turn);
 }
 
-/// The speed is 25 rad/s, 0.3 of the no-load speed: at 12 the drive loses the crossings of such a salient hub
-/// with any start. From the pulses the ramp moves the rotor in either direction. The rotor turns back by no
-/// more than the pulses' rotation and the angle's error; an alignment turns it back by up to half a turn.
+/// The speed is 25 rad/s, 0.3 of the no-load speed: at 12 rad/s the drive loses the crossings of such a
+/// salient hub with any start. After the pulses the ramp moves the rotor in either direction. The rotor turns
+/// back by no more than the pulses' rotation and the angle's error; an alignment turns it back by up to half
+/// a turn.
 TEST(SensorlessPulses, StartsWithoutTurningBack) {
   for (const double way : {1.0, -1.0})
     for (const double deg : {1.0, 59.0, 95.0, 170.0, 242.0, 299.0}) {

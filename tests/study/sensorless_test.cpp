@@ -151,7 +151,7 @@ TEST(SensorlessScenario, SaysWhatItCannotDo) {
   refused(s, "control.sensorless");
 }
 
-/// A time of 30 us lowest_part has at least 7 of the filter's time constants.
+/// The least on-time, 30 us times lowest_part, has at least 7 of the filter's time constants.
 TEST(SensorlessScenario, RunsBehindAFilterThatIsFastEnough) {
   Scenario s = sensorless(Mode::speed, 300.0);
   s.control.sensorless.lowest_part = 0.2;

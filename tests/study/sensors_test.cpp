@@ -149,8 +149,8 @@ TEST(Sensors, ShuntsOffsetShowsUntilItIsCalibrated) {
 }
 
 TEST(Sensors, OneShuntHoldsTheCurrentOfPhaseSensing) {
-  // The rotor is held, and the pulses are long enough to sample: both ways give the same sample to one count
-  // of the converter.
+  // The rotor is held, and the pulses are long enough to sample: both measurements give the same sample to
+  // one count of the converter.
   Scenario ideal = held_at_5_A();
   ideal.pwm.alignment = study::Alignment::centre;
   ideal.pwm.sample = study::SampleAt::middle;
@@ -183,7 +183,7 @@ TEST(Sensors, ErrorsOfTheBusConverterAreTheDutys) {
   s.sensors.bus = study::BusSensing::adc;
   s.sensors.bus_range_V = 40.96;
   study::Measure first = measure(MetricKind::maximum, Signal::current);
-  first.to_s = 29e-6;  // of the first period, before any feedback
+  first.to_s = 29e-6;  // s, the end of the first period, before any feedback
   s.compare.clear();
   ask(s, first);
   const double right = mean_of(s);
@@ -205,8 +205,8 @@ Scenario at_100_rad_s() {
 }
 
 TEST(Sensors, SpeedFromHallEdgesHoldsTheSpeed) {
-  // The speed loop is soft: the exact placement assumes a speed without delay, but edges give it an
-  // electrical turn late.
+  // The speed loop is slow: the exact pole placement assumes a speed without delay, but edges give the speed
+  // an electrical turn late.
   Scenario s = at_100_rad_s();
   s.control.speed.settle_s = 0.1;
   s.control.speed.damping = 0.9;

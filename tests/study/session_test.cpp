@@ -214,7 +214,7 @@ TEST(Session, WhatItWasToldReplaysInEveryFirmwareAndArithmetic) {
       dead.pwm.chopping = AtChopping::complementary;
       told(session, dead);
       session.advance(3.456e-3);
-      (void)session.change(gains(1.5e-3));  // a hysteresis has none
+      (void)session.change(gains(1.5e-3));  // refused, because a hysteresis has no gains
       session.advance(4e-3);
       session.advance(s.duration_s);
       EXPECT_TRUE(session.over());
@@ -299,8 +299,8 @@ TEST(Session, WhatIsRefusedChangesNothing) {
   EXPECT_EQ(closed(session).digest, outcome(s).digest);
 }
 
-/// The window that a limit gives the current follows from the largest reference of the run: a larger one
-/// would have been another drive from the start.
+/// The window that a limit gives the current follows from the largest reference of the run. A larger
+/// reference would change the drive from the start, and is refused.
 TEST(Session, TheLimitsThatWereFeltStay) {
   Scenario s = maxon_scenario(Mode::current, 4.0);
   s.control.limits.speed_rad_s = 300.0;

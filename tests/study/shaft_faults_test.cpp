@@ -106,8 +106,8 @@ TEST(AbsoluteFault, ABadTrackOfTheElectricalTurnBrakesWithFullTorque) {
   EXPECT_NEAR(out.comparisons[1].measured, -2 * K_t, 0.01 * K_t);
 }
 
-// A resolver without its cosine reads 90 degrees at all angles from 0 to 180: at 150 this is a sector off,
-// where one phase crosses zero.
+// A resolver without its cosine reads 90 degrees at all angles from 0 to 180. At 150 the drive is therefore a
+// sector off, where the back-EMF of one driven phase crosses zero: the torque is half.
 TEST(ResolverFault, ABrokenWindingLeavesHalfTheTorque) {
   for (const auto reading : {rig::ResolverReading::sampled, rig::ResolverReading::tracking}) {
     Scenario s = held_at(150);
@@ -132,8 +132,8 @@ Scenario tracked(Scenario s, int bits) {
   return s;
 }
 
-// A count of 10 bits is 2.8 electrical degrees here; the position rests within it, and one count that may be
-// missed.
+// A count of 10 bits is 2.8 electrical degrees here. The position rests within one such count, and one more
+// count that the loop may not notice.
 TEST(ConverterChip, HoldsAPositionToItsResolution) {
   for (const int bits : {10, 12, 16}) {
     Scenario s = tracked(cascade(0.8), bits);
@@ -166,9 +166,9 @@ Scenario on_the_load(SensorShaft shaft, double torque_Nm) {
   return s;
 }
 
-// The coupling at rest is twisted by T/k: the motor's encoder holds the motor, the load's holds the load, and
-// the motor is ahead by the twist times the gear. A speed below a count in eight samples reads as zero or as
-// that: the shaft oscillates within the position loop's reaction to it.
+// The coupling at rest is twisted by T/k. The motor's encoder holds the motor, the load's encoder holds the
+// load, and the motor is ahead by the twist times the gear. A speed below a count in eight samples reads as
+// zero or as one such count: the shaft oscillates within the position loop's reaction to that reading.
 TEST(LoadSideSensor, HoldsTheLoadWhateverTwistsTheCoupling) {
   const double told_rad_s = 2 * base::pi / 0x1p20 / (8 * 30e-6),
                hunts_deg = 2 * 360 / 0x1p16 + told_rad_s / 0.3;

@@ -49,7 +49,8 @@ constexpr rig::ResolverReading readings[] = {rig::ResolverReading::sampled, rig:
 
 std::string fault_of(const Outcome& out) { return out.fault ? to_string(*out.fault) : "none"; }
 
-// The remaining sum of squares is the sine's alone: it falls below half 45 degrees before the sine's zero.
+// Without the cosine, the sum of squares is the sine's square alone. It falls below half at 45 degrees before
+// the sine's zero.
 TEST(ShaftWatch, ABrokenWindingIsNamedWhereHalfTheSquareIsLost) {
   for (const auto reading : readings) {
     Scenario s = read_by(reading, 200);
@@ -57,8 +58,8 @@ TEST(ShaftWatch, ABrokenWindingIsNamedWhereHalfTheSquareIsLost) {
     s.at.back().sensors.broken_winding = Winding::cosine;
     const Outcome out = outcome_of(s);
     EXPECT_THAT(fault_of(out), HasSubstr("cosine winding nothing"));
-    // A count of the converter moves the square's border by as much; the fault is the second of two results,
-    // each half a peak late.
+    // A count of the converter moves the instant at which the square passes its limit. The fault is the
+    // second of two results, each half a peak late.
     EXPECT_NEAR(out.simulated_s, time_at(135), 2.5 * s.pwm.period_s + 1.25 / 2048 / w);
     s.at.back().sensors.broken_winding = Winding::sine;
     const Outcome sine = outcome_of(s);
@@ -93,7 +94,7 @@ TEST(ShaftWatch, ExcitationIsNamedByThePartThatIsLeft) {
     }
 }
 
-// The speed stays the loop's, and after the gap the angle is the windings' again.
+// During the gap the speed stays the loop's. After it the angle follows the windings again.
 TEST(ShaftWatch, ADriveThatDoesNotLookGoesOn) {
   for (const auto reading : readings) {
     Scenario s = read_by(reading, 300);
@@ -140,8 +141,8 @@ int missing_of(const Outcome& out) {
   return at == std::string::npos ? 0 : std::atoi(text.c_str() + at + before.size());
 }
 
-// The index finds the counts missing since the line stuck, by the shorter way round; the next sample detects
-// it.
+// The index finds the counts missing since the line stuck, counted in the shorter direction. The next sample
+// detects the fault.
 TEST(ShaftWatch, AStuckLineIsNamedByTheNextIndex) {
   for (const EncoderLine line : {EncoderLine::A, EncoderLine::B})
     for (const double stuck_deg : {60.0, 250.0}) {
@@ -156,8 +157,8 @@ TEST(ShaftWatch, AStuckLineIsNamedByTheNextIndex) {
     }
 }
 
-// A disturbance gives an early index, by the rest of the turn; an error within a sector's counts is
-// corrected, wrongly.
+// A disturbance gives an index too early, by the rest of the turn. Where this error is within a sector's
+// counts, the drive corrects it, wrongly.
 TEST(ShaftWatch, AFalseIndexIsNamedWhereItIsMoreThanASectorOff) {
   Scenario s = turned(RotorSensing::encoder, 340);
   s.at.push_back(at_angle(250));

@@ -159,7 +159,7 @@ struct AgainstTheTrace {
 };
 
 TEST(Signals, AreWhatTheTraceShows) {
-  // Each way has some 50 roundings of the signal's size, and omits products below 2^-53.
+  // Each of the two computations has some 50 roundings of the signal's size, and omits products below 2^-53.
   constexpr double bound = 256 * 0x1p-53;
   const auto watched = [&](Board b, double to_s) {
     b.devices = {.R_on_ohm = 0.02, .V_f_V = 0.7, .r_d_ohm = 0.01};

@@ -24,7 +24,8 @@ constexpr double T = 30e-6, J = 1.35e-5, B = 7.3e-6, T_max = 0.1, settle = 20e-3
 constexpr SpeedLaw laws[] = {SpeedLaw::state_feedback, SpeedLaw::disturbance_rejection,
                              SpeedLaw::sliding_mode};
 
-/// The reference is 100 rad/s, from 0.05 s on 108; the load is 30 of the limit's 100 mN m from 0.1 s on.
+/// The reference is 100 rad/s, and 108 rad/s from 0.05 s on. From 0.1 s on a load of 30 mN m acts; the torque
+/// limit is 100 mN m.
 Scenario loaded(SpeedLaw law) {
   Scenario s = maxon_scenario(Mode::speed, 0.0);
   s.duration_s = 0.16;
@@ -82,8 +83,9 @@ void expect_settled_as_designed(const Course& c, double lag_s) {
   EXPECT_LT(settled_after(c), std::log(8 / (0.08 - ripple)) / per_s + lag_s + T);
 }
 
-/// The mean is over eight whole sectors: the commutation's ripple changes it at most like one missing sector.
-/// A number near 108 that each sample moves by (1 - p) of the error stops where that is below its last digit.
+/// The mean is over eight whole sectors: the commutation's ripple changes it by at most as much as one
+/// missing sector does. A number near 108 that moves by (1 - p) of the error in each sample stops where this
+/// movement is below its last digit.
 void expect_no_error_left(const Course& c, double digit_rad_s = 0.0) {
   const double sectors_s = 8 * (3.14159265358979 / 3 / 8 / 108);
   double sum = 0, ripple = 0;
@@ -98,8 +100,8 @@ void expect_no_error_left(const Course& c, double digit_rad_s = 0.0) {
   EXPECT_NEAR(sum / count, 0.0, ripple / 8 + digit_rad_s / (1 - std::exp(-4.6 * T / settle)));
 }
 
-/// The same law on the linear drive: torque by a lag of M samples, the shaft with its torque held between
-/// samples.
+/// The deepest dip of the speed by the same law on a linear drive: the torque follows with a lag of M
+/// samples, and the shaft's torque is held between samples.
 double deepest_in_theory(const Scenario& s, double lag_periods) {
   const auto compiled = study::compile(s);
   const control::DriveConfig<double>& d = compiled->drive;
@@ -157,8 +159,8 @@ TEST(SpeedLaw, EachRunsInEveryDriveThatHasASpeedLoop) {
     }
 }
 
-/// The output leaves the limit at once: full torque up to a speed that it cannot reach, then a lower
-/// reference.
+/// Full torque acts towards a speed that the drive cannot reach. Then the reference falls, and the output
+/// must leave the limit at once.
 TEST(SpeedLaw, NoneWindsUpAgainstItsLimit) {
   for (const SpeedLaw law : laws) {
     Scenario s = loaded(law);
@@ -170,7 +172,8 @@ TEST(SpeedLaw, NoneWindsUpAgainstItsLimit) {
     double least = 1e9;
     for (std::size_t n = 0; n < c.t.size(); ++n)
       if (c.t[n] > 0.06) least = std::fmin(least, c.w[n]);
-    // The bound is a hundredth of the 69 rad/s above 300 (0.1 N m for 50 ms), and of a full step.
+    // In 50 ms 0.1 N m accelerate the rotor to 369 rad/s. The speed may then fall below 300 by at most a
+    // hundredth of the 69 rad/s.
     EXPECT_GT(least, 300 - 0.7) << static_cast<int>(law);
     EXPECT_LT(largest_step(c, 0.19, 0.2, 300), 0.1) << static_cast<int>(law);
   }

@@ -101,7 +101,7 @@ TEST(Spread, StaysWithinItsWidthAndFillsIt) {
   EXPECT_GT(far, 2.5 * 0.2) << "1.2 % of a normal lie beyond 2.5 sigma";
 }
 
-/// The cut at sigma changes the variance of the normal visibly: 1 - 2 phi(1)/(2 Phi(1) - 1) = 1 -
+/// Cutting a normal distribution at sigma changes its variance visibly: 1 - 2 phi(1)/(2 Phi(1) - 1) = 1 -
 /// 0.4839414/0.6826895 = 0.2911251.
 TEST(Spread, ACutNormalHasItsVariance) {
   constexpr int count = 20000;

@@ -80,7 +80,8 @@ TEST(TableRun, OfSampledHarmonicsApproachesTheirs) {
 TEST(TableRun, WithoutSymmetryKeepsItsBooksInStarAndDelta) {
   for (const auto connection : {design::WindingConnection::star, design::WindingConnection::delta}) {
     Scenario s = maxon_scenario(control::Mode::duty, 0.6);
-    // Its mean over the turn is zero: the areas of the trapezia between the points are 63 + 52.5 - 20 - 42 - 35 - 2, less 16.5/360.
+    // The table's mean over the turn must be zero, so that 16.5/360 is subtracted: the areas of the trapezia
+    // between the points are 63 + 52.5 - 20 - 42 - 35 - 2.
     const double mean = 16.5 / 360;
     give_table(s, {10, 80, 150, 200, 260, 330},
                {0.5 - mean, 1.3 - mean, 0.2 - mean, -1.0 - mean, -0.4 - mean, -0.6 - mean});

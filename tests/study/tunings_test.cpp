@@ -92,7 +92,8 @@ TEST(Tunings, EveryModeIsReachedFromEveryOther) {
     for (const auto& to : goals) {
       if (from.mode == to.mode) continue;
       Scenario s = cascade(12e-3);
-      s.load.viscous_Nm_s = 2e-4;  // a held current's final speed is below the bus's
+      // with a held current, the final speed is below the highest that the bus allows
+      s.load.viscous_Nm_s = 2e-4;
       s.control.mode = static_cast<Mode>(static_cast<int>(from.mode) - 1);
       s.reference.value = from.reference;
       s.duration_s = 1.0;
@@ -107,7 +108,7 @@ TEST(Tunings, EveryModeIsReachedFromEveryOther) {
       ask(s, m);
       const Outcome out = outcome(s);
       ASSERT_EQ(out.comparisons.size(), 1u);
-      if (to.mode == AtMode::duty) continue;  // the friction decides its end
+      if (to.mode == AtMode::duty) continue;  // its final value depends on the friction
       EXPECT_NEAR(out.comparisons[0].measured, to.expected, to.tolerance)
           << int(from.mode) << " to " << int(to.mode);
     }

@@ -26,7 +26,7 @@ Outcome outcome(const Scenario& s, const Listeners& listeners = {}) {
   return out ? *out : Outcome{};
 }
 
-/// The general kernel, with straight wires.
+/// The scenario on the general kernel, with straight wires.
 Scenario straight(Scenario s) {
   At at;
   at.bridge.phases = AtOrder::abc;
@@ -35,7 +35,8 @@ Scenario straight(Scenario s) {
   return s;
 }
 
-/// Phases and probes move by one place, and the rotor by 120 degrees: the board has the same signals.
+/// The wires of phases and probes are shifted by one place, and the rotor is turned by 120 degrees: the board
+/// has the same signals.
 Scenario moved_on(Scenario s) {
   s.bridge.phases = s.sensors.hall_lines = WireOrder::bca;
   s.initial.angle_rad = (120 + 17) * base::pi / 180 / 8;
@@ -53,7 +54,7 @@ std::vector<Scenario> drives() {
   Scenario sampled = current_square(), flashed = product_scenario(Mode::speed, 100.0);
   sampled.sensors = board_sensors();
   flashed.duration_s = 30e-3;
-  Scenario by_edges = cascade(30e-3);  // the first one counts from the lines as they were at power-up
+  Scenario by_edges = cascade(30e-3);  // the first edge counts from the lines' state at power-up
   by_edges.sensors = board_sensors();
   by_edges.control.speed.settle_s = 0.1;
   by_edges.control.current.limit_A = 10;

@@ -20,7 +20,7 @@ struct CommissionedMotor {
   const char* name;
   double bus_V, period_s;
   double test_A;   ///< a large part of the motor's permissible current
-  double range_A;  ///< of its board's converter, 12 bits
+  double range_A;  ///< range of its board's current converter, 12 bits
 };
 
 /// Motors of very different kinds: flat with a trapezoid, a drone's outer runner, a wheel's hub.

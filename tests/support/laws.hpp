@@ -60,16 +60,17 @@ class LawChecker {
   };
 
   /// Limits by rounding. Sums are exact by construction. Diodes and rails may deviate by the guards' noise of
-  /// 64 eps of scale (twice, for the evaluation, and by the mode's own widening factor), and so may the
-  /// currents and the speed from one segment to the next. The energy balance holds to 1e-11, after the energy
-  /// of these steps is added to the book: a step d of a current i changes the energy by L i d, which is large
-  /// against the energy so far if i is far below the scale. A current within a segment is rounded to some eps
-  /// of that scale (8, like its sum): L i times that is no imbalance. The same applies to the bus's energy
-  /// through three legs whose currents' sum has a rounding error, if no other current flows.
+  /// 64 eps of scale: twice, for the evaluation, and by the mode's own widening factor. Currents and speed
+  /// may deviate by as much from one segment to the next. The energy balance holds to 1e-11 after the energy
+  /// of these steps is added to the book. A step d of a current i changes the energy by L i d, which is large
+  /// against the energy so far if i is far below the scale. Within a segment a current is rounded to some eps
+  /// of the scale (8, like the currents' sum), so that L i times this rounding is no imbalance. The same
+  /// applies to the bus's energy through three legs whose currents' sum has a rounding error, if no other
+  /// current flows.
   std::array<Used, 9> used(double energy_tolerance = 1e-11) const {
     const plant::EnergyBook book = audit_.energy();
     const double rounded_A = 8 * 0x1p-52 * amp_scale_;
-    const double rounded_J = 2 * inductance_ * highest_current_ * rounded_A;  // two legs carry it
+    const double rounded_J = 2 * inductance_ * highest_current_ * rounded_A;  // two legs carry the current
     return {{{"currents sum to zero", current_sum_ / rounded_A},
              {"a floating leg carries nothing", floating_current_ == 0.0 ? 0.0 : 2.0},
              {"no diode conducts backwards", reverse_diode_},
@@ -137,7 +138,7 @@ class LawChecker {
   BooksOfEither<Real> audit_;
   sim::Instant last_{};
   bool time_went_back_ = false;
-  plant::Snapshot<Real> end_{};  ///< of the segment before
+  plant::Snapshot<Real> end_{};  ///< of the preceding segment
   double current_step_ = 0, speed_step_ = 0, speed_scale_ = 0;
   double stray_W_ = 0, stray_J_ = 0;  ///< of the present segment, and of all segments
   double stepped_ = 0;                ///< magnetic energy that currents won between segments, J

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A textbook simulation of soft chopping: RK4, diodes by the sign of the current, a leg without gate and
-// current stays off. It neglects that such a leg starts to conduct when its terminal would exceed a rail
-// (model.md 2).
+// A textbook simulation of soft chopping by RK4. Diodes conduct by the sign of the current, and a leg without
+// gate and current stays off. The simulation neglects that such a leg starts to conduct when its terminal
+// would exceed a rail (model.md 2).
 #pragma once
 #include <array>
 #include <cmath>

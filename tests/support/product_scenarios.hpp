@@ -10,7 +10,7 @@
 
 namespace sixstep::testing {
 
-/// Currents of +-20.48 A in 12 bits, 10 mA a count; 40.96 V; Hall edges against 1 MHz.
+/// Currents of +-20.48 A in 12 bits, 10 mA a count; bus up to 40.96 V; Hall edges captured at 1 MHz.
 inline study::Sensors board_sensors(int bits = 12) {
   study::Sensors s;
   s.currents = rig::CurrentMeasurement::phases;
@@ -23,8 +23,8 @@ inline study::Sensors board_sensors(int bits = 12) {
   return s;
 }
 
-/// The product drive on the reference motor, with limits that normal running does not reach. Its speed loop
-/// is soft, because edges show the speed a sector late.
+/// The product drive on the reference motor, with limits that normal running does not reach. The speed loop
+/// is slow, because edges show the speed a sector late.
 inline study::Scenario product_scenario(control::Mode mode, double reference) {
   study::Scenario s = maxon_scenario(mode, reference);
   s.control.drive = study::FirmwareKind::product;

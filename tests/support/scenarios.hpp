@@ -50,7 +50,7 @@ inline study::Scenario hysteresis() {
   return s;
 }
 
-/// Speed over current, both from their settling times.
+/// A speed loop over a current loop, both designed by their settling times.
 inline study::Scenario cascade(double duration_s = 8e-3) {
   study::Scenario s = maxon_scenario(control::Mode::speed, 100.0);
   s.control.current.settle_s = 1e-3;

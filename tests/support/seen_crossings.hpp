@@ -14,7 +14,7 @@ struct SeenCrossings {
   double speed_rad_s = 0.0;
 };
 
-/// Takes `looks` samples, after the drive has reached running by itself.
+/// Runs to `from_s`, where the drive must run by its crossings, and then samples `looks` control periods.
 inline SeenCrossings seen_crossings(const SensorlessBench& bench, double from_s, int looks = 6000) {
   SeenCrossings seen;
   auto rig = bench.rig();

@@ -126,7 +126,7 @@ control::SensorlessPhase phase(const Rig& rig) {
   return rig.firmware().rotor().phase;
 }
 
-/// Runs until `what` holds, checked every `every_s`. Returns the time, or a negative one.
+/// Runs until `what` holds, checked every `every_s`, at most to `most_s`. Returns the time in s, or -1.
 template <class Rig, class What>
 double run_until_true(Rig& rig, double most_s, double every_s, What&& what) {
   sim::NoObserver none;
@@ -137,8 +137,8 @@ double run_until_true(Rig& rig, double most_s, double every_s, What&& what) {
   return -1;
 }
 
-/// Continues the run and counts the checks at which the drive was wrong by more than a sector's edge, or had
-/// lost the rotor.
+/// Continues the run and counts the checks at which the drive's sector was wrong by more than one, or the
+/// drive had lost the rotor.
 template <class Rig>
 int wrong_looks(Rig& rig, double to_s, double every_s) {
   int wrong = 0;

@@ -25,7 +25,7 @@ struct BuiltDrive : rig::SensorlessDrive<Scalar> {
 
 using BuiltRig = rig::Rig<double, BuiltDrive<double>>;
 
-/// Applies that board, and designs the drive with its known noise, dividers and diodes.
+/// Gives the bench this board, and designs the drive with the board's known noise, dividers and diodes.
 inline void build(SensorlessBench& bench) {
   const double R = bench.motor.machine.R_ohm;
   bench.devices = {.R_on_ohm = 0.1 * R, .V_f_V = 0.7, .r_d_ohm = 0.05 * R};
@@ -76,7 +76,7 @@ inline const char* word(control::Chopping chopping) {
 /// Result of a start from rest to a speed, and of 0.1 s at this speed.
 struct Started {
   bool holds = false;
-  bool at_once = false;  ///< without a second try
+  bool at_once = false;  ///< without a second start
   double after_s = 0.0;
 };
 
@@ -96,9 +96,9 @@ inline int starts_each(int usual) {
   return asked != nullptr ? std::atoi(asked) : usual;
 }
 
-/// Starts each motor against no load to half of its nominal load, from random angles, to 0.3 of the no-load
-/// speed: 99 of 100 starts must hold. The n-th drive of all is bench_of(motor, n), and turns in the direction
-/// of sign_of(n).
+/// Starts each motor with loads from none to half of its nominal load, from random angles, to 0.3 of the
+/// no-load speed: 99 of 100 starts must hold. The n-th drive of all is bench_of(motor, n), and turns in the
+/// direction of sign_of(n).
 template <class BenchOf, class SignOf>
 void expect_starts_from_any_angle(unsigned seed, BenchOf&& bench_of, SignOf&& sign_of) {
   std::mt19937 draw(seed);

@@ -33,7 +33,7 @@ class Chip:
         self.answers, up = os.pipe()
 
         def place():
-            taken = [fcntl.fcntl(end, fcntl.F_DUPFD, 10) for end in (down, up)]  # neither of them 3 or 4
+            taken = [fcntl.fcntl(end, fcntl.F_DUPFD, 10) for end in (down, up)]  # so that neither descriptor is 3 or 4
             os.dup2(taken[0], 3)
             os.dup2(taken[1], 4)
         self.process = subprocess.Popen([str(BOARD), f"--serial={self.log}", str(elf)], preexec_fn=place, close_fds=False)

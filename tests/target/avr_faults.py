@@ -11,7 +11,7 @@ from avr_image import built
 MS = CLOCK_HZ // 1000
 POTENTIOMETER = 3
 WAITS = "# waits for the potentiometer's middle"
-SOURCE, SINK, FREE = 2, 1, 0  # by Hall code 101: legs c, b, a
+SOURCE, SINK, FREE = 2, 1, 0  # legs c, b, a, by Hall code 101
 
 
 def driving(elf, setpoint=600):
@@ -71,7 +71,8 @@ BREAKS |= {"the source's transducer at its middle": (dead_source, "current-senso
            "Hall 000": (hall(0), "hall"), "Hall 111": (hall(7), "hall")}
 
 
-# Cycles: a running interrupt and the Hall interrupt; three periods, of which each second one checks the value. Else a millisecond.
+# Cycles until the gates are off. Hall: a running interrupt and the Hall interrupt. Over-current and setpoint wire: three periods, because
+# every second period checks the value. Any other fault: a millisecond.
 WITHIN = {"hall": 640, "over-current": 3 * 1600, "setpoint-wire": 3 * 1600}
 
 
@@ -144,7 +145,7 @@ def check_goes_on(elf):
 
 OPEN_STOP = ("standing.hpp", '  asm volatile("cli" ::: "memory");\n', "")
 GLITCH = 40  # cycles
-LAST = 170  # a Hall interrupt with its dead time, before the stop
+LAST = 170  # cycles of a Hall interrupt with its dead time, before the stop
 
 
 def stopped_by_control(elf, begin, edge=None):
@@ -168,7 +169,7 @@ def trouble_of_stop(elf):
     """Hall interrupts at each cycle about the control interrupt's stop, which runs with interrupts on: none lets a gate out again."""
     for begin in range(200, 320, 10):
         moves, _, said = stopped_by_control(elf, begin)
-        if said == ["hall"] and moves[-1][0] > begin + GLITCH + 60:  # the Hall interrupt would have turned it off by then
+        if said == ["hall"] and moves[-1][0] > begin + GLITCH + 60:  # the Hall interrupt would have turned the gates off by then
             off = moves[-1][0]
             break
     else:

@@ -18,9 +18,9 @@ CYCLE_PS = 62_500
 SAMPLE_LATE = 32  # a conversion that BOTTOM starts holds its input two of the converter's clocks later
 # docs/reference/model.md, 3, by H1 H2 H3: the leg that the positive pair feeds from the bus, and the one that it pulls down.
 POSITIVE = {0b100: "ab", 0b110: "ac", 0b010: "bc", 0b011: "ba", 0b001: "ca", 0b101: "cb"}
-AMPERES_PER_COUNT, D1, K_I = 20 / 1024, 2.30464, 0.37978  # of its drive_config.hpp
-# The delay from a Hall edge to the new pair: a running interrupt, the entry of the next one, the dead time. From TOP: the same, and a Hall
-# interrupt that came first.
+AMPERES_PER_COUNT, D1, K_I = 20 / 1024, 2.30464, 0.37978  # of the example's drive_config.hpp
+# Longest delays until the new pair, in cycles. From a Hall edge: a running interrupt, the entry of the Hall interrupt, and the dead time.
+# From TOP: the same parts, and a Hall interrupt that came first.
 LATE_HALL, LATE_TOP = 650, 450
 AT_ONCE = 16  # a pin changes when the running instruction or interrupt entry ends: TOP may come before it
 

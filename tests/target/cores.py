@@ -32,7 +32,7 @@ class Core:
     link: tuple = ()            # linker with its flags where it is not the compiler
     libraries: tuple = ()
     for_walk: tuple = ()        # more flags, for the walk of all blocks
-    for_part: dict = dataclasses.field(default_factory=dict, hash=False)  # flags instead of it, for a part of the walk
+    for_part: dict = dataclasses.field(default_factory=dict, hash=False)  # flags instead of for_walk, for a part of the walk
     for_entries: tuple = ()     # more flags, for the entries of one drive as flashed
     scalars: tuple = ("q15", "q14", "q31", "q30", "float")
     unit: str = ""              # unit of the counts

@@ -12,7 +12,7 @@ RECORDS = cores.OUT / "records"
 PLUGIN = cores.OUT / "count_instructions.so"
 CASES = ("duty", "current", "hysteresis", "speed", "position", "product", "field")
 SOURCES = [cores.HERE / "cost" / "main.cpp", cores.HERE / "cost" / "entries.cpp"]
-USUAL = ("hysteresis", "position", "product", "field")  # position runs the speed loop, that the current's, that the duty's
+USUAL = ("hysteresis", "position", "product", "field")  # position runs the speed loop, which runs the current loop, which sets the duty
 MORE = 1.05  # a larger ratio to the table's count is reported
 HEAD = """# SPDX-License-Identifier: Apache-2.0
 # core, drive, scalar, entry, calls, and the count per call: mean, 99.9 % quantile, worst; written by

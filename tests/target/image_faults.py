@@ -91,7 +91,7 @@ def check_sensors(folder):
 
 def check_break(folder):
     chip = running(folder)
-    chip.words[BDTR] &= ~MOE  # as the timer does by itself
+    chip.words[BDTR] &= ~MOE  # as the timer itself does at a break
     chip.interrupt(24)
     trouble = []
     if chip.words[TIM1 + 0x0C] & 1 << 7:
@@ -123,7 +123,7 @@ def at_8_MHz(chip):
 def check_clock(folder):
     trouble = []
     chip = running(folder)
-    chip.interrupt(-14)  # the clock security's
+    chip.interrupt(-14)  # the interrupt of the clock security system
     if chip.words[BDTR] & MOE or (RCC + 0x08, 1 << 23) not in chip.written:
         trouble.append("clock lost: the gates may work, or the interrupt is not acknowledged")
     if at_8_MHz(chip) != 1_000_000:

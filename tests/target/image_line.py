@@ -24,7 +24,7 @@ def check_line(folder):
         tick(chip)
     if not all_off(chip):
         trouble.append("the stop behind a number is lost")
-    for text, lost in (("90\n", 1), ("9\n8\n", 1), ("90\n", 2), ("-90\n", 1)):  # the n-th never comes; with the one before ORE is up
+    for text, lost in (("90\n", 1), ("9\n8\n", 1), ("90\n", 2), ("-90\n", 1)):  # the n-th is lost; ORE comes with the one before
         chip = running(folder)
         for n, character in enumerate(text):
             chip.line_status = 8 if n + 1 == lost else 0

@@ -17,7 +17,8 @@ from timed_chip import DEAD, PAIRS, PERIOD, SAMPLE, WAYS, Bridge, TimedChip
 
 TICK, HALL, END = 18, 28, 27
 BOARD = images.build.REPOSITORY / images.EXAMPLES["stm32f303"] / "board.hpp"
-LATE = (SAMPLE + 1, PERIOD - 40, PERIOD - 1, PERIOD, PERIOD + 100, PERIOD + 1100, PERIOD + SAMPLE - 400)  # counts from the tick's period on
+# counts from the start of the tick's period
+LATE = (SAMPLE + 1, PERIOD - 40, PERIOD - 1, PERIOD, PERIOD + 100, PERIOD + 1100, PERIOD + SAMPLE - 400)
 
 
 def measured(folder):

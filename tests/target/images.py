@@ -201,7 +201,7 @@ def check_running(chip):
         seen.append(tuple(legs))
         if sorted(mode for mode, _, _ in legs) != [4, 4, 6]:
             trouble.append(f"at code {code:03b} the legs are {legs}: one pulsed and two low are wanted")
-        for _ in range(40):  # of 30 us in a sector: 109 rad/s
+        for _ in range(40):  # 40 periods of 30 us in a sector: 109 rad/s
             tick(chip)
     if len(set(seen)) != 6:
         trouble.append(f"six Hall codes have {len(set(seen))} pairs")

@@ -21,11 +21,11 @@ SCALARS = ("q15", "float")
 CHAPTERS = build.REPOSITORY / "data" / "scenarios" / "thesis"
 USUAL = (*(CHAPTERS / f"{name}-exact-design.toml" for name in ("7.3.1-turning", "7.4-speed", "7.5-position")), build.scenario("product"),
          build.REPOSITORY / "data/scenarios/gallery/gear.toml")  # the general kernel runs the last
-# The angle is from an encoder, from an ideal sensor with field weakening, with the finite set, and without a sensor from flux or pulses.
+# The angle comes from an encoder, from an ideal sensor (field weakening and finite set), or, without a sensor, from flux or pulses.
 FIELD = (build.scenario("field"), *(build.REPOSITORY / f"data/scenarios/gallery/{name}.toml"
                                    for name in ("field-weakened", "finite-set", "field-observer", "field-injection")))
 
-# The drives start by pulses, run by comparators at the terminals, by Hall probes with a line that breaks, or by an observer.
+# These drives start by pulses, run by comparators at the terminals, run by Hall probes with a line that breaks, or run by an observer.
 SENSORLESS = [(build.REPOSITORY / f"data/scenarios/gallery/sensorless-{name}.toml", scalar, core) for name, scalar, core in
               (("pulses", "float", "cortex-m4"), ("comparators", "q15", "cortex-m0"), ("fallback", "q31", "riscv"), ("luenberger", "q15", "riscv"))]
 

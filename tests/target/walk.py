@@ -8,7 +8,7 @@ from build import Failed
 
 TABLE = cores.HERE / "digests.txt"
 SHORT, LONG = 10_000, 1_000_000
-LEAST_SIGHTS = 5  # of 10 000 steps
+LEAST_SIGHTS = 5  # in 10 000 steps
 HEAD = """# SPDX-License-Identifier: Apache-2.0
 # block, scalar, digest of its first 10 000 steps and of 1 000 000; written by tools/check_target.sh --renew
 """

@@ -11,7 +11,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-/// 2940 as "2,940", an integer as meters show millivolts.
+/// 2940 as "2,940": an integer, as meters show millivolts.
 std::string grouped(double x, char mark) {
   const std::string digits = fmt::format("{:.0f}", std::fabs(x));
   const std::string sign = x < 0.0 && digits != "0" ? "-" : "";

@@ -98,7 +98,7 @@ TEST(DecimalNumber, LongOnesAreRoundedOnce) {
     expect_as_library(text);
 }
 
-/// Integers alone give the double from its shortest and its longest decimals.
+/// Integer arithmetic alone gives the double from its shortest and its longest decimals.
 TEST(NearestDouble, ComesBackFromItsOwnDigits) {
   constexpr unsigned seed = 13;
   std::mt19937_64 random(seed);

@@ -272,7 +272,8 @@ TEST(HostileInput, CellsOfTenMillionDigitsAreReadOrToldInAFewWords) {
 }
 
 }  // namespace SIXSTEP_TEST_FILE
-/// A lossy gear drives a heavy load: the small torque at its reversal is noise, and once had a sign.
+/// A lossy gear drives a heavy load. Where the gear's torque reverses, its value is rounding noise, whose
+/// sign was once taken for the torque's.
 TEST(HostileInput, AGearsTorqueThatTurnsRoundHasOneSign) {
   const auto scenario = read_scenario_text("x.toml", R"(motor = "maxon-397172"
 duration_s = 0.010190500697991007
@@ -296,8 +297,9 @@ speed_rad_s = -372.60553875793
   EXPECT_TRUE(outcome) << to_string(outcome.problems()[0]);
 }
 
-/// Two currents are at the noise and one at twice it: the small one becomes zero, the balance reduces the
-/// large one to the noise, and it becomes zero too. It had stayed on a diode that no mode allows.
+/// Two currents are at the noise and the third is at twice the noise. A small one becomes zero, the balance
+/// reduces the large one to the noise, and then the large one becomes zero too. Formerly this current stayed
+/// in a diode that no mode allows.
 TEST(HostileInput, CurrentsThatBalancingBringsToTheNoiseAreZero) {
   const auto scenario = read_scenario_text("x.toml", R"(title = "drawn"
 motor = "maxon-488607"

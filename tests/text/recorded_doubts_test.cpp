@@ -239,11 +239,11 @@ TEST(RecordedDoubts, ARateInThePreamble) {
 }
 
 TEST(RecordedDoubts, WhatNoMotorHasIsRefused) {
-  // Microseconds have a heading in seconds: 117 Hz become 117 uHz.
+  // The column of microseconds has a heading in seconds: 117 Hz become 117 uHz.
   EXPECT_THAT(
       seen(plain("time [s],u_ab,u_bc\n", "{:.0f},{:.5f},{:.5f}\n", 1e6)).problem,
       AllOf(HasSubstr("time makes 0.001 rpm with 7 pole pairs"), HasSubstr("check the unit of time")));
-  // Millivolts have a heading in kilovolts.
+  // The columns of millivolts have a heading in kilovolts.
   EXPECT_THAT(seen(plain("time [s],u_ab [kV],u_bc [kV]\n", "{:.6f},{:.5f},{:.5f}\n", 1.0, 1e3)).problem,
               AllOf(HasSubstr("no brushless machine is built with more than 1e+06"),
                     HasSubstr("the voltage is read too great")));

@@ -251,7 +251,7 @@ TEST(Recording, TooShortStandingOrDead) {
   EXPECT_THAT(told_of_emf("time [s],u_ab [V]\n0,1\n1,2\n2.5,1\n"), StartsWith("time = 3 rows are too few"));
 }
 
-/// A person reads the message, whatever the file contains.
+/// Quotations in a message are short, whatever the file contains, because a person reads the message.
 TEST(Recording, WhatIsQuotedIsShort) {
   const std::string endless(1'000'000, 'x');
   for (const std::string& csv :

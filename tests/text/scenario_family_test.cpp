@@ -44,7 +44,7 @@ TEST_F(Family, OfSeveralBasesTheLaterIsStronger) {
   ASSERT_TRUE(s) << to_string(s.problems()[0]);
   EXPECT_EQ(s->supply.voltage_V, 20.0);
   EXPECT_EQ(s->pwm.period_s, 1e-5);
-  // Lists of tables add up, in this order; an empty one removes the bases'.
+  // Lists of tables add up, in this order; an empty list removes those of the bases.
   ASSERT_EQ(s->require.size(), 3u);
   for (std::size_t n = 0; n < 3; ++n) EXPECT_EQ(*s->require[n].max, static_cast<double>(n) + 1);
   const auto none = read("extends = [\"a.toml\", \"b.toml\"]\nrequire = []\n");

@@ -84,7 +84,7 @@ std::vector<std::string> every_key(study::Scenario s) {
   return keys.rows;
 }
 
-/// The written text contains the values read from other files.
+/// Removes the names of other files, because the written text contains the values read from them.
 void detach(study::Scenario& s) {
   const auto leave = [](study::Reference& r) {
     r.file.clear();
@@ -145,7 +145,7 @@ TEST(ScenarioText, WritesWhatOverridesTheMotorsSheet) {
   EXPECT_THAT(scenario_text(with("")), ::testing::Not(::testing::HasSubstr("motor_override")));
 }
 
-/// A line's usual event is line 1 at low: the heading alone is the event.
+/// The default event of a Hall line is line 1 at low: the heading alone is the event.
 TEST(ScenarioText, KeepsAnEventWhoseKeysAreAllTheUsualOnes) {
   const std::pair<const char*, const char*> events[] = {{"ideal", "[at.reference]"},
                                                         {"hall", "[at.sensors.hall_break]"},

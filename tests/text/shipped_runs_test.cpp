@@ -24,8 +24,8 @@ std::vector<std::string> shipped_scenarios() {
   return files;
 }
 
-/// A monitored resolver fails, or an index is false. A stuck encoder line is detected only when an index
-/// passes.
+/// True where a monitored resolver fails, or an index is false. A stuck encoder line is detected only when an
+/// index passes.
 bool loses_sensor(const study::Scenario& s) {
   return s.sensors.watched && std::any_of(s.at.begin(), s.at.end(), [](const study::At& at) {
            return at.sensors.false_index || at.sensors.excitation ||
@@ -33,7 +33,7 @@ bool loses_sensor(const study::Scenario& s) {
          });
 }
 
-/// A lean drive has an inverted line, or one that sticks at an instant: an impossible code comes.
+/// True where a lean drive has an inverted line, or one that sticks at an instant: an impossible code comes.
 bool misleads(const study::Scenario& s) {
   if (s.control.drive != study::FirmwareKind::lean) return false;
   using enum study::HallLines;

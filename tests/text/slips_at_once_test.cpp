@@ -49,7 +49,7 @@ TEST_F(SlipsAtOnce, AllSlipsAreToldAtOnce) {
               ElementsAre(HasSubstr("q_axis_inductence_mH is not a key here; did you mean")));
 }
 
-/// A scenario's own mistakes are reported together with those of its motor's file, and all of
+/// A scenario's own mistakes are reported together with those of its motor's file, and with every mistake in
 /// [motor_override].
 TEST_F(SlipsAtOnce, AScenarioTellsItsOwnSlipsBesideItsMotors) {
   write("bad.toml", "name = \"m\"\npolar = 3\nresistance_ohm = 1.03\n");

@@ -201,7 +201,8 @@ TEST(UnitTable, RmsAndPeakBelongToTheFrame) {
   EXPECT_THAT(refused("5 oz-in/Arms", "Nm/A"), ::testing::HasSubstr("no rms value belongs here"));
 }
 
-/// The reader of a file that is all unit reads each sign a few times, not as often as there are signs.
+/// In a file that is one long unit, the reader reads each character only a few times, whatever the file's
+/// length.
 TEST(UnitTable, AnEndlessUnitIsNone) {
   for (const char* part : {"µ", "A ", "10-9 ", "A/", "(", "1 oz-in", "rms", "."}) {
     std::string endless;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The terminal's table of a run has short numbers, but never shows a miss as a hit.
+// The terminal's table of a run has short numbers, but never shows a missed requirement as a met one.
 #include "text/results/verdict_table.hpp"
 
 #include <gmock/gmock.h>

@@ -224,7 +224,7 @@ TEST_F(WrongInput, SyntaxIsToldWithItsPlace) {
                   "'m'; end the line behind the value: its unit is in the key"));
 }
 
-/// The parser assumed that a name begins after a bracket.
+/// The parser once assumed that a name begins after a bracket.
 TEST_F(WrongInput, ABracketWithoutANameIsToldAsSyntax) {
   for (const char* line : {"[# no name", "[", "[[", "[=", "a = {# no name", "a = {,"})
     EXPECT_THAT(complaints(head + line), ElementsAre(HasSubstr("x.toml:3:"))) << line;
@@ -330,7 +330,7 @@ TEST_F(WrongInput, AFolderIsNoFile) {
               HasSubstr("cannot be read: Is a directory; name a file in it"));
 }
 
-/// The fuzzer found it: after a key the parser treated every letter from U+00A1 to U+0499 as unreachable.
+/// The fuzzer found this case: after a key the parser treated every letter from U+00A1 to U+0499 as unreachable.
 TEST_F(WrongInput, ALetterBesideAKeyIsASyntaxErrorOnly) {
   for (const std::string letter : {"\u00d6", "\u00e9", "\u03b1", "\u3001", "\ufdf0"}) {
     const std::vector<std::string> told = complaints(head + "title" + letter + " = 1\n");

@@ -20,7 +20,8 @@ class SlowTests(unittest.TestCase):
         listed = subprocess.run(["ctest", "--test-dir", BUILD, "-N"], check=True, text=True, stdout=subprocess.PIPE).stdout
         there = set(re.findall(r"Test +#\d+: (.+)", listed))
         self.assertGreater(len(there), 1000)
-        self.assertEqual([name for name in names if name not in there and not name.startswith("browser.")], [])  # without a browser it is left out
+        # without a browser its tests are left out
+        self.assertEqual([name for name in names if name not in there and not name.startswith("browser.")], [])
 
 
 if __name__ == "__main__":

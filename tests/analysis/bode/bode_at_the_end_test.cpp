@@ -102,7 +102,7 @@ TEST(BodeAtTheEnd, AnEventsSlewAndRampAreRefused) {
   EXPECT_EQ(problem_of(ramp), "measured");
 }
 
-/// The evaluation skips the multisine's first period, which lasts thirty periods of the crossover: a step decays in it.
+/// The evaluation skips the multisine's first period, thirty periods of the crossover frequency. The response to a step decays within it.
 TEST(BodeAtTheEnd, AStepJustBeforeTheEndChangesNothing) {
   study::Scenario rested = both_ways();
   rested.at.push_back(change(0.02, 120.0));
@@ -114,8 +114,8 @@ TEST(BodeAtTheEnd, AStepJustBeforeTheEndChangesNothing) {
   EXPECT_LT(apart(*one, *other), 0.02);
 }
 
-/// A ramp that ends with the run lags by less than a step would, so its loop equals that of a settled drive. A longer ramp is refused, and
-/// the duration that the message names works.
+/// At the end of a ramp the speed lags less than after a step, so that the measured loop equals that of a settled drive. A ramp longer than
+/// the run is refused, and the duration that the message names works.
 TEST(BodeAtTheEnd, ARampThatEndsWithTheRunIsMeasured) {
   study::Scenario rested = both_ways();
   rested.reference.value = 200;
@@ -143,8 +143,8 @@ TEST(BodeAtTheEnd, ARampThatEndsWithTheRunIsMeasured) {
   }
 }
 
-/// J = 1e-2 kg m^2 takes 20 s to 400 rad/s at 0.195 N m, 2.5 times the nominal torque. A straight ramp has the same lines in every period,
-/// so that the coherence is 1 although the curve is the ramp's.
+/// At 0.195 N m, 2.5 times the nominal torque, J = 1e-2 kg m^2 needs 20 s to reach 400 rad/s: the speed still ramps. A straight ramp has
+/// the same lines in every period, so that the coherence is 1 although the curve shows only the ramp.
 TEST(BodeAtTheEnd, ADriveOnItsWayIsRefused) {
   study::Scenario s = both_ways();
   s.load.inertia_kg_m2 = 1e-2;

@@ -38,8 +38,8 @@ double off_by(const BodeStudy& b, double least, double most, double factor = 1.0
   return worst;
 }
 
-/// The effect of a slightly longer pulse on the current at the next sample, relative to a voltage held over the period: with x = R T/L and
-/// the pulse's end at d T it decays for (1 - d) T, the held voltage on average for half a period.
+/// Effect of a slightly longer pulse on the current at the next sample, relative to the same voltage spread over the period. Here x = R
+/// T/L. The pulse ends at d T, so that its effect decays for (1 - d) T. A held voltage's effect decays for half a period on average.
 double pulse_over_held(double R_ohm, double L_H, double period_s, double duty) {
   const double x = R_ohm * period_s / L_H;
   return std::exp(-(1 - duty) * x) * x / -std::expm1(-x);
@@ -83,8 +83,8 @@ TEST(Bode, CurrentLoopOfALockedRotorIsTheDesigned) {
     }
 }
 
-/// A duty's change acts half before the next sample and half after it, with samples in the middle of centred pulses: 1/2 (1 +- x/4) and 1/2
-/// (1 -+ x/4) of a held voltage, x = R T/L = 0.054. L differs by 1.4 % in the imaginary part.
+/// Samples lie in the middle of centred pulses: half of a duty's change acts before the next sample, and half after it. The halves are 1/2
+/// (1 +- x/4) and 1/2 (1 -+ x/4) of a held voltage's effect, with x = R T/L = 0.054. L differs by 1.4 % in the imaginary part.
 TEST(Bode, ASampleInTheMiddleIsHalfAPeriodLater) {
   for (const int delay : {0, 1}) {
     study::Scenario s = steady_current(true);
@@ -97,7 +97,7 @@ TEST(Bode, ASampleInTheMiddleIsHalfAPeriodLater) {
     ASSERT_TRUE(b->designed && b->figures && b->measured.phase_rad);
     EXPECT_LT(off_by(*b, 0.3, 30), 0.02) << delay;
     EXPECT_NEAR(*b->measured.phase_rad, *b->figures->phase_rad, 5e-3);
-    // Pulses that begin with the period end before the sample below a duty of 1/2, so that the loop is not linear.
+    // Pulses that begin with the period end before the sample where the duty is below 1/2, so that the loop is not linear.
     s.pwm.alignment = study::Alignment::edge;
     const auto edge = analysis::study_bode(s);
     ASSERT_TRUE(edge) << to_string(edge.problems()[0]);
@@ -106,15 +106,16 @@ TEST(Bode, ASampleInTheMiddleIsHalfAPeriodLater) {
   }
 }
 
-/// The current selects the chopping: above its levels it is soft, with the gains of one switch, independent of pwm.chopping.
+/// The measured current selects the chopping. Above the levels of smooth chopping it is soft, with the gains of one switch, for any
+/// pwm.chopping.
 TEST(Bode, SmoothChoppingIsTheDesignedToo) {
   study::Scenario s = steady_current(true);
   s.control.smooth_chopping.on = true;
   expect_the_designed(s);
 }
 
-/// L is z^-1, or z^-2 with a delay. The pulse's place multiplies the voltage by f = pulse_over_held; the prediction corrects only slow
-/// errors. L therefore lies between the designed loop and f times it.
+/// The closed loop is z^-1, or z^-2 with a delay. The pulse's place multiplies the voltage by f = pulse_over_held, because the prediction
+/// corrects only slow errors. L therefore lies between the designed loop and f times that loop.
 TEST(Bode, ADeadbeatLoopIsADelay) {
   for (const int delay : {0, 1, 2}) {
     study::Scenario s = steady_current(true);
@@ -193,7 +194,7 @@ TEST(Bode, FieldOrientedCurrentHasTheBandwidthOfItsRule) {
   EXPECT_LT(off_by(*b, 0.1, 10), 0.02);
 }
 
-/// Its speed loop acts by the q current, without commutation.
+/// The speed loop of a field-oriented drive sets the q current and has no commutation.
 TEST(Bode, FieldOrientedSpeedLoopIsTheDesigned) {
   study::Scenario s = cascade(0.1);
   s.sheet.back_emf = design::BackEmfShape::sine;

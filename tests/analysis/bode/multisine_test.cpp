@@ -46,11 +46,11 @@ TEST(Multisine, PeaksAtItsAmplitudeAndLowerThanSinesInStep) {
     square += x * x / static_cast<double>(r.size());
   }
   EXPECT_NEAR(peak, 0.25, 1e-15);
-  // A crest factor of sqrt(2 32) = 8 belongs to 32 sines in phase; Schroeder's phases keep it below half of that.
+  // Of 32 sines in phase the crest factor is sqrt(2 32) = 8. Schroeder's phases keep it below half of that.
   EXPECT_LT(peak / std::sqrt(square), 4.0);
 }
 
-/// y[n] = a y[n-1] + b r[n-1], settled.
+/// Output of y[n] = a y[n-1] + b r[n-1] after 20 periods of the signal, when the start has decayed.
 std::vector<double> first_order(const Multisine& signal, double a, double b, std::size_t periods) {
   const std::vector<double> r = samples_of(signal);
   std::vector<double> out;
@@ -98,7 +98,7 @@ TEST(Multisine, SquaresFallBesideAndNoiseCostsCoherence) {
     EXPECT_NEAR(even.lines[k].gain.re, 3.0, 1e-12);
     EXPECT_NEAR(even.lines[k].gain.im, 0.0, 1e-12);
     const double off = std::hypot(rough.lines[k].gain.re - 3, rough.lines[k].gain.im) / 3;
-    strayed += off * off / 2;  // one of two directions
+    strayed += off * off / 2;  // mean of the real and the imaginary part
     scatter += rough.lines[k].scatter * rough.lines[k].scatter / 2;
     EXPECT_LT(rough.lines[k].coherence, 1.0);
     EXPECT_GT(rough.lines[k].coherence, 0.8);

@@ -46,8 +46,8 @@ BodeStudy study_of(const study::Scenario& s) {
   return b ? *b : BodeStudy{};
 }
 
-/// The true speed responds with T, and the loop is L H = T H/(1 - T H). With H = (k + 1)/2 sectors the measurement equals the designed
-/// loop, up to the frequency that the edges no longer resolve.
+/// The true speed responds with T, so that the loop with the sensor H is L H = T H/(1 - T H). H is a delay of (k + 1)/2 sectors for a speed
+/// from k edges. The measured loop equals the designed one up to the frequency that the edges no longer resolve.
 TEST(SensedLoop, ASpeedFromASensorIsMeasuredAsTheControllerIsTold) {
   for (const auto rotor :
        {study::RotorSensing::ideal, study::RotorSensing::hall, study::RotorSensing::encoder}) {
@@ -67,7 +67,8 @@ TEST(SensedLoop, ASpeedFromASensorIsMeasuredAsTheControllerIsTold) {
   }
 }
 
-/// One edge per sector delays by (1 + 1)/2 sectors: the phase is smaller by that delay than with the true speed.
+/// A speed from one edge interval is (1 + 1)/2 = 1 sector late. At the crossover the phase is smaller by that delay than with the true
+/// speed.
 TEST(SensedLoop, TheSensorCostsItsDelay) {
   const BodeStudy ideal = study_of(speed_by(study::RotorSensing::ideal)),
                   hall = study_of(speed_by(study::RotorSensing::hall));
@@ -88,7 +89,8 @@ double between(const std::vector<LoopPoint>& points, double w_rad_s) {
   return 0.0;
 }
 
-/// A position from Hall probes has steps, and its lowest line's phase is noise, from which no whole turns may carry over.
+/// A position from Hall probes has steps, so that the phase of its lowest line is noise. Whole turns of that phase must not carry over to
+/// the other lines.
 TEST(SensedLoop, PhasesStandWithinATurnAndTheMarginIsOfThem) {
   for (const study::Scenario& s :
        {position_by(study::RotorSensing::hall), speed_by(study::RotorSensing::hall)}) {

@@ -36,7 +36,7 @@ TEST(Contest, WindowsLieInTheirOrderAndHoldTenElectricalTurns) {
     const double turn_rad = 2 * std::numbers::pi / bench->design.motor.machine.pole_pairs;
     EXPECT_GE(c.calm_s * c.high_rad_s, 10 * turn_rad);
     EXPECT_GE(c.slow_calm_s * c.slow_rad_s, 10 * turn_rad);
-    // The bus drives the full load at the high speed, K_t w + R i < U, with a margin of two fifths in speed.
+    // The high speed is at most 0.6 of the speed at which the bus just drives the full load, K_t w + 2 R i = U.
     const design::MotorModel& m = bench->design.motor;
     EXPECT_LE(
         c.high_rad_s,
@@ -82,7 +82,7 @@ TEST(Contest, FiguresAreSumsOfGauges) {
     if (contest_figures[f].less != Gauge::least_torque) continue;
     EXPECT_EQ(values[f], gauge(Gauge::mean_torque) - gauge(Gauge::least_torque));
   }
-  // Each gauge has the position that its name indexes.
+  // The list contest_gauges has the order of the enumeration Gauge.
   EXPECT_EQ(contest_gauges[static_cast<std::size_t>(Gauge::turn_ons)].signal, study::Signal::gate_T1);
   EXPECT_EQ(contest_gauges[static_cast<std::size_t>(Gauge::brake_peak)].part, CoursePart::brake);
   EXPECT_EQ(static_cast<std::size_t>(Gauge::none), std::size(contest_gauges));

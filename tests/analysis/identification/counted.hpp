@@ -29,8 +29,9 @@ class HeldOften {
   }
   double part() const { return held_ / all_; }
 
-  /// 95 % of the intervals hold the truth, within the accuracy of the count: 93 to 97 % for a thousand cases or more, else four standard
-  /// deviations of the binomial distribution. `cases` is for answers that are not independent within a case.
+  /// Expects that 95 % of the intervals hold the truth, within the accuracy of the count: 93 to 97 % for a thousand cases or more, else
+  /// four standard deviations of the binomial distribution. `cases` is the number of independent cases, where one case gives several
+  /// intervals.
   void expect_95(double cases = 0.0) const {
     const double n = cases > 0.0 ? cases : all_;
     const double width = width_of(n);
@@ -47,7 +48,7 @@ class HeldOften {
   }
 
  private:
-  /// The binomial standard deviation; 2.9 of it are 2 % of a thousand cases, which is the narrowest promised width.
+  /// Binomial standard deviation of the counted part. For a thousand cases 2.9 of it are 2 %, the narrowest promised accuracy.
   static double width_of(double n) {
     const double deviation = std::sqrt(0.05 * 0.95 / n);
     return in_full() ? std::fmax(2.9 * deviation, 0.02) : 4.0 * deviation;

@@ -15,7 +15,7 @@ namespace sixstep::testing {
 
 struct EmfTruth {
   std::uint64_t seed = 0;
-  double frequency_Hz = 50.0;  ///< at the middle
+  double frequency_Hz = 50.0;  ///< in the middle of the record
   double change_Hz_s = 0.0;
   double periods = 5.0;
   double rows_per_period = 2000.0;

@@ -22,18 +22,18 @@ struct HallTruth {
   Turning turning = Turning::hand;
   double row_s = 1e-4;
   double offset_deg = 0.0, hysteresis_deg = 0.0, jitter_deg = 0.1, delay_s = 0.0;
-  std::array<double, 6> own_deg{};  ///< sum 0
+  std::array<double, 6> own_deg{};  ///< place of each edge; sum 0
   int pole_pairs = 1;
-  std::array<double, 8> scattered_deg{};  ///< every edge of each pole pair of the shaft
+  std::array<double, 8> scattered_deg{};  ///< further place error of every edge of each pole pair
   std::array<int, 3> probe_at_pin{0, 1, 2};
-  int inverted = 0;  ///< as bits of a code
+  int inverted = 0;  ///< a set bit inverts this line of the code
   bool spaced_60 = false;
   bool backward = false;       ///< the hand turns the shaft in the negative direction
   double turns = 20.0;         ///< electrical
   double usual_turns_s = 5.0;  ///< electrical
-  double glitches_s = 0.0;     ///< single rows with one line wrong
+  double glitches_s = 0.0;     ///< single rows per second with one line wrong
   double bursts_s = 0.0;       ///< stretches in which a loose contact makes one line wrong in every other row
-  int burst_rows = 0;          ///< longest
+  int burst_rows = 0;          ///< number of rows of the longest burst
   analysis::RecordedVoltages voltages = analysis::RecordedVoltages::none;
   int channels = 3;
   double flux_Vs = 5e-3;                ///< peak of a phase's fundamental
@@ -124,7 +124,8 @@ class Shaft {
   bool pushing_ = false;
 };
 
-/// Switching of the probes: an edge has its place, shifted by half the hysteresis and by a new jitter each time. Its signal is delayed.
+/// Switching of the probes. Each edge has its own place, shifted by half the hysteresis and by a new jitter each time. The line shows the
+/// edge after a delay.
 class Probes {
  public:
   Probes(const HallTruth& t, Draw& draw, double angle_deg) : t_(t), draw_(draw) {
@@ -180,7 +181,7 @@ class Probes {
   double up_ = 0.0, down_ = 0.0;
 };
 
-/// A contact that is loose at times: then one line is wrong in every other row, at random.
+/// A contact that is loose at times, drawn at random. While it is loose, one line is wrong in every other row.
 class LooseContact {
  public:
   explicit LooseContact(const HallTruth& t) : t_(t), draw_(t.seed ^ 0x9e3779b9u) {}

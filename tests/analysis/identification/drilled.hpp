@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A log without uncertainty.
+// A log of Hall lines that leaves no doubt about the motor.
 #pragma once
 #include "tests/analysis/identification/drawn_hall_log.hpp"
 

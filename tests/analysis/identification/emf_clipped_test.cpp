@@ -15,13 +15,13 @@ using namespace sixstep::testing;
 using ::testing::HasSubstr;
 
 constexpr double frequency_Hz = 50.0, peak_V = 3.0;
-/// V s per electrical rad.
+/// Peak of the line voltage over the speed, V s per electrical rad.
 constexpr double true_peak = peak_V / (2 * std::numbers::pi * frequency_Hz);
 
 struct Cut {
   double part = 0.0;  ///< lost part of the peak
   double step_V = 0.0, noise_V = 0.0;
-  bool both = true;  ///< both ends, else the upper one alone
+  bool both = true;  ///< true: both peaks are clipped; false: the upper one only
 };
 
 analysis::EmfRequest recorded(const Cut& cut) {
@@ -40,7 +40,8 @@ analysis::EmfRequest recorded(const Cut& cut) {
   return out;
 }
 
-/// A converter of 12 or 8 bits over 8 V, without noise and with up to half a step: a loss of three steps is refused in each case.
+/// Steps of a converter with 12 or 8 bits over 8 V, and noise of up to half a step: a peak clipped by three steps or more is always
+/// refused.
 TEST(EmfClipped, WhatLacksThreeStepsIsRefused) {
   for (const double step_V : {8.0 / 4096, 8.0 / 256})
     for (const double noise : {0.0, 0.3, 0.5})
@@ -53,7 +54,7 @@ TEST(EmfClipped, WhatLacksThreeStepsIsRefused) {
         }
 }
 
-/// A smaller loss lies within the bounds of peak and fundamental, or is refused as clipped.
+/// A peak clipped by less than three steps is refused, or the bounds of peak and fundamental reach the true value.
 TEST(EmfClipped, WhatIsLeftIsWithinTheBounds) {
   for (const double step_V : {8.0 / 256, 8.0 / 64})
     for (const double noise : {0.3, 0.5})

@@ -61,7 +61,8 @@ TEST(EmfCalibration, IntervalsHoldTheTruth) {
   // Four of 4400 recordings are refused: their round tops have no noise that would show them unclipped.
   EXPECT_LE(taken_for_clipped, 1 + count / 300);
   for (const HeldOften* held : {&frequency, &flux, &peak, &fifth, &seventh}) held->expect_95();
-  // An absent harmonic has an interval with one end; two probes have the same hum.
+  // The interval of an absent harmonic starts at 0, so that it misses on one side only. Hum is equal in both channels, so that it cancels
+  // in their phase.
   none.expect_at_least_95(count);
   lag.expect_at_least_95();
 }
@@ -83,8 +84,8 @@ TEST(Emf, ATrapezoidBetweenLinesIsFoundAgain) {
     EXPECT_NEAR(h.in_phase, t.cos_part[order], 2e-6) << h.order;
     EXPECT_NEAR(h.across, 0.0, 2e-6) << h.order;
   }
-  // A trapezoid of 120 degrees has its line peak of 2 K_e at one angle only. The lines do not show orders that are equal in all phases;
-  // without those, torque per ampere is that of the trapezoid.
+  // A trapezoid of 120 degrees has its line peak of 2 K_e at one angle only. The lines do not show the harmonics that are equal in all
+  // phases. Without these harmonics the torque per ampere is still that of the trapezoid.
   const design::ShapeFactors ideal = design::shape_factors(design::BackEmfShape::trapezoid, 120.0);
   const double K_t = found->shape_sector_mean * found->constants.phase_peak.value;
   EXPECT_NEAR(K_t / found->constants.phase_fundamental.value, ideal.sector_mean / ideal.fundamental, 2e-3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Edges in bursts, from a contact that is loose for a moment or an edge that bounces, count as one event each, in any number of rows.
+// A burst of edges counts as one event for any number of rows. Its cause is a contact that is loose for a moment, or an edge that bounces.
 #include <gmock/gmock.h>
 
 #include "sixstep/analysis/identification/hall/hall_edges.hpp"
@@ -13,7 +13,7 @@ using analysis::HallEdges;
 using analysis::HallLog;
 using Code = std::uint8_t;
 
-/// Line H1 reads wrong in every other row while the code is `at`, in the middle 24 rows of its first `turns` sectors.
+/// `log` with bursts on line H1: in the first `turns` sectors with the code `at`, every other one of the middle 24 rows has H1 wrong.
 HallLog loose(HallLog log, Code at, int turns) {
   const std::vector<Code> clean = log.codes;
   for (std::size_t n = 1; n < clean.size() && turns > 0; ++n) {
@@ -44,7 +44,7 @@ TEST(HallBursts, ImpossibleCodesOfALooseContactCountOncePerBurst) {
   expect_same_way(clean, loose(clean, 0b100, 3));
 }
 
-/// H1 changes 96 times and a good line 24 times, which must not make the good line dead.
+/// H1 changes 96 times and a good line 24 times. The good line must not be reported as dead.
 TEST(HallBursts, ABurstOnOneLineMakesNoOtherOneDead) {
   HallLog broken = drawn_log(drilled()).log;
   for (int n = 0; n < 2; ++n) broken = loose(broken, n == 0 ? 0b100 : 0b110, 5);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Voltages recorded with Hall lines that contradict one motor: a wrong divider or unit of one column gives a constant of no motor, and so
-// does a reversed probe. A motor's own few per cent do not.
+// Voltages recorded with Hall lines that contradict one motor. A wrong divider or unit of one column gives a constant of no motor, and so
+// does a reversed probe: both are refused. A difference of a few per cent is a real motor's own and is accepted.
 #include <gmock/gmock.h>
 
 #include "sixstep/analysis/identification/hall/identify.hpp"

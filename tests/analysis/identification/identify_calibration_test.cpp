@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The certainty of identify(): over drawn logs, 95 % intervals hold the truth in 93 to 97 of 100, and answers of probability p are right as
-// often.
+// The certainty of identify() over drawn logs: 95 % intervals hold the truth in 93 to 97 of 100 cases, and answers with the stated
+// probability p are right in the part p of the cases.
 #include "sixstep/analysis/identification/hall/identify.hpp"
 #include "tests/analysis/identification/counted.hpp"
 #include "tests/analysis/identification/drawn_hall_log.hpp"
@@ -95,8 +95,8 @@ TEST(IdentifyCalibration, PlacesOfLogsWithVoltages) {
   EXPECT_NEAR(right, expected, 4.0 * std::sqrt(variance) + 1.0);
 }
 
-/// Only rotation in both directions separates hysteresis from offset; few of all logs have it. Jitter at the reversals biases the sample,
-/// so that many reversals and much jitter are the hard cases.
+/// Only a log with rotation in both directions separates hysteresis from offset, and few logs have both. Jitter at the reversals biases the
+/// sample, so that many reversals and much jitter are the hard cases.
 TEST(IdentifyCalibration, HysteresisOfLogsThatTurnBothWays) {
   const int count = drawn_count(40);
   HeldOften hysteresis("hysteresis, to and fro"), offset("offset, to and fro"), delay("delay, to and fro");

@@ -47,7 +47,8 @@ TEST(HallWires, EveryOrderOfCodesHasOneWayOfProbes120DegreesApart) {
   EXPECT_TRUE(analysis::wires_behind({1, 1, 1, 1, 1, 1}).empty());
 }
 
-/// Probes 120 degrees apart, none or all inverted, never show 000 and 111; the plainest wires agree with these codes.
+/// Probes 120 degrees apart never show 000 and 111, with none or all of them inverted. The wires that identify() lists first agree with
+/// this.
 TEST(HallWires, TheCodesThatNeverOccurAndTheSpacingAgree) {
   for (const bool spaced_60 : {false, true})
     for (int order = 0; order < 6; ++order)
@@ -88,8 +89,8 @@ TEST(HallWires, StraightWiresGiveTheDrivesOwnTable) {
   EXPECT_EQ(table[0].pair, (control::Pair{control::Leg::c, control::Leg::a}));
 }
 
-/// The test has 6 orders, 8 inversions, 2 spacings, both directions, lines and terminals in turn. It finds the codes of every sector; the
-/// drawn wires are among those with these codes.
+/// The cases are 6 orders, 8 inversions, 2 spacings and both directions, with voltages between lines and at terminals in turn. identify()
+/// finds the codes of every sector, and the drawn wires are among those with these codes.
 TEST(Identify, EveryWiringIsFoundWithVoltages) {
   int n = 0;
   for (const bool spaced_60 : {false, true})
@@ -119,7 +120,7 @@ TEST(Identify, EveryWiringIsFoundWithVoltages) {
       }
 }
 
-/// Each turn has a whole number of rows: every edge lies at the same place between its rows, so that more turns do not narrow the interval.
+/// Each turn has a whole number of rows: every edge lies at the same place between two rows, so that more turns do not narrow the interval.
 TEST(Identify, RowsInStepWithTheRotorLeaveTheirDoubt) {
   int held = 0, all = 0;
   double sum = 0.0;

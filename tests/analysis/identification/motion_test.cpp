@@ -53,7 +53,7 @@ struct DenseFit {
   std::vector<double> angles;
 };
 
-/// Generalised least squares: effects and each stretch's start are unknowns, the rest is covariance.
+/// Generalised least squares. The unknowns are the effects and the start of each stretch; everything else is covariance.
 DenseFit dense_fit(const std::vector<Sighting>& all, std::size_t effects, const MotionNoise& noise) {
   const int order = noise.smoothness == Smoothness::second ? 2 : 3;
   std::vector<std::size_t> stretch(all.size());
@@ -254,7 +254,8 @@ TEST(Distributions, ALengthIsHeldAsOftenAsItSays) {
     EXPECT_LT(part, length > 1.0 ? 0.95 + width : 1.0) << length;
   }
   EXPECT_EQ(length_95(3.0, 0.0).low, 3.0);
-  // Each end leaves 2.5 %: Rice's distribution as a sum of noncentral chi-square ones with 2 degrees of freedom.
+  // Each end of the interval leaves 2.5 %, by Rice's distribution as a sum of noncentral chi-square distributions with 2 degrees of
+  // freedom.
   const auto below = [](double r, double length) {
     const double half = 0.5 * length * length, x = 0.5 * r * r;
     double sum = 0.0, weight = std::exp(-half), tail = std::exp(-x), gamma = 1.0 - tail;

@@ -69,7 +69,7 @@ Truth of_g() {
   return truth;
 }
 
-// Law: 0 <= S_i <= T_i and sum S_i <= 1, for exact indices and for those of enough rows.
+// Law: 0 <= S_i <= T_i and sum S_i <= 1. Exact indices obey it, and so do estimates from enough rows.
 TEST(Sensitivity, IndicesThatCannotBeAreOfTooFewRows) {
   const auto judged = [](const std::vector<double>& first, const std::vector<double>& total) {
     std::vector<SensitivityIndex> indices(first.size());

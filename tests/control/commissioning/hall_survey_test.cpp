@@ -38,7 +38,8 @@ struct Turn {
   std::array<double, 6> own_deg{};
   int turns = 2, first = 0;
 
-  /// Turns of the field in both directions; the field's angle is that of the d axis, plus the lag.
+  /// Survey over `turns` turns of the field forward, then as many backward. The field's angle leads the d axis by the lag in the direction
+  /// of rotation.
   HallSurveyState survey(const HallSurveyConfig& config, const Mounted& mounted) const {
     HallSurveyState state;
     int sector = first;

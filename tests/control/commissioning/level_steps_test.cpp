@@ -15,14 +15,16 @@ using namespace sixstep::control;
 
 static_assert(std::is_trivially_copyable_v<LevelStepsState>);
 
-/// A phase of R = r bus counts per count of current, and tau ticks; dead time and diodes take `lost` bus counts of the vector.
+/// A phase with the resistance r, in bus counts per count of current, and the time constant tau, in ticks. Dead time and diodes take `lost`
+/// bus counts of the voltage vector.
 struct Phase {
   double r = 0.3, tau = 12.0, lost = 20.0, bus = 3000.0;
 
   double steady(std::int32_t v) const { return (v * bus / whole_bus - lost) / r; }
 };
 
-/// Steps of the exact exponential, sampled half ticks before the voltage acts; currents in `digit`ths of a count.
+/// The reading of exact exponential steps between the levels `low` and `high`. A new voltage acts config.late_half_ticks half ticks after
+/// the sample. Currents are rounded to 1/`digit` of a count.
 LevelStepsReading stepped(const LevelStepsConfig& config, const Phase& phase, std::int32_t low,
                           std::int32_t high, double digit) {
   LevelStepsState state;

@@ -109,9 +109,9 @@ TEST(PulsePosition, SaysWhereNothingIsSeen) {
   EXPECT_FALSE(pulse_position(usual, pulsed(usual, {.offset = {150, 0, 0}}, 0, drawn)).seen);
 }
 
-/// A round rotor with noise and any offsets: signal over noise is the length of two independent normal parts. 5 % of those exceed sqrt(-2
-/// ln 0.05) = 2.45, and none of 4000 counts as a detected rotor. With 8 counts of noise s^2 is 2 64^2 and sigma^2 1408 + 45, of which
-/// rounding takes 13: exp(-3 1453/1421) = 4.65 % exceed it.
+/// A round rotor with noise and any offsets. Its ratio of signal to noise is the length of two independent normal parts. 5 % of such
+/// lengths exceed sqrt(-2 ln 0.05) = 2.45, but none of 4000 draws may count as a detected rotor. With 8 counts of noise s^2 is 2 64^2 and
+/// sigma^2 1408 + 45, of which rounding takes 13: exp(-3 1453/1421) = 4.65 % exceed the limit.
 TEST(PulsePosition, NoiseIsNotTakenForARotor) {
   int seen = 0, above = 0;
   const int draws = 4000;

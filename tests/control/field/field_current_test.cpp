@@ -52,7 +52,7 @@ TYPED_TEST(FieldBlocks, TurningMakesTheVoltagesOfTheEquations) {
       }
 }
 
-/// The output without an error is e alone.
+/// Without a current error the output is the feed-forward voltage e alone.
 TYPED_TEST(FieldBlocks, WithoutAnErrorTheAnswerIsWhatTurningMakes) {
   const FieldCurrentConfig<TypeParam> c = decoupled<TypeParam>(VoltageLimit::circle);
   FieldCurrentState<TypeParam> state;
@@ -74,11 +74,12 @@ TYPED_TEST(FieldBlocks, TheVectorStaysWithinTheCircleAndDComesFirst) {
     EXPECT_LE(std::hypot(number(v.d), number(v.q)), circle + 4 * digit<TypeParam>());
   }
   EXPECT_NEAR(number(state.voltage.d), -circle, 4 * digit<TypeParam>()) << "all of it holds the field down";
-  // The circle is vertical there: an error of a digit in d gives one of the root of two digits in q.
+  // At q = 0 the voltage circle runs parallel to the q axis: an error of one digit in d gives an error of about sqrt(2 digits) in q.
   EXPECT_NEAR(number(state.voltage.q), 0.0, 3 * std::sqrt(digit<TypeParam>()));
 }
 
-/// The other axis moves the bound, and the PI keeps the limited value: the first error of the other sign leaves the limit at once.
+/// The voltage of the other axis moves an axis's bound. The PI keeps the limited value, so that the first error of the other sign leaves
+/// the limit at once.
 TYPED_TEST(FieldBlocks, NoAxisWindsUp) {
   for (const VoltageLimit limit : {VoltageLimit::axes, VoltageLimit::circle}) {
     const FieldCurrentConfig<TypeParam> c = decoupled<TypeParam>(limit);
@@ -104,7 +105,8 @@ TYPED_TEST(FieldBlocks, EachAxisStaysWithinItsOwnLimit) {
   EXPECT_EQ(state.voltage.q, c.q.limit);
 }
 
-/// The voltage |v| above the part m of the circle lowers i_d by K times the excess, and a voltage below it raises i_d to 0 in the same way.
+/// Where |v| exceeds the part m of the voltage circle, i_d falls by K times the excess in each period. Where |v| is smaller, i_d rises to 0
+/// in the same way.
 TYPED_TEST(FieldBlocks, WeakeningFallsByWhatTheVoltageLacks) {
   const FieldWeakeningConfig<TypeParam> c{Gain<TypeParam>(0.1), Gain<TypeParam>(0.9), TypeParam(0.5)};
   FieldWeakeningState<TypeParam> state;
@@ -121,8 +123,8 @@ TYPED_TEST(FieldBlocks, WeakeningFallsByWhatTheVoltageLacks) {
   EXPECT_EQ(field_weakening_step(FieldWeakeningConfig<TypeParam>{}, state, v, TypeParam(0.9)), TypeParam{});
 }
 
-/// The voltage w p L_q i_q stays within the part m of the circle for any request. A smaller request, and any without weakening, is
-/// unchanged.
+/// The bound keeps the voltage w p L_q i_q within the part m of the voltage circle for any requested i_q. A request that needs less voltage
+/// is unchanged, and so is any request without weakening.
 TYPED_TEST(FieldBlocks, AWeakenedFieldBoundsWhatIsAskedForByTheVoltage) {
   const FieldCurrentConfig<TypeParam> c = decoupled<TypeParam>(VoltageLimit::circle);
   const FieldWeakeningConfig<TypeParam> weakens{Gain<TypeParam>(0.1), Gain<TypeParam>(0.5), TypeParam(0.5)};

@@ -42,7 +42,7 @@ FiniteSetConfig<Scalar> config_of(const Machine& m) {
   return c;
 }
 
-/// Currents in the magnet's frame by Runge-Kutta in many small steps, with constant leg states: a second way without half rotations and
+/// Currents in the magnet's frame by Runge-Kutta in many small steps, with constant leg states. This check uses neither half rotations nor
 /// exponentials.
 Dq<double> solved(const Machine& m, Dq<double> i, unsigned legs, double bus_V, double magnet, double w) {
   const int steps = 50;
@@ -140,7 +140,7 @@ TYPED_TEST(FiniteSet, ForetellsTheCurrentOfTheWindingsEquation) {
     }
 }
 
-/// None of the eight is nearer by more than the model's error.
+/// Of the eight states none gives a current nearer to the reference than the chosen state does, by more than the model's error.
 TYPED_TEST(FiniteSet, NoOtherStateComesNearer) {
   const Machine m;
   std::mt19937 random(8);
@@ -161,7 +161,7 @@ TYPED_TEST(FiniteSet, NoOtherStateComesNearer) {
   EXPECT_GT(changed, 500);
 }
 
-/// A sort gives the same state: cost by cost, from the block's own prediction of each state alone.
+/// A sort of all states by their costs, from the block's own prediction of each state alone, selects the same state.
 TYPED_TEST(FiniteSet, IsTheFirstOfAllStatesSorted) {
   const Machine m;
   std::mt19937 random(9);

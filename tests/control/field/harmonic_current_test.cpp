@@ -20,13 +20,14 @@ constexpr double pi = std::numbers::pi;
 /// Peak of the trapezoid's fundamental: 4/pi sin(h)/h with ramps from top to zero of h = pi/6.
 const double fundamental = 4 / pi * std::sin(pi / 6) / (pi / 6);
 
-/// One phase, x rad from the middle of its top.
+/// Back-EMF shape of one phase, x rad from the middle of its flat top.
 double trapezoid(double x) {
   x = std::fabs(std::remainder(x, 2 * pi));
   return std::clamp((pi / 2 - x) / (pi / 6), -1.0, 1.0);
 }
 
-/// The shape g of the three phases at the magnet's direction `magnet`: phase a's top is a quarter turn before it.
+/// The shape vector g of the three phases in the magnet's frame, for the magnet's direction `magnet` in rad. The top of phase a is a
+/// quarter turn before the magnet's axis.
 Dq<double> exact(double magnet) {
   const Abc<double> f{trapezoid(magnet + pi / 2), trapezoid(magnet + pi / 2 - 2 * pi / 3),
                       trapezoid(magnet + pi / 2 - 4 * pi / 3)};
@@ -38,7 +39,7 @@ template <class Scalar>
 HarmonicCurrentConfig<Scalar> of_the_trapezoid() {
   HarmonicCurrentConfig<Scalar> c;
   c.on = true;
-  // The vector moves along a hexagon's side between the corners: the least length is the inradius.
+  // Between the corners of a hexagon the shape vector moves along a side: its least length is the inradius.
   c.least = static_cast<Scalar>(2 / std::numbers::sqrt3 / fundamental);
   for (int n = 0; n < shape_points; ++n) {
     const Dq<double> g = exact(n * pi / 3 / shape_points);
@@ -120,7 +121,8 @@ TYPED_TEST(HarmonicCurrent, ASineGetsWhatItHadWithoutIt) {
   }
 }
 
-/// The weakening current is perpendicular to g: it makes no torque, and the sum of both stays within the limit that `least` keeps.
+/// The weakening current is perpendicular to g and makes no torque. Its sum with the torque's current stays within the limit that `least`
+/// keeps.
 TYPED_TEST(HarmonicCurrent, AWeakenedFieldChangesNoTorque) {
   const auto c = of_the_trapezoid<TypeParam>();
   const double limit = 5.0, weakening = -3.0;
@@ -138,7 +140,7 @@ TYPED_TEST(HarmonicCurrent, AWeakenedFieldChangesNoTorque) {
   EXPECT_NEAR(along, weakening, 0.01 * std::fabs(weakening)) << "the turn of g takes up to 0.6 % of it";
 }
 
-/// The angle used is the one `lead` later, in both directions of rotation.
+/// The drive uses the shape at the angle that the magnet reaches `lead` later, in both directions of rotation.
 TYPED_TEST(HarmonicCurrent, TheAngleIsThatOfTheCurrentToCome) {
   auto c = of_the_trapezoid<TypeParam>();
   c.lead_rad_s = static_cast<TypeParam>(2e-3);

@@ -38,7 +38,7 @@ AlphaBeta<double> change(double v, double at, double magnet) {
   return {i_d * std::cos(magnet) - i_q * std::sin(magnet), i_d * std::sin(magnet) + i_q * std::cos(magnet)};
 }
 
-/// The value h after some periods, with an answer `late` periods later, added to a current along a parabola.
+/// The response h after ten periods of injection. The voltage acts `late` periods later, and its current is added to a parabola over time.
 template <class Scalar>
 Dq<Scalar> pulsed(double axis, double magnet, std::uint8_t late, double parabola_A) {
   const InjectionConfig<Scalar> c{static_cast<Scalar>(V), Scalar(1)};
@@ -111,7 +111,8 @@ TYPED_TEST(MagnetEstimator, SaturationTellsNorth) {
   EXPECT_EQ(looked<TypeParam>(0.3, 8.0).phase, NorthPhase::unseen);
 }
 
-/// A magnet that turns by 0.05 rad a period, with currents along both axes; u is the voltage that (R, flux) need, by the trapezoidal rule.
+/// A magnet that turns by 0.05 rad a period, with currents along both axes. u is the voltage that these currents need with R and the flux,
+/// by the trapezoidal rule.
 template <class Scalar>
 struct Turning {
   double R = 0.5, psi = 2e-3, i_d = -1.0, i_q = 3.0, angle = 0.3;
@@ -188,7 +189,8 @@ TYPED_TEST(MagnetEstimator, BehindTheMagnetTheWayBackIsShown) {
   }
 }
 
-/// The estimate is injection below w_low, the flux above w_high, and a linear blend between them; if only one exists, it is that one.
+/// Below w_low the estimate is that of injection, above w_high that of the flux, and between them a linear blend. Where only one of the two
+/// exists, it is used alone.
 TYPED_TEST(MagnetEstimator, SpeedSaysWhichOneIsFollowed) {
   EstimatorConfig<TypeParam> c{};
   c.injection.voltage_V = TypeParam(1);

@@ -68,8 +68,8 @@ class Winding {
   Complex current() const { return i_ * std::polar(1.0, angle_); }
   double length() const { return std::abs(i_); }
   double angle() const { return angle_; }
-  /// The derivative di/dt = (v e^(-j theta) - R i - j w (L i + psi))/L over a piece shorter than both its constants: exact apart from the
-  /// rotation of v within the piece, which has its middle angle.
+  /// Integrates di/dt = (v e^(-j theta) - R i - j w (L i + psi))/L over a piece of time shorter than both time constants. The piece uses v
+  /// at its middle angle, which is the only approximation.
   void go(const Complex& stator_V, double w, double dt) {
     const double w_e = w * x_.pole_pairs;
     const Complex rate(x_.R / x_.L, w_e), v = stator_V * std::polar(1.0, -(angle_ + w_e * dt / 2));
@@ -214,8 +214,8 @@ TEST(ShortBus, ItIsHeldWhateverIsAskedForUpToTwiceTheSpeedWithoutALoad) {
   }
 }
 
-/// A start beyond the bus voltage without a current: the whole voltage is too small for the holdable current at first. The current swings
-/// about that one by at most the initial difference, and settles there.
+/// The drive starts beyond the bus voltage without a current. At first the whole voltage is too small for the current that it can hold. The
+/// current swings about this final value by at most the initial difference, and settles there.
 TEST(ShortBus, BegunBeyondTheBusItSwingsOnce) {
   const unsigned seed = 20261128;
   SCOPED_TRACE("seed " + std::to_string(seed));

@@ -46,7 +46,7 @@ TEST(BinaryAngle, ConstantsOfDegreesAreTheNearestAndWrap) {
   for (const double degrees : {0.0, 60.0, 90.0, 359.999, 360.0, 400.25, -1.0, -90.0, -719.5, 1e6})
     EXPECT_LE(
         std::fabs(std::remainder(static_cast<double>(binary_degrees(degrees)) - degrees / 360 * turn, turn)),
-        // half a unit, and the double's own digits of the turns
+        // half a unit of rounding, and the rounding of the turns in double
         0.5 + std::fabs(degrees) / 360 * 0x1p-52 * turn)
         << degrees;
   static_assert(binary_degrees(90) == quarter_turn && binary_degrees(-180) == half_turn);
@@ -68,7 +68,7 @@ TEST(BinaryAngle, PartsOfATurnAreRightToTwoUnits) {
     const std::uint32_t part = drawn.below(whole);
     const double exact = static_cast<double>(part) / whole * static_cast<double>(turn);
     const BinaryAngle angle = angle_of_parts(turn_in_parts(whole), part);
-    // 2 of the reciprocal, 1/2 of rounding and 1e-6 of the double
+    // in units: 2 from the reciprocal, 1/2 from rounding and 1e-6 from the double
     ASSERT_LE(std::fabs(std::remainder(angle - exact, static_cast<double>(turn))), 2.5 + 1e-6)
         << part << "/" << whole << " of seed " << drawn.seed;
     const std::uint8_t bits = static_cast<std::uint8_t>(1 + drawn.below(31));
@@ -118,7 +118,7 @@ TYPED_TEST(BinaryAngleIn, HalfTurnsAndWholeNumbersAreRoundedOnce) {
         << drawn.seed;
     const auto x = static_cast<std::int32_t>(drawn.word()) >> drawn.below(31);
     const double gain = 0.9 / (std::fabs(x) + 1.0) * drawn.unit();
-    // a gain and a number are rounded to 2^-15 or 2^-31 of themselves, a gain at least to 2^-30 or 2^-62
+    // numbers and gains are rounded to 2^-15 or 2^-31 of themselves, small gains to multiples of 2^-30 or 2^-62
     const double storage = is_fixed<S> ? std::ldexp(1.0, sizeof(S) == 2 ? -15 : -31) : digit<S>();
     const double least = is_fixed<S> ? std::ldexp(digit<S>(), sizeof(S) == 2 ? -30 : -62) / 2 : 0.0;
     ASSERT_NEAR(
@@ -158,9 +158,8 @@ TYPED_TEST(BinaryAngleIn, SmallAnglesInRadBecomeUnits) {
 TYPED_TEST(BinaryAngleIn, SineAndCosineAreRightToTheStatedError) {
   using S = TypeParam;
   const double cubic = std::pow(std::numbers::pi / 256, 3) / 6;
-  // The roundings are half a digit each in fixed point, of table, two products and range adjustment; formats that end below 1 make that a
-  // digit more, and rounding before a gain adds a hundredth. In floating point the table and two sums round at most a quarter of a digit
-  // each.
+  // In fixed point the table, two products and the range adjustment round by half a digit each. A format that ends below 1 adds up to one
+  // digit, and rounding before a gain a hundredth. In floating point the table and two sums round by at most a quarter of a digit each.
   const double digits = is_fixed<S> ? 2.1 + (static_cast<double>(one<S>) < 1 ? 0.6 : 0.0) : 1.0;
   const double bound = cubic + 1e-9 + digits * digit<S>();
   double worst = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random numbers for properties of decoders: a failure prints the seed, which repeats them.
+// Random numbers for properties of decoders. A failure prints the seed that repeats them.
 #pragma once
 #include <cstdint>
 

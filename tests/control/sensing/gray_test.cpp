@@ -56,7 +56,7 @@ template <class Scalar>
 class GrayIn : public ::testing::Test {};
 TYPED_TEST_SUITE(GrayIn, SensingScalars);
 
-/// The rotor has a constant speed: turns and angle are right below the code's step, the speed to that step over the span.
+/// At constant speed, turns and angle are right to half a step of the code, and the speed is right to one step over the span.
 TYPED_TEST(GrayIn, FollowsManyTurns) {
   using S = TypeParam;
   const double base = is_fixed<S> ? 2500.0 : 1.0;
@@ -74,7 +74,8 @@ TYPED_TEST(GrayIn, FollowsManyTurns) {
           if (n < span) {
             ASSERT_EQ(static_cast<double>(r.speed), 0.0);
           } else {
-            // The error is one step of the code, and the format's: gain and angle to 2^-15, 2^-31 or a digit of themselves.
+            // The error is one step of the code, and the format's rounding: gain and angle are rounded to 2^-15, 2^-31 or a digit of
+            // themselves.
             const double own = is_fixed<S> ? std::ldexp(1.0, sizeof(S) == 2 ? -14 : -30) : 2 * digit<S>();
             const double bound = 2 * std::numbers::pi * step / (span * period) * (1 + own) +
                                  std::fabs(w) * own + (is_fixed<S> ? digit<S>() * base / 2 : 0.0);
@@ -111,7 +112,8 @@ TEST(Gray, ABrokenTrackIsNamed) {
         else
           ++(r.track == no_track ? untold : named);
         ASSERT_TRUE(r.track == track || r.track == no_track) << int{track} << " of seed " << seed;
-        // The mirrored code differs by one count for track 0, by three at most for track 1: within the tolerance.
+        // A broken track gives the code of a mirrored position. This differs by one count for track 0 and by at most three for track 1,
+        // which is within the tolerance.
         ASSERT_TRUE(r.jump || track < 2) << int{track} << " of seed " << seed;
         ASSERT_TRUE(r.track == no_track || track > 2) << "its mirror, of 7 counts, is within four tolerances";
       }
@@ -134,7 +136,7 @@ TEST(Gray, AWrongCodeIsBridged) {
     if (wrong) {
       EXPECT_EQ(r.track, 10) << n;
     }
-    // predicted from two codes: each within a step, the later one counts twice
+    // the prediction extrapolates two codes, each right to a step, and the later one counts twice
     EXPECT_NEAR(r.position.turns + r.position.angle / 4294967296.0, turns - step / 2,
                 step * (wrong ? 1.5 : 0.5) + 1e-9)
         << n;
@@ -142,7 +144,7 @@ TEST(Gray, AWrongCodeIsBridged) {
   EXPECT_EQ(state.faults, 40u);
 }
 
-/// A permanent jump is accepted after `patience` codes; the turn changes by the shorter way.
+/// A permanent jump is accepted after `patience` codes. The turn count changes as if the rotor had taken the shorter direction.
 TEST(Gray, AJumpThatStaysIsBelieved) {
   GrayState state;
   const auto c = config<double>(12, 1);

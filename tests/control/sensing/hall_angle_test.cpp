@@ -101,7 +101,7 @@ TYPED_TEST(HallAngleIn, IsRightToTicksAtConstantSpeed) {
   EXPECT_GT(worst, 0.5);
 }
 
-/// Misplaced probes taken for evenly placed give wrong angles and a speed with ripple.
+/// Misplaced probes that the decoder assumes to be evenly placed give wrong angles and a speed with ripple.
 TEST(HallAngle, WhatIsNotCalibratedIsWrong) {
   const double w = 60, deg_per_s = w * pole_pairs * 180 / std::numbers::pi;
   HallAngleConfig<double> plain = config<double>(misplaced, 1);
@@ -113,7 +113,7 @@ TEST(HallAngle, WhatIsNotCalibratedIsWrong) {
     worst_deg = std::max(worst_deg, std::fabs(off_deg(found.angle, truth)));
     worst_speed = std::max(worst_speed, std::fabs(found.speed / w - 1));
   });
-  // The sum is offset 5, hysteresis 2, own 3 and delay 1.65 behind edge 1, by the law.
+  // By the law the angle just behind edge 1 is wrong by the offset 5, the hysteresis 2, the probe's own 3 and the delay's 1.65 degrees.
   EXPECT_GT(worst_deg, 5 + 2 + 3 + 120e-6 * deg_per_s - 0.1);
   EXPECT_NEAR(worst_speed, 60 / 55.0 - 1, 0.001) << "the narrowest sector, of 55 degrees";
 }
@@ -151,7 +151,7 @@ TEST(HallAngle, IsItsDefinitionForAnyTimes) {
         const double to_next = std::fabs(misplaced.at(m + direction) - misplaced.at(m));
         const double way = std::min(width * since / ticks, to_next + margin) + width * 120 / ticks;
         const double expected = switches(misplaced, m, direction) + direction * way;
-        // The ticks of a turn are whole: their error is half a tick, over the angle.
+        // The decoder rounds the ticks of a turn to a whole number: an error of half a tick a turn, here over the angle `way`.
         const double turn_ticks = ticks * 360 / width;
         ASSERT_LE(std::fabs(off_deg(found.angle, expected)), 0.5 / (turn_ticks - 0.5) * way + 1e-6)
             << "seed " << seed;

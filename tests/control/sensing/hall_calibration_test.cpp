@@ -21,7 +21,8 @@ static_assert(std::is_trivially_copyable_v<HallCalibrationState>);
 const HallProbes planted{{0, 3, -2, 1, -4, 2}, 7, 2, 100e-6};
 constexpr double hz = 50;  // electrical frequency
 
-/// A run that passes each angle at `when` (s as a function of degrees); times jitter by `jitter_deg` of the mean speed.
+/// A run that passes each angle at the time `when`, s as a function of degrees. The times jitter by the time that `jitter_deg` takes at the
+/// mean speed.
 HallCalibrationState run(const HallCalibrationConfig& config, const HallProbes& probes, int direction,
                          int first, const std::function<double(double)>& when, double jitter_deg,
                          Drawn& drawn) {
@@ -38,8 +39,8 @@ HallCalibrationState run(const HallCalibrationConfig& config, const HallProbes& 
 }
 double steadily(double degrees) { return degrees / 360 / hz; }
 
-/// The planted places are found to 0.1 degrees; the error is that of the mean of n jittered times, minus the common part of all six: sigma
-/// sqrt(5/6/n).
+/// The planted places are found to 0.1 degrees. The error is that of the mean of n jittered times less the common part of all six edges:
+/// sigma sqrt(5/6/n).
 TEST(HallCalibration, FindsWhatWasPlanted) {
   const HallCalibrationConfig config{.turns = 256, .steady = 32};
   const double sigma = 0.2;
@@ -53,7 +54,8 @@ TEST(HallCalibration, FindsWhatWasPlanted) {
     ASSERT_EQ(state.result, HallCalibration::done) << "seed " << seed;
     const HallDeviations found = hall_deviations(state);
     for (int n = 0; n < 6; ++n) {
-      const double off = degrees_of(found.at[n]) - planted.own_deg[n];  // which sum to 0
+      // the own_deg sum to 0, as the deviations do
+      const double off = degrees_of(found.at[n]) - planted.own_deg[n];
       EXPECT_LT(std::fabs(off), 0.1) << n << " of seed " << seed;
       worst = std::max(worst, std::fabs(off));
       squares += off * off;
@@ -66,7 +68,7 @@ TEST(HallCalibration, FindsWhatWasPlanted) {
   EXPECT_NEAR(rms, law, 0.23 * law);
 }
 
-/// The error without jitter is the timer's tick.
+/// Without jitter the error is one tick of the timer.
 TEST(HallCalibration, IsRightToATick) {
   const double tick_deg = 360 * hz / timer_Hz;
   Drawn drawn{1};
@@ -80,7 +82,8 @@ TEST(HallCalibration, IsRightToATick) {
       }
 }
 
-/// The edges' times do not show a common offset, which is given separately; two directions separate it from the hysteresis.
+/// The edges' times do not show the offset that all edges have in common, which is therefore given. Runs in two directions separate it from
+/// the hysteresis.
 TEST(HallCalibration, OffsetAndHysteresisPartWhereBothDirectionsAreGiven) {
   Drawn drawn{2};
   const HallCalibrationConfig config;
@@ -117,7 +120,7 @@ TEST(HallCalibration, HysteresesThatDifferCancelInTheMeanOfBothDirections) {
                 1.5 * 360 * hz / timer_Hz);
 }
 
-/// A drift of the turn's time by the part d over n turns shifts angles by d/(8 n) turns at most, and reaches that.
+/// The turn's time drifts by the part d over n turns. This shifts angles by at most d/(8 n) turns, and the shift reaches this bound.
 TEST(HallCalibration, DriftBendsByItsLaw) {
   Drawn drawn{4};
   const HallProbes even;
@@ -172,7 +175,8 @@ TEST(HallCalibration, LongRunsDoNotOverflow) {
     hall_calibrate(config, state, static_cast<std::uint8_t>(n % 6), 1, t + (n % 6 == 3 ? sector / 10 : 0));
   ASSERT_EQ(state.result, HallCalibration::done);
   const HallDeviations found = hall_deviations(state);
-  // One edge is 6 degrees off, and the mean of six is subtracted: 5 and -1; sums keep 32 bits of a turn, rounded down.
+  // One edge is 6 degrees off. The mean of the six, 1 degree, is subtracted, which gives 5 and -1. Sums keep 32 bits of a turn, rounded
+  // down.
   for (int n = 0; n < 6; ++n) EXPECT_NEAR(degrees_of(found.at[n]), n == 3 ? 5 : -1, 4 * 360 / 4294967296.0);
 }
 

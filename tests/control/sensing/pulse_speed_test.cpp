@@ -27,7 +27,7 @@ PulseSpeedConfig<S> config(double base = 1.0) {
   return {static_cast<TickRatio<S>>(timer_Hz / counts_per_rad / base), 200000};
 }
 
-/// An encoder whose place (counts) is a monotonic function of time between two control ticks: all its edges, each at its timer count.
+/// An encoder whose position, in counts, is a monotonic function of time between two control ticks. Each edge gets its own timer count.
 class Encoder {
  public:
   explicit Encoder(std::function<double(double)> place) : place_(std::move(place)) {
@@ -65,7 +65,8 @@ template <class Scalar>
 class PulseSpeed : public ::testing::Test {};
 TYPED_TEST_SUITE(PulseSpeed, SensingScalars);
 
-/// The speed is right to a tick in T, from 1 to 10000 rad/s in both directions; T is at least the period minus a count, or a count.
+/// From 1 to 10000 rad/s, in both directions, the speed is right to one timer tick in T. T is at least the period minus the time of a
+/// count, and at least that time.
 TYPED_TEST(PulseSpeed, IsRightToATickOfTheTimer) {
   using S = TypeParam;
   const double base = is_fixed<S> ? 10400.0 : 1.0, period = 1e-3;
@@ -82,8 +83,8 @@ TYPED_TEST(PulseSpeed, IsRightToATickOfTheTimer) {
         const double found = static_cast<double>(pulse_speed(c, state, Encoder::ticks(t))) * base;
         if (t < 2 * (period + count_s)) continue;  // two ticks with an edge
         const double T_ticks = timer_Hz * std::max(count_s, period - count_s);
-        // Times are truncated to ticks: T to one, and `since`, which bounds the speed, too. The ratio of a format has half a digit over the
-        // product of M = 1.
+        // Times are truncated to ticks: T by one, and so is `since`, which bounds the speed. The format's ratio is rounded by half a digit
+        // over the product for M = 1.
         const double ratio = is_fixed<S> ? 0.5 * digit<S>() * base / (timer_Hz / counts_per_rad) : digit<S>();
         const double bound = w * (1 / (T_ticks - 1) + ratio) + digit<S>() * (is_fixed<S> ? base : w);
         ASSERT_NEAR(found, sign * w, bound) << w << " at " << n;
@@ -118,7 +119,7 @@ TEST(PulseSpeedLaw, AStandstillIsBoundedAndTimesOut) {
   }
 }
 
-/// The edges are at 1000 and 1500, truncated to ticks: 2000 ticks after the last one the true interval may be 1999 or more.
+/// The edges are at 1000 and 1500, truncated to ticks. 2000 ticks after the last edge, the true interval may be as short as 1999.
 TEST(PulseSpeedLaw, TheBoundGrantsATick) {
   const PulseSpeedConfig<double> c{1e6, 100000};
   PulseSpeedState state;

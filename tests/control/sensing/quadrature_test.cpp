@@ -90,7 +90,7 @@ TEST(Quadrature, AnIndexReportsAndMendsMissedCounts) {
       turn();
       ASSERT_TRUE(state.referenced);
       const std::int32_t turns = state.turns;
-      quadrature_moved(config, state, -lost);  // the same number too few
+      quadrature_moved(config, state, -lost);  // then as many counts too few
       while (state.corrections == 0 && place != 30 + 128 * direction) step(config, state, place += direction);
       EXPECT_EQ(state.direction, direction) << "of the rotor, not of the mending";
       while (place != 30 + 128 * direction) step(config, state, place += direction);
@@ -104,7 +104,7 @@ TEST(Quadrature, AnIndexReportsAndMendsMissedCounts) {
     }
 }
 
-/// An index whose edges are less than two counts early or late is still evaluated at its place.
+/// An index whose edges are less than two counts early or late is still evaluated at the right count.
 TEST(Quadrature, AnIndexMayBeLessThanTwoCountsOff) {
   const QuadratureConfig config = quadrature_of_lines(16);
   for (const int direction : {1, -1})

@@ -22,7 +22,7 @@ static_assert(std::is_trivially_copyable_v<ResolverState>);
 constexpr double pi = std::numbers::pi, turn = 4294967296.0;
 constexpr double amplitude = 0.6;  // relative to the chip's signals
 
-/// Windings and converter by their definition (model.md 10): k V_R in counts, a, q, the converter's offsets.
+/// Windings and converter by their definition (model.md 10): amplitude k V_R, offsets and noise in counts, imbalance a, skew q in rad.
 struct Windings {
   double counts = 1800, a = 0, q = 0, cos_offset = 2048, sin_offset = 2048, noise = 0;
   int most = 4095;
@@ -49,7 +49,7 @@ ResolverConfig<S> config(const Windings& w, const SecondOrder& loop) {
           .lost_after = 3};
 }
 
-/// Error in rad of the angle found at rest at phi; the loop starts at `from`.
+/// Error, in rad, of the angle found after `samples` results of a rotor at rest at `phi`.
 template <class S>
 double error_at(double phi, const Windings& w, const ResolverConfig<S>& c, Drawn& drawn, int samples = 400) {
   ResolverState state;
@@ -61,8 +61,8 @@ double error_at(double phi, const Windings& w, const ResolverConfig<S>& c, Drawn
   return std::remainder(r.angle / turn * 2 * pi - phi, 2 * pi);
 }
 
-/// The vector's rotation by rounding, in rad: half a count in each winding's halved difference (two half counts), and four digits of the
-/// format in each signal and in the two products of the detector, table included.
+/// Bound of the angle's error at rest, rad. Half a count is rounded in each winding's halved difference (two half counts). Four digits of
+/// the format are rounded in each signal and in the two products of the detector, with the sine table.
 template <class S>
 double static_bound(const Windings& w) {
   const double digits = is_fixed<S> ? 8 * digit<S>() / amplitude : 8 * digit<S>();
@@ -90,12 +90,13 @@ TYPED_TEST(Resolver, TheAngleIsRightAllAroundAndOnlyCorrected) {
   }
   std::printf("largest error %.3g rad, bound %.3g\n", worst, static_bound<S>(w));
   EXPECT_LE(worst, static_bound<S>(w));
-  // The law is the largest a/2 sin 2 phi + q (1 + cos 2 phi)/2: q/2 + sqrt((a/2)^2 + (q/2)^2), to a tenth for the second order.
+  // By the law the error is the largest a/2 sin 2 phi + q (1 + cos 2 phi)/2, which is q/2 + sqrt((a/2)^2 + (q/2)^2). Terms of second order
+  // change it by less than a tenth.
   const double law = w.q / 2 + std::hypot(w.a / 2, w.q / 2);
   EXPECT_NEAR(worst_plain, law, 0.1 * law);
 }
 
-/// The offset that remains in a demodulated signal is constant too.
+/// A constant offset that remains in a demodulated signal is subtracted too.
 TYPED_TEST(Resolver, ConstantOffsetsOfTheSignalsAreTakenAway) {
   using S = TypeParam;
   const SecondOrder loop(0.15, 0.8);
@@ -127,12 +128,12 @@ TYPED_TEST(Resolver, LocksFromAnywhere) {
       ResolverConfig<S> c = config<S>(w, loop);
       c.normalise = normalise;
       const double phi = 2 * pi * k / 64;
-      // The loop's natural frequency falls with the amplitude if that is not normalised.
+      // Without normalisation the loop's natural frequency falls with the amplitude.
       EXPECT_LE(std::fabs(error_at(phi, w, c, drawn, 1000)), static_bound<S>(w)) << k << ' ' << normalise;
     }
 }
 
-/// The angle of a turning rotor is that of the middle between both samples, a quarter of a period ago.
+/// The found angle of a turning rotor is the angle in the middle between two samples, a quarter of an excitation period earlier.
 TYPED_TEST(Resolver, AtSpeedTheAngleIsThatOfTheMiddle) {
   using S = TypeParam;
   const SecondOrder loop(0.15, 0.8);
@@ -146,7 +147,7 @@ TYPED_TEST(Resolver, AtSpeedTheAngleIsThatOfTheMiddle) {
       const auto r = resolver_step(c, state, w.at(phi, n % 2 == 0, drawn), n % 2 == 0);
       if (n < 300) continue;
       const double off = std::remainder(r.angle / turn * 2 * pi - (phi - per_sample / 2), 2 * pi);
-      // The loop predicts: earlier rounding errors, weighted by its step response, add at most twice.
+      // The loop predicts from earlier results. Their rounding errors, weighted by the loop's step response, at most double the error.
       const double tail = 1 + loop.K_p() + loop.K_i();
       ASSERT_LE(std::fabs(off), 2 * tail * static_bound<S>(w)) << per_sample;
       ASSERT_NEAR(r.speed / turn * 2 * pi, per_sample, 4 * (loop.K_p() + loop.K_i()) * static_bound<S>(w));
@@ -180,7 +181,7 @@ TYPED_TEST(Resolver, FollowsAsTheLinearLoop) {
   }
 }
 
-/// The angle lags at constant acceleration by alpha/K_a.
+/// At the constant acceleration alpha the angle lags by alpha/K_a.
 TEST(ResolverLaw, ConstantAccelerationLeavesAlphaByKa) {
   const SecondOrder loop(0.05, 0.7);
   Windings w{.counts = 28000, .cos_offset = 32768, .sin_offset = 32768, .most = 65535};
@@ -213,7 +214,7 @@ TEST(ResolverLaw, TheAmplitudeTakenForOneMakesTheLoopSlower) {
     resolver_step(c, state, w.at(0.02, true, drawn), true);
     first[normalise] = state.loop.error;
   }
-  // The tolerance is half a count in each of both.
+  // The tolerance is half a count in each of the two.
   EXPECT_NEAR(first[0] / first[1], amplitude, 2 * std::sqrt(0.5) / w.counts / 0.02);
 }
 
@@ -239,7 +240,7 @@ TYPED_TEST(Resolver, LossOfSignalIsTold) {
   EXPECT_EQ(lost_after({4095, 4095}, {0, 0}), 4) << "both at their ends";
 }
 
-/// Two results outside and one inside, repeatedly, are never three in a row.
+/// Two results outside the limits and one inside, repeatedly, are never three in a row outside.
 TEST(ResolverLaw, SingleDisturbancesAreNoLoss) {
   const SecondOrder loop(0.1, 0.8);
   const Windings w;
@@ -259,7 +260,7 @@ TEST(ResolverLaw, SingleDisturbancesAreNoLoss) {
   EXPECT_GT(outside, 150);
 }
 
-/// The angle stays without signals.
+/// Without signals the angle stays.
 TEST(ResolverLaw, ADeadResolverDoesNotTurn) {
   const SecondOrder loop(0.1, 0.8);
   const ResolverConfig<Q15> c = config<Q15>(Windings{}, loop);

@@ -22,8 +22,8 @@ class SecondOrder {
   /// The error n ticks after a step of 1: e[0] = 1, e[1] = 1 - K_p - K_i, e[n] = Re(b z^n).
   double error(int n) const { return (start() * std::pow(z_, n)).real(); }
 
-  /// The largest effect of rounding on the error, in units: each tick adds half a unit in the speed's part and half in the error's, each
-  /// decaying as a step does; and 2^-17 in the speed, which accumulates until the loop corrects it.
+  /// Largest effect of rounding on the error, in units of the angle. Each tick adds half a unit to the speed and half a unit to the error,
+  /// and each part decays as a step does. The speed's own rounding of 2^-17 accumulates until the loop corrects it.
   double rounding() const {
     double sum = 0, speed_sum = 0, moved = 0;
     std::complex<double> z = 1;

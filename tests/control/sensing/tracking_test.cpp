@@ -74,7 +74,7 @@ TEST(Tracking, ForwardAndBackwardAreMirrored) {
   }
 }
 
-/// The speed stays within half a turn per tick for any duration of an error.
+/// The speed stays within half a turn per tick, however long an error lasts.
 TEST(Tracking, TheSpeedIsBounded) {
   const SecondOrder law(0.5, 0.7);
   TrackingState state;

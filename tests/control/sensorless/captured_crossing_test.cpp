@@ -13,7 +13,7 @@ using namespace sixstep::testing;
 constexpr ZeroCrossingConfig crossing{NeutralSeen::on_time, 96, 20, 20, 0};
 constexpr std::uint32_t tick = 480, sector_ticks = 16 * tick;
 
-/// One sector, sampled each tick; the line of the floating leg has an edge at each time in `edges`.
+/// One sector, whose terminals look() samples at given ticks. Tests give the floating leg's edges by capture_lines().
 struct Sector {
   std::uint8_t sector = 0;
   double emf = 400.0;
@@ -47,12 +47,12 @@ TEST(CapturedCrossing, IsWhereTheEdgeWasWhicheverWayTheBackEmfGoes) {
   }
 }
 
-/// Edges during freewheeling are ignored. The edge after it counts, even if no sample showed the line before that edge.
+/// Edges during freewheeling are ignored. The first edge after the freewheel counts, even if no sample showed the line before that edge.
 TEST(CapturedCrossing, TheFreewheelsEdgesAreNotTheBackEmfs) {
   Sector s;
   capture_lines(s.captured, s.before(), 0xfffff000u);
   s.begin(0);
-  capture_lines(s.captured, s.after(), 30);  // the diode holds it low
+  capture_lines(s.captured, s.after(), 30);  // the diode holds the terminal low
   const auto freewheel = [&](std::uint32_t t) {
     TerminalSample sample = driven_sample(0, 60.0 * t / sector_ticks, 400, t);
     sample.u[floating_leg(0)] = 0;
@@ -69,7 +69,7 @@ TEST(CapturedCrossing, TheFreewheelsEdgesAreNotTheBackEmfs) {
   EXPECT_EQ(seen.at, 8 * tick + 50);
 }
 
-/// A line that has not returned gives no edge: the samples give the crossing, delayed like an edge.
+/// A line that has kept its level since the freewheel gives no edge. The samples then give the crossing, delayed like an edge.
 TEST(CapturedCrossing, WhileTheLineHasNotComeBackTheSamplesTell) {
   Sector s;
   s.config.lag_ticks = 200;
@@ -98,8 +98,8 @@ TEST(CapturedCrossing, ASampleIsToldAsLateAsAnEdge) {
   EXPECT_EQ(at(200), at(0) + 200);
 }
 
-/// The comparators' reference is half the bus: in the pulse an edge is the crossing. In the pause the edge is the pulse's own, and the
-/// pause's middle replaces it.
+/// The comparators' reference is half the bus. An edge in the pulse is the crossing of the back-EMF. An edge in the pause is made by the
+/// pulse itself, so that the middle of the pause replaces it.
 TEST(CapturedCrossing, AgainstHalfTheBusThePausesMiddleStandsForItsEdges) {
   const auto at = [](std::uint32_t edge, std::uint32_t on_ticks) {
     Sector s;
@@ -122,7 +122,8 @@ TEST(CapturedCrossing, AgainstHalfTheBusThePausesMiddleStandsForItsEdges) {
   EXPECT_EQ(at(now - 300, tick), now - 300) << "there is no pause";
 }
 
-/// Edges before the earliest possible crossing do not count at once; then the crossing is at that earliest time.
+/// An edge before the earliest possible crossing does not count at once. It counts from that earliest time on, and the crossing then has
+/// that time.
 TEST(CapturedCrossing, AnEdgeTooEarlyCountsWhenItMay) {
   Sector s;
   capture_lines(s.captured, s.before(), 0xfffff000u);

@@ -70,7 +70,8 @@ TEST(Luenberger, ItsErrorFollowsTheTwoPolesThatWerePlaced) {
   EXPECT_LT(std::fabs(error.back()), 1e-12);
 }
 
-/// A leg without current and with a ramp as back-EMF: its mean is the value at the period's middle.
+/// Lag, in periods, of an observer of a leg without current whose back-EMF is a ramp. The ramp's mean over a period is its value at the
+/// period's middle.
 template <class Step>
 double lag_of_a_ramp(Step&& step) {
   const double per_period = 0.1;
@@ -120,11 +121,11 @@ TEST(SlidingMode, OutsideTheLayerItIsDrivenInByTheWholeGain) {
     EXPECT_LT(state.error_A, before) << "it only shrinks: k is above the back-EMF";
     before = state.error_A;
   }
-  // Each period removes b (k - g), and the decay some more.
+  // Each period reduces the error by b (k - g), and the winding's decay reduces it further.
   EXPECT_LE(periods, 40 * k / (k - g) + 2);
 }
 
-/// Either estimate in the given scalar, with current and voltage in SI as rounded inputs.
+/// The observers in the given scalar. Their inputs are a current and a voltage in SI, rounded to that scalar.
 template <class Scalar>
 class Observers : public ::testing::Test {};
 using ObserverScalars = ::testing::Types<float, Q15, Q14, Q31, Q30>;
@@ -181,8 +182,8 @@ void expect_level_at_thirty_degrees(double ticks, double growth) {
     S part{};
     if (!flux_level_comes(config, state, part)) continue;
     const double at = t + 1 + static_cast<double>(part), error_deg = 60 * (x_of(at) - 0.5);
-    // The peak of psi lies between two samples: the error is at most 1/8 of the slope of e, relative to a fall of (ticks/2)^2/2 of it. The
-    // interpolation within the last period and the rounding by half a digit per period add to it.
+    // The peak of psi lies between two samples. The error is at most 1/8 of the slope of e, relative to a fall of psi of (ticks/2)^2/2 of
+    // this slope. The interpolation within the last period and the rounding by half a digit per period add to it.
     const double missed = 1.0 / (ticks * ticks) + 0.5 / (ticks * ticks);
     const double rounded = is_fixed<S> ? ticks * digit<S>() / 0.25 : 1e-5;
     EXPECT_LT(std::fabs(error_deg), 30 * (missed + rounded) + 0.02) << ticks << " periods, growth " << growth;
@@ -300,7 +301,7 @@ TEST(Observer, GoesOverFromLegToLeg) {
         command.pair = way > 0 ? positive_pair(sector) : swapped(positive_pair(sector));
         const TerminalSample s = driven_sample(sector, deg, way * E, static_cast<std::uint32_t>(n));
         const Observed o = observer_step(config, state, s, command, {.bus_V = 24.0}, sector);
-        // The poles' response to the previous sector has decayed: y equals the true one, delayed by the lag.
+        // The poles' response to the previous sector has decayed: y equals the true y, delayed by the lag.
         const double since = std::fmod(n + 0.25, ticks);
         if (n < ticks || since < 8) continue;
         const double y = 2 * E * (1 - 2 * (since - lag) / ticks);

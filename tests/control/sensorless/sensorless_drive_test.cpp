@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole drive in every arithmetic, with a rotor of prescribed motion: the answers to the same counts are equal, apart from currents and
-// speeds in their own digits.
+// The whole drive in every arithmetic, with a rotor of prescribed motion. The answers to the same counts are equal, except that currents
+// and speeds are rounded to each format's digits.
 #include "sixstep/control/sensorless/sensorless_drive.hpp"
 
 #include <gtest/gtest.h>
@@ -116,7 +116,7 @@ TEST(SensorlessDrive, TheDefaultNeverDrives) {
   }
 }
 
-/// The duty after the ramp: it has no jump, then changes by a fixed step per tick.
+/// After the ramp the duty continues without a jump, and then changes by a fixed step per tick.
 TEST(SensorlessDrive, ApproachesADutyFromWhereTheStartLeavesIt) {
   const SensorlessDriveConfig<double> config = chip<double>();
   SensorlessDriveState<double> state;

@@ -20,7 +20,7 @@ std::vector<double> field_steps(const StartUpConfig<double>& config, int count) 
       at.push_back(n);
       const std::uint32_t angle = state.angle;
       ramp_commutated(state);
-      state.angle = angle;  // the angle beyond the sector's end
+      state.angle = angle;  // keeps the part of the angle beyond the sector's end
     }
   return at;
 }

@@ -41,7 +41,7 @@ TEST(ZeroCrossing, LiesInTheMiddleOfEverySectorBothWaysWhateverTheSamplesPhase) 
   }
 }
 
-/// Sector 0 falls: the old current of leg c holds it at the lower rail, which resembles a crossing.
+/// In sector 0 the back-EMF of leg c falls. The old current holds the terminal at the lower rail, which resembles a crossing.
 TEST(ZeroCrossing, WaitsForTheOldCurrentAndMeasuresIt) {
   ZeroCrossingState state;
   zero_crossing_begin(state, 0, 0, 1000);
@@ -63,7 +63,7 @@ TEST(ZeroCrossing, WaitsForTheOldCurrentAndMeasuresIt) {
 
 TEST(ZeroCrossing, OneThatTheOldCurrentHidHadPassed) {
   ZeroCrossingState state;
-  zero_crossing_begin(state, 1, 0, 0);  // sector 1 rises: the upper rail resembles a crossing
+  zero_crossing_begin(state, 1, 0, 0);  // the back-EMF rises in sector 1: the upper rail resembles a crossing
   TerminalSample s = driven_sample(1, 70, 800, 100);
   s.u[1] = bus_counts;
   EXPECT_EQ(zero_crossing_step(config, state, s, true).crossing, Crossing::none);
@@ -91,8 +91,8 @@ TEST(ZeroCrossing, NoneBeforeTheEarliestTime) {
   EXPECT_EQ(zero_crossing_step(config, state, driven_sample(0, 55, 800, 600), true).crossing, Crossing::seen);
 }
 
-/// The old current ends before 200: no crossing counts within the margin after the sample that shows this. One within the margin is
-/// reported at the first sample after it.
+/// The old current ends before tick 200. No crossing counts within the margin after the sample that shows this end. A crossing within the
+/// margin is reported at the first sample after it.
 TEST(ZeroCrossing, NoneWithinTheMarginBehindTheFreewheelsEnd) {
   for (const std::uint32_t margin : {0u, 1u, 100u, 101u, 250u}) {
     ZeroCrossingConfig c = config;
@@ -110,7 +110,8 @@ TEST(ZeroCrossing, NoneWithinTheMarginBehindTheFreewheelsEnd) {
   }
 }
 
-/// The filter still shows the previous pair: it gives neither the freewheel's end nor a crossing.
+/// Until the filter has settled, the filtered voltage still belongs to the previous pair. It then gives neither the freewheel's end nor a
+/// crossing.
 TEST(ZeroCrossing, NothingIsLookedAtBeforeTheFiltersHaveSettled) {
   for (const std::uint32_t settle : {0u, 50u, 51u}) {
     ZeroCrossingConfig c = config;
@@ -127,7 +128,8 @@ TEST(ZeroCrossing, NothingIsLookedAtBeforeTheFiltersHaveSettled) {
   }
 }
 
-/// The off-time of soft chopping: both legs are at the lower rail, u_f = 3/2 e_f if positive, else a diode holds it.
+/// The off-time of soft chopping: both driven legs are at the lower rail. Then u_f = 3/2 e_f where e_f is positive; otherwise a diode holds
+/// the terminal at the rail.
 TerminalSample soft_freewheel(double e_f, std::uint32_t at) {
   TerminalSample s;
   s.bus = bus_counts;

@@ -51,7 +51,7 @@ def judge_run(test, spot, command, rows):
     floor = left_at_a_fixed_duty(emf, "pattern=upper" in command) - ripple(emf, I, period) / 2
     test.assertLess(K_T * floor, torque, told)
     test.assertLess(torque, K_T * I, told)
-    # The rows differ by the ripple at the peak. The duty there is that of the peak's current, or still falls to it.
+    # Peak and sampled current differ by the ripple at the peak. The duty there belongs to the peak's current, or still falls to it.
     apart = (peak - sampled) / ripple(emf, sampled, period)
     test.assertTrue(0.7 < apart < 1.1, f"{told}: {apart} ripples apart")
     test.assertTrue(torque / K_T < mean < sampled and I < sampled, told)

@@ -76,7 +76,7 @@ def judge(test, spot):
     for name, p, held in points(spot.text):
         point(test, spot, name or p["rpm"], p, duty)
         rows[name or p["rpm"]] = p, held
-    if not rows:  # other columns than these
+    if not rows:  # a table with other columns
         return short(test, spot)
     test.assertGreaterEqual(len(rows), 6)
     same(test, spot, "stall torque K_t d U/R", rows["locked"][0]["torque"], 1e3 * K_T * duty * STALL, 2e-3)

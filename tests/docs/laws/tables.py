@@ -164,9 +164,9 @@ def trust(test, spot):
     drawn, accepted, refused = map(int, re.search(r"^(\d+) .*?: (\d+) accepted, (\d+) refused with words, 0 laws broken", section, re.M).groups())
     test.assertEqual(drawn, accepted + refused)
     if "accepted" in spot.head():
-        if spot.heading == "valid":  # each is of one kind
+        if spot.heading == "valid":  # each drawn scenario is of one kind
             test.assertEqual([accepted, refused], [sum(int(c[n]) for c in spot.rows()) for n in (1, 2)], str(spot))
-        else:  # several changes may coincide in one
+        else:  # one text may have several kinds of damage
             for cells in spot.rows():
                 test.assertTrue(int(cells[1]) <= accepted and int(cells[2]) <= refused, f"{spot}: {cells}")
     else:

@@ -7,7 +7,7 @@
 #include "tests/target/walk/legs.hpp"
 
 extern "C" {
-void call_tick();  ///< calls.S, or below
+void call_tick();  ///< in calls.S, or defined below
 void call_hall();
 }
 #if !defined TARGET_CALLS_ARE_MARKED

@@ -150,7 +150,7 @@ class FieldRecorder {
  public:
   using Number = Scalar;
   using Command = LegCommands<Scalar>;
-  using Config = SensorlessFieldConfig<Scalar>;  // the rig's; a sensor gives its angle
+  using Config = SensorlessFieldConfig<Scalar>;  // the rig's config; here a sensor gives the angle
   static constexpr bool fault_ends_run = true;
 
   FieldRecorder(const Config& config, const rig::BoardConfig& board, const rig::PowerUp& up)

@@ -14,7 +14,7 @@
 #include "tests/target/platform/print.hpp"
 
 extern "C" {
-void call_tick();  ///< calls.S, or below
+void call_tick();  ///< in calls.S, or defined below
 void call_hall();
 // The sizes fit the smallest board.
 #ifdef __AVR__

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A user's controller for the program in double. It calls the same one compiled in float and writes that
-// one's inputs and answers (tape.hpp) into the file that SIXSTEP_OWN_TAPE names, so that the loop runs in the
-// chip's own arithmetic. The tape is memory outside its state: only one run at a time can use it.
+// A user's controller for the program in double. It calls the same controller compiled in float and writes
+// the inputs and answers of the float one (tape.hpp) into the file that SIXSTEP_OWN_TAPE names, so that the
+// loop runs in the chip's own arithmetic. The tape is memory outside the controller's state: only one run at
+// a time can use it.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>

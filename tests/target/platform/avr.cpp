@@ -35,8 +35,8 @@ std::uint16_t refill(const char*, std::uint8_t* to, std::uint16_t bytes) {
   return refill_request.bytes;
 }
 
-/// GPIOR1 selects a call by interrupt: a change of an output pin requests it (ATmega2560 data sheet, External
-/// Interrupts).
+/// Where GPIOR1 is set, the call is an interrupt, which a change of an output pin requests (ATmega2560 data
+/// sheet, External Interrupts).
 void call_entry(bool hall, void (*entry)()) {
   if (register_at(GPIOR1) == 0) return entry();
   const std::uint8_t pin = hall ? 2 : 1;
@@ -48,7 +48,8 @@ void call_entry(bool hall, void (*entry)()) {
 
 extern "C" int main() {
   using namespace target;
-  register_at(EICRA) = 5;  // INT0 and INT1: any change; before the pins, whose level would request at once
+  // any change requests INT0 and INT1; set before the pins, whose level would request at once
+  register_at(EICRA) = 5;
   register_at(DDRD) = 3;
   register_at(EIMSK) = 3;
   asm volatile("sei");

@@ -6,12 +6,12 @@
 
 namespace target {
 
-void run();  ///< the program
+void run();  ///< the program, which this folder's sources provide
 
 void put(char c);
 /// Reads the next bytes of a file of records, fewer than `bytes` at its end.
 std::uint16_t refill(const char* file, std::uint8_t* to, std::uint16_t bytes);
-/// Calls an entry of a drive; on the ATmega2560 as an interrupt, if GPIOR1 says so.
+/// Calls an entry of a drive; on the ATmega2560 as an interrupt where GPIOR1 is not 0.
 void call_entry(bool hall, void (*entry)());
 
 /// The steps of a walk: an argument on a host, a constant on a chip.

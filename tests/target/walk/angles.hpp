@@ -141,7 +141,7 @@ struct SineWalk {
   }
 };
 
-/// Windings of 12 bits around 2048: each peak of the excitation has the other sign.
+/// Readings of two windings in 12 bits around 2048; successive peaks of the excitation have opposite signs.
 template <class Scalar>
 struct ResolverWalk {
   ResolverConfig<Scalar> config{};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A block's call in a walk. With TARGET_COUNTED nothing is inlined around the call, which is between two
-// marks of platform/marks.S. The end of the walk prints its name: up to three functions a walk.
+// marks of platform/marks.S. The end of the walk prints the names of the counted functions, at most three a
+// walk.
 #pragma once
 #include "tests/target/platform/print.hpp"
 
@@ -40,7 +41,7 @@ __attribute__((always_inline)) inline auto counted(const char* name, const Call&
   }
 }
 
-/// Prints `counted BLOCK SLOT NAME` for each.
+/// Prints `counted BLOCK SLOT NAME` for each counted function.
 inline void tell_counted(const char* block) {
   count_next();
   for (std::uint8_t slot = 0; slot < 3; ++slot) {

@@ -139,7 +139,7 @@ inline constexpr int fraction_digits = 0;
 template <class Storage, int FractionBits>
 inline constexpr int fraction_digits<Fixed<Storage, FractionBits>> = FractionBits;
 
-/// n/2^26 of the range to a count; fixed: of the signal's raw digits.
+/// n/2^26 of the range per count; in fixed point, of the signal's raw digits.
 template <class Scalar>
 constexpr Gain<Scalar> per_count(std::int16_t n) {
   return Number<Scalar>::gain(n, static_cast<std::int8_t>(26 - fraction_digits<Scalar>));
@@ -147,9 +147,9 @@ constexpr Gain<Scalar> per_count(std::int16_t n) {
 
 /// sin of a binary angle in counts of `size`, by Bhaskara's formula: 16 x (pi - x)/(5 pi^2 - 4 x (pi - x)).
 constexpr std::int32_t wave(std::uint32_t at, std::int32_t size) {
-  const std::int32_t x = static_cast<std::int32_t>((at & 0x7fffffffu) >> 19);  // 4096 to half a turn
+  const std::int32_t x = static_cast<std::int32_t>((at & 0x7fffffffu) >> 19);  // 4096 are half a turn
   const std::int32_t p = x * (4096 - x);
-  const std::int32_t y = (16 * (p / 64)) * 64 / ((5 * 16777216 - 4 * p) / 1024);  // 1024 to 1
+  const std::int32_t y = (16 * (p / 64)) * 64 / ((5 * 16777216 - 4 * p) / 1024);  // 1024 is 1
   const std::int32_t counts = y * size / 1024;
   return at < 0x80000000u ? counts : -counts;
 }

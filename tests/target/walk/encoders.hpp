@@ -18,7 +18,7 @@ inline void mix_edges(Digest& mix, const HallEdges& edges) {
 struct HallCalibrationWalk {
   HallCalibrationConfig config{};
   HallCalibrationState state{};
-  HallDeviations before{};  ///< deviations of the run before
+  HallDeviations before{};  ///< deviations of the preceding run
   std::uint32_t now = 0, pace = 1000, width[6]{};
   std::uint8_t edge = 0;
   std::int8_t direction = 1;
@@ -59,7 +59,7 @@ struct HallCalibrationWalk {
 struct QuadratureWalk {
   QuadratureConfig config{};
   QuadratureState state{}, timer{};
-  std::uint32_t count = 0;  ///< count of the lines, 0..config.counts-1
+  std::uint32_t count = 0;  ///< the encoder's position in counts, 0..config.counts-1
   bool back = false;
 
   void draw(Random& r) {

@@ -40,7 +40,7 @@ LuenbergerConfig<Scalar> drawn_luenberger(Random& r, const DrawnWinding& winding
           gain_15<Scalar>(winding.over_b(apart * apart / q15_one * 4), 5)};
 }
 
-/// The slope a/b gives z = a e behind one period.
+/// The slope a/b gives z = a e after one period.
 template <class Scalar>
 SlidingModeConfig<Scalar> drawn_sliding_mode(Random& r, const DrawnWinding& winding) {
   SlidingModeConfig<Scalar> config{};
@@ -67,7 +67,7 @@ FluxLinkageConfig<Scalar> drawn_flux(Random& r, const DrawnWinding& winding) {
 template <class Scalar>
 struct FloatingPhase {
   std::int32_t size = 0x10000000, fall = 0x01000000, e = 0;  ///< 2^-31 of the range
-  std::uint8_t runs_out = 0;                                 ///< periods
+  std::uint8_t runs_out = 0;                                 ///< periods in which the old current still flows
   bool begins = false, released = false;
   Scalar w_V{}, i_A{};
 
@@ -187,7 +187,7 @@ struct ObserverWalk {
 
   void draw(Random& r) {
     const DrawnWinding winding(r);
-    const auto third = static_cast<std::int16_t>(3000 + r.bits() % 256);  // the bus of 3200 counts: 0.43 V
+    const auto third = static_cast<std::int16_t>(3000 + r.bits() % 256);  // a bus of 3200 counts is 0.43 V
     config.follow = r.one_in(12) ? Follow::crossings : static_cast<Follow>(1 + r.below(3));
     config.voltage = {per_count<Scalar>(third), std::uint16_t{40}, r.one_in(3)};
     config.luenberger = drawn_luenberger<Scalar>(r, winding);
@@ -253,7 +253,7 @@ struct ObserverWalk {
   }
 };
 
-/// An observer's estimate instead of the terminal's: integers.
+/// Crossings from an observer's estimate instead of the terminal's voltage, in integers.
 struct ObservedCrossingWalk {
   ZeroCrossingConfig config{};
   ZeroCrossingState state{};

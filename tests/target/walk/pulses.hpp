@@ -22,8 +22,8 @@ constexpr PulsePositionConfig drawn_pulses(Random& r) {
 struct PulsedRotor {
   BinaryAngle electrical = 0;
   std::uint16_t current = 600;  ///< counts of a pulse; 0 for an open wire
-  std::int32_t saturates = 0;   ///< counts that north adds
-  std::int32_t salient = 0;     ///< counts that the axis adds
+  std::int32_t saturates = 0;   ///< counts of cos x, by saturation
+  std::int32_t salient = 0;     ///< counts of cos 2 x, by saliency
   std::uint16_t offset[3]{};    ///< offsets of the amplifiers
   std::uint8_t noise = 1;       ///< counts
 

@@ -82,7 +82,8 @@ struct StartUpWalk {
   }
 };
 
-/// The course of a run: the rotor's drive and its faults.
+/// The course of a run: the wanted direction, the pull of a pair, and changes of the rotor's speed from
+/// outside.
 struct Course {
   TerminalRotor rotor{};
   std::uint32_t now = 0;

@@ -43,7 +43,7 @@ struct SeenVectorWalk {
   void draw(Random&) {}
   void step(Random& r, Digest& mix) {
     std::int32_t eighths[3]{};
-    for (std::int32_t& e : eighths) e = signed_bits(r, 16);  // 12 bits, eighths of them
+    for (std::int32_t& e : eighths) e = signed_bits(r, 16);  // 12 bits and a sign, in eighths
     const BinaryAngle angle = r.long_bits();
     const FieldVector seen = counted<0>("seen_along", [&] { return seen_along(eighths, angle); });
     const std::int32_t x = signed_bits(r, r.below(31)), y = signed_bits(r, r.below(31));
@@ -134,7 +134,7 @@ struct FluxTurnWalk {
   }
 };
 
-/// Three lines with any connection, and a field that turns forward and back: an edge a step.
+/// Three lines with any connection, and a field that turns forward and back, with one edge in each step.
 struct HallSurveyWalk {
   HallSurveyConfig config{};
   HallSurveyState state{};
@@ -168,7 +168,7 @@ struct HallSurveyWalk {
     config.turns = static_cast<std::uint8_t>(2 + r.below(2));
     for (BinaryAngle& b : beside) b = r.long_bits() >> 6;  // up to 5.6 degrees
     lag = r.long_bits() >> 7;
-    jitter = r.one_in(6) ? 0x20000000u : 0x01000000u;  // 45 degrees, 1.4
+    jitter = r.one_in(6) ? 0x20000000u : 0x01000000u;  // 45 or 1.4 degrees
     hang(r);
     sector = r.below(6);
     passed = 0;

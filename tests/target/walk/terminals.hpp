@@ -11,7 +11,7 @@ namespace target {
 inline constexpr std::uint32_t tick_ticks = 1000;  ///< timer ticks of a control tick
 inline constexpr std::uint16_t bus_counts = 3200;
 
-/// The bridge's effect on the rotor.
+/// The pair that the bridge drives, where it is on.
 struct DrivenPair {
   bool on = false;
   Pair pair{};
@@ -85,7 +85,7 @@ struct TerminalRotor {
     const std::int32_t star = (s.u[source] - emf_of(source) - emf_of(sink)) / 2;
     s.u[leg] = counts(star + emf_of(leg) + noise);
     if (demagnetises > 0) {
-      --demagnetises;  // the old current of a driven motor runs through the rail that looks like "crossed"
+      --demagnetises;  // the old current of a driven motor flows through the rail that looks like a crossing
       s.u[leg] = driven % 2 == 0 ? std::uint16_t{0} : bus_counts;
     }
     return s;

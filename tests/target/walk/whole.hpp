@@ -10,7 +10,7 @@
 
 namespace target {
 
-/// A rotor's Hall sector: forward by one, at times back, at times a jump; a code may be impossible.
+/// A rotor's Hall sector, which moves by one forward or back.
 struct Rotor {
   std::uint8_t sector = 0;
 
@@ -30,7 +30,7 @@ struct HallWalk {
     state = {};
     back = r.one_in(2);
   }
-  /// Pins of probes 60 degrees apart are the inverse of as_120_degrees.
+  /// The code of the pins. For probes 60 degrees apart it is the inverse of as_120_degrees().
   std::uint8_t pins() const {
     const std::uint8_t code = rotor.code();
     if (config.arrangement == HallArrangement::degrees_120) return code;
