@@ -88,7 +88,7 @@ void look_at_stall_time(const Scenario& s, const design::MotorModel& motor, cons
       {"protection.stall_s", written(*s.protection.stall_s),
        "is longer than the winding withstands the stall current: " + base::three_digits(most.ampere) +
            " A, " + most.by + ", heats it to " + base::three_digits(thermal->max_winding_degC) +
-           " degC within " + base::three_digits(*stands_s) + " s",
+           " degC within " + base::three_digits(*stands_s) + " s by " + design::safe_thermal_words(s.sheet),
        "shorten it, as to " + rounded_down(0.5 * *stands_s)});
 }
 
