@@ -15,12 +15,6 @@ namespace {
 
 using sixstep::study::LoopGains;
 
-/// Unit of d1 and d0: output per error. An outer loop's output is a part of the largest one.
-std::string_view gain_unit(const LoopGains& g, bool linear) {
-  if (g.loop.starts_with("current")) return "V/A";
-  return linear ? "full output per m/s" : "full output per rad/s";
-}
-
 std::string gain_table(const LoopGains& g, bool linear) {
   const double mm_per_deg = sixstep::base::in_linear("deg").factor;
   if (g.loop == "position")
@@ -53,6 +47,11 @@ std::string gain_table(const LoopGains& g, bool linear) {
 }
 
 }  // namespace
+
+std::string_view gain_unit(const LoopGains& g, bool linear) {
+  if (g.loop.starts_with("current")) return "V/A";
+  return linear ? "full output per m/s" : "full output per rad/s";
+}
 
 std::string derivation_table(const std::vector<sixstep::design::DerivationStep>& steps, bool linear) {
   std::string html =

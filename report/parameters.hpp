@@ -2,6 +2,7 @@
 // Writes the inputs of a run: the sheet's values with frame and source, the model derived from them, the gains.
 #pragma once
 #include <string>
+#include <string_view>
 
 #include "sixstep/study/measure/outcome.hpp"
 #include "sixstep/study/scenario/scenario.hpp"
@@ -11,6 +12,8 @@ namespace report {
 std::string sheet_section(const sixstep::design::Sheet& sheet);
 std::string model_section(const sixstep::design::MotorModel& motor);
 std::string setup_section(const sixstep::study::Scenario& scenario);
+/// Unit of d1 and d0, output per error: an outer loop's output is a part of the largest one.
+std::string_view gain_unit(const sixstep::study::LoopGains& gains, bool linear);
 std::string gains_section(const sixstep::study::Outcome& outcome);
 /// The numbers of a user's controller, those that its own file presets marked.
 std::string own_section(const sixstep::study::Own& own);

@@ -84,14 +84,23 @@ bool stands_elsewhere(const std::string& key) {
   return key == "not_usable" || key.ends_with("reference.unit");
 }
 
-}  // namespace
-
-std::vector<std::pair<std::string, std::string>> other_keys(
-    const Scenario& s, const std::function<std::string(const Scenario&)>& sentences) {
+/// The same motor and duration with each other key at its default, and as many events.
+Scenario all_default(const Scenario& s) {
   Scenario usual;
   usual.motor = s.motor;
   usual.sheet = s.sheet;
   usual.duration_s = s.duration_s;
+  usual.at.resize(s.at.size());
+  for (std::size_t n = 0; n < s.at.size(); ++n)
+    if (s.at[n].reference) usual.at[n].reference.emplace();
+  return usual;
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> other_keys(
+    const Scenario& s, const std::function<std::string(const Scenario&)>& sentences) {
+  const Scenario usual = all_default(s);
   const std::string told = sentences(s);
   const Motion motion = sixstep::design::motion_of(s.sheet);
   std::vector<std::pair<std::string, std::string>> out;

@@ -57,6 +57,7 @@ std::string sensors(const study::Sensors& s) {
                                                                 : "one shunt in the DC link";
   if (s.currents != CurrentMeasurement::ideal)
     text += fmt::format(" through {} bits over ±{}", s.adc_bits, given(s.current_range_A.value_or(0.0), "A"));
+  if (s.currents == CurrentMeasurement::dc_link) text += ", settled after " + given(s.shunt_settle_s, "s");
   if (s.currents != CurrentMeasurement::ideal && s.current_noise_A > 0.0)
     text += ", noise " + given(s.current_noise_A, "A");
   if (s.currents != CurrentMeasurement::ideal && s.current_bandwidth_Hz)

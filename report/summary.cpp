@@ -10,6 +10,7 @@
 #include "report/figures.hpp"
 #include "report/highlights.hpp"
 #include "report/html.hpp"
+#include "report/parameters.hpp"
 #include "report/svg_chart.hpp"
 #include "report/verdicts.hpp"
 #include "report/windows.hpp"
@@ -83,9 +84,10 @@ std::string loop(const LoopGains& g, bool linear) {
     return plain(g.d1 / sixstep::base::in_linear("deg").factor, 4, true) + "\u00a0m/s per mm, " +
            escaped(g.origin);
   if (g.loop == "position") return plain(g.d1, 4, true) + "\u00a0rad/s per degree, " + escaped(g.origin);
-  if (!g.steps.empty()) return fmt::format("<b>K {}</b><br>{}", plain(g.d1, 5, true), escaped(g.origin));
-  std::string text = fmt::format("<b>d<sub>1</sub> {}, d<sub>0</sub> {}</b><br>{}", plain(g.d1, 5, true),
-                                 plain(g.d0, 5, true), escaped(g.origin));
+  if (!g.steps.empty())
+    return fmt::format("<b>K {}</b> {}<br>{}", plain(g.d1, 5, true), gain_unit(g, linear), escaped(g.origin));
+  std::string text = fmt::format("<b>d<sub>1</sub> {}, d<sub>0</sub> {}</b> {}<br>{}", plain(g.d1, 5, true),
+                                 plain(g.d0, 5, true), gain_unit(g, linear), escaped(g.origin));
   if (!g.derivation) return text;
   const auto& design = *g.derivation;
   const bool as_designed = std::abs(g.d1 - design.gains.d1) <= 1e-12 * std::abs(g.d1);

@@ -202,7 +202,10 @@ TEST(SetUp, states_what_a_run_is_about) {
   EXPECT_THAT(of("hall-glitch"), HasSubstr("sensors.hall_stable_samples = 3"));
   EXPECT_THAT(of("hall-glitch"), HasSubstr("Coulomb friction 20\u00a0mNm"));
   EXPECT_THAT(of("wind-up"), HasSubstr("<br>control.speed.anti_windup = 0<br>"));
+  EXPECT_EQ(of("encoder-missed").find("at[1].reference"), std::string::npos)
+      << "its setpoint is in the sentence";
   EXPECT_THAT(of("wind-up"), HasSubstr("control.speed.form = positional<br>"));
+  EXPECT_THAT(of("one-shunt"), HasSubstr("settled after 1\u00a0µs"));
   EXPECT_THAT(of("stiction"), HasSubstr("breaks loose at"));
 }
 

@@ -164,6 +164,7 @@ TEST(Report, shows_what_is_not_ideal_and_who_stopped_the_drive) {
   EXPECT_THAT(page(run),
               HasSubstr("100\u00a0ms: line H1 reads high; 200\u00a0ms: line H1 follows its probe again"));
   EXPECT_THAT(html, HasSubstr("used, V/A</th>"));
+  EXPECT_THAT(html, HasSubstr("</b> V/A<br>"));
   EXPECT_THAT(html, HasSubstr("trips above 15\u00a0A"));
   EXPECT_THAT(html, HasSubstr("a fault stopped the drive at 305\u00a0ms"));
   const auto summary = nlohmann::json::parse(text::json_summary(run.scenario, run.outcome));
