@@ -32,8 +32,8 @@ enum class HallFault : std::uint8_t {
 
 struct HallConfig {
   HallArrangement arrangement = HallArrangement::degrees_120;
-  /// Equal samples in a row after which a new code counts. n of them delay each edge by n - 1 samples; 0 counts
-  /// as 1. In an interrupt, where the first reading counts, leave it at 1.
+  /// Consecutive equal samples after which a new code counts. n of them delay each edge by n - 1 samples; 0
+  /// counts as 1. Leave it at 1 in an interrupt, where the first reading counts.
   std::uint8_t stable_samples = 1;
   bool operator==(const HallConfig&) const = default;
 };
