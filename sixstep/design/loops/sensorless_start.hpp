@@ -92,9 +92,9 @@ struct SensorlessStart {
   std::vector<DerivationStep> steps;
 };
 
-/// `motor`: with the load's inertia on its shaft. `current_at_full_output_A`: of the speed loop; 0 without one.
-/// Problems name the key to change: the bus is not given, the start current does not move the load, or the converter
-/// is too coarse, or a comparator too inexact, to measure the back-EMF below half the no-load speed.
+/// `motor` includes the load's inertia on its shaft. `current_at_full_output_A` belongs to the speed loop; 0
+/// without one. Problems name the key to change: the bus is not given, the start current does not move the
+/// load, or converter or comparators are too inexact to measure the back-EMF below half the no-load speed.
 base::Result<SensorlessStart> sensorless_start(const MotorModel& motor, const SensorlessSpec& spec,
                                                double current_at_full_output_A);
 

@@ -43,8 +43,8 @@ struct Friction {
   IronDrag iron;  ///< the iron's part of B and T_c, if the sheet separates it
   std::string from;
   double no_load_speed_rad_s = 0.0;          ///< speed of the no-load point used; 0: none
-  std::optional<double> all_viscous_Nm_s;    ///< if one point gives all of it and T_c = 0: B = K_t I_0/w_0
-  std::optional<double> all_coulomb_Nm;      ///< if one point gives all of it and B = 0: T_c = K_t I_0
+  std::optional<double> all_viscous_Nm_s;    ///< one extreme for one point, no dry friction: B = K_t I_0/w_0
+  std::optional<double> all_coulomb_Nm;      ///< the other extreme, no viscous friction: T_c = K_t I_0
   std::optional<double> split_viscous_Nm_s;  ///< B and T_c from two no-load points
   std::optional<double> split_coulomb_Nm;
 };
