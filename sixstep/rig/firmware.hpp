@@ -42,7 +42,7 @@ struct SampleInstant {
 /// Findings of a firmware about a fault.
 struct Diagnosis {
   std::uint16_t faults = 0;    ///< bits of control::Fault that turned the drive off
-  std::uint8_t hall_line = 0;  ///< 1..3: the line that made an impossible code; 0: none, or unknown
+  std::uint8_t hall_line = 0;  ///< 1..3: the line that made an invalid code; 0: none, or unknown
   sim::Instant at{};           ///< tick that latched the faults, or at which the rotor was last lost
   int losses = 0;              ///< how often a sensorless drive lost the rotor, or failed to start it
   control::LockLoss lost = control::LockLoss::none;  ///< reason of the last loss

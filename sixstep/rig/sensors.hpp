@@ -46,7 +46,7 @@ class Sensors {
   }
   /// Finding about faults of an encoder or a resolver.
   const ShaftFinding& shaft_found() const { return rotor_.found(); }
-  /// 1..3: the line that made an impossible code; 0: none, or it cannot be determined.
+  /// 1..3: the line that made an invalid code; 0: none, or it cannot be determined.
   std::uint8_t broken_line() const { return broken_line_; }
 
  private:

@@ -20,7 +20,7 @@
 
 namespace sixstep::control {
 
-/// The default estimates nothing.
+/// With the default nothing is estimated.
 template <class Scalar>
 struct SlidingModeConfig {
   Gain<Scalar> decay{};  ///< a

@@ -103,8 +103,7 @@ PulseStart of_length(const Basis& b, int ticks) {
   s.pulses.current.offset_tolerance =
       static_cast<std::uint16_t>(tolerance * static_cast<double>(1 << (b.spec.adc_bits - 1)));
   s.pulses.pulse_ticks = static_cast<std::uint16_t>(ticks);
-  s.pulses.rest_ticks = static_cast<std::uint16_t>(ticks + 1);  // one tick more, although the current falls
-                                                                // faster than it rose
+  s.pulses.rest_ticks = static_cast<std::uint16_t>(ticks + 1);  // long enough: it falls faster than it rose
   s.current_A = current_A(b, t_s, b.L_S);
   s.greatest_A = current_A(b, t_s, b.L_least);
   const double k = x / (base::exp(x) - 1);
