@@ -45,7 +45,7 @@ namespace sixstep::control {
 template <class Scalar>
 struct CommutationStepConfig {
   Gain<Scalar> K_t_V_s{};           ///< V of the back-EMF 2 E per mechanical rad/s
-  Gain<Scalar> V_per_A{};           ///< 3 R/2
+  Gain<Scalar> V_per_A{};           ///< 3 R/2: half of 3 R, as u is half of the voltage
   Gain<Scalar> A_per_V{};           ///< T/L (1/2 + periods until a command acts)
   Scalar overlap_bus_V{};           ///< U, V, if legs may overlap; else 0
   Gain<Scalar> missing_V_per_A{};   ///< added to u: 3/4 of the proportional gain of the pair's loop

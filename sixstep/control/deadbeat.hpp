@@ -36,8 +36,8 @@ template <class Scalar>
 struct DeadbeatConfig {
   HeldWinding<Scalar> wait{};         ///< from a sample until the voltage computed from it begins
   HeldWinding<Scalar> rest{};         ///< from the begin of that voltage to the next sample
-  Gain<Scalar> decay{};               ///< a(T)
-  Gain<Scalar> V_per_A{};             ///< 1/b(T)
+  Gain<Scalar> decay{};               ///< a(T), decay over a period
+  Gain<Scalar> V_per_A{};             ///< 1/b(T), voltage per ampere of change in a period
   Gain<Scalar> correction_V_per_A{};  ///< g/b(T)
   Gain<Scalar> K_t_V_s{};             ///< V of the back-EMF between the driven terminals per mechanical rad/s
   Scalar limit{};                     ///< V: bound of |u| and |e|

@@ -28,7 +28,7 @@ struct HallSpeedConfig {
   TickRatio<Scalar> sector_rad_s_ticks{};  ///< (pi/3)/p timer_Hz: product of speed and ticks of one sector
   std::uint32_t timeout_ticks = 0;  ///< ticks without an edge after which the rotor counts as at rest; below
                                     ///< 2^32 minus one control period
-  std::uint8_t edges = 1;           ///< k, 1..6
+  std::uint8_t edges = 1;           ///< k, edges over which a speed is taken, 1..6
   std::uint32_t window_ticks = 0;   ///< k = 1 if `edges` edges took longer than this; 0: k is always `edges`
   std::uint32_t grain_ticks = 1;    ///< resolution of an edge's time: 1 by capture, ticks of a control period
                                     ///< by polling

@@ -55,10 +55,10 @@ struct JerkProfileConfig {
   Scalar deg_per_part{};
   Scalar rad_s_per_part{};      ///< rad/s of one part per stride
   Scalar rad_s2_per_part{};     ///< rad/s^2 of one part per stride^2
-  Scalar stride_per_tick{};     ///< 1/ticks
-  std::int32_t acceleration{};  ///< counts per stride^2
+  Scalar stride_per_tick{};     ///< strides per control tick, 1/ticks
+  std::int32_t acceleration{};  ///< a, counts per stride^2
   std::uint16_t ticks = 1;      ///< control ticks in a stride
-  std::uint8_t cells = 1;       ///< M
+  std::uint8_t cells = 1;       ///< M, number of strides in the mean
   bool operator==(const JerkProfileConfig&) const = default;
 };
 

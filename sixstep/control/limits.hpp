@@ -39,7 +39,7 @@ struct LimitsConfig {
   Scalar speed_rad_s{};        ///< largest |w| that the drive's own torque may reach
   Gain<Scalar> A_per_rad_s{};  ///< K: full current is allowed up to current_A/K below the speed limit
   bool limits_regeneration = false;
-  Scalar bus_V{};          ///< U_limit
+  Scalar bus_V{};          ///< U_limit, largest bus voltage
   Gain<Scalar> A_per_V{};  ///< g: full braking current is allowed up to current_A/g below the limit
   bool operator==(const LimitsConfig&) const = default;
 };

@@ -28,13 +28,13 @@ struct SlidingSpeedConfig {
   Scalar q{};      ///< fraction of the error that a sample removes
   Scalar f{};      ///< q/b, output per rad/s
   Scalar reach{};  ///< R, the largest load that the law can balance, as a fraction of the torque limit
-  Scalar layer{};  ///< P, rad/s
+  Scalar layer{};  ///< P, half the width of the boundary layer, rad/s
   bool operator==(const SlidingSpeedConfig&) const = default;
 };
 
 template <class Scalar>
 struct SlidingSpeedState {
-  Scalar m{};     ///< rad/s; before the first sample: the initial output
+  Scalar m{};     ///< m, rad/s; before the first sample: the initial output
   Scalar held{};  ///< R sat(s/P), the output at zero error
   bool started = false;
 };

@@ -29,10 +29,10 @@ struct EnergyBook {
 };
 
 struct Laws {
-  double current_sum_A = 0.0;  ///< worst |i_a + i_b + i_c| at a segment's ends
+  double current_sum_A = 0.0;  ///< largest |i_a + i_b + i_c| at a segment's ends
   double reverse_diode_A =
-      0.0;  ///< worst current of the wrong sign in a conducting diode, at a segment's ends
-  double floating_current_A = 0.0;  ///< worst current in a floating leg
+      0.0;  ///< largest current of the wrong sign in a conducting diode, at a segment's ends
+  double floating_current_A = 0.0;  ///< largest current in a floating leg
 };
 
 template <class Real>

@@ -10,7 +10,7 @@ template <class Real>
 struct LegsLaw {
   /// A quantity as a sum over its causes. i and i_2 are the currents of the first and second connected leg.
   struct Terms {
-    Real bus = 0, offset = 0, i = 0, i_2 = 0;  ///< per U_s, 1, i, i_2
+    Real bus = 0, offset = 0, i = 0, i_2 = 0;  ///< coefficients of U_s, 1, i and i_2
   };
   std::array<std::uint8_t, 3> leg{0, 1, 2};  ///< the connected legs in order, then the floating ones
   std::uint8_t connected = 0;

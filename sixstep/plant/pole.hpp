@@ -11,7 +11,7 @@ namespace sixstep::plant {
 /// alone.
 template <class Real>
 struct PoleLaw {
-  Real bus = 0, offset = 0, i = 0, w0 = 0, w1 = 0;  ///< per U_s, 1, i of `leg`, w phi0, w phi1
+  Real bus = 0, offset = 0, i = 0, w0 = 0, w1 = 0;  ///< coefficients of U_s, 1, i of `leg`, w phi0 and w phi1
   int leg = 0;
 };
 

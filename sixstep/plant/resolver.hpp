@@ -12,11 +12,11 @@
 namespace sixstep::plant {
 
 struct Resolver {
-  double amplitude_V = 1.0;  ///< k V_R
+  double amplitude_V = 1.0;  ///< k V_R, peak of the cosine winding
   double excitation_Hz = 10e3;
-  int pole_pairs = 1;                           ///< p_r
-  double imbalance = 0.0;                       ///< a
-  double quadrature_rad = 0.0;                  ///< q
+  int pole_pairs = 1;                           ///< p_r, pole pairs of the resolver
+  double imbalance = 0.0;                       ///< a, excess of the sine winding's amplitude, relative
+  double quadrature_rad = 0.0;                  ///< q, deviation of the windings from a right angle
   double phase_1_rad = 0.0, phase_2_rad = 0.0;  ///< d_1, d_2: phase of windings and cable
 };
 

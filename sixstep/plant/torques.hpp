@@ -11,9 +11,9 @@ namespace sixstep::plant {
 /// so that code that ignores an additional torque does not compile.
 template <class Real>
 struct Torques {
-  Real load;       ///< T_load
-  Real dry;        ///< T_c with its sign
-  Real per_speed;  ///< B
+  Real load;       ///< T_load, N m
+  Real dry;        ///< T_c with its sign, N m
+  Real per_speed;  ///< B, N m s
 };
 
 template <class Real>

@@ -27,7 +27,7 @@ namespace sixstep::sim {
 
 enum class Stop : std::uint8_t {
   end,         ///< the end was reached
-  observer,    ///< the observer was done
+  observer,    ///< the observer's done() returned true
   fault,       ///< act() returned false
   unsettled,   ///< no consistent discrete state: an error of the model
   no_progress  ///< more than a hundred events without progress of time

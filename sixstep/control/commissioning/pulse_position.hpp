@@ -57,7 +57,7 @@ struct PulsePositionState {
 struct PulsePositionReading {
   bool seen = false;           ///< true: north was found
   bool axis_seen = false;      ///< true: the angle is the more exact one, by saliency
-  BinaryAngle electrical = 0;  ///< theta_e
+  BinaryAngle electrical = 0;  ///< theta_e, electrical angle of the rotor
   std::uint8_t sector = no_sector;
   std::uint32_t north_16 = 0, axis_16 = 0;  ///< ratios of the two signals to the noise, in 16ths
 };

@@ -23,11 +23,11 @@ namespace sixstep::control {
 /// With the default the result is 0.
 template <class Scalar>
 struct ActiveFluxConfig {
-  Gain<Scalar> period_s{};        ///< T
+  Gain<Scalar> period_s{};        ///< T, control period
   Gain<Scalar> R_ohm{};           ///< resistance of a phase
-  Gain<Scalar> L_q_H{}, L_D_H{};  ///< L_D: L_d - L_q
+  Gain<Scalar> L_q_H{}, L_D_H{};  ///< phase inductance L_q, and L_D = L_d - L_q
   Scalar magnet_Vs{};             ///< psi, the magnet's flux linkage, V s; 0: none
-  Gain<Scalar> pull{};            ///< g
+  Gain<Scalar> pull{};            ///< g, fraction of the error that a period corrects
   bool operator==(const ActiveFluxConfig&) const = default;
 };
 

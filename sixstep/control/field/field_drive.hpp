@@ -47,7 +47,7 @@ struct FieldDriveState {
   FieldWeakeningState<Scalar> weakening{};
   FiniteSetState<Scalar> finite_set{};
   Dq<Scalar> measured{}, reference{};  ///< currents at the last tick, rotor's frame, A
-  LegCommands<Scalar> command{};       ///< last output
+  LegCommands<Scalar> command{};       ///< command of the last tick
 };
 
 template <class Scalar>

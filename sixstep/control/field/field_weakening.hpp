@@ -26,9 +26,9 @@ namespace sixstep::control {
 /// The default does not weaken the field.
 template <class Scalar>
 struct FieldWeakeningConfig {
-  Gain<Scalar> K_A_per_V{};  ///< per sample
+  Gain<Scalar> K_A_per_V{};  ///< K, A per V and sample
   Gain<Scalar> part{};       ///< m, fraction of the voltage circle
-  Scalar most_A{};           ///< I
+  Scalar most_A{};           ///< I, largest current against the magnet
   bool operator==(const FieldWeakeningConfig&) const = default;
 };
 

@@ -42,12 +42,12 @@ template <class Scalar>
 struct FiniteSetConfig {
   bool on = false;
   bool foretells = false;                 ///< true: outputs act a period late, and this delay is compensated
-  Gain<Scalar> d_decay{}, q_decay{};      ///< a
-  Gain<Scalar> d_A_per_V{}, q_A_per_V{};  ///< b
+  Gain<Scalar> d_decay{}, q_decay{};      ///< a, decay of the current over a period
+  Gain<Scalar> d_A_per_V{}, q_A_per_V{};  ///< b, change of the current per volt over a period
   /// p T/2: electrical rad of half the rotation x/2 per mechanical rad/s; the product is clamped to 1 rad.
   Gain<Scalar> half_turn_s{};
   Gain<Scalar> salient_V_s_A{};  ///< p (L_d - L_q)
-  Scalar switching_A{};          ///< s
+  Scalar switching_A{};          ///< s, current error that weighs as much as one switching leg
   Scalar most_A{};               ///< bound of |i'|; 0: no bound
   bool operator==(const FiniteSetConfig&) const = default;
 };
@@ -57,7 +57,7 @@ using LegBits = std::uint8_t;
 
 template <class Scalar>
 struct FiniteSetState {
-  LegBits legs = 0;       ///< last output
+  LegBits legs = 0;       ///< legs of the last output
   Dq<Scalar> foretold{};  ///< predicted current at the end of that output's period, in the magnet's frame at
                           ///< that time
 };

@@ -51,9 +51,9 @@ struct HarmonicCurrentConfig {
   /// without feed-forward; the product is clamped to 1 rad.
   Gain<Scalar> lead_rad_s{};
   Gain<Scalar> half_turn_s{};        ///< p T/2: electrical rad of x/2 per mechanical rad/s; clamped to 1 rad
-  Gain<Scalar> slope_V_A{};          ///< L/T
+  Gain<Scalar> slope_V_A{};          ///< L/T, voltage per ampere of change in a period
   Gain<Scalar> R_ohm{};              ///< resistance of a phase
-  Scalar least{};                    ///< min |g|
+  Scalar least{};                    ///< min |g|, least length of the shape vector
   Dq<Scalar> shape[shape_points]{};  ///< g, with the magnet at n/32 of 60 electrical degrees
   bool operator==(const HarmonicCurrentConfig&) const = default;
 };

@@ -68,7 +68,7 @@ struct EstimatorState {
   TrackingState tracking{};
   BinaryAngle sampled = 0;  ///< the magnet's angle at the last sample
   Scalar speed_rad_s{};     ///< mechanical
-  Scalar weight{};          ///< m
+  Scalar weight{};          ///< m, weight of the flux in the error
   InjectionState<Scalar> injection{};
   NorthState<Scalar> north{};
   ActiveFluxState<Scalar> flux{};

@@ -22,7 +22,7 @@ enum class NorthPhase : std::uint8_t { forth, back, found, opposite, unseen };
 
 template <class Scalar>
 struct PolarityConfig {
-  Scalar current_A{};              ///< I
+  Scalar current_A{};              ///< I, current along the axis
   Gain<Scalar> certain{};          ///< smallest |(h+ - h-)/(h+ + h-)| that is accepted
   std::uint16_t settle_ticks = 0;  ///< ticks until the current is constant, after each change
   std::uint16_t look_ticks = 0;    ///< ticks after that over which h_d is summed

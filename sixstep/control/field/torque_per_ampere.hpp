@@ -20,7 +20,7 @@ namespace sixstep::control {
 /// The default is for a round rotor: i_d = 0.
 template <class Scalar>
 struct TorquePerAmpereConfig {
-  Gain<Scalar> k_per_A{};  ///< (L_q - L_d)/(2 psi)
+  Gain<Scalar> k_per_A{};  ///< k/i_q = (L_q - L_d)/(2 psi)
   bool operator==(const TorquePerAmpereConfig&) const = default;
 };
 

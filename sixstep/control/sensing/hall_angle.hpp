@@ -39,7 +39,7 @@ struct HallAngleConfig {
   std::uint32_t timeout_ticks = 0;       ///< ticks without an edge after which the rotor counts as at rest;
                                          ///< below 2^31
   std::uint32_t delay_ticks = 0;         ///< delay of an edge: filter, glitch suppression, interrupt
-  std::uint8_t span = 1;                 ///< k, 1..6 sectors
+  std::uint8_t span = 1;                 ///< k, sectors over which a speed is taken, 1..6
   bool operator==(const HallAngleConfig&) const = default;
 };
 

@@ -25,9 +25,9 @@ namespace sixstep::control {
 template <class Scalar>
 struct ResolverConfig {
   Gain<Scalar> cos_per_count{};  ///< g_c/2, per count of difference between two samples; fixed: raw digits
-  Gain<Scalar> sin_per_count{};  ///< g_s/2
+  Gain<Scalar> sin_per_count{};  ///< g_s/2, like cos_per_count
   Scalar cos_offset{};           ///< o_c, the offset left after demodulation
-  Scalar sin_offset{};           ///< o_s
+  Scalar sin_offset{};           ///< o_s, like cos_offset
   Gain<Scalar> skew{};           ///< tan q, of windings that are not at right angles
   bool normalise = true;         ///< divides by the measured amplitude; else the amplitude counts as 1
   TrackingConfig loop{};

@@ -19,7 +19,7 @@
 namespace sixstep::control {
 
 struct CommutationClockConfig {
-  std::uint8_t crossings = 2;    ///< k, 1..6
+  std::uint8_t crossings = 2;    ///< k, number of intervals in the mean, 1..6
   std::uint16_t advance = 0;     ///< angle in 1/65536 of a sector (60 degrees): 32768 is 30 degrees
   std::uint32_t lead_ticks = 0;  ///< ticks of the timer
   bool operator==(const CommutationClockConfig&) const = default;

@@ -28,8 +28,8 @@ namespace sixstep::control {
 /// every motor.
 template <class Scalar>
 struct FluxLinkageConfig {
-  Gain<Scalar> decay{};      ///< a
-  Gain<Scalar> stiffness{};  ///< 1/b, V per A
+  Gain<Scalar> decay{};      ///< a, decay of the current over a period
+  Gain<Scalar> stiffness{};  ///< 1/b, voltage per ampere of change in a period
   Gain<Scalar> per_V{};      ///< T/(4 psi_c): psi per V and period
   Scalar level{};            ///< fall of psi at which the drive commutates
   bool operator==(const FluxLinkageConfig&) const = default;

@@ -23,17 +23,17 @@ namespace sixstep::control {
 /// With the default nothing is estimated.
 template <class Scalar>
 struct LuenbergerConfig {
-  Gain<Scalar> decay{};    ///< a
-  Gain<Scalar> drive{};    ///< b, A per V
-  Gain<Scalar> current{};  ///< l
-  Gain<Scalar> emf{};      ///< h, V per A
+  Gain<Scalar> decay{};    ///< a, decay of the current over a period
+  Gain<Scalar> drive{};    ///< b, change of the current per volt over a period
+  Gain<Scalar> current{};  ///< l, correction of i^ per ampere of error
+  Gain<Scalar> emf{};      ///< h, correction of e^ per ampere of error, V per A
   bool operator==(const LuenbergerConfig&) const = default;
 };
 
 template <class Scalar>
 struct LuenbergerState {
-  Scalar i_A{};               ///< i^
-  Accumulator<Scalar> e_V{};  ///< e^
+  Scalar i_A{};               ///< i^, estimate of the current
+  Accumulator<Scalar> e_V{};  ///< e^, estimate of the back-EMF
 };
 
 /// Advances by a period with the mean voltage w_V, and the current i_A at the period's end. Returns the

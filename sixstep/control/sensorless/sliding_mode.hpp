@@ -23,21 +23,21 @@ namespace sixstep::control {
 /// With the default nothing is estimated.
 template <class Scalar>
 struct SlidingModeConfig {
-  Gain<Scalar> decay{};  ///< a
-  Gain<Scalar> drive{};  ///< b, A per V
-  Gain<Scalar> slope{};  ///< k/phi = a/b, V per A
-  Scalar limit_V{};      ///< k
+  Gain<Scalar> decay{};  ///< a, decay of the current over a period
+  Gain<Scalar> drive{};  ///< b, change of the current per volt over a period
+  Gain<Scalar> slope{};  ///< k/phi = a/b, slope in the layer, V per A
+  Scalar limit_V{};      ///< k, limit of |z|
   Gain<Scalar> raise{};  ///< 1/a
-  Gain<Scalar> share{};  ///< c
+  Gain<Scalar> share{};  ///< c, factor of the low-pass
   bool operator==(const SlidingModeConfig&) const = default;
 };
 
 template <class Scalar>
 struct SlidingModeState {
   Scalar i_A{};      ///< current at the last sample
-  Scalar error_A{};  ///< i^ - i
+  Scalar error_A{};  ///< i^ - i, error of the estimated current
   Scalar z_V{};
-  Accumulator<Scalar> e_V{};  ///< e^
+  Accumulator<Scalar> e_V{};  ///< e^, estimate of the back-EMF
 };
 
 /// Advances by a period with the mean voltage w_V, and the current i_A at the period's end. Returns the

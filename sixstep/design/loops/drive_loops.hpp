@@ -15,8 +15,8 @@ namespace sixstep::design {
 /// Winding that the current controller drives: L di/dt = u - R i - K_e w, and J dw/dt = K_t i - B w, d theta/dt = w.
 struct LoopWinding {
   double R_ohm = 0.0, L_H = 0.0;
-  double back_emf_V_s = 0.0;  ///< K_e
-  double torque_Nm_A = 0.0;   ///< K_t
+  double back_emf_V_s = 0.0;  ///< K_e, V per rad/s
+  double torque_Nm_A = 0.0;   ///< K_t, N m/A
 };
 /// Winding of the driven pair: terminal values, K_e = K_t, each divided by s = volts_per_duty(). A duty of
 /// u/U gives the pair s u plus a constant. L di/dt = s u - R i - K_e w is then the same as a winding with

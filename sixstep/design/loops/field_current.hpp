@@ -43,7 +43,7 @@ inline double torque_per_q_A(const FieldMachine& machine) { return 1.5 * machine
 struct FieldLoopSpec {
   double bandwidth_rad_s = 0.0;
   double period_s = 0.0;
-  int delay_periods = 0;  ///< n, 0 or 1
+  int delay_periods = 0;  ///< n, periods from a sample to its answer, 0 or 1
 };
 
 /// Default bandwidth: a twentieth of the control frequency, w T = pi/10.

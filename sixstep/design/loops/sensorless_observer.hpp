@@ -24,7 +24,7 @@ struct SensorlessObserver {
   control::ObserverConfig<double> chip;
   double pole = 0.0;           ///< p in z, both poles of the Luenberger observer
   double lag_s = 0.0;          ///< lag of the estimate
-  double level_V_s = 0.0;      ///< psi_c
+  double level_V_s = 0.0;      ///< psi_c, fall of the flux linkage in the 30 degrees after the crossing
   double highest_rad_s = 0.0;  ///< highest speed, at four control periods per sector
   std::vector<DerivationStep> steps;
 };

@@ -30,17 +30,17 @@ struct ShaftSensing {
                           ///< period
   double period_s = 0.0;  ///< T_s, the control period
   // incremental encoder
-  int lines = 0;            ///< N
-  double capture_Hz = 0.0;  ///< f
+  int lines = 0;            ///< N, lines per turn
+  double capture_Hz = 0.0;  ///< f, clock of the timer that captures edges
   double timeout_s = 0.0;
   // absolute encoder
-  int bits = 0;            ///< n
-  int samples = 1;         ///< k
+  int bits = 0;            ///< n, bits of the code
+  int samples = 1;         ///< k, samples over which a speed is taken
   double latency_s = 0.0;  ///< latency of the code, or of a resolver's angle
   // resolver
   int pole_pairs = 1;          ///< pole pairs of the resolver
-  double natural_rad_s = 0.0;  ///< w_n of its tracking loop
-  double damping = 1.0;        ///< D
+  double natural_rad_s = 0.0;  ///< w_n, natural frequency of the tracking loop
+  double damping = 1.0;        ///< D, damping of the tracking loop
   double step_s = 0.0;         ///< T_l, step of the tracking loop
   double noise_rad = 0.0;      ///< s, rms noise as an angle of the resolver's turn
 };

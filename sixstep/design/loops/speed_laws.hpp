@@ -37,14 +37,14 @@ struct SpeedLawSpec {
   double lag_periods = 0.0;  ///< M: mean delay from a command to its torque, in samples
   double limit = 1.0;        ///< limit of the output
   double settle_s = 0.0;
-  double ratio = usual_observer_ratio;  ///< k
+  double ratio = usual_observer_ratio;  ///< k, speed of an observer relative to its loop
   double period_s = 0.0;
 };
 
 struct SpeedLawDesign {
   control::SpeedLaws<double> gains{};
-  double pole = 0.0;       ///< p
-  double fast_pole = 0.0;  ///< p^k
+  double pole = 0.0;       ///< p, pole of the loop in z
+  double fast_pole = 0.0;  ///< p^k, pole of the observer or another faster part
   double K = 0.0;          ///< output per rad/s of error
   std::vector<DerivationStep> steps{};
 };

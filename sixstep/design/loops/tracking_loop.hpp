@@ -19,13 +19,13 @@ namespace sixstep::design {
 
 struct TrackingSpec {
   double bandwidth_rad_s = 0.0;  ///< w_b; electrical or mechanical, as the tracked angle
-  double damping = 1.0;          ///< D
-  double period_s = 0.0;         ///< T
+  double damping = 1.0;          ///< D, damping of the loop
+  double period_s = 0.0;         ///< T, period of the loop
 };
 
 struct TrackingDesign {
   double K_p = 0.0, K_i = 0.0;
-  double natural_rad_s = 0.0;     ///< w_n
+  double natural_rad_s = 0.0;     ///< w_n, natural frequency of the loop
   double K_a_per_s2 = 0.0;        ///< K_i/T^2: acceleration over the constant error that it causes
   double speed_rad_s_unit = 0.0;  ///< rad/s of one unit of control::tracking_speed(), 2 pi/(2^32 T)
 };

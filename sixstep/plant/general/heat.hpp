@@ -79,7 +79,7 @@ class Heat {
   HeatGiven given_;
   DeviceLosses losses_;
   double winding_ = 25.0, housing_ = 25.0;
-  std::array<std::array<double, 2>, 3> junction_{};  ///< upper, lower
+  std::array<std::array<double, 2>, 3> junction_{};  ///< upper and lower switch of each leg, degC
   series::CompensatedSum<double> elapsed_, copper_, friction_;
 };
 

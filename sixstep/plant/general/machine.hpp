@@ -63,14 +63,14 @@ struct TorquePoint {
 /// Load torques at the load's side of gear and coupling.
 struct Load {
   double torque_Nm = 0.0;
-  double fan_Nm_s2 = 0.0;   ///< k w|w|
-  double gravity_Nm = 0.0;  ///< k sin(theta - angle)
+  double fan_Nm_s2 = 0.0;   ///< k of the torque k w|w|
+  double gravity_Nm = 0.0;  ///< k of the torque k sin(theta - angle)
   double gravity_angle_rad = 0.0;
   std::vector<TorquePoint> over_speed{};
 };
 
 struct Shaft {
-  double J_kg_m2 = 0.0, B_Nm_s = 0.0;  ///< the motor's side
+  double J_kg_m2 = 0.0, B_Nm_s = 0.0;  ///< motor's side alone
   double coulomb_Nm = 0.0, static_Nm = 0.0;
   double gear = 1.0;        ///< motor turns per load turn
   double efficiency = 1.0;  ///< gear, in (0, 1]: torque of the driven side over the lossless one
@@ -88,9 +88,9 @@ struct Shaft {
 /// 2).
 struct Devices {
   bool igbt = false;
-  double R_on_ohm = 0.0;              ///< MOSFET's channel, IGBT's r_ce
-  double V_ce_V = 0.0;                ///< IGBT
-  double V_f_V = 0.0, r_d_ohm = 0.0;  ///< diodes
+  double R_on_ohm = 0.0;              ///< resistance of a MOSFET's channel, or an IGBT's r_ce
+  double V_ce_V = 0.0;                ///< constant drop of an IGBT's transistor
+  double V_f_V = 0.0, r_d_ohm = 0.0;  ///< constant drop and resistance of the diodes
 };
 
 /// Law of the source's open voltage V_0 over time and charge (model.md 9).
