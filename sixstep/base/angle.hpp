@@ -10,7 +10,7 @@ struct MechanicalAngle {
   bool operator==(const MechanicalAngle&) const = default;
 };
 
-/// Angle of the rotor's field against the stator's, rad: theta_e = p theta_m (model.md 1).
+/// Angle of the rotor's magnet against the stator, electrical, rad: theta_e = p theta_m (model.md 1).
 struct ElectricalAngle {
   double rad = 0.0;
   bool operator==(const ElectricalAngle&) const = default;
@@ -23,7 +23,7 @@ struct PolePairs {
   constexpr MechanicalAngle mechanical(ElectricalAngle e) const { return {e.rad / count}; }
 };
 
-/// An electrical sector, 60 degrees, in rad: pi/3 rounded to nearest.
+/// An electrical sector, 60 degrees, in rad: pi/3 rounded to the nearest double.
 inline constexpr double sector_rad = 1.0471975511965977461542144610932;
 inline constexpr double pi = 3.1415926535897932384626433832795;
 inline constexpr double rad_per_deg = pi / 180, rpm_per_rad_s = 30 / pi;

@@ -5,12 +5,13 @@
 
 namespace sixstep::base {
 
-/// No sheet prints more than ten digits: longer numbers are results of arithmetic, and are rounded as such.
+/// No data sheet prints more than ten digits. A longer number is the result of arithmetic and is rounded to a
+/// double like any result.
 inline constexpr double more_than_printed = 1e10;
 
-/// A printed number times a power of ten, as the double nearest to the decimal product: 0.572 mH becomes
-/// 0.000572 and 135 g cm^2 1.35e-5, to the bit, as if they had been written so. The digits as an integer, times
-/// or over one exact power of ten, are rounded once; dividing 0.572 itself would round twice. `ten` is in
+/// A printed number times 10^ten, as the double nearest to the decimal product. 0.572 mH becomes exactly the
+/// double of 0.000572, and 135 g cm^2 that of 1.35e-5. For this the digits, as an integer, are multiplied or
+/// divided by one exact power of ten and rounded once; dividing 0.572 itself would round twice. `ten` is in
 /// -22..22: these powers are exact doubles.
 inline double times_ten_to(double printed, int ten) {
   const auto scaled = [](double x, int power) {
@@ -28,7 +29,8 @@ inline double times_ten_to(double printed, int ten) {
 }
 
 /// Weight of the last digit of the shortest decimal that reads back as the same double: 0.01 for 1.03, 1 for
-/// 24, 0 for a number that no sheet prints. A double does not show trailing zeros.
+/// 24. The weight is 0 for a number with more digits than a data sheet prints. Trailing zeros cannot be seen,
+/// because a double does not store them.
 inline double last_digit_of(double printed) {
   double scale = 1.0;
   for (int decimals = 0; decimals <= 22; ++decimals, scale *= 10.0) {
@@ -39,7 +41,7 @@ inline double last_digit_of(double printed) {
   return 0.0;
 }
 
-/// Rounds up or down to `digits` digits, for numbers that a user reads, types or changes.
+/// Rounds x down or up to `digits` significant digits, for numbers that a user reads, types or changes.
 enum class Towards : bool { down, up };
 inline double shortened(double x, int digits, Towards towards) {
   if (x == 0.0 || !(x - x == 0.0)) return x;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// One description of each parameter serves all faces: TOML reading and its checks, help, the schema and Python,
-// and later the web form and the FMU. For each parameter struct S there is one free function
+// One description of each parameter serves all faces: the TOML reader with its checks, help, the schema and
+// Python, and later the web form and the FMU. For each parameter struct S there is one free function
 //
 //   void describe(Visitor& v, S& s);          (base/visitor.hpp)
 //
-// that visits the members in reading order and calls on the visitor, per member,
+// This function visits the members in reading order. Per member it calls one of these on the visitor:
 //   v.value(key, member, about)            double, int, bool, std::string,
 //                                          std::optional<double>, std::vector<double>, std::vector<std::string>
 //   v.choice(key, member, choices, about)  an enum, by its words: choices is an array of Choice
@@ -22,13 +22,14 @@
 
 namespace sixstep::base {
 
-/// Range of a number. Open ends are the default; `above`/`below` exclude the bound, `from`/`to` include it.
+/// Range of a number. An end that is not given is open; `above`/`below` exclude the bound, `from`/`to`
+/// include it.
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   bool low_included = true;
   bool high_included = true;
-  double least = 0.0;  ///< least magnitude other than 0
+  double least = 0.0;  ///< least magnitude of a number other than 0
 
   constexpr bool holds(double x) const {  // NaN is in no range
     return (low_included ? x >= low : x > low) && (high_included ? x <= high : x < high) &&
@@ -40,16 +41,17 @@ constexpr Range from(double low) { return {.low = low}; }
 constexpr Range between(double low, double high) { return {.low = low, .high = high}; }
 constexpr Range strictly_between(double low, double high) { return {low, high, false, false}; }
 
-/// Another key for the same value, as another sheet prints it: in another unit, or with a line number.
+/// Another key for the same value, as another data sheet prints it: in another unit, or with a line number.
 struct Spelling {
   std::string_view key;
-  int ten = 0;                    ///< value in the key's own unit = written value times 10^ten
-  std::string_view unit = "";     ///< unit of the written value; empty: the key's own
-  std::string_view frame = "";    ///< the only possible frame; empty: the frames of the key
+  int ten = 0;                    ///< value in the key's own unit = 10^ten times the written value
+  std::string_view unit = "";     ///< unit of the written value; empty: that of the key
+  std::string_view frame = "";    ///< the only possible frame of a value with this spelling; empty: the key's
+                                  ///< frames
   std::string_view source = "";   ///< source that follows from the spelling: "data sheet, line 10"
-  std::string_view meaning = "";  ///< meaning in its only frame; empty: the key's meaning
+  std::string_view meaning = "";  ///< meaning in that only frame; empty: the key's meaning
   double factor = 1.0;            ///< further factor on the written value
-  bool linear = false;            ///< the spelling for linear motors, and only for them (base/linear.hpp)
+  bool linear = false;            ///< true: the spelling is for linear motors only (base/linear.hpp)
 };
 
 /// The data of one key that a face needs.
@@ -59,14 +61,16 @@ struct About {
   std::string_view frame = "";  ///< allowed frames, '|' between: "terminal|phase"; empty if only one exists
   Range range = {};             ///< range of the written number
   bool required = false;
-  std::string_view cure = "";  ///< what to write instead; empty: derived from range and unit
-  bool partial = false;        ///< table that changes single values of a filled one: no key is required
+  std::string_view cure = "";  ///< remedy in messages: what to write instead; empty: derived from range and
+                               ///< unit
+  bool partial = false;        ///< table that changes single values of a complete one: no key in it is
+                               ///< required
   std::span<const Spelling> also = {};  ///< other keys for the same quantity; a file uses one of them
-  std::string_view mode_unit = "";      ///< the unit follows from control.mode: "*" is that of its reference,
-                                        // "*/s" that unit per second
+  std::string_view mode_unit = "";      ///< "*": the unit is that of the reference in control.mode; "*/s":
+                                        ///< that unit per second
   std::string_view unit_here =
-      "";  ///< the unit that follows from values read before: unit of a figure or a signal
-  std::string_view unit_of = "";  ///< path of the key whose unit applies
+      "";  ///< unit that follows from values read before, such as that of a figure or a signal
+  std::string_view unit_of = "";  ///< path of the key that has the unit
 };
 
 /// One word of an enumeration as written in files, with its meaning.
@@ -75,10 +79,11 @@ struct Choice {
   std::string_view word;
   Enum value;
   std::string_view meaning;
-  std::string_view turning = "";  ///< for a linear motor's word: the rotary motor's that it replaces
+  std::string_view turning = "";  ///< if this is a linear motor's word: the rotary motor's word that it
+                                  ///< replaces
 };
 
-/// The word of a value; empty if there is none.
+/// The word for a value; empty if no choice has this value.
 template <class Choices, class Enum>
 constexpr std::string_view word(const Choices& choices, Enum value) {
   for (const auto& choice : choices)
@@ -107,18 +112,19 @@ struct Interval {
 };
 
 /// A number as printed, with its frame and source.
-/// In TOML: `key = 1.03` or `key = { value = 1.03, frame = "terminal", source = "data sheet, line 10" }`,
-/// and if useful `kind = "measured"`, and `range = [0.978, 1.03]` if sources differ.
-/// If About::frame lists several frames, the frame must be written. The struct's own check requires it, because
-/// this check can explain each of them.
+///
+/// In TOML: `key = 1.03` or `key = { value = 1.03, frame = "terminal", source = "data sheet, line 10" }`.
+/// Useful additions are `kind = "measured"`, and `range = [0.978, 1.03]` if sources differ. If About::frame
+/// lists several frames, the file must give one. The check of the struct that has the quantity requires it,
+/// because that check can explain each frame.
 struct Quantity {
   double value = 0.0;
   std::string frame;
   std::string source;
   Trust kind = Trust::unstated;
-  std::optional<Interval> range = {};     ///< values of all sources, this one included
-  std::string key = {};                   ///< the spelling in the file; empty: the key's own
-  std::optional<double> last_digit = {};  ///< weight of the last digit as written in the file: 0.1 for 36.0
+  std::optional<Interval> range = {};     ///< least and greatest value of all sources, `value` included
+  std::string key = {};                   ///< the spelling that the file used; empty: the key itself
+  std::optional<double> last_digit = {};  ///< weight of the last digit that the file writes: 0.1 for 36.0
 };
 
 }  // namespace sixstep::base

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A number as the unevaluated sum of two doubles, about 106 bits; the elementary functions need it to round
-// correctly. It is exact only without contraction and extended precision (-ffp-contract=off, SSE or better), as
-// the whole library is built.
+// A number as the unevaluated sum of two doubles, about 106 bits. The elementary functions need these bits to
+// round correctly. The operations are exact only without contraction and extended precision
+// (-ffp-contract=off, SSE or better), as the whole library is built.
 #pragma once
 
 namespace sixstep::base {
@@ -23,7 +23,7 @@ constexpr DoubleDouble fast_two_sum(double a, double b) {
   return {s, b - (s - a)};
 }
 
-/// a in two halves of at most 26 bits (Veltkamp); overflows above 2^996, which no caller reaches.
+/// Splits a into two halves of at most 26 bits (Veltkamp). Overflows above 2^996, which no caller reaches.
 constexpr DoubleDouble split(double a) {
   const double scaled = 134217729.0 * a;  // 2^27 + 1
   const double high = scaled - (scaled - a);
@@ -31,7 +31,7 @@ constexpr DoubleDouble split(double a) {
 }
 
 /// a b exactly (Dekker 1971). A fused multiply-add would give the same two numbers, but not every target has
-/// one.
+/// this instruction.
 constexpr DoubleDouble two_prod(double a, double b) {
   const double p = a * b;
   const DoubleDouble x = split(a), y = split(b);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes exp, log, pow. Each reduces its argument exactly, sums a Taylor series whose first omitted term is
-// below 2^-60 of the result, and keeps in double-double the bits that the last rounding needs.
+// Computes exp, log, pow. Each function reduces its argument exactly and sums a Taylor series whose first
+// omitted term is below 2^-60 of the result. The bits that the last rounding needs are kept in double-double.
 #include "sixstep/base/elementary.hpp"
 
 #include <bit>
@@ -16,27 +16,28 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 constexpr DoubleDouble ln_2{0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-56};
-// ln 2 in two parts: 42 bits, whose product with any exponent of a double is exact, and the rest.
+// ln 2 in two parts: the first has 42 bits, so that its product with any exponent of a double is exact; the
+// second is the rest.
 constexpr double ln_2_short = 0x1.62e42fefa38p-1;
 constexpr double ln_2_rest = 0x1.ef35793c7673p-45;
 constexpr double log2_e = 0x1.71547652b82fep+0;
 
 bool is_nan(double x) { return x != x; }
 
-/// 2^n for normal results.
+/// 2^n, for n whose 2^n is a normal double.
 double power_of_two(std::int64_t n) {
   return std::bit_cast<double>(static_cast<std::uint64_t>(n + 1023) << 52);
 }
 
-/// y 2^n, rounded once even if the result is subnormal. y in [1/2, 2), n in [-1080, 1024].
+/// y 2^n, rounded once even if the result is subnormal, for y in [1/2, 2) and n in [-1080, 1024].
 double scale(double y, std::int64_t n) {
   if (n > 1023) return y * 2.0 * power_of_two(n - 1);
   if (n >= -1021) return y * power_of_two(n);
   return y * power_of_two(n + 200) * power_of_two(-200);
 }
 
-/// exp(x.high + x.low), for |x| <= 746. x = n ln 2 + r, |r| <= 0.347; exp(r) = 1 + r + r^2 (1/2! + r/3! +
-/// ...).
+/// exp(x.high + x.low), for |x| <= 746. With x = n ln 2 + r, |r| <= 0.347, the result is 2^n exp(r), and
+/// exp(r) = 1 + r + r^2 (1/2! + r/3! + ...).
 double exp_sum(DoubleDouble x) {
   const double n_real = x.high * log2_e;
   const std::int64_t n = static_cast<std::int64_t>(n_real + (n_real < 0.0 ? -0.5 : 0.5));
@@ -70,7 +71,7 @@ DoubleDouble log_sum(double x) {
     k = -54;
   }
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(x);
-  // Adding the difference of the bits of 1 and sqrt(1/2) carries into the exponent exactly from sqrt 2 on.
+  // Adding the difference of the bits of 1 and of sqrt(1/2) carries into the exponent from exactly sqrt 2 on.
   constexpr std::uint64_t half_octave = 0x3ff0000000000000u - 0x3fe6a09e667f3bcdu;
   const std::int64_t octave = static_cast<std::int64_t>((bits + half_octave) >> 52) - 1023;
   k += octave;
@@ -89,7 +90,7 @@ DoubleDouble log_sum(double x) {
   p = p * h + 1.0 / 13;
   p = p * h + 1.0 / 11;
   p = p * h + 1.0 / 9;
-  // From here on the terms are so large that their rounding matters: double-double.
+  // From here on the terms are so large that their rounding matters; they are added in double-double.
   DoubleDouble sum = q * p + DoubleDouble{0x1.2492492492492p-3, 0x1.2492492492492p-57};  // 1/7
   sum = q * sum + DoubleDouble{0x1.999999999999ap-3, -0x1.999999999999ap-57};            // 1/5
   sum = q * sum + DoubleDouble{0x1.5555555555555p-2, 0x1.5555555555555p-56};             // 1/3
@@ -98,7 +99,7 @@ DoubleDouble log_sum(double x) {
   return k == 0 ? log_m : ln_2 * static_cast<double>(k) + log_m;
 }
 
-/// Kind of y: no integer, even or odd. Every double from 2^53 on is an even integer.
+/// Kind of y: a fraction, or an even or odd integer. Every double from 2^53 on is an even integer.
 enum class Parity { fraction, even, odd };
 Parity parity(double y) {
   const double size = y < 0.0 ? -y : y;
@@ -108,7 +109,7 @@ Parity parity(double y) {
   return whole % 2 != 0 ? Parity::odd : Parity::even;
 }
 
-/// x^y for finite or infinite x > 0 and y != 0, neither NaN, x != 1.
+/// x^y for x > 0 and y != 0, each finite or infinite, neither NaN, and x != 1.
 double pow_positive(double x, double y) {
   if (y == infinity || y == -infinity) return (x > 1.0) == (y > 0.0) ? infinity : 0.0;
   if (x == infinity) return y > 0.0 ? infinity : 0.0;

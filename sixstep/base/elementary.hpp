@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Elementary functions with the same bits on every platform. Nothing that can influence a trajectory calls the
-// C library's, because their last digit differs between systems. These use only + - * / and integer operations.
-// Their error is below 1 ulp over the whole range, subnormals included (measured:
-// tests/base/elementary_test.cpp). Special values are as in C's annex F; each resulting NaN is the same quiet
-// NaN.
+// Elementary functions with the same bits on every platform. The last digit of the C library's functions
+// differs between systems, so that nothing that can influence a trajectory calls them. The functions here use
+// only + - * / and integer operations. Their error is below 1 ulp over the whole range, subnormals included
+// (measured: tests/base/elementary_test.cpp). Special values are as in C's annex F; every NaN that results is
+// the same quiet NaN.
 #pragma once
 
 namespace sixstep::base {
 
 double exp(double x);
-double log(double x);            ///< natural; log(0) = -inf, NaN below 0
+double log(double x);            ///< natural logarithm; log(0) = -inf, NaN below 0
 double pow(double x, double y);  ///< exact where the result is a double
 
 struct SinCos {
@@ -17,12 +17,14 @@ struct SinCos {
   double cos = 0.0;
 };
 
-/// Any finite angle in rad: beyond 2^20 the reduction uses as many digits of 2/pi as the number needs.
+/// Sine and cosine of any finite angle, rad. Beyond 2^20 the reduction uses as many digits of 2/pi as the
+/// number needs. NaN for an infinite angle.
 SinCos sin_cos(double rad);
 inline double sin(double rad) { return sin_cos(rad).sin; }
 inline double cos(double rad) { return sin_cos(rad).cos; }
 
-/// Angle of the point (x, y) in [-pi, pi]; the zeros' signs determine the side of the cut.
+/// Angle of the point (x, y), rad, in [-pi, pi]. On the negative x axis the sign of the zero y gives the sign
+/// of the result.
 double atan2(double y, double x);
 
 }  // namespace sixstep::base

@@ -6,14 +6,15 @@
 
 namespace sixstep::base {
 
-/// Combines 64-bit words into one: xor, multiply by an odd constant, swap the halves. Each step is a bijection
-/// of the state before. The swap moves the high bits (sign, exponent) down; a product alone would leave them.
-/// Like FNV-1a, but by words: a segment costs nine products instead of seventy. Not cryptographic.
+/// Combines 64-bit words into one: xor, multiplication by an odd constant, exchange of the halves. Each step
+/// is a bijection of the state before. The exchange moves the high bits (sign, exponent) down, where a
+/// product alone would leave them. The algorithm is like FNV-1a but takes words: a segment costs nine
+/// products instead of seventy. It is not cryptographic.
 class Hash {
  public:
   constexpr void word(std::uint64_t bits) { value_ = std::rotl((value_ ^ bits) * 0x9e3779b97f4a7c15u, 32); }
-  /// Adds the bits as they are, so -0 and 0 differ. All NaNs count as one, because their sign and payload
-  /// depend on the platform.
+  /// Adds the bits of x as they are, so that -0 and 0 differ. All NaNs count as one, because a NaN's sign and
+  /// payload depend on the platform.
   constexpr void number(double x) {
     word(x == x ? std::bit_cast<std::uint64_t>(x) : std::uint64_t{0x7ff8000000000000u});
   }

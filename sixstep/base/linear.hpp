@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Words and units of linear motors. A linear motor has the rotary motor's equations with v for w, m for J, F
-// for T and pi/tau for p (model.md 7). The library computes with the rotary motor's symbols, 1 rad standing for
-// 1 m; files and results use metres. This file has the only table of both.
+// Words and units of linear motors. A linear motor has the equations of a rotary motor with v for w, m for J,
+// F for T and pi/tau for p (model.md 7). The library computes with the rotary motor's symbols, where 1 rad
+// stands for 1 m; files and results use metres. Only this file has the table of both.
 #pragma once
 #include <string>
 #include <string_view>
@@ -13,8 +13,8 @@
 
 namespace sixstep::base {
 
-/// A rotary motor's unit, the linear motor's unit that replaces it, and the number of linear units in one rotary
-/// unit.
+/// A unit of rotary motors, the unit that replaces it for linear motors, and how many linear units one rotary
+/// unit is.
 struct LinearUnit {
   std::string_view turning, linear;
   double factor = 1.0;
@@ -45,14 +45,14 @@ inline constexpr LinearUnit linear_units[] = {
     {"rpm/mNm", "m/s/N", 1e3 * pi / 30},
 };
 
-/// The row of a unit; a unit that both motors share maps to itself.
+/// The row of a rotary unit; a unit that both kinds of motor share maps to itself.
 constexpr LinearUnit in_linear(std::string_view unit) {
   for (const LinearUnit& row : linear_units)
     if (row.turning == unit) return row;
   return {unit, unit, 1.0};
 }
 
-/// A word or a unit in a text about a rotary motor, and its replacement for a linear one.
+/// A word or a unit in a text about a rotary motor, and its replacement for a linear motor.
 struct LinearWord {
   std::string_view turning, linear;
 };
@@ -83,7 +83,8 @@ inline constexpr LinearWord linear_word_table[] = {
     {"K\u209c", "K_f"},
 };
 
-/// Units that are replaced one for one, in prose and in keys; a letter must neither precede nor follow them.
+/// Units that are replaced one for one, in prose and in keys. A letter must neither precede nor follow the
+/// unit.
 inline constexpr LinearWord linear_unit_words[] = {
     {"rad/s", "m/s"}, {"rad_s", "m_s"},  {"kg m2", "kg"}, {"kg_m2", "kg"},  {"N m/A", "N/A"}, {"Nm/A", "N/A"},
     {"Nm_A", "N_A"},  {"Nm_s", "N_s_m"}, {"Nm", "N"},     {"V_s", "V_s_m"}, {"N m", "N"},
@@ -108,9 +109,9 @@ inline void replace(std::string& text, const LinearWord& word, bool whole) {
 
 }  // namespace linear_text
 
-/// Replaces a rotary motor's words in a text or a name by a linear motor's: force for torque, mass for inertia,
-/// position for angle. Numbers are not converted: texts with numbers in degrees, turns or thousandths need
-/// another text.
+/// Replaces a rotary motor's words in a text or a name by a linear motor's: force for torque, mass for
+/// inertia, position for angle. Numbers are not converted: a text with a number in degrees, turns or
+/// thousandths needs its own version for linear motors.
 inline std::string linear_words(std::string text) {
   for (const LinearWord& word : linear_word_table) linear_text::replace(text, word, false);
   for (const LinearWord& unit : linear_unit_words) linear_text::replace(text, unit, true);
@@ -127,20 +128,20 @@ struct Motion {
   std::string words(std::string text) const { return linear ? linear_words(std::move(text)) : text; }
 };
 
-/// Converts a number written with another spelling to the key's own unit, and back.
+/// Converts a number written with another spelling to the key's own unit; as_spelled() converts back.
 inline double in_own_unit(double written, const Spelling& s) {
   return times_ten_to(written, s.ten) * s.factor;
 }
 inline double as_spelled(double own, const Spelling& s) { return times_ten_to(own / s.factor, -s.ten); }
 
-/// The spelling in a linear motor's file; null if the key is the same for both.
+/// The spelling that a linear motor's file uses; null if the key is the same for both kinds of motor.
 inline const Spelling* linear_spelling(const About& about) {
   for (const Spelling& s : about.also)
     if (s.linear) return &s;
   return nullptr;
 }
 
-/// The word of a value in this motor's files; empty if there is none.
+/// The word for a value in files of this kind of motor; empty if there is none.
 template <class Choices, class Enum>
 constexpr std::string_view word_in(const Motion& motion, const Choices& choices, Enum value) {
   const std::string_view turning = word(choices, value);

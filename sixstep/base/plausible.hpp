@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of plausible numbers for each unit. Every number that enters is checked against it, from a file,
-// the command line, a table of rows or another program. The ranges are so wide that only mistakes are refused
-// (1e308, a forgotten unit), and so narrow that products of a few such numbers stay within a double. A key can
-// have a narrower range of its own.
+// The table of plausible numbers for each unit. Every number that enters is checked against it, whether from
+// a file, the command line, a table of rows or another program. The ranges are so wide that only mistakes are
+// refused (1e308, a forgotten unit), and so narrow that products of a few such numbers stay within a double.
+// A key can have a narrower range in addition.
 #pragma once
 #include <string_view>
 
@@ -12,11 +12,11 @@ namespace sixstep::base {
 
 struct Plausible {
   std::string_view unit;
-  double least;  ///< for numbers that must be above 0
-  double most;   ///< magnitude
+  double least;  ///< least value of a number that must be above 0
+  double most;   ///< largest magnitude
 };
 
-/// Each interval is more than three powers of ten wide, around the values of built motors.
+/// Each interval spans more than three powers of ten and contains the values of built motors.
 inline constexpr Plausible plausible_numbers[] = {
     {"V", 1e-6, 1e5},         {"A", 1e-9, 1e6},          {"mA", 1e-6, 1e9},        {"ohm", 1e-6, 1e6},
     {"mH", 1e-6, 1e6},        {"F", 1e-12, 1e4},         {"s", 1e-12, 9e6},        {"ms", 1e-9, 9e9},
@@ -35,10 +35,10 @@ inline constexpr Plausible plausible_numbers[] = {
     {"m/s3", 1e-9, 1e18},
 };
 
-/// Gains, ratios, and numbers with a unit of their own.
+/// Limits for gains, ratios, and numbers whose unit is not in the table.
 inline constexpr Plausible any_number = {"", 1e-12, 1e12};
 
-/// All formulas treat a smaller number like 0, but its inverse or its square would leave the range of a double.
+/// Formulas treat a smaller number like 0, but its inverse or its square would leave the range of a double.
 inline constexpr double nearly_nothing = 1e-30;
 
 constexpr Plausible plausible(std::string_view unit) {
@@ -47,7 +47,7 @@ constexpr Plausible plausible(std::string_view unit) {
   return any_number;
 }
 
-/// The range, with open ends replaced by the plausible limits of the unit.
+/// The range, with its open ends replaced by the plausible limits of the unit.
 constexpr Range allowed(Range range, std::string_view unit) {
   const Plausible number = plausible(unit);
   constexpr double endless = std::numeric_limits<double>::infinity();
@@ -57,7 +57,7 @@ constexpr Range allowed(Range range, std::string_view unit) {
   return range;
 }
 
-/// The allowed range of a key's number. If its unit follows from other keys, any_number's limits apply.
+/// The allowed range of a key's number. If the unit follows from other keys, the limits of any_number apply.
 constexpr Range allowed(const About& about) { return allowed(about.range, about.unit); }
 
 }  // namespace sixstep::base

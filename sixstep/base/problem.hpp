@@ -9,7 +9,7 @@ namespace sixstep::base {
 
 /// One error, described so that the user can correct it without further help.
 struct Problem {
-  std::string where{};  ///< the key or place, e.g. "supply.voltage_V"; text adds file, line and column
+  std::string where{};  ///< the key or place, e.g. "supply.voltage_V"; readers add file, line and column
   std::string value{};  ///< the wrong value as written; empty if none was given
   std::string limit{};  ///< the allowed values or the broken rule, as a clause: "must be above 0"
   std::string cure{};   ///< what to do: "give the bus voltage in volts"
@@ -19,10 +19,10 @@ struct Problem {
 
 using Problems = std::vector<Problem>;
 
-/// Appends problems, because all of them are reported together.
+/// Appends problems to `to`, because a user gets all of them together.
 inline void append(Problems& to, const Problems& more) { to.insert(to.end(), more.begin(), more.end()); }
 
-/// "supply.voltage_V = -3 must be above 0; give the bus voltage in volts"
+/// The problem as one sentence: "supply.voltage_V = -3 must be above 0; give the bus voltage in volts"
 inline std::string to_string(const Problem& p) {
   std::string text = p.where;
   if (!p.value.empty()) text += " = " + p.value;

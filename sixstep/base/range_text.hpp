@@ -8,13 +8,15 @@
 
 namespace sixstep::base {
 
-/// "must be above 0 and at most 1"; "must be a finite number" for a range open on both ends.
+/// The range as a clause: "must be above 0 and at most 1"; "must be a finite number" for a range open on both
+/// ends.
 std::string limit_of(const Range& range);
 
-/// The limit that the number x of a key breaks: of its own range, or the plausible one of its unit.
+/// The limit that x, the number of a key, breaks: the key's own range, or else the plausible range of its
+/// unit.
 std::string limit_of(const Range& own, const Range& allowed, double x);
 
-/// The Problem of a number that is outside its own range or not plausible in its unit; empty if the number is
+/// The Problem of a number that is outside its own range or implausible in its unit; empty if the number is
 /// allowed.
 Problems out_of_range(const char* where, double x, const Range& own, std::string_view unit, const char* cure);
 

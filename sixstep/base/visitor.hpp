@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Visitors of the members of described structs (base/describe.hpp). Descriptions are compiled once, for class
-// Visitor. A struct or an enumeration of its own type reaches the visitor through a small handle that hides the
-// type.
+// Visitor. A member whose type is a struct or an enumeration reaches the visitor through a small handle that
+// hides the type.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -22,7 +22,7 @@ using ValueMember = std::variant<double*, int*, bool*, std::string*, std::vector
                                  std::vector<std::string>*, std::optional<double>*, std::optional<int>*,
                                  std::optional<bool>*, std::optional<std::string>*>;
 using QuantityMember = std::variant<Quantity*, std::optional<Quantity>*>;
-/// The quantity of the member; null if it is left out.
+/// The quantity of the member; null if the member is optional and empty.
 Quantity* quantity_in(const QuantityMember& member);
 
 /// A member whose value is one word of a list.
@@ -33,27 +33,27 @@ class WordMember {
   };
   virtual std::size_t size() const = 0;
   virtual Word at(std::size_t n) const = 0;
-  /// Index of the member's word; size() if no word has its value.
+  /// Index of the member's word; size() if no word stands for its value.
   virtual std::size_t chosen() const = 0;
   virtual void choose(std::size_t n) = 0;
-  /// The member's word; empty if no word has its value.
+  /// The member's word; empty if no word stands for its value.
   std::string_view word() const;
-  /// The same in a linear motor's file, where some words replace the rotary motor's.
+  /// The member's word in a linear motor's file, where some words replace the rotary motor's.
   std::string_view linear_word() const;
 
  protected:
   ~WordMember() = default;
 };
 
-/// A member that is a described struct, or an optional one.
+/// A member that is a described struct, or an optional described struct.
 class TableMember {
  public:
   virtual bool is_optional() const = 0;
   virtual bool is_there() const = 0;
   virtual void emplace() = 0;
-  /// Visits the present struct.
+  /// Visits the struct that is present.
   virtual void walk(Visitor& visitor) = 0;
-  /// Visits a default-constructed one.
+  /// Visits a default-constructed struct, for the usual values.
   virtual void walk_usual(Visitor& visitor) const = 0;
 
  protected:
@@ -72,7 +72,7 @@ class ListMember {
   ~ListMember() = default;
 };
 
-/// Base of all visitors. Override the calls of interest; the others do nothing.
+/// Base of all visitors. Override the functions for the kinds of member that matter; the others do nothing.
 class Visitor {
  public:
   template <class T>

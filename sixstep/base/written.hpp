@@ -14,7 +14,7 @@ inline std::string written(double x) {
   return {text, end.ptr};
 }
 
-/// Rounds to `digits` significant digits.
+/// x rounded to `digits` significant digits.
 inline std::string rounded(double x, int digits) {
   char text[32];
   const std::to_chars_result end =
@@ -22,12 +22,12 @@ inline std::string rounded(double x, int digits) {
   return {text, end.ptr};
 }
 
-/// Form of numbers in sentences that need not be exact.
+/// A number in a sentence that need not be exact.
 inline std::string three_digits(double x) { return rounded(x, 3); }
-/// Form of given numbers, and of results of a formula.
+/// A number that a user gave, or the result of a formula.
 inline std::string six_digits(double x) { return rounded(x, 6); }
 
-/// Sixteen hexadecimal digits.
+/// A number as sixteen hexadecimal digits.
 inline std::string written_hex(std::uint64_t bits) {
   std::string text(16, '0');
   for (auto digit = text.rbegin(); bits != 0; ++digit, bits >>= 4) *digit = "0123456789abcdef"[bits & 15];

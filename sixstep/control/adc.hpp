@@ -3,7 +3,8 @@
 //
 //   x = per_count (counts - offset),   offset = mean of 2^n counts, kept in eighths of a count
 //
-// Calibration fails if the mean is too far from the circuit's offset, because the amplifier is then broken.
+// Calibration fails if the mean is too far from the offset that the circuit gives, because the amplifier is
+// then broken.
 #pragma once
 #include <cstdint>
 
@@ -12,26 +13,29 @@
 
 namespace sixstep::control {
 
-/// The default reads 0. Converters of up to 12 bits do not saturate 16-bit formats; more bits need 32-bit ones.
+/// With the default every count reads 0. Converters of up to 12 bits do not saturate 16-bit formats; more
+/// bits need 32-bit formats.
 template <class Scalar>
 struct AdcConfig {
   Gain<Scalar> per_eighth{};           ///< signal per eighth of a count; negative for an inverting amplifier;
-                                       ///< fixed: raw units
-  std::uint16_t offset_counts = 0;     ///< counts at no current according to the circuit
+                                       ///< fixed point: raw units
+  std::uint16_t offset_counts = 0;     ///< counts without current, as the circuit gives them
   std::uint16_t offset_tolerance = 0;  ///< largest deviation of the measured offset, counts
   std::uint8_t log2_samples = 6;       ///< 2^n samples in one calibration, n at most 12
   bool operator==(const AdcConfig&) const = default;
 };
 
 struct AdcState {
-  std::int32_t offset_eighths = -1;  ///< measured; below 0: not measured yet, offset_counts is used
+  std::int32_t offset_eighths = -1;  ///< measured offset; below 0: not measured yet, and offset_counts is
+                                     ///< used
   std::uint32_t sum = 0;
   std::uint16_t samples = 0;
 };
 
 enum class Calibration : std::uint8_t { running, done, failed };
 
-/// Takes one sample while the bridge is off and no current flows.
+/// Takes one sample while the bridge is off and no current flows. The result is `done` or `failed` at the
+/// last sample.
 template <class Scalar>
 constexpr Calibration adc_calibrate(const AdcConfig<Scalar>& config, AdcState& state, std::uint16_t counts) {
   const std::uint8_t n = config.log2_samples > 12 ? std::uint8_t{12} : config.log2_samples;

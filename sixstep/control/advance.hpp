@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Commutates ahead of the Hall edge: the pair changes once the interpolated angle is within the advance angle
-// of the next edge. This compensates the current's lag L/R, and the lag of filters at speed.
+// of the next edge. This compensates the lag L/R of the current and, at speed, the lag of filters.
 //
 //   advance = fixed + per_speed |w|, at most limit;    switch early where fraction >= 1 - advance
 //
@@ -13,7 +13,8 @@
 
 namespace sixstep::control {
 
-/// The default commutates at the edge. A limit of 1/2 keeps the pair within 30 degrees of the right one.
+/// With the default the drive commutates at the edge. A limit of 1/2 keeps the pair within 30 degrees of the
+/// right one.
 template <class Scalar>
 struct AdvanceConfig {
   Scalar fixed{};            ///< sectors
@@ -29,7 +30,7 @@ constexpr Scalar advance_angle(const AdvanceConfig<Scalar>& config, Scalar speed
   return between(wanted, Scalar{}, config.limit);
 }
 
-/// The sector to commutate for. `direction`: -1, 0 or 1; `fraction`: distance since the last edge in that
+/// The sector to commutate for. `direction`: -1, 0 or 1. `fraction`: distance since the last edge in this
 /// direction, in sectors.
 template <class Scalar>
 constexpr std::uint8_t advanced_sector(const AdvanceConfig<Scalar>& config, std::uint8_t sector,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The interface between controller and chip: measurement and setpoint in, bridge command out. Plain structs,
-// the same on the simulated board and on a real one.
+// The interface between controller and chip: measurement and setpoint are its input, a bridge command its
+// output. They are plain structs, the same on the simulated board and on a real one.
 #pragma once
 #include <cstdint>
 
@@ -12,25 +12,26 @@ enum class Mode : std::uint8_t { off, duty, current, speed, position };
 /// State of the switches in the off part of a PWM period (model.md 3).
 enum class Chopping : std::uint8_t { soft, hard, complementary };
 
-/// The switch of the pair that the duty chops while the other one is on. Hard chopping chops both.
+/// The switch of the pair that the duty chops while the other switch stays on. Hard chopping chops both.
 enum class ChoppedSwitch : std::uint8_t { upper, lower };
 
-/// A leg of the bridge, by the phase it feeds.
+/// A leg of the bridge, named after the phase that it feeds.
 enum class Leg : std::uint8_t { a = 0, b = 1, c = 2 };
 
-/// The pair that carries the current: out of `source`'s upper switch, back through `sink`'s lower switch.
+/// The driven pair: the current leaves the bridge through `source`'s upper switch and returns through
+/// `sink`'s lower switch.
 struct Pair {
   Leg source = Leg::a;
   Leg sink = Leg::b;
   bool operator==(const Pair&) const = default;
 };
 
-/// The leg that is in no pair.
+/// The leg that is not in the pair.
 constexpr Leg free_leg(Pair pair) {
   return static_cast<Leg>(3 - static_cast<int>(pair.source) - static_cast<int>(pair.sink));
 }
 
-/// Measurements at the sample instant. Currents are positive into the motor.
+/// Measurements at the sample instant. Currents are positive into the motor, in A.
 template <class Scalar>
 struct Measurement {
   Scalar i_a_A{}, i_b_A{}, i_c_A{};
@@ -40,7 +41,8 @@ struct Measurement {
   std::uint8_t hall = 0;  ///< H1 H2 H3 as bits 2, 1, 0
 };
 
-/// Setpoint in the unit of the mode: duty 1 (signed, -1..1), current A, speed rad/s, position deg (mechanical).
+/// Setpoint in the unit of the mode: duty 1 (-1 to 1, with the sign of the voltage), current A, speed rad/s,
+/// position degrees (mechanical).
 template <class Scalar>
 struct Setpoint {
   Scalar value{};
@@ -56,17 +58,17 @@ enum class Watch : std::uint8_t {
 template <class Scalar>
 struct BridgeCommand {
   bool enabled = false;  ///< false: all six gates off
-  Pair pair{};           ///< already swapped for a negative command
+  Pair pair{};           ///< source and sink are already exchanged for a negative command
   Scalar duty{};         ///< 0..1, on-time over PWM period; ignored while comparators are armed
   Chopping chopping = Chopping::soft;
   ChoppedSwitch chopped = ChoppedSwitch::upper;
   Watch watch = Watch::none;
-  /// Duty of the third leg while its old current has not ended, -1..1. Above 0 its upper switch is chopped,
-  /// below 0 its lower one.
+  /// Duty of the leg that has left the pair, while its old current has not ended, -1..1. Above 0 its upper
+  /// switch is chopped, below 0 its lower one.
   Scalar overlap{};
-  Scalar on_below_A{};   ///< a comparator switches on strictly below this
-  Scalar off_above_A{};  ///< and off strictly above this
-  bool fault = false;    ///< an impossible Hall code was seen; the bridge is off
+  Scalar on_below_A{};   ///< a comparator switches on if its current is below this
+  Scalar off_above_A{};  ///< a comparator switches off if its current is above this
+  bool fault = false;    ///< an invalid Hall code was seen; the bridge is off
 
   bool operator==(const BridgeCommand&) const = default;
 };

@@ -11,8 +11,8 @@ namespace sixstep::control {
 
 inline constexpr std::uint8_t no_sector = 0xff;
 
-/// Sector 0..5 (60 electrical degrees each) of a Hall code H1 H2 H3 (bits 2, 1, 0). no_sector for 000 and 111,
-/// which probes 120 degrees apart never give: a wire or probe is broken.
+/// Sector 0..5 (60 electrical degrees each) of a Hall code H1 H2 H3 (bits 2, 1, 0). Returns no_sector for 000
+/// and 111, which intact probes 120 degrees apart never give: a wire or a probe is broken.
 constexpr std::uint8_t sector_of_hall(std::uint8_t code) {
   switch (code) {
     case 0b100:
@@ -32,13 +32,13 @@ constexpr std::uint8_t sector_of_hall(std::uint8_t code) {
   }
 }
 
-/// The inverse: the code of probes 120 degrees apart; 000 if there is no sector.
+/// The code of a sector, from probes 120 degrees apart; 000 for a number that is no sector.
 constexpr std::uint8_t hall_of_sector(std::uint8_t sector) {
   constexpr std::uint8_t codes[6] = {0b100, 0b110, 0b010, 0b011, 0b001, 0b101};
   return sector < 6 ? codes[sector] : std::uint8_t{0};
 }
 
-/// The pair that makes positive torque in a sector: T1 T4, T1 T6, T3 T6, T3 T2, T5 T2, T5 T4.
+/// The pair that makes positive torque in sectors 0 to 5: T1 T4, T1 T6, T3 T6, T3 T2, T5 T2, T5 T4.
 constexpr Pair positive_pair(std::uint8_t sector) {
   switch (sector) {
     case 0:
@@ -71,14 +71,14 @@ constexpr Scalar motor_current(const Measurement<Scalar>& m, Pair positive) {
                                                phase_current(m, positive.sink));
 }
 
-/// The phase that conducts both before and after a commutation.
+/// The staying phase: it conducts before and after a commutation.
 struct StayingPhase {
   std::uint8_t sector = no_sector;  ///< sector of the last sample
   Leg leg = Leg::a;
 };
 
-/// The staying phase's leg. It is the source of the positive pair if the pairs have no leg in common, or if there
-/// was no pair before.
+/// The leg of the staying phase. If the pairs before and after have no leg in common, or if there was no pair
+/// before, it is the source of the positive pair.
 constexpr Leg staying_leg(StayingPhase& state, std::uint8_t sector) {
   if (sector == state.sector) return state.leg;
   const Pair now = positive_pair(sector),
@@ -88,8 +88,8 @@ constexpr Leg staying_leg(StayingPhase& state, std::uint8_t sector) {
   return state.leg;
 }
 
-/// i_m from the staying phase alone. During a commutation this current makes the torque, T_e w = 2 E i where
-/// all shapes are flat; otherwise it equals the pair's current.
+/// i_m from the staying phase alone. During a commutation this current makes the torque, T_e w = 2 E i while
+/// all shapes are flat; otherwise it equals the current of the pair.
 template <class Scalar>
 constexpr Scalar staying_current(StayingPhase& state, const Measurement<Scalar>& m, std::uint8_t sector) {
   const Leg leg = staying_leg(state, sector);

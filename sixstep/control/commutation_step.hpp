@@ -1,37 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
-// Steps the duty at a commutation: while the leaving phase's current decays through its diode, another duty
-// than the pair's holds the staying phase's current. With E the back-EMF of a phase on its flat top, R and L of
-// a phase, I the current and U the bus, the star's three equations (model.md 1), with the leaving terminal at
-// the far rail, give for the staying phase
+// Steps the duty at a commutation. While the leaving phase's current decays through its diode, another duty
+// than the pair's holds the staying phase's current. E is the back-EMF of a phase on its flat top, R and L
+// are those of a phase, I is the current and U the bus. The leaving terminal is at the far rail. The star's
+// three equations (model.md 1) then give for the staying phase
 //
-//   L dI/dt = ((2 d - 1) U - 4 E - 3 R I)/3     its own switch is chopped
-//   L dI/dt = (d U - 4 E - 3 R I)/3             the entering phase's switch is chopped
+//   L dI/dt = ((2 d - 1) U - 4 E - 3 R I)/3     if the staying phase's switch is chopped
+//   L dI/dt = (d U - 4 E - 3 R I)/3             if the entering phase's switch is chopped
 //
 // The current is constant at
 //
 //   d = 1/2 + (4 E + 3 R I)/(2 U)   and   d = (4 E + 3 R I)/U
 //
-// whereas the pair alone needs d = (2 E + 2 R I)/U. If 4 E + 3 R I is above U no duty holds the current
+// whereas the pair alone needs d = (2 E + 2 R I)/U. If 4 E + 3 R I is above U, no duty holds the current
 // (Carlson, Lajoie-Mazenc and Fagundes, Analysis of torque ripple due to phase commutation in brushless DC
-// machines, IEEE Trans. Ind. Appl. 28, 1992): then d = 1, and if legs may overlap the leaving phase's own
-// switch is chopped with the duty
+// machines, IEEE Trans. Ind. Appl. 28, 1992). Then d = 1. If legs may overlap, the leaving phase's own switch
+// is then also chopped, with the duty
 //
 //   x = (4 E + 3 R I)/U - 1
 //
-// because its terminal at x U instead of the rail replaces d U above by (d + x) U.
+// because the leaving terminal is then at x U on average instead of at the rail, which replaces d U above by
+// (d + x) U.
 //
-// Meanwhile the leaving current i falls by (2 E + R I + R i)/L, on average (i = I/2) by u/L with u = 2 E + 3 R
-// I/2, half of the voltage that the held current takes; with overlapping legs by (U - u)/L. If less than half a
-// period's fall is left when the command acts, a step comes too late. In a braking motor the back-EMF maintains
-// the leaving current, and no step is needed.
+// Meanwhile the leaving current i falls by (2 E + R I + R i)/L. On average (i = I/2) this is u/L with u = 2 E
+// + 3 R I/2, half of the voltage that the held current needs; with overlapping legs it is (U - u)/L. If, when
+// the command acts, less is left of i than it falls in half a period, a step comes too late. In a braking
+// motor the back-EMF maintains the leaving current, and no step is needed.
 //
-// The leaving phase's flat top ends at the edge, or by the part g of a flank later. At the part f of the flank
-// its back-EMF is E (1 - 2 f), at the flank's end -E: 4 E becomes 4 E - 2 E f, and 2 E in u becomes 2 E - E f.
+// The leaving phase's flat top ends at the edge, or later by the fraction g of a flank. At the fraction f of
+// the flank its back-EMF is E (1 - 2 f), at the flank's end -E. 4 E becomes 4 E - 2 E f, and 2 E in u becomes
+// 2 E - E f.
 //
 // The edge comes within a control period, and the staying current falls until the command acts. Without a
-// correction it would be held at that lower value. So the deviation from the reference adds voltage: 3/2 V for
-// each volt that the pair's current loop would add, because L di/dt is a third of the voltage here and a half
-// there.
+// correction, the step would hold that lower current. The deviation from the reference therefore adds
+// voltage: 3/2 V for each volt that the pair's current loop would add, because L di/dt is a third of the
+// voltage here and half of it there.
 #pragma once
 #include "sixstep/control/commutation.hpp"
 #include "sixstep/control/fixed.hpp"
@@ -39,17 +41,18 @@
 
 namespace sixstep::control {
 
-/// The default steps at every commutation with a current, to a duty of 0 or 1/2.
+/// By default the duty steps at every commutation with a current, to 0 or 1/2.
 template <class Scalar>
 struct CommutationStepConfig {
-  Gain<Scalar> K_t_V_s{};           ///< 2 E per mechanical rad/s
-  Gain<Scalar> V_per_A{};           ///< 3 R/2
+  Gain<Scalar> K_t_V_s{};           ///< V of the back-EMF 2 E per mechanical rad/s
+  Gain<Scalar> V_per_A{};           ///< 3 R/2: half of 3 R, as u is half of the voltage
   Gain<Scalar> A_per_V{};           ///< T/L (1/2 + periods until a command acts)
-  Scalar overlap_bus_V{};           ///< U where legs may overlap, else 0
+  Scalar overlap_bus_V{};           ///< U, V, if legs may overlap; else 0
   Gain<Scalar> missing_V_per_A{};   ///< added to u: 3/4 of the proportional gain of the pair's loop
-  Gain<Scalar> flanks_per_rad_s{};  ///< part of the flank passed in a period, per mechanical rad/s
-  Gain<Scalar> ahead_per_rad_s{};   ///< the same until a command acts
-  Scalar flat_flanks{};             ///< g
+  Gain<Scalar> flanks_per_rad_s{};  ///< fraction of the flank that passes in a period, per mechanical rad/s
+  Gain<Scalar> ahead_per_rad_s{};   ///< fraction of the flank that passes until a command acts, per
+                                    ///< mechanical rad/s
+  Scalar flat_flanks{};             ///< g: flat part beyond the edge, in flanks
   bool operator==(const CommutationStepConfig&) const = default;
 };
 
@@ -58,15 +61,15 @@ struct CommutationStepState {
   StayingPhase staying{};
   bool hands_over = false;
   bool drives = false;  ///< the rotor turned in the command's direction at the last tick
-  Scalar driven_A{};    ///< the staying phase's current in the command's direction, at the last tick
-  Scalar volts{};       ///< u of the last tick
+  Scalar driven_A{};    ///< the staying phase's current at the last tick, positive in the command's direction
+  Scalar volts{};       ///< u at the last tick, V
   Scalar flank{};       ///< f; below 0 before the flank begins
-  Scalar least_A{};     ///< a smaller leaving current ends too soon for a step
+  Scalar least_A{};     ///< a leaving current below this ends too soon for a step
   Scalar part{};        ///< (4 E + 3 R I)/(2 U): 0 to 1/2, to 1 if legs may overlap
 };
 
-/// u = 2 E - E f + 3 R I/2 in the command's direction, V: half of the voltage that a held current takes.
-/// `flank`: f, 0 to 1.
+/// u = 2 E - E f + 3 R I/2 in the command's direction, V: half of the voltage that the held current needs.
+/// `flank` is f, 0 to 1.
 template <class Scalar>
 constexpr Scalar holding_voltage(const CommutationStepConfig<Scalar>& config, Scalar driven_rad_s,
                                  Scalar driven_A, Scalar flank = {}) {
@@ -75,7 +78,7 @@ constexpr Scalar holding_voltage(const CommutationStepConfig<Scalar>& config, Sc
   return two_E - T::half_difference(two_E * flank, Scalar{}) + T::product(driven_A, config.V_per_A);
 }
 
-/// Enters the pair's new sector, and decides whether its leaving current is large enough for a step.
+/// Enters the sector of the new pair, and decides whether the leaving current is large enough for a step.
 template <class Scalar>
 constexpr void enter_sector(const CommutationStepConfig<Scalar>& config, CommutationStepState<Scalar>& state,
                             std::uint8_t sector) {
@@ -86,8 +89,8 @@ constexpr void enter_sector(const CommutationStepConfig<Scalar>& config, Commuta
   state.flank = -config.flat_flanks;
 }
 
-/// Call it once per tick: it measures the rest of the leaving current, and computes the voltage that holds the
-/// staying one. `reversed`: the sign of the last command.
+/// Call it once per tick. It measures what is left of the leaving current, and computes the voltage that
+/// holds the staying current. `reversed`: the sign of the last command.
 template <class Scalar>
 constexpr void watch_leaving(const CommutationStepConfig<Scalar>& config, CommutationStepState<Scalar>& state,
                              const Measurement<Scalar>& measured, std::uint8_t sector, bool reversed) {
@@ -99,7 +102,7 @@ constexpr void watch_leaving(const CommutationStepConfig<Scalar>& config, Commut
   state.drives = Scalar{} < driven_rad_s;
   state.flank = state.flank + T::product(driven_rad_s, config.flanks_per_rad_s);
   const Scalar flank = state.flank + T::product(driven_rad_s, config.ahead_per_rad_s);
-  // Without a commutation in progress the next event is an edge, where f is 0.
+  // If no commutation is in progress, the next one begins at an edge, where f is 0.
   const Scalar u = holding_voltage(config, driven_rad_s, state.driven_A,
                                    state.hands_over ? between(flank, Scalar{}, one<Scalar>) : Scalar{});
   const Scalar headroom = config.overlap_bus_V - u;
@@ -110,7 +113,8 @@ constexpr void watch_leaving(const CommutationStepConfig<Scalar>& config, Commut
   state.hands_over = state.hands_over && state.drives && state.least_A < left;
 }
 
-/// u, corrected for the difference between reference and current. `driven_reference_A`: in the command's direction.
+/// u, corrected by the difference between reference and current. `driven_reference_A` is positive in the
+/// command's direction.
 template <class Scalar>
 constexpr Scalar corrected_voltage(const CommutationStepConfig<Scalar>& config,
                                    const CommutationStepState<Scalar>& state, Scalar driven_reference_A) {
@@ -123,9 +127,9 @@ constexpr Scalar half_of_one() {
   return ScalarTraits<Scalar>::half_difference(one<Scalar>, Scalar{});
 }
 
-/// Bound to which a correction may raise the part. Beyond 1/2 the part also feeds the leaving phase: its L
-/// di/dt, u - U while the other phase is held, changes by 4/3 of each rise of u. The bound leaves it two thirds
-/// of its rate.
+/// Bound to which a correction may raise state.part. Beyond 1/2 this part also feeds the leaving phase: while
+/// the staying current is held, the leaving phase's L di/dt is u - U, and each rise of u changes it by 4/3 of
+/// the rise. With this bound the leaving current still falls at two thirds of its rate.
 template <class Scalar>
 constexpr Scalar greatest_part(Scalar holding) {
   using T = ScalarTraits<Scalar>;
@@ -134,7 +138,7 @@ constexpr Scalar greatest_part(Scalar holding) {
   return most < half ? half : most;
 }
 
-/// Duty of the command's pair, with the chopped switch of the command.
+/// Duty of the command's pair that holds the staying current; `chopped` is the command's chopped switch.
 template <class Scalar>
 constexpr Scalar holding_duty(const CommutationStepState<Scalar>& state, Pair pair, ChoppedSwitch chopped) {
   const Scalar half = half_of_one<Scalar>();
@@ -143,8 +147,8 @@ constexpr Scalar holding_duty(const CommutationStepState<Scalar>& state, Pair pa
   return staying_chops ? half + state.part : state.part + state.part;
 }
 
-/// Overlap of the third leg (BridgeCommand::overlap). If the staying leg is the sink, the leaving leg was
-/// the source and its upper switch is chopped, else its lower one.
+/// Overlap of the leaving leg (BridgeCommand::overlap). If the staying leg is the sink, the leaving leg was
+/// the source, and its upper switch is chopped; otherwise its lower one.
 template <class Scalar>
 constexpr Scalar holding_overlap(const CommutationStepState<Scalar>& state, Pair pair) {
   const Scalar beyond = state.part - half_of_one<Scalar>();

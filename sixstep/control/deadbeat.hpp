@@ -1,28 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// Deadbeat current control with compensation of the delay: computes the voltage with which the current reaches
-// its reference one period later. The driven pair is a winding of R and L; with a voltage held over a time t
-// (zero-order hold)
+// Deadbeat current control with compensation of the delay: it computes the voltage with which the current
+// reaches its reference one period later. The driven pair is a winding of R and L. With a voltage held over a
+// time t (zero-order hold) its current is
 //
 //   i(t) = a(t) i + b(t) (u - e),   a(t) = exp(-R t/L),   b(t) = (1 - a(t))/R
 //
-// The voltage computed from a sample begins `wait` later, and the last voltage acts until then, so that
-//
+// The voltage computed from a sample begins a time `wait` later, and the last voltage acts until then, so
+// that
 //   i_w    = a(wait) i + b(wait) (u[n-1] - e)        where the new voltage begins
-//   u[n]   = (i* - a(T) i_w)/b(T) + e                reaches i* a period later
+//   u[n]   = (i* - a(T) i_w)/b(T) + e                reaches i* a period after that
 //
-// e is K_t w plus a correction of the predictions: at each sample e moves by g/b(T) times (predicted -
-// measured). If the model lacks a constant voltage (drop, dead time, R), the part (1 - g)^n of it is left after
-// n samples.
+// e is K_t w plus a correction of the predictions: at each sample e changes by g/b(T) times (predicted -
+// measured). If the model lacks a constant voltage (drop, dead time, error of R), a fraction (1 - g)^n of
+// this voltage remains after n samples.
 //
-// Without a limit the current follows i*[n] one period after the new voltage begins. With an inductance of m
-// times the model's the loop has its poles at 1 - 1/m, and is stable from m = 1/2 on (no wait).
+// Without a limit the current follows i*[n] one period after the new voltage begins. If the inductance is m
+// times the model's, the loop has its poles at 1 - 1/m, and is stable for m above 1/2 (no wait).
 #pragma once
 #include "sixstep/control/fixed.hpp"
 #include "sixstep/control/scalar.hpp"
 
 namespace sixstep::control {
 
-/// The winding over a time: i' = decay i + A_per_V (u - e). By default both factors are 0; a time of 0 has decay 1.
+/// Response of the winding over a time: i' = decay i + A_per_V (u - e). By default both factors are 0; over a
+/// time of 0 decay is 1 and A_per_V 0.
 template <class Scalar>
 struct HeldWinding {
   Gain<Scalar> decay{};
@@ -33,20 +34,20 @@ struct HeldWinding {
 /// With the defaults the output is 0.
 template <class Scalar>
 struct DeadbeatConfig {
-  HeldWinding<Scalar> wait{};         ///< from a sample until its voltage begins
-  HeldWinding<Scalar> rest{};         ///< from its begin to the next sample
-  Gain<Scalar> decay{};               ///< a(T)
-  Gain<Scalar> V_per_A{};             ///< 1/b(T)
+  HeldWinding<Scalar> wait{};         ///< from a sample until the voltage computed from it begins
+  HeldWinding<Scalar> rest{};         ///< from the begin of that voltage to the next sample
+  Gain<Scalar> decay{};               ///< a(T), decay over a period
+  Gain<Scalar> V_per_A{};             ///< 1/b(T), voltage per ampere of change in a period
   Gain<Scalar> correction_V_per_A{};  ///< g/b(T)
-  Gain<Scalar> K_t_V_s{};             ///< V per mechanical rad/s
+  Gain<Scalar> K_t_V_s{};             ///< V of the back-EMF between the driven terminals per mechanical rad/s
   Scalar limit{};                     ///< V: bound of |u| and |e|
   bool operator==(const DeadbeatConfig&) const = default;
 };
 
 template <class Scalar>
 struct DeadbeatState {
-  Scalar u{};          ///< last output, V, clamped
-  Scalar predicted{};  ///< the next sample, A
+  Scalar u{};          ///< last output, V, after the limit
+  Scalar predicted{};  ///< predicted current at the next sample, A
   Scalar missed{};     ///< part of e in addition to K_t w, V
 };
 
@@ -56,7 +57,8 @@ constexpr Scalar held_current(const HeldWinding<Scalar>& over, Scalar current, S
   return T::product(current, over.decay) + T::product(voltage, over.A_per_V);
 }
 
-/// One tick: the voltage between the driven terminals. The prediction uses the clamped voltage.
+/// One tick: returns the voltage between the driven terminals, V. The prediction uses the voltage after the
+/// limit.
 template <class Scalar>
 constexpr Scalar deadbeat_step(const DeadbeatConfig<Scalar>& config, DeadbeatState<Scalar>& state,
                                Scalar reference, Scalar current, Scalar speed_rad_s) {

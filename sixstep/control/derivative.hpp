@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes a filtered derivative, the D part that can be added to a PI, of the measurement, so that a step of
-// the setpoint gives no kick. Backward difference of K_d s/(T_f s + 1):
+// Computes a filtered derivative: the D part of a PID, to be added to a PI. It differentiates the
+// measurement, so that a step of the setpoint gives no kick. Backward difference of K_d s/(T_f s + 1):
 //
 //   y[n] = y[n-1] + g (x[n] - x[n-1]) - b y[n-1],   g = K_d/(T_f + T_s),  b = T_s/(T_f + T_s)
 //
-// On a ramp of r per second y settles at K_d r. Subtract y from the output of the PI. y is a sum, not a signal:
-// it may exceed that output. |y| is at most g times the widest step of x, and g/b times the largest change per
-// sample; design/scaling proves that this fits.
+// On a ramp of r per second y settles at K_d r. Subtract y from the output of the PI. y is a running sum and
+// no signal: it may be larger than the PI's output. |y| is at most g times the largest step of x, and g/b
+// times the largest change per sample. design/scaling proves that this fits.
 #pragma once
 #include "sixstep/control/fixed.hpp"
 #include "sixstep/control/scalar.hpp"
@@ -25,7 +25,7 @@ template <class Scalar>
 struct DerivativeState {
   Accumulator<Scalar> y{};
   Scalar x{};
-  bool started = false;  ///< the first sample has no predecessor
+  bool started = false;  ///< false before the first sample, which has no predecessor
 };
 
 template <class Scalar>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the bridge command of a six-step drive: position P -> speed PI -> current loop -> commutation,
-// beginning at the loop that the mode names, or speed PI -> duty (thesis 6.2.2). Firmware calls step() once per
-// control tick and on_hall() in the Hall interrupt.
+// Computes the bridge command of a six-step drive: position P -> speed PI -> current loop -> commutation. The
+// mode names the loop at which the chain begins. Alternatively the speed PI sets the duty (thesis 6.2.2).
+// Firmware calls step() once per control tick and on_hall() in the Hall interrupt.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/control/commutation.hpp"
@@ -13,10 +13,10 @@ namespace sixstep::control {
 
 enum class CurrentControl : std::uint8_t { pi, hysteresis };
 
-/// Output of the speed loop: the reference of an inner current loop, or the duty itself.
+/// Output of the speed loop: the reference of an inner current loop, or the duty directly.
 enum class SpeedControl : std::uint8_t { cascade, duty };
 
-/// Every default leaves the bridge off.
+/// With the defaults the bridge is off.
 template <class Scalar>
 struct DriveConfig {
   Mode mode = Mode::off;
@@ -24,10 +24,13 @@ struct DriveConfig {
   CurrentControl current_control = CurrentControl::pi;
   PiConfig<Scalar> current{};  ///< A -> V
   HysteresisConfig<Scalar> hysteresis{};
-  Divisor<Scalar> nominal_bus_V{};  ///< d = u / nominal_bus_V
-  PiConfig<Scalar> speed{};         ///< rad/s -> fraction of the torque limit; SpeedControl::duty: -> duty
-  Gain<Scalar> current_at_full_torque_A{};  ///< torque limit / K_t: i_ref = y * this
-  Scalar current_limit_A{};  ///< bound of the speed loop's current reference; give speed.limit the same bound
+  Divisor<Scalar> nominal_bus_V{};  ///< the duty is u/nominal_bus_V
+  PiConfig<Scalar> speed{};         ///< rad/s -> fraction of the torque limit; with SpeedControl::duty: rad/s
+                                    ///< -> duty
+  Gain<Scalar> current_at_full_torque_A{};  ///< torque limit/K_t: the current reference is the speed loop's
+                                            ///< output times this
+  Scalar current_limit_A{};      ///< bound of the speed loop's current reference; give `speed.limit` the same
+                                 ///< bound
   Gain<Scalar> position_gain{};  ///< degrees -> rad/s
   Scalar speed_limit_rad_s{};    ///< bound of the position loop's speed reference
   SpeedControl speed_control = SpeedControl::cascade;
@@ -40,7 +43,7 @@ struct DriveState {
   PiState<Scalar> current{}, speed{};
   HysteresisState<Scalar> hysteresis{};
   bool reversed = false;            ///< sign of the last command
-  BridgeCommand<Scalar> command{};  ///< last result; on_hall moves it to the new pair
+  BridgeCommand<Scalar> command{};  ///< last result; on_hall() changes its pair
   DriveExtrasState<Scalar> extras{};
 };
 
@@ -50,7 +53,7 @@ struct Telemetry {
   Scalar motor_current_A{};
   Scalar current_reference_A{};
   Scalar speed_reference_rad_s{};
-  Scalar duty{};  ///< signed
+  Scalar duty{};  ///< with the command's sign
   [[no_unique_address]] ProfiledReference<Scalar> position{};
 };
 
@@ -63,7 +66,7 @@ constexpr BridgeCommand<Scalar> bridge_off(bool fault) {
   return command;
 }
 
-/// d < 0 swaps source and sink; d = 0 counts as positive (model.md 3).
+/// Sets pair and duty: a negative d exchanges source and sink, and d = 0 counts as positive (model.md 3).
 template <class Scalar>
 constexpr void set_duty(DriveState<Scalar>& state, Pair positive, Scalar d) {
   state.reversed = d < Scalar{};
@@ -89,7 +92,7 @@ constexpr void arm_hysteresis(const DriveConfig<Scalar>& config, DriveState<Scal
   }
 }
 
-/// Reference of the speed loop: the setpoint, or the position loop's output in Mode::position.
+/// Reference of the speed loop: the setpoint, or in Mode::position the position loop's output.
 template <class Scalar>
 constexpr Scalar speed_reference(const DriveConfig<Scalar>& config, const DriveState<Scalar>& state,
                                  Mode mode, Scalar setpoint, const Measurement<Scalar>& measured) {
@@ -133,7 +136,7 @@ constexpr Scalar current_to_duty(const DriveConfig<Scalar>& config, DriveState<S
   return duty_for(config, u, measured);
 }
 
-/// A voltage of the staying phase as a fraction of the bus: 0 to 1/2, to 1 if legs may overlap
+/// A voltage u of the staying phase as a fraction of the bus: 0 to 1/2, or 0 to 1 if legs may overlap
 /// (commutation_step.hpp).
 template <class Scalar>
 constexpr Scalar holding_part(const DriveConfig<Scalar>& config, Scalar u,
@@ -142,8 +145,8 @@ constexpr Scalar holding_part(const DriveConfig<Scalar>& config, Scalar u,
   return between(duty_for(config, u, measured), Scalar{}, overlaps ? one<Scalar> : half_of_one<Scalar>());
 }
 
-/// Computes at each tick the duty to which the next commutation steps, from this tick's speed and current:
-/// on_hall has no measurement. Without a current loop nothing is held.
+/// Computes at each tick the duty to which the next commutation will step. It uses the tick's speed and
+/// current, because on_hall has no measurement. Without a current loop no current is held.
 template <class Scalar>
 constexpr void look_at_commutation(Mode mode, const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
                                    const Measurement<Scalar>& measured, std::uint8_t sector) {
@@ -156,14 +159,14 @@ constexpr void look_at_commutation(Mode mode, const DriveConfig<Scalar>& config,
   s.part = holding_part(config, s.volts, measured);
 }
 
-/// True while the leaving phase still carries current: the staying phase's current is held and the current loop
-/// rests.
+/// True while the leaving phase still carries current. The staying phase's current is held then, and the
+/// current loop rests.
 template <class Scalar>
 constexpr bool holds_current(const DriveConfig<Scalar>& config, const DriveState<Scalar>& state) {
   return config.extras.on && config.extras.steps_commutation && state.extras.commutation.hands_over;
 }
 
-/// Sets the new pair, and drives the staying phase's current towards its reference.
+/// Sets the new pair, and a duty that drives the staying phase's current towards its reference.
 template <class Scalar>
 constexpr void hold_towards(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
                             const Measurement<Scalar>& measured, Pair positive, Scalar i_ref) {
@@ -173,7 +176,7 @@ constexpr void hold_towards(const DriveConfig<Scalar>& config, DriveState<Scalar
   s.part = between(holding_part(config, u, measured), Scalar{}, greatest_part(s.part));
 }
 
-/// Sets the duty and the overlap that hold the staying phase's current with the pair of state.command.
+/// Sets the duty and the overlap with which the pair of state.command holds the staying phase's current.
 template <class Scalar>
 constexpr void hold_current(const DriveConfig<Scalar>& config, DriveState<Scalar>& state) {
   const CommutationStepState<Scalar>& held = state.extras.commutation;
@@ -183,7 +186,7 @@ constexpr void hold_current(const DriveConfig<Scalar>& config, DriveState<Scalar
   state.command.overlap = holding_overlap(held, state.command.pair);
 }
 
-/// Start value of a slewed setpoint: the measurement in the unit of the mode.
+/// First value of a slewed setpoint: the measurement in the unit of the mode.
 template <class Scalar>
 constexpr Scalar measured_value(Mode mode, const Measurement<Scalar>& measured, Scalar motor_current) {
   return mode == Mode::current    ? motor_current
@@ -192,7 +195,7 @@ constexpr Scalar measured_value(Mode mode, const Measurement<Scalar>& measured, 
                                   : Scalar{};
 }
 
-/// Turns all gates off until the next tick; the loops keep their state.
+/// Turns all gates off until the next tick. The loops keep their states.
 template <class Scalar>
 constexpr void coast(DriveState<Scalar>& state) {
   state.command.enabled = false;
@@ -200,7 +203,8 @@ constexpr void coast(DriveState<Scalar>& state) {
   state.command.watch = Watch::none;
 }
 
-/// Runs the loops of one tick, from the mode's loop inwards: sets pair and duty, or arms the comparators.
+/// Runs the loops of one tick, from the mode's loop inwards. The result is a pair with a duty, or armed
+/// comparators.
 template <class Scalar>
 constexpr void run_loops(Mode mode, const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
                          const Measurement<Scalar>& measured, Pair positive, Scalar value, Scalar i_m,
@@ -223,7 +227,8 @@ constexpr void run_loops(Mode mode, const DriveConfig<Scalar>& config, DriveStat
     i_ref = between(i_ref, window.low, window.high);
   }
   telemetry.current_reference_A = i_ref;
-  // The current loop would have no effect, and would only integrate the sensor's offset.
+  // A current loop would have no effect while the gates are off, and would only integrate the sensor's
+  // offset.
   if (limits && must_coast(config.extras.limits, i_ref, measured.speed_rad_s, measured.bus_V))
     return coast(state);
   if (config.current_control == CurrentControl::hysteresis)
@@ -238,9 +243,9 @@ constexpr void run_loops(Mode mode, const DriveConfig<Scalar>& config, DriveStat
 }  // namespace detail
 
 /// One control tick in a mode that may differ from the configured one (for example to brake). A cascade runs
-/// from the outer to the inner loop on one sample (model.md 4). An impossible Hall code turns the bridge off
-/// and reports a fault. Returns a reference into `state`, valid until the next call: on a chip a copy would
-/// cost as much as the current loop.
+/// from the outer to the inner loop on one sample (model.md 4). An invalid Hall code turns the bridge off and
+/// reports a fault. Returns a reference into `state`, valid until the next call: on a chip a copy would cost
+/// as much as the current loop.
 template <class Scalar>
 constexpr const BridgeCommand<Scalar>& step_in(Mode mode, const DriveConfig<Scalar>& config,
                                                DriveState<Scalar>& state, const Measurement<Scalar>& measured,
@@ -281,7 +286,7 @@ constexpr const BridgeCommand<Scalar>& step_in(Mode mode, const DriveConfig<Scal
   return state.command;
 }
 
-/// One control tick: once per PWM period.
+/// One control tick in the configured mode. Call it once per PWM period.
 template <class Scalar>
 constexpr const BridgeCommand<Scalar>& step(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
                                             const Measurement<Scalar>& measured,
@@ -289,9 +294,9 @@ constexpr const BridgeCommand<Scalar>& step(const DriveConfig<Scalar>& config, D
   return step_in(config.mode, config, state, measured, setpoint, telemetry);
 }
 
-/// The Hall interrupt: moves the bridge to the new pair at once; duty and sign stay (model.md 3). The PWM
-/// pattern selects the chopped switch. With a commutation step the duty becomes the one that holds the staying
-/// phase.
+/// The Hall interrupt: the bridge changes to the new pair at once, with the same duty and sign (model.md 3).
+/// The PWM pattern selects the chopped switch. With a commutation step the duty becomes the one that holds
+/// the staying phase's current.
 template <class Scalar>
 constexpr const BridgeCommand<Scalar>& on_hall(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
                                                std::uint8_t code) {

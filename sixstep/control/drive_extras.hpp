@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds optional parts to the drive's loops. All are behind one flag, so that a drive without them costs one
-// branch per tick:
+// Adds optional parts to the drive's loops. All are behind one flag, so that a drive without any of them
+// costs one branch per tick:
 //   a slewed setpoint, or a position setpoint by a profile
 //   a window for the current reference
 //   back-EMF feed-forward and compensation of the measured bus
 //   chopping that is smooth through zero, and PWM patterns
 //   other laws of the speed loop than the PI in velocity form
 //   a deadbeat current loop
-//   the current of the phase that does not commutate, and a duty that holds it during a commutation
+//   the staying phase's current as the controlled one, and a duty that holds it during a commutation
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/control/commutation.hpp"
@@ -27,11 +27,14 @@
 
 namespace sixstep::control {
 
-/// Law of the speed loop. pi: pi.hpp; positional: pi_positional.hpp with derivative.hpp and a setpoint weight;
-/// observed: observed_speed.hpp; sliding: sliding_speed.hpp.
+/// Law of the speed loop:
+///   pi          pi.hpp
+///   positional  pi_positional.hpp with derivative.hpp and a weight of the setpoint
+///   observed    observed_speed.hpp
+///   sliding     sliding_speed.hpp
 enum class SpeedLaw : std::uint8_t { pi, positional, observed, sliding };
 
-/// Laws that exist in floating point only; in fixed point they take no memory.
+/// Laws that exist in floating point only. The struct is empty in fixed point.
 template <class Scalar>
 struct SpeedLaws {
   ObservedSpeedConfig<Scalar> observed{};
@@ -52,28 +55,31 @@ struct SpeedLawsState<Fixed<Storage, FractionBits>> {};
 
 template <class Scalar>
 struct DriveExtras {
-  bool on = false;  ///< false: nothing below is used
+  bool on = false;  ///< false: no member below is used
   bool slews_setpoint = false;
-  SlewConfig<Scalar> slew{};  ///< step in the unit of the mode, per tick
+  SlewConfig<Scalar> slew{};  ///< largest step per tick, in the unit of the mode
   bool limits_current = false;
   LimitsConfig<Scalar> limits{};
-  Gain<Scalar> torque_fraction_per_A{};  ///< 1/current_at_full_torque_A: keeps the speed PI inside the window
+  Gain<Scalar> torque_fraction_per_A{};  ///< 1/current_at_full_torque_A, with which the speed PI stays inside
+                                         ///< the window of current
   FeedForwardConfig<Scalar> feed_forward{};
   BusCompensationConfig<Scalar> bus{};
   bool smooth_chopping = false;  ///< false: DriveConfig::chopping applies
   SmoothChoppingConfig<Scalar> chopping{};
   PwmPatternConfig<Scalar> pwm{};  ///< which switch of the pair is chopped
-  bool predicts_current = false;   ///< current loop by `deadbeat`, else by DriveConfig::current
+  bool predicts_current = false;   ///< the current loop is `deadbeat`, else DriveConfig::current
   DeadbeatConfig<Scalar> deadbeat{};
-  bool staying_phase = false;  ///< i_m is the current of the phase that the last commutation did not change
-  bool steps_commutation = false;  ///< the current loop rests while a commutation lasts
+  bool staying_phase = false;      ///< i_m is the current of the staying phase (commutation.hpp)
+  bool steps_commutation = false;  ///< a duty step holds the current while a commutation lasts, and the
+                                   ///< current loop rests
   CommutationStepConfig<Scalar> commutation{};
-  SpeedLaw speed_law = SpeedLaw::pi;  ///< pi: DriveConfig::speed; positional: the next three members
+  SpeedLaw speed_law = SpeedLaw::pi;  ///< pi uses DriveConfig::speed, positional the next three members
   PiPositionalConfig<Scalar> speed{};
-  DerivativeConfig<Scalar> speed_derivative{};  ///< its output, of the measured speed, is subtracted
-  Gain<Scalar> speed_weight_off{};  ///< (1 - b) K; b: weight of the setpoint in the proportional part
-  SpeedLaws<Scalar> laws{};         ///< limited by DriveConfig::speed
-  [[no_unique_address]] ProfiledPositionConfig<Scalar> position{};  ///< replaces the slew in Mode::position
+  DerivativeConfig<Scalar> speed_derivative{};  ///< its output, for the measured speed, is subtracted
+  Gain<Scalar> speed_weight_off{};  ///< (1 - b) K, b the weight of the setpoint in the proportional part
+  SpeedLaws<Scalar> laws{};         ///< their outputs are limited by DriveConfig::speed.limit
+  [[no_unique_address]] ProfiledPositionConfig<Scalar> position{};  ///< in Mode::position it replaces the
+                                                                    ///< slew
   bool operator==(const DriveExtras&) const = default;
 };
 
@@ -89,7 +95,8 @@ struct DriveExtrasState {
   DerivativeState<Scalar> speed_derivative{};
   SpeedLawsState<Scalar> laws{};
   [[no_unique_address]] ProfiledPositionState<Scalar> position{};
-  Mode slewing = Mode::off;  ///< mode whose setpoint is shaped; a new mode starts at the measurement
+  Mode slewing = Mode::off;  ///< mode for which the setpoint is shaped; after a change of mode it starts at
+                             ///< the measurement
 };
 
 namespace detail {
@@ -121,7 +128,7 @@ constexpr void tell_profile(const DriveExtras<Scalar>& extras, const DriveExtras
   }
 }
 
-/// True if the profile's speed and torque are fed forward in this tick.
+/// True if this tick feeds the profile's speed and torque forward.
 template <class Scalar>
 constexpr bool tells_ahead(const DriveExtras<Scalar>& extras, const DriveExtrasState<Scalar>& state) {
   if constexpr (requires { extras.position.profile; })
@@ -130,7 +137,7 @@ constexpr bool tells_ahead(const DriveExtras<Scalar>& extras, const DriveExtrasS
     return false;
 }
 
-/// Speed reference of the position loop, with the profile's speed if it is fed forward.
+/// Speed reference of the position loop, w plus the profile's speed if that is fed forward.
 template <class Scalar>
 constexpr Scalar with_speed_ahead(const DriveExtras<Scalar>& extras, const DriveExtrasState<Scalar>& state,
                                   Scalar w) {
@@ -146,7 +153,8 @@ constexpr CurrentWindow<Scalar> allowed_current(const DriveExtras<Scalar>& extra
   return {between(w.low, -limit, limit), between(w.high, -limit, limit)};
 }
 
-/// K (b r - y) + integral - derivative: two degrees of freedom (Astrom and Hagglund, PID Controllers, 3.4).
+/// Output K (b r - y) + integral - derivative: two degrees of freedom (Astrom and Hagglund, PID Controllers,
+/// 3.4).
 template <class Scalar>
 constexpr Scalar positional_speed(const DriveExtras<Scalar>& extras, DriveExtrasState<Scalar>& state,
                                   Scalar error, Scalar speed_rad_s, Scalar ahead, Scalar low, Scalar high) {
@@ -159,8 +167,8 @@ constexpr Scalar positional_speed(const DriveExtras<Scalar>& extras, DriveExtras
   return pi_positional_step(extras.speed, state.speed, error, known, low, high);
 }
 
-/// One tick of the speed controller. In a cascade its output stays within the window, so that its integral
-/// cannot wind up against the window's limits.
+/// One tick of the speed controller. In a cascade its output stays within the window of current references,
+/// so that its integral cannot wind up against the window's limits.
 template <class Scalar>
 constexpr Scalar speed_with_extras(const DriveExtras<Scalar>& extras, DriveExtrasState<Scalar>& state,
                                    const PiConfig<Scalar>& config, PiState<Scalar>& pi, Scalar error,
@@ -188,8 +196,8 @@ constexpr Scalar speed_with_extras(const DriveExtras<Scalar>& extras, DriveExtra
                            : pi_beside(config, pi, error, ahead, low, high);
 }
 
-/// u = u_PI + e; the sum stays within the limit of the PI. At the limit u is exactly the limit: (limit - e) + e
-/// may round to one digit less, and a duty just below 1 chops.
+/// u = u_PI + e, within the limit of the PI. At the limit u is set to exactly the limit: (limit - e) + e may
+/// round to one digit less, and a duty just below 1 would chop.
 template <class Scalar>
 constexpr Scalar voltage_with_feed_forward(const DriveExtras<Scalar>& extras, const PiConfig<Scalar>& config,
                                            PiState<Scalar>& state, Scalar error, Scalar speed_rad_s) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Monitors the measurements for faults: latches each fault with its reason, and clears it only on request once
-// the cause is gone. It reacts within the tick; a faster reaction is left to the board's comparator.
+// Monitors the measurements for faults. A fault is latched with its reason, and cleared only on request once
+// its cause is gone. The monitor reacts within the tick; a faster reaction is left to the board's comparator.
 #pragma once
 #include <cstdint>
 
@@ -17,27 +17,29 @@ enum Fault : std::uint16_t {
   fault_over_voltage = 2,
   fault_under_voltage = 4,
   fault_over_speed = 8,
-  fault_hall = 16,         ///< an impossible code, a jump, or an edge that makes the speed impossible
+  fault_hall = 16,         ///< an invalid code, a jump over a sector, or an edge that gives an impossible
+                           ///< speed
   fault_stall = 32,        ///< current without movement for too long
   fault_calibration = 64,  ///< the offset of a current amplifier is out of tolerance
   fault_align = 128        ///< the rotor did not reach the sector to which it was pulled
 };
 
-/// The defaults trip at any bus voltage or current, so that no limit can be forgotten.
+/// With the defaults any bus voltage and any current is a fault, so that no limit can be forgotten.
 template <class Scalar>
 struct FaultConfig {
-  Scalar over_current_A{};         ///< trips if |i| of a phase is above it
-  Scalar over_voltage_V{};         ///< trips if the bus is above it
-  Scalar under_voltage_V{};        ///< trips if the bus is below it
-  Scalar over_speed_rad_s{};       ///< trips if |w| is above it
-  Scalar stall_current_A{};        ///< |i| of a phase above it without a Hall edge is a stall
-  std::uint32_t stall_ticks = 0;   ///< ticks in a row after which a stall trips
-  std::uint8_t voltage_ticks = 1;  ///< ticks in a row after which a wrong voltage trips; 0 counts as 1
+  Scalar over_current_A{};         ///< a phase's |i| above this is a fault
+  Scalar over_voltage_V{};         ///< a bus voltage above this is a fault
+  Scalar under_voltage_V{};        ///< a bus voltage below this is a fault
+  Scalar over_speed_rad_s{};       ///< |w| above this is a fault
+  Scalar stall_current_A{};        ///< a phase's |i| above this, without a Hall edge, is a stall
+  std::uint32_t stall_ticks = 0;   ///< consecutive ticks after which a stall is a fault
+  std::uint8_t voltage_ticks = 1;  ///< consecutive ticks after which a wrong voltage is a fault; 0 counts as
+                                   ///< 1
   bool operator==(const FaultConfig&) const = default;
 };
 
 struct FaultState {
-  std::uint16_t present = 0;  ///< causes seen in the last tick
+  std::uint16_t present = 0;  ///< causes that are present in the last tick
   std::uint16_t latched = 0;  ///< all causes since the last clearing
   std::uint16_t first = 0;    ///< causes in the tick that stopped the drive
   std::uint32_t still = 0;    ///< ticks with stall current and no edge
@@ -46,15 +48,15 @@ struct FaultState {
 };
 
 struct FaultEvents {
-  bool hall = false;            ///< impossible code or jump, now
-  std::uint8_t hall_line = 0;   ///< 1..3: the line of that fault; 0: unknown
-  bool moved = false;           ///< a Hall edge since the last tick
+  bool hall = false;            ///< an invalid code or a jump in this tick
+  std::uint8_t hall_line = 0;   ///< 1..3: the line that causes it; 0: unknown
+  bool moved = false;           ///< a Hall edge has come since the last tick
   std::uint8_t false_edge = 0;  ///< 1..3: line with an edge that a steady rotor cannot make; 0: none
-  std::uint16_t other = 0;      ///< other faults: calibration, alignment
+  std::uint16_t other = 0;      ///< other causes: calibration, alignment
 };
 
-/// Returns the latched set; unless it is 0 the bridge must be turned off. A comparison with a value that is not
-/// a number fails, and each comparison is written so that failing trips.
+/// Takes one tick's measurement and returns the latched set; unless it is 0, the bridge must be turned off. A
+/// comparison with NaN is false, and each comparison is written so that false means a fault.
 template <class Scalar>
 constexpr std::uint16_t fault_step(const FaultConfig<Scalar>& config, FaultState& state,
                                    const Measurement<Scalar>& m, const FaultEvents& events) {
@@ -73,8 +75,8 @@ constexpr std::uint16_t fault_step(const FaultConfig<Scalar>& config, FaultState
   if (lasting(!(m.bus_V <= config.over_voltage_V), state.over)) now |= fault_over_voltage;
   if (lasting(!(m.bus_V >= config.under_voltage_V), state.under)) now |= fault_under_voltage;
   const bool too_fast = !within(m.speed_rad_s, config.over_speed_rad_s);
-  // A false edge and a real overspeed give the same measurement, so both faults are reported; the line is reported
-  // only if a code proves it.
+  // A false edge and a real overspeed give the same measurement, so that both faults are reported. The line
+  // is reported only if a code proves that it failed.
   if (too_fast) now |= fault_over_speed;
   if (too_fast && events.false_edge != 0) now |= fault_hall;
   if (events.hall) now |= fault_hall;
@@ -86,7 +88,7 @@ constexpr std::uint16_t fault_step(const FaultConfig<Scalar>& config, FaultState
   return state.latched;
 }
 
-/// Clears the latched faults, but only while no cause is present. True if they are cleared.
+/// Clears the latched faults if no cause is present. Returns true if they are cleared.
 constexpr bool fault_clear(FaultState& state) {
   if (state.present != 0) return false;
   state = FaultState{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Feeds the back-EMF and the measured bus voltage forward to the current loop, which then need not correct them.
+// Feeds the back-EMF and the measured bus voltage forward, so that the current loop need not correct them.
 //
 //   u = u_PI + K_t w          back-EMF between the driven terminals on flat tops (model.md 1: e = K_t w)
 //   d = u/U_s                 measured bus in place of the nominal one (model.md 4)
@@ -9,10 +9,11 @@
 
 namespace sixstep::control {
 
-/// The default adds nothing.
+/// The default adds no voltage.
 template <class Scalar>
 struct FeedForwardConfig {
-  Gain<Scalar> K_t_V_s{};  ///< V per mechanical rad/s, terminal: the torque constant's number
+  Gain<Scalar> K_t_V_s{};  ///< V between the driven terminals per mechanical rad/s: the torque constant's
+                           ///< number
   bool operator==(const FeedForwardConfig&) const = default;
 };
 
@@ -21,10 +22,10 @@ constexpr Scalar back_emf_voltage(const FeedForwardConfig<Scalar>& config, Scala
   return ScalarTraits<Scalar>::product(speed_rad_s, config.K_t_V_s);
 }
 
-/// The default does not compensate.
+/// With the default the measured bus voltage is not used.
 template <class Scalar>
 struct BusCompensationConfig {
-  Scalar lowest_bus_V{};  ///< smallest divisor, used if the measurement is lower (a lost sensor); 0: off
+  Scalar lowest_bus_V{};  ///< least divisor, V, used if the measurement is lower (a failed sensor); 0: off
   bool operator==(const BusCompensationConfig&) const = default;
 };
 

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fixed-point numbers for chips without a floating-point unit: Fixed<std::int16_t, 15> is Q15, a raw whole
-// number n that means n/2^15. Storage of 16 or 32 bits, any number of fraction bits below its width.
+// Fixed-point numbers for chips without a floating-point unit. Fixed<std::int16_t, 15> is Q15: its raw
+// integer n means n/2^15. The storage has 16 or 32 bits, and any number of fraction bits below this width.
 //
 // Rounding: every product, quotient and conversion is the exact result rounded to the nearest representable
-// number, ties away from zero, so that (-a) b = -(a b) and a motor turns the same both ways. Saturation: a
-// result out of range becomes the nearer end of the range; nothing wraps. x/0 saturates in the direction of x,
-// 0/0 is 0. Sums and differences are exact unless they saturate. tests/control/fixed_test.cpp compares all
-// pairs of an 8-bit format, and random pairs of the wider ones, with exact arithmetic.
+// number, ties away from zero. So (-a) b = -(a b), and a motor behaves alike in both directions.
 //
-// Correct also where int has 16 bits: every operand is widened to an explicitly sized type before it is used
-// (`1 << 15` is negative there), and only unsigned numbers are shifted.
+// Saturation: a result out of range becomes the nearer end of the range; nothing wraps. x/0 saturates in the
+// direction of x, and 0/0 is 0. Sums and differences are exact unless they saturate.
+// tests/control/fixed_test.cpp compares all pairs of an 8-bit format, and random pairs of the wider ones,
+// with exact arithmetic.
+//
+// The arithmetic is correct also where int has 16 bits. Every operand is widened to an explicitly sized type
+// before it is used (`1 << 15` is negative there), and only unsigned numbers are shifted.
 #pragma once
 #include <cstdint>
 
@@ -34,9 +36,9 @@ struct Fixed {
   Storage raw = 0;  ///< the number times 2^FractionBits
 
   constexpr Fixed() = default;
-  /// The nearest representable number; 0 if x is not a number. Meant for constants and for the host: a
-  /// conversion at run time on a chip without a floating-point unit would link a library. Where double has 32
-  /// bits (AVR) a 32-bit format gets only 24 of them: use from_raw for its constants.
+  /// The nearest representable number; 0 if x is NaN. Use it for constants and on the host: on a chip without
+  /// a floating-point unit a conversion at run time would link a library. Where double has 32 bits (AVR), a
+  /// 32-bit format gets only 24 correct bits: use from_raw for its constants.
   explicit constexpr Fixed(double x)
       : raw(detail::nearest<Storage>(x * static_cast<double>(detail::two_to<std::int64_t>(FractionBits)))) {}
   static constexpr Fixed from_raw(Storage raw) {
@@ -77,13 +79,13 @@ struct Fixed {
 
 using Q15 = Fixed<std::int16_t, 15>;
 using Q31 = Fixed<std::int32_t, 31>;
-/// Formats that hold 1, which a full duty needs, at the price of one digit.
+/// Formats that hold the number 1, which a full duty needs, with one fraction bit less.
 using Q14 = Fixed<std::int16_t, 14>;
 using Q30 = Fixed<std::int32_t, 30>;
 
-/// A factor between two signals of one format: mantissa/2^right, from 2^-30 (16 bits) or 2^-62 (32 bits) up to
-/// the storage's largest number. The constructor takes the nearest such number: its relative error is at most
-/// 2^-15 or 2^-31 while `right` is below its limit.
+/// A factor between two signals of one format: mantissa/2^right. Its range is 2^-30 (16 bits) or 2^-62 (32
+/// bits) to the storage's largest number. The constructor takes the nearest such number; the relative error
+/// is at most 2^-15 or 2^-31 while `right` is below its limit.
 template <class Storage>
 struct FixedGain {
   Storage mantissa = 0;
@@ -100,7 +102,8 @@ struct FixedGain {
     }
     mantissa = detail::nearest<Storage>(m < -end ? -end : m);
   }
-  /// The same bits on every compiler, also where double has 32 bits. An exported drive uses it.
+  /// The gain with these raw numbers. It has the same bits on every compiler, also where double has 32 bits;
+  /// exported drives use it.
   static constexpr FixedGain from_raw(Storage mantissa, std::int8_t right) {
     FixedGain gain;
     gain.mantissa = mantissa;
@@ -113,7 +116,7 @@ struct FixedGain {
   constexpr bool operator==(const FixedGain&) const = default;
 };
 
-/// Division by a constant, as a multiplication with its reciprocal. The default gives 0.
+/// Division by a constant, computed as a multiplication by its reciprocal. The default gives 0.
 template <class Storage>
 struct FixedDivisor {
   FixedGain<Storage> reciprocal{};
@@ -126,12 +129,12 @@ struct FixedDivisor {
     return divisor;
   }
   friend constexpr bool operator>(const FixedDivisor& d, const FixedDivisor& than) {
-    return d.reciprocal.mantissa > than.reciprocal.mantissa;  // only used to test that a divisor is positive
+    return d.reciprocal.mantissa > than.reciprocal.mantissa;  // only tests whether a divisor is positive
   }
 };
 
-/// A running sum. Its last bit is 2^-12 (16 bits) or 2^-28 (32 bits) of the signal's, its range 16 times the
-/// signal's.
+/// A running sum of signals. Its last bit is 2^-12 (16 bits) or 2^-28 (32 bits) of a signal's last bit, and
+/// its range is 16 times a signal's.
 template <class Format>
 struct FixedSum {
   using Raw = typename Format::WideInt;
@@ -161,7 +164,7 @@ struct FixedSum {
   friend constexpr bool operator>(FixedSum a, FixedSum b) { return a.raw > b.raw; }
 };
 
-/// A signal times timer counts.
+/// A product of a signal and timer counts.
 template <class Format>
 struct FixedTickRatio {
   typename Format::WideInt raw = 0;
@@ -198,14 +201,14 @@ struct ScalarTraits<Fixed<Storage, FractionBits>> {
         detail::narrow_with_sign<Storage>(detail::magnitude_down(p.size, gain.right), p.negative));
   }
   static constexpr Scalar quotient(Scalar x, Divisor divisor) { return product(x, divisor.reciprocal); }
-  /// `difference` may be a difference of two signals, one bit more than a signal: the product still fits,
-  /// because a mantissa is never the least number.
+  /// `difference` may be a difference of two signals, which has one bit more than a signal. The product still
+  /// fits, because a mantissa is never the least number of its storage.
   static constexpr Accumulator accumulated(Wide difference, Gain gain) {
     const auto p = detail::product<Storage>(difference, gain.mantissa);
     return accumulated(p.size, p.negative, gain.right);
   }
   static constexpr Accumulator accumulated(Scalar x, Gain gain) { return accumulated(wide(x), gain); }
-  /// The same from a product that was computed already.
+  /// The sum's increment from a product that was already computed.
   static constexpr Accumulator accumulated(detail::UnsignedOf<Wide> size, bool negative, int right) {
     const int down = right - Accumulator::guard_bits;
     return Accumulator::from_raw(down >= 0 ? detail::with_sign(detail::magnitude_down(size, down), negative)
@@ -217,13 +220,14 @@ struct ScalarTraits<Fixed<Storage, FractionBits>> {
   static constexpr Scalar signal(Accumulator sum) {
     return narrow(detail::shifted_down(sum.raw, Accumulator::guard_bits));
   }
-  /// A part, 0..1, of a sum: to one digit of the signal, or to eight digits if the sum is above twice the
-  /// signal's range.
+  /// A fraction `part`, 0..1, of a sum. It is exact to one digit of the signal, or to eight digits if the sum
+  /// is above twice the signal's range.
   static constexpr Accumulator share(Accumulator sum, Gain part) {
     constexpr Wide end = static_cast<Wide>(detail::two_to<Wide>(detail::Widths<Storage>::bits) - 1);
     const Wide digits = detail::shifted_down(sum.raw, Accumulator::guard_bits);
     if (digits <= end && digits >= -end) return accumulated(digits, part);
-    // Shifted down, the greatest sum rounds up to one more than the largest difference of two signals.
+    // When it is shifted down, the greatest sum rounds up to one more than the largest difference of two
+    // signals.
     const Wide p = static_cast<Wide>(detail::shifted_down(sum.raw, Accumulator::guard_bits + 3) *
                                      static_cast<Wide>(part.mantissa));
     const Accumulator eighth = accumulated(detail::absolute(p), p < 0, part.right);
@@ -240,7 +244,7 @@ struct ScalarTraits<Fixed<Storage, FractionBits>> {
     const Unsigned q = detail::divided_unsigned(detail::absolute(ratio.raw), static_cast<Unsigned>(ticks));
     return narrow(detail::with_sign(q, ratio.raw < 0));
   }
-  /// Computed digit by digit: it keeps every digit of 32-bit counts, and costs less than their division.
+  /// Computed digit by digit. This keeps every digit of 32-bit counts and costs less than their division.
   static constexpr Scalar fraction(std::uint32_t part, std::uint32_t whole) {
     if (part >= whole) return one<Scalar>;
     UnsignedStorage q = 0;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole-number arithmetic under fixed.hpp: saturation and rounding to nearest, ties away from zero. Signs are
+// Integer arithmetic under fixed.hpp: saturation and rounding to nearest, ties away from zero. Signs are
 // removed first and restored last, so that only unsigned numbers are shifted and divided.
 #pragma once
 #include <cstdint>
 
 namespace sixstep::control::detail {
 
-/// The integer types by width: Wide holds a product of two storages. int8_t is there for the exhaustive test.
+/// Integer types by width: Wide holds a product of two numbers of the storage. int8_t exists for the
+/// exhaustive test.
 template <class Int>
 struct Widths;
 template <>
@@ -40,9 +41,10 @@ using UnsignedOf = typename Widths<Int>::Unsigned;
 
 template <class Int>
 constexpr Int two_to(int n) {
-  return static_cast<Int>(static_cast<Int>(1) << n);  // n less than the width of Int without its sign
+  return static_cast<Int>(static_cast<Int>(1) << n);  // n must be less than the number of Int's bits without
+                                                      // its sign
 }
-/// 2^(bits-1) - 1, made without passing 2^(bits-1).
+/// 2^(bits-1) - 1, computed without the intermediate result 2^(bits-1), which does not fit.
 template <class Int>
 inline constexpr Int greatest = static_cast<Int>(two_to<Int>(Widths<Int>::bits - 2) - 1 +
                                                  two_to<Int>(Widths<Int>::bits - 2));
@@ -55,7 +57,7 @@ constexpr UnsignedOf<Int> absolute(Int x) {
   return x < 0 ? static_cast<Unsigned>(Unsigned{0} - static_cast<Unsigned>(x)) : static_cast<Unsigned>(x);
 }
 
-/// The signed number of a magnitude; a magnitude that does not fit saturates.
+/// The signed number of a magnitude. It saturates if it does not fit.
 template <class Unsigned>
 constexpr auto with_sign(Unsigned magnitude, bool negative) {
   using Int = decltype([] {
@@ -70,7 +72,7 @@ constexpr auto with_sign(Unsigned magnitude, bool negative) {
   return negative ? static_cast<Int>(-static_cast<Int>(magnitude)) : static_cast<Int>(magnitude);
 }
 
-/// The nearest number that Narrow holds.
+/// x, or the nearest number that Narrow holds.
 template <class Narrow, class Wide>
 constexpr Narrow saturated(Wide x) {
   if constexpr (sizeof(Narrow) < sizeof(Wide)) {
@@ -80,7 +82,7 @@ constexpr Narrow saturated(Wide x) {
   return static_cast<Narrow>(x);
 }
 
-/// with_sign() with a result of half the width.
+/// The signed number of a magnitude in half the magnitude's width, saturated.
 template <class Narrow, class Unsigned>
 constexpr Narrow narrow_with_sign(Unsigned magnitude, bool negative) {
   if (magnitude > static_cast<Unsigned>(greatest<Narrow>)) return negative ? least<Narrow> : greatest<Narrow>;
@@ -95,8 +97,8 @@ struct Magnitude {
   bool negative = false;
 };
 
-/// 16 by 16 bits where int has 16 bits: a product of 32-bit factors would be a library call, and these four
-/// products of 8 bits cost a quarter of it.
+/// Product of 16 by 16 bits where int has 16 bits. There a product of 32-bit factors would be a library call;
+/// these four products of 8 bits cost a quarter of it.
 constexpr std::uint32_t product_by_bytes(std::uint16_t a, std::uint16_t b) {
   const auto part = [](std::uint16_t x, std::uint16_t y) {
     return static_cast<std::uint16_t>(static_cast<std::uint16_t>(x & 0xffu) *
@@ -108,7 +110,7 @@ constexpr std::uint32_t product_by_bytes(std::uint16_t a, std::uint16_t b) {
          (static_cast<std::uint32_t>(part(a, b_high)) << 8);
 }
 
-/// a b; |a| may have one bit more than Storage has without its sign.
+/// a b as magnitude and sign. |a| may have one bit more than Storage has without its sign.
 template <class Storage>
 constexpr auto product(typename Widths<Storage>::Wide a, Storage b) {
   using Wide = typename Widths<Storage>::Wide;
@@ -121,11 +123,13 @@ constexpr auto product(typename Widths<Storage>::Wide a, Storage b) {
   }
 }
 
-/// u/2^n rounded, 0 <= n; at n = 2 bits - 2 of a product only a rounded last digit is left.
+/// u/2^n for n >= 0, rounded to nearest. For a product, at n = 2 bits - 2 only a last digit is left, by
+/// rounding.
 template <class Unsigned>
 constexpr Unsigned magnitude_down(Unsigned u, int n) {
   if (n == 0) return u;
-  const Unsigned half = static_cast<Unsigned>(u >> (n - 1));  // in units of half a digit: never overflows
+  const Unsigned half = static_cast<Unsigned>(u >> (n - 1));  // u in half digits: adding a half before the
+                                                              // shift could overflow
   return static_cast<Unsigned>((half >> 1) + (half & 1u));
 }
 template <class Int>
@@ -134,7 +138,7 @@ constexpr Int shifted_down(Int x, int n) {
   return with_sign(magnitude_down(absolute(x), n), x < 0);
 }
 
-/// u 2^n with a sign, saturated.
+/// The signed number of u 2^n, saturated.
 template <class Int>
 constexpr Int magnitude_up(UnsignedOf<Int> u, bool negative, int n) {
   using Unsigned = UnsignedOf<Int>;
@@ -147,7 +151,8 @@ constexpr Int shifted_up(Int x, int n) {
   return magnitude_up<Int>(absolute(x), x < 0, n);
 }
 
-/// a/b to nearest, ties up. a is at most 2^(width-1) and b is below that; otherwise a + b/2 does not fit.
+/// a/b rounded to nearest, ties up. a must be at most 2^(width-1), and b below that: otherwise a + b/2 does
+/// not fit.
 template <class Unsigned>
 constexpr Unsigned divided_unsigned(Unsigned a, Unsigned b) {
   return static_cast<Unsigned>((a + static_cast<Unsigned>(b >> 1)) / b);
@@ -165,7 +170,7 @@ constexpr Int sum_saturated(Int a, Int b) {
   return static_cast<Int>(a + b);
 }
 
-/// The nearest whole number to x, ties away from zero, saturated; 0 where x is not a number.
+/// The nearest integer to x, ties away from zero, saturated; 0 if x is NaN.
 template <class Int>
 constexpr Int nearest(double x) {
   if (!(x == x)) return 0;

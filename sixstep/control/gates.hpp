@@ -2,8 +2,8 @@
 // Converts a bridge command to the six gates of one instant, for firmware that sets pins or the output modes of
 // a timer. In the on-time of a PWM period both driven switches are on; in its off-time (model.md 3)
 //   soft           the switch that is not chopped stays on: the sink's lower one, or the source's upper one
-//   hard           none
-//   complementary  as soft, and the chopped leg's other switch, after the dead time that the timer inserts
+//   hard           no switch is on
+//   complementary  as soft, and also the other switch of the chopped leg, after the dead time that the timer inserts
 #pragma once
 #include <cstdint>
 
@@ -12,7 +12,8 @@
 
 namespace sixstep::control {
 
-/// Bit of a switch: upper of a, b, c: 0, 2, 4 (T1 T3 T5); lower: 1, 3, 5 (T2 T4 T6).
+/// Bit of a switch: 0, 2, 4 for the upper switches of a, b, c (T1 T3 T5); 1, 3, 5 for the lower ones (T2 T4
+/// T6).
 constexpr std::uint8_t upper_gate(Leg leg) {
   return static_cast<std::uint8_t>(1u << (2u * static_cast<unsigned>(leg)));
 }
@@ -20,7 +21,8 @@ constexpr std::uint8_t lower_gate(Leg leg) {
   return static_cast<std::uint8_t>(2u << (2u * static_cast<unsigned>(leg)));
 }
 
-/// Gates of a six-step command. Never both switches of a leg: source and sink differ, or nothing is on.
+/// Gates of a six-step command. Both switches of a leg are never on: if source and sink are the same leg, no
+/// switch is on.
 template <class Scalar>
 constexpr std::uint8_t gates(const BridgeCommand<Scalar>& command, bool on_time) {
   if (!command.enabled || command.pair.source == command.pair.sink) return 0;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes the Hall pins: sector and direction, a filter against glitches, and as faults the two codes that an
-// arrangement cannot give and jumps over a sector. It names the broken line if the times allow it. The table of
-// codes is in commutation.hpp.
+// Decodes the Hall pins to sector and direction, with a filter against glitches. Faults are the two codes
+// that an arrangement cannot give, and jumps over a sector. If the times allow it, the broken line is named.
+// The table of codes is in commutation.hpp.
 //
 // Probes 60 degrees apart give 110 111 011 001 000 100 in sectors 0 to 5 (each probe is high over half a turn
-// and lags the one before by one sector); 010 and 101 are impossible (model.md 3). Their H3 equals the H2 of
-// probes 120 degrees apart, their H2 the complement of that arrangement's H3.
+// and lags the one before by one sector); 010 and 101 are invalid (model.md 3). Compared with probes 120
+// degrees apart, H3 is the H2 of that arrangement, and H2 is the inverted H3.
 #pragma once
 #include <cstdint>
 
@@ -15,47 +15,47 @@ namespace sixstep::control {
 
 enum class HallArrangement : std::uint8_t { degrees_120, degrees_60 };
 
-/// Time since the last edge, compared with the sectors before (hall_speed.hpp). It is only used to name a
-/// broken line.
+/// Class of the time since the last edge, compared with the sectors before (hall_speed.hpp). It is used only
+/// to name a broken line.
 enum class SectorTime : std::uint8_t {
-  unknown,  ///< the rotor starts, slows down or turned back, or no other value fits
-  soon,     ///< less than 3/4 of a sector
-  within,   ///< no longer than a sector
-  twice     ///< about two sectors: an edge was missed
+  unknown,  ///< the rotor starts, slows down or has turned back, or no other class fits
+  soon,     ///< less than 3/4 of a sector's time
+  within,   ///< no longer than a sector's time
+  twice     ///< about two sectors' time: an edge was missed
 };
 
 enum class HallFault : std::uint8_t {
   none,
-  impossible_code,  ///< a broken wire or probe
-  jump              ///< step between two sectors that are not neighbours: a missed edge or noise
+  impossible_code,  ///< a code that intact probes do not give: a wire or a probe is broken
+  jump              ///< step between two sectors that are not neighbours: an edge was missed, or noise
 };
 
 struct HallConfig {
   HallArrangement arrangement = HallArrangement::degrees_120;
-  /// Equal samples in a row after which a new code counts. n of them delay each edge by n - 1 samples; 0 counts
-  /// as 1. In an interrupt, where the first reading counts, leave it at 1.
+  /// Consecutive equal samples after which a new code counts. n of them delay each edge by n - 1 samples; 0
+  /// counts as 1. Leave it at 1 in an interrupt, where the first reading counts.
   std::uint8_t stable_samples = 1;
   bool operator==(const HallConfig&) const = default;
 };
 
 struct HallState {
   std::uint8_t candidate = 0xff;      ///< the code under test
-  std::uint8_t seen = 0;              ///< samples since it appeared
+  std::uint8_t seen = 0;              ///< samples since the candidate appeared
   std::uint8_t sector = no_sector;    ///< the last valid sector
   std::int8_t direction = 0;          ///< direction of the last edge: +1 forward, -1 backward, 0 none yet
   std::uint8_t suspect = 0;           ///< 1..3: line with an edge that a steady rotor cannot make; 0: none
-  std::uint8_t edges_since = 0;       ///< edges since the suspect's edge; after 6 `suspect` is cleared
-  HallFault fault = HallFault::none;  ///< impossible_code while such a code is present
+  std::uint8_t edges_since = 0;       ///< edges since the suspect's edge; `suspect` is cleared after 6
+  HallFault fault = HallFault::none;  ///< impossible_code as long as an invalid code is present
 };
 
 struct HallReading {
-  std::uint8_t sector = no_sector;  ///< no_sector before the first code and during an impossible one
+  std::uint8_t sector = no_sector;  ///< no_sector before the first code and during an invalid one
   std::int8_t moved = 0;            ///< sectors passed since the last call: -1, 0 or 1
   HallFault fault = HallFault::none;
-  std::uint8_t line = 0;  ///< 1..3: the line that causes an impossible code; 0: unknown
+  std::uint8_t line = 0;  ///< 1..3: the line that causes an invalid code; 0: unknown
 };
 
-/// Converts to the code of probes 120 degrees apart.
+/// Converts a code of the arrangement to the code of probes 120 degrees apart.
 constexpr std::uint8_t as_120_degrees(HallArrangement arrangement, std::uint8_t code) {
   if (arrangement == HallArrangement::degrees_120) return code;
   if (code > 0b111) return code;
@@ -63,7 +63,7 @@ constexpr std::uint8_t as_120_degrees(HallArrangement arrangement, std::uint8_t 
   return static_cast<std::uint8_t>((h1 ? 0b100 : 0) | (h3 ? 0b010 : 0) | (h2 ? 0 : 0b001));
 }
 
-/// Sectors from one to the other on the shorter way: -2..3.
+/// Number of sectors from one to the other by the shorter rotation: -2..3.
 constexpr std::int8_t sectors_between(std::uint8_t from, std::uint8_t to) {
   const std::int8_t ahead = static_cast<std::int8_t>((to + 6 - from) % 6);
   return static_cast<std::int8_t>(ahead > 3 ? ahead - 6 : ahead);
@@ -80,11 +80,13 @@ constexpr std::uint8_t changed_line(std::uint8_t a, std::uint8_t b) {
 
 namespace detail {
 
-/// The line that causes an impossible code, in codes of probes 120 degrees apart; 0: unknown. A line that
-/// breaks while its level is due to stay is the one that changes now, or its last edge was false. A line that
-/// misses its edge is silent for two sectors, until its neighbour's edge makes the code impossible: then the
-/// rotor is two sectors further, and the line is the one that differs from the code due there. Only the times
-/// of a steadily running rotor distinguish the two cases.
+/// The line that causes an invalid code, for codes of probes 120 degrees apart; 0: unknown. There are two
+/// cases, which only the times of a steadily running rotor distinguish.
+///
+/// A line that breaks while its level is due to stay is the line that changes now, or the one whose last edge
+/// was false. A line that misses its edge shows nothing for two sectors, until its neighbour's edge makes the
+/// code invalid. The rotor is then two sectors further, and the line is the one that differs from the code
+/// due there.
 constexpr std::uint8_t broken_line(const HallState& state, std::uint8_t code, SectorTime time) {
   const auto differs_from = [&](int sectors_on) {
     const int sector = (state.sector + 12 + sectors_on * state.direction) % 6;
@@ -93,16 +95,16 @@ constexpr std::uint8_t broken_line(const HallState& state, std::uint8_t code, Se
   if (time == SectorTime::unknown || state.direction == 0) return 0;
   if (time == SectorTime::twice) return differs_from(2);
   const std::uint8_t line = differs_from(0);
-  return line != 0 ? line : differs_from(1);  // it broke together with its neighbour's edge
+  return line != 0 ? line : differs_from(1);  // the line broke together with its neighbour's edge
 }
 
-/// Undoes the exchange of lines 2 and 3 by as_120_degrees.
+/// Undoes the exchange of lines 2 and 3 that as_120_degrees() makes.
 constexpr std::uint8_t line_of(HallArrangement arrangement, std::uint8_t line) {
   return arrangement == HallArrangement::degrees_60 && line > 1 ? static_cast<std::uint8_t>(5 - line) : line;
 }
 
-/// One line's edge to a neighbouring sector. A steadily running rotor makes no edge in less than 3/4 of a
-/// sector and does not turn back within one: such an edge shows that its line broke.
+/// Takes one line's edge to a neighbouring sector. A steadily running rotor makes no edge within 3/4 of a
+/// sector after the last one, and does not turn back within a sector: such an edge shows that its line broke.
 constexpr void take_edge(const HallConfig& config, HallState& state, std::uint8_t code, std::int8_t passed,
                          SectorTime time) {
   const bool turned = state.direction == -passed;

@@ -3,16 +3,16 @@
 //
 //   w = +-k (pi/3)/p timer_Hz/(ticks over the last k edges)
 //   |w| <= (pi/3)/p timer_Hz/(ticks since the last edge)     the next edge has not come yet
-//   fraction = ticks since the last edge/ticks of the mean sector, at most 1
+//   fraction = ticks since the last edge/mean ticks of a sector, at most 1
 //
-// Times are readings of a free-running 32-bit counter that may wrap (extend a 16-bit capture register by its
-// overflow count). The first edge, a reversal and a time-out restart the history with speed 0, because one edge
-// alone gives no speed.
+// Times are readings of a free-running 32-bit counter that may wrap (extend a 16-bit capture register by the
+// number of its overflows). The first edge, a reversal and a time-out restart the history with speed 0,
+// because one edge alone gives no speed.
 //
-// A speed over k edges is k/2 sectors old, and up to one more until the next edge: (k + 1)/2 sectors on
-// average, (k + 1)/2 (pi/3)/(p w). Placement errors of the probes cancel over k = 6, one electrical turn, but
-// at low speed a speed loop is not stable with such an old speed. With a window the speed is taken over `edges` if
-// these came within it, and over one edge if the rotor is too slow for that.
+// A speed over k edges is k/2 sectors old, and up to one sector more before the next edge: on average (k +
+// 1)/2 sectors, or (k + 1)/2 (pi/3)/(p w). The probes' placement errors cancel over k = 6, one electrical
+// turn. At low speed, however, a speed loop is not stable with so old a speed. With a window, the speed is
+// taken over `edges` edges if these came within it, else over one edge.
 #pragma once
 #include <cstdint>
 
@@ -25,17 +25,19 @@ namespace sixstep::control {
 /// The default measures no speed.
 template <class Scalar>
 struct HallSpeedConfig {
-  TickRatio<Scalar> sector_rad_s_ticks{};  ///< (pi/3)/p timer_Hz: speed times ticks of one sector
-  std::uint32_t timeout_ticks = 0;  ///< without an edge until standstill; below 2^32 less one control period
-  std::uint8_t edges = 1;           ///< k, 1..6
-  std::uint32_t window_ticks = 0;   ///< k = 1 if `edges` took longer than this; 0: always `edges`
-  std::uint32_t grain_ticks = 1;  ///< resolution of an edge's time: 1 by capture, a control period by polling
+  TickRatio<Scalar> sector_rad_s_ticks{};  ///< (pi/3)/p timer_Hz: product of speed and ticks of one sector
+  std::uint32_t timeout_ticks = 0;  ///< ticks without an edge after which the rotor counts as at rest; below
+                                    ///< 2^32 minus one control period
+  std::uint8_t edges = 1;           ///< k, edges over which a speed is taken, 1..6
+  std::uint32_t window_ticks = 0;   ///< k = 1 if `edges` edges took longer than this; 0: k is always `edges`
+  std::uint32_t grain_ticks = 1;    ///< resolution of an edge's time: 1 by capture, ticks of a control period
+                                    ///< by polling
   bool operator==(const HallSpeedConfig&) const = default;
 };
 
 struct HallSpeedState {
   std::uint32_t times[7]{};   ///< times of the last edges, the latest first
-  std::uint8_t known = 0;     ///< how many of them are valid, all in one direction
+  std::uint8_t known = 0;     ///< number of valid entries of `times`, all in one direction
   std::int8_t direction = 0;  ///< direction of the last edge
 };
 
@@ -45,7 +47,7 @@ constexpr std::uint8_t hall_speed_edges(std::uint8_t wanted, std::uint8_t known)
   return intervals < most ? intervals : most;
 }
 
-/// Number of sectors over which the speed is taken now; 0: not known yet.
+/// Number of sectors over which the speed is taken now; 0: the speed is not known yet.
 template <class Scalar>
 constexpr std::uint8_t hall_speed_sectors(const HallSpeedConfig<Scalar>& config,
                                           const HallSpeedState& state) {
@@ -55,7 +57,7 @@ constexpr std::uint8_t hall_speed_sectors(const HallSpeedConfig<Scalar>& config,
                                                                                            : k;
 }
 
-/// An edge in `direction` (+1, -1) at counter reading `now`.
+/// Takes an edge in `direction` (+1, -1) at counter reading `now`.
 constexpr void hall_speed_edge(HallSpeedState& state, std::uint32_t now, std::int8_t direction) {
   if (direction == 0) return;
   if (direction != state.direction) state.known = 0;
@@ -65,8 +67,8 @@ constexpr void hall_speed_edge(HallSpeedState& state, std::uint32_t now, std::in
   if (state.known < 7) ++state.known;
 }
 
-/// Speed at counter reading `now`, mechanical rad/s. Call it at least once per time-out, because it ends the
-/// history.
+/// Speed at counter reading `now`, mechanical rad/s. Call it at least once per timeout_ticks, because only
+/// this call ends the history.
 template <class Scalar>
 constexpr Scalar hall_speed(const HallSpeedConfig<Scalar>& config, HallSpeedState& state, std::uint32_t now) {
   using T = ScalarTraits<Scalar>;
@@ -81,7 +83,7 @@ constexpr Scalar hall_speed(const HallSpeedConfig<Scalar>& config, HallSpeedStat
   if (k == 0) return Scalar{};
   const std::uint32_t ticks = static_cast<std::uint32_t>(state.times[0] - state.times[k]);
   Scalar w = T::per_ticks(T::times(config.sector_rad_s_ticks, k), ticks == 0 ? 1 : ticks);
-  // The bound is below the measured speed only after the mean time of a sector.
+  // The bound is below the measured speed only if the mean time of a sector has passed since the last edge.
   if (since > ticks / k) {
     const Scalar bound = T::per_ticks(config.sector_rad_s_ticks, since);
     if (bound < w) w = bound;
@@ -89,23 +91,25 @@ constexpr Scalar hall_speed(const HallSpeedConfig<Scalar>& config, HallSpeedStat
   return state.direction < 0 ? -w : w;
 }
 
-/// True if two sectors took the same time within a quarter.
+/// True if the times of two sectors differ by at most a quarter.
 constexpr bool alike(std::uint32_t later, std::uint32_t earlier) {
   return later <= earlier + earlier / 4 && later >= earlier - earlier / 4;
 }
 
-/// Compares the present sector's time with the last ones. It is known from the fifth edge in one direction on,
-/// if each of the last sectors took as long as the one before within a quarter. A rotor that starts from rest
-/// at a constant torque (sectors of 1, 0.41, 0.32, 0.27, 0.24) makes no edge that is `soon` from then on; one
-/// that slows down at a constant torque makes none that is `twice`, nor two sectors `within`.
-/// A sector shorter than eight grains is unknown: from eight on (T - g)/(T + g) of a steady rotor is at least 3/4.
+/// Compares the present sector's time with the last ones. The result is known from the fifth edge in one
+/// direction on, if the last sectors' times each differ by at most a quarter from the time before.
+///
+/// A rotor that starts from rest at a constant torque (sectors of 1, 0.41, 0.32, 0.27, 0.24) makes no edge
+/// that is `soon` from then on. A rotor that slows down at a constant torque makes no edge that is `twice`,
+/// and no two sectors that are `within`. A sector shorter than eight grains is unknown: from eight grains on
+/// (T - g)/(T + g) of a steady rotor is at least 3/4.
 constexpr SectorTime sector_time(const HallSpeedState& state, std::uint32_t grain, std::uint32_t now) {
   if (state.known < 5) return SectorTime::unknown;
   const std::uint32_t since = static_cast<std::uint32_t>(now - state.times[0]);
   std::uint32_t sector[3]{};
   for (int n = 0; n < 3; ++n) {
     sector[n] = static_cast<std::uint32_t>(state.times[n] - state.times[n + 1]);
-    if (sector[n] > 0x3fffffff) return SectorTime::unknown;  // 2 1/2 times it would not fit
+    if (sector[n] > 0x3fffffff) return SectorTime::unknown;  // 2 1/2 times this time would not fit
   }
   const std::uint32_t last = sector[0];
   if (last / 8 < grain) return SectorTime::unknown;
@@ -116,7 +120,7 @@ constexpr SectorTime sector_time(const HallSpeedState& state, std::uint32_t grai
   return twice ? SectorTime::twice : SectorTime::unknown;
 }
 
-/// Distance since the last edge, 0..1 of a sector in the direction of rotation; 1/2 while no speed is known.
+/// Distance since the last edge in the direction of rotation, 0..1 sector; 1/2 while no speed is known.
 template <class Scalar>
 constexpr Scalar sector_fraction(const HallSpeedConfig<Scalar>& config, const HallSpeedState& state,
                                  std::uint32_t now) {
@@ -127,22 +131,22 @@ constexpr Scalar sector_fraction(const HallSpeedConfig<Scalar>& config, const Ha
   return T::fraction(static_cast<std::uint32_t>(now - state.times[0]), ticks / k);
 }
 
-/// Position by counted edges. The default stays at 0.
+/// Position by counted edges. With the default the position stays at 0.
 template <class Scalar>
 struct HallPositionConfig {
   Gain<Scalar> per_sector{};    ///< position per counted sector: 60/p degrees mechanical; fixed: raw units
-  Gain<Scalar> per_fraction{};  ///< position per interpolated sector: the same; fixed: relative to 1.0
+  Gain<Scalar> per_fraction{};  ///< position per interpolated sector: the same number; fixed: relative to 1.0
   bool operator==(const HallPositionConfig&) const = default;
 };
 
 struct HallPositionState {
-  std::int32_t sectors = 0;  ///< edges forward less edges back
+  std::int32_t sectors = 0;  ///< edges forward minus edges backward
 };
 
 constexpr void hall_position_edge(HallPositionState& state, std::int8_t moved) { state.sectors += moved; }
 
-/// Mechanical degrees. Forward, the distance since the edge is added to the lower edge of the sector; backward,
-/// it is subtracted from the upper one.
+/// Position, mechanical degrees. Forward, the distance since the last edge is added to the sector's lower
+/// edge; backward, it is subtracted from the upper edge.
 template <class Scalar>
 constexpr Scalar hall_position(const HallPositionConfig<Scalar>& config, const HallPositionState& state,
                                std::int8_t direction, Scalar fraction) {

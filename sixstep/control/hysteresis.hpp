@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Controls the current between two levels: on below |i_ref| - h, off above |i_ref| + h, unchanged between;
-// starts on (model.md 4).
+// Controls the current between two levels. The switch turns on below |i_ref| - h and off above |i_ref| + h,
+// and stays as it is between. It starts on (model.md 4).
 #pragma once
 
 #include "sixstep/control/bridge_command.hpp"
 
 namespace sixstep::control {
 
-/// The comparators are on the board (events, no sampling), or hysteresis_step() replaces them once per control
-/// tick.
+/// The comparators are on the board (events without sampling); without them, hysteresis_step() compares once
+/// per control tick.
 template <class Scalar>
 struct HysteresisConfig {
   Scalar band_A{};             ///< h, half the width of the band
-  Watch watch = Watch::motor;  ///< current that the board's comparators use; Watch::none: i_m, sampled here
+  Watch watch = Watch::motor;  ///< current that the board's comparators use; Watch::none: hysteresis_step()
+                               ///< compares the sampled i_m
   bool operator==(const HysteresisConfig&) const = default;
 };
 
@@ -21,7 +22,8 @@ struct HysteresisState {
   bool on = true;
 };
 
-/// The sampled form. `current` and `reference` are counted positive in the direction of the reference.
+/// The sampled form. `current` and `reference`, A, are positive in the direction of the reference. Returns
+/// true for on.
 template <class Scalar>
 constexpr bool hysteresis_step(const HysteresisConfig<Scalar>& config, HysteresisState<Scalar>& state,
                                Scalar current, Scalar reference) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defines the commands of the three legs of the bridge, one per leg, as a timer's channels take them (model.md
-// 11). This is the second kind of controller output. Six-step gives a pair and one duty (bridge_command.hpp);
-// that struct does not depend on this one, so that a six-step chip stores and copies no more than it needs.
-// as_legs() converts it.
+// Defines the commands of the bridge's legs, one per leg, as a timer's channels take them (model.md 11). This
+// is the second kind of controller output. Six-step gives a pair and one duty (bridge_command.hpp). That
+// struct does not depend on this one, so that a six-step chip stores and copies no more than it needs;
+// as_legs() converts a pair to three commands.
 #pragma once
 #include <cstdint>
 
@@ -13,19 +13,21 @@ namespace sixstep::control {
 /// State of a leg during a PWM period.
 enum class LegState : std::uint8_t { off, low, high, pwm };
 
-/// Switches of a pwm leg in its pulse, which lasts `duty` of the period, and in the rest of the period.
+/// Switches that a pwm leg turns on in its pulse, which lasts `duty` of the period, and in the rest of the
+/// period.
 enum class PwmSwitches : std::uint8_t {
-  complementary,  ///< the upper switch; the lower one for the rest of the period, each after the dead time
-  upper,          ///< the upper switch alone; none for the rest
-  lower,          ///< the lower switch alone, as a timer channel with only its complementary output enabled
-  lower_first     ///< the lower switch; the upper one for the rest of the period, each after the dead time
+  complementary,  ///< the upper switch in the pulse, the lower one in the rest; each after the dead time
+  upper,          ///< the upper switch in the pulse, none in the rest
+  lower,          ///< the lower switch in the pulse, none in the rest, as a channel with only its
+                  ///< complementary output
+  lower_first     ///< the lower switch in the pulse, the upper one in the rest; each after the dead time
 };
 
 template <class Scalar>
 struct LegCommand {
   LegState state = LegState::off;
   PwmSwitches switches = PwmSwitches::complementary;
-  Scalar duty{};  ///< 0..1, length of the pulse over the PWM period; used only for pwm
+  Scalar duty{};  ///< 0..1, the pulse's length over the PWM period; used only in state pwm
   bool operator==(const LegCommand&) const = default;
 };
 
@@ -40,7 +42,7 @@ struct LegCommands {
 /// The switch of a leg that must be on.
 enum class LegSide : std::uint8_t { none, low, high };
 
-/// The switch that is on in the pulse, and the one in the rest of the period.
+/// Switch that is on in the pulse, and switch that is on in the rest of the period.
 struct LegSides {
   LegSide pulse = LegSide::none, rest = LegSide::none;
 };
@@ -62,8 +64,8 @@ constexpr LegSides sides_of(const LegCommand<Scalar>& command) {
   return {};
 }
 
-/// The leg by which the current of a driven pair enters (model.md 3): its upper switch is chopped, or is on
-/// throughout.
+/// Command of the leg through which the driven pair's current enters the motor (model.md 3): its upper switch
+/// is chopped, or on throughout.
 template <class Scalar>
 constexpr LegCommand<Scalar> source_leg(Chopping chopping, ChoppedSwitch chopped, Scalar duty) {
   if (chopping != Chopping::hard && chopped == ChoppedSwitch::lower)
@@ -72,7 +74,8 @@ constexpr LegCommand<Scalar> source_leg(Chopping chopping, ChoppedSwitch chopped
           chopping == Chopping::complementary ? PwmSwitches::complementary : PwmSwitches::upper, duty};
 }
 
-/// The leg by which the current leaves: its lower switch is on throughout, or is chopped.
+/// Command of the leg through which the current leaves the motor: its lower switch is chopped, or on
+/// throughout.
 template <class Scalar>
 constexpr LegCommand<Scalar> sink_leg(Chopping chopping, ChoppedSwitch chopped, Scalar duty) {
   if (chopping == Chopping::hard) return {LegState::pwm, PwmSwitches::lower, duty};
@@ -82,14 +85,14 @@ constexpr LegCommand<Scalar> sink_leg(Chopping chopping, ChoppedSwitch chopped, 
   return {LegState::low, PwmSwitches::complementary, Scalar{}};
 }
 
-/// The leg in no pair, while it maintains a part of its old current.
+/// Command of the leg that has left the pair, while it maintains a part of its old current.
 template <class Scalar>
 constexpr LegCommand<Scalar> overlapping_leg(Scalar overlap) {
   const bool upper = Scalar{} < overlap;
   return {LegState::pwm, upper ? PwmSwitches::upper : PwmSwitches::lower, upper ? overlap : -overlap};
 }
 
-/// Six-step as three leg commands. Armed comparators have no duty: then all legs are off.
+/// A six-step command as three leg commands. If comparators are armed there is no duty, and all legs are off.
 template <class Scalar>
 constexpr LegCommands<Scalar> as_legs(const BridgeCommand<Scalar>& command) {
   LegCommands<Scalar> legs{};

@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 // Limits the current reference, and turns all gates off where a smaller reference does not help.
 //
-// The window of allowed current references, which each limit narrows:
+// The window of allowed current references. Each limit narrows it:
 //
 //   current       |i| <= limit
 //   torque        |i| <= T_limit/K_t                                (model.md 1: T_e = K_t i_m)
 //   speed         i <= K (w_limit - w) forward, i >= -K (w_limit + w) backward, both at least 0 A
 //   regeneration  braking current <= g (U_limit - U_s), at least 0 A
 //
-// Regeneration: while braking, i w < 0, the bridge returns current to the bus. If the supply cannot take it,
-// the bus voltage rises: C dU/dt <= |i|. With |i| <= g (U_limit - U) the voltage settles below U_limit, as
-// exp(-g t/C), if a tick is short against C/g.
+// Regeneration: while the motor brakes, i w < 0, the bridge returns current to the bus. If the supply cannot
+// take this current, the bus voltage rises with C dU/dt <= |i|. With |i| <= g (U_limit - U) the voltage
+// approaches a value below U_limit as exp(-g t/C) decays, if a tick is short compared with C/g.
 //
-// A reference of 0 is not enough: a loop that holds the sampled valley of a chopped current at 0 leaves its
-// mean above 0, and no sample shows reversed pulses that begin and end between two samples. So beyond a limit
-// all gates are off until the next sample, for any chopping and current loop:
+// A reference of 0 is not enough, for two reasons. A loop that holds the sampled valley of a chopped current
+// at 0 leaves the mean above 0. And no sample shows reversed pulses that begin and end between two samples.
+// Beyond a limit all gates are therefore off until the next sample, for any chopping and current loop:
 //
 //   current       a phase above 5/4 of the limit
 //   speed         |w| above the limit, and the reference does not brake
 //   regeneration  U_s above the limit, and the reference does not drive
 //
-// With all gates off a current only falls, as long as the bus is above the back-EMF. So current, speed and bus
-// voltage exceed a limit at most by the change in one control period: design/loops/limit_bounds.hpp. Faults
-// (faults.hpp) are the second protection.
+// With all gates off a current only falls, as long as the bus is above the back-EMF. Current, speed and bus
+// voltage therefore exceed a limit by at most their change in one control period
+// (design/loops/limit_bounds.hpp). Faults (faults.hpp) are the second protection.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/control/fixed.hpp"
@@ -30,33 +30,34 @@
 
 namespace sixstep::control {
 
-/// With the defaults no current is allowed; each other limit is off until its flag is set.
+/// With the defaults no current is allowed. The limits of speed and regeneration are off until their flags
+/// are set.
 template <class Scalar>
 struct LimitsConfig {
-  Scalar current_A{};  ///< torque limit/K_t and the thermal limit, whichever is less; fixed: below 4/5 of 1.0
+  Scalar current_A{};  ///< A; the lesser of torque limit/K_t and the thermal limit; fixed: below 4/5 of 1.0
   bool limits_speed = false;
   Scalar speed_rad_s{};        ///< largest |w| that the drive's own torque may reach
-  Gain<Scalar> A_per_rad_s{};  ///< K: full current up to current_A/K below the limit
+  Gain<Scalar> A_per_rad_s{};  ///< K: full current is allowed up to current_A/K below the speed limit
   bool limits_regeneration = false;
-  Scalar bus_V{};          ///< U_limit
-  Gain<Scalar> A_per_V{};  ///< g: full braking current up to current_A/g below the limit
+  Scalar bus_V{};          ///< U_limit, largest bus voltage
+  Gain<Scalar> A_per_V{};  ///< g: full braking current is allowed up to current_A/g below the limit
   bool operator==(const LimitsConfig&) const = default;
 };
 
-/// The allowed current references, low <= 0 <= high.
+/// The window of allowed current references, A; low <= 0 <= high.
 template <class Scalar>
 struct CurrentWindow {
   Scalar low{}, high{};
 };
 
-/// Torque limit in N m -> current limit in A.
+/// Converts a torque limit, N m, to a current limit, A.
 template <class Scalar>
 constexpr Scalar current_of_torque(Scalar torque_Nm, Gain<Scalar> A_per_Nm) {
   return ScalarTraits<Scalar>::product(torque_Nm, A_per_Nm);
 }
 
 namespace detail {
-/// K room, clamped to 0..most.
+/// per_room times room, clamped to 0..most: the current allowed at a distance `room` from a limit.
 template <class Scalar>
 constexpr Scalar folded_back(Scalar room, Gain<Scalar> per_room, Scalar most) {
   return room > Scalar{} ? between(ScalarTraits<Scalar>::product(room, per_room), Scalar{}, most) : Scalar{};
@@ -79,8 +80,8 @@ constexpr CurrentWindow<Scalar> current_window(const LimitsConfig<Scalar>& confi
   return window;
 }
 
-/// True if a sampled phase current is above 5/4 of the limit: no reference within the limit explains that,
-/// ripple and the loop's overshoot included.
+/// True if a sampled phase current is above 5/4 of the limit. References within the limit do not cause this,
+/// even with ripple and the loop's overshoot.
 template <class Scalar>
 constexpr bool over_limit(const LimitsConfig<Scalar>& config, const Measurement<Scalar>& m) {
   constexpr Gain<Scalar> five_quarters(1.25);
@@ -88,7 +89,7 @@ constexpr bool over_limit(const LimitsConfig<Scalar>& config, const Measurement<
   return magnitude(m.i_a_A) > most || magnitude(m.i_b_A) > most || magnitude(m.i_c_A) > most;
 }
 
-/// True if speed or bus voltage is beyond its limit and `reference_A` does not reduce it.
+/// True if speed or bus voltage is beyond its limit and the current `reference_A` does not reduce it.
 template <class Scalar>
 constexpr bool must_coast(const LimitsConfig<Scalar>& config, Scalar reference_A, Scalar speed_rad_s,
                           Scalar bus_V) {

@@ -6,12 +6,12 @@
 
 namespace sixstep::control {
 
-/// With the defaults the output is 0: a forgotten gain is safe.
+/// With the defaults the output is 0, so that a forgotten gain is harmless.
 template <class Scalar>
 struct PiConfig {
   Gain<Scalar> d1{};  ///< output per input: the proportional gain K
-  Gain<Scalar> d0{};  ///< K_i = d1 + d0 per sample
-  Scalar limit{};     ///< |u| never exceeds it
+  Gain<Scalar> d0{};  ///< d0 = K_i - d1, K_i the integral gain per sample
+  Scalar limit{};     ///< |u| never exceeds this
   bool operator==(const PiConfig&) const = default;
 };
 
@@ -21,8 +21,8 @@ struct PiState {
   Scalar e{};  ///< last error
 };
 
-/// u[n] = u[n-1] + d1 e[n] + d0 e[n-1], clamped; the clamped u is the state, so the integral cannot wind up.
-/// This overload clamps to low..high. A feed-forward term e that is added afterwards shifts both by -e, so that
+/// u[n] = u[n-1] + d1 e[n] + d0 e[n-1], clamped to low..high. The clamped u is the state, so that the
+/// integral cannot wind up. If a feed-forward term is added afterwards, subtract it from both ends, so that
 /// the sum stays within the limit.
 template <class Scalar>
 constexpr Scalar pi_step(const PiConfig<Scalar>& config, PiState<Scalar>& state, Scalar error, Scalar low,
@@ -32,8 +32,8 @@ constexpr Scalar pi_step(const PiConfig<Scalar>& config, PiState<Scalar>& state,
   return state.u;
 }
 
-/// The same without a limit and without the integral part: u[n] = u[n-1] + d1 (e[n] - e[n-1]). For a loop whose
-/// output is not reached.
+/// Takes an error without the limit and without the integral part: u[n] = u[n-1] + d1 (e[n] - e[n-1]). It is
+/// for a loop whose output is not applied.
 template <class Scalar>
 constexpr Scalar pi_wait(const PiConfig<Scalar>& config, PiState<Scalar>& state, Scalar error) {
   state.u = state.u + config.d1 * (error - state.e);
@@ -41,8 +41,9 @@ constexpr Scalar pi_wait(const PiConfig<Scalar>& config, PiState<Scalar>& state,
   return state.u;
 }
 
-/// Fixed point stores K_i itself: d1 and d0 nearly cancel, and their rounded difference would keep few digits
-/// of it. The sum is the same, written u[n] = u[n-1] + d1 (e[n] - e[n-1]) + K_i e[n-1].
+/// In fixed point the configuration stores K_i instead of d0. d1 and d0 nearly cancel, and their rounded
+/// difference would keep few digits of K_i. The law is the same, written u[n] = u[n-1] + d1 (e[n] - e[n-1]) +
+/// K_i e[n-1].
 template <class Storage, int FractionBits>
 struct PiConfig<Fixed<Storage, FractionBits>> {
   using Scalar = Fixed<Storage, FractionBits>;
@@ -52,7 +53,7 @@ struct PiConfig<Fixed<Storage, FractionBits>> {
 };
 
 /// The sum has guard bits, so that increments below a signal's last bit count. In Q15 an increment must reach
-/// 2^-13 of that bit: an error of 1 bit is integrated while K_i >= 2^-13 (2^-29 in 32 bits); design/scaling
+/// 2^-13 of that bit: an error of 1 bit is integrated if K_i >= 2^-13 (2^-29 in 32 bits). design/scaling
 /// checks this.
 template <class Storage, int FractionBits>
 struct PiState<Fixed<Storage, FractionBits>> {
@@ -61,7 +62,7 @@ struct PiState<Fixed<Storage, FractionBits>> {
   Scalar e{};
 };
 
-/// An increment saturates at 16 times the signal's range, far beyond any limit.
+/// The fixed-point version. An increment saturates at 16 times the signal's range, far beyond any limit.
 template <class Storage, int FractionBits>
 constexpr Fixed<Storage, FractionBits> pi_step(const PiConfig<Fixed<Storage, FractionBits>>& config,
                                                PiState<Fixed<Storage, FractionBits>>& state,

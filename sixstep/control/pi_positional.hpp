@@ -4,17 +4,17 @@
 //   v[n] = K e[n] + I[n] + feed_forward,   u[n] = v[n] within the limit
 //   I[n+1] = I[n] + K_i e[n] + K_b (u[n] - v[n])
 //
-// At the limit u - v is expanded, because K e may be larger than any number here:
+// At the limit u - v is multiplied out, because K e may be larger than any number of the format:
 //
 //   I[n+1] = I[n] + (K_i - K_b K) e[n] + K_b (u[n] - feed_forward - I[n])
 //
-// so that K e alone may saturate (at 16 times the signal's range): u is at its limit then, and the integral
-// does not depend on K e. The integral stays below limit + |feed_forward| + |K_i/K_b - K| |e|; design/scaling
+// K e alone may therefore saturate (at 16 times the signal's range): u is then at its limit, and the integral
+// does not depend on K e. The integral stays below limit + |feed_forward| + |K_i/K_b - K| |e|. design/scaling
 // proves that this fits.
 //
-// Compared with the velocity form, no proportional kick is lost after saturation, and K_b sets how fast the
-// integral follows the limit: 0 not at all (it winds up), 1 at once. Without saturation both forms have one
-// transfer function: d1 = K, d0 = K_i - K.
+// Unlike the velocity form, this form does not lose a proportional kick after saturation. K_b sets how fast
+// the integral follows the limit: not at all at 0 (it winds up), at once at 1. Without saturation both forms
+// have the same transfer function, with d1 = K and d0 = K_i - K.
 #pragma once
 #include "sixstep/control/fixed.hpp"
 #include "sixstep/control/scalar.hpp"
@@ -27,7 +27,7 @@ struct PiPositionalConfig {
   Gain<Scalar> K{};    ///< output per input
   Gain<Scalar> K_i{};  ///< output per input and sample
   Gain<Scalar> K_b{};  ///< 0..1 per sample; K_i/K is usual
-  Scalar limit{};      ///< |u| never exceeds it
+  Scalar limit{};      ///< |u| never exceeds this
   Gain<Scalar> K_c{};  ///< K_i - K_b K: gain from e to the integral at the limit; 0 is usual
   bool operator==(const PiPositionalConfig&) const = default;
 };
@@ -43,8 +43,8 @@ struct PiPositionalState {
   Accumulator<Scalar> integral{};
 };
 
-/// Clamps to any two ends instead of the limit, for a bound that moves. The feed-forward may be larger than a
-/// signal.
+/// One tick, clamped to low..high instead of to the limit, for bounds that change. The feed-forward may be
+/// larger than a signal.
 template <class Scalar>
 constexpr Scalar pi_positional_step(const PiPositionalConfig<Scalar>& config,
                                     PiPositionalState<Scalar>& state, Scalar error,

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Makes a trapezoidal profile: a position setpoint within limits of speed and acceleration that stops exactly
-// on its target, in discrete time and without a square root. The velocity v is the travel per tick, the
-// acceleration a its change per tick. From v = (m + r) a, m whole, 0 <= r < 1, braking by a in each tick needs
-// the distance
+// on its target, in discrete time and without a square root. The velocity v is the distance per tick, the
+// acceleration a the change of v per tick. From v = (m + r) a, with m an integer and 0 <= r < 1, braking by a
+// in each tick needs the distance
 //
 //   v + (v - a) + .. + r a = (m + 1)(v - m a/2)
 //
-// until rest. So the fastest v that can still stop within R has the largest m with a m (m + 1)/2 <= R, and is v
-// = R/(m + 1) + m a/2 = (R + a m (m + 1)/2)/(m + 1). Each tick takes that v, within one a of the last and
-// within the limit: the profile accelerates, cruises, brakes and lands with its last step, at least as fast as
-// the continuous profile of the same limits. A target nearer than the stopping distance is passed and returned
-// to.
+// until rest. The fastest v that can still stop within R therefore has the largest m with a m (m + 1)/2 <= R.
+// It is v = R/(m + 1) + m a/2 = (R + a m (m + 1)/2)/(m + 1). Each tick takes this v, but changes v by at most
+// a and keeps it within the limit. The profile accelerates, cruises and brakes, and its last step ends on the
+// target. It is at least as fast as the continuous profile of the same limits. A target nearer than the
+// stopping distance is passed, and the profile returns to it.
 //
-// Fixed point: v and a are whole raw steps per tick, so give the profile enough bits (32), or a slower tick.
+// In fixed point v and a are whole raw steps per tick: give the profile enough bits (32), or a slower tick.
 #pragma once
 #include <cstdint>
 
@@ -24,20 +24,20 @@ namespace sixstep::control {
 /// The default never moves.
 template <class Scalar>
 struct ProfileConfig {
-  Scalar speed{};         ///< travel per tick, limit of |v|
-  Scalar acceleration{};  ///< change of v per tick
+  Scalar speed{};         ///< largest |v|, distance per tick
+  Scalar acceleration{};  ///< largest change of v per tick
 };
 
 template <class Scalar>
 struct ProfileState {
   Scalar position{};
-  Scalar velocity{};  ///< travel of the last tick
+  Scalar velocity{};  ///< v, distance in the last tick
 };
 
 namespace detail {
 
-/// Largest m with a m (m + 1)/2 <= R, by bisection up to the m that the speed limit needs: at most 31 rounds.
-/// In whole numbers m a <= fastest + a keeps the product within W.
+/// Largest m with a m (m + 1)/2 <= R, by bisection up to the m that the speed limit needs, in at most 31
+/// rounds. In integers m a <= fastest + a keeps the product within W.
 template <class W>
 constexpr std::int32_t braking_ticks(W R, W a, W fastest) {
   constexpr std::int32_t most = std::int32_t{1} << 30;
@@ -65,7 +65,7 @@ constexpr Scalar profile_step(const ProfileConfig<Scalar>& config, ProfileState<
   const W way = T::wide(target) - T::wide(state.position);
   const bool back = way < W{};
   const W R = back ? -way : way;
-  const W last = back ? -T::wide(state.velocity) : T::wide(state.velocity);  // towards the target
+  const W last = back ? -T::wide(state.velocity) : T::wide(state.velocity);  // positive towards the target
   const std::int32_t m = detail::braking_ticks(R, a, limit);
   W v = (R + static_cast<W>(m) * a * static_cast<W>(m + 1) / static_cast<W>(2)) / static_cast<W>(m + 1);
   if (v > R) v = R;

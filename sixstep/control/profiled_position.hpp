@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Takes the position loop's setpoint from a profile, and feeds its speed and acceleration forward to the inner
-// loops:
+// Takes the position loop's setpoint from a profile, and feeds the profile's speed and acceleration forward
+// to the inner loops:
 //
 //   w_ref = K_p (x_ref - x) + v_ref            without v_ref the loop lags by v/K_p
 //   y = y_speed + J' a_ref + B' v_ref + c' sgn v_ref
 //
-// y is the speed controller's output, a fraction of the full torque, or a duty. J', B' and c' are the shaft's
-// inertia, friction and Coulomb torque over the full torque; for a duty these torques times R/(K_t U), and
-// K_t/U more in B' for the back-EMF (Ellis, Control System Design Guide, 2012, 8). An unknown torque, a load
-// for example, is left to the speed controller. Only PI laws get the feed-forward: the observers of other laws
-// would estimate it as a load.
+// y is the speed controller's output: a fraction of the full torque, or a duty. J', B' and c' are the shaft's
+// inertia, friction and Coulomb torque, each divided by the full torque. For a duty they are these torques
+// times R/(K_t U), and B' contains K_t/U more for the back-EMF (Ellis, Control System Design Guide, 2012, 8).
+// An unknown torque, for example a load, is left to the speed controller. Only PI laws get the feed-forward:
+// the observers of other laws would estimate it as a load.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/control/jerk_profile.hpp"
@@ -35,15 +35,15 @@ constexpr Scalar torque_ahead(const MotionFeedForwardConfig<Scalar>& config,
 }
 
 /// A drive contains the profile if SIXSTEP_POSITION_PROFILE is defined before the first header. sixstep's own
-/// build defines it, and an exported header does if its drive has a profile. It takes 2 KB of flash and 352
-/// bytes of RAM in `float`, which other drives save. All parts of one program must define it, or none.
+/// build defines it, and so does an exported header whose drive has a profile. Without it a drive saves 2 KB
+/// of flash and, in `float`, 352 bytes of RAM. All parts of one program must define it, or none.
 #ifdef SIXSTEP_POSITION_PROFILE
 inline constexpr bool position_profile_is_there = true;
 #else
 inline constexpr bool position_profile_is_there = false;
 #endif
 
-/// Parts of the position loop that exist in floating point only; in fixed point they take no memory.
+/// Parts of the position loop that exist in floating point only. The struct is empty in fixed point.
 template <class Scalar, bool there = position_profile_is_there>
 struct ProfiledPositionConfig {
   bool on = false;
@@ -62,14 +62,14 @@ struct ProfiledPositionConfig<Scalar, false> {
 template <class Scalar, bool there = position_profile_is_there>
 struct ProfiledPositionState {
   JerkProfileState<Scalar> profile{};
-  bool runs = false;  ///< the profile runs in this tick
+  bool runs = false;  ///< true: the profile made the setpoint of this tick
 };
 template <class Storage, int FractionBits>
 struct ProfiledPositionState<Fixed<Storage, FractionBits>, true> {};
 template <class Scalar>
 struct ProfiledPositionState<Scalar, false> {};
 
-/// Position reference of the last tick, for telemetry.
+/// Position reference in the last tick, for telemetry.
 template <class Scalar, bool there = position_profile_is_there>
 struct ProfiledReference {
   bool profiled = false;  ///< false: the setpoint is the reference
@@ -82,8 +82,8 @@ struct ProfiledReference<Scalar, false> {};
 
 namespace detail {
 
-/// The setpoint of this tick. `shaped`: the mode whose setpoint was shaped before. After another mode the
-/// profile begins at the shaft's position and speed.
+/// The setpoint of this tick, degrees. `shaped`: the mode whose setpoint was shaped in the tick before. After
+/// another mode the profile begins at the shaft's position and speed.
 template <class Scalar>
 constexpr Scalar profiled_setpoint(const ProfiledPositionConfig<Scalar>& config,
                                    ProfiledPositionState<Scalar>& state, Mode shaped, Scalar setpoint,
@@ -93,7 +93,7 @@ constexpr Scalar profiled_setpoint(const ProfiledPositionConfig<Scalar>& config,
   return jerk_profile_step(config.profile, state.profile, setpoint).position_deg;
 }
 
-/// u_PI + ahead; the sum stays within the window. At an end of the window u is exactly that end.
+/// u_PI + ahead, within low..high. At an end of this window the sum is exactly that end.
 template <class Scalar>
 constexpr Scalar pi_beside(const PiConfig<Scalar>& config, PiState<Scalar>& state, Scalar error, Scalar ahead,
                            Scalar low, Scalar high) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The complete drive of a product: registers in, bridge command out. It extends drive.hpp: it converts ADC
-// counts, decodes the Hall pins, measures speed and position from them, monitors faults and runs the state
-// machine. Firmware calls protected_step() once per control tick and protected_on_hall() in the Hall interrupt.
+// The complete drive of a product: registers are its input, a bridge command its output. In addition to
+// drive.hpp it converts ADC counts, decodes the Hall pins, measures speed and position from them, monitors
+// faults and runs the state machine. Firmware calls protected_step() once per control tick and
+// protected_on_hall() in the Hall interrupt.
 #pragma once
 #include <cstdint>
 
@@ -19,45 +20,46 @@ namespace sixstep::control {
 enum class CurrentSensing : std::uint8_t { phases, one_shunt };
 
 /// Alignment before the run: a fixed pair pulls the rotor, to prove that phases and Hall probes are wired as
-/// configured. The pair of sector s holds the rotor where its torque is 0, 90 degrees past the middle of s: on
-/// the edge between sectors s + 1 and s + 2. By default there is no alignment.
+/// configured. The pair of sector s holds the rotor where its torque is 0. This is 90 degrees after the
+/// middle of s, on the edge between sectors s + 1 and s + 2. By default there is no alignment.
 template <class Scalar>
 struct AlignConfig {
   Scalar current_A{};
   std::uint32_t ticks = 0;          ///< longest duration; 0: no alignment
-  std::uint32_t settled_ticks = 0;  ///< time for which the rotor must stay in one of the two sectors
-  std::uint8_t sector = 0;          ///< s: its pair pulls
+  std::uint32_t settled_ticks = 0;  ///< time for which the rotor must stay in sector s + 1 or s + 2
+  std::uint8_t sector = 0;          ///< s: the sector whose pair pulls
   bool operator==(const AlignConfig&) const = default;
 };
 
-/// Every default leaves the bridge off.
+/// With the defaults the bridge is off.
 template <class Scalar>
 struct ProtectedConfig {
   DriveConfig<Scalar> drive{};
   Scalar setpoint_limit{};  ///< bound of |setpoint|, in the unit of the mode
   CurrentSensing sensing = CurrentSensing::phases;
-  AdcConfig<Scalar> current_adc[3]{};  ///< converters of phases a, b, c; one shunt: the first
-  AdcConfig<Scalar> bus_adc{};         ///< its offset is not measured
+  AdcConfig<Scalar> current_adc[3]{};  ///< converters of phases a, b, c; with one shunt only the first is
+                                       ///< used
+  AdcConfig<Scalar> bus_adc{};         ///< the offset of the bus converter is not measured
   OneShuntConfig<Scalar> shunt{};
-  HallConfig hall{};  ///< above 1 stable sample the tick evaluates edges, not the interrupt
+  HallConfig hall{};  ///< with more than 1 stable sample, the tick evaluates edges and not the interrupt
   HallSpeedConfig<Scalar> speed{};
   HallPositionConfig<Scalar> position{};
   AdvanceConfig<Scalar> advance{};
   FaultConfig<Scalar> faults{};
   AlignConfig<Scalar> align{};
-  Scalar brake_current_A{};  ///< braking current against the rotation; 0: coasts
-  /// Largest |w| at which the windings are shorted: choose it below brake_current_A R_tt/K_t. 0: never.
+  Scalar brake_current_A{};  ///< current against the rotation while braking; 0: the drive coasts instead
+  /// |w| up to which braking shorts the windings: choose it below brake_current_A R_tt/K_t. 0: never.
   Scalar short_below_rad_s{};
-  Scalar standing_rad_s{};  ///< |w| up to which the brake releases
+  Scalar standing_rad_s{};  ///< |w| up to which the rotor counts as standing, and braking ends
   bool operator==(const ProtectedConfig&) const = default;
 };
 
 /// Register values at one tick.
 struct BoardInput {
-  std::uint16_t current_counts[3]{};  ///< phases a, b, c; one shunt: the first
+  std::uint16_t current_counts[3]{};  ///< phases a, b, c; with one shunt only the first is used
   std::uint16_t bus_counts = 0;
   std::uint8_t hall_pins = 0;  ///< H1 H2 H3 as bits 2, 1, 0
-  std::uint32_t now = 0;       ///< free-running counter, the one that captures Hall edges
+  std::uint32_t now = 0;       ///< reading of the free-running counter that also captures Hall edges
 };
 
 template <class Scalar>
@@ -69,9 +71,9 @@ struct ProtectedState {
   HallSpeedState speed{};
   HallPositionState position{};
   FaultState faults{};
-  FaultEvents events{};  ///< collected since the last tick
+  FaultEvents events{};  ///< events since the last tick
   ActivityState activity{};
-  std::uint8_t pair_of = 0;  ///< code whose pair carried the last sample
+  std::uint8_t pair_of = 0;  ///< code whose pair carried the current at the last sample
   bool calibrated = false;
   std::uint32_t align_ticks = 0, align_settled = 0;
 };
@@ -83,7 +85,7 @@ struct ProtectedTelemetry {
   Measurement<Scalar> measured{};
   Activity activity = Activity::off;
   std::uint16_t faults = 0;       ///< latched, bits of Fault
-  std::uint16_t first_fault = 0;  ///< the reason of the stop
+  std::uint16_t first_fault = 0;  ///< bits of Fault: the reason why the drive stopped
   std::uint8_t hall_line = 0;     ///< 1..3: the faulty Hall line; 0: unknown
 };
 
@@ -102,8 +104,8 @@ constexpr void take_hall(const ProtectedConfig<Scalar>& config, ProtectedState<S
   hall_position_edge(state.position, reading.moved);
 }
 
-/// Converts counts to a Measurement. `hall` is the code to commutate for: that of the next sector within the
-/// advance angle, and 000 if the sector is unknown.
+/// Converts counts to a Measurement. `hall` is the code to commutate for: the code of the next sector within
+/// the advance angle before its edge, and 000 if the sector is unknown.
 template <class Scalar>
 constexpr Measurement<Scalar> measure(const ProtectedConfig<Scalar>& config, ProtectedState<Scalar>& state,
                                       const BoardInput& input) {
@@ -146,7 +148,8 @@ constexpr void calibrate(const ProtectedConfig<Scalar>& config, ProtectedState<S
   state.calibrated = done;
 }
 
-/// True once the rotor has stayed long enough where the pair pulls it; a time-out is a fault.
+/// True when the rotor has stayed long enough where the pair pulls it. If it does not do so in time, this is
+/// a fault.
 template <class Scalar>
 constexpr bool aligned(const ProtectedConfig<Scalar>& config, ProtectedState<Scalar>& state) {
   const AlignConfig<Scalar>& align = config.align;
@@ -184,15 +187,15 @@ constexpr Activity decide(const ProtectedConfig<Scalar>& config, ProtectedState<
   return now;
 }
 
-/// Clamps the setpoint; 0 if it is not a number.
+/// The setpoint, clamped to +-limit; 0 if it is NaN.
 template <class Scalar>
 constexpr Scalar limited_setpoint(Scalar x, Scalar limit) {
   return x >= -limit && x <= limit ? x : x > limit ? limit : x < -limit ? -limit : Scalar{};
 }
 
 /// Brakes with a constant current against the rotation. At low speed Hall edges come too seldom to detect
-/// standstill; there both lower switches short the driven pair, whose torque vanishes with the speed and never
-/// reverses.
+/// standstill. Both lower switches then short the driven pair, whose torque decreases to 0 with the speed and
+/// never reverses.
 template <class Scalar>
 constexpr const BridgeCommand<Scalar>& brake(const ProtectedConfig<Scalar>& config,
                                              ProtectedState<Scalar>& state, const Measurement<Scalar>& m,
@@ -259,8 +262,9 @@ constexpr const BridgeCommand<Scalar>& protected_step(const ProtectedConfig<Scal
   return detail::act(config, state, activity, m, setpoint.value, telemetry.drive);
 }
 
-/// The Hall interrupt. `pins`: after the edge; `captured`: the counter at the edge. Moves the running bridge to
-/// the new pair. A bad code or a jump turns it off at once; the next tick reports the fault.
+/// The Hall interrupt: changes the running bridge to the new pair. `pins`: levels after the edge. `captured`:
+/// the counter's reading at the edge. An invalid code or a jump turns the bridge off at once; the next tick
+/// reports the fault.
 template <class Scalar>
 constexpr const BridgeCommand<Scalar>& protected_on_hall(const ProtectedConfig<Scalar>& config,
                                                          ProtectedState<Scalar>& state, std::uint8_t pins,

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Replaces the configuration while the drive runs, between two ticks: gains, limits, chopping, mode.
 //
-//   same mode   all states stay. A PI in velocity form continues from its last output and its last error: with the new
-//               gains the next tick adds d1 (e[n] - e[n-1]) + K_i e[n-1], so that at zero error nothing moves. The
-//               positional form keeps its integral; its output moves by the change of K times the error. An observer
-//               and a sliding surface continue from their states.
-//   other law   of the speed loop: the new one begins at the output that the old one holds; at zero error nothing
-//               moves (for a positional form only if its setpoint is not weighted).
-//   other mode  a loop of both modes keeps its state; one of the new mode only begins at rest, with output 0. A
-//               setpoint that slews or has a profile starts at the measurement (drive_extras.hpp). The bridge keeps
-//               the last command until the next tick.
-//   other limits of a position profile: it continues from its position and speed, without acceleration.
+//   same mode     All states stay. A PI in velocity form continues from its last output and its last error: with the
+//                 new gains the next tick adds d1 (e[n] - e[n-1]) + K_i e[n-1], which is 0 at zero error. The positional
+//                 form keeps its integral; its output changes by the change of K times the error. An observer and a
+//                 sliding surface continue from their states.
+//   other law     The new law of the speed loop begins at the output that the old one holds; at zero error the output
+//                 does not change (in a positional form only if its setpoint is not weighted).
+//   other mode    A loop of both modes keeps its state. A loop of the new mode alone begins at rest, with output 0. A
+//                 setpoint that slews or has a profile starts at the measurement (drive_extras.hpp). The bridge keeps
+//                 the last command until the next tick.
+//   other limits  A position profile with other limits continues from its position and speed, without acceleration.
 #pragma once
 #include "sixstep/control/protected_drive.hpp"
 
@@ -28,7 +28,7 @@ constexpr bool runs_current_loop(const DriveConfig<Scalar>& config) {
          (runs_speed_loop(config) && config.speed_control == SpeedControl::cascade);
 }
 
-/// Resets the loops that the old mode did not run.
+/// Resets the loops that the mode before did not run.
 template <class Scalar>
 constexpr void rest_idle_loops(const DriveConfig<Scalar>& config, DriveState<Scalar>& state) {
   if (!runs_current_loop(config)) {
@@ -44,7 +44,7 @@ constexpr void rest_idle_loops(const DriveConfig<Scalar>& config, DriveState<Sca
   }
 }
 
-/// Output of the speed loop at zero error.
+/// Output that the speed loop gives at zero error.
 template <class Scalar>
 constexpr Scalar held_by_speed_law(const DriveConfig<Scalar>& config, const DriveState<Scalar>& state) {
   using T = ScalarTraits<Scalar>;
@@ -59,7 +59,7 @@ constexpr Scalar held_by_speed_law(const DriveConfig<Scalar>& config, const Driv
   return T::signal(T::accumulator(Scalar{}) + state.speed.u);
 }
 
-/// Starts a new law with the output that the old one held.
+/// Starts a new law of the speed loop with the output that the old one held.
 template <class Scalar>
 constexpr void hand_speed_over(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
                                const DriveConfig<Scalar>& next) {
@@ -79,7 +79,7 @@ constexpr void hand_speed_over(const DriveConfig<Scalar>& config, DriveState<Sca
   }
 }
 
-/// Restarts the profile at its position and speed, because its counts depend on its limits.
+/// Restarts the position profile at its present position and speed, because its counts depend on the limits.
 template <class Scalar>
 constexpr void hand_profile_over(const DriveConfig<Scalar>& config, DriveState<Scalar>& state,
                                  const DriveConfig<Scalar>& next) {
@@ -106,7 +106,8 @@ constexpr void retune(DriveConfig<Scalar>& config, DriveState<Scalar>& state,
   config = next;
 }
 
-/// Replaces thresholds, limits and the drive within. The loops that braking and alignment run keep their state.
+/// Replaces thresholds, limits and the inner drive. Loops that braking or alignment are using keep their
+/// states.
 template <class Scalar>
 constexpr void retune(ProtectedConfig<Scalar>& config, ProtectedState<Scalar>& state,
                       const ProtectedConfig<Scalar>& next) {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes square roots without a library, and two functions of vectors:
+// Computes square roots without a library, and two functions that use them:
 //
 //   vector_length   sqrt(a^2 + b^2)
-//   circle_rest     sqrt(r^2 - x^2): the other axis on a circle of radius r; 0 if x is outside of the circle
+//   circle_rest     sqrt(r^2 - x^2): the other component of a vector of length r; 0 if |x| is above r
 //
-// Floating point uses Newton's y <- (y + x/y)/2 from above, which falls until it has converged: + - * / alone,
-// so that every core gives the same bits, exact to a digit or two. Fixed point takes the whole part of the root
-// of whole numbers, bit by bit: exact to a digit, and never outside of the circle.
+// Floating point uses Newton's y <- (y + x/y)/2 from above, which falls until it has converged. It needs only
+// + - * /, so that every core gives the same bits, exact to one or two digits. Fixed point takes the integer
+// part of the root of an integer, bit by bit. It is exact to a digit, and the result of circle_rest never
+// leaves the circle.
 #pragma once
 #include <cstdint>
 
@@ -15,7 +16,7 @@
 
 namespace sixstep::control {
 
-/// The whole part of a square root, bit by bit.
+/// The integer part of a square root, bit by bit.
 template <class Unsigned>
 constexpr Unsigned whole_root(Unsigned x) {
   Unsigned found = 0;
@@ -31,7 +32,7 @@ constexpr Unsigned whole_root(Unsigned x) {
   return found;
 }
 
-/// 0 if x is not above 0, infinite or not a number.
+/// Square root of x; 0 if x is not above 0, is infinite or NaN.
 template <class Scalar>
 constexpr Scalar root(Scalar x) {
   constexpr Scalar quarter(0.25), half(0.5), four(4);
@@ -56,13 +57,13 @@ constexpr Fixed<Storage, FractionBits> vector_length(Fixed<Storage, FractionBits
     const auto size = static_cast<UnsignedWide>(detail::absolute(raw));
     return static_cast<UnsignedWide>(size * size);
   };
-  // Two squares of 2^30 sum to 2^31, which fits in an unsigned number.
+  // Two squares of 2^30 each sum to 2^31 in the 16-bit formats, which fits in an unsigned number.
   const UnsignedWide length = whole_root(static_cast<UnsignedWide>(square(a.raw) + square(b.raw)));
   constexpr auto end = static_cast<UnsignedWide>(detail::greatest<Storage>);
   return Fixed<Storage, FractionBits>::from_raw(static_cast<Storage>(length < end ? length : end));
 }
 
-/// 0 also for a radius below 0.
+/// See above; 0 also for a radius below 0.
 template <class Scalar>
 constexpr Scalar circle_rest(Scalar radius, Scalar x) {
   const Scalar size = magnitude(x);

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arithmetic that the control blocks require of their number type. The blocks are templates over one Scalar,
-// and signals are Scalars. Four quantities that a fixed-point signal cannot hold have types of their own:
+// Arithmetic that the control blocks require of their number type. The blocks are templates over one Scalar;
+// signals are Scalars. Four quantities that a fixed-point signal cannot hold have their own types:
 //
 //   Gain         output per input; may exceed the range of a signal
 //   Divisor      a constant that divides a signal once per tick; a chip multiplies by its reciprocal
-//   Accumulator  a sum over many ticks, whose increments may be far below the signal's last bit
+//   Accumulator  a sum over many ticks, whose increments may be far below a signal's last bit
 //   TickRatio    a signal times timer counts, to be divided by timer counts
 //
-// For float and double all of them are the Scalar itself, and every function below gives the same bits as the
-// plain expression. fixed.hpp defines them for fixed point.
+// For float and double all these types are the Scalar itself, and every function below gives the same bits as
+// the plain expression. fixed.hpp defines types and functions for fixed point.
 //
-// Compilers: C++20. For the AVR use clang 19 or later: clang 14 to 16 compile a drive wrongly there, without a
-// warning; 17 and 18 were never tested. avr-gcc 5 and 7, of Debian 12 and the Arduino IDE, have no C++20.
-// SIXSTEP_ANY_COMPILER disables the check: define it for a compiler that tools/check_target.sh proof, or your
-// own test on the chip, has proved right.
+// Compilers: C++20 is required. For the AVR use clang 19 or later: clang 14 to 16 compile a drive wrongly for
+// it, without a warning; 17 and 18 were never tested. avr-gcc 5 and 7, of Debian 12 and the Arduino IDE, have
+// no C++20. SIXSTEP_ANY_COMPILER disables the check. Define it for a compiler that tools/check_target.sh
+// proof, or your own test on the chip, has shown to be correct.
 #pragma once
 #if __cplusplus < 201709L && !defined(_MSC_VER)
 #error \
@@ -27,14 +27,14 @@
 
 namespace sixstep::control {
 
-/// The version for floating point; fixed.hpp specialises it for fixed point.
+/// Types and functions for floating point; fixed.hpp specialises them for fixed point.
 template <class Scalar>
 struct ScalarTraits {
   using Gain = Scalar;
   using Divisor = Scalar;
   using Accumulator = Scalar;
   using TickRatio = Scalar;
-  using Wide = Scalar;  ///< holds a difference of two signals and a signal times a small whole number
+  using Wide = Scalar;  ///< holds a difference of two signals, and a signal times a small integer
 
   static constexpr Scalar half_difference(Scalar a, Scalar b) { return (a - b) * Scalar(0.5); }
   static constexpr Scalar product(Scalar x, Gain gain) { return x * gain; }
@@ -47,7 +47,7 @@ struct ScalarTraits {
   static constexpr Scalar per_ticks(TickRatio ratio, std::uint32_t ticks) {
     return ratio / static_cast<Scalar>(ticks);
   }
-  /// part/whole, at most 1; whole = 0 counts as 1.
+  /// part/whole, at most 1; whole = 0 gives 1.
   static constexpr Scalar fraction(std::uint32_t part, std::uint32_t whole) {
     return part >= whole ? Scalar(1) : static_cast<Scalar>(part) / static_cast<Scalar>(whole);
   }
@@ -69,7 +69,8 @@ using TickRatio = typename ScalarTraits<Scalar>::TickRatio;
 template <class Scalar>
 using Wide = typename ScalarTraits<Scalar>::Wide;
 
-/// The largest duty, fraction or flag: 1, or the largest number below it where the format has no 1 (Q15, Q31).
+/// The largest duty, fraction or flag: 1, or the largest number below 1 if the format cannot hold 1 (Q15,
+/// Q31).
 template <class Scalar>
 inline constexpr Scalar one = Scalar(1);
 

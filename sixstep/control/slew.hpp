@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Slew limiter: the setpoint changes by at most one step per tick and stops exactly on its target.
+// Slew limiter: the output changes by at most one step per tick and stops exactly on the setpoint.
 //
 //   y[n] = y[n-1] + clamp(x[n] - y[n-1], step)
 #pragma once
@@ -8,10 +8,11 @@
 
 namespace sixstep::control {
 
-/// The default never moves.
+/// With the default the output never changes.
 template <class Scalar>
 struct SlewConfig {
-  Accumulator<Scalar> step{};  ///< largest change per tick; fixed point: may be below the last bit
+  Accumulator<Scalar> step{};  ///< largest change per tick; in fixed point it may be less than the signal's
+                               ///< last bit
   bool operator==(const SlewConfig&) const = default;
 };
 
@@ -28,7 +29,7 @@ constexpr Scalar slew_step(const SlewConfig<Scalar>& config, SlewState<Scalar>& 
   else if (x - state.y < -config.step)
     state.y = state.y - config.step;
   else
-    state.y = x;  // not y + (x - y), which may round past it
+    state.y = x;  // not y + (x - y), which rounding may take beyond x
   return ScalarTraits<Scalar>::signal(state.y);
 }
 

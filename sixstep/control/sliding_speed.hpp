@@ -5,18 +5,18 @@
 //
 //   m[n+1] = m[n] + q (r - y),   s = m - y,   u = (q/b) (r - y) + R sat(s/P)
 //
-// m is the speed that a drive without load would have: each sample leaves the part 1 - q of its error. It
-// begins at the measured speed, so that the setpoint is followed on the surface from the first sample on. b is
-// the speed that full torque adds in a sample, l the load as a fraction of full torque. Then, inside of the
-// limit,
+// m is the speed that a drive without load would have: each sample leaves the fraction 1 - q of its error. m
+// begins at the measured speed, so that the setpoint is followed on the surface s = 0 from the first sample
+// on. b is the speed that full torque adds in a sample, and l the load as a fraction of full torque. Then,
+// inside the limit,
 //
-//   |s| > P   s moves by b (R - l) a sample: from s_0 the layer is reached after (|s_0| - P)/(b (R - l)) samples
-//   |s| < P   s[n+1] = (1 - b R/P) s[n] + b l: it rests at P l/R, where R sat(s/P) is the load, and y = r
+//   |s| > P   s changes by b (R - l) per sample: from s_0 the layer is reached after (|s_0| - P)/(b (R - l)) samples
+//   |s| < P   s[n+1] = (1 - b R/P) s[n] + b l: it ends at P l/R, where R sat(s/P) is the load, and y = r
 //
-// At a limit m is moved so that u is just that limit, as far as the layer allows; outside of the layer m moves
-// no further away from the speed: nothing winds up.
+// At a limit m is changed so that u is exactly that limit, as far as the layer allows. Outside of the layer m
+// moves no further away from the speed. So nothing winds up.
 //
-// Floating point only: nothing is proved for fixed point.
+// This law exists in floating point only: its scaling in fixed point is not proved.
 #pragma once
 #include "sixstep/control/scalar.hpp"
 
@@ -25,16 +25,16 @@ namespace sixstep::control {
 /// With the defaults the output is 0.
 template <class Scalar>
 struct SlidingSpeedConfig {
-  Scalar q{};      ///< part of the error that a sample removes
+  Scalar q{};      ///< fraction of the error that a sample removes
   Scalar f{};      ///< q/b, output per rad/s
-  Scalar reach{};  ///< R, the largest load that it balances, as a part of the torque limit
-  Scalar layer{};  ///< P, rad/s
+  Scalar reach{};  ///< R, the largest load that the law can balance, as a fraction of the torque limit
+  Scalar layer{};  ///< P, half the width of the boundary layer, rad/s
   bool operator==(const SlidingSpeedConfig&) const = default;
 };
 
 template <class Scalar>
 struct SlidingSpeedState {
-  Scalar m{};     ///< rad/s; before the first sample: the initial output
+  Scalar m{};     ///< m, rad/s; before the first sample: the initial output
   Scalar held{};  ///< R sat(s/P), the output at zero error
   bool started = false;
 };

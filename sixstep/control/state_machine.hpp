@@ -6,7 +6,7 @@
 //   run --stop--> brake --standing--> off;  brake --start--> run;  calibrate, align --stop--> off
 //   any --fault--> fault --clear, causes gone--> off
 //
-// Offsets are measured once and again after a fault; alignment may be left out.
+// Offsets are measured once, and again after a fault. The alignment may be left out.
 #pragma once
 #include <cstdint>
 
@@ -14,7 +14,7 @@ namespace sixstep::control {
 
 enum class Activity : std::uint8_t { off, calibrate, align, run, brake, fault };
 
-/// Requests of the user, as levels. Only `clear` acts on its change from false to true, so that a held button
+/// Requests of the user, as levels. Only `clear` acts at its change from false to true, so that a held button
 /// does not restart a faulty drive again and again.
 struct Request {
   bool run = false;
@@ -25,18 +25,18 @@ struct ActivityInput {
   Request request{};
   bool calibrated = false;  ///< offsets are known
   bool aligned = false;     ///< the rotor is where it was pulled, or there is no alignment
-  bool standing = false;    ///< slow enough to end the braking
+  bool standing = false;    ///< the rotor is slow enough to end the braking
   bool faulty = false;      ///< a fault is latched
 };
 
 struct ActivityState {
   Activity activity = Activity::off;
   bool clear_was = false;
-  bool run_released = true;  ///< after a fault `run` must be false once before it counts
+  bool run_released = true;  ///< after a fault `run` must become false before it counts again
 };
 
-/// True if a fault must be cleared now. Call it before activity_step, and pass activity_step the faults
-/// that remain.
+/// True if faults must be cleared now. Call it before activity_step, and give activity_step the faults that
+/// remain.
 constexpr bool clear_requested(ActivityState& state, const Request& request) {
   const bool rising = request.clear && !state.clear_was;
   state.clear_was = request.clear;

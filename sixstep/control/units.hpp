@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts a board's constants from SI units to signals at compile time: x becomes x/base, rounded once. A base
-// is the value of 1.0 of a signal in A, V, rad/s or degrees; in floating point every base is 1. The quotients
-// are those of design/scaling/product_scaling.hpp, so that a converter or threshold written in firmware has the
-// bits proved there. (On the AVR, where double has 32 bits, the last of 16 bits may round the other way; an
-// exported drive consists of whole numbers.)
+// Converts a board's constants from SI units to signals at compile time: x becomes x/base, rounded once. A
+// base is the value for which a signal's 1.0 stands, in A, V, rad/s or degrees; in floating point every base
+// is 1. The quotients are those of design/scaling/product_scaling.hpp, so that a converter or threshold
+// written in firmware has the bits that are proved there. (On the AVR, where double has 32 bits, the last of
+// 16 bits may round in the other direction; an exported drive consists of integers.)
 //
-// A chip never divides by a base: all functions are consteval. A value that the format does not hold does not
+// A chip never divides by a base: all functions are consteval. A value that the format cannot hold does not
 // compile ("does_not_fit").
 #pragma once
 #include "sixstep/control/fixed.hpp"
@@ -16,10 +16,10 @@ namespace sixstep::control {
 
 namespace detail {
 
-void does_not_fit();  // not constexpr and defined nowhere: a call stops the compiler
+void does_not_fit();  // not constexpr and defined nowhere, so that a call stops the compiler
 
 template <class Scalar>
-struct FormatEnds {  // ends of floating point: no SI number reaches them
+struct FormatEnds {  // range of floating point: no SI number reaches its ends
   static constexpr double digit = 1.0;
   static constexpr bool holds(double) { return true; }
   static constexpr bool holds_gain(double) { return true; }
@@ -30,7 +30,7 @@ template <class Storage, int FractionBits>
 struct FormatEnds<Fixed<Storage, FractionBits>> {
   using Scalar = Fixed<Storage, FractionBits>;
   static constexpr double digit = static_cast<double>(Scalar::from_raw(1));
-  /// The number one digit above the largest is accepted: 1.0 in Q15 and Q31.
+  /// True if the format holds x. The number one digit above the largest is accepted: 1.0 in Q15 and Q31.
   static constexpr bool holds(double x) {
     return x <= static_cast<double>(Scalar::max()) + digit && x >= static_cast<double>(Scalar::min());
   }
@@ -56,14 +56,16 @@ struct Units {
   consteval Scalar volts(double x) const { return signal(x / voltage_V); }
   consteval Scalar rad_per_s(double x) const { return signal(x / speed_rad_s); }
   consteval Scalar degrees(double x) const { return signal(x / position_deg); }
-  /// A number without unit, such as a duty, a fraction or sectors: its base is 1 in every format.
+  /// A number without a unit, such as a duty, a fraction or a number of sectors: its base is 1 in every
+  /// format.
   consteval Scalar plain(double x) const { return signal(x); }
 
-  /// AdcConfig::per_eighth of a converter with x A or V per count.
+  /// AdcConfig::per_eighth of a converter with x A per count; volts_per_count() is for x V per count.
   consteval Gain<Scalar> amperes_per_count(double x) const { return per_eighth(x, current_A); }
   consteval Gain<Scalar> volts_per_count(double x) const { return per_eighth(x, voltage_V); }
 
-  /// Speed by Hall edges against a free-running timer (hall_speed.hpp). `edges`: 1..6; 6 is an electrical turn.
+  /// Configuration of the speed from Hall edges, timed by a free-running timer (hall_speed.hpp). `edges`:
+  /// 1..6; 6 are one electrical turn.
   consteval HallSpeedConfig<Scalar> hall_speed(int pole_pairs, double timer_Hz, std::uint32_t timeout_ticks,
                                                std::uint8_t edges) const {
     constexpr double pi = 3.14159265358979323846;
@@ -72,7 +74,7 @@ struct Units {
     return {TickRatio<Scalar>(ticks), timeout_ticks, edges};
   }
 
-  /// Position by Hall edges: 60/p mechanical degrees each.
+  /// Configuration of the position from Hall edges: 60/p mechanical degrees each.
   consteval HallPositionConfig<Scalar> hall_position(int pole_pairs) const {
     const double sector = 60.0 / pole_pairs / position_deg;
     return {gain(sector / detail::FormatEnds<Scalar>::digit), gain(sector)};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks each run against the laws of every run (model.md 5): the energy balances close, the currents sum to
-// zero, no diode conducts backwards. It integrates the segments' own polynomials: its residuals are rounding.
+// zero, and no diode conducts backwards. The audit integrates the polynomials of the segments themselves, so
+// that its residuals are rounding errors only.
 #pragma once
 #include <algorithm>
 
@@ -8,12 +9,12 @@
 
 namespace sixstep::plant {
 
-/// Energy over a run, J. A residual is the error of its balance as a part of `scale`.
+/// Energies over a run, J. A residual is the error of its balance divided by `scale`.
 struct EnergyBook {
   double supplied = 0.0;  ///< integral U_s i_dc dt, into the bridge
   double copper = 0.0;
   double devices = 0.0;
-  double magnetic = 0.0;  ///< change of (1/2) L_s sum i^2
+  double magnetic = 0.0;  ///< change of (1/2) L_s (i_a^2 + i_b^2 + i_c^2)
   double air_gap = 0.0;   ///< integral T_e w dt
   double friction = 0.0;
   double iron = 0.0;  ///< iron losses, a part of friction; only study/measure/iron_gauge.hpp computes them
@@ -28,24 +29,24 @@ struct EnergyBook {
 };
 
 struct Laws {
-  double current_sum_A = 0.0;  ///< worst |i_a + i_b + i_c| at a segment's ends
+  double current_sum_A = 0.0;  ///< largest |i_a + i_b + i_c| at a segment's ends
   double reverse_diode_A =
-      0.0;  ///< worst current of the wrong sign in a conducting diode, at a segment's ends
-  double floating_current_A = 0.0;  ///< worst current in a floating leg
+      0.0;  ///< largest current of the wrong sign in a conducting diode, at a segment's ends
+  double floating_current_A = 0.0;  ///< largest current in a floating leg
 };
 
 template <class Real>
 class Audit {
  public:
   void segment(const Plant<Real>& plant, Real s) { take(plant, segment_energy(plant, s)); }
-  /// The same for a segment whose energies are already computed.
+  /// Adds a segment whose energies are already computed.
   [[gnu::always_inline]] void take(const Plant<Real>& plant, const SegmentEnergy<Real>& e);
   EnergyBook energy() const;
   const Laws& laws() const { return laws_; }
 
  private:
-  /// Currents (in the order of the legs' law) and speed at an instant. The stored energies are computed from them
-  /// only once, at the end.
+  /// Currents, A, in the order of the legs' law, and speed, rad/s, at an instant. The stored energies are
+  /// computed from the first and the last Point only, at the end.
   struct Point {
     PerLeg<Real> i{};
     Real w = 0;
@@ -68,7 +69,7 @@ class Audit {
 
   bool begun_ = false;
   Real inv_L_ = 1, inv_J_ = 1;
-  Real noise_ = 0;  ///< energy of a current and a speed at noise level: a smaller energy cannot be balanced
+  Real noise_ = 0;  ///< J; energy of a current and a speed at noise level: no smaller energy can be balanced
   Point start_, end_;
   TwoSums supplied_copper_, devices_air_gap_, friction_load_;
   Real moved_ = 0;
@@ -82,7 +83,8 @@ inline void Audit<Real>::begin(const Plant<Real>& plant) {
   begun_ = true;
   inv_L_ = c.inv_L;
   inv_J_ = c.inv_J;
-  start_ = {{y.i[0][0], y.i[1][0], y.i[2][0]}, y.w[0]};  // in any order
+  start_ = {{y.i[0][0], y.i[1][0], y.i[2][0]}, y.w[0]};  // legs a, b, c: the stored energy does not depend on
+                                                         // the order
   const Real amp = c.amp_noise, speed = c.speed_noise;
   noise_ = amp * amp / c.inv_L + speed * speed / c.inv_J;
 }
@@ -92,7 +94,7 @@ inline typename Audit<Real>::Point Audit<Real>::begin_of(const Expansion<Real>& 
   return {{y.i[law.leg[0]][0], y.i[law.leg[1]][0], y.i[law.leg[2]][0]}, y.w[0]};
 }
 
-/// The expansion has the increments until the segment's end, from which the state continues (Plant::advance()).
+/// `y.end` holds the increments until the segment's end, from which Plant::advance() continues the state.
 template <class Real>
 inline typename Audit<Real>::Point Audit<Real>::end_of(const Expansion<Real>& y, const LegsLaw<Real>& law,
                                                        const Point& begin) {
@@ -109,7 +111,8 @@ inline void Audit<Real>::check_laws(const LegsLaw<Real>& law, const Point& begin
   const auto raise = [](double& worst, Real v) { worst = std::max(worst, static_cast<double>(v)); };
   const auto sum = [](const Point& p) { return detail::abs(p.i[0] + p.i[1] + p.i[2]); };
   raise(laws_.current_sum_A, std::max(sum(begin), sum(end)));
-  // A free leg comes last, and its current has not changed.
+  // `begin.i` is in the order of the legs' law: a floating leg comes last. Its current does not change within
+  // a segment.
   if (law.connected < 3) raise(laws_.floating_current_A, detail::abs(begin.i[2]));
   if (law.connected < 2)
     raise(laws_.floating_current_A, std::max(detail::abs(begin.i[0]), detail::abs(begin.i[1])));
@@ -124,8 +127,8 @@ inline void Audit<Real>::take(const Plant<Real>& plant, const SegmentEnergy<Real
   const Expansion<Real>& y = plant.expansion();
   const Constants<Real>& c = plant.constants();
   if (!begun_) begin(plant);
-  // A shaft that was clamped while it turned has left its kinetic energy in the clamp, even if the clamp opened
-  // at the same instant. A speed within noise that standstill sets to zero does not count.
+  // A clamp that closes on a turning shaft takes its kinetic energy, even if the clamp opens at the same
+  // instant. Standstill also sets a speed within noise to zero; that energy is not counted.
   const bool stopped = y.w[0] == 0 && (c.locked || detail::abs(end_.w) > c.speed_noise);
   // mutant: stopped && end_.w != 0 => false
   if (stopped && end_.w != 0) friction_load_.add(kinetic_energy(end_), Real(0));
@@ -144,7 +147,7 @@ EnergyBook Audit<Real>::energy() const {
   const Real magnetic_start = magnetic_energy(start_), magnetic_end = magnetic_energy(end_);
   const Real kinetic_start = kinetic_energy(start_), kinetic_end = kinetic_energy(end_);
   const Real magnetic = magnetic_end - magnetic_start, kinetic = kinetic_end - kinetic_start;
-  // A coasting motor moves no energy through bridge or load; the scale is then its stored energy.
+  // A coasting motor moves no energy through bridge or load; its stored energy is the scale then.
   const Real scale =
       std::max({moved_, magnetic_start + kinetic_start, magnetic_end + kinetic_end, noise_, Real(1e-300)});
   const Real supplied = supplied_copper_.value[0], copper = supplied_copper_.value[1];
@@ -165,8 +168,8 @@ EnergyBook Audit<Real>::energy() const {
           .mechanical_residual = d((air_gap - friction - load - kinetic) / scale)};
 }
 
-// Compiled once for processors with AVX, with the energies inlined (plant/audit_avx.cpp), because a run consists of
-// segments. Other processors use the shared function segment_energy().
+// AVX version of segment(), compiled once in plant/audit_avx.cpp with the energies inlined, because this
+// function runs once per segment. Other processors use the shared function segment_energy().
 template <>
 void Audit<double>::segment(const Plant<double>& plant, double s);
 #ifdef __x86_64__

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables of the back-EMF's shape: f_k = alpha_k phi0 + beta_k phi1 in each piece of a sector, so that two (or four)
-// series products serve all three phases. x is the angle since the sector's start, electrical rad.
+// Tables of the back-EMF's shape: f_k = alpha_k phi0 + beta_k phi1 in each piece of a sector. The products of
+// speed with phi0 and phi1 serve all three phases. x is the angle since the sector's start, electrical rad.
 //   trapezoid of any flat width: (phi0, phi1) = (1, x), up to three pieces per sector
 //   sine:                        (phi0, phi1) = (cos x, sin x), one piece
 #pragma once
@@ -16,10 +16,11 @@ template <class Real>
 struct EmfPiece {
   Real from = 0, to = 0;  ///< x within the sector
   PerLeg<Real> alpha{}, beta{};
-  PerLeg<Real> alpha_above{}, beta_above{};  ///< the same minus the mean of the other two legs
+  PerLeg<Real> alpha_above{}, beta_above{};  ///< alpha and beta minus the mean of the other two legs' values
 };
 
-/// Scales a shape to a machine's back-EMF.
+/// Multiplies a shape of peak 1 by K_e (V s, or N m/A), so that alpha and beta give a machine's back-EMF per
+/// speed.
 template <class Real>
 constexpr void scale(EmfPiece<Real>& piece, Real K_e) {
   for (int k = 0; k < 3; ++k) piece.alpha[k] *= K_e, piece.beta[k] *= K_e;
@@ -51,8 +52,8 @@ constexpr int centre_distance_deg(int sector, int k) {
   return d;
 }
 
-/// f = 1 on the top, -1 on the bottom, (90 - |phi|)/(90 - w/2) on the ramps (model.md 1). It is linear over one
-/// piece, whose middle is `middle_deg` after the sector's start.
+/// f = 1 on the top, -1 on the bottom, (90 - |phi|)/(90 - w/2) on the ramps, w the flat width in degrees
+/// (model.md 1). f is linear over one piece, whose middle is `middle_deg` after the sector's start.
 template <class Real>
 constexpr void trapezoid_line(int start_deg, Real middle_deg, Real flat_deg, Real& alpha, Real& beta) {
   Real phi = Real(start_deg) + middle_deg;

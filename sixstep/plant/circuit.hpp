@@ -31,11 +31,11 @@ constexpr int connected_count(const Legs& legs) {
   return int{!is_floating(legs[0])} + int{!is_floating(legs[1])} + int{!is_floating(legs[2])};
 }
 
-/// Table of model.md 2 for a MOSFET leg. A gated channel carries both directions alone. Without a gate, the
-/// current's sign selects the diode; a current of at most `noise` leaves the leg floating, and settle() decides
-/// from the voltages whether it stays so. Both gates on is a shoot-through and has no connection: call
-/// shoots_through() first. Branches are used because the processor predicts them: a segment's series can begin
-/// before the currents' signs are computed.
+/// Table of model.md 2 for a MOSFET leg. A gated channel carries both directions of current, and its diode
+/// none. Without a gate, the current's sign selects the diode. A current of at most `noise` leaves the leg
+/// floating, and settle() decides from the voltages whether the leg stays so. Both gates on is a
+/// shoot-through and has no connection: call shoots_through() first. The function branches because the
+/// processor predicts branches: a segment's series can begin before the currents' signs are computed.
 template <class Real>
 constexpr Connection connection_of(bool gate_high, bool gate_low, Real current, Real noise = 0) {
   if (gate_high) return Connection::high_switch;
@@ -44,13 +44,14 @@ constexpr Connection connection_of(bool gate_high, bool gate_low, Real current, 
   return current < -noise ? Connection::high_diode : Connection::floating;
 }
 
-/// v for a leg on its low diode, -v on its high one, so that a current in the diode's direction is positive.
+/// v for a leg on its low diode, -v for a leg on its high diode: a current that the diode can carry is
+/// positive.
 template <class Real>
 constexpr Real along_diode(Connection diode, Real v) {
   return diode == Connection::low_diode ? v : -v;
 }
 
-/// Pole voltage of a connected leg as an affine law: u_k = bus_share U_s + offset_V - r_ohm i_k.
+/// Pole voltage of a connected leg, V against the negative rail: u_k = bus_share U_s + offset_V - r_ohm i_k.
 template <class Real>
 struct PoleTerms {
   Real bus_share{};  ///< 1 on the positive rail, 0 on the negative one
@@ -58,8 +59,10 @@ struct PoleTerms {
   Real r_ohm{};
 };
 
-/// high by switch: U_s - R_on i; low by switch: -R_on i; low by diode: -V_f - r_d i; high by diode: U_s + V_f
-/// - r_d i (model.md 2). A floating leg has no law of its own: all terms zero.
+/// Pole terms of a connection (model.md 2):
+///   high switch: U_s - R_on i       low switch: -R_on i
+///   high diode:  U_s + V_f - r_d i  low diode:  -V_f - r_d i
+/// A floating leg has no law of its own: all terms are zero.
 template <class Real>
 constexpr PoleTerms<Real> pole_terms(Connection c, const Devices& devices) {
   const Real R_on = Real(devices.R_on_ohm), V_f = Real(devices.V_f_V), r_d = Real(devices.r_d_ohm);
@@ -90,15 +93,15 @@ constexpr PoleTable<Real> pole_table(const Devices& devices) {
   return table;
 }
 
-/// The pole voltage of a connected leg carrying i.
+/// Pole voltage, V against the negative rail, of a connected leg that carries i, A.
 template <class Real>
 constexpr Real pole_voltage(const PoleTerms<Real>& terms, Real U_s, Real i) {
   return terms.bus_share * U_s + terms.offset_V - terms.r_ohm * i;
 }
 
-/// Star point's voltage against the negative rail (model.md (5)): u_n = (1/|S|) sum_{k in S} (u_k - e_k).
-/// With |S| = 0 it is undefined. It is then set so that the highest and the lowest terminal are equally far from
-/// their rails: "a floating terminal beyond a rail" then means max e - min e > U_s + 2 V_f.
+/// Star point's voltage, V against the negative rail (model.md (5)): u_n = (1/|S|) sum_{k in S} (u_k - e_k),
+/// S the connected legs. With |S| = 0 the voltage is undefined. The function then centres the terminals
+/// between the rails, so that a floating terminal lies beyond a rail exactly if max e - min e > U_s + 2 V_f.
 template <class Real>
 constexpr Real star_voltage(const Legs& legs, const PoleTable<Real>& poles, Real U_s, const PerLeg<Real>& i,
                             const PerLeg<Real>& e) {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Losses of each of the six switches and six diodes (model.md 8): conduction from the segment's series, and switching
-// energies, which affect only temperatures and efficiency. Computed segment by segment from either kernel's plant.
+// Losses of each of the six switches and six diodes (model.md 8): conduction losses from the segment's
+// series, and switching energies, which affect only temperatures and efficiency. The plant of either kernel
+// supplies them segment by segment.
 //
-// A switch that takes over a current from the other switch's diode loses E_on, and that diode E_rr; a switch that
-// turns off a current loses E_off. Nothing is lost without current, or where the current flows in the direction of
-// the switch's own diode. A channel that carries its own diode's direction counts as that diode, because any pause
-// between the two leaves the current there.
+// A switch that takes over a current from the other switch's diode loses E_on, and that diode loses E_rr. A
+// switch that turns off a current loses E_off. Nothing is lost without current, or where the current flows in
+// the direction of the switch's own diode: a channel that carries this current counts as the diode, because
+// any pause between the two leaves the current in the diode.
 #pragma once
 #include <array>
 
@@ -13,7 +14,8 @@
 
 namespace sixstep::plant {
 
-/// J per volt of the bus and ampere of the current (_J_VA), and J per volt independent of the current (_J_V).
+/// Switching energies: J per volt of the bus and ampere of the current (_J_VA), and J per volt of the bus
+/// alone (_J_V).
 struct SwitchingLaw {
   double on_J_VA = 0.0, off_J_VA = 0.0, recovery_J_VA = 0.0, on_J_V = 0.0;
   bool any() const { return on_J_VA > 0 || off_J_VA > 0 || recovery_J_VA > 0 || on_J_V > 0; }
@@ -74,8 +76,8 @@ class DeviceLosses {
   void switched(Connection before, Connection after, double i, double U, LegDevices& leg) const {
     if (i == 0.0) return;
     const bool from_high = is_high(before), to_high = is_high(after), positive = i > 0;
-    DeviceEnergy& forward = positive ? leg.upper : leg.lower;   // its transistor carries this current forward
-    DeviceEnergy& backward = positive ? leg.lower : leg.upper;  // its diode carries this current
+    DeviceEnergy& forward = positive ? leg.upper : leg.lower;   // the switch whose transistor carries i
+    DeviceEnergy& backward = positive ? leg.lower : leg.upper;  // the switch whose diode carries i
     const double VA = U * (positive ? i : -i);
     const bool carried = !is_floating(before) && from_high == positive && !is_diode(before);
     const bool carries = !is_floating(after) && to_high == positive && !is_diode(after);

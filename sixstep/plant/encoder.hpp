@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Encoders on a shaft (model.md 10). The angle is counted in sectors, so that it stays exact over any number of turns.
 //
-//   A = [frac(N theta/2 pi) < 1/2], B the same a quarter of a line later, Z over the first line of a turn
+//   A = [frac(N theta/2 pi) < 1/2], B follows A a quarter of a line later, Z = 1 over the first line of a turn
 //   counted x4: floor(4 N theta/2 pi);   absolute: the Gray code of floor(2^n frac(theta/2 pi))
 #pragma once
 #include <cmath>
@@ -19,7 +19,8 @@ struct ShaftAngle {
   std::int64_t pole_pairs = 1;
 };
 
-/// floor(parts theta/2 pi): number of the equal part of a turn in which the shaft is, counted over all turns.
+/// floor(parts theta/2 pi): index of the present one of `parts` equal parts of a turn, counted over all
+/// turns.
 template <class Real>
 std::int64_t parts_of_turn(const ShaftAngle<Real>& at, std::int64_t parts) {
   // Whole sectors are computed in integers: theta/2 pi = (sector + x/60 deg)/(6 p); x adds less than one sector.
@@ -30,7 +31,7 @@ std::int64_t parts_of_turn(const ShaftAngle<Real>& at, std::int64_t parts) {
   return turns * parts + whole + static_cast<std::int64_t>(std::floor(more));
 }
 
-/// Quarter of a line at which an incremental encoder of N lines is, counted over all turns.
+/// Index of the quarter of a line at which an incremental encoder of N lines is, counted over all turns.
 template <class Real>
 std::int64_t encoder_quarter(const ShaftAngle<Real>& at, std::int64_t lines) {
   return parts_of_turn(at, 4 * lines);
@@ -43,13 +44,13 @@ inline std::uint8_t encoder_lines_in(std::int64_t quarter, std::int64_t lines) {
   return static_cast<std::uint8_t>(a << 2 | b << 1 | static_cast<int>(z));
 }
 
-/// The same for an angle.
+/// Output of an encoder of N lines at a shaft angle: bits A 4, B 2, Z 1.
 template <class Real>
 std::uint8_t encoder_lines(const ShaftAngle<Real>& at, std::int64_t lines) {
   return encoder_lines_in(encoder_quarter(at, lines), lines);
 }
 
-/// Output of an absolute encoder of `bits` bits, in Gray code.
+/// Output of an absolute encoder of `bits` bits: the Gray code of the part of the turn.
 template <class Real>
 std::uint32_t gray_code(const ShaftAngle<Real>& at, int bits) {
   const std::int64_t parts = std::int64_t{1} << bits;

@@ -12,10 +12,12 @@ namespace sixstep::plant {
 
 namespace detail {
 
-/// Bound of the halvings. Each divides the last two terms by at least 2^15, so any finite excess ends sooner.
+/// Bound of the number of halvings. Each halving divides the last two terms by at least 2^15, so that any
+/// finite excess ends before the bound.
 inline constexpr int most_halvings = 2000;
 
-/// Halves the length until the last two terms are below rounding. Exact, since only powers of two are used.
+/// Halves the segment until its last two terms are below rounding level. Halving is exact in binary
+/// arithmetic.
 template <class Real>
 void shorten(Expansion<Real>& out, Real excess_last, Real excess_before) {
   int halvings = 0;
@@ -36,12 +38,13 @@ void shorten(Expansion<Real>& out, Real excess_last, Real excess_before) {
   out.h *= half;
 }
 
-/// Increments over the segment until s. One pass for the four series that always change, split into even and odd
-/// powers, so that the sums depend less on each other.
+/// Increments of currents, speed and angle from the segment's start to the fraction s. The four series that
+/// always change are summed in one pass. Even and odd powers are summed separately, so that each addition
+/// waits for fewer others.
 template <class Real>
 Increments<Real> increments(const Expansion<Real>& y, const LegsLaw<Real>& law, Real s) {
   const std::array<const Real*, 4> c{y.i[law.leg[0]].data(), y.i[law.leg[1]].data(), y.w.data(), y.x.data()};
-  std::array<Real, 4> near, far;  // near: the powers at whose low end the loop stops
+  std::array<Real, 4> near, far;  // near: sum of the powers with the parity of the loop's last power
   const int n = y.degree;
   for (int k = 0; k < 4; ++k) far[k] = c[k][n], near[k] = c[k][n - 1];
   for (int j = n - 2; j >= 2; j -= 2)
@@ -59,13 +62,13 @@ Increments<Real> increments(const Expansion<Real>& y, const LegsLaw<Real>& law, 
   return {sum[0], sum[1], sum[2], sum[3]};
 }
 
-/// Size of the last two terms relative to the rounding level of their states; 1 is that level.
+/// Size of the last two terms relative to the rounding level of their states; 1 means exactly at that level.
 template <class Real>
 struct Convergence {
   Real amp_limit, speed_limit, volt_limit;
   Real before = 0, last = 0;
-  /// At rest and without current. Torque and current may then alternate so that only the terms 1, 4, 7, 10 are
-  /// nonzero: a zero term proves nothing, and all orders are computed.
+  /// At rest and without current. Torque and current may then alternate so that only the terms 1, 4, 7, 10
+  /// are nonzero: a zero term does not show that the series has converged, and all orders are computed.
   bool from_nothing;
 
   Convergence(const Constants<Real>& c, const Expansion<Real>& y)
@@ -74,8 +77,8 @@ struct Convergence {
         volt_limit(c.volt_limit),
         from_nothing(y.w[0] == 0 && y.i[0][0] == 0 && y.i[1][0] == 0) {}
 
-  /// The sine's shape counts too: without current it alone decides how exactly a floating terminal's voltage is
-  /// computed.
+  /// The terms of the sine's shape count too: without current they alone decide how exactly a floating
+  /// terminal's voltage is computed.
   template <bool sine, bool bus>
   void look(const SeriesBuilder<Real>& y, int n, Real currents, Real speed) {
     before = last;
@@ -83,9 +86,10 @@ struct Convergence {
     if constexpr (bus) last += abs(y.bus[n]) * volt_limit;
     if constexpr (sine) last += (abs(y.phi0[n]) + abs(y.phi1[n])) * terms_per_scale<Real>;
   }
-  /// For a linear system y' = A y, term n + 1 is at most h |A|/(n + 1) of term n, and useful_length() keeps
-  /// h |A| <= 1/2: after a term of 8 levels, all later terms together are below one level. A single small term may
-  /// be a zero by symmetry; a small term after one that is not much larger is the end of the series.
+  /// For a linear system y' = A y, term n + 1 is at most h |A|/(n + 1) of term n, and useful_length() keeps h
+  /// |A| <= 1/2: after a term of 8 rounding levels, all later terms together are below one level. One small
+  /// term may be a zero by symmetry. A small term shows convergence only if the term before it was small too
+  /// (`before`).
   // mutant: !from_nothing => true
   bool reached() const { return last < 8 && before < 4096 && !from_nothing; }
 };
@@ -114,7 +118,7 @@ struct Recurrence {
     currents.start(out, y);
   }
 
-  /// The increments over the whole length. The first terms are added last because they are the largest.
+  /// Increments over the whole segment. The first terms are the largest and are therefore added last.
   void add_up(Expansion<Real>& out) const {
     // mutant: y.later_i => Real(0)
     out.end = {y.i[1] + y.later_i, y.i_2[1] + y.later_i_2, y.w[1] + y.later_w, y.x[1] + y.later_x};
@@ -144,7 +148,7 @@ struct Recurrence {
     out.w[n + 1] = y.w[n + 1];
     out.x[n + 1] = y.x[n + 1];
     out.torque[n] = y.torque[n];
-    if constexpr (bus) out.bus[n + 1] = y.bus[n + 1];  // for a stiff bus all terms but the first stay zero
+    if constexpr (bus) out.bus[n + 1] = y.bus[n + 1];  // terms after the first stay zero for a stiff bus
     if constexpr (Currents::sine_shape) {
       out.phi0[n + 1] = y.phi0[n + 1];
       out.phi1[n + 1] = y.phi1[n + 1];
@@ -175,8 +179,9 @@ template <bool bus, class Currents, class Shape, class Real>
   out.end = increments(out, law, Real(1));
 }
 
-/// Processors for which a recurrence is compiled: all, or x86-64 with AVX, whose three-operand instructions save a
-/// fifth of the moves. Both do the same operations in the same order, so the bits are the same.
+/// Processors for which a recurrence is compiled: any, or x86-64 with AVX, whose three-operand instructions
+/// save a fifth of the moves. Both builds do the same operations in the same order, so that their results
+/// have the same bits.
 enum class Build : std::uint8_t { any, avx };
 
 template <Build build, bool bus, class Currents, class Shape, class Real>
@@ -231,8 +236,8 @@ void expand_sine(const Constants<Real>& c, const Mode& mode, Expansion<Real>& y)
   expand_shape<true, Build::any>(c, mode, y);
 }
 
-// The unrolled code is most of the time to compile a plant: for double it is compiled once, in expand.cpp, which
-// also chooses the build.
+// Compiling the unrolled code takes most of the time to compile a plant. For double it is therefore compiled
+// once, in expand.cpp, which also chooses the build.
 void expand_trapezoid(const Constants<double>& c, const Mode& mode, Expansion<double>& y);
 void expand_sine(const Constants<double>& c, const Mode& mode, Expansion<double>& y);
 extern template void expand_shape<false, Build::any>(const Constants<double>&, const Mode&,
@@ -250,7 +255,7 @@ extern template void expand_shape<true, Build::avx>(const Constants<double>&, co
 
 }  // namespace detail
 
-/// Expands the state in the given mode over `wanted` seconds, or over less where full accuracy requires it.
+/// Expands the state in the given mode over `wanted`, s, or over less where full accuracy requires it.
 template <class Real>
 void expand(const Constants<Real>& c, const State<Real>& state, const Mode& mode, Real wanted,
             Expansion<Real>& y) {
@@ -269,8 +274,8 @@ void expand(const Constants<Real>& c, const State<Real>& state, const Mode& mode
   }
 }
 
-/// `wanted`, or less where one series cannot cover it: about half of the fastest time constant. Nearly all
-/// segments are shorter and need no division.
+/// `wanted`, s, or less where one series cannot cover it: half of the fastest time constant. Nearly all
+/// segments are short enough and need no division.
 template <class Real>
 Real useful_length(const Constants<Real>& c, const State<Real>& state, Real wanted) {
   const Real rate = c.steady_rate + c.pole_pairs * detail::abs(state.w);

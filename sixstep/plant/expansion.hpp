@@ -24,24 +24,26 @@ struct Constants {
   EmfTable<Real> emf;  // times K_e: V s, or N m/A
   bool sine = false, locked = false, dry_friction = false, source_sinks = true;
   Real volt_scale, amp_scale, speed_scale, torque_scale;
-  Real volt_noise, amp_noise, speed_noise, torque_noise;  // noise_of() these scales
+  Real volt_noise, amp_noise, speed_noise, torque_noise;  // noise_of() the four scales
   Real steady_rate;                                       // constant part of the fastest rate, 1/s
-  Real amp_limit, speed_limit, volt_limit;                // 1 / rounding level of a term of the series
+  Real amp_limit, speed_limit, volt_limit;                // 1 over the size at which a term of the series is
+                                                          // rounding
   Real K_e;
 };
 
-/// A term of a series counts as zero when it is this many times smaller than its state's natural scale: well
-/// below the last bit, so that truncation errors never add up.
+/// A term of a series counts as zero when it is this many times smaller than its state's natural scale. That
+/// is well below the last bit, so that truncation errors never add up.
 template <class Real>
 inline constexpr Real terms_per_scale = Real(1LL << 53) * (sizeof(Real) > 8 ? 2048 : 1);
 
-/// Changes until a segment's end: currents of the first and second connected leg, A; speed; angle.
+/// Changes until a segment's end: currents of the first and second connected leg, A; speed, rad/s; angle,
+/// electrical rad.
 template <class Real>
 struct Increments {
   Real i = 0, i_2 = 0, w = 0, x = 0;
 };
 
-/// Series over one segment.
+/// Series over one segment, in powers of the fraction s of its length.
 template <class Real>
 struct Expansion {
   int degree = 0;
@@ -52,12 +54,12 @@ struct Expansion {
   Increments<Real> end;
   PerLeg<Real> reach_i;  ///< bound: no series moves further from its first value than this
   Real reach_w = 0, reach_x = 0;
-  Real later_x = 0;  ///< the bound of x without its first term
+  Real later_x = 0;  ///< bound of the change of x without its first term
 };
 
 namespace detail {
 
-/// This is one instruction. A comparison would need a branch, to keep the sign of zero.
+/// std::fabs is one instruction. A comparison would need a branch, to keep the sign of zero.
 template <class Real>
 inline Real abs(Real v) {
   return std::fabs(v);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Guards of a mode: each stays >= 0 as long as the present mode holds. It is a polynomial of the same series as
-// the dynamics, with the rounding level below which its coefficients have no meaning. Their order decides ties:
-// current zero, standstill, sector edge, then rails and the rest (model.md 4b).
+// Guards of a mode: each guard stays >= 0 as long as the present mode holds. A guard is a polynomial of the
+// same series as the dynamics, with the rounding level below which its coefficients have no meaning. The
+// guards' order decides ties: current zero, standstill, sector edge, then rails and the rest (model.md 4b).
 #pragma once
 #include "sixstep/plant/expand.hpp"
 #include "sixstep/plant/pole.hpp"
@@ -15,8 +15,8 @@ inline constexpr int current_zero = 0;  // + k
 inline constexpr int standstill = 3;
 inline constexpr int edge_ahead = 4;
 inline constexpr int edge_behind = 5;
-inline constexpr int low_rail = 6;        // + k
-inline constexpr int high_rail = 9;       // + k
+inline constexpr int low_rail = 6;        // + k; leg k's terminal reaches its low diode
+inline constexpr int high_rail = 9;       // + k; leg k's terminal reaches its high diode
 inline constexpr int floating_star = 12;  // + 3 j + k: e_j - e_k against the rails
 inline constexpr int breakaway_forward = 21;
 inline constexpr int breakaway_backward = 22;
@@ -33,7 +33,8 @@ inline constexpr int saturated = 32;  // + 1: the current along the magnet's axi
 inline constexpr int first_free = 34;
 }  // namespace guard
 
-/// Noise = 64 eps x natural scale (pitfall 6), times `slack` where rounding made every mode inconsistent.
+/// Rounding noise of a value: 64 eps x natural scale (pitfall 6), times `slack`, which settling raises where
+/// rounding made every mode inconsistent.
 template <class Real>
 constexpr Real noise_of(Real scale, Real slack) {
   constexpr Real eps =
@@ -43,8 +44,9 @@ constexpr Real noise_of(Real scale, Real slack) {
 
 namespace detail {
 
-/// Factor on the noise. A nonzero value has a sign: snap() left nothing within the plain noise. Only a value that
-/// starts at zero gets `slack`; otherwise a slow rotor would be neither moving nor at rest.
+/// Factor on the noise. A value that is nonzero at the start has a sign, because snap() set all values within
+/// the plain noise to zero. Only a value that starts at zero gets `slack`; otherwise a slow rotor would be
+/// neither moving nor at rest.
 template <class Real>
 Real doubt(const series::Coefficients<Real>& c, Real slack) {
   return c[0] != 0 ? Real(1) : slack;
@@ -59,7 +61,8 @@ series::Coefficients<Real> affine(const series::Coefficients<Real>& c, int degre
   return out;
 }
 
-/// Visits the guards of a terminal near a rail. Few segments need them: not inlined, so that the others stay short.
+/// Visits the guards of a terminal near a rail. Few segments need these guards: the function is not inlined,
+/// so that the code of the other segments stays short.
 template <class Real, class Visit>
 [[gnu::noinline]] void near_rail(const Constants<Real>& c, const PoleLaw<Real>& law, const Expansion<Real>& y,
                                  int k, bool low, bool high, Real noise, Visit&& visit) {
@@ -87,7 +90,7 @@ template <class Real, class Visit>
   if (low || high) near_rail(c, law, y, k, low, high, noise, visit);
 }
 
-/// |S| = 0: conduction starts when max e - min e > U_s + 2 V_f.
+/// No leg is connected: conduction starts when max e - min e > U_s + 2 V_f.
 template <class Real, class Visit>
 void floating_star_guards(const Constants<Real>& c, const EmfPiece<Real>& piece, const LegsLaw<Real>& law,
                           const Expansion<Real>& y, Real noise, Visit&& visit) {
@@ -145,7 +148,7 @@ template <class Real, class Visit>
 
 }  // namespace detail
 
-/// Guards of the conduction, motion and supply modes, by which settle() checks a mode.
+/// Guards of conduction, motion and supply. settle() checks a mode by the same guards.
 template <class Real, class Visit>
 void mode_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Real>& y, Real slack,
                  Visit&& visit) {
@@ -174,7 +177,7 @@ void mode_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Rea
           y.degree, volt_noise);
 }
 
-/// Guards of the present piece of the back-EMF: the rotor stays within it.
+/// Guards of the present piece of the back-EMF: both are >= 0 while the rotor is within the piece.
 template <class Real, class Visit>
 void edge_guards(const EmfPiece<Real>& piece, const Expansion<Real>& y, Visit&& visit) {
   const Real noise = noise_of(Real(base::sector_rad), Real(1));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes of Hall probes that are 120 or 60 electrical degrees apart; each is high over half a turn. The controller
-// decodes them with a separate table, so that a wrong entry cannot cancel itself.
+// Codes of Hall probes that are 120 or 60 electrical degrees apart; each probe is high over half a turn. The
+// controller decodes the codes with its own table, so that a wrong entry here does not cancel in a run.
 #pragma once
 #include <cstdint>
 
@@ -15,7 +15,8 @@ constexpr std::uint8_t hall_code(int sector) {
   return static_cast<std::uint8_t>(h1 << 2 | h2 << 1 | static_cast<int>(h3));
 }
 
-/// Probes 60 degrees apart, each a sector behind the one before: H1 over sectors 5, 0, 1; H2 over 0, 1, 2; H3 over 1, 2, 3.
+/// Code of probes 60 degrees apart, each a sector behind the one before: H1 over sectors 5, 0, 1; H2 over 0,
+/// 1, 2; H3 over 1, 2, 3.
 constexpr std::uint8_t hall_code_60(int sector) {
   const bool h1 = sector == 5 || sector == 0 || sector == 1;
   const bool h2 = sector >= 0 && sector <= 2;

@@ -3,7 +3,8 @@
 //
 //   60 deg n + offset + own[n mod N],   N = 6 per electrical turn, or 6 p per mechanical turn (magnets differ)
 //
-// and appears h/2 later in the direction of motion. The start sector follows from the edges without hysteresis.
+// and appears h/2 later in the direction of motion, h the hysteresis. The edges without hysteresis give the
+// first sector.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -17,12 +18,13 @@ namespace sixstep::plant {
 struct HallPlacement {
   double offset_deg = 0.0;        ///< offset of all edges
   double hysteresis_deg = 0.0;    ///< distance between an edge's positions in the two directions
-  std::vector<double> own_deg{};  ///< further offset of each edge, from that at 0 degrees on; none, 6, or 6 p
+  std::vector<double> own_deg{};  ///< further offset of each edge, the first that at 0 degrees; none, 6, or 6
+                                  ///< p values
 
   bool as_sectors() const { return offset_deg == 0.0 && hysteresis_deg == 0.0 && own_deg.empty(); }
 };
 
-/// Guards of the probes: the next edge in either direction.
+/// Guards of the probes: the next edge ahead and the next edge behind.
 enum class ProbeEdge : std::uint8_t { ahead, behind };
 
 template <class Real>
@@ -32,7 +34,8 @@ class HallProbes {
       : half_(rad(placement.hysteresis_deg) / 2) {
     for (const double own : placement.own_deg) edge_.push_back(rad(placement.offset_deg + own));
     if (edge_.empty()) edge_.push_back(rad(placement.offset_deg));
-    // Without hysteresis, a reversal on an edge must still leave the range in which the edge was located.
+    // A rotor that reverses on an edge must leave the range of rounding in which the edge was located: the
+    // least hysteresis.
     const Real least = 4 * noise_of(Real(base::sector_rad), Real(1));
     if (half_ < least) half_ = least;
     shown_ = at.sector;
@@ -43,8 +46,8 @@ class HallProbes {
   /// Sector according to the probes, counted over all turns as State::sector is.
   std::int64_t shown() const { return shown_; }
 
-  /// visit(ProbeEdge, series, degree, noise): each series falls through zero where that edge appears. `sector` is the
-  /// rotor's.
+  /// Calls visit(ProbeEdge, series, degree, noise) for each edge: the series falls through zero where that
+  /// edge appears. `sector` is the rotor's own sector.
   template <class Visit>
   void guards(const Expansion<Real>& y, std::int64_t sector, Visit&& visit) const {
     const Real noise = noise_of(Real(base::sector_rad), Real(1));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A LegsLaw gives, for one set of connections, the currents' slopes and the star point's voltage: the electrical
-// half of model.md 1 and 2 without the back-EMF, multiplied out once per plant.
+// A LegsLaw gives, for one set of connections, the slopes of the currents and the star point's voltage. It is
+// the electrical half of model.md 1 and 2 without the back-EMF, multiplied out once per plant.
 #pragma once
 #include "sixstep/plant/circuit.hpp"
 
@@ -8,14 +8,14 @@ namespace sixstep::plant {
 
 template <class Real>
 struct LegsLaw {
-  /// A quantity as a sum over its causes. The currents are those of the first and second connected leg.
+  /// A quantity as a sum over its causes. i and i_2 are the currents of the first and second connected leg.
   struct Terms {
-    Real bus = 0, offset = 0, i = 0, i_2 = 0;  ///< per U_s, 1, i, i_2
+    Real bus = 0, offset = 0, i = 0, i_2 = 0;  ///< coefficients of U_s, 1, i and i_2
   };
   std::array<std::uint8_t, 3> leg{0, 1, 2};  ///< the connected legs in order, then the floating ones
   std::uint8_t connected = 0;
   std::uint8_t floating = 0, diodes = 0;  ///< as masks: bit k is leg k
-  PerLeg<PoleTerms<Real>> pole{};         ///< terms in the order of `leg`; zero for a floating leg
+  PerLeg<PoleTerms<Real>> pole{};         ///< pole terms in the order of `leg`; zero for a floating leg
   PerLeg<Real> along{};  ///< in the order of `leg`: sign that makes a diode's current positive; 0: no diode
   Terms slope, slope_2;  ///< di/dt of the first current and, where three legs are connected, of the second
   Terms star;            ///< u_n + mean of e over the connected legs, for one or two connected legs
@@ -33,7 +33,7 @@ constexpr std::size_t legs_index(const Legs& legs) {
 
 namespace detail {
 
-/// Two legs share one current: 2 L di/dt = u_j - u_k - 2 R i - (e_j - e_k).
+/// Two legs j, k share one current: 2 L di/dt = u_j - u_k - 2 R i - (e_j - e_k).
 template <class Real>
 void pair_law(const PoleTerms<Real>& a, const PoleTerms<Real>& b, Real R, Real inv_L, LegsLaw<Real>& law) {
   law.emf_rate = inv_L / 2;
@@ -47,7 +47,7 @@ void pair_law(const PoleTerms<Real>& a, const PoleTerms<Real>& b, Real R, Real i
               .i = (b.r_ohm - a.r_ohm) / 2};
 }
 
-/// Three legs: L di_k/dt = v_k - mean of v with v_k = u_k - R i_k - e_k, the third current eliminated.
+/// Three legs: L di_k/dt = v_k - mean of v, with v_k = u_k - R i_k - e_k. The third current is eliminated.
 template <class Real>
 void three_leg_law(const PerLeg<PoleTerms<Real>>& terms, Real R, Real inv_L, LegsLaw<Real>& law) {
   constexpr Real third = Real(1.0L / 3);

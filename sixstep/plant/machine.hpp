@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parameters of the star machine, its shaft, devices and supply in the frame of the equations (model.md 1): per
-// phase, SI.
+// Parameters of the star machine, its shaft, devices and supply as the equations use them (model.md 1): per
+// phase of the star, SI units.
 #pragma once
 #include <cstdint>
 
@@ -11,7 +11,8 @@ enum class BackEmf : std::uint8_t { trapezoid, sine };
 struct Machine {
   double R_ohm = 0.0;     ///< phase resistance R_s
   double L_H = 0.0;       ///< phase inductance L_s = L - M
-  double K_e_V_s = 0.0;   ///< peak phase EMF per mechanical rad/s, also N m/A per phase
+  double K_e_V_s = 0.0;   ///< peak back-EMF of a phase per mechanical rad/s, V s; the same number is N m/A
+                          ///< per phase
   double pole_pairs = 1;  ///< for a linear motor pi/tau, tau its pole pitch in m (model.md 7)
   BackEmf back_emf = BackEmf::trapezoid;
   double flat_deg = 120.0;  ///< flat width of the trapezoid, electrical degrees, in (0, 180)
@@ -22,17 +23,19 @@ struct Shaft {
   double J_kg_m2 = 0.0;
   double B_Nm_s = 0.0;      ///< viscous friction
   double coulomb_Nm = 0.0;  ///< T_c0 while turning
-  double static_Nm = 0.0;   ///< breakaway torque; used where larger than coulomb_Nm
+  double static_Nm = 0.0;   ///< breakaway torque; effective only if larger than coulomb_Nm
   bool locked = false;      ///< the rotor is held
 };
 
-/// B w + T_c sign(w) at a speed, N m, positive against a forward rotation. For a run see torques.hpp.
+/// Friction B w + T_c sign(w) at a speed, N m, positive against a forward rotation. The equations of a run
+/// use torques.hpp.
 inline double friction_Nm(const Shaft& shaft, double speed_rad_s) {
   const double sign = speed_rad_s > 0 ? 1.0 : speed_rad_s < 0 ? -1.0 : 0.0;
   return shaft.B_Nm_s * speed_rad_s + sign * shaft.coulomb_Nm;
 }
 
-/// Switches and diodes (model.md 2). As in a MOSFET, the gated channel carries both directions alone.
+/// Switches and diodes (model.md 2). As in a MOSFET, a gated channel carries both directions, and its diode
+/// no current.
 struct Devices {
   double R_on_ohm = 0.0;
   double V_f_V = 0.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Simulates motor, bridge with diodes, shaft and supply as one system between events (model.md 1, 2, 4b). The rig
-// sets gates and load; the run loop expands, advances and applies located events.
+// Simulates motor, bridge with diodes, shaft and supply as one system between events (model.md 1, 2, 4b). The
+// rig sets gates and load. The run loop calls expand(), advance() and apply() for the events that it locates.
 #pragma once
 #include <algorithm>
 
@@ -15,7 +15,7 @@ struct Start {
   double bus_V = 0.0;
 };
 
-/// Values at one instant, SI. The pole voltages of a fully floating star are centred between the rails.
+/// Values at one instant, SI units. If all legs float, the pole voltages are centred between the rails.
 template <class Real>
 struct Snapshot {
   PerLeg<Real> i{}, emf{}, pole{};
@@ -30,7 +30,7 @@ class Plant {
   Plant(const Machine& machine, const Shaft& shaft, const Devices& devices, const Supply& supply,
         const Start& start);
 
-  /// False for a shoot-through, both switches of a leg on; nothing is changed then.
+  /// Returns false, and changes nothing, for a shoot-through: both switches of a leg on.
   bool set_gates(const Gates& gates) {
     if (shoots_through(gates)) return false;
     if (gates == gates_) return true;
@@ -47,20 +47,20 @@ class Plant {
   void set_source_voltage(double V_0_V);
   void set_source_sinks(bool sinks);
 
-  /// Settles the mode if it is out of date, and expands. Returns the length covered, s; negative if no mode is
-  /// consistent.
+  /// Settles the mode if gates, load or state have changed since, and expands. Returns the length covered, s;
+  /// a negative value means that no mode is consistent.
   double expand(double wanted);
   template <class Visit>
   void guards(Visit&& visit) const {
     mode_guards(constants_, mode_, y_, slack_, visit);
     edge_guards(constants_.emf[mode_.sector].piece[mode_.piece], y_, visit);
   }
-  /// Call it once per expansion: the segment ends at the fraction s of its length; `end` gets the increments
-  /// until there.
+  /// Ends the segment at the fraction s of its length: the expansion's `end` gets the increments until there.
+  /// Call it once per expansion.
   void end_at(Real s) {
     if (s != 1) y_.end = detail::increments(y_, constants_.legs[legs_index(mode_.legs)], s);
   }
-  /// Advances the state to the fraction s.
+  /// Advances the state to the fraction s of the segment.
   void advance(Real s);
   /// Applies the located event `id`; true if the rotor entered another sector.
   bool apply(int id);
@@ -70,8 +70,8 @@ class Plant {
   const Gates& gates() const { return gates_; }
   const Constants<Real>& constants() const { return constants_; }
   const Expansion<Real>& expansion() const { return y_; }
-  /// Factor on the constants' noise levels in this mode. 1, or more where no mode was consistent at the plain
-  /// noise.
+  /// Factor on the constants' noise levels in this mode: 1, or more where no mode was consistent with factor
+  /// 1.
   Real slack() const { return slack_; }
   int sector() const { return mode_.sector; }
   /// Number of times that a floating leg began to conduct by a diode.
@@ -135,8 +135,8 @@ Plant<Real>::Plant(const Machine& m, const Shaft& shaft, const Devices& devices,
   mode_.sector = static_cast<std::uint8_t>(sector_in_turn(state_.sector));
   const EmfSector<Real>& pieces = c.emf[mode_.sector];
   while (mode_.piece + 1 < pieces.count && state_.x >= pieces.piece[mode_.piece].to) ++mode_.piece;
-  // A rotor that turns backwards has just passed that edge: the located event comes before the first tick
-  // (model.md 4b).
+  // The run starts on an edge with a rotor that turns backwards. The edge is passed here, because a located
+  // event comes before the first tick (model.md 4b).
   // mutant: on_edge && state_.w < 0 => false
   if (on_edge && state_.w < 0) pass_edge(false);
 }
@@ -155,7 +155,7 @@ bool Plant<Real>::resettle(Real wanted, bool& expanded) {
   return true;
 }
 
-/// Settles the snapped state by enumeration. The noise is widened as far as rounding makes that necessary.
+/// Settles the state after snap() by enumeration. While no mode is consistent, the noise is widened.
 template <class Real>
 bool Plant<Real>::settle_fully(Real wanted, bool& expanded) {
   snap();
@@ -207,7 +207,7 @@ template <class Real>
 Snapshot<Real> Plant<Real>::at(Real s) const {
   using series::evaluate;
   Snapshot<Real> now;
-  // One pass for the five series that always change; at the segment's start there is nothing to sum.
+  // One pass for the five series that always change; at the segment's start, s = 0, there is nothing to sum.
   Real a = 0, b = 0, c = 0, w = 0, x = 0;
   for (int j = s != 0 ? y_.degree : 0; j >= 1; --j) {
     a = (a + y_.i[0][j]) * s;

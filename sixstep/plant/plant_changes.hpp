@@ -24,7 +24,8 @@ void Plant<Real>::set_steady_rate() {
   c.steady_rate = winding + electromechanical + c.inv_C * (c.inv_R_b + 1 / c.R);
 }
 
-/// A closing clamp stops the shaft at once and takes its kinetic energy; a released shaft starts from rest.
+/// A clamp that closes stops the shaft at once and takes its kinetic energy. A shaft that a clamp releases
+/// starts from rest.
 template <class Real>
 void Plant<Real>::set_locked(bool locked) {
   constants_.locked = locked;
@@ -35,8 +36,8 @@ void Plant<Real>::set_locked(bool locked) {
   stale_ = true;
 }
 
-/// Sets the source's voltage; a stiff bus follows at once. The noise level may only rise, because values rounded at
-/// a higher voltage keep their error.
+/// Sets the source's voltage, V; a stiff bus follows at once. The noise level may only rise, because values
+/// that were rounded at a higher voltage keep their error.
 template <class Real>
 void Plant<Real>::set_source_voltage(double V_0_V) {
   Constants<Real>& c = constants_;

@@ -8,13 +8,14 @@
 
 namespace sixstep::plant {
 
-/// Sets to zero the currents within rounding of zero in legs without gate, and the speed within rounding of rest where
-/// friction may hold the rotor. So settle() decides which mode is consistent there, not a rounding error.
+/// Sets to zero the currents within rounding of zero in legs without gate, and the speed within rounding of
+/// rest where friction may hold the rotor. The mode is then decided by settle(), not by a rounding error.
 template <class Real>
 void Plant<Real>::snap() {
   // mutant: constants_.amp_noise => 1000 * constants_.amp_noise
   const Real amp_noise = constants_.amp_noise;
-  // Balancing may bring another current below the noise: of 1.1, 1.2 and -2.3, where 1.2 is noise, all are zero.
+  // Balancing changes the other currents and may bring one below the noise. Of 1.1, 1.2 and -2.3 with 1.2 as
+  // noise, all three become zero.
   for (bool snapped = true; snapped;) {
     snapped = false;
     for (unsigned k = 0; k < 3; ++k) {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// One order of the Taylor recurrence for the currents, by the number of connected legs (model.md 1 and 2).
+// One order of the Taylor recurrence for the currents, one struct per number of connected legs (model.md 1
+// and 2).
 #pragma once
 #include "sixstep/plant/series_builder.hpp"
 
 namespace sixstep::plant::detail {
 
-/// Fewer than two legs connected: no current. The rotor coasts and the floating terminals are guarded.
+/// Fewer than two legs are connected, so that no current flows. The rotor coasts, and guards watch the
+/// floating terminals.
 template <bool sine, class Real>
 struct NoCurrent {
   static constexpr bool sine_shape = sine;
@@ -27,8 +29,9 @@ struct NoCurrent {
   void reach(const SeriesBuilder<Real>&, PerLeg<Real>& of) const { of = {}; }
 };
 
-/// Two legs share one current: one recurrence. Each order needs the one before, so the length of that chain decides the
-/// time: coefficients are multiplied out beforehand, and the newest terms enter last.
+/// Two legs share one current, so that one recurrence suffices. Each order needs the order before, and the
+/// length of that chain decides the time: coefficients are multiplied out beforehand, and the newest terms
+/// enter last.
 template <bool sine, class Real>
 struct PairLaw {
   int j, k, floating;
@@ -59,7 +62,7 @@ struct PairLaw {
     out.i[k][n] = -y.i[n];
     out.i[floating][n] = 0;
   }
-  /// Adds the term to the series' reach and sum; returns its size over all legs.
+  /// Adds term n to the series' reach and sum; returns the term's size, summed over all legs.
   Real reached(SeriesBuilder<Real>& y, int n) const {
     const Real size = abs(y.i[n]);
     y.reach_i += size;
@@ -109,9 +112,10 @@ struct OneCurrent {
   }
 };
 
-/// Both connected phases on their flat tops, and torques linear in the speed: current and speed are a linear system
-/// of two, (i, w)' = M (i, w) + const, without products. M^2 gives its terms two orders at a time, so that even and
-/// odd ones are two independent chains. A bus that changes uses the chain of the plain form.
+/// Both connected phases are on their flat tops, and the torques are linear in the speed. Current and speed
+/// are then a linear system without products, (i, w)' = M (i, w) + const. M^2 gives terms two orders ahead,
+/// so that even and odd terms are two independent chains. A bus that changes uses the single chain of
+/// PairLaw.
 template <class Real>
 struct FlatPair {
   static constexpr bool sine_shape = false;
@@ -121,7 +125,7 @@ struct FlatPair {
   FlatPair(const Rotor<Real>& rotor, const Constants<Real>&, const LegsLaw<Real>& law,
            const ShapeLine<false, Real>& f)
       : pair(law, f) {
-    // Only the rotor's terms that multiply i and w enter M; the constant ones enter at order 1.
+    // Only those rotor terms that multiply i and w enter M; the constant terms enter at order 1.
     [[maybe_unused]] const auto& [inv_J, pole_pairs, steady, per_speed] = rotor;
     const Real a = pair.slope.i, b = pair.from_w0;
     // mutant: -per_speed * inv_J => Real(0)
@@ -155,8 +159,8 @@ struct FlatPair {
   }
 };
 
-/// All three legs: two recurrences; the third current follows. Coefficients are multiplied out as above, with i_c
-/// eliminated.
+/// All three legs are connected: two recurrences, and the third current is minus their sum. Coefficients are
+/// multiplied out as in PairLaw, with i_c eliminated.
 template <bool sine, class Real>
 struct TwoCurrents {
   static constexpr bool sine_shape = sine;

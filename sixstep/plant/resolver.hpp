@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Output voltages of a resolver with p_r pole pairs (model.md 10), at an instant t:
+// Output voltages of a resolver with p_r pole pairs (model.md 10), at an instant t. On both there is noise:
 //
 //   V_1 = k V_R sin(w_x t + d_1) cos(p_r theta)
-//   V_2 = k (1 + a) V_R sin(w_x t + d_2) sin(p_r theta + q) + noise on both
+//   V_2 = k (1 + a) V_R sin(w_x t + d_2) sin(p_r theta + q)
 #pragma once
 #include <array>
 
@@ -12,17 +12,17 @@
 namespace sixstep::plant {
 
 struct Resolver {
-  double amplitude_V = 1.0;  ///< k V_R
+  double amplitude_V = 1.0;  ///< k V_R, peak of the cosine winding
   double excitation_Hz = 10e3;
-  int pole_pairs = 1;                           ///< p_r
-  double imbalance = 0.0;                       ///< a
-  double quadrature_rad = 0.0;                  ///< q
+  int pole_pairs = 1;                           ///< p_r, pole pairs of the resolver
+  double imbalance = 0.0;                       ///< a, excess of the sine winding's amplitude, relative
+  double quadrature_rad = 0.0;                  ///< q, deviation of the windings from a right angle
   double phase_1_rad = 0.0, phase_2_rad = 0.0;  ///< d_1, d_2: phase of windings and cable
 };
 
 namespace detail {
 
-/// p_r theta, rad, within the resolver's own turn: whole turns are dropped.
+/// p_r theta, rad, without the whole turns of the shaft.
 template <class Real>
 double resolver_angle_rad(const Resolver& r, const ShaftAngle<Real>& at) {
   const std::int64_t per_turn = 6 * at.pole_pairs;
@@ -39,22 +39,24 @@ struct ResolverFaults {
   std::uint8_t broken = 0;  ///< bit 0: the cosine winding gives no signal; bit 1: the sine winding
   double excitation = 1.0;  ///< relative to full excitation
 
-  /// Signals of both windings with the faults. Noise does not depend on the excitation, but a broken winding has none.
+  /// Signals of both windings under the faults, in the unit of `whole` and `noise`. Noise does not depend on
+  /// the excitation, but a broken winding has no noise.
   std::array<double, 2> leave(const std::array<double, 2>& whole, const std::array<double, 2>& noise) const {
     return {(broken & 1) != 0 ? 0.0 : excitation * whole[0] + noise[0],
             (broken & 2) != 0 ? 0.0 : excitation * whole[1] + noise[1]};
   }
 };
 
-/// Both windings after an ideal demodulator, relative to the cosine's amplitude: cos(p_r theta), (1 + a) sin(p_r
-/// theta + q).
+/// Signals of both windings after an ideal demodulator, relative to the cosine's amplitude: cos(p_r theta)
+/// and (1 + a) sin(p_r theta + q).
 template <class Real>
 std::array<double, 2> resolver_envelope(const Resolver& r, const ShaftAngle<Real>& at) {
   const double angle = detail::resolver_angle_rad(r, at);
   return {base::cos(angle), (1 + r.imbalance) * base::sin(angle + r.quadrature_rad)};
 }
 
-/// V_1 and V_2, V, without noise. The excitation's turns are counted, so that only their fraction enters a sine.
+/// V_1 and V_2, V, without noise. Whole cycles of the excitation are removed, so that only the fraction of a
+/// cycle enters a sine.
 template <class Real>
 std::array<double, 2> resolver_V(const Resolver& r, const ShaftAngle<Real>& at, std::int64_t t_ps) {
   const double angle = detail::resolver_angle_rad(r, at);

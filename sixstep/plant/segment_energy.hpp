@@ -7,8 +7,8 @@
 
 namespace sixstep::plant {
 
-/// J over one segment; friction is viscous and dry. `travel`: angle that the shaft turned, rad; `load_viscous`: the
-/// part of `viscous` that acts at the load's own side.
+/// Energies over one segment, J. Friction is in two parts, `viscous` and `dry`. `travel` is the angle that
+/// the shaft turned, rad. `load_viscous` is the part of `viscous` that acts at the load's own side.
 template <class Real>
 struct SegmentEnergy {
   Real supplied = 0, copper = 0, devices = 0, air_gap = 0, viscous = 0, dry = 0, load = 0, travel = 0,
@@ -25,27 +25,28 @@ struct Moving {
   series::Nodes<points, Real> i_1{}, i_2{}, w{}, torque{};
 };
 
-/// Integrals in units of the segment's length: squares and currents of the connected legs in the law's order, and
-/// speed terms.
+/// Integrals in units of the segment's length: squares and currents of the connected legs in the law's order,
+/// speed and its square, and air-gap power.
 template <class Real>
 struct Integrals {
   PerLeg<Real> square{}, charge{};
   Real turn = 0, turn_square = 0, air_gap = 0;
 };
 
-/// Terms that exist in a segment. Where a member is a constant for the compiler, the code of absent terms is left out.
+/// Which terms exist in a segment. Where a member is a constant for the compiler, the code of absent terms is
+/// left out.
 template <class Real>
 struct Moves {
   unsigned connected;  ///< legs
   bool turning;
   bool steady;        ///< the torque is proportional to the first leg's current
-  Real torque_per_A;  ///< factor of this proportion, if `steady`
+  Real torque_per_A;  ///< N m per ampere of the first connected leg, if `steady`
 
   [[gnu::always_inline]] bool conducts() const { return connected >= 2; }
 };
 
-/// i_c = -(i_a + i_b), or i_b = -i_a for two connected legs: one or two series suffice. Four sums cost little more
-/// than two.
+/// i_c = -(i_a + i_b), or i_b = -i_a for two connected legs, so that one or two series suffice. Four sums at
+/// once cost little more than two.
 template <int points, class Real>
 [[gnu::always_inline]] inline Integrals<Real> integrals(const Moves<Real>& moves,
                                                         const Moving<points, Real>& at) {
@@ -80,7 +81,7 @@ template <int points, class Real>
                                                      const series::Nodes<points, Real>& s,
                                                      const Moving<points, Real>& at,
                                                      const Integrals<Real>& legs, SegmentEnergy<Real>& out) {
-  // For a floating leg in the third place both integrals are zero.
+  // If the third leg floats, both integrals of that leg are zero.
   const PerLeg<PoleTerms<Real>>& pole = law.pole;
   const auto device = [&](int n) {
     // mutant: pole[n].r_ohm * legs.square[n] - pole[n].offset_V * legs.charge[n] => pole[n].r_ohm * legs.square[n] + pole[n].offset_V * legs.charge[n]
@@ -98,7 +99,7 @@ template <int points, class Real>
   out.supplied = dt * series::weighted_sum<points>(series::values_at<points>(y.bus, y.degree, s), dc);
 }
 
-/// Energies that follow from the rotation, and the air-gap energy if currents flow.
+/// Energies that follow from the rotation, and the air-gap energy.
 template <class Real>
 [[gnu::always_inline]] inline void shaft_energy(const Constants<Real>& c, const Mode& mode, Real dt,
                                                 const Integrals<Real>& of, SegmentEnergy<Real>& out) {
@@ -111,7 +112,7 @@ template <class Real>
   out.air_gap = dt * of.air_gap;
 }
 
-/// Values at the nodes in one pass, only those that `moves` needs.
+/// Values at all nodes in one pass; only the series that `moves` needs.
 template <int points, class Real>
 [[gnu::always_inline]] inline Moving<points, Real> moving_at(const LegsLaw<Real>& law,
                                                              const Moves<Real>& moves,
@@ -146,7 +147,7 @@ template <int points, class Real>
   return out;
 }
 
-/// Torque per current of the first leg, N m/A, if two legs share one current and their back-EMF per speed is
+/// Torque per ampere of the first leg, N m/A, if two legs share one current and their back-EMF per speed is
 /// constant; else 0.
 template <class Real>
 [[gnu::always_inline]] inline Real steady_torque_per_A(const Constants<Real>& c, const Mode& mode,
@@ -158,8 +159,8 @@ template <class Real>
   return piece.beta[j] == piece.beta[k] ? piece.alpha[j] - piece.alpha[k] : Real(0);
 }
 
-/// Nearly all segments have a turning rotor with two legs on their flat tops, or with three connected: each of these
-/// two cases has code without further branches.
+/// Energies of a segment. In nearly all segments the rotor turns, with two legs on their flat tops or with
+/// three connected: each of these two cases has code without further branches.
 template <class Real>
 [[gnu::always_inline]] inline SegmentEnergy<Real> segment_energy_here(const Plant<Real>& plant, Real to) {
   const Constants<Real>& c = plant.constants();
@@ -183,14 +184,14 @@ template <class Real>
 
 }  // namespace detail
 
-/// Energies over [0, to] of the present expansion. Each integral is exact to about 2^-53 of its natural scale: see
-/// series/quadrature.hpp.
+/// Energies of the present segment, J, from its start to `to`, a fraction 0 to 1. Each integral is exact to
+/// about 2^-53 of its natural scale (series/quadrature.hpp).
 template <class Real>
 SegmentEnergy<Real> segment_energy(const Plant<Real>& plant, Real to) {
   return detail::segment_energy_here(plant, to);
 }
-/// For double compiled once, for any processor. The audit's version for processors with AVX gives the same bits
-/// (plant/audit_avx.cpp).
+/// The version for double is compiled once, for any processor. The audit's version for processors with AVX
+/// gives the same bits (plant/audit_avx.cpp).
 SegmentEnergy<double> segment_energy(const Plant<double>& plant, double to);
 
 }  // namespace sixstep::plant

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builds the series of one segment: the parts that all conduction modes share, which are rotor, bus and shape of the
-// back-EMF (model.md 1).
+// Builds the series of one segment: the parts that all conduction modes share. These are rotor, bus and shape
+// of the back-EMF (model.md 1).
 #pragma once
 #include "sixstep/plant/torques.hpp"
 
@@ -9,13 +9,14 @@ namespace sixstep::plant::detail {
 // The order n of a term is a template argument: the whole recurrence is unrolled, products of short series
 // included (model.md 12: an unrolled kernel takes a quarter of the time of one with counted loops).
 
-/// The series while they grow: a local variable of the recurrence, so that the newest terms stay in registers and no
-/// store delays them. Series that a law does not use are not computed.
+/// The series of a segment while the recurrence adds terms. The recurrence holds them in a local variable, so
+/// that the newest terms stay in registers and no store delays them. Series that a law does not use are not
+/// computed.
 template <class Real>
 struct SeriesBuilder {
   Real h;
   Real reach_w = 0, reach_i = 0, reach_i_2 = 0;               ///< sums of the terms' sizes
-  Real later_w = 0, later_x = 0, later_i = 0, later_i_2 = 0;  ///< sums of the terms behind the first
+  Real later_w = 0, later_x = 0, later_i = 0, later_i_2 = 0;  ///< sums of the terms after the first
   series::Coefficients<Real> w, x, torque, bus;
   series::Coefficients<Real> i,
       i_2;  ///< currents of the first and, where three legs are connected, second leg
@@ -46,7 +47,7 @@ struct Rotor {
   }
 };
 
-/// w phi0 and w phi1 of a sine at order n; also computes the next terms of cos x and sin x.
+/// Term n of w phi0 and w phi1 for a sine; also computes term n + 1 of cos x and sin x.
 template <int n, class Real>
 inline void sine_products(const Rotor<Real>& rotor, SeriesBuilder<Real>& y, Real f, Real& w0, Real& w1) {
   w0 = series::product_term<n>(y.w, y.phi0);
@@ -56,9 +57,9 @@ inline void sine_products(const Rotor<Real>& rotor, SeriesBuilder<Real>& y, Real
   y.phi1[n + 1] = f * rotor.pole_pairs * w0;
 }
 
-/// Back-EMF of a leg over w: now + rise (x - x(0)) for a trapezoid, now cos x + rise sin x for a sine. Because the
-/// trapezoid is written relative to its present value, the newest terms are multiplied only by constants: the longest
-/// chain of dependent operations is avoided.
+/// Back-EMF of a leg per speed: now + rise (x - x(0)) for a trapezoid, now cos x + rise sin x for a sine. The
+/// trapezoid is written relative to its present value, so that the newest terms are multiplied only by
+/// constants. This avoids the longest chain of dependent operations.
 template <bool sine, class Real>
 struct ShapeLine {
   PerLeg<Real> now, rise;
@@ -68,7 +69,8 @@ struct ShapeLine {
   }
 };
 
-/// U_s: C dU_s/dt = (V_0 - U_s)/R_b - i_dc while the source feeds; i_dc as a combination of the growing currents.
+/// Law of U_s: C dU_s/dt = (V_0 - U_s)/R_b - i_dc while the source feeds. i_dc is a combination of the
+/// connected legs' currents.
 template <class Real>
 struct BusLaw {
   Real inv_C, feed, V_0, dc_i, dc_i_2;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// settle() finds the consistent mode. Switches and nonzero currents determine most connections. Three things are
-// enumerated: legs without gate and current, the rotor at rest, and the bus at the source's voltage. Exactly one
-// combination is right; where rounding makes several look right, it is the one with most legs off (model.md 2,
-// 4b). Plain values decide first, series only ties.
+// settle() finds the consistent mode. Switches and nonzero currents determine most connections. Three things
+// are enumerated: legs without gate and current, the rotor at rest, and the bus at the source's voltage.
+// Exactly one combination is right. Where rounding makes several look right, the one with most legs off is
+// taken (model.md 2, 4b). Values at the instant decide first; the series decide only ties.
 #pragma once
 #include <span>
 
@@ -35,7 +35,8 @@ PerLeg<Real> back_emf(const Constants<Real>& c, const State<Real>& s, const Mode
   return e;
 }
 
-/// Electromagnetic torque in the limit of w: K_e sum f_k i_k, exact also at standstill (model.md (3)).
+/// Electromagnetic torque, N m: K_e sum f_k i_k, the limit of sum e_k i_k/w, exact also at standstill
+/// (model.md (3)).
 template <class Real>
 Real torque(const Constants<Real>& c, const State<Real>& s, const Mode& m) {
   State<Real> unit = s;
@@ -44,8 +45,8 @@ Real torque(const Constants<Real>& c, const State<Real>& s, const Mode& m) {
   return f[0] * s.i[0] + f[1] * s.i[1] + f[2] * s.i[2];
 }
 
-/// Checks the legs by plain values: floating ones are within the rails, and diodes that just switched on are driven
-/// in their direction.
+/// Checks the legs by the values at the instant: floating legs are within the rails, and the voltage of a
+/// diode that has just switched on drives its current in the diode's direction.
 template <class Real>
 Judgement judge_legs(const Constants<Real>& c, const State<Real>& s, const PerLeg<Real>& e, const Mode& m,
                      Real slack) {
@@ -68,11 +69,12 @@ Judgement judge_legs(const Constants<Real>& c, const State<Real>& s, const PerLe
 template <class Real>
 Judgement judge_motion(const Constants<Real>& c, const State<Real>& s, const Mode& m, Real slack) {
   if (!c.dry_friction || s.w != 0 || m.motion == Motion::locked) return Judgement::holds;
-  const auto [load, dry, per_speed] = torques(c, Motion::stuck);  // at rest: no B w, and dry as breakaway
+  const auto [load, dry, per_speed] = torques(c, Motion::stuck);  // the rotor is at rest: B w is 0, and
+                                                                  // c.breakaway replaces `dry`
   const Real noise = c.torque_noise * slack, excess = torque(c, s, m) - load;
   if (m.motion == Motion::stuck) return judge(c.breakaway - abs(excess), noise);
-  // A breakaway torque above the sliding friction leaves a range in which only sticking is allowed; a slipping rotor
-  // must overcome the breakaway torque.
+  // If the breakaway torque is above the sliding friction, there is a range in which only a stuck rotor is
+  // consistent: to slip, a rotor must overcome the breakaway torque.
   const Real push = m.motion == Motion::forward ? excess : -excess;
   return judge(push - c.breakaway, noise);
 }
@@ -84,7 +86,7 @@ Judgement judge_source(const Constants<Real>& c, const State<Real>& s, const Mod
   return judge(m.source_feeds ? -above : above, noise);
 }
 
-/// Lexicographic check of the series: no guard of the mode may fall at its start.
+/// Checks the series in lexicographic order: no guard of the mode may fall at the segment's start.
 template <class Real>
 bool holds_in_series(const Constants<Real>& c, const Mode& m, const Expansion<Real>& y, Real slack) {
   bool ok = true;
@@ -95,8 +97,8 @@ bool holds_in_series(const Constants<Real>& c, const Mode& m, const Expansion<Re
   return ok;
 }
 
-/// All combinations in which up to three undecided legs float or conduct by a diode, those with fewest legs on first;
-/// one table per number of legs.
+/// All combinations in which up to three undecided legs float or conduct by a diode, those with fewest legs
+/// on first. There is one table per number of undecided legs.
 struct Combination {
   std::array<Connection, 3> leg{};
   std::uint8_t on = 0;
@@ -133,14 +135,14 @@ constexpr std::span<const Combination> combinations_of(int legs) {
 
 }  // namespace detail
 
-/// Input of settle(): gates, the state after snap(), and whether plain values may decide alone.
+/// Input of settle(): gates, the state after snap(), and whether values at the instant may decide alone.
 template <class Real>
 struct Question {
   const Constants<Real>& constants;
   const State<Real>& state;
   const Gates& gates;
   Real h;            ///< length over which series are judged
-  bool series_only;  ///< after an event without progress, because plain values have failed once
+  bool series_only;  ///< after an event without progress: the values at the instant have decided wrongly once
   Real slack = 1;
 };
 
@@ -200,8 +202,8 @@ bool settle_source(const Question<Real>& q, Mode& mode, Expansion<Real>& scratch
 
 }  // namespace detail
 
-/// Finds the consistent mode and writes it; `expanded` says whether `scratch` already has its expansion over q.h.
-/// False: no mode is consistent at this rounding level.
+/// Finds the consistent mode and writes it to `mode`. `expanded` becomes true if `scratch` holds the mode's
+/// expansion over q.h. Returns false if no mode is consistent at this rounding level.
 template <class Real>
 bool settle(const Question<Real>& q, Mode& mode, Expansion<Real>& scratch, bool& expanded) {
   using enum Motion;

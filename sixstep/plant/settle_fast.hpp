@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Settles the mode where nothing has to be tried (model.md 2): gates and currents determine the connections, and the
-// open legs are clearly away from the rails. Nearly every event is of this kind; settle.hpp settles the others.
+// Settles the mode where nothing has to be tried (model.md 2): gates and currents determine the connections,
+// and the open legs are clearly away from the rails. Nearly every event is so; settle.hpp settles the others.
 #pragma once
 #include "sixstep/plant/guards.hpp"
 
@@ -8,7 +8,7 @@ namespace sixstep::plant {
 
 namespace detail {
 
-/// The back-EMF's shape at the rotor's position (back_emf.hpp).
+/// Basis functions phi0 and phi1 of the back-EMF's shape at the rotor's position (back_emf.hpp).
 template <class Real>
 void shape_at(const Constants<Real>& c, const State<Real>& s, Real& phi0, Real& phi1) {
   phi0 = 1;
@@ -19,7 +19,7 @@ void shape_at(const Constants<Real>& c, const State<Real>& s, Real& phi0, Real& 
   }
 }
 
-/// Connections that gates and currents determine. Returns a mask of the legs that they leave open.
+/// Writes the connections that gates and currents determine. Returns a mask of the legs that they leave open.
 template <class Real>
 unsigned named_legs(const State<Real>& s, const Gates& gates, Real noise, Legs& legs) {
   unsigned open = 0;
@@ -30,9 +30,9 @@ unsigned named_legs(const State<Real>& s, const Gates& gates, Real noise, Legs& 
   return open;
 }
 
-/// One open leg k while two others conduct: it floats if u_n + e_k is within the rails. Beyond a rail it conducts by
-/// that rail's diode: with the third leg on, L di_k/dt is two thirds of the excess voltage. False: too close to a
-/// rail to decide.
+/// One leg k is open while two others conduct: it floats if u_n + e_k is within the rails. Beyond a rail, leg
+/// k conducts by that rail's diode; L di_k/dt is then two thirds of the excess voltage. Returns false if the
+/// terminal is too close to a rail to decide.
 template <class Real>
 bool settle_third_leg(const Constants<Real>& c, const State<Real>& s, const EmfPiece<Real>& piece, unsigned k,
                       Legs& legs) {
@@ -52,8 +52,8 @@ bool settle_third_leg(const Constants<Real>& c, const State<Real>& s, const EmfP
   return true;
 }
 
-/// Two open legs while one switch is on: both float if both are clearly within the rails. Otherwise it returns
-/// false, because a leg beyond a rail may make the other conduct too.
+/// Two legs are open while one switch is on: both float if both are clearly within the rails. Otherwise
+/// returns false, because a leg beyond a rail may make the second open leg conduct too.
 template <class Real>
 [[gnu::noinline]] bool two_legs_float(const Constants<Real>& c, const State<Real>& s, const Mode& m,
                                       unsigned open) {
@@ -73,9 +73,9 @@ template <class Real>
 
 }  // namespace detail
 
-/// The most frequent cases, without enumeration: gates and currents determine all connections except at most that of
-/// one leg while two others conduct. False, with nothing written: a value is too close to zero or to a rail, or more
-/// legs are open.
+/// Settles the most frequent cases without enumeration: gates and currents determine all connections, or all
+/// but that of one leg while two others conduct. Returns false if a value is too close to zero or to a rail,
+/// or more legs are open.
 template <class Real>
 bool settle_fast(const Constants<Real>& c, const State<Real>& s, const Gates& gates, Mode& mode) {
   Motion motion = c.locked ? Motion::locked : Motion::free;
@@ -84,8 +84,8 @@ bool settle_fast(const Constants<Real>& c, const State<Real>& s, const Gates& ga
     if (detail::abs(s.w) <= c.speed_noise) return false;
     motion = motion_at(s.w);
   }
-  // The connections are written directly into `mode`: a copy would be read before its single bytes have reached
-  // memory, and wait.
+  // The connections are written directly into `mode`. A local copy would be read back before its single bytes
+  // have reached memory, which stalls the processor.
   Legs& legs = mode.legs;
   const unsigned open = detail::named_legs(s, gates, c.amp_noise, legs);
   if ((open & (open - 1)) != 0) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// State of the plant: the continuous state with the rounding remainders of its running sums, and the discrete mode.
+// State of the plant: the continuous state with the rounding remainders of its running sums, and the discrete
+// mode.
 #pragma once
 #include <bitset>
 #include <cstdint>
@@ -8,7 +9,7 @@
 
 namespace sixstep::plant {
 
-/// Upper and lower gate of each leg, T1/T2 for a, T3/T4 for b, T5/T6 for c.
+/// Gates of the upper and lower switch of each leg: T1/T2 for a, T3/T4 for b, T5/T6 for c.
 struct Gates {
   std::bitset<3> high, low;
   bool operator==(const Gates&) const = default;
@@ -16,7 +17,7 @@ struct Gates {
 
 inline bool shoots_through(const Gates& g) { return (g.high & g.low).any(); }
 
-/// Motion of the rotor. `free`: no dry friction, w passes zero like any other value.
+/// Motion of the rotor. `free`: there is no dry friction, and the speed passes zero without an event.
 enum class Motion : std::uint8_t { free, forward, backward, stuck, locked };
 
 constexpr bool turns(Motion motion) { return motion != Motion::locked && motion != Motion::stuck; }

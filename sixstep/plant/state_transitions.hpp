@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Changes of a state at an instant, shared by both kernels: setting the rotor's angle, passing the edge of a sector
-// or of a piece of the back-EMF, the currents after one has become zero, and the noise scales.
+// Changes of a state at an instant, shared by both kernels: setting the rotor's angle, passing the edge of a
+// sector or of a piece of the back-EMF, balancing the currents after one has become zero, and the noise
+// scales.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,8 @@
 
 namespace sixstep::plant::detail {
 
-/// After a current was set to zero: a single remaining current is zero too, and two remaining ones are one current.
+/// Call it after a current was set to zero. A single remaining current is then zero too; of two remaining
+/// ones the second is minus the first.
 template <class Real>
 void balance(State<Real>& state) {
   PerLeg<Real>& i = state.i;
@@ -28,8 +30,8 @@ void balance(State<Real>& state) {
   }
 }
 
-/// Moves the state to the far side of its piece's edge; true if the rotor leaves its sector. pieces(sector) are a
-/// sector's pieces in order of x, count(sector) their number.
+/// Moves the rotor across the edge of its piece of the back-EMF; returns true if it leaves its sector.
+/// pieces(sector) gives a sector's pieces in order of x, count(sector) their number.
 template <class Real, class Mode, class Pieces, class Count>
 bool pass_edge(State<Real>& state, Mode& mode, bool ahead, Pieces&& pieces, Count&& count) {
   const int before = static_cast<int>(count(mode.sector));
@@ -50,16 +52,17 @@ bool pass_edge(State<Real>& state, Mode& mode, bool ahead, Pieces&& pieces, Coun
   return leaves;
 }
 
-/// A rotor at rest on an edge that the bridge drives back from either side would pass the edge endlessly at one
-/// instant. It is moved inside the piece by the possible rounding error, so that time proceeds.
+/// A rotor at rest on an edge would pass it endlessly at one instant if the bridge drives the rotor back from
+/// either side. clear_edge() moves the rotor inside the piece by the possible rounding error, so that time
+/// proceeds.
 template <class Real>
 void clear_edge(State<Real>& state, bool ahead) {
   const Real inside = 4 * noise_of(Real(base::sector_rad), Real(1));  // more than the noise of edge_guards()
   state.x += ahead ? inside : -inside;
 }
 
-/// Sets the rotor to an angle; true if that is the edge of a sector. An edge given in degrees or radians of the shaft
-/// has been rounded up to four times before.
+/// Sets the rotor to an electrical angle; returns true if that angle is the edge of a sector. The tolerance
+/// covers four roundings, because the angle may have been converted from degrees or radians of the shaft.
 template <class Real>
 bool set_rotor_angle(State<Real>& state, double electrical_rad) {
   const double edge = std::floor(electrical_rad / base::sector_rad + 0.5);

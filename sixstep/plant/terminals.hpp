@@ -7,7 +7,7 @@
 
 namespace sixstep::plant {
 
-/// In the plant's present state, before the gates of this instant take effect.
+/// Terminal voltages, V, in the plant's present state, before the gates of this instant take effect.
 template <class Real>
 PerLeg<Real> terminal_voltages(const Plant<Real>& plant) {
   const State<Real>& now = plant.state();
@@ -15,8 +15,8 @@ PerLeg<Real> terminal_voltages(const Plant<Real>& plant) {
   return pole_voltages(plant.mode().legs, plant.constants().poles, now.bus, now.i, e);
 }
 
-/// With saliency and harmonics the star point's voltage follows only from the series, so a copy of the plant is
-/// expanded. The cost is accepted because terminals are read once per control tick.
+/// With saliency and harmonics the star point's voltage follows only from the series, so that a copy of the
+/// plant is expanded. The cost is acceptable because terminals are read once per control tick.
 template <class Real>
 PerLeg<Real> terminal_voltages(const general::Plant<Real>& plant) {
   general::Plant<Real> now = plant;
@@ -30,8 +30,8 @@ using TerminalSeries = PerLeg<series::Coefficients<Real>>;
 
 namespace detail {
 
-/// Centres u[k] = e_k of an unconnected star between the rails. The highest and the lowest are chosen in the middle
-/// of [0, s]; `dead` is the mask of broken wires.
+/// Centres u[k] = e_k of an unconnected star between the rails. The highest and the lowest terminal are
+/// chosen at the middle of [0, s]. `dead` is the mask of broken wires.
 template <class Real>
 void centre(const Expansion<Real>& y, Real s, TerminalSeries<Real>& u, unsigned dead = 0) {
   PerLeg<Real> middle;
@@ -45,7 +45,8 @@ void centre(const Expansion<Real>& y, Real s, TerminalSeries<Real>& u, unsigned 
 
 }  // namespace detail
 
-/// Series over the part s of the segment that was expanded last; after it the connections may differ.
+/// Terminal voltages as series, over the part s of the segment that was expanded last; after it the
+/// connections may differ.
 template <class Real>
 TerminalSeries<Real> terminal_series(const Plant<Real>& plant, Real s) {
   const Constants<Real>& c = plant.constants();

@@ -6,14 +6,14 @@
 
 namespace sixstep::plant {
 
-/// J dw/dt = T_e - load - dry - per_speed w. Code that uses the torques binds all of them, as in
+/// J dw/dt = T_e - load - dry - per_speed w. Code that uses the torques binds all members, as in
 ///   const auto [load, dry, per_speed] = torques(c, motion);
-/// so that an additional torque is a compile error wherever it has to be considered.
+/// so that code that ignores an additional torque does not compile.
 template <class Real>
 struct Torques {
-  Real load;       ///< T_load
-  Real dry;        ///< T_c with its sign
-  Real per_speed;  ///< B
+  Real load;       ///< T_load, N m
+  Real dry;        ///< T_c with its sign, N m
+  Real per_speed;  ///< B, N m s
 };
 
 template <class Real>
@@ -21,8 +21,8 @@ Torques<Real> torques(const Constants<Real>& c, Motion motion) {
   return {c.load, against(motion, c.coulomb), c.B};
 }
 
-/// True if their sum is linear in the speed, as FlatPair requires (recurrences.hpp). Each of these torques is; a new
-/// one that is not must return false here.
+/// True if the sum of the torques is linear in the speed, as FlatPair requires (recurrences.hpp). Each
+/// present torque is linear; a new torque that is not must return false here.
 template <class Real>
 constexpr bool is_line_over_speed(const Torques<Real>& all) {
   [[maybe_unused]] const auto& [load, dry, per_speed] = all;

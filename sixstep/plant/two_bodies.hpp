@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Solves two bodies that exchange heat, winding and housing (model.md 8, (11)), as a linear system: exactly by its
-// two eigenvalues of any sign.
+// Solves two bodies that exchange heat, winding and housing (model.md 8, (11)). The linear system is solved
+// exactly by its two eigenvalues, which may have any sign.
 #pragma once
 #include <cmath>
 
@@ -8,11 +8,12 @@
 
 namespace sixstep::plant {
 
-/// Lower bound of K_e's factor over temperature. The factor is a straight line, which does not describe a magnet
-/// that has lost nine tenths of its field.
+/// Lower bound of the factor of temperature on K_e. The factor is a straight line over temperature, which
+/// does not describe a magnet that has lost nine tenths of its field.
 inline constexpr double least_on_K_e = 0.1;
 
-/// Temperatures above the ambient, K: w' = ww w + wh h + b_w, h' = hw w + hh h + b_h, wh and hw positive.
+/// Temperatures w, h of winding and housing above the ambient, K: w' = ww w + wh h + b_w, h' = hw w + hh h +
+/// b_h, with wh and hw positive.
 struct TwoBodies {
   double ww = 0.0, wh = 0.0, hw = 0.0, hh = 0.0;  ///< 1/s
   double b_w = 0.0, b_h = 0.0;                    ///< K/s
@@ -26,7 +27,7 @@ struct BodyTemperatures {
 
 namespace detail {
 
-/// (exp(x) - 1)/x; below 2^-7 by its series, whose seventh term is below 2^-53 there.
+/// (exp(x) - 1)/x. Below |x| = 2^-7 by its series, whose last term, x^6/7!, is below 2^-53 there.
 inline double grown(double x) {
   if (std::fabs(x) >= 0x1p-7) return (base::exp(x) - 1) / x;
   return 1 + x / 2 * (1 + x / 3 * (1 + x / 4 * (1 + x / 5 * (1 + x / 6 * (1 + x / 7)))));
@@ -34,14 +35,15 @@ inline double grown(double x) {
 
 }  // namespace detail
 
-/// x(t) = x_0 + (integral of exp(A s) over 0..t) (A x_0 + b): the initial slope split into the eigenvectors
-/// (wh, lambda - ww), each grown by (exp(lambda t) - 1)/lambda.
+/// Temperatures after t_s: x(t) = x_0 + (integral of exp(A s) over 0..t) (A x_0 + b). The initial slope A x_0
+/// + b is split into the eigenvectors (wh, lambda - ww), and each part grows by (exp(lambda t) - 1)/lambda.
 inline BodyTemperatures after(const TwoBodies& n, const BodyTemperatures& start, double t_s) {
   const double w = start.winding, v = start.housing;
   const double slope_w = n.ww * w + n.wh * v + n.b_w, slope_h = n.hw * w + n.hh * v + n.b_h;
   const double half = (n.ww - n.hh) / 2, root = std::sqrt(half * half + n.wh * n.hw);
   const double mean = (n.ww + n.hh) / 2;
-  // lambda - ww = -half +- root; of the two the one without cancellation gives the other by their product.
+  // lambda - ww = -half +- root. One of the two has no cancellation; the other follows from their product,
+  // -wh hw.
   const double steep = half > 0 ? -half - root : -half + root, other = -n.wh * n.hw / steep;
   const double up = half > 0 ? other : steep, down = half > 0 ? steep : other;
   const double part_up = (slope_h - slope_w / n.wh * down) / (up - down);

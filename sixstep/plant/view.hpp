@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Read access to the plant of either kernel, for observers. Most values are common; for the others the view has a
-// pointer to the kernel's plant. There is one type, so that figures and recorders are compiled once.
+// Read access to the plant of either kernel, for observers. Most values exist in both kernels; for the others
+// the view has a pointer to the kernel's plant. There is one type View, so that figures and recorders are
+// compiled once.
 #pragma once
 #include "sixstep/plant/general/segment_energy.hpp"
 #include "sixstep/plant/segment_energy.hpp"
@@ -27,7 +28,7 @@ class View {
   Motion motion() const { return common_.motion; }
   int sector() const { return common_.sector; }
   double pole_pairs() const { return common_.pole_pairs; }
-  /// Pole terms of a connected leg.
+  /// Pole terms of leg k, which must be connected.
   const PoleTerms<double>& terms(int k) const {
     const auto leg = static_cast<std::size_t>(k);
     return lean ? lean->constants().poles[static_cast<std::size_t>(legs()[leg])]
@@ -50,11 +51,11 @@ class View {
   Common common_;
 
  public:
-  const Plant<double>* lean = nullptr;  ///< exactly one of the two
+  const Plant<double>* lean = nullptr;  ///< one of the two pointers is set, the other is null
   const general::Plant<double>* general = nullptr;
 };
 
-/// Torque of the scenario's load at its own side, at this instant of the segment, N m.
+/// Torque of the scenario's load at its own side of the gear, N m, at the fraction s of the segment.
 inline double load_torque(const Plant<double>& plant, double) { return plant.constants().load; }
 inline double load_torque(const general::Plant<double>& plant, double s) {
   return series::evaluate(plant.series().load, plant.expansion().degree, s);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts an analogue input: amplifier with offset, gain error and noise, then a converter with a number of
-// bits over a range. The firmware converts the counts back (control/adc.hpp).
+// Converts an analogue input: first an amplifier with offset, gain error and noise, then a converter of
+// `bits` bits over a range. The firmware converts the counts back (control/adc.hpp).
 //
 //   counts = round(((1 + gain_error) x + offset + noise)/lsb) + zero, held to 0..2^bits - 1
 //   both signs:  lsb = 2 range/2^bits, zero = 2^(bits - 1)         one sign:  lsb = range/2^bits, zero = 0
@@ -15,10 +15,10 @@ namespace sixstep::rig {
 struct AdcPath {
   int bits = 12;           ///< at most 16
   double range = 0.0;      ///< full scale, in the unit of the measured quantity
-  bool both_signs = true;  ///< true: from -range; false: from 0
-  double offset = 0.0;     ///< offset in the same unit
+  bool both_signs = true;  ///< true: the range is -range to range; false: 0 to range
+  double offset = 0.0;     ///< offset of the amplifier, in the unit of `range`
   double gain_error = 0.0;
-  double noise = 0.0;  ///< root mean square, in the same unit, white and normal
+  double noise = 0.0;  ///< rms noise, in the unit of `range`, white and normally distributed
 
   double lsb() const { return (both_signs ? 2.0 : 1.0) * range / static_cast<double>(1 << bits); }
   std::uint16_t zero() const {
@@ -26,7 +26,8 @@ struct AdcPath {
   }
 };
 
-/// `place` identifies the input and the number of its random draw.
+/// Counts for an input x, in the unit of `range`. `place` identifies the input and the number of its random
+/// draw.
 inline std::uint16_t converted(const AdcPath& path, double x, const base::RandomPlace& place) {
   double seen = (1.0 + path.gain_error) * x + path.offset;
   if (path.noise > 0) seen += path.noise * base::normal(place);

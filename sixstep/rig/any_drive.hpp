@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// One interface for all firmwares: the rig is compiled once per kind of command, a pair or three legs, and not for
-// each firmware in each arithmetic. All values that pass are in SI or register counts. There is one call per control
-// period and one per interrupt.
+// One interface for all firmwares. The rig is compiled once per kind of command (a pair, or three legs), and
+// not for each firmware in each arithmetic. All values in calls are in SI units or register counts. The rig
+// makes one call per control period and one per interrupt.
 //
 //   Rig -> AnyDrive<Command> -> DriveInterface<Command> <- DriveOf<Firmware> (drive_of.hpp)
 #pragma once
@@ -21,14 +21,15 @@ template <class Command>
 struct DriveAnswer {
   Command command{};
   bool reversed = false;           ///< six-step: sign of the command
-  bool moved_on = false;           ///< the tick found a commutation that was due already
+  bool moved_on = false;           ///< the tick found a commutation that was already due
   bool holds_commutation = false;  ///< six-step: the command has the duty of a commutation
-  sim::Instant next_commutation = sim::Instant::never();  ///< awaited compare match
+  sim::Instant next_commutation = sim::Instant::never();  ///< instant of the compare match at which the timer
+                                                          ///< commutates
   control::Telemetry<double> told{};
-  FieldTelemetry field{};  ///< only of a field-oriented drive
+  FieldTelemetry field{};  ///< values of a field-oriented drive; zeros for any other
 };
 
-/// Properties that change only when a firmware is made or retuned.
+/// Properties of a firmware that change only when it is made or retuned.
 struct DriveTraits {
   control::Mode mode = control::Mode::off;
   bool open_loop = false;
@@ -61,7 +62,7 @@ class DriveInterface {
   virtual void break_divider(std::size_t leg) = 0;
   virtual void request_run(bool run) = 0;
   virtual void request_clear() = 0;
-  /// `config` must be of the same firmware.
+  /// `config` must be the configuration of the same kind of firmware.
   virtual void retune(const DriveConfig<Command>& config, double setpoint_unit) = 0;
   virtual Diagnosis diagnosis() const = 0;
   virtual bool fault_ends_run() const = 0;
@@ -72,7 +73,7 @@ class DriveInterface {
   DriveInterface(const DriveInterface&) = default;
 };
 
-/// Configuration of any firmware; made() returns the drive with it.
+/// Configuration of any firmware; made() returns a drive with this configuration.
 template <class Command>
 class DriveConfig {
  public:
@@ -85,7 +86,7 @@ class DriveConfig {
   virtual bool decodes_arrangement() const = 0;
 };
 
-/// The firmware that the rig uses. A copy is an independent drive in the same state.
+/// The firmware as the rig uses it. A copy is an independent drive in the same state.
 template <class CommandType>
 class AnyDrive {
  public:
@@ -154,7 +155,7 @@ class AnyDrive {
   DriveAnswer<Command> answer_{};
 };
 
-/// For six-step commands, and for three leg commands.
+/// Drives whose command is a driven pair, and drives whose command is three legs.
 using PairDrive = AnyDrive<control::BridgeCommand<double>>;
 using LegDrive = AnyDrive<control::LegCommands<double>>;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts between SI and the controller's numbers: floating point computes in SI, fixed point relative to a base.
+// Converts between SI units and the controller's numbers: floating point computes in SI, fixed point relative
+// to a base.
 #pragma once
 #include <type_traits>
 
@@ -11,10 +12,10 @@ struct Bases {
   double voltage_V = 1.0;
   double speed_rad_s = 1.0;
   double position_deg = 1.0;
-  double setpoint = 1.0;  ///< base of the mode's setpoint: one of the above; 1 for a duty
+  double setpoint = 1.0;  ///< base of the mode's setpoint: one of the four above; 1 for a duty
 };
 
-/// SI -> controller. Fixed point rounds to nearest and saturates (fixed.hpp).
+/// Converts SI to a number of the controller. Fixed point rounds to nearest and saturates (fixed.hpp).
 template <class Scalar, class Real>
 Scalar from_si(Real x, double unit) {
   if constexpr (std::is_arithmetic_v<Scalar>)
@@ -23,7 +24,7 @@ Scalar from_si(Real x, double unit) {
     return Scalar(static_cast<double>(x) / unit);
 }
 
-/// Controller -> SI.
+/// Converts a number of the controller to SI.
 template <class Scalar>
 double to_si(Scalar x, double unit) {
   if constexpr (std::is_arithmetic_v<Scalar>)

@@ -13,13 +13,15 @@ namespace sixstep::rig {
 
 struct BoardConfig {
   ModulatorConfig modulator;
-  bool commutate_at_sample = false;  ///< false: at the Hall edge itself
+  bool commutate_at_sample = false;  ///< false: the drive commutates at the Hall edge itself
   bool delayed = false;              ///< a command takes effect one period after its sample
-  bool sampled_in_middle = false;    ///< samples in the middle of a period; the answer acts at the next start
+  bool sampled_in_middle = false;    ///< samples in the middle of a period; the answer acts from the next
+                                     ///< period's start
   Bases bases{};                     ///< bases of the controller's numbers
   SensorsConfig sensors{};
   FrontEndConfig front_end{};
-  /// Arrangement of the probes, from which the board converts codes for drives that decode 120 degrees only.
+  /// Arrangement of the Hall probes. For a drive that decodes only probes 120 degrees apart, the board
+  /// converts the codes.
   control::HallArrangement hall_arrangement = control::HallArrangement::degrees_120;
   CorePort core{};  ///< optional core that runs the drive in parallel to the host
   ChipPort chip{};  ///< optional chip that runs its own firmware instead of the drive

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The free-running counter that captures Hall edges: counts(t) = floor(t f), in integers. In floating point, t f can
-// be just below a count that is reached exactly: at 48 MHz this happens for a twelfth of the counts.
+// The free-running counter that captures Hall edges: counts(t) = floor(t f), in integers. In floating point,
+// t f can be just below a count that is reached exactly; at 48 MHz this happens for a twelfth of the counts.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -11,7 +11,8 @@ namespace sixstep::rig {
 
 class CaptureClock {
  public:
-  /// 1 Hz to 1 GHz, also fractions: f = numerator/2^n exactly, as for any double.
+  /// `Hz`: 1 Hz to 1 GHz, fractions included. The loop makes f = numerator/2^n, which is exact for any
+  /// double.
   explicit CaptureClock(double Hz) {
     while (Hz != std::floor(Hz)) {
       Hz *= 2;
@@ -20,7 +21,7 @@ class CaptureClock {
     numerator_ = static_cast<std::uint64_t>(Hz);
   }
 
-  /// ticks x numerator has 63 + 53 bits at most.
+  /// Count at an instant. The product ticks x numerator has at most 63 + 53 bits and fits in 128.
   std::uint32_t counts(const sim::Instant& t) const {
     const Wide passed = static_cast<Wide>(t.ticks) * numerator_;
     const Wide whole = passed / per_count_, missing = per_count_ - passed % per_count_;
@@ -30,10 +31,10 @@ class CaptureClock {
   }
 
  private:
-  __extension__ typedef unsigned __int128 Wide;  // g++ and clang have it on every host
+  __extension__ typedef unsigned __int128 Wide;  // g++ and clang have this type on every host
 
   std::uint64_t numerator_ = 0;
-  Wide per_count_ = static_cast<Wide>(sim::ticks_per_second);  ///< (ticks x numerator) per count
+  Wide per_count_ = static_cast<Wide>(sim::ticks_per_second);  ///< ticks x numerator per count
 };
 
 }  // namespace sixstep::rig

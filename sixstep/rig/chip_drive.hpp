@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// A foreign firmware as a drive: a chip runs it register by register in an emulator with a clock of its own
-// (chip_port.hpp). The board turns the chip on at t = 0, sets its Hall pins and converter inputs, and applies the
-// gates that it sets.
+// A foreign firmware as a drive: a chip runs it register by register in an emulator with its own clock
+// (chip_port.hpp). The board turns the chip on at t = 0, sets the chip's Hall pins and converter inputs, and
+// applies the gates that the chip sets.
 //
 //               input at a sample                           a Hall edge   a fault            reports
 //   ChipDrive   counts at the converter's inputs: currents  its pins      handled by the     cycles of its interrupts
 //               of the legs, the setpoint's potentiometer                 firmware itself
 //
-// The plant cannot compute in advance when the chip acts, nor the chip when a Hall edge comes. So the chip runs ahead
-// of the plant over a time in which no edge is expected, and stops when it acts. The pins show an edge that comes
-// nevertheless at the next stop.
+// The plant cannot compute in advance when the chip acts, and the chip cannot compute when a Hall edge comes.
+// The chip therefore runs ahead of the plant over a time in which no edge is expected, and stops when it
+// acts. If an edge comes in that time, the pins show it at the chip's next stop.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,8 @@ constexpr std::size_t potentiometer_input = 3;
 
 struct ChipConfig {
   control::Mode mode = control::Mode::off;
-  double setpoint_range = 1.0;  ///< in the mode's unit: the potentiometer goes from minus this to this
+  double setpoint_range = 1.0;  ///< in the mode's unit: the potentiometer goes from -setpoint_range to
+                                ///< setpoint_range
   std::uint32_t full_counts = 1024;
   bool operator==(const ChipConfig&) const = default;
 };
@@ -51,12 +52,12 @@ class ChipDrive {
   /// Instant of the chip's next stop, to which the plant must advance.
   const sim::Instant& next_stop() const { return stop_; }
   bool samples() const { return answer_.event == ChipEvent::sample; }
-  /// True at the sample of a current: a control sample, one per period.
+  /// True at the sample of a current: this is the control sample, one per period.
   bool samples_current() const { return samples() && answer_.channel < potentiometer_input; }
   bool lost() const { return trouble_ != CoreTrouble::none; }
   ChipGates gates() const { return {answer_.gates}; }
 
-  /// At a stop that samples: sets the counts at the converter's inputs.
+  /// Sets the counts at the converter's inputs. Call it at a stop that samples.
   template <class Real>
   void sample(const SampleInstant<Real>& instant, double setpoint) {
     const Sample s = sample_of(instant);
@@ -101,15 +102,15 @@ class ChipDrive {
   bool follows_setpoint_at_once() const { return false; }
   const control::Telemetry<double>& telemetry() const { return telemetry_; }
   Diagnosis diagnosis() const { return {.at = stop_, .core = trouble_}; }
-  /// Largest delay from the rotor's edge to the pins' edge, s.
+  /// Largest delay from an edge of the probes to the same edge at the chip's pins, s.
   double latest_edge_s() const { return latest_edge_s_; }
 
  private:
-  /// Near an edge, steps of half a microsecond of an AVR suffice; far from one, steps of a tenth of a period keep the
-  /// pins up to date.
+  /// Bounds of a step, cycles. Near a Hall edge, steps of half a microsecond (of an AVR at 16 MHz) suffice.
+  /// Far from one, steps of a tenth of a period keep the pins up to date.
   static constexpr double least_cycles = 8, most_cycles = 400;
-  /// A chip without a sample for this time has stalled: it is longer than the shortest watchdog time plus the restart
-  /// after its reset.
+  /// A chip without a sample for this time has stalled. The time is longer than the shortest watchdog time
+  /// plus the restart after the watchdog's reset.
   static constexpr double patient_periods = 50, least_patience_s = 30e-3;
 
   sim::Instant at_cycle(std::uint64_t cycle) const {
@@ -132,7 +133,7 @@ class ChipDrive {
   ChipAnswer answer_{};
   CoreTrouble trouble_ = CoreTrouble::none;
   double patience_s_;
-  sim::Instant stop_{};  ///< the first is at t = 0
+  sim::Instant stop_{};  ///< the first stop is at t = 0
   sim::Instant sampled_{};
   std::uint8_t pins_;
   bool edge_waits_ = false;

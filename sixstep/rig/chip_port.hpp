@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages between the plant and a chip that runs its own firmware register by register, with all its interrupts. The
-// plant has the chip run for a number of cycles with given values at its pins. The chip stops at the end of these,
-// when its gates change or when its converter samples. Plain structs, the same for both sides of a pipe on one
-// machine; their transport is outside the library (faces/loop/).
+// Messages between the plant and a chip that runs its own firmware register by register, with all its
+// interrupts. The plant lets the chip run for a number of cycles with given values at its pins. The chip
+// stops at the end of these cycles, when its gates change, or when its converter samples. The messages are
+// plain structs, the same on both sides of a pipe on one machine. Their transport is outside the library
+// (faces/loop/).
 #pragma once
 #include <cstdint>
 
@@ -12,7 +13,8 @@ namespace sixstep::rig {
 
 constexpr int chip_inputs = 8;  ///< channels of the converter
 
-/// Command to run on. Pins change at the cycle reached last; counts are read if the last answer was a sample.
+/// Command to continue. The pins change at the last cycle reached; the counts are read if the last answer was
+/// a sample.
 struct ChipRun {
   std::uint64_t until = 0;              ///< last cycle, counted since the reset
   std::uint16_t counts[chip_inputs]{};  ///< values at the converter's inputs, by channel
@@ -32,16 +34,18 @@ struct ChipAnswer {
   ChipEvent event = ChipEvent::ran;
   std::uint32_t gates =
       0;  ///< present gates, bits 0..5: upper a, lower a, upper b, lower b, upper c, lower c (control/gates.hpp)
-  std::uint32_t channel = 0;  ///< sampled channel; 4 to 6: a current of 0 to 2 that is no control sample
+  std::uint32_t channel = 0;  ///< sampled channel; 4 to 6: channel 0 to 2, a current, sampled outside the
+                              ///< control sample
   std::uint32_t unused = 0;
 };
 
-/// Cycles of one interrupt, from its request to the instruction after its return.
+/// Cycles that one interrupt takes, from its request to the instruction after its return.
 struct InterruptTimes {
   static constexpr int bins = 64;
   std::uint64_t count = 0, sum = 0;
   std::uint32_t least = 0, most = 0;
-  std::uint32_t bin_cycles = 0;  ///< width of each bin, from 0 on; the last bin has all larger values
+  std::uint32_t bin_cycles = 0;  ///< width of each bin; the first begins at 0, the last also holds all larger
+                                 ///< values
   std::uint32_t bin[bins]{};
   std::uint32_t unused = 0;
 };
@@ -50,20 +54,21 @@ struct ChipTimes {
   InterruptTimes control, hall;
   std::uint64_t periods = 0;  ///< periods of the PWM timer since its start
   std::uint64_t conversions =
-      0;  ///< started by the timer; fewer than periods if the control interrupt overran
+      0;  ///< conversions that the timer started; fewer than periods if the control interrupt overran
 };
 
-/// Transport of a ChipRun to a chip and of its answer; `run` is null if there is no chip.
+/// Transport that sends a ChipRun to a chip and returns its answer; `run` is null if there is no chip.
 struct ChipPort {
   void* chip = nullptr;
   CoreTrouble (*run)(void* chip, const ChipRun& run, ChipAnswer& answer) = nullptr;
-  std::uint64_t clock_Hz = 0;  ///< clock of the cycles
-  bool converts = true;        ///< its converter samples once a period; if it does not, the chip has stalled
+  std::uint64_t clock_Hz = 0;  ///< frequency of the chip's cycles
+  bool converts = true;        ///< true: its converter samples once a period, and a chip without samples has
+                               ///< stalled
 
   explicit operator bool() const { return run != nullptr; }
 };
 
-/// First message of a chip, by which both sides check that they have the same structs.
+/// First message of a chip. From it both sides check that they have the same structs.
 struct ChipGreeting {
   std::uint32_t word = 0x73697863;  ///< "sixc"
   std::uint32_t run_bytes = sizeof(ChipRun), answer_bytes = sizeof(ChipAnswer),

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The firmware of a drive that identifies its motor and wiring (control/commissioning/), and then drives the motor in
-// six-step with the table that it found, at the setpoint's duty:
+// The firmware of a drive that identifies its motor and wiring (control/commissioning/). Then it drives the
+// motor in six-step with the table that it found, at the setpoint's duty:
 //
 //                        input of a tick                       a Hall edge         a fault
 //   CommissioningDrive   counts of currents and bus, pins      captured, noted     bridge off
 //
-// Its answer is always three legs: the pair changes with the tick after the edge.
+// Its answer is always three legs, because the pair changes with the tick after an edge, not at the edge.
 #pragma once
 #include "sixstep/control/commissioning/commissioning_result.hpp"
 #include "sixstep/rig/firmware.hpp"
@@ -19,7 +19,7 @@ class CommissioningDrive {
   using Command = control::LegCommands<Scalar>;
   using Config = control::CommissioningConfig;
   static constexpr bool fault_ends_run = false;
-  static constexpr bool decodes_arrangement = true;  ///< its input is the pins as they are
+  static constexpr bool decodes_arrangement = true;  ///< its input is the pins without any conversion
 
   CommissioningDrive(const Config& config, const BoardConfig& board, const PowerUp&)
       : config_(config), registers_(board.sensors) {}
@@ -46,11 +46,11 @@ class CommissioningDrive {
   bool follows_setpoint_at_once() const { return false; }
   Diagnosis diagnosis() const { return {}; }
   Registers& registers() { return registers_; }
-  /// Results so far.
+  /// Results that the drive has found so far.
   const control::CommissioningState& found() const { return state_; }
 
  private:
-  /// Six-step by the table, in either direction.
+  /// Six-step command from the table, in the direction of the duty's sign.
   Command driven(std::uint8_t pins, Scalar duty) const {
     const std::uint8_t sector = state_.probes.lines.sector[pins & 7U];
     if (sector == control::no_sector) return Command{};

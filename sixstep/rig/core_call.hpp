@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages between the plant and a core that runs the drive (lockstep_core.hpp): arguments of its entries, and their
-// answers. Plain structs of words and scalars, with the same layout in all compilers for cores with 32 bits and on a
-// host with the same byte order; the core's program (faces/loop/core/) includes this file too.
+// Messages between the plant and a core that runs the drive (lockstep_core.hpp): arguments of the drive's
+// entries, and the core's answers. They are plain structs of words and scalars. Their layout is the same in
+// all compilers for 32-bit cores and on a host with the same byte order. The core's program
+// (faces/loop/core/) includes this file too.
 #pragma once
 #include <cstdint>
 
@@ -12,7 +13,7 @@
 
 namespace sixstep::rig {
 
-/// Entries of a drive.
+/// Entries of a drive: the functions that a board calls.
 enum class CoreEntry : std::uint32_t {
   tick,
   hall,
@@ -30,7 +31,8 @@ struct LeanCall {
   control::Setpoint<Scalar> setpoint{};
 };
 
-/// Calls of control/protected_drive.hpp: protected_step(), and protected_on_hall() with pins and counter of the input.
+/// Calls of control/protected_drive.hpp: protected_step(), and protected_on_hall() with the input's pins and
+/// counter.
 template <class Scalar>
 struct ProductCall {
   CoreEntry entry = CoreEntry::tick;
@@ -40,8 +42,8 @@ struct ProductCall {
   control::Setpoint<Scalar> setpoint{};
 };
 
-/// Call of control/field/field_drive.hpp: field_drive_step(). From a decoded angle the core computes the directions
-/// itself.
+/// Call of control/field/field_drive.hpp: field_drive_step(). If the angle is decoded, the core itself
+/// computes the directions from it.
 template <class Scalar>
 struct FieldCall {
   CoreEntry entry = CoreEntry::tick;
@@ -65,7 +67,7 @@ constexpr ProductCall<Scalar> call_of(const control::BoardInput& in, const contr
           .hall_pins = in.hall_pins,
           .setpoint = setpoint};
 }
-/// The inverse, on the core.
+/// Converts a call back to the input, on the core.
 template <class Scalar>
 constexpr control::BoardInput input_of(const ProductCall<Scalar>& call) {
   control::BoardInput in{.bus_counts = static_cast<std::uint16_t>(call.bus_counts),
@@ -75,8 +77,8 @@ constexpr control::BoardInput input_of(const ProductCall<Scalar>& call) {
   return in;
 }
 
-/// A control::BridgeCommand with its choices as numbers, so that a faulty program's answer is never an invalid
-/// enumerator.
+/// A control::BridgeCommand with its enumerators as numbers, so that the answer of a faulty program is never
+/// an invalid enumerator.
 template <class Scalar>
 struct CoreAnswer {
   std::uint8_t enabled = 0, fault = 0, source = 0, sink = 0, chopping = 0, chopped = 0, watch = 0, unused = 0;
@@ -100,7 +102,7 @@ constexpr CoreAnswer<Scalar> answer_of(const control::BridgeCommand<Scalar>& c) 
           .off_above_A = c.off_above_A};
 }
 
-/// The same for control::LegCommands.
+/// A control::LegCommands with its enumerators as numbers.
 template <class Scalar>
 struct CoreLegs {
   std::uint8_t enabled = 0, fault = 0, state[3]{}, switches[3]{};
@@ -119,7 +121,7 @@ constexpr CoreLegs<Scalar> answer_of(const control::LegCommands<Scalar>& c) {
   return out;
 }
 
-/// First message of a core, by which both sides check that they have the same structs.
+/// First message of a core. From it both sides check that they have the same structs.
 struct CoreGreeting {
   std::uint32_t word = 0x73697873;  ///< "sixs"
   std::uint32_t call_bytes = 0, answer_bytes = 0;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Comparators of each filtered terminal with a virtual star point or half the bus (model.md 4). Between two events
-// the filtered voltages are polynomials like those of the circuit, so that an edge is an event like any other:
+// Comparators of each filtered terminal with a virtual star point or half the bus (model.md 4). Between two
+// events the filtered voltages are polynomials as the circuit's quantities are, so that a comparator's edge
+// is located like any event:
 //
 //   dx/dt = (u - x)/tau:   x_(n+1) = (h/tau) (u_n - x_n)/(n + 1),   h <= tau/2
 //
-// line k rises where x_k - reference passes offset_k + hysteresis/2, and falls where it passes offset_k - hysteresis/2.
+// The line of leg k rises where x_k - reference passes offset_k + hysteresis/2, and falls at offset_k -
+// hysteresis/2.
 #pragma once
 #include <algorithm>
 
@@ -14,13 +16,13 @@ namespace sixstep::rig {
 
 class Crossings {
  public:
-  /// Lines at the start of the run; at exactly its level a line is low.
+  /// Lines at the start of the run; a line whose voltage is exactly at its level is low.
   Crossings(const FrontEndConfig& config, const FrontEndReading& at) : config_(config) {
     for (std::size_t k = 0; k < 3; ++k) gain_[k] = 1.0 + config.divider_gain_error[k];
     for (std::size_t k = 0; k < 3; ++k)
       if (above(at, k) > 0) turn_over(k);
   }
-  /// The divider of a leg shows 0 from now on; lines that contradict their levels then change.
+  /// The divider of a leg shows 0 V from now on. Lines that then contradict their levels change.
   void break_divider(std::size_t leg, const FrontEndReading& at) {
     gain_[leg] = 0.0;
     const double half = config_.comparators.hysteresis_V / 2;
@@ -29,14 +31,15 @@ class Crossings {
   }
 
   bool fitted() const { return config_.has_comparators(); }
-  /// Bound of a segment's length: beyond it, 16 orders of the lag do not reach rounding.
+  /// Bound of a segment's length, s: in a longer segment, 16 orders of the lag's series do not reach
+  /// rounding.
   double longest_s() const { return config_.comparators.lag_s / 2; }
-  /// Lines of legs a, b, c as bits 2, 1, 0, as in a Hall code.
+  /// Comparators' lines of legs a, b, c as bits 2, 1, 0, as in a Hall code.
   std::uint8_t lines() const { return lines_; }
   void turn_over(std::size_t leg) { lines_ ^= static_cast<std::uint8_t>(4U >> leg); }
 
-  /// visit(leg, series, degree, noise): each series falls through zero where its line changes. `of` must be expanded,
-  /// but not yet passed.
+  /// Calls visit(leg, series, degree, noise) for each line; a series falls through zero where its line
+  /// changes. `of` must be expanded, and the plant not yet advanced over it.
   template <class Real, class Visit>
   void guards(const FrontEndSegment<Real>& of, const plant::TerminalSeries<Real>& u,
               const FrontEndReading& now, Real volt_scale, Visit&& visit) const {
@@ -47,7 +50,7 @@ class Crossings {
     }
     const Coefficients<Real> bus = lagged(of, of.y.bus, now.comparator_bus_V);
     const Real noise = plant::noise_of(volt_scale, Real(1));
-    // After an edge the line must be clear of its level by more than rounding.
+    // After an edge the voltage must differ from the line's next level by more than rounding.
     const Real half = std::max(Real(config_.comparators.hysteresis_V) / 2, 4 * noise);
     for (std::size_t k = 0; k < 3; ++k) {
       const Real sign = (lines_ & (4U >> k)) != 0 ? Real(1) : Real(-1);
@@ -60,7 +63,7 @@ class Crossings {
   }
 
  private:
-  /// Voltage above the level, without hysteresis.
+  /// Voltage of a terminal above its comparator's level, V, without hysteresis.
   double above(const FrontEndReading& at, std::size_t leg) const {
     plant::PerLeg<double> x{};
     for (std::size_t k = 0; k < 3; ++k) x[k] = gain_[k] * at.comparator_V[k];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adapts a firmware to the interface of any_drive.hpp: its numbers are converted to SI, and functions that it lacks
-// do nothing.
+// Adapts a firmware to the interface of any_drive.hpp: the firmware's numbers are converted to SI, and
+// functions that it lacks do nothing.
 #pragma once
 #include "sixstep/rig/any_drive.hpp"
 #include "sixstep/rig/fault.hpp"

@@ -5,8 +5,8 @@
 //   FieldDrive   ideal values, or those of [sensors], and     captured       ends the run    lost sensor
 //                the magnet's direction
 //
-// Its answer is always three legs. An ideal sensor gives cosine and sine of the magnet's direction exactly; with an
-// encoder, a resolver or Hall edges they are computed from the decoded angle, as on the chip
+// Its answer is always three legs. An ideal sensor gives cosine and sine of the magnet's direction exactly.
+// With an encoder, a resolver or Hall edges the drive computes both from the decoded angle, as on the chip
 // (field_direction.hpp).
 #pragma once
 #include "sixstep/control/field/sensorless_field_drive.hpp"
@@ -58,7 +58,7 @@ class FieldDrive {
   }
 
   control::Mode mode() const { return config_.field.drive.mode; }
-  /// True if a tick needs nothing but the setpoint.
+  /// True if a tick needs only the setpoint and no measurement.
   bool open_loop() const { return config_.field.drive.mode == control::Mode::off; }
   bool follows_setpoint_at_once() const { return false; }
   const control::Telemetry<Scalar>& telemetry() const { return telemetry_; }
@@ -88,7 +88,7 @@ class FieldDrive {
   void follow(const ShaftMotion<Real>& motion) {
     sensors_.follow(motion);
   }
-  /// Currents and voltages of the last tick, in the rotor's frame.
+  /// The drive's state with currents and voltages of the last tick, in the rotor's frame.
   const control::FieldDriveState<Scalar>& state() const { return state_.field; }
   /// Estimate of the magnet's angle for a drive without a rotor sensor.
   const control::EstimatorState<Scalar>& estimator() const { return state_.estimator; }
@@ -112,7 +112,7 @@ class FieldDrive {
     }
     state_.field.command = core_.held(call, state_.field.command, at);
   }
-  /// Error of the angle that the last tick used, electrical degrees; 0 for an ideal sensor.
+  /// Assumed angle at the last tick minus the true one, electrical degrees; 0 for an ideal sensor.
   template <class Real>
   double error_deg(const plant::State<Real>& s) const {
     if (!config_.estimator.on && !sensors_.tells_angle()) return 0.0;

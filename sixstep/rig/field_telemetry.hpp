@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values that a field-oriented drive holds from one sample to the next, in SI for any arithmetic; for figures
-// and recorders.
+// Values that a field-oriented drive holds from one sample to the next, in SI for any arithmetic. Figures of
+// merit and recorders read them.
 #pragma once
 #include "sixstep/control/frames.hpp"
 
@@ -8,7 +8,7 @@ namespace sixstep::rig {
 
 struct FieldTelemetry {
   control::Dq<double> measured_A{}, reference_A{};
-  control::Dq<double> voltage_V{};  ///< commanded voltage of a phase
+  control::Dq<double> voltage_V{};  ///< commanded phase voltage, in the rotor's frame
   double angle_error_deg = 0.0;     ///< electrical: assumed angle of the magnet minus the true one
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Inputs and results of all firmwares for the virtual board. The rig uses a firmware through the interface of
-// any_drive.hpp; a test may also use one directly. The library's six-step drives:
+// any_drive.hpp; a test may also use a firmware directly. The library's six-step drives:
 //
 //                 input of a tick                    a Hall edge           a fault              reports
 //   LeanDrive     ideal values in controller units   on_hall               ends the run         -
@@ -12,8 +12,8 @@
 // LeanDrive and SensedDrive (lean_drive.hpp) run control/drive.hpp; ProductDrive (product_drive.hpp) runs
 // control/protected_drive.hpp, including offset calibration, Hall decoding, fault monitor and state machine.
 //
-// The type of a firmware's answer, its Command, determines the modulator (modulator.hpp). A firmware that answers
-// three legs needs neither hall_interrupt() nor reversed(): both are for six-step only.
+// The type of a firmware's answer, its Command, determines the modulator (modulator.hpp). hall_interrupt()
+// and reversed() are for six-step only: a firmware that answers three legs does not need them.
 #pragma once
 #include "sixstep/base/angle.hpp"
 #include "sixstep/control/sensorless/lock.hpp"
@@ -34,23 +34,24 @@ struct SampleInstant {
   std::uint64_t number = 0;  ///< index of the sample
   std::uint8_t pins = 0;
   bool reversed = false;  ///< sign of the six-step command in effect
-  double duty = 0.0;      ///< duty of that command, from which the DC link's shunt is evaluated
+  double duty = 0.0;      ///< duty of the command in effect; the DC link's shunt is evaluated by it
   const FrontEndReading* seen =
       nullptr;  ///< values at the converters' inputs, if the board's front end lags; else null
 };
 
 /// Findings of a firmware about a fault.
 struct Diagnosis {
-  std::uint16_t faults = 0;    ///< bits of control::Fault that stopped the drive
-  std::uint8_t hall_line = 0;  ///< 1..3: the line that made an impossible code; 0: none, or unknown
-  sim::Instant at{};           ///< tick that latched the faults, or last lost the rotor
+  std::uint16_t faults = 0;    ///< bits of control::Fault that turned the drive off
+  std::uint8_t hall_line = 0;  ///< 1..3: the line that made an invalid code; 0: none, or unknown
+  sim::Instant at{};           ///< tick that latched the faults, or at which the rotor was last lost
   int losses = 0;              ///< how often a sensorless drive lost the rotor, or failed to start it
   control::LockLoss lost = control::LockLoss::none;  ///< reason of the last loss
-  bool gave_up = false;                              ///< true: it does not start again
+  bool gave_up = false;                              ///< true: the drive does not start again
   int unseen = 0;                                    ///< how often pulses did not determine the rotor's angle
   double north = 0.0;                                ///< last result of the pulses, relative to its noise
-  double certain = 0.0;                              ///< result that would have been enough
-  ShaftFinding shaft{};                              ///< finding of a lost encoder or resolver
+  double certain = 0.0;                              ///< result, relative to its noise, that would have been
+                                                     ///< enough
+  ShaftFinding shaft{};                              ///< reason why an encoder or resolver counts as lost
   OwnFinding own{};                                  ///< error in the answer of a user's controller
   CoreTrouble core = CoreTrouble::none;              ///< trouble of a core in parallel to the host
 };
@@ -77,8 +78,8 @@ control::Measurement<Scalar> ideal_measurement(const SampleInstant<Real>& instan
           .hall = instant.pins};
 }
 
-/// True if the firmware's configuration has the arrangement of its Hall probes; otherwise it is given codes of probes
-/// 120 degrees apart.
+/// True if the firmware's configuration has the arrangement of the Hall probes. Otherwise the board gives it
+/// codes of probes 120 degrees apart.
 template <class Firmware>
 bool reads_arrangement([[maybe_unused]] const typename Firmware::Config& config) {
   if constexpr (requires { Firmware::reads_arrangement(config); })
@@ -87,7 +88,7 @@ bool reads_arrangement([[maybe_unused]] const typename Firmware::Config& config)
     return requires { requires Firmware::decodes_arrangement; };
 }
 
-/// Values at the inputs of converters and shunt.
+/// Values at the inputs of converters and shunt, in SI.
 template <class Real>
 Sample sample_of(const SampleInstant<Real>& instant) {
   const plant::State<Real>& s = instant.state;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The analogue front end between circuit and converters (model.md 4): current amplifiers with a bandwidth and a
-// delay, dividers of bus and terminals with a capacitor. Each is a first-order lag that is integrated exactly over
-// every segment, so that a sample contains the effect of all switching before it. A board without lags costs one
-// branch per segment.
+// The analogue front end between circuit and converters (model.md 4): current amplifiers with a bandwidth and
+// a delay, and dividers of bus and terminals with a capacitor. Each is a first-order lag. The lags are
+// integrated exactly over every segment, so that a sample contains the effect of all switching before it. A
+// board without lags costs one branch per segment.
 #pragma once
 #include <limits>
 
@@ -13,11 +13,11 @@
 
 namespace sixstep::rig {
 
-/// The inputs over one segment of length h, of which the part s in (0, 1] is used.
+/// Inputs of the front end over one segment of length h, of which the fraction s in (0, 1] is used.
 template <class Real>
 struct FrontEndSegment {
   const plant::Expansion<Real>& y;
-  plant::PerLeg<std::size_t> phase{0, 1, 2};  ///< connected to each leg
+  plant::PerLeg<std::size_t> phase{0, 1, 2};  ///< phase of the motor that is connected to each leg
   plant::Legs legs{};                         ///< connections of the phases
   Real s = 1;
   sim::Instant from{}, to{}, next_sample{};
@@ -25,7 +25,7 @@ struct FrontEndSegment {
 
 class FrontEnd {
  public:
-  /// The front end had settled to these voltages before the run, without current.
+  /// Before the run the front end has settled to these voltages, V, without current.
   FrontEnd(const FrontEndConfig& config, double bus_V, const plant::PerLeg<double>& terminal_V)
       : config_(config),
         reading_{.terminal_V = terminal_V,
@@ -58,14 +58,15 @@ class FrontEnd {
       reading_.comparator_bus_V = comparator_bus_.value;
     }
   }
-  /// If voltages or comparators lag: integrates the terminals' series, by phases.
+  /// Integrates the series of the terminals, which are ordered by phases. Call it if voltages or comparators
+  /// lag.
   template <class Real>
   void follow_terminals(const FrontEndSegment<Real>& of, const plant::TerminalSeries<Real>& u);
 
  private:
   using Kept = series::CompensatedSum<double>;
 
-  /// Weights of a lag over the part s of the segment.
+  /// Weights of a lag over the fraction s of the segment.
   template <class Real>
   static series::LagWeights weights(double lag_s, const FrontEndSegment<Real>& of, double s) {
     const double z =
@@ -98,8 +99,8 @@ class FrontEnd {
   FrontEndReading reading_{};
 };
 
-/// With a delay, the converters get the amplifiers' value from one delay before the sample; at a jump, the value
-/// before it.
+/// With a delay, the converters get the value that the amplifiers had one delay before the sample. If that
+/// instant is a jump, they get the value before the jump.
 template <class Real>
 void FrontEnd::follow_currents(const FrontEndSegment<Real>& of) {
   const series::Coefficients<Real> link = dc_link(of);

@@ -7,8 +7,8 @@
 
 namespace sixstep::rig {
 
-/// Reference of the comparators: the mean of all three filtered terminals, as from three equal resistors, or half the
-/// bus through the same filter.
+/// Reference of the comparators: the mean of all three filtered terminals, as three equal resistors give it,
+/// or half the bus through a low-pass of the same time constant.
 enum class CrossingReference : std::uint8_t { virtual_star, half_bus };
 
 /// Comparators at the terminals, each with its own low-pass, for a firmware that captures their edges.
@@ -23,7 +23,7 @@ struct CrossingComparators {
 /// Time constants of first-order lags, s; 0: no lag.
 struct FrontEndConfig {
   double amplifier_s = 0.0;                ///< lag of each current amplifier, 1/(2 pi bandwidth)
-  std::int64_t amplifier_delay_ticks = 0;  ///< ps; shorter than the time between two samples
+  std::int64_t amplifier_delay_ticks = 0;  ///< ps; must be shorter than the time between two samples
   double divider_s = 0.0;  ///< lag of the bus divider, and of terminals that a firmware samples
   plant::PerLeg<double> divider_gain_error{};  ///< relative gain error of each terminal's divider
   CrossingComparators comparators{};
@@ -33,13 +33,14 @@ struct FrontEndConfig {
   bool has_comparators() const { return comparators.lag_s > 0; }
 };
 
-/// Values at the converters' inputs, by legs.
+/// Values at the converters' inputs, ordered by legs.
 struct FrontEndReading {
   plant::PerLeg<double> i_A{}, terminal_V{};
   double dc_link_A = 0.0, bus_V = 0.0;
   plant::PerLeg<double> comparator_V{};  ///< voltages at the comparators, if there are any
   double comparator_bus_V = 0.0;
-  bool currents = false, voltages = false;  ///< true: with a lag; false: the plant's own values apply
+  bool currents = false, voltages = false;  ///< true: the values here are lagged ones; false: the plant's own
+                                            ///< values apply
 };
 
 }  // namespace sixstep::rig

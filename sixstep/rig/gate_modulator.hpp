@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bridge of a board whose chip sets the gates itself (chip_drive.hpp). Duty and pair are measured from the gates
-// over the last period, as an instrument would do.
+// The bridge of a board whose chip sets the gates itself (chip_drive.hpp). Duty and pair are measured from
+// the gates over the last period, as an instrument would measure them.
 #pragma once
 #include "sixstep/plant/state.hpp"
 #include "sixstep/rig/pulse.hpp"
@@ -27,7 +27,7 @@ class GateModulator {
 
   static Command before_first() { return {}; }
 
-  /// The pins change.
+  /// Sets the gates at the pins from t on.
   void take(const sim::Instant& t, const Command& command) {
     note(t);
     for (unsigned k = 0; k < 3; ++k) {
@@ -40,7 +40,7 @@ class GateModulator {
       gates_.low[k] = (command.bits >> (2 * k + 1) & 1U) != 0;
     }
   }
-  /// A control sample: the end of a period.
+  /// Ends the period of the duty's measurement; called at each control sample.
   void end_period(const sim::Instant& t) {
     note(t);
     const double period = sim::seconds_between(begun_, t);
@@ -49,20 +49,21 @@ class GateModulator {
     begun_ = t;
   }
 
-  /// No edge is scheduled: the chip's next stop replaces it.
+  /// No edge is scheduled, because gates change only at the chip's stops.
   sim::Instant next_edge() const { return sim::Instant::never(); }
   bool act(const sim::Instant&) { return false; }
   bool steady() const { return false; }
-  /// It has no effect: the firmware makes the dead time.
+  /// Has no effect, because the firmware makes the dead time.
   void set_dead_time(double) {}
 
   const plant::Gates& gates() const { return gates_; }
   std::int64_t turn_ons() const { return turn_ons_; }
   std::int64_t turn_ons_before(const sim::Instant&) const { return turn_ons_; }
-  /// True if the bus is connected to two legs.
+  /// True if the bus drives a current through the winding: an upper and a lower switch are on.
   bool drives() const { return gates_.high.any() && gates_.low.any(); }
   bool enabled() const { return gates_.high.any() || gates_.low.any(); }
-  /// Part of the last whole period with drives(); and the leg whose upper switch was turned on last.
+  /// duty(): fraction of the last whole period in which drives() was true. source(): leg whose upper switch
+  /// was turned on last.
   double duty() const { return duty_; }
   int source() const { return source_; }
 

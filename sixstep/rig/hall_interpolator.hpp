@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Speed and position from Hall edges, with the angle extrapolated between edges (control/sensing/hall_angle.hpp) and
-// optionally with edge positions that the drive measures while it turns (hall_calibration.hpp). A drive that commutates
-// at samples does so by this angle.
+// Speed and position from Hall edges. The angle is extrapolated between edges
+// (control/sensing/hall_angle.hpp). Optionally the drive measures the edge positions while it turns
+// (hall_calibration.hpp). A drive that commutates at samples uses this angle.
 //
-// Hysteresis and delay of the probes are those of the data sheet. Until the positions are learned, a speed is taken
-// over six edges, whose errors then cancel, if these come within the window; afterwards over as many as configured.
+// Hysteresis and delay of the probes are the data sheet's. Until the positions are learned, a speed is taken
+// over SensorsConfig::edges edges (over six the errors of the positions cancel), or over one if those take
+// longer than the window. Afterwards a speed is taken over SensorsConfig::learned_edges.
 #pragma once
 #include <cmath>
 
@@ -22,7 +23,7 @@ class HallInterpolator {
  public:
   HallInterpolator(const SensorsConfig& config, const Bases& bases, const PowerUp& power_up);
 
-  /// Reading of the decoder in an edge's interrupt.
+  /// Takes the decoder's reading in the interrupt of an edge.
   void edge(const control::HallReading& reading, std::uint32_t now);
   void measure(control::Measurement<Scalar>& m, std::uint32_t now);
   bool learned() const { return learned_; }
@@ -31,7 +32,7 @@ class HallInterpolator {
   const control::HallEdges& edges() const { return config_.edges; }
 
  private:
-  /// Number of sectors over which the next edge gives the speed.
+  /// Number of edges over which the next edge's speed is taken.
   std::uint8_t span() const;
   void learn(std::int8_t moved, std::uint32_t now);
 
@@ -61,7 +62,8 @@ HallInterpolator<Scalar>::HallInterpolator(const SensorsConfig& config, const Ba
   config_.timeout_ticks = static_cast<std::uint32_t>(config.timeout_s * config.capture_Hz);
   config_.delay_ticks = static_cast<std::uint32_t>(std::floor(config.hall_delay_s * config.capture_Hz + 0.5));
   config_.edges.half_hysteresis = control::binary_degrees(config.hall_hysteresis_deg / 2);
-  // The margin is minus one unit, so that a sector is entered only at its edge or when its angle is due.
+  // The margin is -1 unit of the angle, so that a sector is entered only at its edge or when the extrapolated
+  // angle reaches it.
   config_.margin = ~control::BinaryAngle{0};
   calibration_config_.turns = config.calibration_turns;
   per_sector_ = control::Gain<Scalar>(sector_deg / raw_unit<Scalar>());
@@ -86,7 +88,8 @@ void HallInterpolator<Scalar>::edge(const control::HallReading& reading, std::ui
   if (learns_ && !learned_ && reading.moved != 0) learn(reading.moved, now);
 }
 
-/// A series of edges that was refused, for example because the rotor accelerated, starts again with this edge.
+/// Learns from an edge. If a series of edges was refused, for example because the rotor accelerated, a new
+/// series starts with this edge.
 template <class Scalar>
 void HallInterpolator<Scalar>::learn(std::int8_t moved, std::uint32_t now) {
   using control::HallCalibration;
@@ -102,7 +105,8 @@ void HallInterpolator<Scalar>::learn(std::int8_t moved, std::uint32_t now) {
   control::hall_calibrate(calibration_config_, calibration_, state_.edge, moved, now);
 }
 
-/// While no speed is known, as at the start, the code of the probes commutates.
+/// Measures speed, position and sector at a sample. While no speed is known, as at the start, the probes'
+/// code gives the sector.
 template <class Scalar>
 void HallInterpolator<Scalar>::measure(control::Measurement<Scalar>& m, std::uint32_t now) {
   using T = control::ScalarTraits<Scalar>;

@@ -24,7 +24,8 @@ class LeanDrive {
   const control::BridgeCommand<Scalar>& tick(const SampleInstant<Real>& instant, double setpoint) {
     return step(ideal_measurement<Scalar>(instant, bases_), setpoint);
   }
-  /// Returns a reference to the stored command: a copy would wait until the fields just set are written.
+  /// Returns a reference to the stored command: a copy would stall until the fields that were just written
+  /// are in memory.
   const control::BridgeCommand<Scalar>& step(const control::Measurement<Scalar>& measured, double setpoint) {
     control::step(config_, state_, measured, wanted(setpoint), telemetry_);
     return state_.command;
@@ -46,10 +47,10 @@ class LeanDrive {
   control::Mode mode() const { return config_.mode; }
   /// Sign of the last command.
   bool reversed() const { return state_.reversed; }
-  /// True if a tick needs nothing but the setpoint.
+  /// True if a tick needs only the setpoint and no measurement.
   bool open_loop() const { return config_.mode == control::Mode::off || config_.mode == control::Mode::duty; }
-  /// True for an event hysteresis on the setpoint itself, which waits for no sample (model.md 4). With a slew rate it
-  /// does wait, because the reference changes once per tick.
+  /// True for an event hysteresis that acts on the setpoint directly and waits for no sample (model.md 4).
+  /// With a slew rate the hysteresis does wait, because the reference changes once per tick.
   bool follows_setpoint_at_once() const {
     return config_.mode == control::Mode::current &&
            config_.current_control == control::CurrentControl::hysteresis &&
@@ -124,7 +125,8 @@ class SensedDrive {
   ShaftPorts& shaft_ports() { return sensors_.shaft_ports(); }
   const ShaftPorts& shaft_ports() const { return sensors_.shaft_ports(); }
   const Sensors<Scalar>& sensors() const { return sensors_; }
-  /// True if an encoder's timer counts between samples, or a code is latched there.
+  /// True if the board has an encoder, whose timer counts or whose code is latched between samples, or a
+  /// resolver.
   bool follows_shaft() const { return sensors_.follows_shaft(); }
   template <class Real>
   void follow(const ShaftMotion<Real>& motion) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rig of the thesis's experiments: ideal measurements and the loops alone.
+// The rig of the thesis's experiments: it runs the loops alone, with ideal measurements.
 #pragma once
 #include "sixstep/rig/lean_drive.hpp"
 #include "sixstep/rig/rig.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The PWM timer of the board: three compare units that make pulses, and three legs, each following one of the pulses
-// with its own dead time (model.md 11). A leg has one switch on during the pulse and another, or none, in the rest of
-// the period. six_step_modulator.hpp sets all three legs from a pair and one duty, three_leg_modulator.hpp from three
-// commands.
+// The PWM timer of the board. Three compare units make pulses, and each of three legs follows one of the
+// pulses with its own dead time (model.md 11). A leg has one switch on during the pulse, and the other, or
+// none, in the rest of the period. six_step_modulator.hpp sets all three legs from a pair and one duty,
+// three_leg_modulator.hpp from three commands.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -18,17 +18,18 @@ class LegTimer {
   explicit LegTimer(const ModulatorConfig& config)
       : config_(config), dead_ticks_(config.in_counts(config.dead_ticks)), waits_(dead_ticks_ > 0) {}
 
-  /// Turns the timer on. The legs' previous states are unknown: any switch that turns on waits. No pulse is on.
+  /// Turns the timer on. The legs' previous states are unknown: any switch that turns on waits for a dead
+  /// time. No pulse is on.
   void wake(const sim::Instant& t);
-  /// Begins a PWM period; the remaining edges of the period before are cancelled.
+  /// Begins a PWM period and cancels the remaining edges of the period before.
   void start_period(const sim::Instant& t);
   void start_pulse(unsigned pulse, const sim::Instant& t, double duty);
-  /// Switches a pulse as a comparator does.
+  /// Turns a pulse on or off outside its period's edges, as a comparator does.
   void switch_pulse(unsigned pulse, bool on);
-  /// Sets a pulse's initial state; not counted as a turn-on.
+  /// Sets a pulse's initial state, which is not counted as a turn-on.
   void preset_pulse(unsigned pulse, bool on) { pulses_[pulse].on = on; }
 
-  /// Applies to changes from now on. A running wait keeps its end.
+  /// Sets the dead time, ps, of changes from now on. A wait that has begun keeps its end.
   void set_dead_time(double ticks);
 
   /// Turns all legs off; the pulses continue.
@@ -41,7 +42,8 @@ class LegTimer {
   }
   /// Moves a leg's state, including its wait, to another leg (model.md 3).
   void hand_over(unsigned from, unsigned to);
-  /// Sets the legs by pulses and connections. A switch that leg `late` would turn on at this instant waits too.
+  /// Sets the legs' commands from pulses and connections. If leg `late` would turn a switch on at this
+  /// instant, that switch waits too.
   static constexpr int none_late = -1;
   void update(const sim::Instant& t, int late = none_late);
 
@@ -53,9 +55,9 @@ class LegTimer {
   bool pulse_on(unsigned pulse) const { return pulses_[pulse].on; }
   /// True if no edge comes before the next command.
   bool steady() const { return next_edge_ == sim::Instant::never(); }
-  /// Turn-ons of the first pulse: they give the PWM's frequency, however many legs follow other pulses.
+  /// Turn-ons of the first pulse. They give the PWM frequency, even if legs follow the other pulses.
   std::int64_t turn_ons() const { return turn_ons_; }
-  /// The turn-ons without those of a period that begins at this instant.
+  /// Turn-ons before t: without those of a period that begins at t.
   std::int64_t turn_ons_before(const sim::Instant& t) const {
     return began_at(t) ? before_period_ : turn_ons_;
   }
@@ -64,7 +66,7 @@ class LegTimer {
   bool dead_time_at_commutation() const { return config_.dead_time_at_commutation; }
 
  private:
-  /// Switches to be on, upper ones in bits 0 to 2, lower ones in bits 3 to 5: one number has the commands of all legs.
+  /// Commanded switches of all legs in one number: upper ones in bits 0 to 2, lower ones in bits 3 to 5.
   using Switches = std::uint8_t;
   static constexpr unsigned of_leg = 0b001'001;
   static Switches switch_of(unsigned leg, LegSide side) {
@@ -74,7 +76,7 @@ class LegTimer {
   static LegSide side_of(Switches switches, unsigned leg) {
     return switches >> leg & 1 ? LegSide::high : switches >> leg & 0b1000 ? LegSide::low : LegSide::none;
   }
-  /// Switches of the legs that follow a pulse.
+  /// Switches that a pulse turns on, of all legs that follow it: in the pulse, and in the rest of the period.
   struct Output {
     Switches in_pulse = 0, in_rest = 0;
   };
@@ -85,16 +87,16 @@ class LegTimer {
 
   ModulatorConfig config_;
   double dead_ticks_ = 0.0;  ///< rounded to counts of the timer
-  bool waits_ = false;       ///< there is or was a dead time; otherwise the legs' waits are not checked
+  bool waits_ = false;       ///< there is or was a dead time; if not, the legs' waits are not checked
   std::array<Pulse, 3> pulses_{};
   std::array<LegChannel, 3> legs_{};
-  std::array<Output, 3> outputs_{};                 ///< outputs by pulse
+  std::array<Output, 3> outputs_{};                 ///< switches of each pulse
   Switches told_{};                                 ///< last commands to the legs
   std::uint8_t waiting_ = 0;                        ///< mask of the legs that wait
-  unsigned chopping_ = 0;                           ///< mask of the pulses with edges to come
+  unsigned chopping_ = 0;                           ///< mask of the pulses with an edge still to come
   sim::Instant wait_end_ = sim::Instant::never();   ///< earliest end of a leg's wait
   sim::Instant next_edge_ = sim::Instant::never();  ///< next edge of pulses and legs
-  plant::Gates gates_{};                            ///< gates according to the legs
+  plant::Gates gates_{};                            ///< gates that the legs' commands and waits give
   std::int64_t turn_ons_ = 0, before_period_ = 0;
   sim::Instant period_begun_ = sim::Instant::never();
 };

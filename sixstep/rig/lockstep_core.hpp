@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A core in parallel to the board's own drive: each call of an entry also goes to the core. The plant stands
-// still until the core has answered, and its answer must equal the host's to the bit. The transport of calls
-// and answers is outside the library (faces/loop/).
+// A core in parallel to the board's own drive: each call of an entry also goes to the core. The plant does
+// not advance until the core has answered, and the core's answer must equal the host's bit by bit. The
+// transport of calls and answers is outside the library (faces/loop/).
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -14,8 +14,8 @@ namespace sixstep::rig {
 /// Trouble with a core or chip.
 enum class CoreTrouble : std::uint8_t {
   none,
-  silent,   ///< it did not answer in time
-  gone,     ///< it ended
+  silent,   ///< the core did not answer in time
+  gone,     ///< the core's program ended
   differs,  ///< its answer differs from the host's answer
   stalled   ///< a chip with its own clock no longer samples
 };
@@ -23,7 +23,7 @@ enum class CoreTrouble : std::uint8_t {
 /// Transport of calls to a core and of its answers; `ask` is null if there is no core.
 struct CorePort {
   void* core = nullptr;
-  /// Sends `call`, waits, fills `answer`.
+  /// Sends `call`, waits for the answer and writes it to `answer`. Returns CoreTrouble::none on success.
   CoreTrouble (*ask)(void* core, const void* call, std::size_t call_bytes, void* answer,
                      std::size_t answer_bytes) = nullptr;
 
@@ -35,8 +35,8 @@ class LockstepCore {
   explicit LockstepCore(const CorePort& port) : port_(port) {}
 
   bool there() const { return static_cast<bool>(port_); }
-  /// The host's command if the core agrees. If the core is or gets in trouble: a command with a fault that turns the
-  /// bridge off.
+  /// Returns the host's command if the core agrees. If the core is in trouble, now or before, returns a
+  /// command with a fault, which turns the bridge off.
   template <class Call, class Command>
   Command held(const Call& call, const Command& host, const sim::Instant& at) {
     if (agrees(call, answer_of(host), at)) return host;
@@ -44,7 +44,7 @@ class LockstepCore {
     off.fault = true;
     return off;
   }
-  /// True if the core is in order and its answer equals `wanted`.
+  /// True if there is no trouble so far and the core's answer equals `wanted`.
   template <class Call, class Answer>
   bool agrees(const Call& call, const Answer& wanted, const sim::Instant& at) {
     if (trouble_ != CoreTrouble::none) return false;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// True direction of the magnet: 150 electrical degrees behind the angle from phase a's axis (control/frames.hpp).
+// True direction of the magnet. It lags the angle of the equations, which counts from phase a's axis, by 150
+// electrical degrees (control/frames.hpp).
 #pragma once
 #include "sixstep/base/angle.hpp"
 #include "sixstep/base/elementary.hpp"
@@ -11,7 +12,7 @@ namespace sixstep::rig {
 
 inline constexpr double magnet_behind_rad = 5 * base::pi / 6;
 
-/// Electrical, rad, within a turn.
+/// Direction of the magnet, electrical rad, in a range of one turn.
 template <class Real>
 double magnet_rad(const plant::State<Real>& s) {
   return plant::sector_in_turn(s.sector) * base::sector_rad + static_cast<double>(s.x) - magnet_behind_rad;

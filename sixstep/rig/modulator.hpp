@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts a controller's answer to the board's command and selects its modulator: a driven pair with one duty, or
-// three legs. A three-leg modulator shares only the timer with six-step; a firmware that sets the gates itself does
-// not use it either.
+// Converts a controller's answer to the board's command and selects the modulator of that command: a driven
+// pair with one duty, or three legs. The three-leg modulator shares only the timer with six-step. A firmware
+// that sets the gates itself uses neither modulator nor timer.
 #pragma once
 #include "sixstep/rig/bases.hpp"
 #include "sixstep/rig/gate_modulator.hpp"

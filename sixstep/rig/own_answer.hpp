@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts the answer of a user's controller to a command for the timer, or finds why no timer can execute it.
+// Converts the answer of a user's controller to a command for the timer, or finds the reason why the timer
+// cannot execute it.
 #pragma once
 #include <cstdint>
 
@@ -18,17 +19,17 @@ enum class OwnWrong : std::uint8_t {
   choice,   ///< an invalid chopping, switch or state
 };
 
-/// The first invalid field of an answer, and the call that answered it.
+/// The first invalid field of an answer, and the call that returned that answer.
 struct OwnFinding {
   OwnWrong what = OwnWrong::none;
-  const char* field = "";  ///< "duty", "leg[1].state"
+  const char* field = "";  ///< name of the field, such as "duty" or "leg[1].state"
   double value = 0.0;
   std::int64_t steps = 0;       ///< calls of step() so far
   bool in_hall = false;         ///< answered by hall(), not by step()
-  const char* controller = "";  ///< its file; valid as long as the firmware
+  const char* controller = "";  ///< file of the controller; valid as long as the firmware exists
 };
 
-// The C interface has the same names in the same order.
+// The constants of the C interface have the same values as the C++ enumerators.
 static_assert(SIXSTEP_LEG_C == static_cast<int>(control::Leg::c) &&
               SIXSTEP_SOFT == static_cast<int>(control::Chopping::soft) &&
               SIXSTEP_HARD == static_cast<int>(control::Chopping::hard) &&
@@ -76,7 +77,7 @@ constexpr OwnFinding wrong_in(const sixstep_answer& a) {
   return {};
 }
 
-/// Command of a valid answer.
+/// Command for the timer from an answer that wrong_in() has found valid.
 template <class Command>
 constexpr Command command_of(const sixstep_answer& a) {
   if constexpr (requires(Command command) { command.pair; }) {

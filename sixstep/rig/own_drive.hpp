@@ -5,8 +5,8 @@
 //   OwnDrive   ideal values, or those of [sensors],    captured, its hall   ends the run    lost sensor, invalid
 //              and the magnet's direction                                                   answer
 //
-// Its answer is a pair or three legs, according to its Command. An answer that no timer can execute is not passed on:
-// the run ends there, and the diagnosis has the reason.
+// Its answer is a pair or three legs, according to its Command. An answer that the timer cannot execute ends
+// the run, and the diagnosis has the reason.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -24,16 +24,16 @@
 namespace sixstep::rig {
 
 /// A user's controller and the bytes that its `design` function wrote. `is` is null if the scenario has no
-/// user's controller.
+/// controller of the user.
 struct OwnConfig {
   const sixstep_controller* is = nullptr;
   std::vector<std::uint64_t> config;
   control::Mode mode = control::Mode::off;
-  std::string file;  ///< for messages
+  std::string file;  ///< file of the controller, for messages
   bool operator==(const OwnConfig&) const = default;
 };
 
-/// Memory of `bytes` bytes, all zero, aligned as by operator new.
+/// Memory of at least `bytes` bytes, all zero, with the alignment of operator new.
 inline std::vector<std::uint64_t> zero_bytes(std::size_t bytes) {
   return std::vector<std::uint64_t>(bytes / 8 + 1);
 }
@@ -90,11 +90,11 @@ class OwnDrive {
   }
   void request_run(bool) {}
   void request_clear() {}
-  /// The controller's state is kept.
+  /// Replaces the configuration and keeps the controller's state.
   void retune(const Tuning<Config>& tuning) { config_ = tuning.config; }
 
   control::Mode mode() const { return config_.mode; }
-  /// True if the last answer's pair is that of a negative torque.
+  /// True if the pair in the last answer drives a negative torque.
   bool reversed() const { return reversed_; }
   bool open_loop() const { return false; }
   bool follows_setpoint_at_once() const { return false; }
@@ -115,13 +115,15 @@ class OwnDrive {
   }
 
  private:
-  /// A separate function because GCC 12 stops with an internal error where a member is set to Command{}.
+  /// This is a separate function because GCC 12 stops with an internal error where a member is assigned
+  /// Command{}.
   static Command given_up() {
     Command command{};
     command.fault = true;
     return command;
   }
-  /// Decoded direction; with Hall codes alone the middle of the sector; without sensors the true direction.
+  /// Direction of the magnet: decoded from a sensor's angle; with Hall codes alone the middle of the sector;
+  /// without sensors the true direction.
   template <class Real>
   control::Direction<double> magnet_direction(const plant::State<Real>& s, std::uint8_t hall) {
     if (sensors_.tells_angle())
@@ -154,7 +156,7 @@ class OwnDrive {
   Sensors<double> sensors_;
   bool ideal_, by_hall_;
   bool reversed_ = false;
-  std::uint8_t sector_ = 0;  ///< sector of the last possible code
+  std::uint8_t sector_ = 0;  ///< sector of the last valid Hall code
   sixstep_answer answer_{};
   Command command_{};
   control::Telemetry<double> telemetry_{};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Access to parts of a chip that only some firmwares have; null for the others.
+// Access to parts of a chip that only some firmwares have. The functions return null for a firmware without
+// the part.
 #pragma once
 #include <type_traits>
 
@@ -8,7 +9,7 @@
 
 namespace sixstep::rig {
 
-/// Ports of an encoder or a resolver.
+/// Ports of an encoder or a resolver, or null.
 template <class Firmware>
 auto shaft_ports_of([[maybe_unused]] Firmware& firmware)
     -> std::conditional_t<std::is_const_v<Firmware>, const ShaftPorts*, ShaftPorts*> {
@@ -20,7 +21,7 @@ auto shaft_ports_of([[maybe_unused]] Firmware& firmware)
     return nullptr;
 }
 
-/// Inputs of converters and timers.
+/// Inputs of converters and timers, or null.
 template <class Firmware>
 Registers* registers_of([[maybe_unused]] Firmware& firmware) {
   if constexpr (requires { *firmware.registers(); })

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Hall probes between rotor and wires (model.md 10): the present code of their lines. On the general kernel they
-// can have mounting errors, 60 degrees spacing, delays and glitches. On the lean kernel they follow the rotor's
-// sectors exactly, at no cost.
+// The Hall probes between rotor and wires (model.md 10): they give the present code of the lines. On the
+// general kernel they can have mounting errors, 60 degrees spacing, delays and glitches. On the lean kernel
+// they follow the rotor's sectors exactly, at no cost.
 #pragma once
 #include <array>
 #include <optional>
@@ -21,17 +21,17 @@ namespace sixstep::rig {
 struct ProbeGiven {
   plant::HallPlacement placement{};
   bool spaced_60 = false;
-  std::int64_t delay_ticks = 0;  ///< delay of each edge, ps
+  std::int64_t delay_ticks = 0;  ///< delay from an edge's angle to the change of its line, ps
 };
 
-/// Probes whose edges are exactly those of the sectors.
+/// Probes whose edges are exactly the edges of the sectors.
 template <class Real>
 class SectorProbes {
  public:
   SectorProbes() = default;
   SectorProbes(const ProbeGiven&, const plant::State<Real>&) {}
   static constexpr bool mounted() { return false; }
-  /// H1 H2 H3 of the rotor's sector.
+  /// Code of the rotor's sector, H1 H2 H3 as bits 2, 1, 0.
   static constexpr std::uint8_t code(int sector) { return plant::hall_code(sector); }
   static constexpr std::int64_t sector(std::int64_t own) { return own; }
 };
@@ -39,7 +39,8 @@ class SectorProbes {
 template <class Real>
 class MountedProbes {
  public:
-  /// The probes count as mounted() if they differ from the sectors in any way.
+  /// The probes count as mounted() if their placement or delay makes their edges differ from those of the
+  /// sectors.
   MountedProbes(const ProbeGiven& given, const plant::State<Real>& at)
       : delay_ticks_(given.delay_ticks), spaced_60_(given.spaced_60) {
     if (given.placement.as_sectors() && given.delay_ticks == 0) return;
@@ -47,7 +48,7 @@ class MountedProbes {
     shown_ = probes_->shown();
   }
 
-  /// True if the edges are separate from those of the sectors.
+  /// True if the probes' edges are not the edges of the sectors.
   bool mounted() const { return probes_.has_value(); }
   /// Code of the lines while the rotor is in `sector`, 0 to 5.
   std::uint8_t code(int sector) const {
@@ -62,7 +63,7 @@ class MountedProbes {
   void guards(const plant::Expansion<Real>& y, std::int64_t sector, Visit&& visit) const {
     if (mounted()) probes_->guards(y, sector, visit);
   }
-  /// An edge was passed; its lines change now or after its delay.
+  /// Call it when the rotor passed an edge; the line changes now, or after the delay.
   void pass(plant::ProbeEdge which, const sim::Instant& now) {
     probes_->pass(which);
     if (delay_ticks_ == 0 || count_ == late_.size()) {
@@ -71,9 +72,9 @@ class MountedProbes {
     }
     late_[(first_ + count_++) % late_.size()] = {{now.ticks + delay_ticks_, now.offset}, probes_->shown()};
   }
-  /// Instant of the next change of the lines by a delayed edge.
+  /// Instant at which the next delayed edge changes the lines.
   sim::Instant next() const { return count_ == 0 ? sim::Instant::never() : late_[first_].at; }
-  /// Shows the edge that is due; false if there was none.
+  /// Changes the lines by the edge that is due; false if none is due.
   bool show(const sim::Instant& now) {
     if (count_ == 0 || now < late_[first_].at) return false;
     shown_ = late_[first_].sector;
@@ -81,7 +82,7 @@ class MountedProbes {
     --count_;
     return true;
   }
-  /// Inverts lines, a mask of a code's bits: a glitch begins or ends.
+  /// Inverts the lines in `lines`, a mask of a code's bits: a glitch begins or ends.
   void glitch(std::uint8_t lines) { glitch_ ^= lines; }
 
  private:
@@ -91,7 +92,7 @@ class MountedProbes {
   };
 
   std::optional<plant::HallProbes<Real>> probes_;
-  std::array<Late, 64> late_{};  ///< a ring, larger than the number of edges within any delay
+  std::array<Late, 64> late_{};  ///< ring buffer; larger than the number of edges within any delay
   std::size_t first_ = 0, count_ = 0;
   std::int64_t shown_ = 0, delay_ticks_ = 0;
   bool spaced_60_ = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One compare unit of the timer: begin and end of the pulse in a PWM period (model.md 3).
+// One compare unit of the timer: begin and end of a pulse in a PWM period (model.md 3).
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -13,10 +13,10 @@ struct ModulatorConfig {
   bool centre_aligned = false;
   double dead_ticks = 0.0;
   bool dead_time_at_commutation = false;
-  double timer_ticks = 0.0;          ///< ps per count of the timer; 0: edges are not rounded
-  double minimum_pulse_ticks = 0.0;  ///< a shorter pulse or gap is left out; 0: none
+  double timer_ticks = 0.0;          ///< ps per count of the timer; 0: edges are exact
+  double minimum_pulse_ticks = 0.0;  ///< ps; a shorter pulse or gap is left out; 0: none
 
-  /// Rounded to counts of the timer.
+  /// Rounds a time, ps, to counts of the timer.
   double in_counts(double ticks) const {
     if (!(timer_ticks > 0)) return ticks;
     // mutant: ticks / timer_ticks + 0.5 => ticks / timer_ticks
@@ -29,13 +29,14 @@ struct Pulse {
   sim::Instant on_edge = sim::Instant::never(), off_edge = sim::Instant::never();
 
   const sim::Instant& next() const { return on_edge < off_edge ? on_edge : off_edge; }
-  // Set one by one: a copy of the first would wait until both its halves are in memory.
+  // The two members are set one by one: a copy of the first would stall until both its halves are in memory.
   void cancel() {
     on_edge = sim::Instant::never();
     off_edge = sim::Instant::never();
   }
-  /// Sets the pulse's state at the start of the period and its edges. |duty| = 1 has no gap, 0 no pulse. A pulse that
-  /// is too short for the gate drivers is left out; a gap that is too short is closed.
+  /// Sets the edges of a period that begins at t; returns true if the pulse is on at t. A duty of 1 has no
+  /// gap, a duty of 0 no pulse. A pulse that is too short for the gate drivers is left out, and a gap that is
+  /// too short is closed.
   bool begin(const sim::Instant& t, double duty, const ModulatorConfig& c) {
     const auto period = static_cast<double>(c.period_ticks);
     const double on_time = duty * period;

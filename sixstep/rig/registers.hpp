@@ -14,31 +14,33 @@ enum class CurrentMeasurement : std::uint8_t { ideal, phases, dc_link };
 enum class HallAngleFrom : std::uint8_t {
   sectors,        ///< sectors of 60 degrees, counted one by one
   angle,          ///< an angle extrapolated from edge to edge
-  learned_edges,  ///< the same with edge positions learned while turning
+  learned_edges,  ///< as `angle`, with edge positions that the drive learns while it turns
 };
 
 struct SensorsConfig {
   AdcPath current{};  ///< converter of each phase, or of the shunt
   AdcPath bus{};
-  double least_duty = 1.0;  ///< DC link: a sample is valid above this duty (one_shunt.hpp)
-  double fade = 1.0;        ///< factor on an unmeasured current per period, exp(-R T_s/L)
+  double least_duty = 1.0;  ///< DC link: a sample is valid only above this duty (one_shunt.hpp)
+  double fade = 1.0;        ///< factor per period on the estimate of an unmeasured current, exp(-R T_s/L)
   double capture_Hz = 1e6;  ///< clock of the timer that captures the edges
-  double timeout_s = 0.05;  ///< standstill after this time without an edge
+  double timeout_s = 0.05;  ///< s; the rotor counts as at rest after this time without an edge
   std::uint64_t seed = 0;   ///< seed of the noise
   CurrentMeasurement currents = CurrentMeasurement::ideal;
-  bool calibrated = true;  ///< offsets were measured, with their noise, before the run
+  bool calibrated = true;  ///< the offsets were measured, with noise, before the run
   bool measures_bus = false;
   bool rotor_from_hall = false;  ///< speed and position from captured edges
-  bool decodes_hall = false;     ///< decode the lines to find a broken one
+  bool decodes_hall = false;     ///< the lines are decoded, to find a broken one
   std::uint8_t commutation_samples = 0;
   std::uint8_t edges = 6;  ///< edges over which a speed is taken
   HallAngleFrom hall_angle = HallAngleFrom::sectors;
   bool commutates_by_angle = false;     ///< commutates at a sample, by the measured angle
-  std::uint8_t learned_edges = 1;       ///< edges of a speed after their positions are learned
+  std::uint8_t learned_edges = 1;       ///< edges over which a speed is taken after their positions are
+                                        ///< learned
   std::uint16_t calibration_turns = 8;  ///< electrical turns over which edges are learned
-  double hall_delay_s = 0.0;            ///< delay of the edges by the data sheet
+  double hall_delay_s = 0.0;            ///< delay of the edges according to the data sheet
   double hall_hysteresis_deg = 0.0;
-  double window_s = 0.0;      ///< one edge suffices if `edges` take longer; 0: always `edges`
+  double window_s = 0.0;      ///< s; if `edges` edges take longer, a speed is taken over one edge; 0: always
+                              ///< over `edges`
   ShaftSensorConfig shaft{};  ///< an encoder or a resolver instead of the Hall probes
   double period_s = 0.0;      ///< period of the control ticks
 
@@ -49,17 +51,17 @@ struct SensorsConfig {
   }
 };
 
-/// The window in counts of the timer, at least one; 0: no window.
+/// The window in counts of the timer: 0 if there is no window, else at least 1.
 inline std::uint32_t window_ticks(const SensorsConfig& config) {
   if (!(config.window_s > 0.0)) return 0;
   const double ticks = config.window_s * config.capture_Hz;
   return ticks < 1.0 ? 1u : ticks < 0x1p31 ? static_cast<std::uint32_t>(ticks) : 0x80000000u;
 }
 
-/// One sample instant: the plant in SI and the command in effect.
+/// The plant's values at one sample instant, in SI, and the command in effect.
 struct Sample {
   double i_A[3]{};
-  double dc_link_A = 0.0;  ///< current of the shunt: sum of the legs connected high
+  double dc_link_A = 0.0;  ///< current of the shunt: sum of the currents of the legs connected high
   double bus_V = 0.0;
   sim::Instant at{};
   std::uint64_t number = 0;
@@ -74,29 +76,29 @@ class Registers {
   explicit Registers(const SensorsConfig& config)
       : current_(config.current), bus_(config.bus), capture_(config.capture_Hz), seed_(config.seed) {}
 
-  /// Counts of inputs 0 to 2: one phase current each, or the shunt as input 0.
+  /// Counts of input 0, 1 or 2: of one phase current each, or of the shunt at input 0.
   std::uint16_t current_counts(std::size_t input, double i_A, std::uint64_t sample) const {
     return converted(current_, i_A, {seed_, stream + input, sample});
   }
   std::uint16_t bus_counts(const Sample& s) const {
     return converted(bus_, s.bus_V, {seed_, stream + bus_input, s.number});
   }
-  /// Counts of terminals 0 to 2, through divider and converter like the bus's.
+  /// Counts of terminal 0, 1 or 2, whose divider and converter equal those of the bus.
   std::uint16_t terminal_counts(std::size_t leg, double u_V, std::uint64_t sample) const {
     return converted(bus_, u_V, {seed_, stream + terminals + leg, sample});
   }
-  /// Counts of a sample before the run, with the bridge off and no current.
+  /// Counts of one sample before the run, with the bridge off and without current.
   std::uint16_t calibration_counts(std::size_t input, std::uint64_t sample) const {
     return converted(current_, 0.0, {seed_, stream + calibration + input, sample});
   }
-  /// Sets the offset from now on, in the unit of the current.
+  /// Sets the amplifiers' offset, A, from now on.
   void set_current_offset(double offset_A) { current_.offset = offset_A; }
   void set_current_gain_error(double part) { current_.gain_error = part; }
-  /// The free-running counter.
+  /// Present count of the free-running counter.
   std::uint32_t counter(const sim::Instant& t) const { return capture_.counts(t); }
 
  private:
-  // Streams of random numbers by input, apart from the streams of a series' spread.
+  // Streams of random numbers per input; they differ from the streams that a series' spread uses.
   static constexpr std::uint64_t stream = std::uint64_t{0x5e5} << 32, calibration = 8, terminals = 16;
   static constexpr std::size_t bus_input = 3;
 

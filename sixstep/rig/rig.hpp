@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The virtual board around the plant: it samples, runs the controller, modulates, and executes the scenario's
-// timeline. It is the System of sim::run; act() has the order of actions at one instant (model.md 4b). The firmware
-// of its chip is a template parameter (firmware.hpp).
+// timeline. It is the System of sim::run. act() determines the order of actions at one instant (model.md 4b).
+// The chip's firmware is a template parameter (firmware.hpp).
 #pragma once
 #include <algorithm>
 #include <array>
@@ -33,8 +33,8 @@ class Rig {
   using Wires = typename WiringFor<Plant>::type;
   using Probes = typename ProbesFor<Plant>::type;
 
-  /// `tunings`: configurations of the timeline's retune actions. `wires`: connection of motor and board at the start.
-  /// `probes`: mounting of the Hall probes. A copy of a rig is its snapshot.
+  /// `tunings`: configurations of the timeline's retune actions. `wires`: connection of motor and board at
+  /// the start. `probes`: mounting of the Hall probes. A copy of a rig is a snapshot of it.
   Rig(const Plant& plant, const Config& chip, const BoardConfig& board, Timeline timeline,
       Tunings tunings = {}, const Wires& wires = {}, const ProbeGiven& probes = {})
       : plant_(plant),
@@ -84,14 +84,15 @@ class Rig {
   }
   void apply(int id);
 
-  /// Replaces the future. The new timeline must begin with all actions done so far, and the configuration in effect
-  /// may differ only in values that have had no effect yet.
+  /// Replaces the part of the timeline that lies in the future. The new timeline must begin with all actions
+  /// done so far. `first`, the configuration in effect, may differ only in values that have had no effect
+  /// yet.
   void replace_future(Timeline timeline, const Tuning<Config>& first, Tunings tunings);
 
   const Plant& plant() const { return plant_; }
   const Modulator& modulator() const { return modulator_; }
   const Firmware& firmware() const { return firmware_; }
-  /// Motion of the sensor's shaft over the present segment, up to its part s.
+  /// Motion of the sensor's shaft over the present segment, up to its fraction s, which is the instant `to`.
   ShaftMotion<Real> shaft_motion(Real s, const sim::Instant& to) const;
   /// Requires a firmware that has converters.
   const auto& front_end() const { return front_end_; }
@@ -111,22 +112,24 @@ class Rig {
   }
   double setpoint() const { return setpoint_; }
   Fault fault() const { return fault_; }
-  /// H1 H2 H3 at the board's pins: those of the probes wired to them, except for stuck lines.
+  /// H1 H2 H3 at the board's pins as bits 2, 1, 0: the lines of the probes wired to them, except for stuck
+  /// lines.
   std::uint8_t pins() const {
     return static_cast<std::uint8_t>((wires_.at_pins(probes_.code(plant_.sector())) & ~stuck_low_) |
                                      stuck_high_);
   }
   const Wires& wires() const { return wires_; }
-  /// Gates of the board's legs: those of the phases connected to them.
+  /// Gates ordered by the board's legs: each leg has the gates of the phase that is connected to it.
   decltype(auto) leg_gates() const { return wires_.at_legs(plant_.gates()); }
-  /// Rotor's sector according to the board's pins; the true one if their code is impossible.
+  /// Rotor's sector that the code at the board's pins gives; the true sector if the code is invalid.
   int board_sector() const {
     if constexpr (std::is_same_v<Wires, StraightWiring>) return plant_.sector();
     const std::uint8_t seen = control::sector_of_hall(
         control::as_120_degrees(board_.hall_arrangement, wires_.at_pins(probes_.code(plant_.sector()))));
     return seen == control::no_sector ? plant_.sector() : seen;
   }
-  /// Sector according to the motor's probes, regardless of their wires: the motor current is defined by it.
+  /// Sector according to the motor's probes, regardless of their wires. The motor current is defined by this
+  /// sector.
   int probe_sector() const {
     if constexpr (can_be_askew) return static_cast<int>((probes_.sector(plant_.state().sector) % 6 + 6) % 6);
     return plant_.sector();
@@ -134,15 +137,16 @@ class Rig {
   std::int64_t event_count(EventKind what) const { return event_counts_[static_cast<std::size_t>(what)]; }
   /// True between a control tick and the segment that follows it.
   bool ticked() const { return ticked_; }
-  /// Instant of the chip's next tick; in open loop with a steady bridge it may be never.
+  /// Instant of the chip's next tick; never(), if the drive is in open loop and the bridge steady.
   const sim::Instant& next_tick() const { return next_tick_; }
 
  private:
-  /// Only six-step has a sign, a pair that changes at Hall edges, and comparators.
+  /// Six-step only: a command has a sign, its pair changes at Hall edges, and comparators may switch it.
   static constexpr bool six_step = std::is_same_v<Modulator, SixStepModulator>;
   using BoardAnswer = typename Modulator::Command;
   static constexpr bool can_be_askew = requires(Probes probes) { probes.next(); };
-  /// True for a chip with its own clock, which stops where the plant must evaluate it (chip_drive.hpp).
+  /// True for a chip with its own clock, which stops where the plant must advance to its time
+  /// (chip_drive.hpp).
   static constexpr bool keeps_time = requires(const Firmware& firmware) { firmware.next_stop(); };
   static constexpr bool has_front_end = requires(Firmware firmware) { firmware.registers(); };
   static constexpr bool looks_at_terminals = six_step && requires(Firmware firmware) {
@@ -162,7 +166,8 @@ class Rig {
   static constexpr int probe_ahead = plant::guard::first_free + 2, probe_behind = probe_ahead + 1,
                        crossing = probe_behind + 1;  // + leg
 
-  /// For a drive without the arrangement: codes of probes 120 degrees apart.
+  /// Pins as the chip reads them: for a drive that does not know the arrangement, codes of probes 120 degrees
+  /// apart.
   std::uint8_t read_by_chip(std::uint8_t pins, [[maybe_unused]] bool knows_arrangement) const {
     if constexpr (can_be_askew)
       if (!knows_arrangement) return control::as_120_degrees(board_.hall_arrangement, pins);
@@ -180,7 +185,7 @@ class Rig {
   std::int64_t sensor_pole_pairs() const {
     return board_.sensors.shaft.linear ? 1 : static_cast<std::int64_t>(plant_.constants().pole_pairs);
   }
-  /// Angle of the sensor's shaft at the start.
+  /// Angle of the shaft on which the sensor sits, at the start.
   plant::ShaftAngle<double> shaft_angle() const {
     if constexpr (has_load_side)
       if (board_.sensors.shaft.on_load)
@@ -191,7 +196,7 @@ class Rig {
     return {plant_.state().sector, static_cast<double>(plant_.state().x), sensor_pole_pairs()};
   }
   bool listens() const;
-  /// It is not inlined, because few boards have a part that follows the plant between two samples.
+  /// Not inlined, because few boards have a part that follows the plant between two samples.
   [[gnu::noinline]] void show_segment(Real s, const sim::Instant& to);
   void show_terminals();
   void show_signals(Real s, const sim::Instant& to);
@@ -221,7 +226,7 @@ class Rig {
     if constexpr (six_step) return watching() && compare();
     return false;
   }
-  /// It is not inlined, so that the run loop around act() keeps its registers.
+  /// Not inlined, so that the run loop around act() keeps its values in registers.
   [[gnu::noinline]] bool act_on_due();
   bool compare();
   bool do_timeline();
@@ -230,7 +235,7 @@ class Rig {
   bool do_tick();
   bool do_half_tick();
   bool do_chip();
-  /// Time in which no Hall edge is expected, s.
+  /// Time in which no Hall edge is expected, s, from now on.
   double quiet_s() const;
   void set_hall_line(double line, bool stuck_high, bool stuck_low);
   void rewire(const Action& action);
@@ -240,7 +245,7 @@ class Rig {
   void control_step(bool starts_period);
   void follow_waveform();
   void skip_idle_ticks();
-  /// Thermal steps end on control ticks.
+  /// Takes a thermal step if one ends; called at control ticks.
   void warm_up() {
     if constexpr (requires { plant_.take_thermal_step(); })
       if (plant_.warms()) plant_.take_thermal_step();
@@ -260,7 +265,7 @@ class Rig {
   void commutate();
   template <class Answer>
   void move_pair(const Answer& answer);
-  /// True for a firmware that requests a timer's interrupt between two ticks.
+  /// True for a firmware that requests an interrupt of its timer between two ticks.
   static constexpr bool has_commutation_clock = six_step && requires(const Firmware& f) {
     f.next_commutation();
   };
@@ -284,9 +289,10 @@ class Rig {
   sim::Instant due_{};  ///< the earliest of all clocks
   std::size_t next_action_ = 0;
   double setpoint_ = 0.0;
-  std::size_t waveform_ = 0;  ///< index of the action whose waveform the setpoint follows, if moving_
+  std::size_t waveform_ = 0;  ///< if moving_: index of the action whose waveform the setpoint follows
   BoardAnswer pending_ = Modulator::before_first();  ///< takes effect in the next period
-  BoardAnswer loaded_{};                             ///< sampled in the middle: the timer's next command
+  BoardAnswer loaded_{};                             ///< the timer's next command, of a board that samples in
+                                                     ///< the middle of a period
   std::array<std::int64_t, static_cast<std::size_t>(EventKind::count)> event_counts_{};
   Firmware firmware_;
   [[no_unique_address]] std::conditional_t<has_front_end, FrontEnd, NoFrontEnd> front_end_;

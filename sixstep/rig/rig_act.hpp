@@ -6,8 +6,8 @@
 
 namespace sixstep::rig {
 
-/// Executes all that is due now by the clocks alone: late Hall edge, scenario step, control tick, PWM edge,
-/// comparator, repeated until nothing is due. The gates are set at the end, so that no leg depends on the order of
+/// Executes all actions that are due now by their clocks, until none is due: late Hall edge, scenario step,
+/// control tick, PWM edge, comparator. The gates are set at the end, so that no leg depends on the order of
 /// actions at one instant.
 template <class Real, class Firmware, class Plant>
 bool Rig<Real, Firmware, Plant>::act() {
@@ -78,8 +78,8 @@ void Rig<Real, Firmware, Plant>::control_step(bool starts_period) {
     std::swap(command, pending_);
     // mutant: std::swap(reversed, pending_reversed_); => nothing
     std::swap(reversed, pending_reversed_);
-    // The pair also changes in the waiting command, as at a compare match: the next sample must find the leg for
-    // which the drive waits.
+    // The pair also changes in the command that takes effect now, as at a compare match: the next sample must
+    // find the driven pair for which the firmware waits.
     if constexpr (has_commutation_clock)
       if (firmware_.moved_on())
         command.pair = firmware_.reversed() == reversed ? answer.pair : control::swapped(answer.pair);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a chip with its own clock (chip_drive.hpp) along with the rig: when the plant reaches the chip's stop,
-// its actions are applied and it runs on. Part of rig.hpp.
+// Runs a chip with its own clock (chip_drive.hpp) along with the rig. When the plant reaches the chip's stop,
+// the rig applies the chip's actions, and the chip continues. Part of rig.hpp.
 #pragma once
 #include "sixstep/rig/rig.hpp"
 
@@ -34,9 +34,9 @@ bool Rig<Real, Firmware, Plant>::do_chip() {
   return false;
 }
 
-/// Time to half of the way to the next edge, at the present speed and twice its present acceleration. Each step
-/// halves the rest of the way, down to the shortest step. A rotor that is so slow that it may reverse can reach the
-/// edge on either side.
+/// Time, s, in which the rotor covers half of the angle to the next edge, at its present speed and twice its
+/// present acceleration. Each step halves the remaining angle, down to the shortest step. A rotor that is so
+/// slow that it may reverse can reach the edge on either side.
 template <class Real, class Firmware, class Plant>
 double Rig<Real, Firmware, Plant>::quiet_s() const {
   constexpr double longest_s = 25e-6;
@@ -48,7 +48,7 @@ double Rig<Real, Firmware, Plant>::quiet_s() const {
   const double behind = static_cast<double>(s.x), ahead = base::sector_rad - behind;
   double way = static_cast<double>(s.w) < 0 ? behind : ahead;
   if (speed <= gains * longest_s) way = std::min(behind, ahead);
-  // way/2 = speed t + gains t^2/2
+  // Solves way/2 = speed t + gains t^2/2 for t.
   return std::min(longest_s, way / (speed + std::sqrt(speed * speed + gains * way) + 1e-9));
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Updates the sensors between two samples: the shaft for its sensor's ports, circuit and currents for the analogue
-// front end, and the terminals that a firmware samples. Part of rig.hpp.
+// Updates sensors between two samples: the ports of the shaft's sensor, the analogue front end, and the
+// terminals that a firmware samples. Part of rig.hpp.
 #pragma once
 #include "sixstep/rig/rig.hpp"
 
 namespace sixstep::rig {
 
-/// Before the run the board was supplied, with the bridge off and no current.
+/// Front end at the start of a run: the board was supplied before, with the bridge off and without current.
 template <class Real, class Firmware, class Plant>
 auto Rig<Real, Firmware, Plant>::front_end_before(const FrontEndConfig& config) const
     -> std::conditional_t<has_front_end, FrontEnd, NoFrontEnd> {
@@ -30,8 +30,8 @@ bool Rig<Real, Firmware, Plant>::listens() const {
   return any;
 }
 
-/// Updates all parts that follow plant and shaft between two samples: ports of the shaft's sensor, amplifiers,
-/// dividers.
+/// Updates all parts that follow plant and shaft between two samples: ports of the shaft's sensor, amplifiers
+/// and dividers.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::show_segment(Real s, const sim::Instant& to) {
   if constexpr (requires { firmware_.follows_shaft(); })
@@ -40,7 +40,7 @@ void Rig<Real, Firmware, Plant>::show_segment(Real s, const sim::Instant& to) {
     if (front_end_.follows()) show_signals(s, to);
 }
 
-/// Motion of the sensor's shaft: the motor's, or the load's behind gear and spring.
+/// Motion of the shaft on which the sensor sits: the motor's, or the load's behind gear and spring.
 template <class Real, class Firmware, class Plant>
 ShaftMotion<Real> Rig<Real, Firmware, Plant>::shaft_motion(Real s, const sim::Instant& to) const {
   ShaftMotion<Real> motion{plant_.expansion(), plant_.state().sector, sensor_pole_pairs(), s, now_, to,
@@ -52,7 +52,7 @@ ShaftMotion<Real> Rig<Real, Firmware, Plant>::shaft_motion(Real s, const sim::In
   return motion;
 }
 
-/// Amplifiers and dividers follow over the segment.
+/// Amplifiers and dividers follow the circuit over the segment.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::show_signals(Real s, const sim::Instant& to) {
   if constexpr (has_front_end) {
@@ -64,7 +64,7 @@ void Rig<Real, Firmware, Plant>::show_signals(Real s, const sim::Instant& to) {
   }
 }
 
-/// Passes the terminals at the converters to the firmware, directly or behind their dividers' capacitors.
+/// Passes the terminal voltages to the firmware: as filtered by the dividers' capacitors, or the plant's own.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::show_terminals() {
   if constexpr (looks_at_terminals) {
@@ -95,7 +95,7 @@ void Rig<Real, Firmware, Plant>::crossing_guards(Visit&& visit) const {
                       });
 }
 
-/// The line of a comparator changes: the timer captures it like a Hall edge.
+/// A comparator's line changes; the timer captures the edge as it does a Hall edge.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::pass_crossing(int leg) {
   if constexpr (has_crossings) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rig's clocks and inputs: the scenario's timeline, skipped ticks, changes of Hall lines, wires and amplifiers,
-// and the sample in the middle of a period. Part of rig.hpp.
+// The rig's clocks and inputs: the scenario's timeline, skipped ticks, changes of Hall lines, wires and
+// amplifiers, and the sample in the middle of a period. Part of rig.hpp.
 #pragma once
 #include "sixstep/rig/rig.hpp"
 
@@ -13,7 +13,7 @@ bool Rig<Real, Firmware, Plant>::do_timeline() {
   return true;
 }
 
-/// Actions that only the general kernel's plant has.
+/// Actions that only the plant of the general kernel can execute.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::act_on_general(const Action& action) {
   if constexpr (requires { plant_.fail_switch(0, false, false); }) {
@@ -86,7 +86,7 @@ void Rig<Real, Firmware, Plant>::do_action(const Action& action) {
     if (firmware_.follows_setpoint_at_once() && !board_.delayed) control_step(false);
 }
 
-/// First tick at or after the chip's next action, a setpoint or a tuning; never if none is left.
+/// First tick at or after the next setpoint or retune action of the timeline; never() if none is left.
 template <class Real, class Firmware, class Plant>
 sim::Instant Rig<Real, Firmware, Plant>::told_next() const {
   const std::int64_t period = board_.modulator.period_ticks;
@@ -97,7 +97,8 @@ sim::Instant Rig<Real, Firmware, Plant>::told_next() const {
   return sim::Instant::never();
 }
 
-/// In open loop with a steady bridge, ticks have no effect until the chip's next action: they are not simulated.
+/// In open loop with a steady bridge, ticks have no effect until the next setpoint or retune action. Such
+/// ticks are not simulated.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::skip_idle_ticks() {
   if constexpr (requires { plant_.warms(); })
@@ -109,7 +110,8 @@ void Rig<Real, Firmware, Plant>::skip_idle_ticks() {
   if (const sim::Instant told = told_next(); told > now_) next_tick_ = told;
 }
 
-/// Ticks that were skipped because nothing was to come are due again if the new timeline has an action.
+/// Replaces the rest of the timeline. Ticks that were skipped because no action was to come are due again if
+/// the new timeline has one.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::replace_future(Timeline timeline, const Tuning<Config>& first,
                                                 Tunings tunings) {
@@ -136,15 +138,15 @@ void Rig<Real, Firmware, Plant>::follow_waveform() {
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::sector_edge() {
   count(EventKind::sector_edge);
-  if (probes_.mounted()) return;  // mounted probes have edges of their own
+  if (probes_.mounted()) return;  // mounted probes have their own edges
   const std::uint8_t stuck = stuck_high_ | stuck_low_;
-  // No edge on the pins if the one line that differs between this sector and the one before is stuck.
+  // There is no edge on the pins if the line that differs between this sector and the sector before is stuck.
   const int s = plant_.sector(), behind = (s + (plant_.state().w < Real(0) ? 1 : 5)) % 6;
   if ((wires_.at_pins(probes_.code(s)) ^ wires_.at_pins(probes_.code(behind))) & stuck) return;
   hall_edge();
 }
 
-/// The next tick, or the middle of the period after it.
+/// Instant of the next sample: the next tick, or the middle of the period that begins with it.
 template <class Real, class Firmware, class Plant>
 sim::Instant Rig<Real, Firmware, Plant>::next_sample() const {
   sim::Instant sample = next_tick_;
@@ -171,7 +173,7 @@ void Rig<Real, Firmware, Plant>::pass_probe_edge(plant::ProbeEdge which) {
   }
 }
 
-/// Shows a Hall edge whose delay is over; several may be due at once.
+/// Changes the lines by each Hall edge whose delay is over; several may be due at once.
 template <class Real, class Firmware, class Plant>
 bool Rig<Real, Firmware, Plant>::show_probes() {
   if constexpr (can_be_askew) {
@@ -183,7 +185,7 @@ bool Rig<Real, Firmware, Plant>::show_probes() {
   return false;
 }
 
-/// A glitch begins or ends on the probe's own line, wherever it is wired to.
+/// A glitch begins or ends on a probe's line, regardless of the pin to which the line is wired.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::glitch(const Action& action) {
   if constexpr (can_be_askew) {
@@ -193,7 +195,7 @@ void Rig<Real, Firmware, Plant>::glitch(const Action& action) {
   }
 }
 
-/// A line breaks or is repaired: if its level changes, that is an edge on the pins.
+/// A line breaks or is repaired. If the level at its pin changes, the change is an edge.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::set_hall_line(double line, bool stuck_high, bool stuck_low) {
   const std::uint8_t before = pins(), bit = static_cast<std::uint8_t>(8 >> static_cast<int>(line));
@@ -205,8 +207,8 @@ void Rig<Real, Firmware, Plant>::set_hall_line(double line, bool stuck_high, boo
   if (pins() != before) hall_edge();
 }
 
-/// Wires are exchanged instantly: each phase keeps its current, through the leg to which it is now connected. All
-/// lines that change are one edge on the pins.
+/// Wires are exchanged at once: each phase keeps its current, which now flows through another leg. All lines
+/// that change together are one edge at the pins.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::rewire(const Action& action) {
   if constexpr (std::is_same_v<Wires, Wiring>) {
@@ -219,7 +221,8 @@ void Rig<Real, Firmware, Plant>::rewire(const Action& action) {
   }
 }
 
-/// Changes the amplifiers' errors from now on. A firmware with ideal measurements has no amplifiers.
+/// Changes the amplifiers' errors from now on. A firmware with ideal measurements has no amplifiers, and
+/// nothing changes.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::drift(const Action& action) {
   Registers* const registers = registers_of(firmware_);
@@ -228,7 +231,7 @@ void Rig<Real, Firmware, Plant>::drift(const Action& action) {
   if (action.kind == ActionKind::current_gain) registers->set_current_gain_error(action.value);
 }
 
-/// Requires a firmware with a shaft sensor.
+/// Makes a shaft sensor fail, or repairs it. Requires a firmware with a shaft sensor.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::fail_shaft_sensor(const Action& action) {
   ShaftPorts* const ports = shaft_ports_of(firmware_);
@@ -244,7 +247,7 @@ void Rig<Real, Firmware, Plant>::fail_shaft_sensor(const Action& action) {
   if (action.kind == ActionKind::excitation) ports->excite(action.value);
 }
 
-/// Requires a firmware that samples the terminals.
+/// Breaks the divider of a leg's terminal. Requires a firmware that samples the terminals.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::break_divider(std::size_t leg) {
   if constexpr (requires { firmware_.break_divider(leg); }) {
@@ -259,7 +262,8 @@ void Rig<Real, Firmware, Plant>::break_divider(std::size_t leg) {
   }
 }
 
-/// Samples in the middle of a period: the answer waits in the timer's buffer for the next period.
+/// Tick of a board that samples in the middle of a period. The answer waits in the timer's buffer until the
+/// next period.
 template <class Real, class Firmware, class Plant>
 bool Rig<Real, Firmware, Plant>::do_half_tick() {
   const std::int64_t period = board_.modulator.period_ticks, first = period / 2;
@@ -290,7 +294,7 @@ sim::Instant Rig<Real, Firmware, Plant>::next_due() const {
   return next;
 }
 
-/// Turning off is immediate: neither a delayed command nor one loaded in the timer delays it.
+/// Turns the bridge off at once: neither a delayed command nor one in the timer's buffer remains.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::let_go() {
   modulator_.turn_off(now_);

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Actions of the rig for six-step alone: the pair that changes at a Hall edge, and the comparators that switch its
+// Actions of the rig for six-step alone: the pair changes at a Hall edge, and comparators switch the pair's
 // legs. Part of rig.hpp.
 #pragma once
 #include "sixstep/rig/rig.hpp"
 
 namespace sixstep::rig {
 
-/// The Hall interrupt of six-step: the pair changes in the command in effect and in the waiting one.
+/// The Hall interrupt of six-step: the pair changes in the command in effect and in the command that waits.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::commutate() {
   move_pair(firmware_.hall_interrupt(chip_pins(), now_));
 }
 
-/// Commutation between two ticks, of a firmware with its own commutation clock.
+/// Commutates between two ticks, for a firmware with its own commutation clock; false if no commutation is
+/// due.
 template <class Real, class Firmware, class Plant>
 bool Rig<Real, Firmware, Plant>::do_commutation() {
   if constexpr (has_commutation_clock) {
@@ -48,7 +49,7 @@ void Rig<Real, Firmware, Plant>::move_pair(const Answer& answer) {
     modulator_.commutate(now_, control::swapped(answer.pair));
 }
 
-/// Switches by comparators beyond their level; true if one switched.
+/// Switches pulses whose comparator is beyond its level.
 template <class Real, class Firmware, class Plant>
 bool Rig<Real, Firmware, Plant>::compare() {
   const int switched = modulator_.compare(now_, wires_.at_legs(plant_.state().i));
@@ -57,8 +58,8 @@ bool Rig<Real, Firmware, Plant>::compare() {
   return switched > 0;
 }
 
-/// With two legs conducting, both phases carry one current and two comparators reach their levels together: rounding
-/// must not decide whether the second one switches too.
+/// A comparator reached its level. If two legs conduct, both phases carry one current, and two comparators
+/// reach their levels together: the second one must switch too, and rounding must not decide that.
 template <class Real, class Firmware, class Plant>
 void Rig<Real, Firmware, Plant>::trip(int which) {
   const ArmedComparator other = modulator_.comparator(1 - which);

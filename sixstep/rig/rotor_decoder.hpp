@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes an encoder or a resolver with the controller's own blocks (control/sensing/): speed, position, and the Hall
-// code of the measured sector. A sensor on the motor's shaft determines the commutation. With a sensor on the load's
-// side the Hall probes commutate, and speed and position are multiplied by the gear ratio to be those of the motor's
-// shaft. If `watched`, two things are checked that an intact sensor cannot show: a resolver's sum of squares out of
-// its limits, and an index at which the count is wrong by more than a sector, so that the wrong pair was driven.
+// Decodes an encoder or a resolver with the controller's own blocks (control/sensing/): speed, position, and
+// the Hall code of the measured sector. A sensor on the motor's shaft determines the commutation. With a
+// sensor on the load's side the Hall probes commutate; speed and position are multiplied by the gear ratio,
+// so that they are those of the motor's shaft.
+//
+// If `watched`, two things are checked that an intact sensor cannot show. One is a resolver's sum of squares
+// outside its limits. The other is an encoder's index at which the count is wrong by more than a sector, so
+// that the wrong pair was driven.
 #pragma once
 #include "sixstep/base/angle.hpp"
 #include "sixstep/control/commutation.hpp"
@@ -23,9 +26,9 @@ class RotorDecoder {
  public:
   RotorDecoder(const SensorsConfig& config, const Bases& bases, const plant::ShaftAngle<double>& at);
 
-  /// `now` is the capturing timer's count.
+  /// Replaces the values that the sensor measures. `now` is the count of the timer that captures edges.
   void sense(control::Measurement<Scalar>& m, const Sample& s, ShaftPorts& ports, std::uint32_t now);
-  /// Finding of the last samples about the sensor itself.
+  /// Finding of the last samples about faults of the sensor itself.
   const ShaftFinding& found() const { return found_; }
   /// Angle at the last sample; 0 before the first sample, and for a sensor on the load's shaft.
   control::BinaryAngle electrical_angle() const { return electrical_; }
@@ -35,7 +38,7 @@ class RotorDecoder {
   void of_absolute(control::Measurement<Scalar>& m, const ShaftPorts& ports);
   void of_resolver(control::Measurement<Scalar>& m, const Sample& s, ShaftPorts& ports);
   void of_converter(control::Measurement<Scalar>& m, const TrackingConverter& converter);
-  /// Sets the position from turns and the angle in the last one, in units of 2^-16 turn.
+  /// Sets the position from a number of turns and the angle within the turn, in units of 2^-16 turn.
   void place(control::Measurement<Scalar>& m, const control::UnwrappedAngle& at);
   void commutate_at(control::Measurement<Scalar>& m, control::BinaryAngle electrical) {
     if (on_load_) return;
@@ -74,7 +77,8 @@ class RotorDecoder {
 
 namespace detail {
 
-/// Number of turns and the angle within the last one, for a turn of which `times` make one turn of the shaft.
+/// Number of sensor turns and the angle within the sensor's turn; `times` sensor turns make one turn of the
+/// shaft.
 inline control::UnwrappedAngle unwrapped(const plant::ShaftAngle<double>& at, std::int64_t times) {
   const std::int64_t fine = plant::parts_of_turn(at, std::int64_t{1} << 32);
   const std::int64_t all = fine * times;
@@ -131,10 +135,11 @@ void RotorDecoder<Scalar>::set_speeds(const SensorsConfig& config, const Bases& 
       control::Gain<Scalar>(unit_rad / step_s / per_turn_ / bases.speed_rad_s / raw_unit<Scalar>());
 }
 
-/// Number of a resolver's signals at the expected amplitude.
+/// Number that the decoder gives a resolver's signal of the expected amplitude; the reserve to 1 is for
+/// larger signals.
 inline constexpr double full_signal = 0.6;
 
-/// The loop has settled to the shaft's angle before the run.
+/// Sets the decoder's loop as if it had settled to the shaft's angle before the run.
 template <class Scalar>
 void RotorDecoder<Scalar>::set_resolver(const SensorsConfig& config, const Bases&,
                                         const control::UnwrappedAngle& at) {
@@ -144,7 +149,7 @@ void RotorDecoder<Scalar>::set_resolver(const SensorsConfig& config, const Bases
       control::Gain<Scalar>(per_count / raw_unit<Scalar>());
   if (given.resolver.calibrated) {
     const plant::Resolver r = windings_of(given.resolver);
-    // At its peak of the excitation a winding that leads by d shows cos d of its amplitude.
+    // At a peak of the excitation, the signal of a winding that leads by d is cos d of its amplitude.
     const double cos_part = base::cos(r.phase_1_rad), sin_part = (1 + r.imbalance) * base::cos(r.phase_2_rad);
     const double g_c = per_count / cos_part, g_s = per_count / (sin_part * base::cos(r.quadrature_rad));
     resolver_config_.cos_per_count = control::Gain<Scalar>(g_c / raw_unit<Scalar>());
@@ -159,7 +164,7 @@ void RotorDecoder<Scalar>::set_resolver(const SensorsConfig& config, const Bases
   period_ticks_ = sim::to_instant(config.period_s).ticks;
 }
 
-/// A limit that the number format cannot hold is not checked.
+/// Sets the limits of the sum of squares. A limit that the number format cannot hold is not checked.
 template <class Scalar>
 void RotorDecoder<Scalar>::set_watch(const ShaftSensorConfig& given) {
   constexpr double unit = full_signal * full_signal;
@@ -191,7 +196,8 @@ void RotorDecoder<Scalar>::place(control::Measurement<Scalar>& m, const control:
   m.position_deg = control::AngleTraits<Scalar>::scaled(units, deg_per_unit_);
 }
 
-/// Until the index is passed, the Hall probes give the rotor's sector; each later index corrects missed counts.
+/// Until the index is passed, the Hall probes give the rotor's sector. Each later index corrects counts that
+/// the timer missed.
 template <class Scalar>
 void RotorDecoder<Scalar>::of_encoder(control::Measurement<Scalar>& m, ShaftPorts& ports, std::uint32_t now) {
   const auto moved = static_cast<std::int32_t>(ports.quarters() - counted_);
@@ -228,7 +234,7 @@ void RotorDecoder<Scalar>::of_absolute(control::Measurement<Scalar>& m, const Sh
   commutate_at(m, control::electrical_angle(reading.position.angle, pole_pairs_));
 }
 
-/// The chip's loop has followed the windings until the reading.
+/// Reads a tracking chip, whose loop has followed the windings until the reading.
 template <class Scalar>
 void RotorDecoder<Scalar>::of_converter(control::Measurement<Scalar>& m, const TrackingConverter& converter) {
   found_ = converter.found();
@@ -238,7 +244,7 @@ void RotorDecoder<Scalar>::of_converter(control::Measurement<Scalar>& m, const T
   commutate_at(m, control::electrical_angle(seen_.angle, static_cast<std::uint8_t>(pole_pairs_ / per_turn_)));
 }
 
-/// Determines the lost winding from the last peak and the one before.
+/// Finds which winding is lost, from the last peak and the one before.
 template <class Scalar>
 void RotorDecoder<Scalar>::look_at_windings(const ShaftSensorConfig& given,
                                             const control::ResolverCounts& before, bool positive_peak) {
@@ -248,8 +254,9 @@ void RotorDecoder<Scalar>::look_at_windings(const ShaftSensorConfig& given,
       given.watch.finding(static_cast<double>(x.c) / full_signal, static_cast<double>(x.s) / full_signal);
 }
 
-/// A peak gives the angle in the middle between it and the peak before; the angle now is half a step further. Between
-/// peaks the angle advances with its speed. A setpoint that is answered at once, between two samples, is not a peak.
+/// Two peaks together give the angle in the middle of the time between them; the angle at the second peak is
+/// half a step further. Between peaks the angle advances with its speed. A call between two samples, for a
+/// setpoint that acts at once, is not a peak.
 template <class Scalar>
 void RotorDecoder<Scalar>::of_resolver(control::Measurement<Scalar>& m, const Sample& s, ShaftPorts& ports) {
   if (first_ticks_ < 0) first_ticks_ = s.at.ticks;
@@ -265,7 +272,8 @@ void RotorDecoder<Scalar>::of_resolver(control::Measurement<Scalar>& m, const Sa
     per_peak_ = reading.speed;
     control::unwrap(seen_, resolver_.loop.angle);
   }
-  // loop.angle is that of the next middle, a whole step after the one just measured.
+  // loop.angle is the prediction for the middle of the next step, a whole step after the middle just
+  // measured.
   const std::int64_t since = passed / period_ticks_ % samples_per_peak_;
   const std::int32_t on = per_peak_ / static_cast<std::int32_t>(samples_per_peak_);
   control::UnwrappedAngle at = seen_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Messages between the plant and a core that runs the drive without a rotor sensor
-// (control/commissioning/pulse_start.hpp): like core_call.hpp, with additional entries for its timer and its
-// comparators.
+// (control/commissioning/pulse_start.hpp). They are as in core_call.hpp, with additional entries for the
+// drive's timer and its comparators.
 #pragma once
 #include "sixstep/control/commissioning/pulse_start.hpp"
 #include "sixstep/rig/core_call.hpp"
@@ -36,7 +36,7 @@ constexpr SensorlessCall<Scalar> call_of(const control::PulsedDriveInput<Scalar>
   }
   return call;
 }
-/// The inverse, on the core.
+/// Converts a call back to the input, on the core.
 template <class Scalar>
 constexpr control::PulsedDriveInput<Scalar> input_of(const SensorlessCall<Scalar>& call) {
   const auto counts = [](std::uint32_t n) { return static_cast<std::uint16_t>(n); };
@@ -55,7 +55,7 @@ constexpr control::PulsedDriveInput<Scalar> input_of(const SensorlessCall<Scalar
   return input;
 }
 
-/// The bridge's command, and the time of the timer's next commutation.
+/// The command for the bridge, and the time of the timer's next commutation.
 template <class Scalar>
 struct SensorlessCoreAnswer {
   std::uint32_t commutes = 0, next = 0;

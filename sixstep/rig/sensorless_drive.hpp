@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The firmware of a drive without a rotor sensor (control/sensorless/). Unlike those of firmware.hpp it samples the
-// three terminals, and requests a timer's interrupt between two ticks.
+// The firmware of a drive without a rotor sensor (control/sensorless/). Unlike the drives of firmware.hpp it
+// samples the three terminals, and requests an interrupt of its timer between two ticks.
 //
 //                     input of a tick                         a compare match         a fault
 //   SensorlessDrive   terminals and bus as counts, currents   sensorless_drive_       bridge off, new start; off after
 //                     as SensedDrive                          commutate               more than lock.retries in a row
 //
-// The same timer captures the edges of comparators at the terminals (crossing_comparators.hpp). Terminals and bus
-// have equal dividers and converters: sensors.bus. The timer runs at sensors.capture_Hz. If pulses determine the
-// rotor's angle at the start (control/commissioning/pulse_start.hpp), the drive also reads the counts of the
-// currents.
+// The same timer captures the edges of comparators at the terminals (crossing_comparators.hpp). Terminals and
+// bus have equal dividers and converters, `sensors.bus`. The timer runs at `sensors.capture_Hz`. If pulses
+// determine the rotor's angle at the start (control/commissioning/pulse_start.hpp), the drive also reads the
+// counts of the currents.
 #pragma once
 #include "sixstep/control/commissioning/pulse_start.hpp"
 #include "sixstep/rig/firmware.hpp"
@@ -25,7 +25,8 @@ class SensorlessDrive {
   using Command = control::BridgeCommand<Scalar>;
   using Config = control::PulsedDriveConfig<Scalar>;
   static constexpr bool fault_ends_run = false;
-  /// Part of the period for which the pair must be on before its terminals are compared with the command.
+  /// Fraction of the period for which the pair must be on, so that its terminals can be compared with the
+  /// command.
   static constexpr double surely_on = 0.05;
 
   SensorlessDrive(const Config& config, const BoardConfig& board, const PowerUp& power_up)
@@ -43,7 +44,8 @@ class SensorlessDrive {
   void look_at_terminals(const plant::PerLeg<Real>& u) {
     for (std::size_t k = 0; k < 3; ++k) terminal_V_[k] = gain_[k] * static_cast<double>(u[k]);
   }
-  /// The upper resistor of a leg's divider breaks: the lower one keeps the input at 0 from now on.
+  /// The upper resistor of a leg's divider breaks: the lower resistor holds the converter's input at 0 from
+  /// now on.
   void break_divider(std::size_t leg) { gain_[leg] = 0.0; }
 
   template <class Real>
@@ -78,7 +80,7 @@ class SensorlessDrive {
     find_next(instant.at);
     return command();
   }
-  /// An edge of the comparators at the terminals; lines of legs a, b, c as bits 2, 1, 0.
+  /// Captures an edge of the comparators at the terminals; `lines` are those of legs a, b, c as bits 2, 1, 0.
   void captured_crossing(std::uint8_t lines, const sim::Instant& at) {
     const std::uint32_t now = sensors_.registers().counter(at);
     control::sensorless_capture(state_.drive.sensorless, lines, now);
@@ -128,13 +130,13 @@ class SensorlessDrive {
             .north = state_.found.north_16 / 16.0,
             .certain = static_cast<double>(config_.pulses.certain)};
   }
-  /// A lost core ends the run, because nothing remains that could continue.
+  /// True if the core is lost. This ends the run, because no controller remains that could continue.
   bool core_lost() const { return core_.trouble() != CoreTrouble::none; }
   Registers& registers() { return sensors_.registers(); }
-  /// The drive's state of the rotor, and the present source of commutation.
+  /// The drive's state about the rotor, and the present source of commutation.
   const control::SensorlessState& rotor() const { return state_.drive.sensorless; }
   const control::PositionSourceState& source() const { return state_.drive.source; }
-  /// Results of the pulses, and whether they are active.
+  /// State of the pulses at the start: their results, and whether they are active.
   const control::PulsedDriveState<Scalar>& start() const { return state_; }
 
  private:
@@ -145,7 +147,7 @@ class SensorlessDrive {
     off.fault = true;
     state_.drive.drive.command = off;
   }
-  /// lock.losses counts losses in a row and restarts from 0; this counts all.
+  /// Counts all losses: lock.losses counts losses in a row and restarts from 0.
   void note_losses(const sim::Instant& now) {
     const int in_a_row = rotor().lock.losses;
     if (in_a_row > in_a_row_) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures with the controller's own blocks for the lean drive: phase currents or one shunt in the DC link, the bus,
-// speed and position by captured Hall edges, an encoder or a resolver. Every input is ideal until its part is
-// switched on.
+// Measures for the lean drive with the controller's own blocks: phase currents or one shunt in the DC link,
+// the bus, and speed and position from captured Hall edges, an encoder or a resolver. Every input is ideal
+// unless the scenario switches its sensor on.
 #pragma once
 #include "sixstep/base/angle.hpp"
 #include "sixstep/control/adc.hpp"
@@ -20,21 +20,21 @@ class Sensors {
  public:
   Sensors(const SensorsConfig& config, const Bases& bases, const PowerUp& power_up);
 
-  /// A Hall line changed.
+  /// Call it when a Hall line has changed.
   void hall_edge(std::uint8_t pins, const sim::Instant& at);
-  /// The driven pair has changed.
+  /// Call it when the driven pair has changed.
   void commutated() {
     if (config_.currents == CurrentMeasurement::dc_link)
       control::one_shunt_commutation(shunt_config_, shunt_);
   }
-  /// Replaces ideal values by measured ones.
+  /// Replaces the ideal values in `measured` by those that the board's sensors measure.
   void sense(control::Measurement<Scalar>& measured, const Sample& sample);
   Registers& registers() { return registers_; }
   ShaftPorts& shaft_ports() { return ports_; }
   const ShaftPorts& shaft_ports() const { return ports_; }
   const HallInterpolator<Scalar>& interpolator() const { return interpolator_; }
   bool follows_shaft() const { return config_.shaft.kind != ShaftSensor::none; }
-  /// True if there is an angle between two Hall edges: from a shaft sensor, or extrapolated.
+  /// True if an angle between two Hall edges is known: from a shaft sensor, or by extrapolation.
   bool tells_angle() const { return follows_shaft() || interpolates(); }
   /// Angle at the last sample.
   control::BinaryAngle electrical_angle() const {
@@ -44,9 +44,9 @@ class Sensors {
   void follow(const ShaftMotion<Real>& motion) {
     ports_.follow(motion);
   }
-  /// Finding about an encoder or a resolver.
+  /// Finding about faults of an encoder or a resolver.
   const ShaftFinding& shaft_found() const { return rotor_.found(); }
-  /// 1..3: the line that made an impossible code; 0: none, or it cannot be determined.
+  /// 1..3: the line that made an invalid code; 0: none, or it cannot be determined.
   std::uint8_t broken_line() const { return broken_line_; }
 
  private:
@@ -111,7 +111,8 @@ control::AdcConfig<Scalar> Sensors<Scalar>::decoding(const AdcPath& path, double
           .offset_tolerance = 0x7fff};
 }
 
-/// Before a run the bridge is off and no current flows. The bus needs no offset calibration.
+/// Measures the current inputs' offsets before a run, with the bridge off and without current. The bus needs
+/// no offset calibration.
 template <class Scalar>
 void Sensors<Scalar>::calibrate() {
   if (config_.currents == CurrentMeasurement::ideal) return;
@@ -136,7 +137,7 @@ void Sensors<Scalar>::hall_edge(std::uint8_t pins, const sim::Instant& at) {
 
 template <class Scalar>
 void Sensors<Scalar>::sense(control::Measurement<Scalar>& m, const Sample& s) {
-  // The rotor is first, because one shunt measures the current of the measured sector's pair.
+  // The rotor is sensed first, because one shunt measures the current of the pair of the measured sector.
   if (follows_shaft()) rotor_.sense(m, s, ports_, registers_.counter(s.at));
   if (interpolates()) interpolator_.measure(m, registers_.counter(s.at));
   if (config_.currents == CurrentMeasurement::phases) {

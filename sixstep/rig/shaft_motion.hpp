@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motion of the sensor's shaft within one segment: the rotor's, or the load's behind gear and coupling.
+// Motion of the shaft on which the sensor sits, within one segment: the rotor's shaft, or the load's behind
+// gear and coupling.
 #pragma once
 #include <cmath>
 
@@ -9,7 +10,8 @@
 
 namespace sixstep::rig {
 
-/// The load's shaft in the general kernel: theta_m/n - twist. `speed` is null if the sensor is on the rotor.
+/// The load's shaft in the general kernel: theta_load = theta_m/n - twist. `speed` is null if the sensor is
+/// on the rotor's shaft.
 template <class Real>
 struct LoadSide {
   const series::Coefficients<Real>* speed = nullptr;
@@ -17,15 +19,15 @@ struct LoadSide {
   Real inv_gear = 1;
 };
 
-/// An angle in rad, over all turns, as whole sixths of a turn and the rest. A double keeps 1e-12 rad over a thousand
-/// turns.
+/// An angle, rad, over all turns, as whole sixths of a turn and the rest. A double is exact to 1e-12 rad over
+/// a thousand turns.
 template <class Real>
 plant::ShaftAngle<Real> in_sixths(Real theta_rad) {
   const Real whole = std::floor(theta_rad / Real(base::sector_rad));
   return {static_cast<std::int64_t>(whole), theta_rad - whole * Real(base::sector_rad), 1};
 }
 
-/// The shaft over one segment, of which the part s in (0, 1] is used.
+/// The shaft over one segment, of which the fraction s in (0, 1] is used.
 template <class Real>
 struct ShaftMotion {
   const plant::Expansion<Real>& y;
@@ -46,13 +48,13 @@ struct ShaftMotion {
   Real speed(Real at) const {
     return series::evaluate(load.speed == nullptr ? y.w : *load.speed, y.degree, at);
   }
-  /// Part of the segment up to an instant within it.
+  /// Fraction of the segment at which an instant within it lies.
   Real part(const sim::Instant& at) const {
     return y.h > 0 ? static_cast<Real>(sim::seconds_between(from, at)) / y.h : Real(0);
   }
 };
 
-/// Part of the segment at which a shaft reverses, which happens at most once; 0: it does not reverse.
+/// Fraction of the segment at which the shaft reverses; 0 if it does not. It can reverse at most once.
 template <class Real>
 Real turning_part(const ShaftMotion<Real>& m) {
   const Real start = m.speed(Real(0)), end = m.speed(m.s);
@@ -65,8 +67,8 @@ Real turning_part(const ShaftMotion<Real>& m) {
   return high;
 }
 
-/// Part of the segment at which a shaft that turns one way from `low` to `high` reaches a count; `count_at` gives the
-/// count at an angle.
+/// Fraction of the segment at which the shaft reaches a count, if it turns in one direction from fraction
+/// `low` to `high`. `count_at` gives the count at an angle; `way` is the direction, 1 or -1.
 template <class Real, class CountAt>
 Real part_of_count(const ShaftMotion<Real>& m, const CountAt& count_at, Real low, Real high,
                    std::int64_t count, int way) {

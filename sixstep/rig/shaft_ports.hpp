@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Peripherals of the board for an encoder or a resolver on the shaft (model.md 10), between two samples:
+// Peripherals of the board for an encoder or a resolver on the shaft (model.md 10). They work between two
+// samples:
 //
-//   incremental   the timer counts the quarters of lines by itself, captures the time of the last one, and latches its
-//                 count where the index passes; edges that it misses are not counted. It evaluates the pins alone:
-//                 with A or B stuck, each edge of the other line reverses the step of the edge before it
-//   absolute      the code is latched some time before it is read; a track may stick
-//   resolver      both windings through converters, at the peaks of the excitation; or a chip that follows them
+//   incremental   The timer counts the quarters of lines, captures the time of the last one, and latches its
+//                 count where the index passes. Edges that it misses are not counted. It evaluates the pins alone:
+//                 with A or B stuck, each edge of the other line reverses the step of the edge before.
+//   absolute      The code is latched some time before it is read; a track may be stuck.
+//   resolver      Both windings go to converters, sampled at the peaks of the excitation, or to a tracking chip.
 #pragma once
 #include <cmath>
 
@@ -16,7 +17,7 @@
 
 namespace sixstep::rig {
 
-/// Converter of both windings: its range is a quarter larger than their amplitude.
+/// Converter of both windings. Its range is 1.25 times their amplitude.
 inline AdcPath resolver_adc(const ShaftSensorConfig& given) {
   return {.bits = 12, .range = 1.25 * given.resolver.amplitude_V, .noise = given.resolver.noise_V};
 }
@@ -38,7 +39,8 @@ class ShaftPorts {
 
   /// Quarters of lines as the timer counted them, over all turns.
   std::int64_t quarters() const { return counted_; }
-  /// The counter's reading at the last quarter counted, and its direction below.
+  /// The capturing timer's count at the last counted quarter; edge_direction() is the direction of that
+  /// quarter.
   std::uint32_t edge_time() const { return edge_time_; }
   int edge_direction() const { return edge_direction_; }
   /// True if the index was passed since the last call.
@@ -50,7 +52,7 @@ class ShaftPorts {
   /// Counts since the last index: the rotor's distance from the start of its turn.
   std::int64_t since_index() const { return counted_ - at_index_; }
   std::uint32_t code() const { return shown(code_); }
-  /// Counts of both windings at a peak, for a rotor at `at`.
+  /// Counts of both windings at a peak of the excitation, for a rotor at the angle `at`.
   control::ResolverCounts resolver_counts(const plant::ShaftAngle<double>& at, const sim::Instant& t,
                                           std::uint64_t number);
   const TrackingConverter& converter() const { return converter_; }
@@ -62,19 +64,19 @@ class ShaftPorts {
     const unsigned shown = plant::encoder_lines_in(quarter, given_.encoder.lines) & ~elsewhere;
     return static_cast<std::uint8_t>((shown | lines_high_) & ~unsigned{lines_low_});
   }
-  /// The same for the shaft at the end of the last segment.
+  /// Levels of the pins for the shaft at the end of the last segment.
   std::uint8_t pins() const { return pins_in(quarters_); }
-  /// Quarter of a line at which the encoder shows a shaft.
+  /// Quarter of a line that the encoder shows for a shaft's angle.
   template <class Real>
   std::int64_t quarter_at(const plant::ShaftAngle<Real>& at) const {
     return encoder_quarter(given_, at);
   }
-  /// The Gray code of a shaft, with stuck tracks.
+  /// Gray code of a shaft's angle, with stuck tracks.
   std::uint32_t code_at(const plant::ShaftAngle<double>& at) const {
     return shown(absolute_code(given_, at));
   }
-  /// Voltages of cosine and sine winding, without noise. A drive that samples them itself starts the excitation at
-  /// its first sample; a tracking chip has excited them since t = 0.
+  /// Voltages of cosine and sine winding, V, without noise. A drive that samples them itself starts the
+  /// excitation at its first sample; a tracking chip has excited the windings since t = 0.
   std::array<double, 2> windings_V(const plant::ShaftAngle<double>& at, const sim::Instant& t) const {
     if (!excited_ && given_.resolver.reading == ResolverReading::sampled) return {};
     return windings_.leave(plant::resolver_V(resolver_, at, t.ticks - excited_ticks_), {});
@@ -84,23 +86,23 @@ class ShaftPorts {
   void miss(std::int64_t edges) { missing_ += edges; }
   /// A track of the Gray code shows one level from now on, bit 0 the finest.
   void stick_track(int bit, bool high) { (high ? stuck_high_ : stuck_low_) |= std::uint32_t{1} << bit; }
-  /// The track works again.
+  /// A track of the Gray code works again.
   void free_track(int bit) {
     stuck_high_ &= ~(std::uint32_t{1} << bit);
     stuck_low_ &= ~(std::uint32_t{1} << bit);
   }
-  /// Line 1 to 3, A, B or Z, keeps one level from now on; if its level changes, that is an edge.
+  /// Line 1 to 3 (A, B, Z) keeps one level from now on. If its level changes thereby, that is an edge.
   void stick_line(int line, bool high, const sim::Instant& now) {
     const std::uint8_t bit = static_cast<std::uint8_t>(8 >> line);
     set_lines(static_cast<std::uint8_t>(high ? lines_high_ | bit : lines_high_ & ~bit),
               static_cast<std::uint8_t>(high ? lines_low_ & ~bit : lines_low_ | bit), now);
   }
-  /// The line works again.
+  /// A line works again.
   void free_line(int line, const sim::Instant& now) {
     const std::uint8_t rest = static_cast<std::uint8_t>(~(8 >> line));
     set_lines(lines_high_ & rest, lines_low_ & rest, now);
   }
-  /// A pulse on an intact Z, so short that only the timer detects it: if Z is low, it rises.
+  /// A pulse on an intact Z line, so short that only the timer detects it. It rises only if Z is low.
   void pulse_index() {
     if ((pins_in(quarters_) & 1) == 0 && (lines_low_ & 1) == 0) latch_index(counted_);
   }
@@ -108,7 +110,7 @@ class ShaftPorts {
   void break_winding(int which) {
     windings_.broken = static_cast<std::uint8_t>(which == 0 ? 0 : windings_.broken | which);
   }
-  /// `part`: relative to full excitation.
+  /// Sets the excitation to `part` of its full amplitude.
   void excite(double part) { windings_.excitation = part; }
 
  private:
@@ -142,7 +144,8 @@ class ShaftPorts {
   CaptureClock capture_{1e6};
   AdcPath adc_{};
   TrackingConverter converter_{};
-  plant::ShaftAngle<double> stands_{};  ///< the load's shaft at the end of the last segment
+  plant::ShaftAngle<double> stands_{};  ///< the load's shaft, if the sensor is on it, at the end of the last
+                                        ///< segment
   std::uint64_t seed_ = 0;
   std::int64_t quarters_ = 0;  ///< true count of the shaft
   std::int64_t counted_ = 0, at_index_ = 0, missing_ = 0, excited_ticks_ = 0;
@@ -164,7 +167,7 @@ inline ShaftPorts::ShaftPorts(const ShaftSensorConfig& given, double capture_Hz,
   if (given.resolver.reading == ResolverReading::tracking) converter_ = TrackingConverter(given, seed, at);
 }
 
-/// Within a segment the shaft may reverse once: then each direction is counted separately.
+/// Counts the quarters of a segment. The shaft may reverse once: then each direction is counted separately.
 template <class Real>
 void ShaftPorts::count(const ShaftMotion<Real>& m) {
   const Real turns = turning_part(m);
@@ -179,7 +182,7 @@ void ShaftPorts::count_one_way(const ShaftMotion<Real>& m, Real from, Real to) {
   if (((lines_high_ | lines_low_) & 6) != 0) return count_by_pins(m, from, to, end);
   const int direction = end > quarters_ ? 1 : -1;
   const std::int64_t passed = direction * (end - quarters_);
-  // The first of the passed edges are missed.
+  // The first edges that the shaft passes are missed.
   const std::int64_t missed = missing_ < passed ? missing_ : passed, not_missed = passed - missed;
   missing_ -= missed;
   counted_ += direction * not_missed;
@@ -187,7 +190,8 @@ void ShaftPorts::count_one_way(const ShaftMotion<Real>& m, Real from, Real to) {
   quarters_ = end;
   if (not_missed == 0) return;
   edge_direction_ = direction;
-  capture(m, from, to, end, direction);  // the last border: where the end's count begins
+  capture(m, from, to, end, direction);  // captures the last border passed, at which the present quarter
+                                         // begins
 }
 
 template <class Real>
@@ -197,7 +201,8 @@ void ShaftPorts::capture(const ShaftMotion<Real>& m, Real low, Real high, std::i
   edge_time_ = capture_.counts(m.from.plus_seconds(static_cast<double>(at * m.y.h)));
 }
 
-/// The timer's rule: direction by which line changed and the level of the other one. True if the count changed.
+/// The timer's counting rule: which line changed, and the level of the other one, give the direction. True if
+/// the count changed.
 inline bool ShaftPorts::counts_edge(std::uint8_t before, std::uint8_t after) {
   const auto quarter = [](std::uint8_t pins) {
     return static_cast<int>(control::quarter_of_line((pins & 4) != 0, (pins & 2) != 0));
@@ -210,7 +215,7 @@ inline bool ShaftPorts::counts_edge(std::uint8_t before, std::uint8_t after) {
   return true;
 }
 
-/// Edge by edge, according to the pins.
+/// Counts edge by edge from the pins' levels, for stuck lines.
 template <class Real>
 void ShaftPorts::count_by_pins(const ShaftMotion<Real>& m, Real from, Real to, std::int64_t end) {
   const int way = end > quarters_ ? 1 : -1;
@@ -227,7 +232,8 @@ void ShaftPorts::count_by_pins(const ShaftMotion<Real>& m, Real from, Real to, s
   if (last != begin) capture(m, from, to, last, way);
 }
 
-/// Changed pins are edges; if Z rises, the timer takes it as an index.
+/// Sets which lines are stuck. Pins that change thereby are edges; if Z rises, the timer takes it as an
+/// index.
 inline void ShaftPorts::set_lines(std::uint8_t high, std::uint8_t low, const sim::Instant& now) {
   const std::uint8_t before = pins_in(quarters_);
   lines_high_ = high;
@@ -237,7 +243,7 @@ inline void ShaftPorts::set_lines(std::uint8_t high, std::uint8_t low, const sim
   if ((before & 1) == 0 && (after & 1) != 0) latch_index(counted_);
 }
 
-/// Latches the count at the index, which is a border between two turns, if the shaft passed it. Counts after the
+/// Latches the count at the index, the border between two turns, if the shaft passed it. Counts after the
 /// border are subtracted, so that the latched count is that of the border's upper side.
 inline void ShaftPorts::look_for_index(std::int64_t end, std::int64_t not_missed) {
   const auto turn_of = [&](std::int64_t n) { return n >= 0 ? n / parts() : -((-n + parts() - 1) / parts()); };
@@ -257,7 +263,7 @@ void ShaftPorts::latch(const ShaftMotion<Real>& m) {
   code_ = absolute_code(given_, m.angle(m.part(at)));
 }
 
-/// The chip starts its excitation so that samples fall on peaks.
+/// Samples both windings. The chip starts its excitation so that samples lie on the excitation's peaks.
 inline control::ResolverCounts ShaftPorts::resolver_counts(const plant::ShaftAngle<double>& at,
                                                            const sim::Instant& t, std::uint64_t number) {
   if (!excited_) {

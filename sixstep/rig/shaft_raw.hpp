@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Output of an encoder or a resolver at an instant, before the board: as a probe on its wires would show it (model.md
-// 10).
+// Output of an encoder or a resolver at an instant, as a measuring probe on the sensor's wires shows it
+// (model.md 10).
 #pragma once
 #include "sixstep/rig/shaft_motion.hpp"
 #include "sixstep/rig/shaft_ports.hpp"
 
 namespace sixstep::rig {
 
-/// Members of the installed kind of sensor; the others are 0.
+/// Output of the installed kind of sensor; members of other kinds are 0.
 struct ShaftRaw {
   std::uint8_t lines = 0;  ///< A 4, B 2, Z 1 at the pins, including stuck lines
   std::uint32_t code = 0;  ///< Gray code, including stuck tracks
@@ -32,7 +32,8 @@ inline ShaftRaw shaft_raw(const ShaftPorts& ports, const plant::ShaftAngle<doubl
 
 namespace detail {
 
-/// Visits the quarters of lines passed without a reversal, each with the part of the segment at which it begins.
+/// Visits the quarters of lines that the shaft passes without a reversal. Each is visited with the fraction
+/// of the segment at which it begins.
 template <class Real, class Visit>
 void for_each_quarter_one_way(const ShaftMotion<Real>& m, const ShaftPorts& ports, Real from, Real to,
                               Visit&& visit) {
@@ -50,7 +51,7 @@ void for_each_quarter_one_way(const ShaftMotion<Real>& m, const ShaftPorts& port
 
 }  // namespace detail
 
-/// In the order of time, each as often as the shaft passes it.
+/// Visits the quarters of lines in the order of time, each as often as the shaft passes it.
 template <class Real, class Visit>
 void for_each_quarter(const ShaftMotion<Real>& m, const ShaftPorts& ports, Visit&& visit) {
   const Real turns = turning_part(m);

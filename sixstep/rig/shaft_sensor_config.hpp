@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Configuration of a sensor on the shaft, instead of Hall probes, or in addition to them on the load's side
-// (model.md 10): the engineer's description, the board's data, and the sensor's output at an angle. Drive
-// peripherals and traces use the same functions.
+// Configuration of a sensor on the shaft (model.md 10): the engineer's description, the board's data, and the
+// sensor's output at an angle. The sensor replaces the Hall probes, or is on the load's side in addition to
+// them. Drive peripherals and traces use the same functions.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -14,7 +14,7 @@ namespace sixstep::rig {
 
 enum class ShaftSensor : std::uint8_t { none, encoder, absolute, resolver };
 
-/// Source of the angle of a resolver: the drive's own converter and loop, or a separate chip.
+/// How the angle of a resolver is obtained: by the drive's own converter and loop, or by a tracking chip.
 enum class ResolverReading : std::uint8_t { sampled, tracking };
 
 struct Encoder {
@@ -27,7 +27,7 @@ struct Encoder {
 struct AbsoluteEncoder {
   int bits = 14;
   double latency_s = 0.0;  ///< time from the latching of the code to its reading
-  int speed_samples = 8;   ///< samples over which its speed is taken
+  int speed_samples = 8;   ///< samples over which the speed is taken
 };
 struct Resolver {
   int pole_pairs = 1;
@@ -37,17 +37,18 @@ struct Resolver {
   double quadrature_deg = 0.0;
   double phase_deg = 0.0;
   std::optional<double> sine_phase_deg;  ///< if different from the cosine winding's phase
-  bool calibrated = false;               ///< sampled: the decoder corrects the differences of the windings
-  double noise_V = 0.0;                  ///< noise of the windings, root mean square
+  bool calibrated = false;               ///< sampled: the decoder corrects the differences between the
+                                         ///< windings
+  double noise_V = 0.0;                  ///< rms noise of each winding
   double bandwidth_Hz = 1000.0;
   double damping = 1.0;
   int bits = 16;
   ResolverReading reading = ResolverReading::sampled;
   double converter_Hz = 500e3;  ///< tracking: clock of the chip's loop
-  double latency_s = 0.0;       ///< tracking: from the latching of the angle to its reading
+  double latency_s = 0.0;       ///< tracking: time from the latching of the angle to its reading
 };
 
-/// The windings alone, in SI.
+/// The resolver's windings, in SI units.
 inline plant::Resolver windings_of(const Resolver& r) {
   constexpr double deg = base::pi / 180;
   return {.amplitude_V = r.amplitude_V,
@@ -63,10 +64,10 @@ struct ShaftSensorConfig {
   ShaftSensor kind = ShaftSensor::none;
   bool on_load = false;  ///< behind gear and coupling; the Hall probes commutate then
   double gear = 1.0;     ///< turns of the motor per turn of the load
-  /// Linear sensor: a turn is the period of the magnets, `lines` are per period, `gear` is 1 over the periods per
-  /// metre, and the index is only at 0.
+  /// Linear sensor: a turn is one period of the magnets, and `lines` are per period. `gear` is 1 over the
+  /// periods per metre. The only index is at 0.
   bool linear = false;
-  bool watched = false;  ///< the drive stops if the sensor shows values that an intact one cannot show
+  bool watched = false;  ///< the drive stops if the sensor shows values that an intact sensor cannot show
   Encoder encoder{};
   AbsoluteEncoder absolute{};
   Resolver resolver{};
@@ -78,13 +79,13 @@ struct ShaftSensorConfig {
   std::int64_t quarters() const { return 4 * std::int64_t{encoder.lines}; }
 };
 
-/// Quarter of a line at which an encoder shows the shaft, counted over all turns.
+/// Quarter of a line that an encoder shows, counted over all turns.
 template <class Real>
 std::int64_t encoder_quarter(const ShaftSensorConfig& given, const plant::ShaftAngle<Real>& at) {
   return plant::encoder_quarter(at, given.encoder.lines);
 }
 
-/// The Gray code of an absolute encoder.
+/// Gray code of an absolute encoder.
 template <class Real>
 std::uint32_t absolute_code(const ShaftSensorConfig& given, const plant::ShaftAngle<Real>& at) {
   return plant::gray_code(at, given.absolute.bits);

@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks an encoder or a resolver for values that an intact sensor cannot show.
+// Checks whether an encoder or a resolver shows values that an intact sensor cannot show.
 #pragma once
 #include <cmath>
 #include <cstdint>
 
 namespace sixstep::rig {
 
-/// Kind of the fault, as far as the signals determine it.
+/// Kind of a sensor's fault, as far as the signals determine it.
 enum class ShaftLoss : std::uint8_t {
   none,
   excitation,  ///< no signal from either winding of a resolver
-  cosine,      ///< no signal from one winding, while the other has one
+  cosine,      ///< no signal from the cosine winding, while the sine winding has one
   sine,
-  weak,    ///< both signals are weaker than the excitation allows
-  strong,  ///< both signals are stronger than that
+  weak,    ///< both signals are weaker than the excitation's tolerance allows
+  strong,  ///< both signals are stronger than the excitation's tolerance allows
   index    ///< at an encoder's index the count is wrong by more than a sector
 };
 
 struct ShaftFinding {
   ShaftLoss loss = ShaftLoss::none;
-  double shown = 0.0;       ///< resolver: sqrt(c^2 + s^2) relative to the expected value
-  std::int32_t counts = 0;  ///< encoder: missing counts according to the index
+  double shown = 0.0;       ///< resolver: sqrt(c^2 + s^2) relative to the expected amplitude
+  std::int32_t counts = 0;  ///< encoder: counts that are missing at the index
 
   bool lost() const { return loss != ShaftLoss::none; }
 };
@@ -28,13 +28,15 @@ struct ShaftFinding {
 /// Limits of a resolver's c^2 + s^2, relative to the expected amplitude (design/loops/resolver_watch.hpp).
 struct ResolverWatch {
   double least_square = 0.0, greatest_square = 0.0;  ///< 0: not checked
-  double silent = 0.0;                               ///< a smaller signal is only noise and rounding
-  int in_a_row = 1;                                  ///< number of results outside the limits
+  double silent = 0.0;                               ///< a signal smaller than this is only noise and
+                                                     ///< rounding
+  int in_a_row = 1;                                  ///< number of consecutive results outside the limits
+                                                     ///< that make the sensor lost
 
   bool outside(double square) const {
     return square < least_square || (greatest_square > 0 && square > greatest_square);
   }
-  /// Finding for signals that were outside the limits.
+  /// Kind of the fault, for signals c and s that were outside the limits.
   ShaftFinding finding(double c, double s) const {
     const double square = c * c + s * s;
     const bool no_c = std::fabs(c) <= silent, no_s = std::fabs(s) <= silent;

@@ -16,8 +16,8 @@ unsigned index(control::Leg leg) { return static_cast<unsigned>(leg); }
 
 }  // namespace
 
-/// Returns the leg that a new pair brings in, and hands over the leaving leg's state. Returns none_late if the set of
-/// legs is the same: at a change of sign each leg keeps its state.
+/// Returns the leg that a new pair brings in, and passes the state of the leg that leaves to it. Returns
+/// none_late if the pair has the same two legs: at a change of sign each leg keeps its state.
 int SixStepModulator::hand_over(control::Pair to) {
   const auto legs_of = [](control::Pair pair) { return 1u << index(pair.source) | 1u << index(pair.sink); };
   const unsigned before = legs_of(command_.pair), after = legs_of(to);
@@ -32,8 +32,8 @@ int SixStepModulator::take(const Instant& t, const BoardCommand& command) {
   // mutant: command.enabled && !command_.enabled => command.enabled
   const bool wakes = command.enabled && !command_.enabled;
   const int entered = hand_over(command.pair);
-  // Field by field, as the source was written: a copy in wider pieces would wait until the fields are in memory. A
-  // field more or less is a compile error.
+  // The fields are copied one by one, as they were written: a copy in wider pieces would stall until the
+  // fields are in memory. An additional field does not compile here.
   const auto& [enabled, pair, duty, chopping, chopped, watch, overlap, on_below_A, off_above_A] = command;
   command_.enabled = enabled;
   command_.pair = pair;
@@ -45,10 +45,12 @@ int SixStepModulator::take(const Instant& t, const BoardCommand& command) {
   command_.on_below_A = on_below_A;
   command_.off_above_A = off_above_A;
   if (!wakes) return entered;
-  // The first command changes every leg, because the legs' previous states are unknown.
+  // The legs' previous states are unknown, so that the first command changes every leg.
   timer_.wake(t);
   timer_.preset_pulse(sink_pulse, true);
-  if (watch != Watch::none) timer_.switch_pulse(source_pulse, true);  // hysteresis starts on (model.md 4)
+  if (watch != Watch::none)
+    timer_.switch_pulse(source_pulse, true);  // hysteresis starts with the pulse on
+                                              // (model.md 4)
   return entered;
 }
 
@@ -74,8 +76,8 @@ void SixStepModulator::turn_off(const Instant& t) {
   fill_legs(t, LegTimer::none_late);
 }
 
-/// Sets six-step's three leg commands (model.md 3): the legs of the pair follow one pulse, except for the sink that
-/// hard chopping's second comparator switches.
+/// Sets the commands of three legs from the pair (model.md 3). Both legs of the pair follow one pulse; with
+/// hard chopping's second comparator the sink follows its own.
 void SixStepModulator::fill_legs(const Instant& t, int entered) {
   timer_.disconnect();
   if (command_.enabled) {

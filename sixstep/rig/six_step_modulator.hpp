@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Six-step on the board's timer (model.md 3): a pair and one duty, or armed comparators, set three legs. The legs of
-// the pair share one pulse. When the pair changes, the pulse continues in the leg that takes over the role, and the
-// leg that leaves passes its state, including a wait, to the leg that enters.
+// Six-step on the board's timer (model.md 3): a pair with one duty, or with armed comparators, sets three
+// legs. The legs of the pair share one pulse. When the pair changes, the pulse continues in the leg that
+// takes over the role of source or sink. The leg that leaves the pair passes its state, including a wait, to
+// the leg that enters.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/rig/leg_timer.hpp"
 
 namespace sixstep::rig {
 
-/// A command as the board holds it: scalars widened to double.
+/// A command as the board holds it: numbers are doubles.
 struct BoardCommand {
   bool enabled = false;
   control::Pair pair{};
@@ -20,10 +21,11 @@ struct BoardCommand {
   double on_below_A = 0.0, off_above_A = 0.0;
 };
 
-/// Level at which a comparator switches: `current` of a role against a threshold.
+/// Level for which a comparator waits; comparator_weights() gives its current.
 struct ArmedComparator {
   bool armed = false;
-  bool switches_off = false;  ///< true: waits for the current to rise above; false: to fall below
+  bool switches_off = false;  ///< true: switches off when the current rises above the level; false: switches
+                              ///< on when it falls below
   double level_A = 0.0;
 };
 
@@ -33,16 +35,17 @@ class SixStepModulator {
 
   explicit SixStepModulator(const ModulatorConfig& config) : timer_(config) {}
 
-  /// Command in period 0 of a board with a delay of one period: all gates off.
+  /// Command in period 0 of a board whose commands take effect one period later: all gates off.
   static BoardCommand before_first() { return {}; }
 
-  /// A PWM period begins at t with this command. |duty| = 1 has no off gap, 0 no on-time.
+  /// A PWM period begins at t with this command. A duty of 1 has no gap, a duty of 0 no pulse.
   void start_period(const sim::Instant& t, const BoardCommand& command);
-  /// Changes the pair at a Hall edge: PWM is not restarted, duty not resampled, no leg overlaps until the next period.
+  /// Changes the pair at a Hall edge. The PWM period continues, the duty is not sampled again, and no leg
+  /// overlaps until the next period.
   void commutate(const sim::Instant& t, control::Pair pair, control::ChoppedSwitch chopped);
-  /// The same with the chopped switch unchanged.
+  /// Changes the pair; the chopped switch stays as it is.
   void commutate(const sim::Instant& t, control::Pair pair) { commutate(t, pair, command_.chopped); }
-  /// Sets new thresholds between periods, after the setpoint of an event hysteresis jumped.
+  /// Sets new thresholds within a period, after the setpoint of an event hysteresis has jumped.
   void rearm(const sim::Instant& t, const BoardCommand& command) {
     const int entered = take(t, command);
     fill_legs(t, entered);
@@ -55,19 +58,20 @@ class SixStepModulator {
   bool act(const sim::Instant& now) { return timer_.act(now); }
   /// True if comparators are armed.
   bool watching() const { return command_.watch != control::Watch::none; }
-  /// Switches where a comparator's current is beyond its level; returns how many switched.
+  /// Switches each pulse whose comparator's current is beyond its level; returns the number of pulses
+  /// switched.
   template <class Real>
   int compare(const sim::Instant& now, const plant::PerLeg<Real>& i);
-  /// A comparator reached its level (0: motor or source leg, 1: sink leg).
+  /// Comparator `which` reached its level: 0 watches the motor current or the source leg, 1 the sink leg.
   void comparator_tripped(const sim::Instant& now, int which);
 
   /// Level for which comparator `which` now waits.
   ArmedComparator comparator(int which) const;
-  /// The comparator's current as a combination of the phase currents.
+  /// Factors of the phase currents in the current of comparator `which`.
   plant::PerLeg<double> comparator_weights(int which) const;
 
-  /// A pair of one leg commands both its switches. No leg of the timer does that, so the gates are set here, and
-  /// the plant refuses them.
+  /// Gates. If source and sink of the pair are one leg, both its switches are commanded on. No leg of the
+  /// timer can do that, so that the gates are set here, and the plant refuses the shoot-through.
   plant::Gates gates() const {
     plant::Gates gates = timer_.gates();
     if (command_.enabled && command_.pair.source == command_.pair.sink) gates.high |= gates.low;
@@ -81,7 +85,8 @@ class SixStepModulator {
   std::int64_t turn_ons_before(const sim::Instant& t) const { return timer_.turn_ons_before(t); }
 
  private:
-  /// The second pulse is for hard chopping's second comparator, the third for the third leg.
+  /// The second pulse is for hard chopping's second comparator, the third for the leg that overlaps at a
+  /// commutation.
   static constexpr unsigned source_pulse = 0, sink_pulse = 1, overlap_pulse = 2;
 
   int take(const sim::Instant& t, const BoardCommand& command);

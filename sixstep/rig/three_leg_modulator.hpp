@@ -7,12 +7,13 @@ namespace sixstep::rig {
 
 class ThreeLegModulator {
  public:
-  /// The board's form of the commands: duties widened to double.
+  /// The board's form of the three commands: duties are doubles.
   using Command = control::LegCommands<double>;
 
   explicit ThreeLegModulator(const ModulatorConfig& config) : timer_(config) {}
 
-  /// Command in period 0 of a board with a delay of one period: no voltage, from legs that switch.
+  /// Command in period 0 of a board whose commands take effect one period later: all legs switch at duty 0.5,
+  /// without voltage between them.
   static Command before_first() {
     constexpr control::LegCommand<double> half{control::LegState::pwm, control::PwmSwitches::complementary,
                                                0.5};
@@ -35,7 +36,7 @@ class ThreeLegModulator {
   const plant::Gates& gates() const { return timer_.gates(); }
   const Command& command() const { return command_; }
   bool steady() const { return timer_.steady(); }
-  /// Turn-ons of the three upper switches, by a pulse or by a whole period's command.
+  /// Turn-ons of the three upper switches, whether a pulse or a command for the whole period turns them on.
   std::int64_t turn_ons() const { return turn_ons_; }
   std::int64_t turn_ons_before(const sim::Instant& t) const {
     return timer_.began_at(t) ? before_period_ : turn_ons_;

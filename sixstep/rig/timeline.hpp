@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The timeline: all actions of a scenario on a run, as one sorted list of typed actions at known instants.
+// The timeline: all actions of a scenario on a run, in one list of typed actions sorted by time.
 #pragma once
 #include <cmath>
 #include <cstddef>
@@ -11,42 +11,43 @@
 
 namespace sixstep::rig {
 
+/// Kinds of actions; each comment gives the meaning of Action::value.
 enum class ActionKind : std::uint8_t {
-  setpoint,
-  load_torque,
-  hall_stuck,
-  run_request,
-  clear_request,
-  shaft_locked,
-  source_voltage,
-  source_sinks,
-  hall_whole,
-  retune,
-  dead_time,
-  wire_break,
-  switch_open,
-  switch_short,
-  shaft_speed,
-  wire_phases,
-  wire_probes,
-  invert_lines,
-  current_offset,
-  current_gain,
-  hall_glitch,
-  encoder_misses,
-  track_sticks,
-  track_whole,
-  winding_breaks,
-  encoder_line_sticks,
-  encoder_line_whole,
-  false_index,
-  excitation,
-  divider_breaks
+  setpoint,             ///< the new setpoint, in the mode's unit
+  load_torque,          ///< N m
+  hall_stuck,           ///< Hall line 1 to 3; negative: stuck low
+  run_request,          ///< 1: run, 0: stop
+  clear_request,        ///< not used
+  shaft_locked,         ///< 1: a clamp holds the shaft, 0: it is free
+  source_voltage,       ///< V
+  source_sinks,         ///< 1: the source takes current back, 0: it does not
+  hall_whole,           ///< Hall line 1 to 3
+  retune,               ///< index of the rig's tunings
+  dead_time,            ///< ps
+  wire_break,           ///< phase 0 to 2
+  switch_open,          ///< T1 to T6 as 1 to 6
+  switch_short,         ///< T1 to T6 as 1 to 6
+  shaft_speed,          ///< rad/s
+  wire_phases,          ///< a WireOrder
+  wire_probes,          ///< a WireOrder
+  invert_lines,         ///< mask of Hall lines, as bits of a code
+  current_offset,       ///< A
+  current_gain,         ///< relative error of the gain
+  hall_glitch,          ///< probe 1 to 3 whose line is inverted
+  encoder_misses,       ///< number of edges
+  track_sticks,         ///< 1 + the bit of a Gray code; negative: stuck low
+  track_whole,          ///< 1 + the bit of a Gray code
+  winding_breaks,       ///< a resolver's winding 1 or 2; 0: both are intact
+  encoder_line_sticks,  ///< A, B, Z as 1 to 3; negative: stuck low
+  encoder_line_whole,   ///< A, B, Z as 1 to 3
+  false_index,          ///< not used
+  excitation,           ///< amplitude relative to full excitation
+  divider_breaks        ///< leg 0 to 2
 };
 
 /// Motion of a setpoint from its action on: after t seconds its value is
 ///   value + rate t + curvature t^2/2 + amplitude sin(2 pi (frequency_Hz t + phase_turns)).
-/// A control tick evaluates it; between two ticks the chip keeps that value.
+/// A control tick evaluates the waveform; between two ticks the setpoint keeps the value of the last tick.
 struct Waveform {
   double rate = 0.0;       ///< per s
   double curvature = 0.0;  ///< per s^2
@@ -55,7 +56,8 @@ struct Waveform {
   double phase_turns = 0.0;
 
   bool moves() const { return rate != 0.0 || curvature != 0.0 || amplitude != 0.0; }
-  /// Turns are counted, so that only their fraction enters the sine.
+  /// Value after t_s seconds, in the unit of `value`. Whole turns are removed, so that only their fraction
+  /// enters the sine.
   double after(double value, double t_s) const {
     // mutant: curvature / 2 * t_s => 0.0
     const double straight = value + (rate + curvature / 2 * t_s) * t_s;
@@ -69,14 +71,7 @@ struct Waveform {
 struct Action {
   sim::Instant at;
   ActionKind kind = ActionKind::setpoint;
-  double value = 0.0;  ///< setpoint in the mode's unit; N m; Hall line 1 to 3, stuck low where negative;
-                       ///< V; a request to run, a clamp on the shaft, a sinking source: 1 or 0; which of
-                       ///< the rig's tunings; ps; the phase, 0 to 2; a WireOrder; Hall lines as bits;
-                       ///< A; a part of the current; T1 to T6 as 1 to 6; rad/s;
-                       ///< the probe 1 to 3 whose line turns over; edges of an encoder;
-                       ///< 1 + the bit of a Gray code, stuck low where negative; a resolver's winding 1 or 2,
-  ///< 0 both whole; A, B, Z as 1 to 3, stuck low where negative; a part of the excitation;
-  ///< the leg, 0 to 2, whose divider breaks
+  double value = 0.0;   ///< meaning and unit depend on `kind`
   Waveform waveform{};  ///< motion of a setpoint; for a load torque and a shaft's speed only the rate
 };
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// A resolver-to-digital converter: a chip whose type 2 loop follows the windings with its own clock, and outputs an
-// angle of a number of bits and the speed of its integrator (model.md 10).
+// A resolver-to-digital converter: a chip whose type 2 loop follows the windings with its own clock. It
+// outputs an angle of a number of bits, and the speed from its integrator (model.md 10).
 //
-//   detected   tan(phi - theta) of both demodulated windings; beyond 45 degrees 1 in the direction of the shorter way
+//   detected   tan(phi - theta) of both demodulated windings; beyond 45 degrees 1 with the sign of the shorter rotation
 //   followed   control/sensing/tracking.hpp, per clock of the chip
-//   output     the angle predicted for this clock, not for the next: no lag at constant speed,
-//              a T^2/K_i behind a constant acceleration
+//   output     the angle predicted for this clock, not for the next: no lag at constant speed;
+//              at constant acceleration a the output lags by a T^2/K_i
 //
-// The chip itself checks the sum of both squares and keeps its finding.
+// The chip itself checks the sum of both squares and keeps its first finding.
 //
-// Its demodulator is ideal: the ripple at twice the excitation, which chips filter, is not modelled, and a common
-// phase of both windings against the excitation cancels.
+// The demodulator is ideal: the ripple at twice the excitation, which chips filter, is not modelled. A phase
+// that both windings have in common against the excitation cancels.
 #pragma once
 #include "sixstep/base/random.hpp"
 #include "sixstep/control/sensing/resolver.hpp"
@@ -22,7 +22,7 @@ namespace sixstep::rig {
 class TrackingConverter {
  public:
   TrackingConverter() = default;
-  /// The loop has settled to the shaft's angle before the run.
+  /// The loop starts as if it had settled to the shaft's angle before the run.
   TrackingConverter(const ShaftSensorConfig& given, std::uint64_t seed, const plant::ShaftAngle<double>& at)
       : loop_{given.tracking},
         resolver_(windings_of(given.resolver)),
@@ -57,7 +57,7 @@ class TrackingConverter {
   /// Angle within the resolver's own turn, from the last reading.
   control::BinaryAngle angle() const { return control::quantised(read_.angle, bits_); }
   const ShaftFinding& found() const { return found_; }
-  /// Units of 2^-32 turn of the resolver per clock of the chip.
+  /// Speed in units of 2^-32 turn of the resolver per clock of the chip.
   std::int32_t speed() const { return control::tracking_speed(read_); }
 
  private:
@@ -87,7 +87,7 @@ class TrackingConverter {
 
   control::TrackingConfig loop_{};
   control::TrackingState state_{};
-  control::TrackingState shown_{};  ///< content of the chip's register since its last clock
+  control::TrackingState shown_{};  ///< content of the chip's output register since its last clock
   control::TrackingState read_{};
   plant::Resolver resolver_{};
   ResolverWatch watch_{};

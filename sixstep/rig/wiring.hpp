@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The wires between board and motor: the phase at each leg, the Hall probe at each pin (model.md 7). The board has
-// its legs a, b, c and pins H1, H2, H3, the motor its phases and probes; crossed wires do not change these names.
-// Only a rig on the general kernel can have crossed wires; on the lean kernel they are straight and cost nothing.
+// The wires between board and motor: which phase is at each leg, and which Hall probe at each pin (model.md
+// 7). The board names legs a, b, c and pins H1, H2, H3, the motor names phases and probes; crossed wires do
+// not change these names. Only a rig on the general kernel can have crossed wires. On the lean kernel the
+// wires are straight and cost nothing.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -16,10 +17,10 @@ class Plant;
 
 namespace sixstep::rig {
 
-/// Ends at the first, second and third place, for phases as for probes 1, 2, 3.
+/// Order of the motor's phases at legs a, b, c, or of probes 1, 2, 3 (as a, b, c) at pins H1, H2, H3.
 enum class WireOrder : std::uint8_t { abc, bca, cab, acb, cba, bac };
 
-/// The index of the end at each place.
+/// Index of the phase or probe at each leg or pin.
 constexpr std::array<std::uint8_t, 3> ends_of(WireOrder order) {
   constexpr std::array<std::uint8_t, 3> ends[] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1},
                                                   {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
@@ -37,7 +38,7 @@ struct Wiring {
   /// Phase of the motor at this leg.
   std::size_t phase(std::size_t leg) const { return ends_of(phases)[leg]; }
 
-  /// Quantities of the phases, ordered by legs.
+  /// Converts quantities ordered by phases to the order of legs.
   template <class T>
   std::array<T, 3> at_legs(const std::array<T, 3>& of_phases) const {
     return {of_phases[phase(0)], of_phases[phase(1)], of_phases[phase(2)]};
@@ -50,7 +51,8 @@ struct Wiring {
     }
     return legs;
   }
-  /// The motor's state with its currents ordered by the board's legs; speed, angle and bus are unchanged.
+  /// The motor's state with its currents ordered by the board's legs; speed, angle and bus are those of the
+  /// motor.
   template <class Real>
   plant::State<Real> at_legs(const plant::State<Real>& state) const {
     plant::State<Real> seen = state;
@@ -66,7 +68,7 @@ struct Wiring {
     }
     return phases_gates;
   }
-  /// H1 H2 H3 as bits 2, 1, 0, for probes and for pins.
+  /// Converts a code of the probes to the code at the pins; in both H1 H2 H3 are bits 2, 1, 0.
   std::uint8_t at_pins(std::uint8_t probe_code) const {
     unsigned pins = 0;
     for (unsigned pin = 0; pin < 3; ++pin)
@@ -75,7 +77,7 @@ struct Wiring {
   }
 };
 
-/// Each leg at its phase, each pin at its probe: nothing is converted.
+/// Wires that connect each leg to its phase and each pin to its probe, so that nothing is converted.
 struct StraightWiring {
   static constexpr std::size_t phase(std::size_t leg) { return leg; }
   template <class T>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds all sign changes and the extremes of a polynomial over [0, 1], for figures of merit. The hot loop does
-// not use it.
+// Finds all sign changes and the extremes of a polynomial over [0, 1], for figures of merit. The run loop
+// does not use these functions.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,8 @@ Real magnitude_of(const Coefficients<Real>& c, int degree) {
   return sum;
 }
 
-/// Calls visit(s) at every sign change in (0, 1), in order. `scale` is the polynomial's natural size.
+/// Calls visit(s) at every sign change in (0, 1), in ascending order. `scale` is the polynomial's natural
+/// size, from which the level of rounding follows.
 template <class Real, class Visit>
 void for_each_sign_change(const Coefficients<Real>& c, int degree, Real scale, Visit&& visit) {
   const Real noise = Real(1e-15) * scale;

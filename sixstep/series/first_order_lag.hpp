@@ -4,7 +4,7 @@
 //   x(s) - x(0) = w_0 (u_0 - x(0)) + sum_(j >= 1) w_j u_j s^j
 //   w_j = z integral_0^1 exp(-z (1 - r)) r^j dr,   z = s h/tau
 //
-// Each w_j lies in [0, 1], so that nothing cancels, whether the segment is a billionth of tau or tau a
+// Each w_j lies in [0, 1], so that nothing cancels, even if the segment is a billionth of tau or tau a
 // billionth of the segment. One set of weights serves all inputs with the same tau.
 #pragma once
 #include "sixstep/base/elementary.hpp"
@@ -14,9 +14,10 @@ namespace sixstep::series {
 
 using LagWeights = Coefficients<double>;
 
-/// Integration by parts gives the recurrence w_j = 1 - (j/z) w_(j-1). Upwards the recurrence damps its error if
-/// j <= z, downwards if j > z. Therefore the function computes upwards to z, and downwards from an order so high
-/// that the error of the first guess vanishes. z may be infinite: no lag, all weights 1.
+/// Weights w_0 to w_degree; z may be infinite: no lag, all weights 1. Integration by parts gives the
+/// recurrence w_j = 1 - (j/z) w_(j-1). Upwards the recurrence damps its error if j <= z, downwards if j > z.
+/// The function therefore computes upwards to z, and downwards from an order so high that the error of the
+/// first guess vanishes.
 inline LagWeights lag_weights(double z, int degree) {
   LagWeights w{};
   const int up = z < degree ? static_cast<int>(z) : degree;
@@ -27,8 +28,8 @@ inline LagWeights lag_weights(double z, int degree) {
     last = up;
   }
   if (last == degree) return w;
-  // The first guess has a relative error of 1e-3; the recurrence multiplies it by z^n/((d + 1)...(d + n)), to
-  // below 1e-18 for all z < d <= 16.
+  // The first guess has a relative error of 1e-3. The recurrence multiplies this error by z^n/((d + 1)...(d +
+  // n)), n steps from the guess down to the degree d, which is below 1e-18 for all z < d <= 16.
   const int from = max_degree + 10 + static_cast<int>(2.5 * z);
   double next = z / (z + from + 1);
   for (int j = from; j > last + 1; --j) {
@@ -39,7 +40,8 @@ inline LagWeights lag_weights(double z, int degree) {
   return w;
 }
 
-/// The change over [0, s] of a lag that starts at x; the weights are those of z = s h/tau.
+/// Change of a lag's output from the segment's start, where it is x, to the fraction s; the weights are those
+/// of z = s h/tau.
 template <class Real>
 inline double lag_increment(const Coefficients<Real>& u, int degree, double s, const LagWeights& w,
                             double x) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds where a guard that should stay >= 0 first goes below zero. The root is exact to rounding and none is
-// missed: first a cheap bound, then Newton if the guard is strictly monotone, else Bernstein subdivision.
+// Finds where a guard that should stay >= 0 first goes below zero. The root is exact to rounding, and none is
+// missed. A cheap bound comes first, then Newton's method if the guard is strictly monotone, else Bernstein
+// subdivision.
 #pragma once
 #include <array>
 #include <cmath>
@@ -9,13 +10,14 @@
 
 namespace sixstep::series {
 
-/// The guard holds: a value after every segment's end. It is a number, because an optional costs the run loop
-/// 2 %.
+/// Result for a guard that does not fall below zero: a value after every segment's end. It is a number
+/// because an optional costs the run loop 2 % of its time.
 template <class Real>
 inline constexpr Real no_root = 2;
 
-/// The sign with which a guard leaves its start. Coefficients within `noise` count as zero, and the first other
-/// one decides. `order` is its index (degree + 1 if all coefficients are noise: the guard stays at zero).
+/// The sign with which a guard leaves its start. Coefficients within `noise` count as zero, and the first
+/// other coefficient gives the sign. `order` is that coefficient's index (degree + 1 if all coefficients are
+/// noise: the guard stays at zero).
 struct Leading {
   int order = 0;
   int sign = 0;
@@ -39,7 +41,7 @@ struct Outline {
   Real slope_rest = 0;        ///< sum_{j >= 2} j |q_j| length^(j-1)
 };
 
-/// The same over the whole of [0, 1], without products.
+/// Outline over the whole of [0, 1]: the length is 1, so that no products are needed.
 template <class Real>
 Outline<Real> outline(const Real* q, int n) {
   Outline<Real> of;
@@ -49,7 +51,7 @@ Outline<Real> outline(const Real* q, int n) {
     of.slope_rest += of.tail;
   }
   // mutant: of.slope_rest += of.tail; => nothing
-  of.slope_rest += of.tail;  // now term j has been counted j times
+  of.slope_rest += of.tail;  // term j has now been counted j times
   of.tail += std::fabs(q[1]);
   of.at_end = q[0] + (q[1] + of.at_end);
   return of;
@@ -70,13 +72,14 @@ Outline<Real> outline(const Real* q, int n, Real length) {
   return of;
 }
 
-/// A polynomial's second-order expansion at one point.
+/// Value and the first two derivatives of a polynomial at one point.
 template <class Real>
 struct Local {
   Real value = 0, slope = 0, bend = 0;  ///< bend: half the second derivative
 };
 
-/// Evaluates even and odd powers separately, y = e(s^2) + s o(s^2): two chains in parallel, half as long.
+/// Evaluates c at s. Even and odd powers are separate, y = e(s^2) + s o(s^2): two chains in parallel, each
+/// half as long.
 template <class Real>
 inline Local<Real> local(const Real* c, int degree, Real s) {
   const Real t = s * s;
@@ -102,12 +105,12 @@ inline Local<Real> local(const Real* c, int degree, Real s) {
           e.slope + 4 * (t * e.bend) + s * (3 * o.slope + 4 * (t * o.bend))};
 }
 
-/// Finds the only root in (low, high], with c(low) > 0 >= c(high): Newton from `guess`, kept inside by
-/// bisection. The last step includes the curvature; its error is about 2 (bend/slope step)^2 of the step.
+/// Finds the only root in (low, high], where c(low) > 0 >= c(high). Newton's method starts from `guess`, and
+/// bisection keeps it inside. The last step includes the curvature; its relative error is about 2 (bend/slope
+/// step)^2.
 template <class Real>
 Real bracketed_root(const Real* c, int degree, Real low, Real high, Real guess) {
-  // After a step this small, with so small a correction by the curvature, another step would change only
-  // rounding.
+  // If a step is this small, and the curvature's correction too, another step would change only rounding.
   constexpr Real small = Real(sizeof(Real) > 8 ? 3e-7L : 4e-6L);
   const Real last_step = small * (high - low);
   Real s = guess > low && guess < high ? guess : low + (high - low) / 2;
@@ -130,8 +133,8 @@ Real bracketed_root(const Real* c, int degree, Real low, Real high, Real guess) 
   return s;
 }
 
-/// The root of a falling, nearly straight polynomial to fourth order; one Newton step then suffices. Reversion
-/// of a series: Abramowitz and Stegun 3.6.25.
+/// The root of a falling, nearly straight polynomial to fourth order, so that one Newton step then suffices.
+/// Reversion of a series: Abramowitz and Stegun 3.6.25.
 template <class Real>
 Real near_root(const Real* c, int degree) {
   const Real inverse = 1 / c[1], straight = -c[0] * inverse;
@@ -175,7 +178,8 @@ int sign_changes(const Coefficients<Real>& b, int degree) {
   return changes;
 }
 
-/// Splits in the middle by de Casteljau: `b` becomes the left half; the right half is returned.
+/// Splits the interval in the middle by de Casteljau's algorithm: `b` becomes the left half, and the right
+/// half is returned.
 template <class Real>
 Coefficients<Real> split_half(Coefficients<Real>& b, int degree) {
   Coefficients<Real> right{};
@@ -187,8 +191,9 @@ Coefficients<Real> split_half(Coefficients<Real>& b, int degree) {
   return right;
 }
 
-/// Subdivides [0, length], left part first. A piece with one sign change holds one root, a piece with none
-/// holds none (Descartes). Pieces too narrow for another split touch zero to rounding; this counts as the root.
+/// Finds the first root in [0, length] by halving, left part first. A piece with one sign change of its
+/// coefficients holds one root, a piece with none holds none (Descartes). A piece too narrow for another
+/// split touches zero within rounding; this counts as the root.
 template <class Real>
 Real subdivide(const Real* c, int degree, Real length) {
   constexpr int depth_limit = 50;
@@ -219,7 +224,8 @@ Real subdivide(const Real* c, int degree, Real length) {
 
 }  // namespace detail
 
-/// Upper bound of |y(s) - y(0)| over [0, 1]. There are two sums, because the processor computes them in parallel.
+/// Upper bound of |y(s) - y(0)| over [0, 1]. The sums of even and odd terms are separate because the
+/// processor computes them in parallel.
 template <class Real>
 inline Real tail_bound(const Coefficients<Real>& c, int degree) {
   Real even = 0, odd = 0;
@@ -229,22 +235,22 @@ inline Real tail_bound(const Coefficients<Real>& c, int degree) {
   return even + odd;
 }
 
-/// Whether a guard surely stays above zero, from its first two terms and a bound of the sum of all others:
-/// either both ends of the straight line stay away from zero, or the line leaves zero upwards so steeply that
-/// the other terms cannot turn it. False means undecided.
+/// True if a guard surely stays above zero, from its first two terms and a bound of the sum of all others.
+/// Either both ends of the straight line are far enough from zero, or the line rises from zero so steeply
+/// that the other terms cannot make it fall. False means undecided.
 template <class Real>
 inline bool stays_above(Real start, Real slope, Real rest, Real noise) {
   const Real lowest = slope < 0 ? start + slope : start, margin = rest + 2 * noise;
   return lowest > margin || (2 * start > -noise && slope > margin);
 }
 
-/// First s in [0, length], length <= 1, at which the polynomial goes below zero; 0 if it does so from the
-/// start, no_root if it never does. `noise` is the rounding level of the guard: leading coefficients within it
-/// count as zero and are divided out, so that a restart on the boundary neither repeats the event nor needs a
-/// dead time.
+/// First s in [0, length], length <= 1, at which the polynomial goes below zero. The result is 0 if the
+/// polynomial falls at the start, and no_root if it never goes below zero. `noise` is the rounding level of
+/// the guard: leading coefficients within it count as zero and are divided out. So a restart on the boundary
+/// does not repeat the event, and needs no dead time.
 template <class Real>
 Real first_root(const Coefficients<Real>& c, int degree, Real length, Real noise) {
-  // The most frequent case first: all other terms together are smaller than the value.
+  // The most frequent case comes first: all other terms together are smaller than the value at the start.
   if (c[0] > noise && c[0] > tail_bound(c, degree)) return no_root<Real>;
 
   const Leading start = leading(c, degree, noise);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Numbers at the nodes of a quadrature rule, two per instruction. A file compiled for AVX can define
-// SIXSTEP_FOUR_LANES for four per instruction at four nodes. Sums over nodes do not wait for each other. Each
-// number results from the same operations in the same order as a single one, so that the bits are those of
-// plain numbers.
+// SIXSTEP_FOUR_LANES, which gives four per instruction at four nodes. The sums of different nodes do not wait
+// for each other. Each number results from the same operations in the same order as in scalar code, so that
+// the bits are the same.
 #pragma once
 
 // Code that depends on the number of lanes has a different name in each case, so that a program can hold both.
@@ -14,8 +14,8 @@
 
 namespace sixstep::series {
 
-/// Two numbers of any scalar side by side. For double it is one register (the vector extension of GCC and
-/// clang, which splits it on processors without such registers).
+/// Two numbers of any scalar side by side. For double the pair is one register (the vector extension of GCC
+/// and clang, which splits the pair on processors without such registers).
 template <class Real>
 struct PlainPair {
   Real lane[2];
@@ -58,7 +58,7 @@ template <class Real>
 
 inline namespace SIXSTEP_LANES {
 
-/// One number per node. With an odd count the last lane is unused: no sum includes it.
+/// One number per node. With an odd number of nodes the last lane is unused, and no sum includes it.
 template <int points, class Real>
 struct Nodes {
   static constexpr int pairs = (points + 1) / 2;
@@ -89,7 +89,7 @@ struct Nodes {
     const Pair<Real> two = both(v);
     return each([&](int) { return two; });
   }
-  /// Pair k is `of(k)`.
+  /// Nodes whose pair k is `of(k)`.
   template <class Of>
   [[gnu::always_inline]] static Nodes each(Of of) {
     Nodes out;
@@ -99,7 +99,8 @@ struct Nodes {
   }
 };
 
-/// The sum over all lanes, including the unused one: first even and odd nodes separately, then their sum.
+/// The sum over all lanes, including an unused one: even and odd nodes are summed separately, then both sums
+/// are added.
 template <int points, class Real>
 [[gnu::always_inline]] inline Real total(const Nodes<points, Real>& v) {
   Pair<Real> sum = v.pair[0];
@@ -108,7 +109,7 @@ template <int points, class Real>
   return sum[0] + sum[1];
 }
 
-/// Two such sums in parallel.
+/// total() of a and of b, computed in parallel.
 template <int points, class Real>
 [[gnu::always_inline]] inline Pair<Real> totals(const Nodes<points, Real>& a, const Nodes<points, Real>& b) {
   Pair<Real> sum_a = a.pair[0], sum_b = b.pair[0];
@@ -120,7 +121,7 @@ template <int points, class Real>
   return Pair<Real>{sum_a[0], sum_b[0]} + Pair<Real>{sum_a[1], sum_b[1]};
 }
 
-/// Four such sums.
+/// Four sums, as total() computes them.
 template <class Real>
 struct Four {
   Real of[4];
@@ -134,7 +135,7 @@ template <int points, class Real>
 
 #ifdef SIXSTEP_FOUR_LANES
 
-/// The most frequent count, in one register.
+/// The most frequent number of nodes, four, in one register.
 template <>
 struct Nodes<4, double> {
   typedef double Row __attribute__((vector_size(32)));

@@ -6,14 +6,14 @@
 
 namespace sixstep::series {
 
-/// Degree 16 reaches rounding level over about half a time constant; a higher one costs time and does not
+/// Degree 16 reaches rounding level over about half a time constant. A higher degree costs time and does not
 /// lengthen segments (model.md 12).
 inline constexpr int max_degree = 16;
 
 template <class Real>
 using Coefficients = std::array<Real, max_degree + 1>;
 
-/// y(s) - y(0): the increment without the leading value, so that a compensated sum can add it.
+/// y(s) - y(0). The leading value is left out so that a compensated sum can add the increment.
 template <class Real>
 inline Real increment(const Coefficients<Real>& c, int degree, Real s) {
   Real sum = 0;
@@ -41,9 +41,9 @@ inline Real product_term(const Coefficients<Real>& a, const Coefficients<Real>& 
   }
 }
 
-/// Coefficient n >= 1 of (a - a[0]) b. It does not use the newest coefficient of b, so that a recurrence never
-/// waits for this sum. The sum begins with a product, because an addition to zero would be one more term to
-/// wait for.
+/// Coefficient n >= 1 of (a - a[0]) b. The newest coefficient of b does not enter, so that a recurrence never
+/// waits for this sum. The sum begins with a product, because an addition to zero would be one more operation
+/// to wait for.
 template <int n, class Real>
 inline Real increment_product_term(const Coefficients<Real>& a, const Coefficients<Real>& b) {
   if constexpr (n == 1) {
@@ -62,7 +62,7 @@ inline Real increment_product_term(const Coefficients<Real>& a, const Coefficien
   }
 }
 
-/// Half of coefficient n >= 2 of (a - a[0])^2; each pair of factors counts once.
+/// Half of coefficient n >= 2 of (a - a[0])^2: each pair of factors is counted once.
 template <int n, class Real>
 inline Real half_increment_square_term(const Coefficients<Real>& a) {
   Real sum = n % 2 == 0 ? a[n / 2] * a[n / 2] * Real(0.5) : a[n / 2] * a[n / 2 + 1];
@@ -72,7 +72,7 @@ inline Real half_increment_square_term(const Coefficients<Real>& a) {
   return sum;
 }
 
-/// The same if n is known only at run time.
+/// Coefficient n of the product of two series, for n that is known only at run time.
 template <class Real>
 inline Real product_term(const Coefficients<Real>& a, const Coefficients<Real>& b, int n) {
   Real sum = 0;
@@ -88,7 +88,8 @@ inline Real integral(const Coefficients<Real>& c, int degree, Real to) {
   return sum * to;
 }
 
-/// Integral of the product of two polynomials, exact to rounding: all 2 degree + 1 terms are summed.
+/// Integral of the product of two polynomials over s from 0 to `to`, in units of h. It is exact to rounding,
+/// because all 2 degree + 1 terms are summed.
 template <class Real>
 inline Real product_integral(const Coefficients<Real>& a, const Coefficients<Real>& b, int degree, Real to) {
   Real sum = 0;
@@ -103,7 +104,7 @@ inline Real product_integral(const Coefficients<Real>& a, const Coefficients<Rea
   return sum * to;
 }
 
-/// The same polynomial over [from, to], whose own s runs from 0 to 1 again (Taylor shift, then scaling).
+/// The part of a polynomial over [from, to], with its own s from 0 to 1 (Taylor shift, then scaling).
 template <class Real>
 inline Coefficients<Real> restricted(Coefficients<Real> c, int degree, Real from, Real to) {
   if (from != 0)
@@ -115,7 +116,8 @@ inline Coefficients<Real> restricted(Coefficients<Real> c, int degree, Real from
   return c;
 }
 
-/// The running sum y += dy with its rounding error in `low` (Kahan): a million segments lose nothing.
+/// Adds dy to the running sum y and keeps the rounding error in `low` (Kahan), so that a million segments
+/// lose nothing.
 template <class Real>
 inline void add_compensated(Real& y, Real& low, Real dy) {
   const Real term = dy + low;

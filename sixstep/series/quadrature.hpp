@@ -20,7 +20,7 @@
 
 namespace sixstep::series {
 
-/// 1/(n + 1), rounded once, because a division takes five times as long as a product.
+/// 1/(n + 1), rounded once. A product with it replaces a division, which takes five times as long.
 template <class Real>
 inline constexpr Coefficients<Real> reciprocals = [] {
   Coefficients<Real> out{};
@@ -36,7 +36,7 @@ inline Real whole_integral(const Coefficients<Real>& c, int degree) {
   return c[0] + sum;
 }
 
-/// Number of points for products of two series of this degree.
+/// Number of points with which products of two series of this degree are exact enough (see above).
 constexpr int points_for(int degree) { return degree < 5 ? 3 : (degree + 1) / 2; }
 
 /// Nodes and weights over [0, 1]: roots of the Legendre polynomial, with more digits than a double holds.
@@ -85,7 +85,7 @@ inline constexpr Gauss<8> gauss<8> = {
 
 inline namespace SIXSTEP_LANES {
 
-/// A rule's nodes or weights as Nodes.
+/// The nodes or weights of a rule, converted to Nodes.
 template <int points, class Real>
 [[gnu::always_inline]] inline Nodes<points, Real> as_nodes(const std::array<long double, points>& of) {
   if constexpr (requires(Nodes<points, Real> all) { all.row; })
@@ -98,13 +98,13 @@ template <int points, class Real>
     });
 }
 
-/// The nodes of [0, to].
+/// The nodes of the rule for the interval [0, to].
 template <int points, class Real>
 [[gnu::always_inline]] inline Nodes<points, Real> nodes_up_to(Real to) {
   return to * as_nodes<points, Real>(gauss<points>.node);
 }
 
-/// Values of a series at all nodes; the nodes' sums do not wait for each other.
+/// Values of a series at all nodes; the sums of different nodes do not wait for each other.
 template <int points, class Real>
 [[gnu::always_inline]] inline Nodes<points, Real> values_at(const Coefficients<Real>& c, int degree,
                                                             const Nodes<points, Real>& s) {
@@ -113,7 +113,7 @@ template <int points, class Real>
   return v;
 }
 
-/// Returns v if wanted, else zero; v may then be anything. It has no branch, because a branch would often be
+/// Returns v if `wanted`, else zero, whatever v is. There is no branch, because a branch would often be
 /// mispredicted.
 template <class Real>
 [[gnu::always_inline]] inline Real only_if(bool wanted, Real v) {
@@ -124,9 +124,9 @@ template <class Real>
 }
 
 /// Values of a series whose degree needs exactly `points` points. Even and odd powers are summed separately,
-/// which halves the waiting. The number of orders is always even: an odd degree adds a zero, because a varying
-/// number of orders would be mispredicted. Call it for one series after the other: order by order, the compiler
-/// would store and load all coefficients.
+/// which halves the waiting. The number of orders is always even: an odd degree gets one zero term more,
+/// because a varying number would be mispredicted. Call the function for one series after the other: with all
+/// series order by order, the compiler would store and load all coefficients.
 template <int points, class Real>
 [[gnu::always_inline]] inline Nodes<points, Real> values_of_fitting(const Coefficients<Real>& c, int degree,
                                                                     const Nodes<points, Real>& s) {
@@ -144,7 +144,8 @@ template <int points, class Real>
   return v;
 }
 
-/// Integral over [0, 1] from the values at the nodes; the integral over [0, to] is `to` times that.
+/// Integral over [0, 1] from the values at its nodes. The integral over [0, to] is `to` times the result for
+/// its nodes.
 template <int points, class Real>
 [[gnu::always_inline]] inline Real weighted_sum(const Nodes<points, Real>& v) {
   const auto weighted = as_nodes<points, Real>(gauss<points>.weight) * v;
@@ -158,7 +159,7 @@ template <int points, class Real>
   return weighted_sum<points>(a * b);
 }
 
-/// Values times the rule's weights, for totals(); the unused lane is zero.
+/// Values times the rule's weights, to be summed by totals(); an unused lane is zero.
 template <int points, class Real>
 [[gnu::always_inline]] inline Nodes<points, Real> weighted(const Nodes<points, Real>& v) {
   auto weight = as_nodes<points, Real>(gauss<points>.weight);
@@ -168,7 +169,7 @@ template <int points, class Real>
 
 }  // namespace SIXSTEP_LANES
 
-/// Calls visit.template operator()<points>() with the points that `degree` needs.
+/// Calls visit.template operator()<points>() with the number of points that `degree` needs.
 template <class Visit>
 [[gnu::always_inline]] inline auto with_points_for(int degree, Visit&& visit) {
   if (degree == 8 || degree == 7) return visit.template operator()<4>();  // nearly all degrees in a run

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Time is counted, not summed: an integer count of picoseconds (106 days in int64) plus an offset within the
-// picosecond. Instants from a file are whole ticks; duty edges and located events have an offset.
+// Time is counted, not summed: an integer count of picoseconds (int64 holds 106 days) plus an offset within
+// the picosecond. Instants from a file are whole ticks; PWM edges and located events have an offset.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -18,7 +18,7 @@ struct Instant {
 
   constexpr bool operator==(const Instant&) const = default;
   friend constexpr bool operator<(const Instant& a, const Instant& b) {
-    // Equal ticks are rare: a well-predicted branch avoids reading the offsets.
+    // Equal ticks are rare: the branch is predicted well and avoids reading the offsets.
     // mutant: a.offset < b.offset => a.offset <= b.offset
     return a.ticks != b.ticks ? a.ticks < b.ticks : a.offset < b.offset;
   }
@@ -26,7 +26,7 @@ struct Instant {
   friend constexpr bool operator<=(const Instant& a, const Instant& b) { return !(b < a); }
   friend constexpr bool operator>=(const Instant& a, const Instant& b) { return !(a < b); }
 
-  /// The instant later by a number of ticks, which need not be an integer.
+  /// The instant later by `count` ticks, which need not be an integer.
   Instant plus_ticks(double count) const {
     const double sum = offset + count;
     auto whole = static_cast<std::int64_t>(sum);
@@ -41,13 +41,14 @@ struct Instant {
   double seconds() const { return (static_cast<double>(ticks) + offset) / ticks_per_second; }
 };
 
-/// The tick nearest to a time in seconds, as in files.
+/// The tick nearest to a time in seconds, for times in files.
 inline Instant to_instant(double seconds) {
   // mutant: seconds * ticks_per_second + 0.5 => seconds * ticks_per_second
   return {static_cast<std::int64_t>(std::floor(seconds * ticks_per_second + 0.5)), 0.0};
 }
 
-/// Time from one instant to a later one, s; the error is the rounding of the difference, not of the times.
+/// Time from one instant to a later one, s. Its error is the rounding of the difference; large times do not
+/// increase it.
 inline double seconds_between(const Instant& from, const Instant& to) {
   // mutant: (to.offset - from.offset) => 0.0
   return (static_cast<double>(to.ticks - from.ticks) + (to.offset - from.offset)) / ticks_per_second;

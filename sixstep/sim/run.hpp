@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The run loop. Known instants are scheduled; only unknown ones are searched.
+// The run loop. Known instants are scheduled; only instants that depend on the state are searched.
 //
 //   act on all that is due -> settle and expand (Taylor) -> first root of all guards -> end there -> observe -> advance -> apply ONE event
 //
@@ -27,7 +27,7 @@ namespace sixstep::sim {
 
 enum class Stop : std::uint8_t {
   end,         ///< the end was reached
-  observer,    ///< the observer was done
+  observer,    ///< the observer's done() returned true
   fault,       ///< act() returned false
   unsettled,   ///< no consistent discrete state: an error of the model
   no_progress  ///< more than a hundred events without progress of time
@@ -43,7 +43,8 @@ struct NoObserver {
   void segment(const System&, Real) {}
 };
 
-/// Steps of zero length are allowed; more than a hundred in a row without progress of time are not (pitfall 7).
+/// Largest number of steps in a row without progress of time. Steps of zero length are allowed; more of them
+/// in a row stop the run (pitfall 7).
 inline constexpr int stalled_limit = 100;
 
 template <class System, class Observer>
@@ -60,7 +61,7 @@ Run run(System& system, Instant end, Observer& observer) {
     const Instant known = next < end ? next : end;
     const double wanted = seconds_between(now, known);
     const double length = system.expand(wanted);
-    if (!(length >= 0)) return {Stop::unsettled, result.segments};  // also if NaN
+    if (!(length >= 0)) return {Stop::unsettled, result.segments};  // true also if the length is NaN
 
     Real first = 1;
     int event = -1;

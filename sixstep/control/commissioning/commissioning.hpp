@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commissioning: the drive measures the motor that is connected to it. Steps give resistance and inductance. A
-// slow turn each way gives the table of the Hall lines, and a fast turn gives the flux linkage. The data of
-// converters and timer and the allowed current are required, but no data of the motor.
+// Commissioning: the drive measures the motor that is connected to it. Steps of the voltage give resistance
+// and inductance. A slow turn in each direction gives the table of the Hall lines, and a fast turn gives the
+// flux linkage. The data of converters and timer and the allowed current must be known, but no data of the
+// motor.
 //
-//   zeroing    measures the offsets of the three amplifiers, the bridge off
-//   rising     raises a vector until the test current flows; it and that of half the current are the two levels
-//   leaning    pulls the rotor to a quarter turn, so that no dead point is left
-//   aligning   pulls it to 0, where it rests until the end of the steps
+//   zeroing    measures the offsets of the three amplifiers, with the bridge off
+//   rising     raises a voltage vector until the test current flows; the vectors of this current and of half of it
+//              are the two levels
+//   leaning    pulls the rotor to a quarter turn, because at 0 alone it could stay at a dead point, half a turn away
+//   aligning   pulls the rotor to 0, where it rests until the end of the steps
 //   stepping   level_steps.hpp
 //   turning    hall_survey.hpp, forward and backward
-//   spinning   accelerates it until the back-EMF is half of the vector
-//   measuring  flux_turn.hpp; then spinning and measuring again at three quarters of the speed: if the two differ the
-//              rotor was lost, and is aligned and spun again, with a quarter of the acceleration
+//   spinning   accelerates the rotor until the back-EMF is half of the vector
+//   measuring  flux_turn.hpp; spinning and measuring are repeated at three quarters of the speed. If the two results
+//              differ, the rotor was lost; it is aligned and spun again with a quarter of the acceleration.
 //   done, failed
 //
-// Call commissioning_step once per control tick, and commissioning_hall in the interrupt of the Hall pins. The
-// shaft must turn freely, some turns each way. commissioning_result.hpp gives the results in SI.
+// Call commissioning_step once per control tick, and commissioning_hall in the interrupt of the Hall pins.
+// The shaft must turn freely, some turns in each direction. commissioning_result.hpp converts the results to
+// SI.
 #pragma once
 #include <cstdint>
 
@@ -23,7 +26,7 @@
 
 namespace sixstep::control {
 
-/// One control tick.
+/// One control tick; returns the commands of the legs.
 template <class Scalar>
 constexpr LegCommands<Scalar> commissioning_step(const CommissioningConfig& config, CommissioningState& state,
                                                  const CommissioningInput& input) {
@@ -34,7 +37,8 @@ constexpr LegCommands<Scalar> commissioning_step(const CommissioningConfig& conf
   return legs_of_vector<Scalar>(state.v, state.angle);
 }
 
-/// The Hall pins changed, at a reading of the timer. The field's angle is extrapolated from the last tick.
+/// The Hall pins changed to `pins` when the timer read `captured`. The field's angle at that instant is
+/// extrapolated from the last tick.
 constexpr void commissioning_hall(const CommissioningConfig& config, CommissioningState& state,
                                   std::uint8_t pins, std::uint32_t captured) {
   if (state.phase != CommissioningPhase::turning || state.way < detail::one_turn) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the control tick of each phase of commissioning.hpp, which shows their order.
+// Runs the control tick of each commissioning phase. commissioning.hpp gives the order of the phases.
 #pragma once
 #include <cstdint>
 
@@ -24,28 +24,29 @@ enum class CommissioningPhase : std::uint8_t {
 enum class CommissioningFault : std::uint8_t {
   none,
   offset,     ///< the offset of an amplifier is out of tolerance
-  current,    ///< the longest vector does not make the test current: an open wire, or too high a test current
-  winding,    ///< the two levels give no R or no time constant
-  not_turned  ///< the rotor did not follow, however slowly
+  current,    ///< the longest vector does not make the test current: a wire is open, or the test current is
+              ///< too high
+  winding,    ///< the two levels give no resistance or no time constant
+  not_turned  ///< the rotor did not follow even the slowest acceleration
 };
 
 struct CommissioningConfig {
-  AdcConfig<Q30> current{};        ///< offset at no current; the gain is not used
+  AdcConfig<Q30> current{};        ///< offset: counts without current; the gain is not used
   std::int32_t test_counts = 0;    ///< current of the higher level, counts
-  std::int32_t rise = 4;           ///< increase of the vector per tick, parts of the bus
+  std::int32_t rise = 4;           ///< increase of the vector per tick, 2^-20 of the bus
   std::uint32_t settle_ticks = 0;  ///< control ticks until the rotor rests
   LevelStepsConfig steps{};
   HallSurveyConfig hall{};
-  std::uint32_t slow_speed = 0;     ///< field's speed in the slow turn, 2^-32 electrical turns a tick
-  std::uint32_t fastest_speed = 0;  ///< largest speed of the field
-  std::uint32_t acceleration = 0;   ///< change of its speed per tick
+  std::uint32_t slow_speed = 0;     ///< speed of the field in the slow turn, 2^-32 electrical turns per tick
+  std::uint32_t fastest_speed = 0;  ///< largest speed of the field, 2^-32 electrical turns per tick
+  std::uint32_t acceleration = 0;   ///< change of the field's speed per tick
   std::uint8_t flux_turns = 16;     ///< electrical turns over which the flux linkage is averaged
   std::uint8_t tries = 4;           ///< attempts at the fast turn
-  std::uint32_t timer_ticks = 1;    ///< counts of the capture timer in a control tick
+  std::uint32_t timer_ticks = 1;    ///< counts of the capture timer in one control tick
   bool operator==(const CommissioningConfig&) const = default;
 };
 
-/// Register values at a tick.
+/// Values of the registers at a tick.
 struct CommissioningInput {
   std::uint16_t current_counts[3]{};
   std::uint16_t bus_counts = 0;
@@ -57,16 +58,16 @@ struct CommissioningState {
   CommissioningPhase phase = CommissioningPhase::zeroing;
   CommissioningFault fault = CommissioningFault::none;
   AdcState adc[3]{};
-  std::uint32_t ticks = 0;         ///< number of ticks in this phase
-  std::int32_t v = 0;              ///< the vector, parts of the bus
-  std::int32_t low = 0, high = 0;  ///< vectors of the two levels
+  std::uint32_t ticks = 0;         ///< number of ticks in the present phase
+  std::int32_t v = 0;              ///< length of the vector, 2^-20 of the bus
+  std::int32_t low = 0, high = 0;  ///< lengths of the vector at the two levels
   BinaryAngle angle = 0;           ///< angle of the vector
-  std::int32_t speed = 0;          ///< speed of the vector, 2^-32 turns a tick
-  std::uint32_t ticked_at = 0;     ///< the timer at the last tick
-  std::uint64_t way = 0;           ///< angle turned at the wanted speed, 2^-32 turns
+  std::int32_t speed = 0;          ///< speed of the vector, 2^-32 turns per tick
+  std::uint32_t ticked_at = 0;     ///< reading of the timer at the last tick
+  std::uint64_t way = 0;           ///< angle that the field has turned at the wanted speed, 2^-32 turns
   std::int8_t direction = 1;
   std::uint8_t tries = 0;
-  bool held = false;            ///< spinning: fast enough, the speed is held
+  bool held = false;            ///< in phase spinning: the rotor is fast enough, and the speed is held
   std::int32_t spin_speed = 0;  ///< the speed that is held
   LevelStepsState steps{};
   HallSurveyState hall{};
@@ -91,7 +92,7 @@ constexpr void fail(CommissioningState& state, CommissioningFault fault) {
   enter(state, CommissioningPhase::failed);
 }
 
-/// The currents in the frame of the vector that makes them, at its angle at the sample.
+/// The currents in the frame of the vector that makes them, at the vector's angle at the sample.
 constexpr FieldCurrent current_seen(const CommissioningConfig& config, const CommissioningState& state,
                                     const CommissioningInput& input) {
   std::int32_t eighths[3]{}, signs[3]{};
@@ -127,7 +128,7 @@ constexpr void rising_tick(const CommissioningConfig& config, CommissioningState
   if (state.v > longest_vector) fail(state, CommissioningFault::current);
 }
 
-/// Changes the speed towards `wanted`. The way is counted in ticks at that speed.
+/// Changes the field's speed towards `wanted`. state.way counts only ticks at that speed.
 constexpr void turn_field(CommissioningState& state, std::int32_t wanted, std::uint32_t acceleration) {
   const auto step = static_cast<std::int32_t>(acceleration);
   const std::int32_t off = wanted - state.speed;
@@ -142,7 +143,8 @@ constexpr void turn_field(CommissioningState& state, std::int32_t wanted, std::u
     state.way += static_cast<std::uint64_t>(wanted < 0 ? -static_cast<std::int64_t>(wanted) : wanted);
 }
 
-/// The rotor's swing decays during the first turn each way; the pins at its end are the first code.
+/// One tick of the slow turn. The rotor's swing decays during the first turn in each direction; the pins at
+/// the end of that turn are the first code.
 constexpr void turning_tick(const CommissioningConfig& config, CommissioningState& state, std::uint8_t pins) {
   const std::uint64_t before = state.way;
   const auto slow = static_cast<std::int32_t>(config.slow_speed);
@@ -163,7 +165,8 @@ constexpr std::uint32_t size_of(std::int32_t speed) {
   return static_cast<std::uint32_t>(speed < 0 ? -speed : speed);
 }
 
-/// The rotor was lost, or is too slow: starts again from rest, with less acceleration.
+/// Starts the fast turn again from rest, with a quarter of the acceleration, because the rotor was lost or is
+/// too slow.
 constexpr void spin_again(const CommissioningConfig& config, CommissioningState& state) {
   state.turn = FluxTurnState{};
   state.magnet = FluxTurnReading{};
@@ -181,7 +184,7 @@ constexpr void spinning_tick(const CommissioningConfig& config, CommissioningSta
   const auto fastest = static_cast<std::int32_t>(config.fastest_speed);
   const std::uint32_t gentle = config.acceleration >> (2 * state.tries);
   turn_field(state, state.held ? state.spin_speed : fastest, gentle == 0 ? 1 : gentle);
-  if (state.speed <= 0) state.turn = FluxTurnState{};     // still turning back
+  if (state.speed <= 0) state.turn = FluxTurnState{};     // the field still turns back
   if (state.speed <= 0 || state.angle >= before) return;  // a turn ends where the angle wraps
   const FluxTurnReading turn = flux_turn_reading(state.winding, state.turn, state.v, size_of(state.speed));
   state.turn = FluxTurnState{};
@@ -192,7 +195,7 @@ constexpr void spinning_tick(const CommissioningConfig& config, CommissioningSta
     state.way = 0;
     return;
   }
-  // The rotor's swing decays during as many turns as will be measured.
+  // Waits until the rotor's swing has decayed, for as many turns as are then measured.
   if (state.held && state.way >= one_turn * config.flux_turns) enter(state, CommissioningPhase::measuring);
 }
 
@@ -209,7 +212,8 @@ constexpr void measuring_tick(const CommissioningConfig& config, CommissioningSt
     state.spin_speed -= state.spin_speed / 4;
     return enter(state, CommissioningPhase::spinning);
   }
-  // A rotor that slips or swings has a back-EMF too, but it is not proportional to the field's speed.
+  // A rotor that slips or swings has a back-EMF too, but this back-EMF is not proportional to the field's
+  // speed.
   const std::int32_t off = reading.flux - state.magnet.flux;
   if ((off < 0 ? -off : off) > state.magnet.flux / 32) return spin_again(config, state);
   enter(state, CommissioningPhase::done);

@@ -1,35 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts the results of commissioning to SI, by the data of the board, and makes its configuration from the
-// same data.
+// Converts the results of commissioning to SI by the data of the board, and makes the configuration of
+// commissioning from the same data.
 //
-//   R = r u/i,   L = R tau T,   psi = f u T/(2 pi)      u V and i A per count, T the control period
+//   R = r u/i,   L = R tau T,   psi = f u T/(2 pi)      u: V per count, i: A per count, T: control period
 //
-// R is the resistance of a phase and a switch. L is measured along the magnet's axis. psi is the fundamental's:
-// the peak of a phase's back-EMF over the electrical speed, K_e/p for a sine, 1.2159 K_e/p for the trapezoid of
-// 120 degrees.
+// r, tau and f are the readings. R is the resistance of a phase and a switch. L is measured along the
+// magnet's axis. psi is that of the fundamental: the peak of a phase's back-EMF over the electrical speed. It
+// is K_e/p for a sine, and 1.2159 K_e/p for the trapezoid of 120 degrees.
 #pragma once
 #include "sixstep/control/commissioning/commissioning.hpp"
 #include "sixstep/control/units.hpp"
 
 namespace sixstep::control {
 
-/// SI units per unit of a reading; in fixed point divided by the format's base and digit.
+/// SI units per unit of a reading; in fixed point divided by the base and by the format's last digit.
 template <class Scalar>
 struct CommissioningScale {
-  Gain<Scalar> ohm{};        ///< per 2^-20 counts of the bus over a count of current
-  Gain<Scalar> henry{};      ///< per 2^-12 counts of the bus over a count of current, times ticks
-  Gain<Scalar> weber{};      ///< per 2^-4 counts of the bus times ticks in a turn
-  Gain<Scalar> half_turn{};  ///< degrees over the base of positions
+  Gain<Scalar> ohm{};        ///< per 2^-20 bus counts per current count
+  Gain<Scalar> henry{};      ///< per 2^-12 bus counts per current count, times ticks
+  Gain<Scalar> weber{};      ///< per 2^-4 bus counts, times ticks in a turn
+  Gain<Scalar> half_turn{};  ///< half a turn in degrees over the base of positions
 };
 
 template <class Scalar>
 struct Commissioned {
   Scalar R_ohm{}, L_H{}, flux_linkage_Vs{};
-  Scalar hall_offset_deg{};  ///< electrical: mean angle of the edges ahead of 60 n
-  Scalar hall_lag_deg{};     ///< mean lag of the edges in each direction, electrical
+  Scalar hall_offset_deg{};  ///< mean angle by which the edges are ahead of 60 n, electrical degrees
+  Scalar hall_lag_deg{};     ///< mean lag of the edges in each direction, electrical degrees
 };
 
-/// Data of the board.
+/// Data of the board that commissioning needs.
 struct CommissioningBoard {
   double V_per_count = 0.0, A_per_count = 0.0;
   std::uint16_t zero_counts = 2048;
@@ -38,15 +38,16 @@ struct CommissioningBoard {
   std::uint8_t late_half_ticks = 1;
 };
 
-/// Demands on the motor and the bench.
+/// Demands for the commissioning that depend on motor and bench.
 struct CommissioningWish {
-  double test_A = 0.0;             ///< current that the motor withstands for seconds
+  double test_A = 0.0;             ///< current that the motor withstands for several seconds
   double settle_s = 0.2;           ///< time until the rotor rests
-  double step_s = 0.02;            ///< duration of a level: ten electrical time constants
-  double slow_turns_s = 10.0;      ///< slow turn, electrical turns per second
+  double step_s = 0.02;            ///< duration of a level; ten electrical time constants
+  double slow_turns_s = 10.0;      ///< speed of the slow turn, electrical turns per second
   double fastest_turns_s = 500.0;  ///< largest speed, electrical turns per second
   double spin_up_s = 1.0;          ///< time to the largest speed at the first try
-  std::uint8_t tries = 4;          ///< tries, each with a quarter of the acceleration of the one before
+  std::uint8_t tries = 4;          ///< number of tries; each has a quarter of the acceleration of the try
+                                   ///< before
 };
 
 constexpr CommissioningConfig commissioning_config(const CommissioningBoard& board,
@@ -63,7 +64,8 @@ constexpr CommissioningConfig commissioning_config(const CommissioningBoard& boa
   config.steps.ticks = static_cast<std::uint16_t>(step < 8 ? 8u : step > 65532u ? 65532u : step);
   config.steps.late_half_ticks = board.late_half_ticks;
   config.slow_speed = whole(wish.slow_turns_s * turn);
-  const double fastest = wish.fastest_turns_s * turn;  // at most a sixteenth of a turn per tick
+  const double fastest = wish.fastest_turns_s * turn;  // the next line bounds it to a sixteenth of a turn per
+                                                       // tick
   config.fastest_speed = static_cast<std::uint32_t>(fastest < 268435456.0 ? fastest : 268435456.0);
   const double spin_up_ticks = wish.spin_up_s / board.period_s;
   config.acceleration =
@@ -73,8 +75,8 @@ constexpr CommissioningConfig commissioning_config(const CommissioningBoard& boa
   return config;
 }
 
-/// The bases are the values of 1.0 of a resistance, an inductance, a flux linkage and a position, 1 each in
-/// floating point.
+/// `*_base`: SI value of the controller's number 1.0 of a resistance, an inductance, a flux linkage and a
+/// position; 1 in floating point.
 template <class Scalar>
 constexpr CommissioningScale<Scalar> commissioning_scale(const CommissioningBoard& board,
                                                          double ohm_base = 1.0, double henry_base = 1.0,
@@ -88,7 +90,7 @@ constexpr CommissioningScale<Scalar> commissioning_scale(const CommissioningBoar
           Gain<Scalar>(180.0 / deg_base)};
 }
 
-/// Inductance in 2^-12 counts of the bus over a count of current, times ticks.
+/// Inductance in 2^-12 bus counts per current count, times ticks.
 constexpr std::int32_t inductance_of(const LevelStepsReading& winding) {
   return detail::held_to_32(
       detail::shifted_down(static_cast<std::int64_t>(winding.resistance) * winding.tau, 24));

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a voltage vector that rests or turns as commanded, and computes the current in the frame of that vector.
+// Makes a voltage vector that rests or turns as commanded, and computes the currents in the frame of that
+// vector.
 //
 //   v_k = v cos(angle - 120 k),   d_k = 1/2 + v_k + v_0,  v_0 = -(max v_k + min v_k)/2     (model.md 11)
-//   3 i_alpha = 2 i_a - i_b - i_c,   3 i_beta = sqrt 3 (i_b - i_c),   turned back by the angle: along, across
+//   3 i_alpha = 2 i_a - i_b - i_c,   3 i_beta = sqrt 3 (i_b - i_c);   turned back by the angle: along, across
 //
-// All numbers are whole: voltages in parts of 2^-20 of the bus; currents in 24ths of a
-// converter's count (eighths by the offset's resolution, adc.hpp; thirds of them by the formula). Only
-// commissioning_result.hpp converts them to V and A.
+// All numbers are integers. Voltages are in units of 2^-20 of the bus. Currents are in 24ths of a converter's
+// count: the offsets have eighths of a count (adc.hpp), and the formula gives thirds of these. Only
+// commissioning_result.hpp converts to V and A.
 #pragma once
 #include <cstdint>
 
@@ -17,12 +18,13 @@
 
 namespace sixstep::control {
 
-/// The whole bus, in parts.
+/// The whole bus voltage, in units of 2^-20 of the bus.
 inline constexpr std::int32_t whole_bus = std::int32_t{1} << 20;
-/// The longest vector that the three legs can make in every direction, 1/sqrt 3 of the bus, rounded down.
+/// The longest vector that the three legs can make in every direction: 1/sqrt 3 of the bus in units of 2^-20,
+/// rounded down.
 inline constexpr std::int32_t longest_vector = 605411;
 
-/// Components in parts of the bus, or in 24ths of a count.
+/// Components along the vector and across it, in units of 2^-20 of the bus or in 24ths of a count.
 struct FieldVector {
   std::int32_t along = 0, across = 0;
 };
@@ -31,14 +33,14 @@ namespace detail {
 
 inline constexpr std::int32_t root_3_30 = 1859775393;  ///< sqrt 3 2^30
 
-/// x y/2^30, to nearest.
+/// x y/2^30, rounded to nearest.
 constexpr std::int32_t scaled_30(std::int32_t x, std::int32_t y) {
   return static_cast<std::int32_t>(shifted_down(static_cast<std::int64_t>(x) * y, 30));
 }
 
 }  // namespace detail
 
-/// Commands of the three legs for the vector. v: 0..longest_vector.
+/// Commands of the three legs for the vector; its length v is in 0..longest_vector.
 template <class Scalar>
 constexpr LegCommands<Scalar> legs_of_vector(std::int32_t v, BinaryAngle angle) {
   const Direction<Q30> to = direction_of<Q30>(angle);

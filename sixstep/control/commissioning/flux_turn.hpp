@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the flux linkage of the magnet by a rotor that follows a turning voltage vector without a load. It
-// is computed in the vector's frame from means over whole electrical turns, which contain the fundamental
+// Measures the magnet's flux linkage by a rotor that follows a turning voltage vector without load. The flux
+// is computed in the vector's frame. The means over whole electrical turns there contain the fundamental
 // alone:
 //
 //   e = v - R i - j w L i - (3/4) lost s,    psi = |e|/w
 //
-// `lost` is the voltage that dead time and diodes take from a vector along a phase (level_steps.hpp), 4/3 of a
-// leg's part; s is the vector of the signs of the legs' currents. The rotor's lag behind the vector does not
-// matter. An error of R enters with the factor R i/e: at e = v/2 less than 2.
+// `lost` is the voltage that dead time and diodes take from a vector along a phase (level_steps.hpp); it is
+// 4/3 of the part of one leg. s is the vector of the signs of the legs' currents. The rotor's lag behind the
+// vector does not enter. A relative error of R enters with the factor R i/e, which is less than 2 at e = v/2.
 #pragma once
 #include <cstdint>
 
@@ -15,24 +15,24 @@
 
 namespace sixstep::control {
 
-/// A tick's currents and their signs, in the vector's frame.
+/// Currents at one tick, and their signs, in the vector's frame.
 struct FieldCurrent {
   FieldVector current{}, signs{};
 };
 
-/// Sums over the ticks of whole turns.
+/// Sums over the ticks of whole electrical turns.
 struct FluxTurnState {
   std::int64_t along = 0, across = 0;              ///< currents, 24ths of a count
   std::int64_t signs_along = 0, signs_across = 0;  ///< signs of currents, 24 per leg
-  std::int64_t bus = 0;                            ///< counts
+  std::int64_t bus = 0;                            ///< bus voltage, counts
   std::uint32_t ticks = 0;
 };
 
-/// Voltages in 2^-8 counts of the bus, the flux in 2^-4 counts of the bus times ticks in a turn.
+/// Voltages in 2^-8 bus counts; the flux in 2^-4 bus counts, times ticks in a turn.
 struct FluxTurnReading {
-  std::int32_t applied = 0;  ///< v
-  std::int32_t emf = 0;      ///< |e|
-  std::int32_t flux = 0;     ///< |e| over turns per tick
+  std::int32_t applied = 0;  ///< v, the vector
+  std::int32_t emf = 0;      ///< |e|, the back-EMF
+  std::int32_t flux = 0;     ///< |e| over the speed in turns per tick
 };
 
 constexpr void flux_turn_tick(FluxTurnState& state, const FieldCurrent& seen, std::uint16_t bus_counts) {
@@ -44,14 +44,14 @@ constexpr void flux_turn_tick(FluxTurnState& state, const FieldCurrent& seen, st
   ++state.ticks;
 }
 
-/// w L in the unit of the resistance; speed in 2^-32 turns per tick.
+/// w L in the unit of `winding.resistance`; `speed` in 2^-32 turns per tick.
 constexpr std::int64_t reactance_of(const LevelStepsReading& winding, std::uint32_t speed) {
   constexpr std::int64_t two_pi_16 = 411775;
   const std::int64_t turns_32 = detail::shifted_down(static_cast<std::int64_t>(winding.tau) * speed, 16);
   return detail::shifted_down(detail::shifted_down(turns_32 * two_pi_16, 16) * winding.resistance, 32);
 }
 
-/// Result for a vector of v parts of the bus.
+/// Result for a vector of length v, in units of 2^-20 of the bus.
 constexpr FluxTurnReading flux_turn_reading(const LevelStepsReading& winding, const FluxTurnState& state,
                                             std::int32_t v, std::uint32_t speed) {
   FluxTurnReading reading{};
@@ -60,7 +60,8 @@ constexpr FluxTurnReading flux_turn_reading(const LevelStepsReading& winding, co
   const std::int64_t applied = detail::ratio_of(v * state.bus, std::int64_t{4096} * state.ticks);
   const std::int64_t d = detail::ratio_of(state.along * 256, std::int64_t{24} * state.ticks);
   const std::int64_t q = detail::ratio_of(state.across * 256, std::int64_t{24} * state.ticks);
-  const std::int64_t of_legs = std::int64_t{4} * 8 * state.ticks;  // 3/4 of 24ths
+  const std::int64_t of_legs = std::int64_t{4} * 8 * state.ticks;  // 24 per leg, divided by the 3/4 of the
+                                                                   // formula
   const std::int64_t lost_d = detail::ratio_of(winding.lost * state.signs_along, of_legs);
   const std::int64_t lost_q = detail::ratio_of(winding.lost * state.signs_across, of_legs);
   const std::int64_t along = applied - detail::shifted_down(R * d - X * q, 20) - lost_d;

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds which code of the Hall pins belongs to which angle, from edges and the field's angle at them, while a
-// field turns the rotor slowly, forward and then backward. It needs no data of the probes: neither which line
-// is connected to which pin, nor which lines are inverted, nor whether probes are 120 or 60 degrees apart, nor
-// their errors of position.
+// Finds which code of the Hall pins belongs to which angle. A field turns the rotor slowly, forward and then
+// backward, and each edge is recorded with the field's angle. No data of the probes is needed: neither which
+// line is connected to which pin, nor which lines are inverted, nor whether the probes are 120 or 60 degrees
+// apart, nor the errors of their position.
 //
-// The rotor's d axis follows the field with a lag: friction over the torque of the current, the delay of the
-// field and half of the probes' hysteresis. All three change their sign with the direction, and the mean of
-// both directions is free of them:
+// The rotor's d axis lags the field. The lag has three causes: friction over the torque of the current, the
+// delay of the field, and half of the probes' hysteresis. All three change their sign with the direction, so
+// that the mean of both directions is free of them:
 //
 //   edge = (forward + backward)/2,   lag = (forward - backward)/2          theta_e = theta_d + 150 degrees (model.md 7)
 //
-// Cogging does not change its sign, nor does the effect of a back-EMF that is no sine: in a standing field the
-// rotor of a trapezoid of 120 degrees deviates by up to 1.12 degrees, and by 0 at each multiple of 30. The error
-// is larger if the rotor turns so fast that six times its speed comes near its swing in the field, sqrt(1.5 p^2
-// psi I/J).
+// Cogging does not change its sign, and neither does the effect of a back-EMF that is no sine. In a standing
+// field the rotor of a trapezoid of 120 degrees deviates by up to 1.12 degrees, and by 0 at each multiple of
+// 30. The error is larger if the rotor turns so fast that six times its speed comes near the frequency of its
+// swing in the field, sqrt(1.5 p^2 psi I/J).
 #pragma once
 #include <cstdint>
 
@@ -23,63 +23,65 @@
 
 namespace sixstep::control {
 
-/// theta_e ahead of the field's angle, which is that of the d axis.
+/// Angle by which theta_e is ahead of the d axis, whose angle is the field's.
 inline constexpr BinaryAngle electrical_ahead = 1789569707u;  // 150 degrees
 
 struct HallSurveyConfig {
-  std::uint8_t turns = 2;                   ///< electrical turns each way that are recorded
-  BinaryAngle widest = binary_degrees(15);  ///< largest distance of edges of one kind
+  std::uint8_t turns = 2;                   ///< electrical turns that are recorded in each direction
+  BinaryAngle widest = binary_degrees(15);  ///< largest distance between edges into the same code
   bool operator==(const HallSurveyConfig&) const = default;
 };
 
-/// The edge into a code when turning forward, which is the edge out of it when turning backward.
+/// The edge that enters a code when the rotor turns forward. When it turns backward, the same edge leaves the
+/// code.
 struct SurveyedEdge {
-  BinaryAngle first[2]{};  ///< theta_e of the first one, forward and backward
-  std::int64_t sum[2]{};   ///< sum of the angles by which the others are ahead of it
+  BinaryAngle first[2]{};  ///< theta_e of the first such edge, forward and backward
+  std::int64_t sum[2]{};   ///< sum of the angles by which later edges are ahead of the first
   std::uint8_t count[2]{};
-  std::uint8_t before = 0xff;  ///< the code before it
+  std::uint8_t before = 0xff;  ///< the code that precedes this one in forward direction
 };
 
 struct HallSurveyState {
-  SurveyedEdge edge[8]{};  ///< indexed by the code ahead of it
+  SurveyedEdge edge[8]{};  ///< indexed by the code that the edge enters in forward direction
   std::uint8_t pins = 0xff;
-  bool torn = false;  ///< edges of one kind are too far apart, or have different codes before them
+  bool torn = false;  ///< edges of one code are too far apart, or have different codes before them
 };
 
 enum class HallSurvey : std::uint8_t {
   good,
   dead_line,    ///< a pin never changed
-  other_codes,  ///< not six codes in one order both ways: a shorted line, or probes of another kind
-  not_steady    ///< edges of one kind are too far apart, or were missed: the rotor does not follow
+  other_codes,  ///< not six codes in one order in both directions: a shorted line, or other probes
+  not_steady    ///< edges of one code are too far apart, or edges were missed: the rotor does not follow
 };
 
-/// Signal of each pin, expressed by probes 120 degrees apart.
+/// How the pins correspond to probes 120 degrees apart.
 struct HallLines {
   std::uint8_t sector[8] = {no_sector, no_sector, no_sector, no_sector,
                             no_sector, no_sector, no_sector, no_sector};  ///< sector of each code of the pins
-  std::uint8_t probe[3]{};    ///< 1..3: the probe at pin H1, H2, H3
-  std::uint8_t inverted = 0;  ///< pins that read their probe inverted, as bits of a code
+  std::uint8_t probe[3]{};    ///< number 1..3 of the probe at pin H1, H2, H3
+  std::uint8_t inverted = 0;  ///< mask of the pins that show their probe inverted, as bits of a code
   bool operator==(const HallLines&) const = default;
 };
 
 struct HallSurveyReading {
   HallSurvey verdict = HallSurvey::not_steady;
-  std::uint8_t dead_pins = 0;  ///< as bits of a code
+  std::uint8_t dead_pins = 0;  ///< mask of the pins that never changed, as bits of a code
   HallLines lines{};
-  /// The lines need no table: hall.hpp needs only `config`.
+  /// True if no table is needed: hall.hpp decodes the pins with `config` alone.
   bool plain = false;
   HallConfig config{};
-  HallEdges edges{};        ///< angle of each edge
-  std::int32_t offset = 0;  ///< mean of their angles ahead of 60 n degrees, signed angle
-  std::int32_t lag = 0;     ///< mean angle by which they came later, in each direction
+  HallEdges edges{};        ///< electrical angle of each edge
+  std::int32_t offset = 0;  ///< mean angle by which the edges are ahead of 60 n degrees, signed angle
+  std::int32_t lag = 0;     ///< mean angle by which the edges came late in each direction, signed angle
 };
 
-/// The code that correctly connected probes 120 degrees apart would give; 000 if there is none.
+/// The code that correctly connected probes 120 degrees apart would give for `pins`; 000 if there is none.
 constexpr std::uint8_t as_wired(const HallLines& lines, std::uint8_t pins) {
   return hall_of_sector(lines.sector[pins & 7u]);
 }
 
-/// The pins changed while the field was at `field`, turning in `direction`. The first call gives the code at rest.
+/// The pins changed to `pins` while the field was at angle `field` and turned in `direction`. The first call
+/// gives the code at rest.
 constexpr void hall_survey_edge(const HallSurveyConfig& config, HallSurveyState& state, std::uint8_t pins,
                                 std::int8_t direction, BinaryAngle field) {
   const std::uint8_t before = state.pins, now = pins & 7u;
@@ -105,7 +107,7 @@ constexpr BinaryAngle surveyed(const SurveyedEdge& edge, int way) {
   return edge.first[way] + static_cast<BinaryAngle>(edge.sum[way] / edge.count[way]);
 }
 
-/// Good if six codes form one ring and each edge was found in both directions.
+/// Good if six codes follow each other in one ring and each edge was found in both directions.
 constexpr HallSurvey survey_verdict(const HallSurveyConfig& config, const HallSurveyState& state,
                                     std::uint8_t& dead_pins) {
   unsigned seen = 0, ones = 0, zeros = 0;
@@ -130,7 +132,8 @@ constexpr HallSurvey survey_verdict(const HallSurveyConfig& config, const HallSu
   return seen == 6 && steps == 6 && code == state.pins ? HallSurvey::good : HallSurvey::other_codes;
 }
 
-/// Assigns a probe to each pin: probe 1, 2, 3 rises into sector 5, 1, 3 and falls into 2, 4, 0.
+/// Assigns a probe to each pin. Probes 1, 2, 3 rise at the begin of sectors 5, 1, 3 and fall at the begin of
+/// 2, 4, 0.
 constexpr void name_lines(HallLines& lines) {
   for (unsigned pin = 0; pin < 3; ++pin) {
     const unsigned bit = 4u >> pin;
@@ -147,7 +150,7 @@ constexpr void name_lines(HallLines& lines) {
   }
 }
 
-/// Correctly connected lines of either arrangement need no table.
+/// Finds whether the lines are those of a correctly connected arrangement, which needs no table.
 constexpr void name_arrangement(HallSurveyReading& reading) {
   constexpr HallArrangement arrangements[] = {HallArrangement::degrees_120, HallArrangement::degrees_60};
   for (const HallArrangement arrangement : arrangements) {
@@ -162,7 +165,8 @@ constexpr void name_arrangement(HallSurveyReading& reading) {
   }
 }
 
-/// Assigns sector and angle to each edge, from the one that is nearest to n = 0 in the mean of all six.
+/// Assigns sector and angle to each edge. The numbering begins at the edge nearest to 0 degrees, judged by
+/// the mean of all six.
 constexpr void place_edges(const HallSurveyState& state, HallSurveyReading& reading) {
   std::uint8_t ring[6]{};
   BinaryAngle at[6]{};
@@ -177,7 +181,7 @@ constexpr void place_edges(const HallSurveyState& state, HallSurveyReading& read
     lag += apart / 2;
   }
   for (std::uint8_t n = 0; n < 6; ++n) ahead += way_between(at[0] + sector_angle(n), at[n]);
-  const BinaryAngle mean = at[0] + static_cast<BinaryAngle>(ahead / 6);  // of ring[0]'s edge
+  const BinaryAngle mean = at[0] + static_cast<BinaryAngle>(ahead / 6);  // mean position of ring[0]'s edge
   const std::uint8_t first = sector_of_angle(mean + sector_angle(1) / 2);
   reading.offset = way_between(sector_angle(first), mean);
   for (std::uint8_t n = 0; n < 6; ++n) {
@@ -190,7 +194,7 @@ constexpr void place_edges(const HallSurveyState& state, HallSurveyReading& read
 
 }  // namespace detail
 
-/// Result of whole turns in both directions.
+/// Result after whole turns in both directions.
 constexpr HallSurveyReading hall_survey_reading(const HallSurveyConfig& config,
                                                 const HallSurveyState& state) {
   HallSurveyReading reading{};

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures resistance and time constant of a phase by steps between two levels of a voltage along one
-// direction, in which the rotor rests. The currents have the same signs at both levels, so that dead time and
-// diodes take the same at both, and drop out of the differences:
+// Measures resistance and time constant of a phase. The voltage along one direction, in which the rotor
+// rests, steps between two levels. The currents have the same signs at both levels, so that dead time and
+// diodes take the same voltage at both, which drops out of the differences:
 //
 //   R = (V_2 - V_1)/(I_2 - I_1),     lost voltage: V_2 - R I_2
 //
-// with V the vector times the bus, and I the means of each level's last quarter. The area by which the current
-// stays behind a step is tau (I_2 - I_1), for any rotor and voltage drop:
+// V is the vector's length times the bus voltage, and I the mean over a level's last quarter. The area
+// between the current and its final value after a step is tau (I_2 - I_1), whatever the rotor does and
+// whatever voltage is lost:
 //
-//   S = sum (I_end - i_k)/(I_2 - I_1) over the ticks of a step, less the delay of the voltage after the sample
-//   S = coth(x/2)/2 for samples at the periods' ends, 1/(2 sinh(x/2)) for samples in their middles,  x = T/tau
+//   S = sum (I_end - i_k)/(I_2 - I_1) over the ticks of a step, minus the delay from a sample to its voltage
+//   x = T/tau:  S = coth(x/2)/2 for samples at the ends of periods, 1/(2 sinh(x/2)) for samples in their middles
 //   tau/T = S - 1/(12 S)  or  S + 1/(24 S),                              exact to x^4/720 and x^4/640
 //
-// Steps up and down alternate, and their areas are added. Rounding of the converters: I_2 - I_1 is off by at
-// most 4/3 of a count (2/3 in each, by 2 i_a - i_b - i_c), S by ln(2 n)/n of itself if I_2 - I_1 has n counts.
+// Steps up and down alternate, and their areas are added. The converters' rounding changes I_2 - I_1 by at
+// most 4/3 of a count (2/3 in each mean, by 2 i_a - i_b - i_c). It changes S by a fraction ln(2 n)/n if I_2 -
+// I_1 is n counts.
 #pragma once
 #include <cstdint>
 
@@ -22,37 +24,40 @@
 namespace sixstep::control {
 
 struct LevelStepsConfig {
-  /// Ticks of a level, a multiple of 4: ten time constants, so that its last quarter is steady.
+  /// Ticks of a level, a multiple of 4. Choose ten time constants, so that the current is constant in the
+  /// last quarter.
   std::uint16_t ticks = 1024;
   std::uint16_t pairs = 4;           ///< pairs of steps, up and down
-  std::uint8_t late_half_ticks = 1;  ///< delay from a sample until its output is at the legs: 0, 1, 2
+  std::uint8_t late_half_ticks = 1;  ///< delay from a sample until its output acts at the legs: 0, 1 or 2
+                                     ///< half ticks
   bool operator==(const LevelStepsConfig&) const = default;
 };
 
-/// Sums over the steps of one level.
+/// Sums over all steps to one level.
 struct LevelSums {
-  std::int64_t all = 0;   ///< currents of the step's ticks
-  std::int64_t tail = 0;  ///< currents of its last quarter
-  std::int64_t bus = 0;   ///< counts, in the last quarter
+  std::int64_t all = 0;   ///< sum of the currents of all ticks
+  std::int64_t tail = 0;  ///< sum of the currents in the steps' last quarters
+  std::int64_t bus = 0;   ///< sum of the bus counts in the steps' last quarters
 };
 
 struct LevelStepsState {
-  LevelSums level[2]{};     ///< the lower one, the higher one
+  LevelSums level[2]{};     ///< the lower level, the higher level
   std::uint16_t tick = 0;   ///< tick within the step
-  std::uint16_t steps = 0;  ///< completed; the first two are not counted
+  std::uint16_t steps = 0;  ///< completed steps; the first two do not enter the sums
   bool high = false;
 };
 
-/// Results as whole numbers.
+/// Results, as integers.
 struct LevelStepsReading {
-  bool usable = false;                 ///< the levels differ by 64 counts or more; R and tau are above 0
-  std::int32_t resistance = 0;         ///< 2^-20 counts of the bus over a count of current
-  std::int32_t tau = 0;                ///< 2^-16 ticks
-  std::int32_t lost = 0;               ///< 2^-8 counts of the bus: taken by dead time and diodes
-  std::int32_t higher = 0, lower = 0;  ///< currents, 24ths of a count
+  bool usable = false;                 ///< true: the levels differ by 64 counts or more, and R and tau are
+                                       ///< above 0
+  std::int32_t resistance = 0;         ///< 2^-20 bus counts per current count
+  std::int32_t tau = 0;                ///< time constant, 2^-16 ticks
+  std::int32_t lost = 0;               ///< voltage that dead time and diodes take, 2^-8 bus counts
+  std::int32_t higher = 0, lower = 0;  ///< currents of the two levels, 24ths of a count
 };
 
-/// Takes a tick's sample of the current along the vector; true once the last step is over.
+/// Takes a tick's sample of the current along the vector; returns true when the last step is complete.
 constexpr bool level_steps_tick(const LevelStepsConfig& config, LevelStepsState& state, std::int32_t along,
                                 std::uint16_t bus_counts) {
   const auto quarter = static_cast<std::uint16_t>(config.ticks / 4);
@@ -72,15 +77,15 @@ constexpr bool level_steps_tick(const LevelStepsConfig& config, LevelStepsState&
 
 namespace detail {
 
-/// x/y, to nearest; 0 for y = 0.
+/// x/y, rounded to nearest; 0 for y = 0.
 constexpr std::int64_t ratio_of(std::int64_t x, std::int64_t y) {
   return y == 0 ? 0 : divided<std::int64_t>(x, y);
 }
 
 constexpr std::int32_t held_to_32(std::int64_t x) { return saturated<std::int32_t>(x); }
 
-/// Time constant from the area of a step over its height, both in 2^-16 ticks. The sample that commands a step
-/// belongs to the step before.
+/// Time constant from the area of a step divided by its height, both in 2^-16 ticks. The sample that commands
+/// a step still belongs to the step before.
 constexpr std::int64_t tau_of_area(std::int64_t area, std::uint8_t late_half_ticks) {
   constexpr std::int64_t tick = std::int64_t{1} << 16;
   const std::int64_t S = area + (1 - late_half_ticks) * (tick / 2);
@@ -90,7 +95,7 @@ constexpr std::int64_t tau_of_area(std::int64_t area, std::uint8_t late_half_tic
 
 }  // namespace detail
 
-/// Result for two vectors of `low` and `high` parts of the bus.
+/// Result for two vectors of lengths `low` and `high`, in units of 2^-20 of the bus.
 constexpr LevelStepsReading level_steps_reading(const LevelStepsConfig& config, const LevelStepsState& state,
                                                 std::int32_t low, std::int32_t high) {
   const LevelSums &lower = state.level[0], &higher = state.level[1];

@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the position of a rotor at rest by short voltage pulses on the six pairs. Each pulse makes a current of
-// V t/L. L depends on x, the angle of the pair from the magnet's north, and on the current i (model.md 7):
+// Finds the position of a rotor at rest by short voltage pulses on the six pairs. Each pulse makes a current
+// V t/L. L depends on x, the angle from the magnet's north to the pair's axis, and on the current i (model.md
+// 7):
 //
-//   L(x) = L_S + L_D cos 2x - (L_d i/(2 I_sat)) cos^3 x,      pair of sector s: 60 s - 30 degrees, x = that - theta_d
+//   L(x) = L_S + L_D cos 2x - (L_d i/(2 I_sat)) cos^3 x,      x = 60 s - 30 degrees - theta_d for the pair of sector s
 //
-// y_s = 1/I_s is proportional to L. The second harmonic of the six shows the axis, by saliency. The first
-// harmonic shows north, by saturation, and the axis roughly; it alone shows which of the axis' two inductances
-// is along the magnet. Both are compared with the noise of the readings over the same rounds, and with the
-// rounding of the converters:
+// y_s = 1/I_s is proportional to L. The second harmonic of the six values shows the magnet's axis, by
+// saliency, but not which end is north. The first harmonic shows north, by saturation, and the axis roughly;
+// only this harmonic shows which of the two inductances is along the magnet. Both harmonics are compared with
+// the noise of the readings over the same rounds, and with the rounding of the converters:
 //
-//   sigma^2 = s^2/n + 3 s^2/N + 45, in eighths of a count squared: n readings of each pair, with the deviation s;
-//             three offsets of N samples each; 11 for rounding two phases, 32 for three rounded offsets, 2 for
-//             their eighths
-//   each component of a harmonic is off by sigma/sqrt 3 of I_0
+//   sigma^2 = s^2/n + 3 s^2/N + 45, in eighths of a count squared
+//      s^2/n      n readings of each pair, with the standard deviation s
+//      3 s^2/N    three offsets of N samples each
+//      45         11 for rounding two phases, 32 for three rounded offsets, 2 for their eighths
+//   each component of a harmonic has the standard deviation sigma/sqrt 3, relative to I_0
 //
-// Rounding alone makes at most 5.1 times that. A first harmonic below six times is not accepted (`seen`): the
-// rotor is round, or the current too small to saturate it. A second harmonic must also be more than the
-// difference of the amplifiers; without it the first one gives the angle. The rotor must not turn. Opposite
-// pairs follow each other, so that the rotor is pushed equally both ways.
+// Rounding alone makes at most 5.1 times this deviation. A first harmonic below six times is not accepted
+// (`seen`): the rotor is round, or the current is too small to saturate it. A second harmonic must also be
+// larger than the amplifiers' difference of gain; otherwise the first harmonic gives the angle. The rotor
+// must not turn. Opposite pairs follow each other, so that the rotor is pushed equally in both directions.
 #pragma once
 #include <cstdint>
 
@@ -28,12 +30,13 @@
 namespace sixstep::control {
 
 struct PulsePositionConfig {
-  AdcConfig<Q30> current{};       ///< offset at no current
+  AdcConfig<Q30> current{};       ///< offset: counts without current; the gain is not used
   std::uint16_t pulse_ticks = 0;  ///< control ticks of a pulse; 0: no pulses
-  std::uint16_t rest_ticks = 0;   ///< ticks after a pulse until its current has ended: pulse_ticks or more
-  std::uint8_t rounds = 8;        ///< n, two or more
-  std::uint8_t certain = 6;       ///< least ratio to the noise; noise alone reaches 6 in 1 of e^18 rounds
-  std::uint16_t amplifiers = 20;  ///< largest difference of two amplifiers, 1/1000
+  std::uint16_t rest_ticks = 0;   ///< ticks after a pulse until its current has ended: at least pulse_ticks
+  std::uint8_t rounds = 8;        ///< n, the number of rounds; at least two
+  std::uint8_t certain = 6;       ///< least ratio of signal to noise; noise alone reaches 6 once in e^18
+                                  ///< rounds
+  std::uint16_t amplifiers = 20;  ///< largest difference of gain between two amplifiers, 1/1000
   bool operator==(const PulsePositionConfig&) const = default;
 };
 
@@ -42,25 +45,26 @@ enum class PulsePhase : std::uint8_t { zeroing, pulse, rest, done };
 struct PulsePositionState {
   PulsePhase phase = PulsePhase::zeroing;
   AdcState adc[3]{};
-  std::uint8_t step = 0;  ///< pulse of the round
+  std::uint8_t step = 0;  ///< index of the pulse in its round
   std::uint8_t round = 0;
   std::uint16_t ticks = 0;
-  bool lost = false;         ///< an offset was out of tolerance
-  std::int32_t sum[6]{};     ///< sum for each sector's pair: eighths of a count, source less sink
-  std::int64_t squares = 0;  ///< sum over the squares of all readings
+  bool lost = false;         ///< true: an offset was out of tolerance
+  std::int32_t sum[6]{};     ///< sum for the pair of each sector, eighths of a count: current of the source
+                             ///< minus that of the sink
+  std::int64_t squares = 0;  ///< sum of the squares of all readings
 };
 
 struct PulsePositionReading {
-  bool seen = false;           ///< north was found
-  bool axis_seen = false;      ///< the angle is the finer one, by saliency
-  BinaryAngle electrical = 0;  ///< theta_e
+  bool seen = false;           ///< true: north was found
+  bool axis_seen = false;      ///< true: the angle is the more exact one, by saliency
+  BinaryAngle electrical = 0;  ///< theta_e, electrical angle of the rotor
   std::uint8_t sector = no_sector;
-  std::uint32_t north_16 = 0, axis_16 = 0;  ///< signal over noise, in 16ths
+  std::uint32_t north_16 = 0, axis_16 = 0;  ///< ratios of the two signals to the noise, in 16ths
 };
 
 namespace detail {
 
-/// Order of the pulses: the pair of a sector, then that of the opposite one.
+/// Sector whose pair is pulsed at a step of a round: a sector, then the opposite one.
 constexpr std::uint8_t pulsed_sector(std::uint8_t step) {
   return static_cast<std::uint8_t>((step / 2 + (step % 2) * 3) % 6);
 }
@@ -77,7 +81,7 @@ constexpr void take_pulse(PulsePositionState& state, const std::uint16_t (&count
   state.squares += static_cast<std::int64_t>(current) * current;
 }
 
-/// The two components of a harmonic of the six, sixfold.
+/// The two components of a harmonic of the six values, multiplied by six.
 struct PulseHarmonic {
   std::int64_t c = 0, s = 0;
 };
@@ -91,7 +95,7 @@ constexpr PulseHarmonic second_harmonic(const std::int64_t (&y)[6]) {
   return {2 * (y[0] + y[3]) - y[1] - y[2] - y[4] - y[5], times_root_3(y[1] - y[2] + y[4] - y[5])};
 }
 
-/// Amplitude in 2^-20 of the mean y_0; `total`: sum of the six.
+/// Amplitude of a harmonic relative to the mean y_0, in 2^-20; `total` is the sum of the six values.
 constexpr std::int64_t relative_20(const PulseHarmonic& h, std::int64_t total) {
   const std::int64_t length = length_of(static_cast<std::int32_t>(shifted_down(h.c, 8)),
                                         static_cast<std::int32_t>(shifted_down(h.s, 8)));
@@ -99,12 +103,12 @@ constexpr std::int64_t relative_20(const PulseHarmonic& h, std::int64_t total) {
 }
 
 constexpr std::uint32_t over_noise_16(std::int64_t relative, std::int64_t I_0, std::int64_t variance_8) {
-  const std::int64_t signal = shifted_down(relative * I_0, 16);  // 2^-4 eighths
+  const std::int64_t signal = shifted_down(relative * I_0, 16);  // in 2^-4 of an eighth of a count
   return static_cast<std::uint32_t>(whole_root(static_cast<std::uint64_t>(
       divided<std::int64_t>(3 * signal * signal * 256, variance_8 == 0 ? 1 : variance_8))));
 }
 
-/// sigma^2, in 2^-8 eighths squared.
+/// sigma^2, in 2^-8 of an eighth of a count squared.
 constexpr std::int64_t pulse_variance(const PulsePositionState& state, std::int64_t n,
                                       std::uint8_t log2_samples) {
   std::int64_t within = n * state.squares;
@@ -118,8 +122,8 @@ constexpr std::int64_t pulse_variance(const PulsePositionState& state, std::int6
 
 constexpr void pulses_begin(PulsePositionState& state) { state = PulsePositionState{}; }
 
-/// One control tick with its samples. In phase `pulse` the pair of pulsed_pair() must be on, otherwise the
-/// bridge is off.
+/// One control tick with its samples. In phase `pulse` the pair of pulsed_pair() must be on; in the other
+/// phases the bridge must be off.
 constexpr void pulses_tick(const PulsePositionConfig& config, PulsePositionState& state,
                            const std::uint16_t (&counts)[3]) {
   if (state.phase == PulsePhase::done) return;
@@ -155,7 +159,7 @@ constexpr Pair pulsed_pair(const PulsePositionState& state) {
   return positive_pair(detail::pulsed_sector(state.step));
 }
 
-/// Result of the rounds, once they are done.
+/// Result of the rounds; call it in phase `done`.
 constexpr PulsePositionReading pulse_position(const PulsePositionConfig& config,
                                               const PulsePositionState& state) {
   PulsePositionReading reading{};
@@ -164,7 +168,7 @@ constexpr PulsePositionReading pulse_position(const PulsePositionConfig& config,
   std::int64_t y[6]{}, total_y = 0, total_I = 0;
   for (std::uint8_t s = 0; s < 6; ++s) {
     if (state.sum[s] < std::int64_t{512} * n)
-      return reading;  // 32 counts each way: an open wire, or almost no pulse
+      return reading;  // less than 32 counts per phase: an open wire, or almost no pulse
     y[s] = detail::divided<std::int64_t>(std::int64_t{1} << 46, state.sum[s]);
     total_y += y[s];
     total_I += state.sum[s];
@@ -180,8 +184,8 @@ constexpr PulsePositionReading pulse_position(const PulsePositionConfig& config,
   reading.axis_seen =
       reading.axis_16 >= certain_16 && axis_20 * 1000 > static_cast<std::int64_t>(config.amplifiers) << 20;
   if (!reading.seen) return reading;
-  // d is the direction of the least inductance. The first pair is at -30 degrees, and theta_e is 150 degrees
-  // ahead of theta_d.
+  // The inductance is least along d. The angle is that of the first pair, which is at -30 degrees; theta_e is
+  // 150 degrees ahead of theta_d.
   BinaryAngle d = vector_angle(-north.c, -north.s);
   if (reading.axis_seen) {
     const BinaryAngle half = vector_angle(axis.c, axis.s) / 2;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Starts the drive without a rotor position sensor after finding the rotor by six pulses (pulse_position.hpp):
 //
-//   off -> catching -> pulses -> ramping        north was found: no alignment, no swing, from the sector found
-//                          '---> aligning       it was not: as in sensorless.hpp without pulses
+//   off -> catching -> pulses -> ramping        north was found: the ramp begins in its sector, without alignment or swing
+//                           '---> aligning       north was not found: the start of sensorless.hpp without pulses
 //
-// Call its functions instead of those of sensorless_drive.hpp. With pulse_ticks = 0 it is that drive.
+// Call these functions instead of those of sensorless_drive.hpp. With pulse_ticks = 0 the drive is that of
+// sensorless_drive.hpp.
 #pragma once
 #include "sixstep/control/commissioning/pulse_position.hpp"
 #include "sixstep/control/sensorless/sensorless_drive.hpp"
@@ -32,7 +33,7 @@ struct PulsedDriveInput {
   std::uint16_t current_counts[3]{};
 };
 
-/// Begins the ramp in the sector of `electrical`, with the field at the rotor's angle in this sector.
+/// Begins the ramp in the sector of `electrical`, with the field at the rotor's angle within this sector.
 template <class Scalar>
 constexpr void sensorless_ramp_from(const SensorlessConfig<Scalar>& config, SensorlessState& state,
                                     BinaryAngle electrical, std::uint32_t now) {
@@ -46,7 +47,7 @@ constexpr void sensorless_ramp_from(const SensorlessConfig<Scalar>& config, Sens
 
 namespace detail {
 
-/// One tick of the pulses; true when they are over.
+/// One tick of the pulses; returns true when they are complete.
 template <class Scalar>
 constexpr bool pulsing_tick(const PulsedDriveConfig<Scalar>& config, PulsedDriveState<Scalar>& state,
                             const PulsedDriveInput<Scalar>& input) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the angle of a vector by turning it onto the axis in ever smaller steps (CORDIC): whole numbers, no
-// division. 24 steps leave 2^-24 of a radian and 24 roundings, below 1e-5 degrees.
+// Computes the angle of a vector by rotating it onto the axis in ever smaller steps (CORDIC), with integers
+// and no division. 24 steps leave 2^-24 rad and 24 roundings, together below 1e-5 degrees.
 #pragma once
 #include "sixstep/control/commissioning/field_vector.hpp"
 
 namespace sixstep::control {
 
-/// atan2(y, x); 0 for the zero vector.
+/// atan2(y, x) as a binary angle; 0 for the zero vector.
 constexpr BinaryAngle vector_angle(std::int64_t x, std::int64_t y) {
   constexpr std::uint32_t steps[24] = {536870912u, 316933406u, 167458907u, 85004756u, 42667331u, 21354465u,
                                        10679838u,  5340245u,   2670163u,   1335087u,  667544u,   333772u,
@@ -19,7 +19,7 @@ constexpr BinaryAngle vector_angle(std::int64_t x, std::int64_t y) {
     y = -y;
     angle = half_turn;
   }
-  // An int64 has room for this length times the gain of the steps, 1.65 times sqrt 2.
+  // An int64 holds `most` times the gain of the steps, 1.65, times sqrt 2.
   constexpr std::int64_t most = std::int64_t{1} << 60;
   while (x < most / 4 && y < most / 4 && y > -most / 4) {
     x *= 2;

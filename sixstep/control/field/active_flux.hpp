@@ -6,40 +6,40 @@
 //   lambda = integral(u - R i) dt        the winding's total flux
 //   psi_a  = lambda - L_q i              points along the magnet: psi + (L_d - L_q) i_d
 //
-// An integral keeps its initial error. So in each period lambda is moved, by a part g of the difference,
-// towards the flux that the magnet would make in its assumed direction:
+// An integral keeps its initial error. In each period lambda is therefore moved towards the flux that the
+// magnet would make in its assumed direction theta^, by a fraction g of the difference:
 //
 //   lambda[n] = lambda[n-1] + T (u - R (i[n] + i[n-1])/2) + g (L_q i + psi_a(theta^) - lambda)
 //
-// Seen from the rotor an error of the flux turns backwards with w_e; it decays by s^2 + w_g s + w_e^2, g = 1 -
-// exp(-w_g T), if the rotor turns, and not at all at standstill. u is the mean from sample to sample of the
-// voltages that the timer was set to.
+// In the rotor's frame an error of the flux rotates backwards with w_e. If the rotor turns, the error decays
+// with the polynomial s^2 + w_g s + w_e^2, g = 1 - exp(-w_g T); at standstill it does not decay. u is the
+// mean, from sample to sample, of the voltages that the timer was set to.
 #pragma once
 #include "sixstep/control/frames.hpp"
 #include "sixstep/control/scalar.hpp"
 
 namespace sixstep::control {
 
-/// With the default the angle reads 0.
+/// With the default the result is 0.
 template <class Scalar>
 struct ActiveFluxConfig {
-  Gain<Scalar> period_s{};        ///< T
+  Gain<Scalar> period_s{};        ///< T, control period
   Gain<Scalar> R_ohm{};           ///< resistance of a phase
-  Gain<Scalar> L_q_H{}, L_D_H{};  ///< L_D: L_d - L_q
-  Scalar magnet_Vs{};             ///< psi; 0: none
-  Gain<Scalar> pull{};            ///< g
+  Gain<Scalar> L_q_H{}, L_D_H{};  ///< phase inductance L_q, and L_D = L_d - L_q
+  Scalar magnet_Vs{};             ///< psi, the magnet's flux linkage, V s; 0: none
+  Gain<Scalar> pull{};            ///< g, fraction of the error that a period corrects
   bool operator==(const ActiveFluxConfig&) const = default;
 };
 
 template <class Scalar>
 struct ActiveFluxState {
   AlphaBeta<Scalar> flux{};     ///< lambda, V s
-  AlphaBeta<Scalar> current{};  ///< current of the last sample, A
-  Scalar along{}, across{};     ///< psi_a of the last sample, in the given frame
+  AlphaBeta<Scalar> current{};  ///< current at the last sample, A
+  Scalar along{}, across{};     ///< psi_a at the last sample along and across the given direction, V s
 };
 
-/// One sample, with the magnet assumed along `magnet`. Returns the angle by which it points ahead of that,
-/// approximately in radians, |x| <= 1.
+/// One sample; `magnet` is the assumed direction. Returns the angle by which the magnet is ahead of that
+/// direction: approximately in radians, |x| <= 1.
 template <class Scalar>
 constexpr Scalar active_flux_step(const ActiveFluxConfig<Scalar>& config, ActiveFluxState<Scalar>& state,
                                   const AlphaBeta<Scalar>& mean_V, const AlphaBeta<Scalar>& i,
@@ -58,7 +58,7 @@ constexpr Scalar active_flux_step(const ActiveFluxConfig<Scalar>& config, Active
   state.across = seen.q;
   const Scalar size = magnitude(seen.d) + magnitude(seen.q);
   if (!(size > Scalar{})) return Scalar{};
-  // About the sine of the angle; beyond 90 degrees 1 in the direction of the shorter way.
+  // Approximately the sine of the angle; beyond 90 degrees 1, with the sign of the shorter rotation.
   const Scalar part = seen.q / size;
   return seen.d < Scalar{} ? (seen.q < Scalar{} ? -one<Scalar> : one<Scalar>) : part;
 }

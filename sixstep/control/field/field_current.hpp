@@ -1,23 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// Controls the currents along the magnet and across it, with the coupling of the two axes (model.md 11):
+// Controls the currents along the magnet and across it, d and q, with the coupling of the two axes (model.md
+// 11):
 //
 //   v_d = R i_d + L_d di_d/dt - w_e L_q i_q              e_d = -w p L_q i_q
 //   v_q = R i_q + L_q di_q/dt + w_e (L_d i_d + psi)      e_q =  w (p L_d i_d + p psi)
 //
-// Each axis has a PI (pi.hpp). With decoupling e is added to the PI's output, so that the PI controls a winding
-// of R and L at every speed (Vas, Sensorless Vector and Direct Torque Control, 2.1). The available voltage is:
+// Each axis has a PI (pi.hpp). With decoupling, e is added to the PI's output, so that the PI controls a
+// winding of R and L at every speed (Vas, Sensorless Vector and Direct Torque Control, 2.1). The limit of the
+// voltage is one of two:
 //
-//   axes     each axis within its PI's own limit
-//   circle   |v| <= U_s/sqrt 3, the largest vector that three legs make in every direction; d comes first, since it
-//            weakens the field when the bus is short, and q has the rest, sqrt(U_s^2/3 - v_d^2)
+//   axes     each axis has its PI's own limit
+//   circle   |v| <= U_s/sqrt 3, the largest vector that three legs make in every direction. d comes first, because it
+//            weakens the field when the bus is too low, and q has the rest, sqrt(U_s^2/3 - v_d^2)
 //
-// In both cases the PI's state is its output after the limit, less e: it cannot wind up against a bound that
-// moves with the speed and with the other axis.
+// In both cases the PI's state is its output after the limit, minus e. It cannot wind up against a bound that
+// changes with the speed and with the other axis.
 //
-// If the rotation takes more than 0.9 of the voltage, d first would leave too little v_q. The magnet would then
-// drive a current that needs even more v_d: up to twice psi/L_d. Then v is moved back to the circle along the line to
-// the voltage that holds the reference, the integrals wait, and a drive that does not decouple its axes
-// decouples the deviation from the reference (reachable_current.hpp).
+// If the rotation takes more than 0.9 of the available voltage, giving d the priority would leave too little
+// v_q. The magnet would then drive a current that needs even more v_d: up to twice psi/L_d. In this case v is
+// moved back to the circle along the line to the voltage that holds the reference, and the integrals wait. A
+// drive that does not decouple its axes then decouples the deviation from the reference
+// (reachable_current.hpp).
 #pragma once
 #include "sixstep/control/frames.hpp"
 #include "sixstep/control/pi.hpp"
@@ -30,23 +33,23 @@ enum class VoltageLimit : std::uint8_t { axes, circle };
 /// With the defaults the voltage is 0.
 template <class Scalar>
 struct FieldCurrentConfig {
-  PiConfig<Scalar> d{}, q{};  ///< A -> V of a phase; their limits apply to VoltageLimit::axes
+  PiConfig<Scalar> d{}, q{};  ///< A -> V of a phase; their `limit` applies to VoltageLimit::axes only
   VoltageLimit limit = VoltageLimit::circle;
   bool decouples = false;
-  Gain<Scalar> d_V_s_A{};     ///< p L_d: V per A and mechanical rad/s
-  Gain<Scalar> q_V_s_A{};     ///< p L_q
+  Gain<Scalar> d_V_s_A{};     ///< p L_d: V per A and mechanical rad/s of the coupling to q
+  Gain<Scalar> q_V_s_A{};     ///< p L_q: V per A and mechanical rad/s of the coupling to d
   Gain<Scalar> magnet_V_s{};  ///< p psi: V per mechanical rad/s, the back-EMF's fundamental
-  Gain<Scalar> R_ohm{};       ///< resistance of a phase, for the voltage of a constant current
+  Gain<Scalar> R_ohm{};       ///< resistance of a phase, for the voltage that holds a constant current
   bool operator==(const FieldCurrentConfig&) const = default;
 };
 
 template <class Scalar>
 struct FieldCurrentState {
   PiState<Scalar> d{}, q{};
-  Dq<Scalar> voltage{};  ///< last output
+  Dq<Scalar> voltage{};  ///< last output, V of a phase
 };
 
-/// e: the coupling of the axes by the rotation, at the measured current.
+/// e: voltage that the rotation couples between the axes, at the measured current, with a sine's back-EMF, V.
 template <class Scalar>
 constexpr Dq<Scalar> turning_voltage(const FieldCurrentConfig<Scalar>& config, const Dq<Scalar>& current,
                                      Scalar speed_rad_s) {
@@ -55,7 +58,7 @@ constexpr Dq<Scalar> turning_voltage(const FieldCurrentConfig<Scalar>& config, c
           T::product(speed_rad_s * current.d, config.d_V_s_A) + T::product(speed_rad_s, config.magnet_V_s)};
 }
 
-/// The same with a magnet that makes `magnet_V`, of any shape.
+/// e, with a magnet of any shape that induces `magnet_V`, V.
 template <class Scalar>
 constexpr Dq<Scalar> turning_voltage(const FieldCurrentConfig<Scalar>& config, const Dq<Scalar>& current,
                                      Scalar speed_rad_s, const Dq<Scalar>& magnet_V) {
@@ -64,20 +67,20 @@ constexpr Dq<Scalar> turning_voltage(const FieldCurrentConfig<Scalar>& config, c
           magnet_V.q + T::product(speed_rad_s * current.d, config.d_V_s_A)};
 }
 
-/// U_s/sqrt 3.
+/// Radius of the voltage circle, U_s/sqrt 3, V.
 template <class Scalar>
 constexpr Scalar voltage_circle(Scalar bus_V) {
   constexpr auto one_by_root3 = static_cast<Gain<Scalar>>(0.5773502691896258);
   return bus_V > Scalar{} ? ScalarTraits<Scalar>::product(bus_V, one_by_root3) : Scalar{};
 }
 
-/// |v| that is available in every direction.
+/// Length |v| that is available in every direction, V.
 template <class Scalar>
 constexpr Scalar voltage_reach(const FieldCurrentConfig<Scalar>& config, Scalar bus_V) {
   return config.limit == VoltageLimit::circle ? voltage_circle(bus_V) : config.q.limit;
 }
 
-/// Voltage of a constant current.
+/// Voltage that holds a constant current, V.
 template <class Scalar>
 constexpr Dq<Scalar> holding_voltage(const FieldCurrentConfig<Scalar>& config, const Dq<Scalar>& current,
                                      Scalar speed_rad_s) {
@@ -93,7 +96,8 @@ constexpr bool is_within(const Dq<Scalar>& v, Scalar radius) {
   return !(v.d * v.d + v.q * v.q > radius * radius);
 }
 
-/// The part of the way from a point within the circle to one outside at which the way meets the circle.
+/// Fraction of the line from a point within the circle to a point outside of it at which the line meets the
+/// circle.
 template <class Scalar>
 constexpr Scalar way_to_rim(const Dq<Scalar>& from, const Dq<Scalar>& to, Scalar radius) {
   const Dq<Scalar> way{to.d - from.d, to.q - from.q};
@@ -105,7 +109,8 @@ constexpr Scalar way_to_rim(const Dq<Scalar>& from, const Dq<Scalar>& to, Scalar
   return left < length ? (left > Scalar{} ? left / length : Scalar{}) : one<Scalar>;
 }
 
-/// True if a current takes more than 0.9 of the voltage: dead time and errors of the model need a part of the rest.
+/// True if the reference or the measured current takes more than 0.9 of the voltage. Dead time and errors of
+/// the model need the rest.
 template <class Scalar>
 constexpr bool is_short(const FieldCurrentConfig<Scalar>& config, const Dq<Scalar>& reference,
                         const Dq<Scalar>& measured, Scalar speed_rad_s, Scalar most) {
@@ -115,7 +120,7 @@ constexpr bool is_short(const FieldCurrentConfig<Scalar>& config, const Dq<Scala
          !is_within(holding_voltage(config, measured, speed_rad_s), radius);
 }
 
-/// PI and e together within +-most; at a limit it is exactly that limit.
+/// Sum of PI and e, within +-most; at the limit it is exactly the limit.
 template <class Scalar>
 constexpr Scalar axis_voltage(const PiConfig<Scalar>& config, PiState<Scalar>& state, Scalar error, Scalar e,
                               Scalar most) {
@@ -124,7 +129,7 @@ constexpr Scalar axis_voltage(const PiConfig<Scalar>& config, PiState<Scalar>& s
   return u == high ? most : u == low ? -most : u + e;
 }
 
-/// Coupling of the deviation from the reference only.
+/// Coupling of the deviation from the reference alone, V.
 template <class Scalar>
 constexpr Dq<Scalar> turned_apart(const FieldCurrentConfig<Scalar>& config, const Dq<Scalar>& reference,
                                   const Dq<Scalar>& measured, Scalar speed_rad_s) {
@@ -133,8 +138,9 @@ constexpr Dq<Scalar> turned_apart(const FieldCurrentConfig<Scalar>& config, cons
   return {is.d - to.d, is.q - to.q};
 }
 
-/// Both axes while the bus is short: the loops' output. If it is outside of the circle, the output without the
-/// integrals' step, moved to the circle along the line to the voltage that holds the reference.
+/// Voltage while the bus is short: the output of both loops. If that is outside of the circle, the output
+/// without the integrals' step is moved to the circle, along the line to the voltage that holds the
+/// reference.
 template <class Scalar>
 constexpr Dq<Scalar> short_voltage(const FieldCurrentConfig<Scalar>& config, FieldCurrentState<Scalar>& state,
                                    const Dq<Scalar>& reference, const Dq<Scalar>& error, const Dq<Scalar>& e,
@@ -158,7 +164,7 @@ constexpr Dq<Scalar> short_voltage(const FieldCurrentConfig<Scalar>& config, Fie
 
 }  // namespace detail
 
-/// One control tick with a given e: returns the phase voltages to apply, in the frame of the rotor.
+/// One control tick with a given e. Returns the phase voltages to apply, V, in the rotor's frame.
 template <class Scalar>
 constexpr const Dq<Scalar>& field_current_beside(const FieldCurrentConfig<Scalar>& config,
                                                  FieldCurrentState<Scalar>& state,
@@ -183,7 +189,7 @@ constexpr const Dq<Scalar>& field_current_beside(const FieldCurrentConfig<Scalar
   return state.voltage;
 }
 
-/// The same with the e of the rotation, if the axes are decoupled.
+/// One control tick; e is that of the rotation if the axes are decoupled, else 0.
 template <class Scalar>
 constexpr const Dq<Scalar>& field_current_step(const FieldCurrentConfig<Scalar>& config,
                                                FieldCurrentState<Scalar>& state, const Dq<Scalar>& reference,

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the direction of the magnet when the currents are sampled, and in the middle of the period in which
-// the output acts (model.md 11):
+// Computes the direction of the magnet at the sample of the currents, and in the middle of the period in
+// which the output acts (model.md 11):
 //
 //   theta_d = theta_e - 150 degrees,   theta_d' = theta_d + (n + 1/2) T w_e
 //
-// n periods are between the sample and the period of its output. An output that is turned into the stator's
-// frame by theta_d itself lags by that angle: at (n + 1/2) T w_e = 90 degrees all of v_q would act along d.
+// n periods lie between the sample and the begin of its output. An output that is rotated into the stator's
+// frame by theta_d instead of theta_d' lags by (n + 1/2) T w_e: at 90 degrees all of v_q would act along d.
 #pragma once
 #include "sixstep/control/frames.hpp"
 #include "sixstep/control/sensing/binary_angle.hpp"
@@ -13,11 +13,12 @@
 
 namespace sixstep::control {
 
-/// Directions as cosine and sine, from an ideal sensor or from field_directions().
+/// Directions as cosine and sine: `sampled` is theta_d, `answered` theta_d'. They come from an ideal sensor
+/// or from field_directions().
 template <class Scalar>
 struct FieldDirections {
   Direction<Scalar> sampled{}, answered{};
-  BinaryAngle angle = 0;  ///< angle of `sampled`, for quantities that depend on the angle itself
+  BinaryAngle angle = 0;  ///< `sampled` as an angle, for quantities that depend on the angle itself
 };
 
 /// With the default there is no advance.
@@ -27,17 +28,17 @@ struct FieldAdvanceConfig {
   bool operator==(const FieldAdvanceConfig&) const = default;
 };
 
-/// The magnet's direction; 150 degrees are 5/12 of a turn.
+/// The magnet's angle theta_d from the electrical angle theta_e; 150 degrees are 5/12 of a turn.
 constexpr BinaryAngle magnet_angle(BinaryAngle electrical) { return electrical - 1789569707u; }
 
-/// The magnet's angle, advanced by speed times `rad_s`.
+/// The magnet's angle after a rotation by speed times `rad_s`.
 template <class Scalar>
 constexpr BinaryAngle turned_on(BinaryAngle magnet, Scalar speed_rad_s, Gain<Scalar> rad_s) {
   const std::int32_t on = angle_of_rad(ScalarTraits<Scalar>::product(speed_rad_s, rad_s));
   return magnet + static_cast<BinaryAngle>(on);
 }
 
-/// Directions from the magnet's own angle.
+/// Directions from the angle theta_d at the sample.
 template <class Scalar>
 constexpr FieldDirections<Scalar> magnet_directions(const FieldAdvanceConfig<Scalar>& config,
                                                     BinaryAngle sampled, Scalar speed_rad_s) {

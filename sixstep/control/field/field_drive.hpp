@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the leg commands of a field-oriented drive: position P -> speed PI -> currents along the magnet and
-// across it -> three legs, beginning at the loop that the mode names. Firmware calls field_drive_step() once
-// per control tick; a Hall edge needs no call.
+// Computes the leg commands of a field-oriented drive: position P -> speed PI -> currents along the magnet
+// and across it -> three legs. The mode names the loop at which the chain begins. Firmware calls
+// field_drive_step() once per control tick; a Hall edge needs no call.
 //
-// The reference of Mode::current, and the output of the speed loop, is i_q: the amplitude of the phase currents
-// that make torque, T = 3/2 p psi i_q for a round rotor. i_d* is the current of the most torque per ampere plus
-// the one that weakens the field. If the back-EMF is no sine both may follow its shape (harmonic_current.hpp):
-// the reference is then the constant i_q that would make the same mean torque. In a cascade both together stay
-// within current_limit_A: i_d comes first, and the speed PI is limited to the rest, so that it does not wind up.
+// The reference of Mode::current, and the output of the speed loop, is i_q: the amplitude of the phase
+// currents that make torque, T = 3/2 p psi i_q for a round rotor. i_d* is the current of most torque per
+// ampere plus the current that weakens the field.
 //
-// Two PIs and symmetric space-vector modulation control the currents, or instead of both a choice among the
-// eight states of three legs (finite_set.hpp). DriveConfig's chopping, current loop and bus voltage are not
-// used. Of its extras, a slewed or profiled setpoint and another law of the speed loop are possible.
+// If the back-EMF is no sine, i_d and i_q may follow its shape (harmonic_current.hpp). The reference is then
+// the constant i_q that would make the same mean torque. In a cascade i_d and i_q together stay within
+// current_limit_A: i_d comes first, and the speed PI is limited to the rest, so that it does not wind up.
+//
+// The currents are controlled by two PIs with symmetric space-vector modulation, or instead by a choice among
+// the eight states of three legs (finite_set.hpp). The chopping, current loop and bus voltage of DriveConfig
+// are not used. Of its extras, a slewed or profiled setpoint and another law of the speed loop are possible.
 #pragma once
 #include "sixstep/control/field/field_current.hpp"
 #include "sixstep/control/field/field_direction.hpp"
@@ -44,8 +46,8 @@ struct FieldDriveState {
   FieldCurrentState<Scalar> current{};
   FieldWeakeningState<Scalar> weakening{};
   FiniteSetState<Scalar> finite_set{};
-  Dq<Scalar> measured{}, reference{};  ///< currents of the last tick, A
-  LegCommands<Scalar> command{};       ///< last output
+  Dq<Scalar> measured{}, reference{};  ///< currents at the last tick, rotor's frame, A
+  LegCommands<Scalar> command{};       ///< command of the last tick
 };
 
 template <class Scalar>
@@ -56,7 +58,7 @@ struct FieldDriveInput {
 
 namespace detail {
 
-/// The part of the current limit that i_d leaves.
+/// The current that i_d leaves of the current limit, A.
 template <class Scalar>
 constexpr Scalar current_left(const FieldDriveConfig<Scalar>& config, const FieldDriveState<Scalar>& state) {
   const Scalar limit = config.drive.current_limit_A;
@@ -64,8 +66,9 @@ constexpr Scalar current_left(const FieldDriveConfig<Scalar>& config, const Fiel
   return config.harmonic.least * circle_rest(limit, ScalarTraits<Scalar>::signal(state.weakening.i_d));
 }
 
-/// Coupling of the axes. For a shape that is no sine it is computed for the instant at which the output acts:
-/// with the magnet's voltage there, and with the measured current plus the change of the reference until then.
+/// Coupling of the axes, V. For a shape that is no sine it is computed for the instant at which the output
+/// acts: with the magnet's voltage at that instant, and with the measured current plus the change of the
+/// reference until then.
 template <class Scalar>
 constexpr Dq<Scalar> turning(const FieldDriveConfig<Scalar>& config, const FieldDriveState<Scalar>& state,
                              BinaryAngle magnet, Scalar speed_rad_s, Scalar i_q, Scalar weakening) {
@@ -81,7 +84,7 @@ constexpr Dq<Scalar> turning(const FieldDriveConfig<Scalar>& config, const Field
   return {e.d + to.voltage.d, e.q + to.voltage.q};
 }
 
-/// Voltage of the magnet along itself and across, at its angle `magnet`.
+/// Voltage that the magnet, at angle `magnet`, induces along itself and across, V.
 template <class Scalar>
 constexpr Dq<Scalar> magnet_voltage(const FieldDriveConfig<Scalar>& config, BinaryAngle magnet,
                                     Scalar speed_rad_s) {
@@ -90,7 +93,7 @@ constexpr Dq<Scalar> magnet_voltage(const FieldDriveConfig<Scalar>& config, Bina
   return {Scalar{}, ScalarTraits<Scalar>::product(speed_rad_s, psi)};
 }
 
-/// Chooses three legs for a whole period, instead of a voltage and its pulses.
+/// Chooses the states of three legs for a whole period, instead of a voltage that pulses make.
 template <class Scalar>
 constexpr const LegCommands<Scalar>& choose_legs(const FieldDriveConfig<Scalar>& config,
                                                  FieldDriveState<Scalar>& state,
@@ -114,7 +117,8 @@ constexpr const LegCommands<Scalar>& choose_legs(const FieldDriveConfig<Scalar>&
   return state.command;
 }
 
-/// i_q reference, within the current limit that i_d leaves, and within the voltage if the field is weakened.
+/// Reference of i_q, A: within what i_d leaves of the current limit, and within the voltage if the field is
+/// weakened.
 template <class Scalar>
 constexpr Scalar torque_current(const FieldDriveConfig<Scalar>& config, FieldDriveState<Scalar>& state,
                                 const Measurement<Scalar>& measured, Scalar value,
@@ -142,8 +146,8 @@ constexpr Scalar slewed(const DriveConfig<Scalar>& drive, DriveState<Scalar>& st
                          measured_value(drive.mode, measured, i_q), measured.speed_rad_s);
 }
 
-/// Results of the loops around the currents: the parts of state.reference that make torque and that weaken the
-/// field.
+/// Results of the loops around the currents, A: the part of state.reference that makes torque and the part
+/// that weakens the field.
 template <class Scalar>
 struct FieldAsked {
   Scalar i_q{}, weakening{};
@@ -168,7 +172,7 @@ constexpr FieldAsked<Scalar> field_asked(const FieldDriveConfig<Scalar>& config,
   return asked;
 }
 
-/// Computes the voltage in the rotor's frame from state.measured.
+/// Computes the phase voltages, V, in the rotor's frame, from the currents in state.measured.
 template <class Scalar>
 constexpr const Dq<Scalar>& field_voltage(const FieldDriveConfig<Scalar>& config,
                                           FieldDriveState<Scalar>& state, const Measurement<Scalar>& m,
@@ -181,7 +185,8 @@ constexpr const Dq<Scalar>& field_voltage(const FieldDriveConfig<Scalar>& config
 }  // namespace detail
 
 /// One control tick. Returns state.command, valid until the next call. Mode::duty is not possible: the bridge
-/// is off. Inlined, so that a constant configuration leaves no code of unused parts: 2 KB on a Cortex-M4.
+/// is off then. The function is inlined, so that a constant configuration leaves no code of unused parts;
+/// this saves 2 KB on a Cortex-M4.
 template <class Scalar>
 [[gnu::always_inline]] constexpr const LegCommands<Scalar>& field_drive_step(
     const FieldDriveConfig<Scalar>& config, FieldDriveState<Scalar>& state,
@@ -201,7 +206,8 @@ template <class Scalar>
   return state.command;
 }
 
-/// Another configuration between two ticks (retune.hpp). Loops that the old mode did not run begin at rest.
+/// Replaces the configuration between two ticks (retune.hpp). Loops that the old mode did not run begin at
+/// rest.
 template <class Scalar>
 constexpr void retune(FieldDriveConfig<Scalar>& config, FieldDriveState<Scalar>& state,
                       const FieldDriveConfig<Scalar>& next) {

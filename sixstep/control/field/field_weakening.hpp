@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// Field weakening: a current along the magnet lowers its field where the bus is below the back-EMF. The voltage
-// that is left controls it (Kim and Sul, Speed Control of Interior Permanent Magnet Synchronous Motor Drive for
-// the Flux Weakening Operation, IEEE Trans. IA 33, 1997):
+// Field weakening: where the back-EMF is above the bus, a current along the magnet lowers its field. The
+// voltage that the current loops leave controls this current (Kim and Sul, Speed Control of Interior
+// Permanent Magnet Synchronous Motor Drive for the Flux Weakening Operation, IEEE Trans. IA 33, 1997):
 //
-//   i_d[n+1] = i_d[n] + K (m U_s/sqrt 3 - |v[n]|), within [-I, 0]
+//   i_d[n+1] = i_d[n] + K (m U_s/sqrt 3 - |v[n]|), clamped to [-I, 0]
 //
-// It needs neither psi nor L: if the vector is above the part m of the circle, i_d falls until it is not, and
-// returns to 0 when there is room. The bound is on the state, so nothing winds up. With |v| about v_q, and v_q
-// changing by w_e L_d per ampere, its own pole is 1 - K w_e L_d: K is designed at one speed and is stable below
-// twice 1/(K L_d), if the inner loops are much faster (design/loops/field_current.hpp).
+// The law needs neither psi nor L. While |v| is above the fraction m of the voltage circle, i_d falls; when
+// |v| is below, i_d returns to 0. The state itself is clamped, so that nothing winds up. |v| is about v_q,
+// and v_q changes by w_e L_d per ampere of i_d, so that the law's own pole is 1 - K w_e L_d. K is designed at
+// one speed and is stable at electrical speeds below 2/(K L_d), if the inner loops are much faster
+// (design/loops/field_current.hpp).
 //
-// More than I = psi/L_d reverses the field, and more current would need more voltage: I is at most that. For
-// i_q the voltage then leaves, exactly for a round rotor with i_d = -psi/L_d,
+// A current above psi/L_d would reverse the field, and still more current would need more voltage: I is at
+// most psi/L_d. The voltage also bounds i_q. For a round rotor with i_d = -psi/L_d the bound is exactly
 //
 //   |i_q| <= m U_s/sqrt 3/(w_e L_q)
 //
-// A reference beyond it would take the whole circle along d, and no current would be controlled any more.
+// A reference beyond this bound would take the whole voltage circle along d, and neither current would be
+// controlled.
 #pragma once
 #include "sixstep/control/field/field_current.hpp"
 
@@ -24,9 +26,9 @@ namespace sixstep::control {
 /// The default does not weaken the field.
 template <class Scalar>
 struct FieldWeakeningConfig {
-  Gain<Scalar> K_A_per_V{};  ///< per sample
-  Gain<Scalar> part{};       ///< m, of the circle
-  Scalar most_A{};           ///< I
+  Gain<Scalar> K_A_per_V{};  ///< K, A per V and sample
+  Gain<Scalar> part{};       ///< m, fraction of the voltage circle
+  Scalar most_A{};           ///< I, largest current against the magnet
   bool operator==(const FieldWeakeningConfig&) const = default;
 };
 
@@ -35,7 +37,7 @@ struct FieldWeakeningState {
   Accumulator<Scalar> i_d{};
 };
 
-/// i_d reference, from the voltage of the last tick.
+/// Reference of i_d, A, from the voltage of the last tick.
 template <class Scalar>
 constexpr Scalar field_weakening_step(const FieldWeakeningConfig<Scalar>& config,
                                       FieldWeakeningState<Scalar>& state, const Dq<Scalar>& voltage,
@@ -48,8 +50,8 @@ constexpr Scalar field_weakening_step(const FieldWeakeningConfig<Scalar>& config
   return T::signal(state.i_d);
 }
 
-/// The current across the magnet, up to `most` >= 0, that the voltage allows at this speed; `most` if the field
-/// is not weakened.
+/// The current across the magnet, A, at most `most` >= 0, that the voltage allows at this speed; `most` if
+/// the field is not weakened.
 template <class Scalar>
 constexpr Scalar voltage_bound(const FieldWeakeningConfig<Scalar>& config,
                                const FieldCurrentConfig<Scalar>& current, Scalar speed_rad_s, Scalar bus_V,

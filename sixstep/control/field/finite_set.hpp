@@ -1,33 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 // Controls the currents without a modulator. Three legs, each high or low for a whole period, make seven
-// voltages; the one whose current comes nearest to its reference is applied (Rodriguez et al., Predictive
-// current control of a voltage source inverter, IEEE Trans. IE 54, 2007). If the output acts a period late, the
-// current is first predicted to the begin of that period, with the voltage that is on until then (Cortes et
-// al., Delay compensation in model predictive current control of a three-phase inverter, IEEE Trans. IE 59,
-// 2012).
+// voltages. The one whose current comes nearest to the reference is applied (Rodriguez et al., Predictive
+// current control of a voltage source inverter, IEEE Trans. IE 54, 2007).
 //
-// The voltage is constant in the stator's frame while the magnet turns by x = w_e T. In a fixed frame, that of
-// the magnet in the middle of the period, the winding is R and L with the coupling of the rotation
+// If the output acts a period late, the current is first predicted to the begin of that period, with the
+// voltage that acts until then (Cortes et al., Delay compensation in model predictive current control of a
+// three-phase inverter, IEEE Trans. IE 59, 2012).
+//
+// The voltage is constant in the stator's frame while the magnet turns by x = w_e T. In a fixed frame, the
+// magnet's in the middle of the period, the winding is R and L with the coupling of the rotation
 // (field_current.hpp):
 //
 //   L_d di_d/dt = v_d - R i_d - w_e (L_d - L_q) i_q - e_d,     i' = a i + b (v - ...),   a = exp(-R T/L), b = (1 - a)/R
 //   L_q di_q/dt = v_q - R i_q - w_e (L_d - L_q) i_d - e_q      e = (0, w p psi), or what the shape makes (harmonic_current.hpp)
 //
-// so that i is turned back by x/2, advanced, and turned back by x/2 again: exact for a round rotor except for
-// e, whose turn by +-x/2 about its mean leaves x^2/24 of it. Of the eight states the one with the least cost is
-// chosen,
+// so that i is rotated back by x/2, advanced by a period, and rotated back by x/2 again. This is exact for a
+// round rotor except for e: the rotation of e by +-x/2 about its mean leaves an error of x^2/24 of e. Of the
+// eight states, the one with the least cost is chosen:
 //
-//   J = |i* - i'|^2 + s^2 (legs that change over)
+//   J = |i* - i'|^2 + s^2 (number of legs that change)
 //
-// where s is the current error, in A, that weighs as much as one switching leg. A current beyond `most` is worse than
-// any within it; of those beyond, the shortest is best. Of equal states the one that changes fewer legs is
-// chosen: this decides between the two zero vectors.
+// where s is the current error, in A, that weighs as much as one switching leg. A current beyond the bound
+// `most_A` is worse than any within it; among those beyond, the shortest is best. Among states of equal cost
+// the one that changes fewer legs is chosen, which decides between the two zero vectors.
 //
-// A leg switches at most once per period: at most with 1/(2 T), at a varying frequency. If the bus suffices, i'
+// A leg switches at most once per period, so that its frequency varies up to 1/(2 T). If the bus suffices, i'
 // is within 2/(3 sqrt 3) b U of i*, the radius of the triangles that the seven currents make. There is no
 // integral: errors of the model, dead time and a diode's drop among them, remain in part in the mean.
 //
-// It exists in floating point only, because its scaling is not proved.
+// This control exists in floating point only, because its scaling is not proved.
 #pragma once
 #include "sixstep/control/field/field_current.hpp"
 #include "sixstep/control/leg_command.hpp"
@@ -36,17 +37,17 @@
 
 namespace sixstep::control {
 
-/// It is off by default.
+/// Off by default.
 template <class Scalar>
 struct FiniteSetConfig {
   bool on = false;
-  bool foretells = false;                 ///< outputs act a period late, which is compensated
-  Gain<Scalar> d_decay{}, q_decay{};      ///< a
-  Gain<Scalar> d_A_per_V{}, q_A_per_V{};  ///< b
-  /// p T/2: electrical rad of x/2 per mechanical rad/s; clamped to 1 rad.
+  bool foretells = false;                 ///< true: outputs act a period late, and this delay is compensated
+  Gain<Scalar> d_decay{}, q_decay{};      ///< a, decay of the current over a period
+  Gain<Scalar> d_A_per_V{}, q_A_per_V{};  ///< b, change of the current per volt over a period
+  /// p T/2: electrical rad of half the rotation x/2 per mechanical rad/s; the product is clamped to 1 rad.
   Gain<Scalar> half_turn_s{};
   Gain<Scalar> salient_V_s_A{};  ///< p (L_d - L_q)
-  Scalar switching_A{};          ///< s
+  Scalar switching_A{};          ///< s, current error that weighs as much as one switching leg
   Scalar most_A{};               ///< bound of |i'|; 0: no bound
   bool operator==(const FiniteSetConfig&) const = default;
 };
@@ -56,12 +57,13 @@ using LegBits = std::uint8_t;
 
 template <class Scalar>
 struct FiniteSetState {
-  LegBits legs = 0;       ///< last output
-  Dq<Scalar> foretold{};  ///< the current at its end, in the frame of the magnet at that time
+  LegBits legs = 0;       ///< legs of the last output
+  Dq<Scalar> foretold{};  ///< predicted current at the end of that output's period, in the magnet's frame at
+                          ///< that time
 };
 
-/// Inputs of a tick. e is that of the period that has begun, e_next that of the period to be commanded, each at
-/// the magnet's direction in its middle.
+/// Inputs of a tick. `e` belongs to the period that has begun, `e_next` to the period to be commanded; each
+/// is taken at the magnet's direction in the middle of its period.
 template <class Scalar>
 struct FiniteSetInput {
   Dq<Scalar> reference{}, measured{};
@@ -70,7 +72,8 @@ struct FiniteSetInput {
   Dq<Scalar> e{}, e_next{};
 };
 
-/// The phase voltage vector of three legs. Phase a against the star point: U (2 a - b - c)/3.
+/// The phase voltages of three legs as a vector, V. The voltage of phase a against the star point is U (2 a -
+/// b - c)/3.
 template <class Scalar>
 constexpr AlphaBeta<Scalar> legs_voltage(LegBits legs, Scalar bus_V) {
   const auto side = [&](unsigned k) { return (legs >> k & 1u) != 0 ? bus_V : Scalar{}; };
@@ -93,19 +96,19 @@ constexpr LegCommands<Scalar> as_legs(LegBits legs) {
 
 namespace detail {
 
-/// A direction, turned further by `by`.
+/// The direction `from`, rotated further by `by`.
 template <class Scalar>
 constexpr Direction<Scalar> turned(const Direction<Scalar>& from, const Direction<Scalar>& by) {
   return {from.cos * by.cos - from.sin * by.sin, from.sin * by.cos + from.cos * by.sin};
 }
 
-/// A vector in a frame that has turned further by `by`.
+/// The vector x in a frame that is rotated further by `by`.
 template <class Scalar>
 constexpr Dq<Scalar> seen_from(const Dq<Scalar>& x, const Direction<Scalar>& by) {
   return {x.d * by.cos + x.q * by.sin, x.q * by.cos - x.d * by.sin};
 }
 
-/// i' without a voltage, in the magnet's frame in the middle of the period.
+/// i' without a voltage, in the magnet's frame in the middle of the period, A.
 template <class Scalar>
 constexpr Dq<Scalar> left_alone(const FiniteSetConfig<Scalar>& config, const Dq<Scalar>& i,
                                 Scalar speed_rad_s, const Dq<Scalar>& e) {
@@ -116,7 +119,7 @@ constexpr Dq<Scalar> left_alone(const FiniteSetConfig<Scalar>& config, const Dq<
           T::product(i.q, config.q_decay) - T::product(x_q, config.q_A_per_V)};
 }
 
-/// Change of i' by a voltage in that frame.
+/// Change of i' by a voltage v in the same frame, A.
 template <class Scalar>
 constexpr Dq<Scalar> driven_by(const FiniteSetConfig<Scalar>& config, const Dq<Scalar>& v) {
   using T = ScalarTraits<Scalar>;
@@ -128,7 +131,7 @@ constexpr Scalar square(const Dq<Scalar>& x) {
   return x.d * x.d + x.q * x.q;
 }
 
-/// Rating of a state: first its current beyond the bound, then its cost, then the legs that it changes.
+/// Rating of a state: first the current beyond the bound, then the cost, then the number of legs that change.
 template <class Scalar>
 struct Judged {
   Scalar beyond{}, cost{};
@@ -154,8 +157,8 @@ constexpr Judged<Scalar> judged(const FiniteSetConfig<Scalar>& config, const Dq<
 
 }  // namespace detail
 
-/// The current one period later, with constant legs. `middle`: the magnet's direction in the middle of the
-/// period; `half`: its turn in half a period.
+/// The current one period later, A, with constant legs. `middle`: the magnet's direction in the middle of the
+/// period. `half`: the magnet's rotation in half a period.
 template <class Scalar>
 constexpr Dq<Scalar> foretold(const FiniteSetConfig<Scalar>& config, const Dq<Scalar>& i,
                               const AlphaBeta<Scalar>& voltage_V, const Direction<Scalar>& middle,
@@ -165,7 +168,7 @@ constexpr Dq<Scalar> foretold(const FiniteSetConfig<Scalar>& config, const Dq<Sc
   return detail::seen_from(Dq<Scalar>{alone.d + more.d, alone.q + more.q}, half);
 }
 
-/// One control tick: chooses the next legs, also kept in state.legs.
+/// One control tick: returns the legs of the next period, which are also stored in state.legs.
 template <class Scalar>
 constexpr LegBits finite_set_step(const FiniteSetConfig<Scalar>& config, FiniteSetState<Scalar>& state,
                                   const FiniteSetInput<Scalar>& in) {
@@ -177,7 +180,7 @@ constexpr LegBits finite_set_step(const FiniteSetConfig<Scalar>& config, FiniteS
     i = foretold(config, i, legs_voltage(state.legs, in.bus_V), middle, half, in.speed_rad_s, in.e);
     middle = detail::turned(detail::turned(middle, half), half);
   }
-  // All eight currents turn by the same angle: the reference is turned in their place.
+  // All eight currents would be rotated by the same angle: the reference is rotated back instead.
   const Dq<Scalar> alone = detail::left_alone(config, detail::seen_from(i, half), in.speed_rad_s, in.e_next);
   const Direction<Scalar> back{half.cos, -half.sin};
   const Dq<Scalar> reference = detail::seen_from(in.reference, back);

@@ -1,37 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes currents for a back-EMF that is no sine: the same torque at every angle, with the least copper loss.
-// In the frame of the magnet the three phases' back-EMFs are a vector w p psi g(theta), with g = (0, 1) for a
-// sine. For any other shape g varies in direction and length, with the sixth harmonic and its multiples, and
+// Computes currents for a back-EMF that is no sine, so that the torque is the same at every angle, with the
+// least copper loss. In the frame of the magnet the three phases' back-EMFs are a vector w p psi g(theta),
+// with g = (0, 1) for a sine. For any other shape g varies in direction and length, with the sixth harmonic
+// and its multiples, and
 //
 //   T = 3/2 p psi (g_d i_d + g_q i_q)
 //
 // With a constant i_q the torque varies as g_q does. The shortest current that makes T = 3/2 p psi I at an
-// angle is along g (Hung and Ding, Design of currents to reduce torque ripple in brushless permanent magnet
-// motors, IEE Proc. B 140, 1993),
+// angle is in the direction of g (Hung and Ding, Design of currents to reduce torque ripple in brushless
+// permanent magnet motors, IEE Proc. B 140, 1993):
 //
 //   i* = I g/|g|^2
 //
-// A star point that is not connected carries no current, so that a common part of the three phases makes no
-// torque and no loss: it drops out of g. A current that weakens the field would make torque along g; so only
-// its part across g is used, (i_w g_q/|g|^2) (g_q, -g_d), which makes none. Both together stay within I_max if
-// |I| <= min|g| sqrt(I_max^2 - i_w^2).
+// A star point that is not connected carries no current, so that a part common to the three phases makes no
+// torque and no loss: it drops out of g. A current i_w that weakens the field would make torque along g. Only
+// its component across g is used, (i_w g_q/|g|^2) (g_q, -g_d), which makes no torque. Both currents together
+// stay within I_max if |I| <= min|g| sqrt(I_max^2 - i_w^2).
 //
-// If phases and half waves are alike, g has a period of 60 electrical degrees. It is a table of 32 points with
-// straight lines between them: the corners of a trapezoid of 120 degrees are points of it, and its curves are
-// exact to 1.6e-4. A Fourier series would fall with the square of the order: 32 numbers of it leave 0.7 % at
-// the corners, for four times the products.
+// If phases and half waves are alike, g has a period of 60 electrical degrees. It is stored as a table of 32
+// points with straight lines between them. The corners of a trapezoid of 120 degrees are points of the table,
+// and its curves are exact to 1.6e-4. A Fourier series would converge with the square of the order: 32 of its
+// numbers leave an error of 0.7 % at the corners, for four times the products.
 //
-// A loop without feed-forward lags. If it decouples the axes, the sixth harmonic of the current is fed forward
-// with the coupling: in addition to w p psi g, the voltage that moves the current in the period of the output,
-// from i* at its begin to i* at its end; i* itself is that of the sample's angle, as the measured current is,
+// A loop without feed-forward lags. If it decouples the axes, the sixth harmonic of the current is fed
+// forward with the coupling. In addition to w p psi g this is the voltage that changes the current, in the
+// period of the output, from i* at the period's begin to i* at its end. i* itself is taken at the sample's
+// angle, as the measured current is:
 //
 //   v = L (i*(theta' + x/2) - i*(theta' - x/2))/T + R (i*(theta') - (i_w, I)),   x = w_e T
 //
-// The loop then corrects only the errors of the model, as long as the voltage suffices. If it does not decouple
-// the axes, i* is that of the angle that the magnet has when the loop has followed: to the first order of 6 w_e
-// over the loop's bandwidth nothing lags, and the rest grows with its square.
+// The loop then corrects only the errors of the model, as long as the voltage suffices. If the loop does not
+// decouple the axes, i* is taken at the angle that the magnet has when the loop has followed. Then there is
+// no lag to the first order of 6 w_e over the loop's bandwidth, and the remaining lag grows with the square
+// of this ratio.
 //
-// It exists in floating point only, because its scaling is not proved.
+// This control exists in floating point only, because its scaling is not proved.
 #pragma once
 #include "sixstep/control/field/field_current.hpp"
 #include "sixstep/control/field/field_direction.hpp"
@@ -40,25 +43,25 @@ namespace sixstep::control {
 
 inline constexpr std::uint8_t shape_points = 32;
 
-/// The default is that of a sine: i_q alone.
+/// The default is the current for a sine: i_q alone.
 template <class Scalar>
 struct HarmonicCurrentConfig {
   bool on = false;
-  /// Electrical rad per mechanical rad/s that the magnet turns until the current has followed, without
-  /// feed-forward; clamped to 1 rad.
+  /// Electrical rad that the magnet turns until the current has followed, per mechanical rad/s, for a loop
+  /// without feed-forward; the product is clamped to 1 rad.
   Gain<Scalar> lead_rad_s{};
   Gain<Scalar> half_turn_s{};        ///< p T/2: electrical rad of x/2 per mechanical rad/s; clamped to 1 rad
-  Gain<Scalar> slope_V_A{};          ///< L/T
+  Gain<Scalar> slope_V_A{};          ///< L/T, voltage per ampere of change in a period
   Gain<Scalar> R_ohm{};              ///< resistance of a phase
-  Scalar least{};                    ///< min |g|
-  Dq<Scalar> shape[shape_points]{};  ///< g with the magnet at n/32 of 60 degrees
+  Scalar least{};                    ///< min |g|, least length of the shape vector
+  Dq<Scalar> shape[shape_points]{};  ///< g, with the magnet at n/32 of 60 electrical degrees
   bool operator==(const HarmonicCurrentConfig&) const = default;
 };
 
 /// g at an angle of the magnet.
 template <class Scalar>
 constexpr Dq<Scalar> shape_at(const HarmonicCurrentConfig<Scalar>& config, BinaryAngle magnet) {
-  const auto in_sixth = static_cast<BinaryAngle>(magnet * 6u);  // wraps where the shape does
+  const auto in_sixth = static_cast<BinaryAngle>(magnet * 6u);  // wraps where the shape repeats
   const auto n = static_cast<std::uint8_t>(in_sixth >> 27);
   const auto rest = static_cast<std::int32_t>((in_sixth << 5) >> 1);
   const Scalar part = AngleTraits<Scalar>::half_turns(rest);
@@ -77,7 +80,7 @@ constexpr Dq<Scalar> current_along(const Dq<Scalar>& g, Scalar I, Scalar weakeni
 
 }  // namespace detail
 
-/// i* for I and for a current along the magnet that weakens its field.
+/// i* for a torque current I and a current along the magnet that weakens its field, A.
 template <class Scalar>
 constexpr Dq<Scalar> harmonic_current(const HarmonicCurrentConfig<Scalar>& config, BinaryAngle magnet,
                                       Scalar speed_rad_s, Scalar I, Scalar weakening) {
@@ -85,7 +88,8 @@ constexpr Dq<Scalar> harmonic_current(const HarmonicCurrentConfig<Scalar>& confi
                                weakening);
 }
 
-/// i* in a period in whose middle the magnet has the angle `magnet`, and the voltage that moves it.
+/// i*, A, in a period in whose middle the magnet has the angle `magnet`, and the voltage that changes i* in
+/// this period, V.
 template <class Scalar>
 struct TakenAlong {
   Dq<Scalar> current{}, voltage{};
@@ -106,7 +110,7 @@ constexpr TakenAlong<Scalar> taken_along(const HarmonicCurrentConfig<Scalar>& co
            T::product(end.q - begin.q, config.slope_V_A) + T::product(middle.q - I, config.R_ohm)}};
 }
 
-/// w p psi g: voltage of the magnet along itself and across, in place of (0, w p psi).
+/// w p psi g, V: voltage of the magnet along itself and across. It replaces (0, w p psi) of a sine.
 template <class Scalar>
 constexpr Dq<Scalar> harmonic_voltage(const HarmonicCurrentConfig<Scalar>& config, BinaryAngle magnet,
                                       Scalar speed_rad_s, Gain<Scalar> magnet_V_s) {

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Estimates the direction of the magnet without a sensor: from standstill on by the current's response to a
-// pulsing voltage (injection.hpp), at speed by the flux that the magnet makes in the winding (active_flux.hpp).
-// Both give the angle by which the magnet is ahead of the estimate, and one tracking loop
+// Estimates the direction of the magnet without a sensor. At standstill and low speed it uses the current's
+// response to a pulsing voltage (injection.hpp), at speed the flux that the magnet makes in the winding
+// (active_flux.hpp). Both give the angle by which the magnet is ahead of the estimate. One tracking loop
 // (sensing/tracking.hpp) follows the two, mixed by speed:
 //
 //   error = (1 - m) e_injection + m e_flux,   m = (|w| - w_low)/(w_high - w_low) within 0..1
 //
-// Above w_high nothing is injected. The start:
+// Above w_high no voltage is injected. The start:
 //
-//   with injection      axis -> north -> following      the rotor is found at standstill, and does not move
-//                               '-----> unseen          it does not saturate: the drive stops
-//   by the flux alone   aligning -> ramping -> following    a current turns it: it moves before it can be followed
-//                           '--------'---------'--> unseen    it was lost too often in a row after short runs
+//   with injection      axis -> north -> following      the rotor is found at standstill and does not move
+//                                '-----> unseen          the iron does not saturate: the drive stops
+//   by the flux alone   aligning -> ramping -> following    a current turns the rotor before it can be followed
+//                            '--------'---------'--> unseen    it was lost too often in a row, after short runs
 //
-// Without injection a voltage along an axis holds the rotor, and then one a quarter turn further, so that it
-// cannot rest at a dead point. Then a current vector that turns with a steady acceleration accelerates the
-// rotor up to a speed at which the flux can be followed. A rotor that falls below w_low is started again. The
-// estimator exists in floating point only.
+// Without injection a voltage along an axis holds the rotor, and then a voltage a quarter turn further, so
+// that the rotor cannot rest at a dead point. After that a current vector that turns with a constant
+// acceleration accelerates the rotor, up to a speed at which the flux can be followed. A rotor that becomes
+// slower than w_low is started again. The estimator exists in floating point only.
 #pragma once
 #include "sixstep/control/field/active_flux.hpp"
 #include "sixstep/control/field/injection.hpp"
@@ -29,27 +29,28 @@ namespace sixstep::control {
 
 enum class EstimatorPhase : std::uint8_t { axis, north, aligning, ramping, following, unseen };
 
-/// A current that turns the rotor before it can be followed. The default starts nothing.
+/// Start by a current that turns the rotor before it can be followed. The default starts nothing.
 template <class Scalar>
 struct TurnStartConfig {
-  Scalar current_A{};             ///< along the axis
+  Scalar current_A{};             ///< current along the vector
   std::uint32_t align_ticks = 0;  ///< duration of the alignment
   std::int64_t step = 0;          ///< increase of the speed per tick, 2^-48 turn per tick
-  std::int64_t enough = 0;        ///< speed from which the flux is followed
-  std::uint32_t good_ticks = 0;   ///< a rotor that is followed for this time has started
+  std::int64_t enough = 0;        ///< speed from which the flux is followed, 2^-48 turn per tick
+  std::uint32_t good_ticks = 0;   ///< a rotor that has been followed for this time has started
   std::uint8_t retries = 3;       ///< failed starts in a row before the drive stops
   bool operator==(const TurnStartConfig&) const = default;
 };
 
-/// It is off by default.
+/// Off by default.
 template <class Scalar>
 struct EstimatorConfig {
   bool on = false;
   TrackingConfig tracking{};     ///< tracking loop of the electrical angle
   Gain<Scalar> rad_s{};          ///< mechanical rad/s per unit of tracking_speed()
-  std::uint32_t axis_ticks = 0;  ///< ticks until the axis is followed
+  std::uint32_t axis_ticks = 0;  ///< ticks from the begin until the axis counts as found
   std::uint8_t late = 0;         ///< n: ticks from an output to the begin of its period
-  bool in_middle = false;        ///< samples are in the middle of a period: no injection then
+  bool in_middle = false;        ///< true: samples are in the middle of a period, so that injection is not
+                                 ///< possible
   InjectionConfig<Scalar> injection{};
   PolarityConfig<Scalar> north{};
   ActiveFluxConfig<Scalar> flux{};
@@ -63,25 +64,25 @@ struct EstimatorState {
   EstimatorPhase phase = EstimatorPhase::axis;
   bool begun = false, reversed = false;
   std::uint32_t ticks = 0;
-  std::uint8_t failures = 0;  ///< failed starts in a row
+  std::uint8_t failures = 0;  ///< consecutive failed starts
   TrackingState tracking{};
   BinaryAngle sampled = 0;  ///< the magnet's angle at the last sample
   Scalar speed_rad_s{};     ///< mechanical
-  Scalar weight{};          ///< m
+  Scalar weight{};          ///< m, weight of the flux in the error
   InjectionState<Scalar> injection{};
   NorthState<Scalar> north{};
   ActiveFluxState<Scalar> flux{};
-  Dq<Scalar> current{};               ///< current of the last sample, in its frame
-  AlphaBeta<Scalar> answered_V[4]{};  ///< voltages of the last ticks' outputs, the newest first
+  Dq<Scalar> current{};               ///< current at the last sample, A, in the frame of that sample
+  AlphaBeta<Scalar> answered_V[4]{};  ///< voltages of the last ticks' outputs, V, the newest first
 };
 
-/// True while a current turns a rotor that is not followed yet.
+/// True while a current turns a rotor that is not yet followed.
 template <class Scalar>
 constexpr bool estimator_turns(const EstimatorState<Scalar>& state) {
   return state.phase == EstimatorPhase::aligning || state.phase == EstimatorPhase::ramping;
 }
 
-/// Current reference along the axis in the estimator's own phases, A.
+/// Reference of the current along the axis, A, in the phases in which the estimator sets it.
 template <class Scalar>
 constexpr Scalar estimator_reference_d(const EstimatorConfig<Scalar>& config,
                                        const EstimatorState<Scalar>& state) {
@@ -127,14 +128,15 @@ constexpr Scalar flux_weight(const EstimatorConfig<Scalar>& config, Scalar speed
   return past >= wide ? one<Scalar> : past > Scalar{} ? past / wide : Scalar{};
 }
 
-/// The other end is north: turns the frame by half a turn, with the current that is stored in it.
+/// The other end of the axis is north: rotates the frame by half a turn, with the current that is stored in
+/// it.
 template <class Scalar>
 constexpr void turn_round(EstimatorState<Scalar>& state) {
   state.tracking.angle += half_turn;
   state.current = {-state.current.d, -state.current.q};
 }
 
-/// Turns the current and the angle with it, regardless of the rotor.
+/// Rotates the current vector and the estimate with it, without regard to the rotor.
 template <class Scalar>
 constexpr void turn_on(const EstimatorConfig<Scalar>& config, EstimatorState<Scalar>& state) {
   const TurnStartConfig<Scalar>& start = config.start;
@@ -163,21 +165,21 @@ constexpr void find_north(const EstimatorConfig<Scalar>& config, EstimatorState<
   if (state.north.phase == NorthPhase::opposite) turn_round(state);
   if (state.north.phase != NorthPhase::opposite && state.north.phase != NorthPhase::found) return;
   state.phase = EstimatorPhase::following;
-  // Up to now the flux was estimated without north.
+  // The flux that was estimated before north was known is replaced.
   const Direction<Scalar> magnet = direction_of<Scalar>(state.tracking.angle);
   state.flux.flux = {config.flux.magnet_Vs * magnet.cos + config.flux.L_q_H * state.flux.current.alpha,
                      config.flux.magnet_Vs * magnet.sin + config.flux.L_q_H * state.flux.current.beta};
 }
 
-/// True if only the flux can be followed, and the rotor is too slow for it.
+/// True if only the flux can be followed and the rotor is too slow for that.
 template <class Scalar>
 constexpr bool out_of_sight(const EstimatorConfig<Scalar>& config, const EstimatorState<Scalar>& state) {
   return state.phase == EstimatorPhase::following && !(config.injection.voltage_V > Scalar{}) &&
          magnitude(state.speed_rad_s) < config.low_rad_s;
 }
 
-/// Starts a lost rotor again. The start has failed only if the setpoint requires a speed at which the rotor can
-/// be followed.
+/// Starts a lost rotor again. This counts as a failed start only if the setpoint requires a speed at which
+/// the rotor can be followed.
 template <class Scalar>
 constexpr void look_for_it(const EstimatorConfig<Scalar>& config, EstimatorState<Scalar>& state,
                            bool reversed, bool turns) {
@@ -195,9 +197,9 @@ constexpr void look_for_it(const EstimatorConfig<Scalar>& config, EstimatorState
 
 }  // namespace detail
 
-/// One control tick with its currents. Returns them in the frame of the assumed magnet, A, free of the pulse.
-/// reversed: direction in which a start turns the rotor; turns: the setpoint requires a speed at which it can
-/// be followed.
+/// One control tick with its currents. Returns them in the frame of the assumed magnet, A, without the pulse.
+/// `reversed`: direction in which a start turns the rotor. `turns`: the setpoint requires a speed at which
+/// the rotor can be followed.
 template <class Scalar>
 constexpr Dq<Scalar> estimator_step(const EstimatorConfig<Scalar>& config, EstimatorState<Scalar>& state,
                                     const AlphaBeta<Scalar>& current, bool reversed, bool turns) {
@@ -229,7 +231,7 @@ constexpr Dq<Scalar> estimator_step(const EstimatorConfig<Scalar>& config, Estim
   return mean;
 }
 
-/// Stores the voltages of the tick's output with the duties that the timer gets, which are clamped.
+/// Stores the voltage of the tick's output, computed from the duties that the timer gets, which are clamped.
 template <class Scalar>
 constexpr void estimator_answered(EstimatorState<Scalar>& state, const LegCommands<Scalar>& command,
                                   Scalar bus_V) {

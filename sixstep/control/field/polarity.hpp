@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds which end of the magnet's axis is north, once the axis is found (injection.hpp): a current along it
-// that adds to the magnet's field saturates the iron (model.md 7),
+// Finds which end of the magnet's axis is north, once the axis is known (injection.hpp). A current along the
+// axis that adds to the magnet's field saturates the iron (model.md 7),
 //
 //   L_d(i_d) = L_d (1 - i_d/I_sat),   h_d = V T/L_d(i_d)
 //
-// and the pulse makes a larger response. A current I is held along the assumed axis, then -I:
+// so that the pulse makes a larger response. A current I along the assumed axis is held first, then -I; h+
+// and h- are the responses:
 //
 //   (h+ - h-)/(h+ + h-) = +-I/I_sat
 //
-// Neither current makes torque, because both are along the axis. A result below `certain` is rejected: the iron
-// does not saturate, or noise is as large.
+// Neither current makes torque, because both are along the axis. A result below `certain` is rejected: either
+// the iron does not saturate, or the noise is as large.
 #pragma once
 #include <cstdint>
 
@@ -21,10 +22,10 @@ enum class NorthPhase : std::uint8_t { forth, back, found, opposite, unseen };
 
 template <class Scalar>
 struct PolarityConfig {
-  Scalar current_A{};              ///< I
+  Scalar current_A{};              ///< I, current along the axis
   Gain<Scalar> certain{};          ///< smallest |(h+ - h-)/(h+ + h-)| that is accepted
-  std::uint16_t settle_ticks = 0;  ///< ticks until the current is constant
-  std::uint16_t look_ticks = 0;    ///< ticks over which h is then summed
+  std::uint16_t settle_ticks = 0;  ///< ticks until the current is constant, after each change
+  std::uint16_t look_ticks = 0;    ///< ticks after that over which h_d is summed
   bool operator==(const PolarityConfig&) const = default;
 };
 
@@ -32,24 +33,24 @@ template <class Scalar>
 struct NorthState {
   NorthPhase phase = NorthPhase::forth;
   std::uint16_t ticks = 0;
-  Accumulator<Scalar> forth{}, back{};  ///< sums of h_d, A
+  Accumulator<Scalar> forth{}, back{};  ///< sums of h_d with the current I and with -I, A
 };
 
-/// i_d reference.
+/// Reference of i_d, A.
 template <class Scalar>
 constexpr Scalar north_current(const PolarityConfig<Scalar>& config, const NorthState<Scalar>& state) {
   if (state.phase == NorthPhase::forth) return config.current_A;
   return state.phase == NorthPhase::back ? -config.current_A : Scalar{};
 }
 
-/// The result: (h+ - h-)/(h+ + h-), signed.
+/// The result (h+ - h-)/(h+ + h-); a positive sign means that the assumed end is north.
 template <class Scalar>
 constexpr Scalar north_seen(const NorthState<Scalar>& state) {
   const Scalar sum = state.forth + state.back;
   return sum > Scalar{} ? (state.forth - state.back) / sum : Scalar{};
 }
 
-/// One tick with its h_d, A.
+/// One tick with its response h_d, A.
 template <class Scalar>
 constexpr void north_step(const PolarityConfig<Scalar>& config, NorthState<Scalar>& state, Scalar h_d) {
   if (state.phase != NorthPhase::forth && state.phase != NorthPhase::back) return;

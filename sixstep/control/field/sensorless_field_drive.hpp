@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs the field-oriented drive without a rotor position sensor: field_drive.hpp with the magnet's direction
 // and speed from magnet_estimator.hpp. Until these are known the drive applies the estimator's own current,
-// independent of setpoint and speed loop. With the estimator off it is the drive of field_drive.hpp; with it on
-// the output is always pulses, never finite_set.hpp. If the estimator finds no north, or the rotor does not
-// follow the current that turns it, the drive stops with a fault.
+// independent of setpoint and speed loop. With the estimator off this is the drive of field_drive.hpp. With
+// it on, the output is always pulses and never finite_set.hpp. If the estimator finds no north, or the rotor
+// does not follow the current that turns it, the drive stops with a fault.
 #pragma once
 #include "sixstep/control/field/field_drive.hpp"
 #include "sixstep/control/field/magnet_estimator.hpp"
@@ -25,8 +25,8 @@ struct SensorlessFieldState {
 
 namespace detail {
 
-/// These are separate functions because GCC 12 ends with an internal error if a member is set to a temporary
-/// that begins with defaults.
+/// These are separate functions because GCC 12 stops with an internal error if a member is assigned a
+/// temporary with default members.
 template <class Scalar>
 constexpr LegCommands<Scalar> given_up_legs() {
   LegCommands<Scalar> command{};
@@ -38,7 +38,7 @@ constexpr EstimatorState<Scalar> unbegun() {
   return {};
 }
 
-/// Resets the current loops, because the frame is a new one.
+/// Resets the current loops, because the rotor's frame has changed.
 template <class Scalar>
 constexpr void field_anew(FieldDriveState<Scalar>& state) {
   state.current = {};
@@ -46,7 +46,7 @@ constexpr void field_anew(FieldDriveState<Scalar>& state) {
   state.reference = {};
 }
 
-/// Bus whose circle leaves room for the pulse: a pulse that is cut off gives no information.
+/// Bus voltage, V, whose circle leaves room for the pulse: a pulse that is cut off gives no information.
 template <class Scalar>
 constexpr Scalar bus_beside(const InjectionConfig<Scalar>& config, Scalar bus_V) {
   constexpr auto root_3 = static_cast<Gain<Scalar>>(1.7320508075688772);
@@ -54,8 +54,8 @@ constexpr Scalar bus_beside(const InjectionConfig<Scalar>& config, Scalar bus_V)
   return left > Scalar{} ? left : Scalar{};
 }
 
-/// A voltage, not a controlled current, pulls the rotor to the axis, because it damps the swing. The loop that
-/// controls the current once the axis turns continues from that voltage.
+/// Voltage that pulls the rotor to the axis. It is a voltage and not a controlled current, because a voltage
+/// damps the rotor's swing. When the axis begins to turn, the current loop continues from this voltage.
 template <class Scalar>
 constexpr const Dq<Scalar>& aligning_voltage(const SensorlessFieldConfig<Scalar>& config,
                                              FieldCurrentState<Scalar>& state) {
@@ -65,7 +65,7 @@ constexpr const Dq<Scalar>& aligning_voltage(const SensorlessFieldConfig<Scalar>
   return state.voltage;
 }
 
-/// Voltage for the reference of the estimator itself.
+/// Voltage in phases in which the estimator sets the current reference.
 template <class Scalar>
 constexpr Dq<Scalar> estimating_voltage(const SensorlessFieldConfig<Scalar>& config,
                                         SensorlessFieldState<Scalar>& state,
@@ -83,7 +83,7 @@ constexpr Dq<Scalar> estimating_voltage(const SensorlessFieldConfig<Scalar>& con
 
 namespace detail {
 
-/// True if the setpoint requires a speed at which the rotor can be followed by its flux.
+/// True if the setpoint requires a speed at which the flux can be followed.
 template <class Scalar>
 constexpr bool asks_to_turn(const SensorlessFieldConfig<Scalar>& config, Scalar setpoint) {
   const Scalar least = config.field.drive.mode == Mode::speed ? config.estimator.low_rad_s : Scalar{};
@@ -134,7 +134,7 @@ constexpr const LegCommands<Scalar>& sensorless_field_step(const SensorlessField
   return field.command;
 }
 
-/// Another configuration between two ticks. The estimate of the magnet is kept.
+/// Replaces the configuration between two ticks. The estimate of the magnet's direction is kept.
 template <class Scalar>
 constexpr void retune(SensorlessFieldConfig<Scalar>& config, SensorlessFieldState<Scalar>& state,
                       const SensorlessFieldConfig<Scalar>& next) {

@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the current along the magnet with which a salient rotor makes the most torque per ampere. For
+// Computes the current along the magnet with which a salient rotor makes the most torque per ampere. At a
+// given torque
 //
 //   T = 3/2 p (psi i_q + (L_d - L_q) i_d i_q)
 //
-// at a given torque |i| is least where i_d^2 - i_q^2 = psi i_d/(L_q - L_d) (Jahns, Kliman and Neumann, Interior
-// Permanent-Magnet Synchronous Motors for Adjustable-Speed Drives, IEEE Trans. IA 22, 1986), which is
+// |i| is least where i_d^2 - i_q^2 = psi i_d/(L_q - L_d) (Jahns, Kliman and Neumann, Interior
+// Permanent-Magnet Synchronous Motors for Adjustable-Speed Drives, IEEE Trans. IA 22, 1986). The solution is
 //
-//   i_d = a - sqrt(a^2 + i_q^2), a = psi/(2 (L_q - L_d));   here -i_q k/(1/4 + sqrt(1/16 + k^2)), k = i_q/(4 a)
+//   i_d = a - sqrt(a^2 + i_q^2), a = psi/(2 (L_q - L_d));   here i_d = -i_q k/(1/4 + sqrt(1/16 + k^2)), k = i_q/(4 a)
 //
-// the same without a difference of two nearly equal numbers and without a, which no format holds for a round
-// rotor: there k and i_d are 0. In fixed point k is a number below 1; |k| <= 0.7, i_q up to 2.8 a, stays within
-// every format.
+// The second form has no difference of two nearly equal numbers, and no a, which no format holds for a round
+// rotor; there k and i_d are 0. In fixed point k is a number below 1; |k| <= 0.7, which is i_q up to 2.8 a,
+// stays within every format.
 #pragma once
 #include "sixstep/control/root.hpp"
 
 namespace sixstep::control {
 
-/// The default is that of a round rotor.
+/// The default is for a round rotor: i_d = 0.
 template <class Scalar>
 struct TorquePerAmpereConfig {
-  Gain<Scalar> k_per_A{};  ///< (L_q - L_d)/(2 psi)
+  Gain<Scalar> k_per_A{};  ///< k/i_q = (L_q - L_d)/(2 psi)
   bool operator==(const TorquePerAmpereConfig&) const = default;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a controller (own_controller.h) of a C++ class, whose static functions replace the pointers there. The
-// class has
+// Makes a controller (own_controller.h) from a C++ class: the class's static functions replace the function
+// pointers of the C interface. The class has
 //
 //   struct Config; struct State;                              both trivially copyable, all zero before design and start
 //   static constexpr sixstep_parameter parameters[];          optional
@@ -60,7 +60,7 @@ struct OwnFunctions {
   }
 };
 
-/// The class as a sixstep_controller.
+/// The C++ class as a sixstep_controller.
 template <class Class>
 constexpr sixstep_controller own_controller(std::uint32_t answers, const char* name, const char* sentence) {
   using F = OwnFunctions<Class>;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Six-step commutation for a controller that only computes a signed duty: the current of the Hall code's pair, the pair
-// itself, reversed for a negative duty, and its command for a timer.
+// Six-step commutation for a controller that only computes a signed duty. It gives the current of the Hall
+// code's pair, the pair itself, exchanged for a negative duty, and the command for a timer.
 #pragma once
 #include "sixstep/control/bridge_command.hpp"
 #include "sixstep/control/commutation.hpp"
@@ -8,8 +8,8 @@
 
 namespace sixstep::control {
 
-/// Sets enabled, source, sink and duty of the answer. `duty`: -1..1, positive for positive torque. A code without a sector (000,
-/// 111) turns the bridge off.
+/// Sets enabled, source, sink and duty of the answer. `duty`: -1..1, positive for positive torque. A code
+/// without a sector (000, 111) turns the bridge off.
 constexpr void command_pair(sixstep_real duty, std::uint8_t code, sixstep_answer& answer) {
   const std::uint8_t sector = sector_of_hall(code);
   const Pair positive = positive_pair(sector);
@@ -20,7 +20,8 @@ constexpr void command_pair(sixstep_real duty, std::uint8_t code, sixstep_answer
   answer.duty = duty < 0 ? -duty : duty;
 }
 
-/// Motor current of the pair that makes positive torque, A: half of source less sink.
+/// Motor current, A, of the pair that makes positive torque: half the difference of the source's and the
+/// sink's current.
 constexpr sixstep_real pair_current(const sixstep_measured& measured) {
   const Pair positive = positive_pair(sector_of_hall(measured.hall));
   return (measured.current_A[static_cast<unsigned>(positive.source)] -

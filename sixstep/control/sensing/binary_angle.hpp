@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Represents angles as whole numbers, 2^32 to a turn: sums wrap exactly at the turn's end, a difference taken
-// as signed is the shorter way, and every core gives the same bits. One unit is 8.4e-8 degrees. Names
-// distinguish electrical from mechanical angles; a mechanical angle times the pole pairs is the electrical one,
-// which wraps correctly too.
+// Represents angles as integers, 2^32 to a turn. Sums wrap exactly at the turn's end, a difference taken as
+// signed is the shorter rotation, and every core gives the same bits. One unit is 8.4e-8 degrees. Names
+// distinguish electrical from mechanical angles. A mechanical angle times the pole pairs is the electrical
+// angle, which wraps correctly too.
 #pragma once
 #include <cstdint>
 
@@ -15,7 +15,7 @@ using BinaryAngle = std::uint32_t;
 
 inline constexpr BinaryAngle quarter_turn = 0x40000000u, half_turn = 0x80000000u;
 
-/// The shorter way, -2^31 to 2^31 - 1; half a turn is negative.
+/// The shorter rotation between two angles, -2^31 to 2^31 - 1; half a turn is negative.
 constexpr std::int32_t way_between(BinaryAngle from, BinaryAngle to) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(to - from));
 }
@@ -26,8 +26,9 @@ constexpr BinaryAngle electrical_angle(BinaryAngle mechanical, std::uint8_t pole
   return static_cast<BinaryAngle>(mechanical * pole_pairs + offset);
 }
 
-/// Meant for constants and the host, |degrees| below 2^22. The result is rounded to nearest where double has 64
-/// bits; where it has 32 (AVR) it is exact to 2^-24 of itself.
+/// An angle in degrees as a binary angle, |degrees| below 2^22. Use it for constants and on the host. The
+/// result is rounded to nearest where double has 64 bits; where double has 32 (AVR), its relative error is up
+/// to 2^-24.
 constexpr BinaryAngle binary_degrees(double degrees) {
   const double turns = degrees / 360.0;
   const auto whole = static_cast<std::int32_t>(turns);
@@ -37,14 +38,14 @@ constexpr BinaryAngle binary_degrees(double degrees) {
       static_cast<std::uint64_t>(detail::nearest<std::int64_t>(rest * 4294967296.0)));
 }
 
-/// Begin of electrical sector n = 0..5: the first whole angle at or after 60 n degrees (model.md 3).
+/// Begin of electrical sector n = 0..5: the first integer angle at or after 60 n degrees (model.md 3).
 constexpr BinaryAngle sector_angle(std::uint8_t n) {
   constexpr BinaryAngle begins[6] = {0u, 715827883u, 1431655766u, 2147483648u, 2863311531u, 3579139414u};
   return begins[n % 6];
 }
 
-/// The sector [60 n, 60 n + 60) degrees that contains an electrical angle. It only compares, so that nothing is
-/// rounded.
+/// The sector [60 n, 60 n + 60) degrees that contains an electrical angle. The function only compares, so
+/// that nothing is rounded.
 constexpr std::uint8_t sector_of_angle(BinaryAngle electrical) {
   const bool upper = electrical >= half_turn;
   const BinaryAngle rest = upper ? electrical - half_turn : electrical;
@@ -58,14 +59,14 @@ constexpr BinaryAngle quantised(BinaryAngle angle, std::uint8_t bits) {
   return (angle >> drop) << drop;
 }
 
-/// Full turns and the angle in the last one. Together they continue beyond the turn's end.
+/// Whole turns, and the angle within the last turn. Together they continue beyond the turn's end.
 struct UnwrappedAngle {
   BinaryAngle angle = 0;
   std::int32_t turns = 0;
   bool operator==(const UnwrappedAngle&) const = default;
 };
 
-/// Moves to an angle by the shorter way.
+/// Changes to a new angle by the shorter rotation, and counts whole turns.
 constexpr void unwrap(UnwrappedAngle& state, BinaryAngle angle) {
   const std::int32_t way = way_between(state.angle, angle);
   if (way >= 0 && angle < state.angle) ++state.turns;
@@ -75,8 +76,8 @@ constexpr void unwrap(UnwrappedAngle& state, BinaryAngle angle) {
 
 namespace detail {
 
-/// Number of bits of x. It halves the width, because a loop bit by bit becomes a library call on processors
-/// that do not count zeros.
+/// Number of bits of x. The function halves the width, because on processors that do not count zeros a loop
+/// bit by bit becomes a library call.
 constexpr std::uint8_t bit_width(std::uint32_t x) {
   std::uint8_t bits = 0;
   for (std::uint8_t half = 16; half != 0; half = static_cast<std::uint8_t>(half >> 1)) {
@@ -89,14 +90,17 @@ constexpr std::uint8_t bit_width(std::uint32_t x) {
 
 }  // namespace detail
 
-/// A turn divided into whole parts, by multiplication: part 2^32/whole, to nearest and 2 units.
+/// A turn divided into whole parts. angle_of_parts() uses it to multiply instead of dividing; the error is at
+/// most 2 units plus rounding.
 struct TurnParts {
-  std::uint32_t mantissa = 0;  ///< 2^(30+n)/whole where whole has n bits; exact where it is a power of two
+  std::uint32_t mantissa = 0;  ///< 2^(30+n)/whole, n the number of bits of whole; exact if whole is a power
+                               ///< of two
   std::uint8_t right = 0;      ///< n - 2
   bool operator==(const TurnParts&) const = default;
 };
 
-/// Costs one division of 64 bits: call it once per Hall edge, or at compile time. Fewer than two parts give 0.
+/// Divides a turn into `whole` parts. This costs one division of 64 bits: call it once per Hall edge, or at
+/// compile time. Fewer than two parts give 0.
 constexpr TurnParts turn_in_parts(std::uint32_t whole) {
   if (whole < 2) return {};
   const std::uint8_t bits = detail::bit_width(whole);
@@ -104,36 +108,36 @@ constexpr TurnParts turn_in_parts(std::uint32_t whole) {
   return {static_cast<std::uint32_t>((scaled + whole / 2) / whole), static_cast<std::uint8_t>(bits - 2)};
 }
 
-/// The angle of `part` parts; more than a turn wraps.
+/// The angle of `part` parts of the turn; more than a turn wraps.
 constexpr BinaryAngle angle_of_parts(const TurnParts& turn, std::uint32_t part) {
   const std::uint64_t product = static_cast<std::uint64_t>(part) * turn.mantissa;
   if (turn.right == 0) return static_cast<BinaryAngle>(product);
   return static_cast<BinaryAngle>(((product >> (turn.right - 1)) + 1) >> 1);
 }
 
-/// Functions that a decoder requires of its scalar, in addition to ScalarTraits. This is the version for
-/// floating point.
+/// Functions that a decoder requires of its scalar, in addition to ScalarTraits. This version is for floating
+/// point.
 template <class Scalar>
 struct AngleTraits {
-  /// mantissa/2^right, the mantissa of 31 bits: the same constant also where double has 32 bits.
+  /// mantissa/2^right, the mantissa with 31 bits: the same constant also where double has 32 bits.
   static constexpr Gain<Scalar> constant(std::int32_t mantissa, std::int8_t right) {
     return static_cast<Scalar>(static_cast<double>(mantissa) /
                                static_cast<double>(detail::two_to<std::int64_t>(right)));
   }
-  /// A signed angle as a part of half a turn, -1..1.
+  /// A signed angle as a fraction of half a turn, -1..1.
   static constexpr Scalar half_turns(std::int32_t angle) {
     return static_cast<Scalar>(angle) * static_cast<Scalar>(0x1p-31);
   }
-  /// x times `per_unit` as a signal, for a signed whole number x of up to 32 bits. Fixed point: `per_unit` is
-  /// in raw signal digits per unit of x.
+  /// x times `per_unit` as a signal, for a signed integer x of up to 32 bits. Fixed point: `per_unit` is in
+  /// raw signal digits per unit of x.
   static constexpr Scalar scaled(std::int32_t x, Gain<Scalar> per_unit) {
     return static_cast<Scalar>(x) * per_unit;
   }
-  /// n times a signal times timer counts.
+  /// n times a product of a signal and timer counts.
   static constexpr TickRatio<Scalar> counted(TickRatio<Scalar> ratio, std::uint32_t n) {
     return ratio * static_cast<Scalar>(n);
   }
-  /// -1..1 with 31 fraction bits, saturated, rounded towards 0.
+  /// x as an integer with 31 fraction bits: -1..1, saturated, rounded towards 0.
   static constexpr std::int32_t bits_31(Scalar x) {
     if (x >= Scalar(1)) return detail::greatest<std::int32_t>;
     if (x <= Scalar(-1)) return -detail::greatest<std::int32_t>;
@@ -153,7 +157,8 @@ struct AngleTraits<Fixed<Storage, FractionBits>> {
   static constexpr Scalar half_turns(std::int32_t angle) {
     return Scalar::from_raw(detail::saturated<Storage>(detail::shifted_down(angle, 31 - FractionBits)));
   }
-  /// Uses as many leading bits of the number as a signal has: exact to 2^-15 of itself in 16 bits; all bits in 32.
+  /// Uses as many leading bits of x as a signal has. In 16 bits the relative error is up to 2^-15; in 32 bits
+  /// all bits are used.
   static constexpr Scalar scaled(std::int32_t x, Gain<Scalar> per_unit) {
     const std::uint32_t whole = detail::absolute(x);
     constexpr int kept = detail::Widths<Storage>::bits - 1;
@@ -167,7 +172,7 @@ struct AngleTraits<Fixed<Storage, FractionBits>> {
         down >= 0 ? detail::with_sign(detail::magnitude_down(p.size, down), p.negative)
                   : detail::magnitude_up<Wide>(p.size, p.negative, -down));
   }
-  /// Doubles as often as n has bits, because a product would need a library's overflow check.
+  /// Adds and doubles bit by bit of n, because a product would need a library's overflow check.
   static constexpr TickRatio<Scalar> counted(TickRatio<Scalar> ratio, std::uint32_t n) {
     TickRatio<Scalar> sum{};
     for (; n != 0; n >>= 1) {
@@ -182,13 +187,14 @@ struct AngleTraits<Fixed<Storage, FractionBits>> {
   }
 };
 
-/// A signed angle as a signal. `per_half_turn`: signal of half a turn, 180 degrees over the base of positions.
+/// A signed angle as a signal. `per_half_turn`: signal for half a turn, which is 180 degrees over the base of
+/// positions.
 template <class Scalar>
 constexpr Scalar angle_signal(std::int32_t angle, Gain<Scalar> per_half_turn) {
   return ScalarTraits<Scalar>::product(AngleTraits<Scalar>::half_turns(angle), per_half_turn);
 }
 
-/// A small angle in rad, -1..1, as a signed binary angle: 2^32/(2 pi) units to 1 rad.
+/// An angle of -1..1 rad as a signed binary angle: 1 rad is 2^32/(2 pi) units.
 template <class Scalar>
 constexpr std::int32_t angle_of_rad(Scalar rad) {
   constexpr std::int32_t by_pi = 1367130551;  // 2^32/pi

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Absolute encoder in Gray code, of up to 20 tracks: decodes angle, turns and speed. A motion that an inert
-// rotor cannot make is a fault; the faulty track is named if it can be determined.
+// Absolute encoder in Gray code, with up to 20 tracks: decodes angle, turns and speed. A motion that an inert
+// rotor cannot make is a fault. The faulty track is named if it can be determined.
 //
 //   binary = g ^ g >> 1 ^ g >> 2 ^ ...,   angle = binary 2^(32-n),   w = (angle - angle k ticks ago)/(k T)
 //
-// A wrong track k inverts all bits from k down: the angle is mirrored within 2^(k+1) counts, and when the rotor
-// leaves these counts the angle seems to jump by about as much. So each angle is compared with the one
-// predicted from the last two. If the difference is more than acceleration and rounding can make, the faulty
-// track is the one whose inversion gives the predicted angle. Mirrored motion is detected if it moves more per
-// tick than the tolerance, or at a jump. In a slow rotor it is not detected before the jump. In the top track,
-// whose mirror has no border, it is never detected.
+// A wrong track k inverts all bits from k down: the angle is mirrored within 2^(k+1) counts. When the rotor
+// leaves these counts, the angle seems to jump by about as much. Each angle is therefore compared with the
+// one predicted from the last two. If the difference is more than acceleration and rounding can make, the
+// faulty track is the one whose inversion gives the predicted angle.
+//
+// Mirrored motion is detected if it is faster per tick than the tolerance, or at a jump. In a slow rotor it
+// is not detected before the jump. In the top track, whose mirrored range has no border, it is never
+// detected.
 #pragma once
 #include <cstdint>
 
@@ -23,19 +25,20 @@ inline constexpr std::uint8_t no_track = 0xff;
 template <class Scalar>
 struct GrayConfig {
   std::uint8_t bits = 0;      ///< n, 1..20; bit 0 of a code is the finest track
-  BinaryAngle tolerance = 0;  ///< largest error of the predicted angle: 2 counts and what acceleration
-                              ///< adds, below an eighth of a turn; 0: not checked
-  std::uint8_t patience = 0;  ///< bad codes in a row that the prediction replaces; then the code is accepted
+  BinaryAngle tolerance = 0;  ///< largest error of the predicted angle: 2 counts and what acceleration adds,
+                              ///< below an eighth of a turn; 0: not checked
+  std::uint8_t patience = 0;  ///< number of consecutive bad codes that the prediction replaces; the next one
+                              ///< is accepted
   std::uint8_t span = 1;      ///< k, 1..8 ticks over which a speed is taken
-  Gain<Scalar> speed_per_unit{};  ///< 2 pi/(2^32 k T) over the base, k = span; fixed: raw digits
+  Gain<Scalar> speed_per_unit{};  ///< 2 pi/(2^32 k T) over the base of speeds, k = span; fixed: raw digits
   bool operator==(const GrayConfig&) const = default;
 };
 
 struct GrayState {
-  BinaryAngle past[9]{};  ///< the last ticks' angles, the latest first
+  BinaryAngle past[9]{};  ///< angles of the last ticks, the latest first
   UnwrappedAngle position{};
   std::uint8_t known = 0;    ///< valid entries of `past`
-  std::uint8_t bad = 0;      ///< bad codes in a row
+  std::uint8_t bad = 0;      ///< consecutive bad codes
   std::uint32_t faults = 0;  ///< bad codes in total
 };
 
@@ -43,11 +46,12 @@ template <class Scalar>
 struct GrayReading {
   UnwrappedAngle position{};
   Scalar speed{};                 ///< 0 until span + 1 codes were read
-  bool jump = false;              ///< this code was impossible; up to the patience the position is predicted
+  bool jump = false;              ///< this code was impossible; the prediction replaces it up to `patience`
+                                  ///< times
   std::uint8_t track = no_track;  ///< the faulty track, if exactly one explains the jump
 };
 
-/// Bits from `bits` up are ignored.
+/// Converts a Gray code to binary. Bits from `bits` upwards are ignored.
 constexpr std::uint32_t binary_of_gray(std::uint32_t gray, std::uint8_t bits) {
   std::uint32_t b = bits >= 32 ? gray : gray & ((std::uint32_t{1} << bits) - 1u);
   for (std::uint8_t by = 1; by < 32; by = static_cast<std::uint8_t>(2 * by)) b ^= b >> by;
@@ -68,11 +72,12 @@ constexpr bool within(BinaryAngle angle, BinaryAngle of, BinaryAngle tolerance) 
 }
 
 /// The only track whose inversion explains the code; no_track if there is none or more than one. Codes before
-/// this one may have been wrong within the tolerance, which changed the prediction: so the track must be the
-/// only one that explains the code within four times the tolerance. Of 12 tracks broken at 4 to 20 counts per
-/// tick, tolerance 3 counts, this finds two of three from the fifth on, none of the finer ones, and in 8820
-/// breaks no wrong one (tests/control/sensing/gray_test.cpp); within three times the tolerance 42 would be
-/// wrong.
+/// this one may have been wrong within the tolerance, which changed the prediction. The track must therefore
+/// be the only one that explains the code within four times the tolerance.
+///
+/// For 12 tracks that break at 4 to 20 counts per tick, with a tolerance of 3 counts, this finds two of three
+/// tracks from the fifth on and none of the finer ones. In 8820 breaks it names no wrong track
+/// (tests/control/sensing/gray_test.cpp); within three times the tolerance it would name 42 wrong ones.
 constexpr std::uint8_t wrong_track(std::uint32_t gray, std::uint8_t bits, BinaryAngle foretold,
                                    BinaryAngle tolerance) {
   std::uint8_t found = no_track;
@@ -86,7 +91,7 @@ constexpr std::uint8_t wrong_track(std::uint32_t gray, std::uint8_t bits, Binary
 
 }  // namespace detail
 
-/// Call it once per tick, at equal intervals.
+/// One reading. Call it once per tick, at equal intervals.
 template <class Scalar>
 constexpr GrayReading<Scalar> gray_step(const GrayConfig<Scalar>& config, GrayState& state,
                                         std::uint32_t code) {
@@ -102,11 +107,13 @@ constexpr GrayReading<Scalar> gray_step(const GrayConfig<Scalar>& config, GraySt
     if (state.bad <= config.patience)
       angle = foretold;
     else
-      state.known = 0;  // the prediction failed: restart with this code
+      state.known = 0;  // the prediction has failed: restart with this code
   } else {
     state.bad = 0;
   }
-  if (state.known == 0 && !reading.jump) state.position.angle = angle;  // the first code adds no turn
+  if (state.known == 0 && !reading.jump)
+    state.position.angle = angle;  // the first code does not count as a
+                                   // turn
   for (int n = 8; n > 0; --n) state.past[n] = state.past[n - 1];
   state.past[0] = angle;
   if (state.known < 9) ++state.known;

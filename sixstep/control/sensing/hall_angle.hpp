@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the electrical angle between Hall edges, and the speed from the true widths of the sectors.
 //
-//   at an edge n        theta = edge[n] +- h, + forward: half the hysteresis, h, delays the edge
-//   between             theta + way,   way = 2^32 since/turn_ticks, up to the next edge and a margin, plus the
-//                       rotation within the delay of an edge, 2^32 delay/turn_ticks
-//   turn_ticks          ticks over the last k sectors x 2^32/(their width as calibrated)
-//   w                   +-(2 pi/p) timer_Hz/turn_ticks, at most the speed of a rotor before its next edge
+//   at an edge n        theta = edge[n] +- h, + forward: half of the hysteresis, h, delays the edge
+//   between edges       theta + way, way = 2^32 since/turn_ticks, up to the next edge and a margin; plus the rotation
+//                       within the delay of an edge, 2^32 delay/turn_ticks
+//   turn_ticks          ticks over the last k sectors x 2^32/(width of these sectors, as calibrated)
+//   w                   +-(2 pi/p) timer_Hz/turn_ticks, at most the speed of a rotor just before its next edge
 //
-// The edges are where hall_calibration.hpp found them, by default every 60 degrees (model.md 3): edge n is the
-// border between the sectors n-1 and n. With true widths one sector (k = 1) gives the speed; more sectors
-// average jitter, but their speed is older. While no speed is known, at the start, after a reversal or a
-// time-out, the angle is the sector's middle, at most 30 degrees wrong.
+// The edges are where hall_calibration.hpp found them, by default every 60 degrees (model.md 3). Edge n is
+// the border between the sectors n-1 and n. With true widths one sector (k = 1) suffices for the speed; more
+// sectors average jitter, but the speed is then older. While no speed is known (at the start, after a
+// reversal or a time-out), the angle is the sector's middle, at most 30 degrees wrong.
 #pragma once
 #include <cstdint>
 
@@ -28,15 +28,18 @@ struct HallEdges {
   bool operator==(const HallEdges&) const = default;
 };
 
-/// The default measures no speed and stays in the middle of each sector.
+/// With the default no speed is measured, and the angle stays in the middle of each sector.
 template <class Scalar>
 struct HallAngleConfig {
   HallEdges edges{};
-  BinaryAngle margin = 0;                ///< beyond the next edge, for jitter and misplaced edges
-  TickRatio<Scalar> turn_rad_s_ticks{};  ///< (2 pi/p) timer_Hz: speed times ticks of an electrical turn
-  std::uint32_t timeout_ticks = 0;       ///< standstill after this time without an edge; below 2^31
+  BinaryAngle margin = 0;                ///< angle allowed beyond the next edge, for jitter and misplaced
+                                         ///< edges
+  TickRatio<Scalar> turn_rad_s_ticks{};  ///< (2 pi/p) timer_Hz: product of speed and ticks of an electrical
+                                         ///< turn
+  std::uint32_t timeout_ticks = 0;       ///< ticks without an edge after which the rotor counts as at rest;
+                                         ///< below 2^31
   std::uint32_t delay_ticks = 0;         ///< delay of an edge: filter, glitch suppression, interrupt
-  std::uint8_t span = 1;                 ///< k, 1..6 sectors
+  std::uint8_t span = 1;                 ///< k, sectors over which a speed is taken, 1..6
   bool operator==(const HallAngleConfig&) const = default;
 };
 
@@ -44,7 +47,7 @@ struct HallAngleState {
   HallSpeedState times{};
   std::uint8_t sector = no_sector;
   std::uint8_t edge = 0;         ///< the last edge passed
-  std::uint32_t turn_ticks = 0;  ///< 0: no speed is known
+  std::uint32_t turn_ticks = 0;  ///< ticks of an electrical turn; 0: no speed is known
   TurnParts turn{};              ///< turn_in_parts(turn_ticks)
 };
 
@@ -54,7 +57,7 @@ struct HallAngle {
   Scalar speed{};         ///< mechanical rad/s
 };
 
-/// Distance from one edge to the one that lies `sectors`, 1..5, ahead in `direction`; always positive.
+/// Distance from edge `from` to the edge that lies `sectors`, 1..5, ahead in `direction`; always positive.
 constexpr BinaryAngle way_over_edges(const HallEdges& edges, std::uint8_t from, std::int8_t direction,
                                      std::uint8_t sectors) {
   const std::uint8_t to = static_cast<std::uint8_t>((from + (direction < 0 ? 6 - sectors : sectors)) % 6);
@@ -63,7 +66,7 @@ constexpr BinaryAngle way_over_edges(const HallEdges& edges, std::uint8_t from, 
 
 namespace detail {
 
-/// ticks 2^32/width, to nearest, saturated.
+/// ticks 2^32/width, rounded to nearest, saturated: ticks of a turn, of which `width` took `ticks`.
 constexpr std::uint32_t ticks_of_turn(std::uint32_t ticks, BinaryAngle width) {
   if (width == 0) return 0xffffffffu;
   const std::uint64_t turn = ((static_cast<std::uint64_t>(ticks) << 32) + width / 2) / width;
@@ -73,7 +76,7 @@ constexpr std::uint32_t ticks_of_turn(std::uint32_t ticks, BinaryAngle width) {
 }  // namespace detail
 
 /// Takes the result of hall_step. Call it in the interrupt of an edge, with the captured time. A new code
-/// without an edge, or a fault, ends the history.
+/// without an edge, or a fault, ends the history of times.
 template <class Scalar>
 constexpr void hall_angle_edge(const HallAngleConfig<Scalar>& config, HallAngleState& state,
                                std::uint8_t sector, std::int8_t moved, std::uint32_t time) {
@@ -96,7 +99,8 @@ constexpr void hall_angle_edge(const HallAngleConfig<Scalar>& config, HallAngleS
   state.turn = turn_in_parts(state.turn_ticks);
 }
 
-/// Angle and speed at counter reading `now`. Call it at least once per time-out, because it ends the history.
+/// Angle and speed at counter reading `now`. Call it at least once per timeout_ticks, because only this call
+/// ends the history.
 template <class Scalar>
 constexpr HallAngle<Scalar> hall_angle(const HallAngleConfig<Scalar>& config, HallAngleState& state,
                                        std::uint32_t now) {
@@ -115,7 +119,8 @@ constexpr HallAngle<Scalar> hall_angle(const HallAngleConfig<Scalar>& config, Ha
   if (way > width + config.margin) way = width + config.margin;
   way += angle_of_parts(state.turn, config.delay_ticks);
   way += edges.half_hysteresis;
-  const std::uint32_t past = since == 0 ? 0 : since - 1;  // the edge may have come up to a tick later
+  const std::uint32_t past = since == 0 ? 0 : since - 1;  // the edge may have come up to one tick after its
+                                                          // reading
   const bool late = past >= state.turn_ticks || angle_of_parts(state.turn, past) > width;
   const std::uint32_t at_least = late ? detail::ticks_of_turn(past, width) : 0;
   const Scalar w = ScalarTraits<Scalar>::per_ticks(config.turn_rad_s_ticks,

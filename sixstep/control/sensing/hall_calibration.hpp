@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures where the six Hall edges are, from their times while the rotor turns steadily.
 //
-//   part of the turn at edge j = sum over n turns of (t_j - t_0)/sum of the turns' times
-//   deviation[j] = its angle - 60 j degrees,   their mean taken as 0
+//   fraction of the turn at edge j = sum over n turns of (t_j - t_0)/sum of the turns' times
+//   deviation[j] = angle of this fraction - 60 j degrees, minus the mean of all deviations
 //
-// Times alone cannot show an angle that is common to all edges: neither a common offset of the probes, nor
-// their common hysteresis and delay, because these shift all edges alike. That mean is an input, found from the
-// back-EMF or by aligning the rotor (hall_edges): one for each direction, of the measured edges:
+// Times alone cannot show an angle that is common to all edges, because a common offset of the probes and
+// their common hysteresis and delay shift all edges alike. This mean is therefore an input (hall_edges). It
+// is found from the back-EMF, or by aligning the rotor: one mean of the measured edges for each direction,
 //
 //   forward = offset + h + w t_d,   backward = offset - (h + w t_d)
 //
-// A run in each direction separates offset and h + w t_d; differences between the hystereses of the edges
-// cancel in the mean of both runs. h contains w t_d at the speed of that run: run slowly, or give hall_angle no
-// delay.
+// with t_d the delay. A run in each direction separates offset and h + w t_d. Differences of the hysteresis
+// between edges cancel in the mean of both runs. The resulting h contains w t_d at the speed of that run: run
+// slowly, or give hall_angle no delay.
 //
-// Requirement: each turn takes as long as the first to 1/steady of it, or the run is rejected. A drift d of the
-// turn's time over the run changes the angles by at most d/(8 n) turns (steady 64, n 32: 0.022 degrees). Ripple
-// in step with the edges is measured as misplacement: let the rotor coast, or run it fast enough. If the magnets
-// differ from pole to pole, choose n as a multiple of the pole pairs.
+// Requirement: the time of each turn differs from that of the first by at most 1/steady of it, or the run is
+// rejected. A drift d of the turn's time over the run changes the angles by at most d/(8 n) turns (0.022
+// degrees for steady 64, n 32). Ripple of the speed in step with the edges is measured as misplacement: let
+// the rotor coast, or run it fast enough. If the magnets differ from pole to pole, choose n as a multiple of
+// the pole pairs.
 #pragma once
 #include <cstdint>
 
@@ -26,7 +27,7 @@
 namespace sixstep::control {
 
 struct HallCalibrationConfig {
-  std::uint16_t turns = 32;   ///< n, electrical
+  std::uint16_t turns = 32;   ///< n, electrical turns
   std::uint16_t steady = 64;  ///< a turn may differ from the first turn by 1/steady of its time
   bool operator==(const HallCalibrationConfig&) const = default;
 };
@@ -39,23 +40,24 @@ enum class HallCalibration : std::uint8_t {
 };
 
 struct HallCalibrationState {
-  std::uint64_t after[6]{};  ///< ticks from the first edge of a turn to the j-th after it, summed; [0]: turns
-  std::uint32_t began = 0;   ///< time of this turn's first edge
+  std::uint64_t after[6]{};  ///< sums over the turns of the ticks from the turn's first edge to the j-th edge
+                             ///< after it; [0]: to the turn's end
+  std::uint32_t began = 0;   ///< time of the present turn's first edge
   std::uint32_t first = 0;   ///< ticks of the first turn
   std::uint16_t turns = 0;   ///< whole turns so far
   std::uint8_t start = no_sector;  ///< the edge at which turns begin
-  std::uint8_t passed = 0;         ///< edges of this turn
+  std::uint8_t passed = 0;         ///< edges that have passed in the present turn
   std::int8_t direction = 0;
   HallCalibration result = HallCalibration::running;
 };
 
-/// Signed angles by which the edges are ahead of 60 n degrees; their mean is 0 to a unit.
+/// Signed angles by which the edges are ahead of 60 n degrees; their mean is 0 to one unit.
 struct HallDeviations {
   std::int32_t at[6]{};
 };
 
-/// Takes an edge in `direction` (+1, -1) at counter reading `time`; `edge` is the number of hall_angle.hpp.
-/// After `done` or a rejection nothing changes; begin again with a new state.
+/// Takes an edge in `direction` (+1, -1) at counter reading `time`; `edge` is its number as in
+/// hall_angle.hpp. After `done` or a rejection the state does not change; begin again with a new state.
 constexpr HallCalibration hall_calibrate(const HallCalibrationConfig& config, HallCalibrationState& state,
                                          std::uint8_t edge, std::int8_t direction, std::uint32_t time) {
   if (state.result != HallCalibration::running || edge > 5) return state.result;
@@ -85,11 +87,11 @@ constexpr HallCalibration hall_calibrate(const HallCalibrationConfig& config, Ha
   return state.result;
 }
 
-/// Deviations of a run that is done; all 0 otherwise.
+/// Deviations that a finished run measured; all 0 for any other state.
 constexpr HallDeviations hall_deviations(const HallCalibrationState& state) {
   HallDeviations deviations{};
   if (state.result != HallCalibration::done || state.after[0] == 0) return deviations;
-  std::uint8_t down = 0;  // until a turn fits in 32 bits
+  std::uint8_t down = 0;  // shifts until a turn's ticks fit in 32 bits
   while ((state.after[0] >> down) > 0xffffffffu) ++down;
   std::int64_t sum = 0;
   for (std::uint8_t j = 1; j < 6; ++j) {
@@ -104,8 +106,8 @@ constexpr HallDeviations hall_deviations(const HallCalibrationState& state) {
   return deviations;
 }
 
-/// Edges from one direction only. `offset`: mean angle by which the six edges, halfway between both directions, are
-/// ahead of 60 n degrees; the hysteresis is that of the data sheet.
+/// Edges from a run in one direction. `offset`: mean angle by which the six edges, halfway between both
+/// directions, are ahead of 60 n degrees. The hysteresis is taken from the data sheet.
 constexpr HallEdges hall_edges(const HallDeviations& deviations, std::int32_t offset,
                                BinaryAngle half_hysteresis) {
   HallEdges edges{};
@@ -116,8 +118,8 @@ constexpr HallEdges hall_edges(const HallDeviations& deviations, std::int32_t of
   return edges;
 }
 
-/// Edges from a run in each direction at one speed; seen_forward, seen_backward: mean offset of the edges in
-/// each run.
+/// Edges from one run in each direction at the same speed. seen_forward, seen_backward: mean offset of the
+/// edges in each run.
 constexpr HallEdges hall_edges(const HallDeviations& forward, const HallDeviations& backward,
                                std::int32_t seen_forward, std::int32_t seen_backward) {
   HallDeviations mean{};

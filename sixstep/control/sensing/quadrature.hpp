@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Incremental encoder: decodes the lines A, B and Z to a count of four per line, direction and angle.
+// Incremental encoder: decodes the lines A, B and Z to four counts per line, a direction and an angle.
 //
 //   A = [frac(N theta_m/2 pi) < 1/2], B a quarter of a line later (model.md 10): AB = 10, 11, 01, 00 forward
 //
-// A change of both lines at once is illegal: one step was missed, or a line is disturbed. Then two counts in
-// the last direction are added, which keeps the count in step with the lines, and `illegal` counts the event.
+// A change of both lines at once is invalid: one step was missed, or a line is disturbed. The decoder then
+// adds two counts in the last direction, which keeps the count in step with the lines. `illegal` counts these
+// changes.
 //
 // Z is high over one line from theta_m = 0 on. It is evaluated in one of the four quarters of that line, by
-// default the third: there an edge of Z may be nearly two counts early or late. The first index defines zero;
-// each later one shows whether counts were missed, and corrects them.
+// default in the third: there an edge of Z may be nearly two counts early or late. The first index defines
+// zero. Each later index shows whether counts were missed, and corrects them.
 //
 // A chip whose timer counts by itself calls quadrature_moved and quadrature_index.
 #pragma once
@@ -18,7 +19,7 @@
 
 namespace sixstep::control {
 
-/// The default counts nothing; quadrature_of_lines makes one.
+/// With the default nothing is counted; quadrature_of_lines() makes a configuration.
 struct QuadratureConfig {
   std::uint32_t counts = 0;        ///< counts of a turn, 4 N
   TurnParts turn{};                ///< turn_in_parts(counts)
@@ -26,23 +27,25 @@ struct QuadratureConfig {
   bool operator==(const QuadratureConfig&) const = default;
 };
 
-/// N up to 2^28.
+/// Configuration of an encoder with N lines, N at most 2^28.
 constexpr QuadratureConfig quadrature_of_lines(std::uint32_t lines) {
   return {4 * lines, turn_in_parts(4 * lines)};
 }
 
 struct QuadratureState {
-  std::uint32_t in_turn = 0;  ///< 0..counts-1, from the start; from the first index on from zero
+  std::uint32_t in_turn = 0;  ///< 0..counts-1; counted from the start's position, after the first index from
+                              ///< zero
   std::int32_t turns = 0;
   std::uint8_t quarter = 0xff;    ///< quarter of the line, 0..3; 0xff before the first reading
   std::int8_t direction = 0;      ///< direction of the last step
   bool referenced = false;        ///< an index was found
-  std::uint32_t illegal = 0;      ///< transitions of both lines at once
-  std::uint32_t corrections = 0;  ///< indexes that found counts missing
-  std::int32_t missed = 0;        ///< counts that the last index found missing: true ones less counted ones
+  std::uint32_t illegal = 0;      ///< number of changes of both lines at once
+  std::uint32_t corrections = 0;  ///< number of indexes that found counts missing
+  std::int32_t missed = 0;        ///< counts that were missing at the last index: true counts minus counted
+                                  ///< ones
 };
 
-/// Adds `moved` counts, less than a turn.
+/// Adds `moved` counts, fewer than those of a turn.
 constexpr void quadrature_moved(const QuadratureConfig& config, QuadratureState& state, std::int32_t moved) {
   if (config.counts == 0 || moved == 0) return;
   state.direction = moved > 0 ? std::int8_t{1} : std::int8_t{-1};
@@ -57,7 +60,7 @@ constexpr void quadrature_moved(const QuadratureConfig& config, QuadratureState&
   }
 }
 
-/// The index was found at count `at` of the rotor's turn.
+/// The index was found at count `at` within the rotor's turn.
 constexpr void quadrature_index(const QuadratureConfig& config, QuadratureState& state, std::uint32_t at) {
   if (config.counts == 0) return;
   if (!state.referenced) {
@@ -76,13 +79,13 @@ constexpr void quadrature_index(const QuadratureConfig& config, QuadratureState&
   state.direction = direction;
 }
 
-/// The quarter of a line, 0..3 forward, from the levels.
+/// The quarter of a line that the levels of A and B show: 0..3 in forward order.
 constexpr std::uint8_t quarter_of_line(bool a, bool b) {
   return a ? (b ? std::uint8_t{1} : std::uint8_t{0}) : (b ? std::uint8_t{2} : std::uint8_t{3});
 }
 
-/// One reading of the lines. Call it at each of their edges, or so often that no two edges lie between two
-/// calls. Returns the counts passed, -2..2; the first reading passes none.
+/// One reading of the lines. Call it at each edge of A and B, or so often that at most one edge comes between
+/// two calls. Returns the counts passed, -2..2; the first reading passes none.
 constexpr std::int8_t quadrature_step(const QuadratureConfig& config, QuadratureState& state, bool a, bool b,
                                       bool z) {
   const std::uint8_t quarter = quarter_of_line(a, b);
@@ -99,7 +102,7 @@ constexpr std::int8_t quadrature_step(const QuadratureConfig& config, Quadrature
   return moved;
 }
 
-/// Mechanical angle at the count's beginning; after the first index from theta_m = 0.
+/// Mechanical angle at the begin of the present count; after the first index it counts from theta_m = 0.
 constexpr BinaryAngle quadrature_angle(const QuadratureConfig& config, const QuadratureState& state) {
   return angle_of_parts(config.turn, state.in_turn);
 }

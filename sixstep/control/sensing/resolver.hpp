@@ -3,16 +3,16 @@
 //
 //   V_c = k V sin(w_x t + d) cos phi,   V_s = (1 + a) k V sin(w_x t + d) sin(phi + q),   phi = p_r theta_m
 //
-//   demodulated   x = +-(this sample - the one half a period before)/2: an offset of the converter cancels.
-//                 It is valid at the middle of both, a quarter of a period ago
+//   demodulated   x = +-(this sample - the sample half a period before)/2: an offset of the converter cancels. x is
+//                 valid for the middle between both samples, a quarter of a period ago
 //   corrected     c = g_c x_c - o_c,   s = g_s x_s - o_s - tan q c,   g_s = g_c/((1 + a) cos q)
 //   detected      with an estimate theta:  along = c cos theta + s sin theta = A cos(phi - theta)
-//                                         across = s cos theta - c sin theta = A sin(phi - theta)
-//                 error = across/along = tan(phi - theta), for any amplitude; or across, with A taken as 1
+//                                          across = s cos theta - c sin theta = A sin(phi - theta)
+//                 error = across/along = tan(phi - theta), for any amplitude A; or across, with A taken as 1
 //   tracked       tracking.hpp
 //
-// Beyond 45 degrees (90 without normalising) the error is 1 in the direction of the shorter way, so that the
-// loop cannot rest half a turn off.
+// Beyond 45 degrees (90 without normalising) the error is 1 with the sign of the shorter rotation, so that
+// the loop cannot rest half a turn off.
 #pragma once
 #include <cstdint>
 
@@ -21,19 +21,20 @@
 
 namespace sixstep::control {
 
-/// In fixed point choose an amplitude of at most 0.7, so that its square fits, with a margin for faults.
+/// In fixed point choose an amplitude of at most 0.7, so that its square fits with a margin for faults.
 template <class Scalar>
 struct ResolverConfig {
-  Gain<Scalar> cos_per_count{};  ///< g_c/2, per count between two samples; fixed: raw digits
-  Gain<Scalar> sin_per_count{};  ///< g_s/2
+  Gain<Scalar> cos_per_count{};  ///< g_c/2, per count of difference between two samples; fixed: raw digits
+  Gain<Scalar> sin_per_count{};  ///< g_s/2, like cos_per_count
   Scalar cos_offset{};           ///< o_c, the offset left after demodulation
-  Scalar sin_offset{};           ///< o_s
+  Scalar sin_offset{};           ///< o_s, like cos_offset
   Gain<Scalar> skew{};           ///< tan q, of windings that are not at right angles
-  bool normalise = true;         ///< divide by the measured amplitude; else it counts as 1
+  bool normalise = true;         ///< divides by the measured amplitude; else the amplitude counts as 1
   TrackingConfig loop{};
   Scalar least_square{};        ///< least c^2 + s^2; below it a winding or the excitation is broken
-  Scalar greatest_square{};     ///< above it a winding is shorted to its neighbour; 0: not checked
-  std::uint8_t lost_after = 1;  ///< number of results in a row outside of these bounds
+  Scalar greatest_square{};     ///< greatest c^2 + s^2; above it a winding is shorted to the other; 0: not
+                                ///< checked
+  std::uint8_t lost_after = 1;  ///< number of consecutive results outside of these bounds that means `lost`
   bool operator==(const ResolverConfig&) const = default;
 };
 
@@ -51,18 +52,19 @@ struct ResolverState {
   ResolverCounts last{};
   TrackingState loop{};
   std::uint8_t outside = 0;
-  bool begun = false;  ///< a sample was taken
+  bool begun = false;  ///< true: a sample was taken before
 };
 
 template <class Scalar>
 struct ResolverReading {
-  BinaryAngle angle = 0;   ///< in the resolver's turn, p_r to a mechanical one, at the sample's middle
+  BinaryAngle angle = 0;   ///< angle in the resolver's turn (p_r to a mechanical turn), at the middle between
+                           ///< two samples
   std::int32_t speed = 0;  ///< units of 2^-32 turn per call
   Scalar square{};         ///< c^2 + s^2
   bool lost = false;
 };
 
-/// Signals from two neighbouring samples. positive_peak: the later one is that of the positive peak.
+/// Signals from two consecutive samples. positive_peak: `now` was sampled at the positive peak.
 template <class Scalar>
 constexpr ResolverSignals<Scalar> resolver_signals(const ResolverConfig<Scalar>& config,
                                                    const ResolverCounts& before, const ResolverCounts& now,
@@ -86,14 +88,16 @@ constexpr std::int32_t resolver_error(const ResolverSignals<Scalar>& x, BinaryAn
   const Scalar along = x.c * d.cos + x.s * d.sin;
   const Scalar across = x.s * d.cos - x.c * d.sin;
   const Scalar limit = normalise ? magnitude(across) : Scalar{};
-  // Strictly above: otherwise 0/0 of a dead resolver would be a step of 1. Without a direction the error is 0.
+  // along must be strictly greater: otherwise 0/0 of a resolver without signals would be a step of 1. Without
+  // signals the error is 0.
   if (along > limit) return angle_of_rad(normalise ? across / along : across);
   if (along == Scalar{} && across == Scalar{}) return 0;
   return angle_of_rad(across < Scalar{} ? -one<Scalar> : one<Scalar>);
 }
 
-/// Call it once per peak of the excitation; or once per period with `positive_peak` always true, and give the
-/// negative peak's counts to resolver_hold. Before the second sample the reading is 0.
+/// One sample. Call it once per peak of the excitation. Alternatively call it once per period with
+/// `positive_peak` always true, and give the negative peak's counts to resolver_hold. Before the second
+/// sample the reading is 0.
 template <class Scalar>
 constexpr ResolverReading<Scalar> resolver_step(const ResolverConfig<Scalar>& config, ResolverState& state,
                                                 const ResolverCounts& counts, bool positive_peak) {
@@ -112,13 +116,13 @@ constexpr ResolverReading<Scalar> resolver_step(const ResolverConfig<Scalar>& co
     state.outside = 0;
   }
   const std::int32_t error = resolver_error(x, state.loop.angle, config.normalise);
-  const BinaryAngle angle = state.loop.angle;  // the prediction for this sample
+  const BinaryAngle angle = state.loop.angle;  // predicted for this sample
   tracking_step(config.loop, state.loop, error);
   const std::uint8_t patience = config.lost_after == 0 ? std::uint8_t{1} : config.lost_after;
   return {angle, tracking_speed(state.loop), square, state.outside >= patience};
 }
 
-/// Stores the other peak's counts, if the loop runs once per period.
+/// Stores the counts of the other peak, for a loop that runs once per period.
 constexpr void resolver_hold(ResolverState& state, const ResolverCounts& counts) {
   state.last = counts;
   state.begun = true;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes cosine and sine of a binary angle, from a table of 65 entries over a quarter turn and an expansion
-// about the nearest one:
+// about the nearest entry:
 //
 //   sin(a + d) = sin a + d cos a - d^2/2 sin a,   cos(a + d) = cos a - d sin a - d^2/2 cos a,   |d| <= pi/256
 //
-// The next term is at most (pi/256)^3/6 = 3.1e-7; that is the error in double, with 1e-9 of the table. In fixed
-// point of 16 bits rounding adds two digits. The table is computed in whole numbers at compile time: the same
-// bits on every core, 130 bytes in 16 bits.
+// The next term is at most (pi/256)^3/6 = 3.1e-7. This is the error in double, plus 1e-9 from the table. In
+// fixed point of 16 bits rounding adds two digits. The table is computed in integers at compile time: the
+// same bits on every core, 130 bytes in 16 bits.
 #pragma once
 #include <cstdint>
 
@@ -17,7 +17,8 @@ namespace sixstep::control {
 
 namespace detail {
 
-/// sin(n pi/128) 2^30 for n = 0..64, by Taylor's polynomial of degree 15 in 2^-31: to a unit.
+/// sin(n pi/128) 2^30 for n = 0..64, by Taylor's polynomial of degree 15 in units of 2^-31; exact to one
+/// unit.
 constexpr std::int32_t sine_entry(std::uint8_t n) {
   constexpr std::uint64_t pi_31 = 6746518852u;  // pi 2^31
   const std::uint64_t x = (n * pi_31 + 64) / 128, x2 = (x * x) >> 31, one_31 = std::uint64_t{1} << 31;
@@ -31,7 +32,8 @@ template <class Scalar>
 struct SineTable {
   Scalar entry[65]{};
   constexpr SineTable() {
-    // 2^31 is no signed number: the number below it still rounds to 1 in every format that has a 1.
+    // 2^31 does not fit in a signed number. The number below it still rounds to 1 in every format that holds
+    // 1.
     for (std::uint8_t n = 0; n < 65; ++n)
       entry[n] = AngleTraits<Scalar>::half_turns(shifted_up(sine_entry(n), 1));
   }
@@ -49,7 +51,7 @@ constexpr Direction<Scalar> direction_of(BinaryAngle angle) {
   constexpr auto half_square = AngleTraits<Scalar>::constant(1324675879, 44);  // (pi/256)^2/2
   const BinaryAngle in_quarter = angle & 0x3fffffffu;
   const BinaryAngle nearest = (in_quarter + 0x00800000u) >> 24;
-  // d over pi/256, -1..1
+  // d/(pi/256), -1..1
   const Scalar u =
       AngleTraits<Scalar>::half_turns(static_cast<std::int32_t>((in_quarter - (nearest << 24)) << 8));
   const Scalar s = detail::sine_table<Scalar>.entry[nearest];

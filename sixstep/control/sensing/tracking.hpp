@@ -2,17 +2,17 @@
 // Tracking loop of type 2: follows an angle and gives its speed, without a lag at constant speed. It is used
 // for a resolver, and for any angle that comes in steps or with noise.
 //
-//   e[n]     = measured[n] - angle[n]                      on the shorter way, or from a phase detector
+//   e[n]     = measured[n] - angle[n]                      by the shorter rotation, or from a phase detector
 //   w[n+1]   = w[n] + K_i e[n]
-//   angle[n+1] = angle[n] + w[n+1] + K_p e[n]              the angle expected at the next tick
+//   angle[n+1] = angle[n] + w[n+1] + K_p e[n]              the angle predicted for the next tick
 //
 //   characteristic polynomial   z^2 + (K_p + K_i - 2) z + 1 - K_p
 //   stable (Jury)               0 < K_p < 2,  K_i > 0,  2 K_p + K_i < 4
-//   constant acceleration       e = a T^2/K_i = a/K_a,  K_a = K_i/T^2, permanently
+//   constant acceleration       e stays at a T^2/K_i = a/K_a,  K_a = K_i/T^2
 //
-// design/loops/tracking_loop.hpp computes K_p and K_i from bandwidth and damping. All numbers are whole: the
-// same bits on every core. Rounding changes the angle by a unit of 2^-32 turn, the speed by 2^-48 turn per
-// tick.
+// design/loops/tracking_loop.hpp computes K_p and K_i from bandwidth and damping. All numbers are integers:
+// the same bits on every core. Rounding changes the angle by one unit of 2^-32 turn, the speed by 2^-48 turn
+// per tick.
 #pragma once
 #include <cstdint>
 
@@ -20,7 +20,7 @@
 
 namespace sixstep::control {
 
-/// The default stays at 0.
+/// With the default the angle stays at 0.
 struct TrackingConfig {
   FixedGain<std::int32_t> K_p{};  ///< angle per angle and tick
   FixedGain<std::int32_t> K_i{};  ///< speed per angle and tick
@@ -28,14 +28,14 @@ struct TrackingConfig {
 };
 
 struct TrackingState {
-  BinaryAngle angle = 0;   ///< expected at the next tick
+  BinaryAngle angle = 0;   ///< angle predicted for the next tick
   std::int64_t speed = 0;  ///< 2^-48 turn per tick
   std::int32_t error = 0;  ///< error of the last tick, for display
 };
 
 namespace detail {
 
-/// gain times a signed angle, with `more` additional fraction bits.
+/// gain times a signed angle; the result has `more` additional fraction bits.
 constexpr std::int64_t angle_times(std::int32_t angle, const FixedGain<std::int32_t>& gain, int more) {
   const auto p = product<std::int32_t>(angle, gain.mantissa);
   const int down = gain.right - more;
@@ -45,7 +45,8 @@ constexpr std::int64_t angle_times(std::int32_t angle, const FixedGain<std::int3
 
 }  // namespace detail
 
-/// Units of 2^-32 turn per tick. A speed beyond half a turn per tick cannot be distinguished from a slower one.
+/// Speed in units of 2^-32 turn per tick. A speed beyond half a turn per tick cannot be distinguished from a
+/// slower one.
 constexpr std::int32_t tracking_speed(const TrackingState& state) {
   return detail::saturated<std::int32_t>(detail::shifted_down(state.speed, 16));
 }
@@ -59,12 +60,12 @@ constexpr void tracking_step(const TrackingConfig& config, TrackingState& state,
   state.error = error;
 }
 
-/// Follows a measured angle; `state.angle` before the call is its prediction.
+/// Follows a measured angle; `state.angle` before the call is the prediction of that angle.
 constexpr void tracking_follow(const TrackingConfig& config, TrackingState& state, BinaryAngle measured) {
   tracking_step(config, state, way_between(state.angle, measured));
 }
 
-/// Speed as a signal: `per_unit` is 2 pi/(2^32 T) over the base, fixed: in raw digits.
+/// Speed as a signal. `per_unit` is 2 pi/(2^32 T) over the base of speeds; fixed: in raw digits.
 template <class Scalar>
 constexpr Scalar tracked_speed(const TrackingState& state, Gain<Scalar> per_unit) {
   return AngleTraits<Scalar>::scaled(tracking_speed(state), per_unit);

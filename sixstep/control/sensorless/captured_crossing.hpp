@@ -1,35 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the zero crossing by comparators: three lines show whether each terminal is above its reference, and
-// the timer captures their edges.
+// Finds the zero crossing by comparators. Three lines show whether each terminal is above its reference, and
+// the timer captures the lines' edges.
 //
-//   virtual star   u_f - (u_a + u_b + u_c)/3 = (2 u_f - u_s - u_k)/3     y of zero_crossing.hpp, at any time
+//   virtual star   u_f - (u_a + u_b + u_c)/3 = (2 u_f - u_s - u_k)/3     y/3 of zero_crossing.hpp, at any time
 //   half the bus   u_f - U/2 = (2 u_f - u_s - u_k)/2                     only while the pair is on, where u_s + u_k = U
 //
-// Samples show a crossing once per period; an edge gives its time to a count of the timer. So each source
-// supplies its own measurement. The samples show whether the leg's old current has ended and whether the driven
-// legs follow the command (zero_crossing.hpp, and thus the causes of a loss). The line shows on which side of its
-// reference the leg is, and the edge shows since when.
+// Samples can show a crossing once per period; an edge has its time to a count of the timer. Samples, line
+// and edge therefore have different tasks. The samples show whether the leg's old current has ended, and
+// whether the driven legs follow the command (zero_crossing.hpp, and thus the causes of a loss). The line
+// shows on which side of its reference the leg is. The edge shows since when.
 //
 // An edge counts only after the first sample without the old current: earlier edges belong to the freewheel.
-// The rest of the freewheel in the low-pass tau in front of each comparator keeps the line on the wrong side
-// for a while; a crossing before the line has come back is taken from the samples.
-// Against the virtual star the low-pass may be about as slow as a PWM period, and should be: in soft and
+// The low-pass tau in front of each comparator remembers the freewheel and keeps the line on the wrong side
+// for a while. A crossing before the line has returned is taken from the samples.
+// Against the virtual star the low-pass may, and should, be about as slow as a PWM period. In soft and
 // complementary chopping a diode holds a negative e_f at zero outside of the pulse, where the star is at zero
-// too. The current that flows then pulls the leg to the rail as the pulse begins, until it has ended: 3 L di/dt
-// has no mean over a period, so that the mean of y is right, but it comes up to a pause later. An edge is late
-// by
-//
+// too. The current that flows then pulls the leg to the rail when the pulse begins, until the current has
+// ended. 3 L di/dt has no mean over a period, so that the mean of y is right, but this mean comes up to a
+// pause later. An edge is late by
 //   hard chopping   t = tau                 soft, complementary   tau <= t <= tau + (1 - d) T
 //
-// The lead of commutation_clock.hpp compensates tau of it. Against half the bus, soft and complementary
-// chopping pull the leg below its reference outside of each pulse: the filter must settle within half a pulse.
-// Only the line at the sample in the pulse's middle counts, and an edge within that pulse. An edge outside of
-// it is the pulse's own; then the crossing was somewhere in the pause, and the middle of the pause is taken.
+// The lead of commutation_clock.hpp compensates tau of this delay.
 //
-// An offset shifts a crossing by offset over slope, a hysteresis delays it by half of itself over the slope.
+// Against half the bus, soft and complementary chopping pull the leg below its reference outside of each
+// pulse: the filter must settle within half a pulse. Only the line at the sample in the pulse's middle
+// counts, and an edge within that pulse. An edge outside of the pulse is caused by the pulse itself; the
+// crossing was then somewhere in the pause, and the middle of the pause is taken.
 //
-// K. Iizuka et al., Microcomputer control for sensorless brushless motor, IEEE Trans. Industry Applications 21
-// (1985) 595: filtered terminals against a star point of three resistors. All numbers are whole, as in
+// An offset shifts a crossing by the offset over the slope of the voltage. A hysteresis delays it by half of
+// the hysteresis over the slope.
+//
+// K. Iizuka et al., Microcomputer control for sensorless brushless motor, IEEE Trans. Industry Applications
+// 21 (1985) 595: filtered terminals against a star point of three resistors. All numbers are integers, as in
 // zero_crossing.hpp.
 #pragma once
 #include <cstdint>
@@ -38,24 +40,26 @@
 
 namespace sixstep::control {
 
-/// The default takes the crossing from the samples.
+/// With the default the crossing is taken from the samples.
 struct CapturedCrossingConfig {
   bool follows = false;
   std::uint32_t lag_ticks = 0;     ///< lag of the low-pass, which delays an edge but not a sample
-  std::uint32_t period_ticks = 0;  ///< PWM period if half the bus is the reference; 0: virtual star
+  std::uint32_t period_ticks = 0;  ///< PWM period if half the bus is the reference; 0: the reference is the
+                                   ///< virtual star
   /// If half the bus is the reference: time from a pulse's edge until its filter has settled.
   std::uint32_t settle_ticks = 0;
   bool operator==(const CapturedCrossingConfig&) const = default;
 };
 
 struct CapturedLines {
-  std::uint8_t lines = 0;   ///< lines of a, b, c as bits 2, 1, 0: 1 above the reference
+  std::uint8_t lines = 0;   ///< lines of a, b, c as bits 2, 1, 0: 1 means above the reference
   std::uint32_t at[3]{};    ///< time of the last edge of each line
   std::uint32_t began = 0;  ///< begin of the sector
-  bool came_back = false;   ///< in this sector the floating leg's line was on its side before the crossing
+  bool came_back = false;   ///< in this sector the floating leg's line has been on the side that it has
+                            ///< before the crossing
 };
 
-/// The capture interrupt. `lines`: the levels from `at` on.
+/// The capture interrupt. `lines`: levels of the lines from `at` on.
 constexpr void capture_lines(CapturedLines& state, std::uint8_t lines, std::uint32_t at) {
   const unsigned changed = state.lines ^ static_cast<unsigned>(lines);
   for (std::uint8_t k = 0; k < 3; ++k)
@@ -65,8 +69,8 @@ constexpr void capture_lines(CapturedLines& state, std::uint8_t lines, std::uint
 
 namespace detail {
 
-/// Time of the crossing for an edge. An edge in the pause before the pulse around the sample, `on` ticks long,
-/// is the pulse's own: then the middle of the pause.
+/// Time of the crossing for an edge. An edge in the pause before the pulse around the sample, which is `on`
+/// ticks long, is caused by the pulse itself: the result is then the middle of the pause.
 constexpr std::uint32_t edge_at(const CapturedCrossingConfig& config, std::uint32_t edge, std::uint32_t now,
                                 std::uint32_t on) {
   if (on + 1 >= config.period_ticks) return edge;
@@ -102,8 +106,8 @@ constexpr CrossingReading look_at_line(const CapturedCrossingConfig& config,
 
 }  // namespace detail
 
-/// One sample, with the lines captured up to it. `on` as for zero_crossing_step; `on_ticks`: time for which the
-/// pair is on around the sample, used only against half the bus.
+/// One sample, with the lines captured up to it. `on` as for zero_crossing_step(). `on_ticks`: time for which
+/// the pair is on around the sample; used only against half the bus.
 constexpr CrossingReading captured_crossing_step(const CapturedCrossingConfig& config,
                                                  const ZeroCrossingConfig& crossing, ZeroCrossingState& state,
                                                  CapturedLines& captured, const TerminalSample& s, bool on,

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the time of the next commutation from the times of the zero crossings (zero_crossing.hpp):
 //
-//   T = mean of the last k intervals between crossings, or the last one alone if the two differ by more than a quarter
+//   T = mean of the last k intervals between crossings; the last interval alone if it differs by more than a quarter
 //   t = crossing + T (1/2 - advance) - lead,     not before the crossing itself
 //
-// A crossing that was not found is put at its expected time, and halfway between its neighbours once the next
-// one is found: a guess changes T no more than the measurements do.
+// A crossing that was not found is put at its expected time, and once the next one is found, halfway between
+// its neighbours: a guess then changes T no more than the measured crossings do.
 //
-// A crossing is in the middle of its sector, the commutation 30 degrees after it. The advance is an angle. The
-// lead is a time, that is an angle that grows with the speed: it compensates a phase's L/R, and the delay of
-// filters and converters. Times are readings of a free-running 32-bit counter, finer than the control tick: the
-// commutation is a compare match of it.
+// A crossing is in the middle of its sector, and the commutation 30 degrees after it. The advance is an
+// angle. The lead is a time, which is an angle that grows with the speed: it compensates a phase's L/R, and
+// the delay of filters and converters. Times are readings of a free-running 32-bit counter, finer than the
+// control tick; the commutation is a compare match of this counter.
 #pragma once
 #include <cstdint>
 
@@ -19,20 +19,20 @@
 namespace sixstep::control {
 
 struct CommutationClockConfig {
-  std::uint8_t crossings = 2;    ///< k, 1..6
+  std::uint8_t crossings = 2;    ///< k, number of intervals in the mean, 1..6
   std::uint16_t advance = 0;     ///< angle in 1/65536 of a sector (60 degrees): 32768 is 30 degrees
   std::uint32_t lead_ticks = 0;  ///< ticks of the timer
   bool operator==(const CommutationClockConfig&) const = default;
 };
 
 struct CommutationClockState {
-  HallSpeedState crossings{};  ///< times of the crossings, stored as those of edges
+  HallSpeedState crossings{};  ///< times of the crossings, stored like times of Hall edges
   std::uint32_t next = 0;      ///< time of the next commutation
   bool scheduled = false;      ///< `next` is valid
   bool guessed = false;        ///< the last crossing was not found
 };
 
-/// True if counter reading `a` is before `b`, by less than half the counter's range.
+/// True if counter reading `a` is before `b`, for times less than half the counter's range apart.
 constexpr bool comes_before(std::uint32_t a, std::uint32_t b) {
   return a != b && static_cast<std::uint32_t>(b - a) < 0x80000000u;
 }
@@ -46,7 +46,7 @@ constexpr void commutation_clock_crossing(CommutationClockState& state, std::uin
   hall_speed_edge(c, at, direction);
 }
 
-/// Puts a crossing that was not found one sector of T ticks after the last one, but no later than now.
+/// Puts a crossing that was not found one sector of T ticks after the last crossing, but no later than now.
 constexpr void commutation_clock_guess(CommutationClockState& state, std::uint32_t T, std::int8_t direction,
                                        std::uint32_t now) {
   const std::uint32_t due = state.crossings.times[0] + T;
@@ -54,7 +54,7 @@ constexpr void commutation_clock_guess(CommutationClockState& state, std::uint32
   state.guessed = true;
 }
 
-/// The last interval between two crossings in one direction; 0: none yet.
+/// The last interval between two crossings in one direction, ticks; 0: none yet.
 constexpr std::uint32_t last_interval(const CommutationClockState& state) {
   return state.crossings.known < 2
              ? 0

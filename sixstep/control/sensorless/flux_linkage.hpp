@@ -4,18 +4,18 @@
 //   psi = integral(w - R i) dt - L i          w: floating_voltage.hpp, without a star point
 //   discretised exactly:   psi[n+1] - psi[n] = T g,   g = w - (i[n+1] - a i[n])/b,   a = exp(-R T/L),   b = (1 - a)/R
 //
-// In the sector in which its leg floats psi grows up to the zero crossing, and falls after it. From the
-// crossing to the commutation 30 degrees later it falls by
+// In the sector in which its leg floats, psi grows up to the zero crossing and falls after it. From the
+// crossing to the commutation 30 degrees later psi falls by
 //
 //   psi_c = K_e/p integral_0^(pi/6) (2 s_f - s_s - s_k)/3 dtheta      s: the shapes of the three back-EMFs
 //
-// at every speed and acceleration: nothing is extrapolated from the sectors before, and the only number of the
-// motor is K_e. The angle grows with the root of the fall, so that a K_e wrong by 10 % shifts the commutation
-// by 1.5 degrees. psi is counted from its own maximum in each sector, so that a drift lasts one sector only. As
-// an integral it averages noise of the terminals; R and L matter only while the leg's old current decays,
-// before the fall is counted.
+// at every speed and acceleration. Nothing is extrapolated from the sectors before, and the only number of
+// the motor is K_e. The angle grows with the root of the fall, so that a K_e wrong by 10 % shifts the
+// commutation by 1.5 degrees. psi is counted from its own maximum in each sector, so that a drift lasts one
+// sector only. The integral averages the noise of the terminals. R and L matter only while the leg's old
+// current decays, before the fall is counted.
 //
-// The same law, with the threshold tuned at the bench, is known from Texas Instruments' InstaSPIN-BLDC.
+// Texas Instruments' InstaSPIN-BLDC uses this law with a threshold that is tuned at the bench.
 #pragma once
 #include <cstdint>
 
@@ -24,28 +24,30 @@
 
 namespace sixstep::control {
 
-/// The default counts nothing. psi is kept as a multiple of 4 psi_c, so that the level is 1/4 for every motor.
+/// With the default nothing is counted. psi is stored as a multiple of 4 psi_c, so that the level is 1/4 for
+/// every motor.
 template <class Scalar>
 struct FluxLinkageConfig {
-  Gain<Scalar> decay{};      ///< a
-  Gain<Scalar> stiffness{};  ///< 1/b, V per A
+  Gain<Scalar> decay{};      ///< a, decay of the current over a period
+  Gain<Scalar> stiffness{};  ///< 1/b, voltage per ampere of change in a period
   Gain<Scalar> per_V{};      ///< T/(4 psi_c): psi per V and period
-  Scalar level{};            ///< the fall at which to commutate
+  Scalar level{};            ///< fall of psi at which the drive commutates
   bool operator==(const FluxLinkageConfig&) const = default;
 };
 
-/// Signs are such that g falls through zero.
+/// The signs are such that g falls through zero.
 template <class Scalar>
 struct FluxLinkageState {
   Scalar i_A{};                      ///< current at the last sample
   Scalar g_V{};                      ///< mean back-EMF of the last period
   Accumulator<Scalar> psi{}, top{};  ///< psi and its maximum since the sector began
   Scalar per_tick{};                 ///< fall of psi in the last period
-  Scalar steeper{};                  ///< its increase over the period before
+  Scalar steeper{};                  ///< increase of per_tick over the period before
   std::uint16_t falling = 0;         ///< periods since psi was greatest
 };
 
-/// Advances by a period with its mean voltage, and the current at its end. Returns the mean of g, V.
+/// Advances by a period with the mean voltage w_V, and the current i_A at the period's end. Returns the mean
+/// of g, V.
 template <class Scalar>
 constexpr Scalar flux_linkage_step(const FluxLinkageConfig<Scalar>& config, FluxLinkageState<Scalar>& state,
                                    Scalar w_V, Scalar i_A) {
@@ -65,7 +67,8 @@ constexpr Scalar flux_linkage_step(const FluxLinkageConfig<Scalar>& config, Flux
   return state.g_V;
 }
 
-/// The next leg floats. With signs such that it falls, its back-EMF begins at minus the last leg's final value.
+/// Begins a sector, in which the next leg floats. The signs are again such that g falls, so that g begins at
+/// minus its last value.
 template <class Scalar>
 constexpr void flux_linkage_begin(FluxLinkageState<Scalar>& state) {
   const Scalar g_V = -state.g_V;
@@ -73,8 +76,8 @@ constexpr void flux_linkage_begin(FluxLinkageState<Scalar>& state) {
   state.g_V = g_V;
 }
 
-/// A period of unknown voltage: after the crossing psi continues to fall, with a back-EMF on the straight line
-/// from there.
+/// Advances by a period of unknown voltage. After the crossing psi continues to fall, with a back-EMF on the
+/// straight line from the crossing on.
 template <class Scalar>
 constexpr Scalar flux_linkage_hold(FluxLinkageState<Scalar>& state, Scalar i_A) {
   using T = ScalarTraits<Scalar>;
@@ -88,7 +91,8 @@ constexpr Scalar flux_linkage_hold(FluxLinkageState<Scalar>& state, Scalar i_A) 
   return state.g_V;
 }
 
-/// True if the level is reached within the next period; `part`: after which part of it.
+/// True if the level is reached within the next period; `part`: the fraction of the period after which it is
+/// reached.
 template <class Scalar>
 constexpr bool flux_level_comes(const FluxLinkageConfig<Scalar>& config,
                                 const FluxLinkageState<Scalar>& state, Scalar& part) {

@@ -4,10 +4,13 @@
 //
 //   masked crossing        no crossing within `window` of the sector's expected time
 //   long demagnetisation   the old current hid the crossing, in `tolerated` sectors in a row or for a whole window
-//   wrong sector           in `tolerated` sectors in a row the terminal showed a crossing before it was possible, or
-//                          the time between crossings was below 5/8 or above 8/5 of the one before, or shorter than
-//                          this motor on this bus can turn; or the back-EMF came back after its crossing, or is larger
-//                          than at the assumed speed: 2 u_f - u_s - u_k times T is at most 3 K_e (pi/3)/p
+//   wrong sector           one of these:
+//                          - in `tolerated` sectors in a row the terminal showed a crossing before it was possible
+//                          - in as many, the time between crossings was below 5/8 or above 8/5 of the one before, or
+//                            shorter than this motor on this bus can turn
+//                          - the back-EMF returned after its crossing
+//                          - the back-EMF is larger than at the assumed speed: 2 u_f - u_s - u_k times T is at most
+//                            3 K_e (pi/3)/p
 //   terminals              the driven legs' terminals contradict the command: a divider or its wire is broken
 //   start                  the ramp ended without trusted crossings
 #pragma once
@@ -29,23 +32,26 @@ enum class LockLoss : std::uint8_t {
 
 struct LockConfig {
   std::uint8_t window_eighths = 16;          ///< window in eighths of a sector, from crossing to crossing
-  std::uint8_t tolerated = 2;                ///< sectors in a row whose crossing was not found
-  std::uint8_t unlike_samples = 4;           ///< samples in a row that contradict the command
+  std::uint8_t tolerated = 2;                ///< consecutive sectors without a found crossing that are
+                                             ///< tolerated
+  std::uint8_t unlike_samples = 4;           ///< consecutive samples that contradict the command and mean a
+                                             ///< loss
   std::uint32_t shortest_ticks = 0;          ///< shortest sector: no rotor is faster
   std::uint32_t longest_ticks = 0xffffffff;  ///< longest sector: a slower rotor cannot be followed
   std::uint32_t most_flux = 0xffffffff;      ///< largest y times T of a rotor, counts times ticks
   std::int32_t threshold = 0x7fffffff;       ///< counts of y above which it is a voltage and not noise
-  std::uint8_t retries = 3;                  ///< losses and failed starts in a row before the drive stops
-  std::uint16_t sectors_to_forget = 60;      ///< sectors without a loss after which losses are counted anew
+  std::uint8_t retries = 3;                  ///< consecutive losses and failed starts before the drive stops
+  std::uint16_t sectors_to_forget = 60;      ///< sectors without a loss after which the count of losses
+                                             ///< begins again
   bool operator==(const LockConfig&) const = default;
 };
 
 struct LockState {
-  std::uint8_t hidden = 0;  ///< sectors in a row whose crossing the old current hid
-  std::uint8_t early = 0;   ///< sectors in a row whose crossing had passed before it could be found
-  std::uint8_t odd = 0;     ///< samples in a row that no rotor in this sector at this speed makes
-  std::uint8_t jumps = 0;   ///< sectors in a row whose time was too different from the one before
-  std::uint8_t losses = 0;  ///< losses in a row
+  std::uint8_t hidden = 0;  ///< consecutive sectors whose crossing the old current hid
+  std::uint8_t early = 0;   ///< consecutive sectors whose crossing had passed before it could be found
+  std::uint8_t odd = 0;     ///< consecutive samples that no rotor makes in this sector at this speed
+  std::uint8_t jumps = 0;   ///< consecutive sectors whose time differed too much from the one before
+  std::uint8_t losses = 0;  ///< consecutive losses
   std::uint16_t held = 0;   ///< sectors since the last loss
   LockLoss last = LockLoss::none;
 };
@@ -59,13 +65,14 @@ constexpr void lock_begin(LockState& state) {
   state.held = 0;
 }
 
-/// True if a rotor can need `interval` ticks after a sector of T ticks.
+/// True if a rotor can need `interval` ticks for a sector after a sector of T ticks.
 constexpr bool follows_on(std::uint32_t interval, std::uint32_t T) {
   return interval / 5 >= T / 8 && interval / 8 <= T / 5;
 }
 
-/// Checks a sector's crossing that was found, or had passed. `interval`: ticks since the one before; T: ticks
-/// of a sector, 0 if the one before was not found. `hidden`: the old current decayed meanwhile.
+/// Checks a sector whose crossing was found, or had passed. `interval`: ticks since the crossing before. T:
+/// ticks of a sector, 0 if the crossing before was not found. `hidden`: the old current still decayed at the
+/// crossing.
 constexpr LockLoss lock_crossing(const LockConfig& config, LockState& state, Crossing crossing,
                                  std::uint32_t interval, std::uint32_t T, bool hidden) {
   if (crossing == Crossing::seen && interval >= config.shortest_ticks) {
@@ -85,7 +92,8 @@ constexpr LockLoss lock_crossing(const LockConfig& config, LockState& state, Cro
   return ++state.early < config.tolerated ? LockLoss::none : LockLoss::wrong_sector;
 }
 
-/// Checks a sample y of the back-EMF. `crossed`: the crossing of this sector is past, else still ahead.
+/// Checks a sample y of the back-EMF. `crossed`: the crossing of this sector is past; otherwise it is still
+/// to come.
 constexpr LockLoss lock_sample(const LockConfig& config, LockState& state, std::int32_t y, bool crossed,
                                std::uint32_t T) {
   const std::uint32_t size = static_cast<std::uint32_t>(y < 0 ? -y : y);
@@ -99,8 +107,8 @@ constexpr LockLoss lock_sample(const LockConfig& config, LockState& state, std::
   return ++state.odd < config.unlike_samples ? LockLoss::none : LockLoss::wrong_sector;
 }
 
-/// Checks a missing crossing, `since` ticks after the last one, in sectors of T ticks. `hides`: the old current
-/// still flows.
+/// Checks a sector whose crossing is missing, `since` ticks after the last one, with sectors of T ticks.
+/// `hides`: the old current still flows.
 constexpr LockLoss lock_waiting(const LockConfig& config, std::uint32_t since, std::uint32_t T, bool hides,
                                 std::uint8_t unlike_samples) {
   if (unlike_samples >= config.unlike_samples) return LockLoss::terminals;
@@ -110,7 +118,7 @@ constexpr LockLoss lock_waiting(const LockConfig& config, std::uint32_t since, s
   return hides ? LockLoss::long_demagnetisation : LockLoss::masked_crossing;
 }
 
-/// Counts a loss; true if the drive must stop.
+/// Counts a loss. Returns true if the drive must stop.
 constexpr bool lock_lost(const LockConfig& config, LockState& state, LockLoss loss) {
   lock_begin(state);
   state.last = loss;

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Estimates by a Luenberger observer the back-EMF of the free phase, from its voltage without a star point
-// (floating_voltage.hpp), and its current:
+// A Luenberger observer that estimates the back-EMF of the free phase, from the phase's voltage without the
+// star point (floating_voltage.hpp) and its current:
 //
 //   L di/dt = w - R i - e,   de/dt = 0                                              the model, (1) of model.md
 //   i_p = a i^ + b (w - e^),   a = exp(-R T/L),   b = (1 - a)/R                      exact for w, e constant in a period
 //   eps = i - i_p,   i^ = i_p + l eps,   e^ = e^ - h eps
-//   (1 - l) a = p1 p2,   h b = (1 - p1)(1 - p2)                                      its two poles in z
+//   (1 - l) a = p1 p2,   h b = (1 - p1)(1 - p2)                                      the observer's two poles p1, p2 in z
 //
-// w is the mean over the period that ends with the sample of i. With both poles at p the estimate of a back-EMF
-// that grows as a ramp is 2 p/(1 - p) periods late, plus half a period, since a mean is valid for a period's
-// middle. This delay is a time, the same at every speed, and observer.hpp subtracts it. A phase without current
-// has w = e: then R and L only shape the decay of the old estimate, p times each period.
+// w is the mean over the period that ends with the sample of i. With both poles at p, the estimate of a
+// back-EMF that grows as a ramp is 2 p/(1 - p) periods late. Half a period is added, because a mean is valid
+// for the middle of its period. This delay is a time, the same at every speed, and observer.hpp subtracts it.
+// A phase without current has w = e: then R and L only shape the decay of the old estimate, by the factor p
+// in each period.
 //
 // D. G. Luenberger, Observing the state of a linear system, IEEE Trans. Military Electronics 8 (1964) 74.
 #pragma once
@@ -19,23 +20,24 @@
 
 namespace sixstep::control {
 
-/// The default estimates nothing.
+/// With the default nothing is estimated.
 template <class Scalar>
 struct LuenbergerConfig {
-  Gain<Scalar> decay{};    ///< a
-  Gain<Scalar> drive{};    ///< b, A per V
-  Gain<Scalar> current{};  ///< l
-  Gain<Scalar> emf{};      ///< h, V per A
+  Gain<Scalar> decay{};    ///< a, decay of the current over a period
+  Gain<Scalar> drive{};    ///< b, change of the current per volt over a period
+  Gain<Scalar> current{};  ///< l, correction of i^ per ampere of error
+  Gain<Scalar> emf{};      ///< h, correction of e^ per ampere of error, V per A
   bool operator==(const LuenbergerConfig&) const = default;
 };
 
 template <class Scalar>
 struct LuenbergerState {
-  Scalar i_A{};               ///< i^
-  Accumulator<Scalar> e_V{};  ///< e^
+  Scalar i_A{};               ///< i^, estimate of the current
+  Accumulator<Scalar> e_V{};  ///< e^, estimate of the back-EMF
 };
 
-/// Advances by a period with its mean voltage, and the current at its end. Returns the estimate of e, V.
+/// Advances by a period with the mean voltage w_V, and the current i_A at the period's end. Returns the
+/// estimate of e, V.
 template <class Scalar>
 constexpr Scalar luenberger_step(const LuenbergerConfig<Scalar>& config, LuenbergerState<Scalar>& state,
                                  Scalar w_V, Scalar i_A) {
@@ -48,13 +50,14 @@ constexpr Scalar luenberger_step(const LuenbergerConfig<Scalar>& config, Luenber
   return T::signal(state.e_V);
 }
 
-/// The next leg floats. With signs such that it falls, its back-EMF begins at minus the last leg's final value.
+/// Begins a sector, in which the next leg floats. The signs are again such that its back-EMF falls, so that
+/// the estimate begins at minus its last value.
 template <class Scalar>
 constexpr void luenberger_begin(LuenbergerState<Scalar>& state) {
   state.e_V = -state.e_V;
 }
 
-/// The leg's old current has just ended, and its terminal shows its back-EMF.
+/// Sets the estimate: the leg's old current has just ended, and the terminal shows the back-EMF.
 template <class Scalar>
 constexpr void luenberger_set(LuenbergerState<Scalar>& state, Scalar e_V, Scalar i_A) {
   state.i_A = i_A;

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Selects the back-EMF that the drive follows: the terminal's own (zero_crossing.hpp), or an observer's, which
-// averages the converters' noise and has a known delay. Call it once per control tick with terminals,
-// currents and the command in effect. It gives the floating leg's estimate as counts of y = 2 e_f - e_s - e_k, like
-// those that zero_crossing.hpp reads from the terminal, so that lock, clock and thresholds are the same. While
-// the leg's old current decays the observer has no input; the first sample after it sets the estimate, and a
-// crossing meanwhile is reported as passed, like the terminal's.
+// Selects the back-EMF that the drive follows: the terminal's own (zero_crossing.hpp), or an observer's,
+// which averages the converters' noise and has a known delay. Call it once per control tick with terminals,
+// currents and the command in effect.
 //
-//   luenberger     crossing of the estimate, less its lag; commutation half a sector later by the clock
-//   sliding mode   the same
+// The observer gives the floating leg's estimate as counts of y = 2 e_f - e_s - e_k, as zero_crossing.hpp
+// reads them from the terminal, so that lock, clock and thresholds are the same. While the leg's old current
+// decays the observer has no input. The first sample after it sets the estimate. A crossing in that time is
+// reported as passed, as for the terminal's own back-EMF.
+//
+//   luenberger     crossing of the estimate, minus the estimate's lag; commutation half a sector later by the clock
+//   sliding mode   as luenberger
 //   flux           crossing of the mean back-EMF; commutation where the flux linkage has fallen by its level
 //
-// One observer serves all legs: its estimate is handed from one floating leg to the next. Samples are in the
-// middle of a centred pulse and commands take effect half a period later, so that the mean from sample to
-// sample is the mean of the two samples. A period in which the pair changed or the diode stopped conducting has
-// no known mean, and leaves the estimate unchanged.
+// One observer serves all legs: its estimate passes from one floating leg to the next. Samples are in the
+// middle of a centred pulse, and commands take effect half a period later. The mean voltage from sample to
+// sample is therefore the mean of the two samples. A period in which the pair changed, or the diode stopped
+// conducting, has no known mean and leaves the estimate unchanged.
 #pragma once
 #include <cstdint>
 
@@ -25,14 +27,15 @@
 
 namespace sixstep::control {
 
-/// comparators: their edges are the terminal's own crossings (captured_crossing.hpp), also without an observer.
+/// Source of the crossings. comparators: their edges are the terminal's own crossings
+/// (captured_crossing.hpp), also without an observer.
 enum class Follow : std::uint8_t { crossings, luenberger, sliding_mode, flux, comparators };
 
 constexpr bool observes(Follow follow) {
   return follow != Follow::crossings && follow != Follow::comparators;
 }
 
-/// The default follows the terminal's crossings, and costs one branch.
+/// With the default the terminal's crossings are followed, which costs one branch.
 template <class Scalar>
 struct ObserverConfig {
   Follow follow = Follow::crossings;
@@ -54,24 +57,25 @@ struct ObserverState {
   std::uint32_t at = 0;  ///< time of the last sample
   std::uint8_t sector = no_sector;
   bool runs_out = false;  ///< the old current of this sector's leg still flows
-  bool crossed = false;   ///< the estimate is below zero
+  bool crossed = false;   ///< the estimate has fallen below zero in this sector
 };
 
 /// Result of the observer for the drive.
 struct Observed {
-  bool follows = false;         ///< false: the terminal's own crossing counts
+  bool follows = false;         ///< false: the terminal's own crossing is used
   bool blind = false;           ///< the old current still hides the back-EMF
-  std::int32_t y = 0;           ///< counts, in the sense in which it falls
+  std::int32_t y = 0;           ///< y, counts, with the sign for which it falls through zero
   std::uint32_t lag_ticks = 0;  ///< age of y
   bool by_level = false;        ///< the flux linkage determines the commutation
   bool due = false;             ///< the commutation is due within the next period
-  /// Ticks from now to the commutation, at least 1. A compare match changes the pair at once, a command later.
+  /// Ticks from now to the commutation, at least 1. A compare match changes the pair at once; a command would
+  /// do so later.
   std::uint32_t due_ticks = 0;
 };
 
 namespace detail {
 
-/// Truncates to a whole number; in fixed point it returns the raw number.
+/// A number truncated to an integer; in fixed point the raw number.
 template <class Scalar>
 constexpr std::int32_t as_counts(Scalar x) {
   if constexpr (requires { x.raw; })
@@ -80,7 +84,7 @@ constexpr std::int32_t as_counts(Scalar x) {
     return static_cast<std::int32_t>(x);
 }
 
-/// part times whole, 0 <= part <= 1.
+/// part times whole, for 0 <= part <= 1.
 template <class Scalar>
 constexpr std::uint32_t part_of_ticks(Scalar part, std::uint32_t whole) {
   if constexpr (requires { part.raw; }) {
@@ -94,7 +98,7 @@ constexpr std::uint32_t part_of_ticks(Scalar part, std::uint32_t whole) {
   }
 }
 
-/// The next leg floats.
+/// Begins a sector, in which the next leg floats.
 template <class Scalar>
 constexpr void observer_begin(Follow follow, ObserverState<Scalar>& state, std::uint8_t sector) {
   if (follow == Follow::luenberger) luenberger_begin(state.luenberger);
@@ -105,7 +109,7 @@ constexpr void observer_begin(Follow follow, ObserverState<Scalar>& state, std::
   state.crossed = false;
 }
 
-/// The old current has ended.
+/// Sets all estimates: the old current has ended.
 template <class Scalar>
 constexpr void observer_set(const ObserverConfig<Scalar>& config, ObserverState<Scalar>& state, Scalar e_V,
                             Scalar i_A) {
@@ -115,7 +119,7 @@ constexpr void observer_set(const ObserverConfig<Scalar>& config, ObserverState<
   state.flux.g_V = e_V;
 }
 
-/// One period; returns its estimate, V.
+/// Advances by one period; returns the estimate, V.
 template <class Scalar>
 constexpr Scalar observed_voltage(const ObserverConfig<Scalar>& config, ObserverState<Scalar>& state,
                                   bool known, Scalar w_V, Scalar i_A) {
@@ -138,7 +142,8 @@ constexpr Scalar observed_voltage(const ObserverConfig<Scalar>& config, Observer
 
 }  // namespace detail
 
-/// One control tick in `sector`. `command`: in effect since the last tick, with the pair of the last commutation.
+/// One control tick in `sector`. `command`: the command in effect since the last tick, with the pair of the
+/// last commutation.
 template <class Scalar>
 constexpr Observed observer_step(const ObserverConfig<Scalar>& config, ObserverState<Scalar>& state,
                                  const TerminalSample& s, const BridgeCommand<Scalar>& command,
@@ -149,7 +154,7 @@ constexpr Observed observer_step(const ObserverConfig<Scalar>& config, ObserverS
   const std::uint8_t leg = floating_leg(sector);
   FloatingVoltage<Scalar> now = floating_voltage(config.voltage, s, leg, falls, command, measured.bus_V);
   Scalar i = phase_current(measured, static_cast<Leg>(leg));
-  if (now.known && !now.held) i = Scalar{};  // the amplifier shows only noise then
+  if (now.known && !now.held) i = Scalar{};  // without current the amplifier shows only noise
   if (!falls) {
     now.w_V = -now.w_V;
     i = -i;
@@ -158,7 +163,8 @@ constexpr Observed observer_step(const ObserverConfig<Scalar>& config, ObserverS
   const bool blind = state.runs_out && now.held && !config.voltage.through_freewheel;
   const bool released = state.runs_out && !now.held && now.known && state.before.held && !moved;
   if (now.known && !now.held) state.runs_out = false;
-  // After the crossing soft chopping's freewheel holds the leg at that rail again, which shows no voltage.
+  // After the crossing soft chopping's freewheel holds the leg at the same rail again, and the terminal shows
+  // no voltage.
   const bool known = !moved && !blind && now.known && state.before.known && now.held == state.before.held &&
                      !(now.held && state.crossed);
   const Scalar w = T::half_difference(state.before.w_V, -now.w_V);
@@ -181,7 +187,7 @@ constexpr Observed observer_step(const ObserverConfig<Scalar>& config, ObserverS
   return observed;
 }
 
-/// Like zero_crossing_step, but with the observer's y instead of the terminal's.
+/// As zero_crossing_step(), but with the observer's y instead of the terminal's.
 constexpr CrossingReading observed_crossing_step(const ZeroCrossingConfig& config, ZeroCrossingState& state,
                                                  const TerminalSample& s, const Observed& observed, bool on) {
   if (state.sector > 5) return {};

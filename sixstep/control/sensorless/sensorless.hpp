@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Position without a sensor: computes from terminal voltages the code that Hall probes would give, speed and
-// position. drive.hpp uses the code as if probes were there; the timer's compare match replaces its Hall
+// Position without a sensor: computes, from terminal voltages, speed, position and the code that Hall probes
+// would give. drive.hpp uses the code as if probes were there; the timer's compare match replaces the Hall
 // interrupt.
 //
-//   off -> catching -> aligning -> ramping -> running        wanted: a direction
+//   off -> catching -> aligning -> ramping -> running        if a direction is wanted
 //           |  ^-------------------------------- lost         (lock.hpp); gave_up after more than lock.retries in a row
-//           '-> running                                        the rotor spins already (spin.hpp)
+//           '-> running                                        if the rotor spins already (spin.hpp)
 //
-// `following`: another source commutates; crossings are only followed, so that the back-EMF can take over in
-// flight.
+// In phase `following` another source commutates. Crossings are only followed, so that the back-EMF can take
+// over while the motor turns.
 //
 // Call sensorless_step once per control tick with the samples of that tick, and sensorless_commutate when the
-// timer reaches state.clock.next while state.clock.scheduled. A commutation that is already late when it is
-// found is done in the step. With comparators at the terminals, call sensorless_capture at each of their edges.
+// timer reaches state.clock.next while state.clock.scheduled. If a commutation is already due when its
+// crossing is found, the step commutates. With comparators at the terminals, call sensorless_capture at each
+// of their edges.
 #pragma once
 #include <cstdint>
 
@@ -20,15 +21,15 @@
 
 namespace sixstep::control {
 
-/// Action of the drive in the present phase.
+/// What the drive has to do in the present phase.
 template <class Scalar>
 struct SensorlessAnswer {
   bool drives = false;    ///< false: the bridge is off
-  bool by_start = false;  ///< the current loop holds start_A in every mode, for any setpoint
-  Scalar start_A{};       ///< signed
+  bool by_start = false;  ///< the current loop holds start_A, in every mode and for any setpoint
+  Scalar start_A{};       ///< current of the start, with the sign of its direction
 };
 
-/// The timer's interrupt: begins the next sector.
+/// The timer's compare match: begins the next sector.
 template <class Scalar>
 constexpr void sensorless_commutate(const SensorlessConfig<Scalar>& config, SensorlessState& state,
                                     std::uint32_t now) {
@@ -75,7 +76,7 @@ constexpr void sensorless_step(const SensorlessConfig<Scalar>& config, Sensorles
   if (state.clock.scheduled && !comes_before(now, state.clock.next)) sensorless_commutate(config, state, now);
 }
 
-/// An edge into `sector` of another source, which commutates.
+/// Takes an edge into `sector` from another source, which commutates.
 template <class Scalar>
 constexpr void sensorless_follow_edge(const SensorlessConfig<Scalar>& config, SensorlessState& state,
                                       std::uint8_t sector, std::int8_t moved, std::uint32_t now) {
@@ -86,7 +87,8 @@ constexpr void sensorless_follow_edge(const SensorlessConfig<Scalar>& config, Se
   state.position.sectors += moved;
 }
 
-/// A control tick while another source commutates: crossings are found and commutations scheduled all the same.
+/// A control tick while another source commutates: crossings are found and commutations scheduled as if the
+/// back-EMF did.
 template <class Scalar>
 constexpr void sensorless_follow(const SensorlessConfig<Scalar>& config, SensorlessState& state,
                                  const SensorlessInput& input) {
@@ -95,7 +97,7 @@ constexpr void sensorless_follow(const SensorlessConfig<Scalar>& config, Sensorl
   if (reading.crossing == Crossing::seen) detail::take_crossing(config, state, reading.at);
 }
 
-/// The present action of the drive.
+/// What the drive has to do now.
 template <class Scalar>
 constexpr SensorlessAnswer<Scalar> sensorless_answer(const SensorlessConfig<Scalar>& config,
                                                      const SensorlessState& state, std::int8_t wanted) {
@@ -108,21 +110,21 @@ constexpr SensorlessAnswer<Scalar> sensorless_answer(const SensorlessConfig<Scal
     case SensorlessPhase::ramping:
       return {true, true, in_direction(start.current_A, state.direction)};
     case SensorlessPhase::running:
-      // A rotor that was caught turning the other way is braked first.
+      // A rotor that was caught while turning in the other direction is braked first.
       return {true, wanted == -state.direction, in_direction(start.current_A, wanted)};
     default:
       return {};
   }
 }
 
-/// Mechanical speed from the crossings; 0 while the rotor is not followed.
+/// Mechanical speed from the crossings, rad/s; 0 while the rotor is not followed.
 template <class Scalar>
 constexpr Scalar sensorless_speed(const SensorlessConfig<Scalar>& config, SensorlessState& state,
                                   std::uint32_t now) {
   return hall_speed(config.speed, state.clock.crossings, now);
 }
 
-/// Mechanical position, counted in sectors from the start of the drive.
+/// Mechanical position, degrees, counted in sectors from the start of the drive.
 template <class Scalar>
 constexpr Scalar sensorless_position(const SensorlessConfig<Scalar>& config, const SensorlessState& state,
                                      std::uint32_t now) {

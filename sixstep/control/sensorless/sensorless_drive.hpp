@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the drive of drive.hpp without a rotor position sensor. Firmware calls sensorless_drive_step once per
-// control tick, sensorless_drive_commutate when the timer reaches next_commutation, and sensorless_drive_hall
-// in the Hall interrupt of a motor that has probes too; sensorless_capture (sensorless.hpp) in the interrupt of
-// comparators.
+// Runs the drive of drive.hpp without a rotor position sensor. Firmware calls
+//   sensorless_drive_step       once per control tick
+//   sensorless_drive_commutate  when the timer reaches next_commutation
+//   sensorless_drive_hall       in the Hall interrupt of a motor that also has probes
+//   sensorless_capture          (sensorless.hpp) in the interrupt of comparators
 //
 // During the start the current loop holds the start's current in every mode. At the hand-over the loops
-// continue from there: a speed loop's output begins at the part of that current that the ramp needs, because
-// the rest was reserve; a current or duty setpoint is approached by a limited change per tick. The same limit
-// keeps a step of a throttle from a current that would hide the crossings.
+// continue from there. A speed loop's output begins at the part of that current that the ramp needs, because
+// the rest was a reserve. A current or duty setpoint is approached by a limited change per tick. The same
+// limit applies later, because a step of the setpoint could make a current that hides the crossings.
 #pragma once
 #include "sixstep/control/drive.hpp"
 #include "sixstep/control/retune.hpp"
@@ -20,11 +21,12 @@ struct SensorlessDriveConfig {
   DriveConfig<Scalar> drive{};
   SensorlessConfig<Scalar> sensorless{};
   PositionSourceConfig source{};
-  ObserverConfig<Scalar> observer{};  ///< selects the back-EMF that is followed
-  Scalar start_output{};              ///< the speed loop's output at the hand-over, from the ramp's torque
+  ObserverConfig<Scalar> observer{};  ///< source of the back-EMF that is followed
+  Scalar start_output{};              ///< output of the speed loop at the hand-over, computed from the ramp's
+                                      ///< torque
   SlewConfig<Scalar> duty{};          ///< change of a duty setpoint per tick; default: no limit
-  SlewConfig<Scalar> current{};       ///< change of a current setpoint
-  Scalar least_duty{};  ///< least duty of a followed rotor: without an on-time no crossing is visible
+  SlewConfig<Scalar> current{};       ///< change of a current setpoint per tick; default: no limit
+  Scalar least_duty{};  ///< least duty while the rotor is followed: without an on-time no crossing is visible
   bool operator==(const SensorlessDriveConfig&) const = default;
 };
 
@@ -35,22 +37,24 @@ struct SensorlessDriveState {
   PositionSourceState source{};
   ObserverState<Scalar> observer{};
   SlewState<Scalar> setpoint{};
-  bool by_start = true;  ///< the start controlled the current at the last tick
+  bool by_start = true;  ///< true: the start determined the current at the last tick
 };
 
-/// Register values at a tick. `measured` holds currents and bus, and with probes speed and position.
+/// Values of the registers at a tick. `measured` has currents and bus, and with Hall probes also speed and
+/// position.
 template <class Scalar>
 struct SensorlessDriveInput {
   Measurement<Scalar> measured{};
   TerminalSample terminals{};
   std::uint8_t hall_pins = 0;
   bool on = false;             ///< the pair's switches are on at the sample
-  std::uint32_t on_ticks = 0;  ///< timer ticks of that on-time; for comparators against half the bus
+  std::uint32_t on_ticks = 0;  ///< timer ticks of the on-time around the sample; for comparators against half
+                               ///< the bus
 };
 
 namespace detail {
 
-/// Direction of the setpoint: 1, -1, or 0.
+/// Direction of the setpoint: 1, -1, or 0 for none.
 template <class Scalar>
 constexpr std::int8_t wanted_direction(const DriveConfig<Scalar>& config, Scalar setpoint, Scalar position) {
   if (config.mode == Mode::off) return 0;
@@ -59,7 +63,7 @@ constexpr std::int8_t wanted_direction(const DriveConfig<Scalar>& config, Scalar
   return way > zero ? std::int8_t{1} : way < zero ? std::int8_t{-1} : std::int8_t{0};
 }
 
-/// Sets the loops to the values at the end of the start.
+/// Sets the loops to values that continue the end of the start.
 template <class Scalar>
 constexpr void hand_over(const SensorlessDriveConfig<Scalar>& config, SensorlessDriveState<Scalar>& state,
                          const Measurement<Scalar>& measured, Scalar setpoint, bool forward, bool caught) {
@@ -84,7 +88,7 @@ constexpr void keep_visible(Scalar least_duty, BridgeCommand<Scalar>& command) {
   if (command.enabled && command.watch == Watch::none && command.duty < least_duty) command.duty = least_duty;
 }
 
-/// A duty or current setpoint, changed no faster than the crossings allow.
+/// A duty or current setpoint that changes no faster than the crossings allow.
 template <class Scalar>
 constexpr Scalar approached(const SensorlessDriveConfig<Scalar>& config, SensorlessDriveState<Scalar>& state,
                             Scalar setpoint) {
@@ -123,7 +127,7 @@ constexpr const BridgeCommand<Scalar>& sensorless_drive_step(const SensorlessDri
   sensorless_step(config.sensorless, rotor, {input.terminals, wanted, input.on, input.on_ticks, observed});
   const SensorlessAnswer<Scalar> answer = sensorless_answer(config.sensorless, rotor, wanted);
   measured.hall = hall_of_sector(rotor.sector);
-  // An estimate is valid for an earlier instant: a crossing after that instant is not missing yet.
+  // The speed estimate is valid for an earlier instant: a crossing after that instant cannot be missing yet.
   const std::uint32_t told = now - observed.lag_ticks, last = rotor.clock.crossings.times[0];
   measured.speed_rad_s = sensorless_speed(config.sensorless, rotor, comes_before(told, last) ? last : told);
   measured.position_deg = sensorless_position(config.sensorless, rotor, now);
@@ -157,7 +161,7 @@ constexpr const BridgeCommand<Scalar>& sensorless_drive_commutate(const Sensorle
   return state.drive.command;
 }
 
-/// True if a commutation is scheduled; `at`: its reading of the timer.
+/// True if a commutation is scheduled; `at` is the timer's reading at which it is due.
 template <class Scalar>
 constexpr bool next_commutation(const SensorlessDriveState<Scalar>& state, std::uint32_t& at) {
   const SensorlessPhase phase = state.sensorless.phase;
@@ -166,7 +170,7 @@ constexpr bool next_commutation(const SensorlessDriveState<Scalar>& state, std::
          (phase == SensorlessPhase::ramping || phase == SensorlessPhase::running);
 }
 
-/// The Hall interrupt: true if it changed the pair.
+/// The Hall interrupt. Returns true if it changed the pair.
 template <class Scalar>
 constexpr bool sensorless_drive_hall(const SensorlessDriveConfig<Scalar>& config,
                                      SensorlessDriveState<Scalar>& state, std::uint8_t pins,
@@ -177,7 +181,7 @@ constexpr bool sensorless_drive_hall(const SensorlessDriveConfig<Scalar>& config
   return true;
 }
 
-/// Another configuration between two ticks (retune.hpp); the rotor is followed without interruption.
+/// Replaces the configuration between two ticks (retune.hpp). The rotor is followed without interruption.
 template <class Scalar>
 constexpr void retune(SensorlessDriveConfig<Scalar>& config, SensorlessDriveState<Scalar>& state,
                       const SensorlessDriveConfig<Scalar>& next) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the control tick of each phase of sensorless.hpp, which shows their order.
+// Runs the control tick of each phase. sensorless.hpp shows the order of the phases.
 #pragma once
 #include <cstdint>
 
@@ -13,7 +13,7 @@ namespace sixstep::control {
 
 enum class SensorlessPhase : std::uint8_t { off, catching, aligning, ramping, running, following, gave_up };
 
-/// The default never starts. Choose speed.timeout_ticks above lock.longest_ticks.
+/// With the default the drive never starts. Choose speed.timeout_ticks above lock.longest_ticks.
 template <class Scalar>
 struct SensorlessConfig {
   ZeroCrossingConfig crossing{};
@@ -29,9 +29,10 @@ struct SensorlessConfig {
 
 struct SensorlessInput {
   TerminalSample terminals{};
-  std::int8_t wanted = 0;      ///< direction: 1, -1; 0: rest or coast
+  std::int8_t wanted = 0;      ///< direction: 1, -1; 0: the motor is to rest or coast
   bool on = false;             ///< the driven pair's switches are on at the sample
-  std::uint32_t on_ticks = 0;  ///< timer ticks of that on-time; for comparators against half the bus
+  std::uint32_t on_ticks = 0;  ///< timer ticks of the on-time around the sample; for comparators against half
+                               ///< the bus
   Observed observed{};         ///< the observer's result
 };
 
@@ -39,7 +40,7 @@ struct SensorlessState {
   SensorlessPhase phase = SensorlessPhase::off;
   std::int8_t direction = 1;
   std::uint8_t sector = 0;
-  bool settled = false;  ///< catching: the currents have ended
+  bool settled = false;  ///< in phase catching: the currents have ended
   std::uint32_t commutated_at = 0;
   ZeroCrossingState crossing{};
   CapturedLines captured{};
@@ -68,7 +69,7 @@ constexpr void begin_sector(const SensorlessConfig<Scalar>& config, SensorlessSt
   zero_crossing_begin(state.crossing, state.sector, since < half ? half - since : 0, now);
 }
 
-/// After the start: the terminal's own crossing, from its samples or from the comparators' edges.
+/// The terminal's own crossing after the start, from samples or from the comparators' edges.
 template <class Scalar>
 constexpr CrossingReading crossing_of(const SensorlessConfig<Scalar>& config, SensorlessState& state,
                                       const SensorlessInput& input) {
@@ -103,8 +104,8 @@ constexpr void lose(const SensorlessConfig<Scalar>& config, SensorlessState& sta
   if (ends) state.phase = SensorlessPhase::gave_up;
 }
 
-/// Time of a crossing that was not found: its expected time if the old current hid it, else halfway back to the
-/// commutation.
+/// Time of a crossing that was not found. If the old current hid it, this is its expected time; otherwise it
+/// is halfway between the commutation and now.
 template <class Scalar>
 constexpr std::uint32_t passed_at(const SensorlessConfig<Scalar>& config, const SensorlessState& state,
                                   std::uint32_t now) {
@@ -190,7 +191,7 @@ constexpr void ramping_step(const SensorlessConfig<Scalar>& config, SensorlessSt
   if (reading.crossing == Crossing::seen) take_crossing(config, state, reading.at);
   const bool waits = state.crossing.armed && !state.crossing.done;
   if (ramp_step(config.start, state.start, reading, waits, state.clock.scheduled)) {
-    state.clock.crossings = HallSpeedState{};  // a missed crossing leaves no interval
+    state.clock.crossings = HallSpeedState{};  // an interval that contains a missed crossing is not used
     begin_sector(config, state, state.direction, now);
     ramp_commutated(state.start);
     return;
@@ -218,7 +219,8 @@ constexpr void running_step(const SensorlessConfig<Scalar>& config, SensorlessSt
     if (loss != LockLoss::none) return lose(config, state, loss, now);
     if (reading.crossing == Crossing::seen) return take_crossing(config, state, at);
     commutation_clock_guess(state.clock, T, state.direction, now);
-    const std::uint32_t sooner = sector_ticks(config.clock, state.clock);  // the crossing came early
+    const std::uint32_t sooner = sector_ticks(config.clock, state.clock);  // T is less now if the crossing
+                                                                           // came early
     return schedule_commutation(state.clock, at + delay_ticks(config.clock, sooner < T ? sooner : T));
   }
   const std::uint32_t T = sector_ticks(config.clock, state.clock);
@@ -231,7 +233,7 @@ constexpr void running_step(const SensorlessConfig<Scalar>& config, SensorlessSt
                         state.crossing.unlike);
   if (loss == LockLoss::none) return;
   if (input.wanted == state.direction) return lose(config, state, loss, now);
-  catch_spin(state, now);  // the rotor coasted or was braked, as commanded
+  catch_spin(state, now);  // the rotor coasted or was braked as commanded: this is no loss
 }
 
 /// After a crossing that was found, the flux linkage, if it is followed, determines the commutation instead of

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Estimates by a sliding-mode observer the back-EMF of the free phase, from its voltage without a star
-// point (floating_voltage.hpp), and its current:
+// A sliding-mode observer that estimates the back-EMF of the free phase, from the phase's voltage without the
+// star point (floating_voltage.hpp) and its current:
 //
 //   L di^/dt = w - R i^ - z,   z = k sat((i^ - i)/phi)          sat: the sign, but linear in a layer of width phi
 //   discretised exactly:   i^[n+1] = a i^[n] + b (w - z[n]),   a = exp(-R T/L),   b = (1 - a)/R
-//   e^[n+1] = e^[n] + c (z[n+1]/a - e^[n])                      low-pass: the equivalent control contained in z
+//   e^[n+1] = e^[n] + c (z[n+1]/a - e^[n])                      low-pass of z, which contains the equivalent control
 //
-// While k is above every back-EMF the error i^ - i is driven into the layer; inside of it error[n+1] = (a - b
-// k/phi) error[n] + b e. A chip switches z once per period: with the sign alone the error would chatter over
-// 2 b k. phi = k b/a is the narrowest layer without that: the error is constant after one period, and z =
-// a e of the period that has just ended. The low-pass is (1 - c)/c periods late, and the mean half a period.
-// observer.hpp subtracts this time, which compensates the phase lag at every speed.
+// If k is above every back-EMF, the error i^ - i is driven into the layer. Inside the layer error[n+1] = (a -
+// b k/phi) error[n] + b e. A chip switches z once per period: with the sign alone the error would chatter
+// over 2 b k. phi = k b/a is the narrowest layer without chatter: the error is constant after one period, and
+// z = a e of the period that has just ended. The low-pass is (1 - c)/c periods late, and the mean half a
+// period. observer.hpp subtracts this time, which compensates the phase lag at every speed.
 //
 // V. I. Utkin, Variable structure systems with sliding modes, IEEE Trans. Automatic Control 22 (1977) 212; the layer:
 // J.-J. Slotine, S. S. Sastry, Int. J. Control 38 (1983) 465.
@@ -20,27 +20,28 @@
 
 namespace sixstep::control {
 
-/// The default estimates nothing.
+/// With the default nothing is estimated.
 template <class Scalar>
 struct SlidingModeConfig {
-  Gain<Scalar> decay{};  ///< a
-  Gain<Scalar> drive{};  ///< b, A per V
-  Gain<Scalar> slope{};  ///< k/phi = a/b, V per A
-  Scalar limit_V{};      ///< k
+  Gain<Scalar> decay{};  ///< a, decay of the current over a period
+  Gain<Scalar> drive{};  ///< b, change of the current per volt over a period
+  Gain<Scalar> slope{};  ///< k/phi = a/b, slope in the layer, V per A
+  Scalar limit_V{};      ///< k, limit of |z|
   Gain<Scalar> raise{};  ///< 1/a
-  Gain<Scalar> share{};  ///< c
+  Gain<Scalar> share{};  ///< c, factor of the low-pass
   bool operator==(const SlidingModeConfig&) const = default;
 };
 
 template <class Scalar>
 struct SlidingModeState {
-  Scalar i_A{};      ///< the last sample
-  Scalar error_A{};  ///< i^ - i
+  Scalar i_A{};      ///< current at the last sample
+  Scalar error_A{};  ///< i^ - i, error of the estimated current
   Scalar z_V{};
-  Accumulator<Scalar> e_V{};  ///< e^
+  Accumulator<Scalar> e_V{};  ///< e^, estimate of the back-EMF
 };
 
-/// Advances by a period with its mean voltage, and the current at its end. Returns the estimate of e, V.
+/// Advances by a period with the mean voltage w_V, and the current i_A at the period's end. Returns the
+/// estimate of e, V.
 template <class Scalar>
 constexpr Scalar sliding_mode_step(const SlidingModeConfig<Scalar>& config, SlidingModeState<Scalar>& state,
                                    Scalar w_V, Scalar i_A) {
@@ -55,7 +56,8 @@ constexpr Scalar sliding_mode_step(const SlidingModeConfig<Scalar>& config, Slid
   return T::signal(state.e_V);
 }
 
-/// The next leg floats. With signs such that it falls, its back-EMF begins at minus the last leg's final value.
+/// Begins a sector, in which the next leg floats. The signs are again such that its back-EMF falls, so that
+/// the estimate begins at minus its last value.
 template <class Scalar>
 constexpr void sliding_mode_begin(SlidingModeState<Scalar>& state) {
   state.error_A = -state.error_A;
@@ -63,8 +65,8 @@ constexpr void sliding_mode_begin(SlidingModeState<Scalar>& state) {
   state.e_V = -state.e_V;
 }
 
-/// The leg's old current has just ended, and its terminal shows its back-EMF: the equivalent control is a e, at
-/// an error of b e.
+/// Sets the state: the leg's old current has just ended, and the terminal shows the back-EMF e. The
+/// equivalent control is then a e, at an error of b e.
 template <class Scalar>
 constexpr void sliding_mode_set(const SlidingModeConfig<Scalar>& config, SlidingModeState<Scalar>& state,
                                 Scalar e_V, Scalar i_A) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the motion of the rotor while the bridge is off. The signs of the three back-EMFs, terminals against
-// their mean, make six patterns, in the order of the codes of Hall probes. Their changes are the zero
-// crossings. Forward, the pattern of sector n begins in the middle of sector n. Backward every back-EMF has the
-// other sign, and the change back to pattern m is in the middle of sector m + 4.
+// Finds the motion of the rotor while the bridge is off. The signs of the three back-EMFs (terminals against
+// their mean) make six patterns, in the order of the codes of Hall probes. The pattern changes at the zero
+// crossings. Forward, the pattern of sector n begins in the middle of sector n. Backward, every back-EMF has
+// the opposite sign, and the change back to pattern m is in the middle of sector m + 4.
 //
 //   3 e_k = 3 u_k - (u_a + u_b + u_c)      without current: the star point need not be connected
 //
-// The order of the patterns gives the direction, their times the speed (commutation_clock.hpp): enough to
-// continue with a spinning rotor without stopping it.
+// The order of the patterns gives the direction, and their times the speed (commutation_clock.hpp). This
+// suffices to continue with a spinning rotor without stopping it.
 #pragma once
 #include <cstdint>
 
@@ -17,8 +17,9 @@
 namespace sixstep::control {
 
 struct SpinConfig {
-  std::int32_t threshold = 0x7fffffff;  ///< counts of 3 e_k above which it is a voltage and not noise
-  std::uint8_t crossings = 4;           ///< crossings at similar intervals in one direction that prove a spin
+  std::int32_t threshold = 0x7fffffff;  ///< counts of 3 e_k above which the value is a voltage and not noise
+  std::uint8_t crossings = 4;           ///< consecutive crossings at similar intervals in one direction that
+                                        ///< prove a spin
   std::uint32_t settle_ticks = 0;       ///< time after turning the bridge off until currents have ended
   /// Time without a crossing after which the rotor counts as standing; 0: the spin is not measured.
   std::uint32_t listen_ticks = 0;
@@ -29,8 +30,8 @@ struct SpinState {
   std::int32_t e[3]{};      ///< 3 e_k of the last sample, counts
   std::uint32_t zero[3]{};  ///< time of the last change of each sign
   std::uint32_t at = 0;     ///< time of the last sample
-  std::uint32_t since = 0;  ///< time of the last crossing or the begin
-  std::uint8_t signs = 0;   ///< bits 2, 1, 0: positive back-EMF of a, b, c; 000: not known yet
+  std::uint32_t since = 0;  ///< time of the last crossing, or of the begin
+  std::uint8_t signs = 0;   ///< signs as bits 2, 1, 0: positive back-EMF of a, b, c; 000: not known yet
   std::uint8_t found = 0;   ///< crossings at similar intervals
   bool looked = false;
 };
@@ -38,7 +39,7 @@ struct SpinState {
 struct SpinReading {
   bool crossed = false;
   std::int8_t direction = 0;
-  std::uint8_t sector = no_sector;  ///< the crossing is in its middle
+  std::uint8_t sector = no_sector;  ///< sector in whose middle the crossing is
   std::uint32_t at = 0;
 };
 
@@ -49,13 +50,13 @@ constexpr void spin_begin(SpinState& state, std::uint32_t now) {
 
 namespace detail {
 
-/// A sign counts once the voltage is beyond the threshold; its zero is that of the straight line between two
-/// samples.
+/// Updates the signs. A sign counts once the voltage is beyond the threshold. The time of its change is the
+/// zero of the straight line between two samples.
 constexpr std::uint8_t spin_signs(const SpinConfig& config, SpinState& state, const TerminalSample& s) {
   std::uint8_t signs = state.signs;
   for (std::uint8_t k = 0; k < 3; ++k) {
     const std::int32_t e = above_neutral(s, k), before = state.e[k];
-    if (!state.looked) state.zero[k] = s.at;  // a crossing before the first sample was about now
+    if (!state.looked) state.zero[k] = s.at;  // a crossing before the first sample counts as now
     if (state.looked && before < 0 && e >= 0) state.zero[k] = crossed_at(state.at, -before, s.at, -e);
     if (state.looked && before >= 0 && e < 0)
       state.zero[k] = before == 0 ? state.at : crossed_at(state.at, before, s.at, e);
@@ -71,7 +72,7 @@ constexpr std::uint8_t spin_signs(const SpinConfig& config, SpinState& state, co
 
 }  // namespace detail
 
-/// One sample with the bridge off and no currents. Writes the crossings' times to `clock`.
+/// One sample with the bridge off and without currents. Writes the crossings' times to `clock`.
 constexpr SpinReading spin_step(const SpinConfig& config, SpinState& state, CommutationClockState& clock,
                                 const TerminalSample& s) {
   const std::uint8_t before = sector_of_hall(state.signs);
@@ -97,8 +98,8 @@ constexpr SpinReading spin_step(const SpinConfig& config, SpinState& state, Comm
   return reading;
 }
 
-/// True after config.crossings crossings, at least two, at similar intervals: the drive may then run from the present
-/// speed.
+/// True after config.crossings crossings, at least two, at similar intervals: the drive may then run on from
+/// the present speed.
 constexpr bool spin_found(const SpinConfig& config, const SpinState& state) {
   return state.found >= config.crossings && state.found >= 2;
 }

@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // Starts the motor from standstill until crossings can be trusted: alignment, then a ramp.
 //
-// Alignment. A pair pulls the rotor to the angle at which its torque is 0, two sectors ahead of the pair's own:
-// 60 (s + 2) degrees forward. At the opposite angle the torque is 0 too; a second pair, one sector on, has no
-// dead point there. The rotor swings about its place with sqrt(p K_t I/J). Only friction damps this swing, because
-// the pair's own back-EMF is 0 there. But the floating leg shows the speed of the swing. While that speed grows
-// the rotor moves towards its place, and the current is low; while it falls the rotor moves away, against the
-// full current. So each half swing reduces the energy by the ratio of the two currents.
+// Alignment. A pair pulls the rotor to the angle at which the pair's torque is 0, two sectors ahead of the
+// pair's own sector s: 60 (s + 2) degrees forward. At the opposite angle the torque is 0 too. Therefore a
+// second pair follows, one sector further, which has no dead point there.
 //
-// Ramp. The pair two sectors on drives the rotor from there. The field turns by its own law,
+// The rotor swings about its place with the frequency sqrt(p K_t I/J). Only friction damps this swing,
+// because the pair's own back-EMF is 0 at that place. But the floating leg shows the speed of the swing.
+// While this speed grows, the rotor moves towards its place, and the current is low. While it falls, the
+// rotor moves away, against the full current. So each half swing reduces the energy by the ratio of the two
+// currents.
+//
+// Ramp. The pair two sectors further drives the rotor from there. The field turns by its own law,
 //
 //   w(t) = a t  (+ j t^2/2),    a commutation each 60 degrees
 //
-// but only while the back-EMF shows no crossing. A crossing that is found sets the next commutation half a sector
-// after it; one that is still expected is waited for, up to a whole sector; one that had passed before it could
-// be found, twice in a row or after two that were found, brings the commutation at once.
+// but only while the back-EMF shows no crossing. A crossing that is found sets the next commutation half a
+// sector later. A crossing that is still expected is waited for, up to a whole sector. If a crossing had
+// passed before it could be found, twice in a row or after two that were found, the drive commutates at once.
 #pragma once
 #include <cstdint>
 
@@ -23,38 +26,38 @@
 
 namespace sixstep::control {
 
-/// The default does not start. The ramp is counted in control ticks; 2^32 is one sector.
+/// With the default the drive does not start. The ramp is counted in control ticks; 2^32 is one sector.
 template <class Scalar>
 struct StartUpConfig {
-  Scalar current_A{};                ///< current of the pair, in ramp and alignment
+  Scalar current_A{};                ///< current of the pair during alignment and ramp
   Scalar falling_A{};                ///< current of the alignment while the swing's speed grows
-  std::uint32_t align_ticks = 0;     ///< duration of each of the two steps, on the timer
+  std::uint32_t align_ticks = 0;     ///< duration of each of the two alignment steps, ticks of the timer
   std::uint8_t swing_shift = 4;      ///< 2^n control ticks: time constant of the swing's mean
-  std::int32_t swing_threshold = 0;  ///< counts of y above which it is a swing
+  std::int32_t swing_threshold = 0;  ///< counts of y above which y is a swing and not noise
   std::uint32_t first_speed = 0;     ///< speed at the begin of the ramp, 2^-32 sectors per control tick
-  std::uint32_t acceleration = 0;    ///< 2^-32 sectors per tick, in each tick
-  std::uint32_t jerk = 0;            ///< 2^-48 sectors per tick, in each tick and tick: the law t^2; adds
-                                     ///< up to 65535 units of the acceleration
+  std::uint32_t acceleration = 0;    ///< increase of the speed per tick, 2^-32 sectors per tick
+  std::uint32_t jerk = 0;            ///< increase of the acceleration per tick, in 2^-48 sectors per tick^2;
+                                     ///< it adds up to at most 65535 units
   std::uint32_t last_speed = 0;      ///< speed at the end of the ramp, 2^-32 sectors per tick
-  std::uint32_t longest_ticks = 0;   ///< longest duration of the ramp, on the timer
-  std::uint8_t trusted = 6;          ///< crossings found in a row for the hand-over
-  /// Longest sector at the hand-over, ticks of the timer: 5 % of rated speed.
+  std::uint32_t longest_ticks = 0;   ///< longest duration of the ramp, ticks of the timer
+  std::uint8_t trusted = 6;          ///< consecutive found crossings at which the ramp ends
+  /// Longest sector at which the ramp may end, ticks of the timer: at 5 % of rated speed.
   std::uint32_t trusted_ticks = 0;
   bool operator==(const StartUpConfig&) const = default;
 };
 
 struct StartUpState {
-  std::uint32_t since = 0;   ///< begin of the step or the ramp
+  std::uint32_t since = 0;   ///< begin of the alignment step or of the ramp
   std::uint8_t step = 0;     ///< step of the alignment
-  std::int32_t swing = 0;    ///< mean of |y|, times 2^swing_shift
-  bool falls = false;        ///< the swing's speed grows
-  std::uint32_t angle = 0;   ///< angle of the field in its sector, 2^-32 sectors
-  std::uint32_t speed = 0;   ///< speed of the field
-  std::uint32_t faster = 0;  ///< acceleration added to the configured one, in 1/65536
-  std::uint16_t ticks = 0;   ///< control ticks in this sector
-  std::uint8_t waited = 0;   ///< whole sectors waited for a crossing
-  std::uint8_t trusted = 0;  ///< crossings found in a row
-  std::uint8_t passed = 0;   ///< sectors in a row whose crossing had passed before it could be found
+  std::int32_t swing = 0;    ///< mean of |y|, multiplied by 2^swing_shift
+  bool falls = false;        ///< true: the swing's speed grows, and falling_A applies
+  std::uint32_t angle = 0;   ///< angle of the field within its sector, 2^-32 sectors
+  std::uint32_t speed = 0;   ///< speed of the field, 2^-32 sectors per tick
+  std::uint32_t faster = 0;  ///< acceleration in addition to the configured one, in 1/65536 of its unit
+  std::uint16_t ticks = 0;   ///< control ticks in the present sector
+  std::uint8_t waited = 0;   ///< whole sectors for which a crossing has been waited for
+  std::uint8_t trusted = 0;  ///< consecutive found crossings
+  std::uint8_t passed = 0;   ///< consecutive sectors whose crossing had passed before it could be found
 };
 
 constexpr void align_begin(StartUpState& state, std::uint32_t now) {
@@ -62,7 +65,7 @@ constexpr void align_begin(StartUpState& state, std::uint32_t now) {
   state.since = now;
 }
 
-/// Measures the swing by the floating leg. Call it once per control tick.
+/// Measures the swing by the floating leg's y. Call it once per control tick.
 template <class Scalar>
 constexpr void align_swing(const StartUpConfig<Scalar>& config, StartUpState& state,
                            const CrossingReading& seen) {
@@ -73,7 +76,7 @@ constexpr void align_swing(const StartUpConfig<Scalar>& config, StartUpState& st
   state.swing += size - mean;
 }
 
-/// True at the end of a step of the alignment; the second step ends it.
+/// True at the end of an alignment step; the alignment ends with the second step.
 template <class Scalar>
 constexpr bool align_step_ends(const StartUpConfig<Scalar>& config, StartUpState& state, std::uint32_t now) {
   if (static_cast<std::uint32_t>(now - state.since) < config.align_ticks) return false;
@@ -99,7 +102,7 @@ constexpr void ramp_commutated(StartUpState& state) {
 
 namespace detail {
 
-/// Advances speed and angle of the field by a tick; true if it has turned by a sector.
+/// Advances speed and angle of the field by a tick. Returns true if the field has turned by a sector.
 template <class Scalar>
 constexpr bool ramp_turns(const StartUpConfig<Scalar>& config, StartUpState& state) {
   const std::uint32_t acceleration = config.acceleration + (state.faster >> 16);
@@ -115,8 +118,8 @@ constexpr bool ramp_turns(const StartUpConfig<Scalar>& config, StartUpState& sta
 
 }  // namespace detail
 
-/// One control tick of the ramp: true if the field must commutate by itself, now. `scheduled`: a crossing that
-/// was found has scheduled the commutation.
+/// One control tick of the ramp. Returns true if the field must commutate now by its own law. `scheduled`: a
+/// crossing that was found has scheduled the commutation.
 template <class Scalar>
 constexpr bool ramp_step(const StartUpConfig<Scalar>& config, StartUpState& state,
                          const CrossingReading& reading, bool waits_for_crossing, bool scheduled) {
@@ -124,7 +127,7 @@ constexpr bool ramp_step(const StartUpConfig<Scalar>& config, StartUpState& stat
   if (reading.crossing == Crossing::seen) {
     state.passed = 0;
     if (state.trusted < 255) ++state.trusted;
-    // The field continues at the speed at which half a sector took this time.
+    // The field continues at the speed that gives half a sector in the time since the commutation.
     const std::uint32_t seen =
         0x80000000u / (state.ticks == 0 ? 1u : static_cast<std::uint32_t>(state.ticks));
     if (seen > state.speed) state.speed = seen < config.last_speed ? seen : config.last_speed;

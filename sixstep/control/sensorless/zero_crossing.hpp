@@ -1,23 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the back-EMF's zero crossing in the floating leg, from the three terminal voltages.
 //
-//   2 u_f - u_s - u_k = 2 e_f (trapezoid), 3 e_f (sine)      both other legs connected, no current in f (model.md 2)
+//   2 u_f - u_s - u_k = 2 e_f (trapezoid), 3 e_f (sine)      if both other legs are connected and f carries no current
+//                                                            (model.md 2)
 //
-// The star point drops out, and so does the bus: with the legs at both rails, by switches or diodes, u_s + u_k
-// is the bus; in a freewheel through two lower switches or diodes it is about zero. The crossing is in the
-// middle of a sector; it falls in sectors 0, 2, 4 and rises in 1, 3, 5, in both directions of rotation. The sum
-// is counted such that it falls: y > 0 before the crossing, y < 0 after it.
+// The star point drops out, and so does the bus. With the legs at both rails, by switches or diodes, u_s +
+// u_k is the bus; in a freewheel through two lower switches or diodes it is about zero. The crossing is in
+// the middle of a sector. The back-EMF falls in sectors 0, 2, 4 and rises in 1, 3, 5, in both directions of
+// rotation. The sum is counted with the sign with which it falls: y > 0 before the crossing, y < 0 after it.
 //
-// After a commutation the leg's old current decays through a diode, and its terminal is at a rail. If the drive
-// motors, it is the rail that looks like "crossed already": until the current has ended the sum shows nothing
-// (blanking), and this time is measured. If it brakes, it is the other rail, which looks like "not yet":
-// nothing needs to be blanked. In soft chopping at a small duty a negative e_f also drives a current through
-// the leg's lower diode, and the on-time is too short to end it; that rail has the sign of e_f, too. The
-// crossing is on the straight line between the last sample with y > 0 and the first with y <= 0; halfway, if
-// the former was at the rail and shows no voltage.
+// After a commutation the leg's old current decays through a diode, and its terminal is at a rail. There are
+// three cases.
+//   driving motor   The rail is the one that looks like "crossed already". Until the current has ended the sum shows
+//                   nothing (blanking), and this time is measured.
+//   braking motor   The rail is the other one, which looks like "not yet": nothing needs to be blanked.
+//   soft chopping at a small duty   A negative e_f drives a current through the leg's lower diode, and the on-time is
+//                   too short to end it. This rail has the sign of e_f too.
+// The crossing is on the straight line between the last sample with y > 0 and the first with y <= 0. If the
+// former was at the rail and shows no voltage, the crossing is halfway between the two.
 //
-// All numbers are whole: counts of the converter, the same for terminals and bus, and counts of the timer. They
-// are the same in every arithmetic of the drive, so that there is no Scalar here.
+// All numbers are integers: counts of the converter, the same for terminals and bus, and counts of the timer.
+// They are the same in every arithmetic of the drive, so that this file has no Scalar.
 #pragma once
 #include <cstdint>
 
@@ -25,9 +28,9 @@
 
 namespace sixstep::control {
 
-/// Part of the PWM period in which the samples are taken. Soft chopping shows the star point in both parts, but
-/// in the freewheel only the positive half of the back-EMF; hard chopping shows it in the on-time, and in the
-/// freewheel as long as current flows.
+/// Part of the PWM period in which the samples are taken. Soft chopping shows the star point in both parts,
+/// but in the freewheel only the positive half of the back-EMF. Hard chopping shows the star point in the
+/// on-time, and in the freewheel as long as current flows.
 enum class NeutralSeen : std::uint8_t { on_time, freewheel };
 
 /// Terminals and bus at one instant, through equal dividers.
@@ -41,8 +44,9 @@ struct TerminalSample {
 struct ZeroCrossingConfig {
   NeutralSeen seen = NeutralSeen::on_time;
   std::uint16_t rail_counts = 0;        ///< a terminal this near to a rail is held by a diode or a switch
-  std::int32_t threshold = 0x7fffffff;  ///< counts of y above which it is a voltage and not noise
-  std::int32_t below = 0x7fffffff;      ///< the same downwards; less in a freewheel, where a diode holds u_f
+  std::int32_t threshold = 0x7fffffff;  ///< counts of y above which y is a voltage and not noise
+  std::int32_t below = 0x7fffffff;      ///< threshold for negative voltages; less in a freewheel, where a
+                                        ///< diode holds u_f
   std::uint32_t margin_ticks = 0;       ///< blanking after the freewheel's end
   std::uint32_t settle_ticks = 0;       ///< ticks from the commutation until filters have settled
   bool operator==(const ZeroCrossingConfig&) const = default;
@@ -51,13 +55,13 @@ struct ZeroCrossingConfig {
 struct ZeroCrossingState {
   std::uint8_t sector = no_sector;
   bool freewheels = false;      ///< the leg's old current may still flow
-  bool hidden = false;          ///< it was found to flow in this sector
+  bool hidden = false;          ///< true: in this sector the old current was found to flow
   bool armed = false;           ///< y was above the threshold in this sector
   bool done = false;            ///< the crossing is past
-  std::uint8_t unlike = 0;      ///< samples in a row that contradict the command
+  std::uint8_t unlike = 0;      ///< consecutive samples that contradict the command
   std::uint32_t began = 0;      ///< time of the commutation
-  std::uint32_t earliest = 0;   ///< ticks since then before which no crossing is possible
-  std::uint32_t blank = 0;      ///< ticks since then up to which samples are ignored
+  std::uint32_t earliest = 0;   ///< ticks since `began` before which no crossing is possible
+  std::uint32_t blank = 0;      ///< ticks since `began` up to which samples are ignored
   std::uint32_t freewheel = 0;  ///< ticks of the last freewheel, as far as samples show it
   bool held = false;            ///< at the last sample a diode held the terminal
   std::uint32_t at = 0;         ///< time of the last y
@@ -73,22 +77,22 @@ enum class Crossing : std::uint8_t {
 struct CrossingReading {
   Crossing crossing = Crossing::none;
   std::uint32_t at = 0;
-  bool visible = false;  ///< the sample showed the star point
-  bool free = false;     ///< and no diode held the terminal: y is the back-EMF
-  std::int32_t y = 0;    ///< valid if visible, blanked or not
+  bool visible = false;  ///< the sample shows the star point
+  bool free = false;     ///< the sample also shows the back-EMF y, because no diode holds the terminal
+  std::int32_t y = 0;    ///< valid if `visible`, also while it is blanked
 };
 
 /// The leg, 0..2, that floats in a sector.
 constexpr std::uint8_t floating_leg(std::uint8_t sector) { return static_cast<std::uint8_t>(2 - sector % 3); }
 
-/// y of a leg against the two others.
+/// y of a leg against the two other legs, counts.
 constexpr std::int32_t above_neutral(const TerminalSample& s, std::uint8_t leg) {
   const std::int32_t u = s.u[leg];
   return u + u + u - static_cast<std::int32_t>(s.u[0]) - static_cast<std::int32_t>(s.u[1]) -
          static_cast<std::int32_t>(s.u[2]);
 }
 
-/// A sector begins. `earliest_ticks`: from now, before which no crossing is possible.
+/// Begins a sector. `earliest_ticks`: time from now before which no crossing is possible.
 constexpr void zero_crossing_begin(ZeroCrossingState& state, std::uint8_t sector,
                                    std::uint32_t earliest_ticks, std::uint32_t now) {
   state.sector = sector;
@@ -120,7 +124,7 @@ constexpr bool at_rail(const ZeroCrossingConfig& config, const TerminalSample& s
   return low ? u <= rail : u + rail >= bus;
 }
 
-/// Time of the zero on the straight line from (from, y > 0) to (to, y <= 0).
+/// Time of the zero of the straight line from (from, y > 0) to (to, y <= 0).
 constexpr std::uint32_t crossed_at(std::uint32_t from, std::int32_t y_from, std::uint32_t to,
                                    std::int32_t y_to) {
   std::uint32_t before = static_cast<std::uint32_t>(y_from);
@@ -139,7 +143,7 @@ constexpr CrossingReading look(const ZeroCrossingConfig& config, ZeroCrossingSta
   CrossingReading reading{Crossing::none, now, true, !held, y};
   const bool falls = state.sector % 2 == 0;
   const bool early = static_cast<std::uint32_t>(now - state.began) < state.earliest;
-  // `below` applies where the terminal's voltage is negative: a freewheel shows less of it.
+  // `below` is for a negative terminal voltage, of which a freewheel shows less.
   const std::int32_t before = falls ? config.threshold : config.below,
                      after = falls ? config.below : config.threshold;
   if (y > before) state.armed = true;
@@ -156,8 +160,8 @@ constexpr CrossingReading look(const ZeroCrossingConfig& config, ZeroCrossingSta
   return reading;
 }
 
-/// One sample. look(y, held) evaluates it if the star point is visible, no old current hides the back-EMF and
-/// nothing has crossed in this sector yet.
+/// One sample. look(y, held) evaluates it if the star point is visible, no old current hides the back-EMF,
+/// and no crossing has been found in this sector yet.
 template <class Look>
 constexpr CrossingReading looked_at(const ZeroCrossingConfig& config, ZeroCrossingState& state,
                                     const TerminalSample& s, bool on, Look&& look) {
@@ -191,7 +195,7 @@ constexpr CrossingReading looked_at(const ZeroCrossingConfig& config, ZeroCrossi
 
 }  // namespace detail
 
-/// One sample. `on`: the pair's switches are on now, so that the driven legs must be at the rails.
+/// One sample. `on`: the pair's switches are on at the sample, so that the driven legs must be at the rails.
 constexpr CrossingReading zero_crossing_step(const ZeroCrossingConfig& config, ZeroCrossingState& state,
                                              const TerminalSample& s, bool on) {
   return detail::looked_at(config, state, s, on, [&](std::int32_t y, bool held) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists every field of the drive's configuration (control/drive.hpp) once, in the order of an exported header. Each
-// list binds all members of its struct, so that a new member is a compile error here.
+// Lists every field of the drive's configuration (control/drive.hpp) once, in the order of an exported
+// header. Each list binds all members of its struct, so that a member that is missing here does not compile.
 #pragma once
 #include "sixstep/control/drive.hpp"
 #include "sixstep/design/fields/field.hpp"
@@ -18,11 +18,11 @@ constexpr bool runs_current(const control::DriveConfig<Scalar>& d) {
          (runs_speed(d) && d.speed_control == control::SpeedControl::cascade);
 }
 
-/// Input and output of a PI.
+/// Units and bases of a PI's input and output.
 struct PiUse {
   Ratio ratio;
-  const char* per = "";         ///< unit of its gains
-  const char* limit_unit = "";  ///< unit of its output
+  const char* per = "";         ///< unit of the gains
+  const char* limit_unit = "";  ///< unit of the output
 };
 
 template <class Walk, class Kept>
@@ -30,7 +30,7 @@ void fields(Walk&& w, const control::PiConfig<double>& d, Kept& kept, const PiUs
   const auto& [d1, d0, limit] = d;
   auto& [kept_d1, kept_second, kept_limit] = kept;
   w.gain({"d1", use.per}, d1, kept_d1, use.ratio);
-  if constexpr (requires { kept.K_i; })  // fixed point has the sum (pi.hpp)
+  if constexpr (requires { kept.K_i; })  // the fixed-point configuration stores the sum K_i (pi.hpp)
     w.gain({"K_i", use.per, "d1 + d0, per sample"}, d1 + d0, kept_second, use.ratio);
   else
     w.gain({"d0", use.per}, d0, kept_second, use.ratio);
@@ -118,7 +118,7 @@ void fields(Walk&& w, const control::CommutationStepConfig<double>& d, Kept& kep
   w.signal({"flat_flanks"}, d.flat_flanks, flat_flanks, Base::one);
 }
 
-/// Its input is a speed.
+/// Fields of a positional PI whose input is a speed.
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::PiPositionalConfig<double>& d, Kept& kept) {
   constexpr Ratio of_speed{Base::one, Base::speed};
@@ -130,7 +130,7 @@ void fields(Walk&& w, const control::PiPositionalConfig<double>& d, Kept& kept) 
   w.gain({"K_c", "per rad/s", "at the limit, per sample"}, d.K_c, K_c, of_speed);
 }
 
-/// Its input is a speed.
+/// Fields of a derivative whose input is a speed.
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::DerivativeConfig<double>& d, Kept& kept) {
   auto& [g, b] = kept;
@@ -160,7 +160,7 @@ void fields(Walk&& w, const control::SlidingSpeedConfig<double>& d, Kept& kept) 
   w.signal({"layer", "rad/s"}, d.layer, layer, Base::speed);
 }
 
-/// Fixed point has none of them, because their scaling is not proved.
+/// Fields of other laws of the speed loop. Fixed point has no such laws, because their scaling is not proved.
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::SpeedLaws<double>& d, Kept& kept) {
   if constexpr (requires { kept.observed; }) {
@@ -170,7 +170,7 @@ void fields(Walk&& w, const control::SpeedLaws<double>& d, Kept& kept) {
   }
 }
 
-/// The scalars have units of the profile alone: a walk with bases leaves them out.
+/// Fields of a jerk profile. Its scalars have their own units: a walk that converts by bases leaves them out.
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::JerkProfileConfig<double>& d, Kept& kept) {
   auto& [counts_per_deg, deg_per_part, rad_s_per_part, rad_s2_per_part, stride_per_tick, acceleration, ticks,
@@ -196,7 +196,7 @@ void fields(Walk&& w, const control::MotionFeedForwardConfig<double>& d, Kept& k
   w.signal({"coulomb", "of full torque"}, d.coulomb, coulomb, Base::one);
 }
 
-/// Fixed point has none of it, as with SpeedLaws.
+/// Fields of a profiled position. Fixed point has no profile, because its scaling is not proved.
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::ProfiledPositionConfig<double>& d, Kept& kept) {
   if constexpr (requires { kept.profile; }) {
@@ -217,7 +217,7 @@ void fields(Walk&& w, const control::DriveExtras<double>& d, Kept& kept) {
   constexpr Field torque_fraction{"torque_fraction_per_A", "per A"};
   constexpr Ratio of_current{Base::one, Base::current};
   if (!w.when_on(d.on)) {
-    // Limit of a field-oriented drive's speed loop, used even without extras.
+    // The speed loop of a field-oriented drive has this limit even without extras.
     if (d.torque_fraction_per_A != 0)
       w.gain(torque_fraction, d.torque_fraction_per_A, torque_fraction_per_A, of_current);
     return;

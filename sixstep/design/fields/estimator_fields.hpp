@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists every field of the magnet's estimator (control/field/magnet_estimator.hpp) once, for floating point only,
-// because its scaling is not proved. Each list binds all members of its struct, so that a new member is a compile
-// error here. Angles and times are whole numbers.
+// Lists every field of the magnet's estimator (control/field/magnet_estimator.hpp) once. The estimator exists
+// in floating point only, because its scaling is not proved. Each list binds all members of its struct, so
+// that a member that is missing here does not compile. Angles and times are integers.
 #pragma once
 #include "sixstep/control/field/sensorless_field_drive.hpp"
 #include "sixstep/design/fields/field_drive_fields.hpp"
@@ -76,7 +76,7 @@ void fields(Walk&& w, const control::EstimatorConfig<double>& c, Kept& kept) {
   w.signal({"high_rad_s", "rad/s"}, c.high_rad_s, high_rad_s, Base::speed);
 }
 
-/// Lists all fields except those of the field-oriented drive, which has its own list.
+/// Lists all fields except `field`: the field-oriented drive has its own list.
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::SensorlessFieldConfig<double>& c, Kept& kept) {
   auto& [field, estimator] = kept;

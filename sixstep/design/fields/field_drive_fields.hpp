@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists every field of the field-oriented drive's configuration (control/field/) around its drive once. Each list
-// binds all members of its struct, so that a new member is a compile error here. Ratio cannot express the base of a
-// gain on a product of speed and current, so this list is for floating point only.
+// Lists every field of the field-oriented drive's configuration (control/field/) around its drive once. Each
+// list binds all members of its struct, so that a member that is missing here does not compile. A Ratio
+// cannot express the base of a gain on a product of speed and current, so that this list is for floating
+// point only.
 #pragma once
 #include <string>
 
@@ -83,7 +84,7 @@ void fields(Walk&& w, const control::FiniteSetConfig<double>& c, Kept& kept) {
   w.signal({"most_A", "A"}, c.most_A, most_A, Base::current);
 }
 
-/// Lists all fields except those of the drive, which has its own list.
+/// Lists all fields except `drive`, which has its own list.
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::FieldDriveConfig<double>& c, Kept& kept) {
   auto& [drive, current, weakening, per_ampere, advance, harmonic, finite_set] = kept;

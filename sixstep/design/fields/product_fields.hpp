@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists every field of the product drive's configuration (control/protected_drive.hpp) around its drive once, in the
-// order of an exported header. Each list binds all members of its struct, so that a new member is a compile error
-// here.
+// Lists every field of the product drive's configuration (control/protected_drive.hpp) around its drive once,
+// in the order of an exported header. Each list binds all members of its struct, so that a member that is
+// missing here does not compile.
 #pragma once
 #include "sixstep/control/protected_drive.hpp"
 #include "sixstep/design/fields/drive_fields.hpp"
 
 namespace sixstep::design {
 
-/// Quantity that a converter measures.
+/// Base and unit of the quantity that a converter measures.
 struct AdcUse {
   Base base = Base::one;
   const char* unit = "";
@@ -99,7 +99,7 @@ void fields(Walk&& w, const control::AlignConfig<double>& d, Kept& kept) {
   w.count({"sector"}, d.sector, sector, unset.sector);
 }
 
-/// Lists all fields except those of the drive, which has its own list.
+/// Lists all fields except `drive`, which has its own list.
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::ProtectedConfig<double>& d, Kept& kept) {
   auto& [drive, setpoint_limit, sensing, current_adc, bus_adc, shunt, hall, speed, position, advance, faults,

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists every field of the sensorless drive's configuration (control/sensorless/) around its drive once. Each list
-// binds all members of its struct, so that a new member is a compile error here. Times are counts of the timer,
-// voltages counts of the converter; only the inner loops' references and limits are Scalars.
+// Lists every field of the sensorless drive's configuration (control/sensorless/) around its drive once. Each
+// list binds all members of its struct, so that a member that is missing here does not compile. Times are
+// counts of the timer, voltages counts of the converter; only the references and limits of the inner loops
+// are Scalars.
 #pragma once
 #include "sixstep/control/commissioning/pulse_start.hpp"
 #include "sixstep/design/fields/product_fields.hpp"
@@ -108,7 +109,8 @@ void fields(Walk&& w, const control::SensorlessConfig<double>& d, Kept& kept, bo
   if (w.when_run(measures_position)) w.part("position", d.position, position);
 }
 
-/// Lists all fields except those of the drive, which has its own list, and of the observer (observer_scaling.hpp).
+/// Lists all fields except those of `drive`, which has its own list, and of `observer`
+/// (observer_scaling.hpp).
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::SensorlessDriveConfig<double>& d, Kept& kept) {
   auto& [drive, sensorless, source, observer, start_output, duty, current, least_duty] = kept;

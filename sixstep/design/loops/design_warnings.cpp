@@ -12,7 +12,7 @@
 namespace sixstep::design {
 namespace {
 
-/// Warnings use three digits.
+/// A number times 1000 in three digits, the form of numbers in warnings.
 std::string milli(double x) { return base::three_digits(x * 1e3); }
 std::string milliseconds(double s) { return milli(s) + " ms"; }
 
@@ -23,7 +23,7 @@ struct Collector {
   }
 };
 
-/// ", less than 20": the bound that decides, of a usable loop or of a sound one.
+/// The bound that the phase is below: ", less than 20" if the loop is not usable, else ", less than 45".
 std::string below_bound(double phase_deg) {
   return ", less than " +
          base::three_digits(phase_deg < unusable_phase_deg ? unusable_phase_deg : least_phase_deg);
@@ -32,7 +32,7 @@ std::string below_bound(double phase_deg) {
 void look_at_stability(const DriveDesign& d, const LoopDesign& loop, Collector& out) {
   if (!loop.figures.stable)
     return out.add(Concern::stability, "the " + loop.name + " loop is unstable", true);
-  // It uses the drive's own delay; only the table shows the effect of another board's.
+  // The figures have the drive's own delay; only the table shows the effect of another board's delay.
   const double late = d.spec.late_periods();
   const std::string with = late > 0.0 ? "with " + periods_words(late) + " of delay the " : "the ";
   const double phase_deg = loop.figures.phase_rad.value_or(base::pi) * 180.0 / base::pi;
@@ -46,7 +46,7 @@ void look_at_stability(const DriveDesign& d, const LoopDesign& loop, Collector& 
                                 base::three_digits(loop.figures.sensitivity_peak) + " times");
 }
 
-/// Checks the phase that the speed's sensor leaves at the lowest speed.
+/// Checks the phase margin that is left with the lag of the speed's sensor at the lowest speed.
 void look_at_sensing(const DriveDesign& d, Collector& out) {
   if (d.loops.size() < 2 || !(d.lag.delay_s() > 0.0)) return;
   const LoopDesign& speed = d.loops[1];
@@ -57,7 +57,7 @@ void look_at_sensing(const DriveDesign& d, Collector& out) {
                          milliseconds(d.lag.delay_s()) + " old";
   if (!speed.built.stable) return out.add(Concern::sensing, "the speed loop is unstable" + at, true);
   const double phase_deg = speed.built.phase_rad.value_or(base::pi) * 180.0 / base::pi;
-  // A tenth of a degree may be lost by rounding a settling time.
+  // Rounding of a settling time may cost a tenth of a degree.
   if (phase_deg < least_phase_deg - 0.1)
     out.add(Concern::sensing,
             "the speed loop keeps " + base::three_digits(phase_deg) + " degrees of phase" +
@@ -65,7 +65,8 @@ void look_at_sensing(const DriveDesign& d, Collector& out) {
             phase_deg < unusable_phase_deg);
 }
 
-/// It applies only in speed mode: a position drive's speed depends on the move, so its run shows the effect.
+/// Warns of a coarse measured speed. Only in speed mode: a position drive's speed depends on the move, so
+/// that a run must show the effect.
 void look_at_grain(const DriveDesign& d, Collector& out) {
   if (!is_grainy(d)) return;
   out.add(Concern::grain,
@@ -76,8 +77,8 @@ void look_at_grain(const DriveDesign& d, Collector& out) {
               base::three_digits(std::fmax(d.high_speed_left_V, 0.0)) + " V left");
 }
 
-/// A P loop on counted edges: one step away it commands K_p steps per second, so the next edge comes after
-/// 1/K_p, which is then the age of the speed.
+/// Warns of a position loop on counted edges. The loop is a P loop: one step away from the setpoint it
+/// commands K_p steps per second. The next edge comes after 1/K_p, and the measured speed is then so old.
 void look_at_steps(const DriveDesign& d, Collector& out) {
   if (d.spec.mode != control::Mode::position || !d.spec.rotor.hall || d.loops.size() < 3) return;
   const double blind_s = 1.0 / (d.loops[2].gains.d1 * 180.0 / base::pi);
@@ -99,7 +100,7 @@ void look_at_sign(const DriveDesign& d, const LoopDesign& loop, Collector& out) 
 }
 
 void look_at_overshoot(const LoopDesign& loop, Collector& out) {
-  // A loop that its sensor makes unstable has no step response.
+  // A loop that the lag of its sensor makes unstable has no step response.
   if (loop.name != "position" && loop.figures.stable && loop.built.stable && loop.step.overshoot > 0.1)
     out.add(Concern::overshoot,
             "the " + loop.name + " loop overshoots a step by " +
@@ -116,7 +117,7 @@ void look_at_separation(const LoopDesign& inner, const LoopDesign& outer, Collec
                                      " loop, less than " + base::three_digits(least_separation));
 }
 
-/// A ripple above the nominal current heats the winding as that current does, for any mean current.
+/// A ripple above the nominal current heats the winding more than that current does, for any mean current.
 void look_at_ripple(const DriveDesign& d, Collector& out) {
   const double allowed_A = greatest_ripple * d.nominal_current_A;
   if (!(d.ripple.worst_A > allowed_A)) return;
@@ -124,7 +125,7 @@ void look_at_ripple(const DriveDesign& d, Collector& out) {
   std::string what = "the PWM ripple reaches " + base::three_digits(d.ripple.worst_A) + " A, " +
                      base::rounded(100.0 * d.ripple.worst_A / d.nominal_current_A, 4) + " % of " +
                      nominal_current_words(d);
-  // The period with this ripple is proportional to L, whether or not L/R is long against it.
+  // The period with this ripple is proportional to L, also if L/R is not long compared with it.
   const double allowed_s = period_for_ripple_s(d.motor, d.bus_V, d.spec.chopping, allowed_A);
   if (grave)
     what += ": " + milli((d.spec.period_s / allowed_s - 1) * d.motor.machine.L_H) +
@@ -143,7 +144,7 @@ void look_at_braking(const DriveDesign& d, Collector& out) {
                 " rad/s, (i/K_t) R: the motor brakes through the lower switches");
 }
 
-/// The first command after a step of the nominal current is d1 i.
+/// Checks the voltage that a step needs: the first command after a step of the nominal current i is d1 i.
 void look_at_voltage(const DriveDesign& d, Collector& out) {
   const double first_V = d.loops[0].gains.d1 * d.nominal_current_A;
   if (first_V > d.bus_V)
@@ -201,7 +202,7 @@ std::vector<Warning> warnings_of(const DriveDesign& d) {
     look_at_sign(d, loop, out);
     look_at_overshoot(loop, out);
   }
-  // The position gain is limited by the overshoot itself.
+  // The position loop is not checked here: its gain is chosen so that it does not overshoot.
   if (d.loops.size() > 1) look_at_separation(d.loops[0], d.loops[1], out);
   look_at_sensing(d, out);
   look_at_grain(d, out);

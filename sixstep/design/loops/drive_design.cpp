@@ -17,13 +17,14 @@ namespace {
 
 using control::Mode;
 
-// Ratio of the thesis's two loops (chapter 6).
+// Ratio of the speeds of the thesis's two loops (chapter 6).
 constexpr double inner_faster = 10.0;
 
-/// A pair placed slower than 2 time_constants_to_settle L/R needs a negative proportional gain.
+/// Longest default settling time of a current loop, in L/R: a pole pair placed slower than 2
+/// time_constants_to_settle L/R (9.2 L/R) needs a negative proportional gain.
 constexpr double winding_times = 8.0;
 
-/// Least settling time of a placed pair, in control periods.
+/// Shortest settling time of a placed pole pair, in control periods.
 constexpr double fewest_periods = 4.0;
 
 double settle_of_current(const DesignSpec& w, const MotorModel& m) {
@@ -47,7 +48,7 @@ DriveLoops loops_of(const DriveDesign& d, const MotorModel& motor, double late_p
   return to;
 }
 
-/// Time in which the slowest root decays to a hundredth of the band, s.
+/// Time in which the slowest root decays to a hundredth of the settling band, s.
 double watched_s(const Transfer& whole, double period_s) {
   const double decay = slowest_decay(whole.den);
   const double periods = decay > 0.0 ? 8.5 / decay : 2000.0;
@@ -130,11 +131,12 @@ bool overshoots(const Transfer& open, double gain, double period_s) {
   for (double& x : loop.num) x *= gain;
   const Transfer whole = closed(loop);
   if (!is_stable(whole.den)) return true;
-  // A step that approaches 1 from below may exceed it by rounding.
+  // A step that approaches 1 from below may exceed 1 by rounding.
   return step_response(whole, period_s, watched_s(whole, period_s)).overshoot > 1e-9;
 }
 
-/// The largest gain with which the linear loop does not overshoot; the overshoot grows with the gain.
+/// The largest position gain with which the linear loop does not overshoot, by bisection: the overshoot grows
+/// with the gain.
 double largest_position_gain(const DriveDesign& d) {
   DriveLoops loops = loops_of(d, d.motor, d.spec.late_periods());
   loops.position_gain_rad_s_per_deg = 1.0;
@@ -165,7 +167,8 @@ LoopDesign position_loop(double gain, const char* method, const char* meaning) {
           .step = {}};
 }
 
-/// Phase margin of a current loop with the longer of the delays, rad; empty if it never crosses over.
+/// Phase margin of a current loop with the longer of the board's two delays, rad; empty if the loop never
+/// crosses over.
 std::optional<double> phase_left_rad(const DriveDesign& d, const PiGains& gains, double period_s) {
   const LoopWinding winding = driven_pair(d.motor, d.spec.chopping);
   if (!d.spec.sampled_in_middle) {
@@ -177,12 +180,12 @@ std::optional<double> phase_left_rad(const DriveDesign& d, const PiGains& gains,
                          .period_s = period_s,
                          .late_periods = d.spec.later_periods(),
                          .current = gains};
-  constexpr int points = 256;  // a PI loop's phase has no narrow features
+  constexpr int points = 256;  // points suffice, because a PI loop's phase has no narrow features
   return loop_figures(open_current_loop(loops), period_s, points).phase_rad;
 }
 
-/// The longest period at which the same rule keeps 45 degrees with the longer of the delays; the phase falls with the
-/// period.
+/// The longest period at which the same rule of design keeps 45 degrees with the longer of the delays, by
+/// bisection: the phase falls with the period.
 double longest_period(const DriveDesign& d) {
   const auto holds = [&](double period_s) {
     DriveDesign at = d;
@@ -204,7 +207,7 @@ double longest_period(const DriveDesign& d) {
   return low;
 }
 
-/// The speed loop's crossover without its integral; 0 without a speed loop.
+/// The speed loop's crossover by its proportional gain alone, rad/s; 0 without a speed loop.
 double crossover_of(const DriveDesign& d) {
   if (d.loops.size() < 2) return 0.0;
   return speed_crossover_rad_s(d.loop("speed").gains.d1, d.torque_limit_Nm / d.motor.shaft.J_kg_m2);
@@ -214,11 +217,11 @@ SettlingQuestion settling_question(const DriveDesign& d) {
   return {loops_of(d, d.motor, d.spec.late_periods()), d.torque_limit_Nm, d.spec.damping};
 }
 
-/// Factor on the time that the torque limit alone needs for the step: the rest is for the loop's settling after the
-/// limit.
+/// Factor on the time that the torque limit alone needs for the step. The rest of the time is for the loop's
+/// settling after the limit.
 constexpr double times_of_torque = 1.5;
 
-/// Default settling time: the thesis's, or the limit of sensor or torque if that is longer.
+/// Chooses the default settling time: the thesis's, or the limit by sensor or by torque if that is longer.
 void choose_settling(DriveDesign& d) {
   if (d.spec.mode == Mode::speed)  // a move is at its limits most of the time, for any speed of the loop
     d.settle_by_torque_s =
@@ -232,8 +235,9 @@ void choose_settling(DriveDesign& d) {
       least > usual_speed_settle_s ? base::shortened(least, 2, base::Towards::up) : usual_speed_settle_s;
 }
 
-/// A step of the measured speed causes a step of the torque command, d1 times it. It is taken at high speed, because
-/// there a tick of the timer is a larger part of the speed, and the speed itself is larger than at the lowest.
+/// A step of the measured speed causes a step of the torque command, d1 times the speed step. It is computed
+/// at high speed, because a tick of the timer is a larger fraction of the measured time there, and of a
+/// larger speed.
 void add_speed_step(DriveDesign& d, double crossover) {
   d.high_speed_rad_s =
       base::shortened(high_speed_part * std::fmax(d.headroom_end_rad_s, 0.0), 2, base::Towards::down);
@@ -263,7 +267,8 @@ void add_sensing(DriveDesign& d) {
                              {.lowest = d.lowest_speed_rad_s, .highest = d.high_speed_rad_s});
 }
 
-/// A P loop that counts edges: one step away from the setpoint it commands K_p steps per second.
+/// Derivation for a P loop that counts edges: one step away from the setpoint it commands K_p steps per
+/// second.
 void add_steps(DriveDesign& d) {
   if (!d.spec.rotor.hall || d.loops.size() < 3) return;
   std::erase_if(d.sensing, [](const DerivationStep& s) { return s.symbol == "q" || s.symbol == "1/K_p"; });
@@ -312,7 +317,8 @@ void judge_loop(LoopDesign& loop, const Transfer& open, const Transfer& other, c
   if (!loop.built.stable) return;
   const Transfer whole = closed(open);
   const double watched = watched_s(whole, period_s);
-  // Limits shape the step of a position loop, not the linear loop: it has no evaluation with the sensor's lag.
+  // Limits shape the step of a position loop, not the linear loop: its step is not computed with the sensor's
+  // lag.
   loop.step = lags && loop.name == "speed" ? sensed_step(sensed, period_s, 2 * watched, band)
                                            : step_response(whole, period_s, watched);
 }

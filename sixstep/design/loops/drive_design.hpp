@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Designs the gains of a whole drive from a motor and a spec, loop by loop from the inside out, with the figures by
-// which a designer judges each loop and warnings where a figure is poor. Closed form: nothing is simulated here.
+// Designs the gains of a whole drive from a motor and a spec, loop by loop from the inside out. With the
+// gains come the figures by which a designer judges each loop, and warnings where a figure is poor. All is in
+// closed form; nothing is simulated here.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -25,21 +26,27 @@ enum class GainMethod : std::uint8_t { pole_placement, cancellation, symmetrical
 struct DesignSpec {
   control::Mode mode = control::Mode::current;  ///< current, speed or position
   GainMethod method = GainMethod::pole_placement;
-  /// Settling time of the mode's PI, s. Default for current: 1 ms, or 8 L/R if that is shorter. Default for speed:
-  /// 10 ms, or the limit of the sensor or of torque and inertia (settle_by_torque_s), if that is longer.
+  /// Settling time of the PI of `mode`, s. Default for current: 1 ms, or 8 L/R if that is shorter. Default
+  /// for speed: 10 ms, or the limit by the sensor or by torque and inertia (settle_by_torque_s), if that is
+  /// longer.
   std::optional<double> settle_s;
-  /// Settling time of the inner loop, s; default as above, or a tenth of the speed loop's if that is shorter.
+  /// Settling time of the current loop inside a speed loop, s. Default: as for current, or a tenth of the
+  /// speed loop's if that is shorter.
   std::optional<double> current_settle_s;
   double damping = usual_damping;
-  std::optional<double> current_damping;  ///< damping of the inner loop; default: `damping`
-  std::optional<double> bandwidth_rad_s;  ///< bandwidth of `method`'s loop; default: 4.6/settle_s
+  std::optional<double> current_damping;  ///< damping of the current loop inside a speed loop; default:
+                                          ///< `damping`
+  std::optional<double> bandwidth_rad_s;  ///< bandwidth of the loop that `method` designs; default:
+                                          ///< 4.6/settle_s
   double period_s = 30e-6;
   std::optional<double> voltage_V;        ///< voltage of the bus; default: the sheet's nominal voltage
-  std::optional<double> torque_limit_Nm;  ///< full output of the speed loop; default: usual_torque_limit_Nm
+  std::optional<double> torque_limit_Nm;  ///< torque at full output of the speed loop; default:
+                                          ///< usual_torque_limit_Nm
   std::optional<double> current_limit_A;  ///< limit of the speed loop's output, if less than full output
   double load_inertia_kg_m2 = 0.0;        ///< inertia on the shaft, in addition to the rotor's inertia
   int delay_periods = 0;           ///< whole periods from a sample until its result takes effect, 0 or 1
-  bool sampled_in_middle = false;  ///< samples in mid-period; the result acts at the next start or later
+  bool sampled_in_middle = false;  ///< samples in the middle of a period; the result acts at the next
+                                   ///< period's start or later
   control::Chopping chopping = control::Chopping::soft;
   RotorSensing rotor{.hall = false};
   /// Lowest speed that the drive must hold; default: a tenth of the speed that the bus reaches, bus/K_t.
@@ -47,7 +54,8 @@ struct DesignSpec {
 
   /// Control periods from a sample until its result takes effect: 0, 1/2, 1 or 3/2.
   double late_periods() const { return delay_periods + (sampled_in_middle ? 0.5 : 0.0); }
-  /// The shorter and the longer delay of such a board, whichever the spec has.
+  /// The shorter of the two delays that a board with these samples can have, in periods; later_periods() is
+  /// the longer one.
   double sooner_periods() const { return sampled_in_middle ? 0.5 : 0.0; }
   double later_periods() const { return sooner_periods() + 1.0; }
 };
@@ -55,8 +63,9 @@ struct DesignSpec {
 /// Default settling time of a current loop, s: 1 ms, or 8 L/R if that is shorter.
 double usual_current_settle_s_of(const MotorModel& motor);
 
-/// Default clock of the timer that captures a sensor's edges. For Hall probes as in a scenario's sensors; for an
-/// encoder, with far more edges, that of an ordinary chip, whose tick is short against a control period.
+/// Default clock of the timer that captures a sensor's edges, Hz. For Hall probes it is the default of a
+/// scenario's sensors. For an encoder, with far more edges, it is that of an ordinary chip, whose tick is
+/// short compared with a control period.
 inline constexpr double usual_capture_Hz = 1e6, usual_encoder_capture_Hz = 16e6;
 
 /// A spec for a real board: Hall probes, and a command that takes effect one period late.
@@ -70,15 +79,16 @@ inline DesignSpec on_a_board() {
 
 struct LoopDesign {
   std::string name;    ///< "current", "speed", "position"
-  std::string method;  ///< in words
+  std::string method;  ///< method of the design, in words
   PiGains gains;       ///< position: d1 is the gain in rad/s per degree, d0 = 0
   std::vector<DerivationStep> steps;
   std::optional<PolePlacement> placed;
-  Transfer loop;        ///< open loop with the spec's delay and the closed inner loops
+  Transfer loop;        ///< open loop with the spec's delay and with closed inner loops
   LoopFigures figures;  ///< figures of `loop`
-  LoopFigures other;    ///< with the other of the board's two delays, a period more or less
-  LoopFigures built;    ///< figures of `loop` with the lag of the spec's speed sensor at the lowest speed
-  StepResponse step;    ///< step of the closed loop, sensor included
+  LoopFigures other;    ///< figures of the loop with the other of the board's two delays, one period more or
+                        ///< less
+  LoopFigures built;    ///< figures of `loop` with the lag of the speed sensor at the lowest speed
+  StepResponse step;    ///< step of the closed loop with the sensor's lag
 };
 
 /// Subject of a warning.
@@ -108,7 +118,7 @@ enum class Concern : std::uint8_t {
 
 struct Warning {
   std::string what;  ///< one sentence
-  /// Cure, found by trials (analysis/verify/advice.hpp); empty where no trial helped.
+  /// Cure that trials found (analysis/verify/advice.hpp); empty if no trial helped.
   std::string cure;
   bool grave = false;  ///< true: not safe for a motor
   Concern of = Concern::other;
@@ -116,38 +126,45 @@ struct Warning {
 
 struct DriveDesign {
   DesignSpec spec;
-  MotorModel motor;  ///< with the load's inertia on its shaft
+  MotorModel motor;  ///< with the load's inertia added to the rotor's
   double bus_V = 0.0;
   double torque_limit_Nm = 0.0;
   double current_at_full_torque_A = 0.0;
   double nominal_current_A = 0.0;
-  bool nominal_printed = true;  ///< false: the sheet has none, and a tenth of the stall current is used
+  bool nominal_printed = true;  ///< false: the sheet has no nominal current, and a tenth of the stall current
+                                ///< is used
   double lowest_speed_rad_s = 0.0;
   SpeedLag lag;                         ///< lag of the measured speed at the lowest speed
-  std::vector<DerivationStep> sensing;  ///< derivation of that lag
-  std::vector<SettlingLimit> limits;    ///< limits by way of sensing; for speed and position
+  std::vector<DerivationStep> sensing;  ///< derivation of `lag`
+  std::vector<SettlingLimit> limits;    ///< for speed and position: limits of the settling time for each kind
+                                        ///< of sensing
   double settle_by_torque_s =
-      0.0;  ///< speed: 1.5 times the time that the torque limit needs for half the lowest speed, J w_low/(2 T_max)
+      0.0;  ///< speed: 1.5 times the time that the torque limit needs to change the speed by half the lowest
+            ///< speed, J w_low/(2 T_max)
   std::vector<LoopDesign> loops;  ///< from the inside out
   Ripple ripple;
   double longest_period_s =
-      0.0;  ///< the longest period at which the current loop keeps 45 degrees with the longer of the delays
+      0.0;  ///< longest period at which the current loop keeps 45 degrees of phase with the longer of the
+            ///< delays
   double headroom_end_rad_s = 0.0;   ///< highest speed at which the bus drives the nominal current
-  double high_speed_rad_s = 0.0;     ///< drives with a speed loop: a tenth below that
-  double speed_step_rad_s = 0.0;     ///< step of the measured speed there, at constant speed
-  double speed_step_part = 0.0;      ///< part of the torque limit that the speed loop answers at once
-  double speed_step_V = 0.0;         ///< immediate answer of the current loop to that part
-  double high_speed_left_V = 0.0;    ///< rest of the bus there, at half the nominal current
+  double high_speed_rad_s = 0.0;     ///< with a speed loop: nine tenths of headroom_end_rad_s
+  double speed_step_rad_s = 0.0;     ///< step of the measured speed at high_speed_rad_s while the speed is
+                                     ///< constant
+  double speed_step_part = 0.0;      ///< answer of the speed loop to speed_step_rad_s, relative to the torque
+                                     ///< limit
+  double speed_step_V = 0.0;         ///< answer of the current loop to that torque step, in the same sample
+  double high_speed_left_V = 0.0;    ///< voltage of the bus that is left at high_speed_rad_s and half the
+                                     ///< nominal current
   double braking_limit_rad_s = 0.0;  ///< highest speed at which soft chopping brakes by the nominal current
   double commutation_limit_rad_s =
-      0.0;  ///< highest speed at which a duty holds the nominal current's torque at a commutation
+      0.0;  ///< highest speed at which a duty can hold the nominal current's torque through a commutation
   std::vector<Warning> warnings;
 
   const LoopDesign& loop(std::string_view name) const;
-  /// Largest output of the speed loop: full output, or the spec's current limit.
+  /// Largest current at the output of the speed loop, A: that of full output, or the spec's current limit.
   double most_current_A() const;
   double most_torque_Nm() const;
-  /// A loop's figures with the shorter and with the longer of the two delays, whichever the spec has.
+  /// A loop's figures with the shorter of the two delays; later() has them with the longer one.
   const LoopFigures& sooner(const LoopDesign& loop) const {
     return spec.delay_periods > 0 ? loop.other : loop.figures;
   }
@@ -156,7 +173,7 @@ struct DriveDesign {
   }
 };
 
-/// Name of nominal_current_A in messages; it shows if the value is not from the sheet.
+/// Name of nominal_current_A in messages; the name tells if the value is not from the sheet.
 inline const char* nominal_current_words(const DriveDesign& d) {
   return d.nominal_printed ? "the nominal current"
                            : "a tenth of the stall current (the sheet names no nominal one)";
@@ -165,26 +182,29 @@ inline const char* nominal_current_words(const DriveDesign& d) {
 /// Relative band of a loop's settling time, for the linear step and for the run.
 double settling_band(const DriveDesign& design, const LoopDesign& loop);
 
-/// Relative band in which a step of the speed counts as settled: 2 %. On Hall probes 10 %, a twentieth of the lowest
-/// speed, because the test is a step of half of that speed.
+/// Relative band in which a step of the speed counts as settled: 2 %. With Hall probes it is 10 %, because
+/// their speed is coarse: the test's step is half of the lowest speed, and 10 % of the step are a twentieth
+/// of this speed.
 double settling_band(const DriveDesign& design);
 
-/// Gains for the spec. In position mode the gain is the largest with which the linear loop does not overshoot; study
-/// finds the largest one that the limits allow, with with_position_gain(). Problems name the option.
+/// Designs the gains for the spec. In position mode the gain is the largest with which the linear loop does
+/// not overshoot. study/ then finds the largest gain that the limits allow, and applies it by
+/// with_position_gain(). Problems name the option.
 base::Result<DriveDesign> design_drive(const MotorModel& motor, const DesignSpec& spec);
 
 /// The same design with another position gain; figures and warnings are recomputed.
 DriveDesign with_position_gain(const DriveDesign& design, double gain_rad_s_per_deg);
 
-/// Computes figures and step of a loop with given gains: open loop with its delay, with the other delay, and with the
-/// speed sensor's lag. `band`: of a speed loop's settling.
+/// Computes figures and step of a loop with given gains: for the open loop with its delay, with the other
+/// delay, and with the speed sensor's lag. `band`: settling band of a speed loop.
 void judge_loop(LoopDesign& loop, const Transfer& open, const Transfer& other, const SensedLoop& sensed,
                 double period_s, double band);
 
-/// Open loops of the same controller on another motor, from the inside out: the effect of tolerances on the margins.
+/// Open loops of the same controller on another motor, from the inside out. They show the effect of
+/// tolerances on the margins.
 std::vector<Transfer> open_loops(const DriveDesign& design, const MotorModel& motor, double late_periods);
 
-/// The same with the lag of the spec's speed sensor at the lowest speed.
+/// The same open loops with the lag of the spec's speed sensor at the lowest speed.
 std::vector<SensedLoop> sensed_loops(const DriveDesign& design, const MotorModel& motor, double late_periods);
 
 }  // namespace sixstep::design

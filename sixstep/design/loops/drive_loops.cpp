@@ -12,7 +12,7 @@ namespace {
 
 const Polynomial difference{0.0, 1.0};  // z - 1
 
-/// d1 z + d0 = d1 (z - 1) + K_i
+/// Polynomial of a PI in z - 1: d1 z + d0 = d1 (z - 1) + K_i.
 Polynomial of(const PiGains& g) { return {g.d1 + g.d0, g.d1}; }
 Polynomial scaled_gains(Polynomial p, double factor) {
   for (double& x : p) x *= factor;
@@ -20,11 +20,11 @@ Polynomial scaled_gains(Polynomial p, double factor) {
 }
 
 int whole_periods(const DriveLoops& d) { return static_cast<int>(std::floor(d.late_periods)); }
-/// The fractional part of the delay, s.
+/// The fraction of a period in the delay, s.
 double late_s_of(const DriveLoops& d) { return (d.late_periods - std::floor(d.late_periods)) * d.period_s; }
 
-/// Motor sampled with held voltage: u -> i = i/den, u -> w = w/den, u -> theta = theta/(den (z - 1)). It includes the
-/// fractional part of the delay, but no whole periods.
+/// The motor, sampled with held voltage: u -> i = i/den, u -> w = w/den, u -> theta = theta/(den (z - 1)). It
+/// includes the fraction of a period in the delay, but no whole periods.
 struct Plant {
   Polynomial den, i, w, theta;
 };
@@ -43,8 +43,8 @@ Plant plant_of(const DriveLoops& d) {
   return {i.den, i.num, w.num, sampled(motor, 2, d.period_s, late).num};
 }
 
-/// (z - 1)^2 den z^m + (z - 1) c_i i + c_w K c_i w: the poles of the speed loop closed around the current
-/// loop, and the controllers in series.
+/// Polynomials of nested loops. The poles of the speed loop closed around the current loop are the roots of
+/// (z - 1)^2 den z^m + (z - 1) c_i i + c_w K c_i w; c_w K c_i are the controllers in series.
 struct Cascade {
   Polynomial controllers, current_closed, speed_closed;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the drive's loops as open loops in z: motor with back-EMF, held voltage, delay, and the inner loops.
+// Computes the drive's loops as open loops in z, from the motor with back-EMF, the held voltage, the delay,
+// and the inner loops.
 #pragma once
 #include <vector>
 
@@ -14,19 +15,20 @@ namespace sixstep::design {
 /// Winding that the current controller drives: L di/dt = u - R i - K_e w, and J dw/dt = K_t i - B w, d theta/dt = w.
 struct LoopWinding {
   double R_ohm = 0.0, L_H = 0.0;
-  double back_emf_V_s = 0.0;  ///< K_e
-  double torque_Nm_A = 0.0;   ///< K_t
+  double back_emf_V_s = 0.0;  ///< K_e, V per rad/s
+  double torque_Nm_A = 0.0;   ///< K_t, N m/A
 };
-/// Terminal values, K_e = K_t, each divided by s = volts_per_duty(): a duty of u/U gives the pair s u and a constant,
-/// and L di/dt = s u - R i - K_e w is the same winding with L/s, R/s and K_e/s. The integral compensates the
-/// constant.
+/// Winding of the driven pair: terminal values, K_e = K_t, each divided by s = volts_per_duty(). A duty of
+/// u/U gives the pair s u plus a constant. L di/dt = s u - R i - K_e w is then the same as a winding with
+/// L/s, R/s and K_e/s; the integral compensates the constant.
 LoopWinding driven_pair(const MotorModel& motor, control::Chopping chopping);
-/// Rotor held: 1/(L s + R), sampled with zero-order hold.
+/// Current plant with the rotor held: 1/(L s + R), sampled with zero-order hold.
 ZohPlant current_plant(const LoopWinding& winding, double period_s);
-/// Adds a step to a derivation if s is not 1.
+/// Adds a step about the chopping to a derivation if volts_per_duty() is not 1.
 void tell_chopping(control::Chopping chopping, std::vector<DerivationStep>& steps);
-/// The axis across the magnet: R, L_q and p psi of a phase, and 3/2 p psi of torque. Decoupled, the voltage of the
-/// rotation is added to the controller's output and does not act on the loop.
+/// Winding of the axis across the magnet: R, L_q and p psi of a phase, and 3/2 p psi of torque. If the axes
+/// are decoupled, the controller adds the voltage of the rotation to its output, and this voltage does not
+/// act on the loop.
 LoopWinding quadrature_axis(const FieldMachine& machine, bool decoupled);
 
 struct DriveLoops {
@@ -34,30 +36,34 @@ struct DriveLoops {
   LoopWinding winding;
   double period_s = 0.0;
   double late_periods =
-      0.0;  ///< delay from a sample until its answer acts; a sample in the middle of a period adds a half
+      0.0;  ///< delay from a sample until its answer acts; half a period more if samples are in the middle of
+            ///< a period
   PiGains current{};
   PiGains speed{};
   double current_at_full_torque_A = 0.0;
   double position_gain_rad_s_per_deg = 0.0;
 };
 
-/// A speed controller with separate paths of setpoint and speed: u = (setpoint r - speed y)/q, in z - 1.
+/// A speed controller with separate paths for setpoint and speed: u = (setpoint r - speed y)/q, in powers of
+/// z - 1.
 struct LinearLaw {
   Polynomial r, y, q;
 };
 
-/// Open loop with the rotor held, as in the design. The controller's voltage acts late_periods after its
-/// sample, for one period.
+/// Open current loop with the rotor held, as the design assumes. The controller's voltage acts late_periods
+/// after its sample, for one period.
 Transfer open_current_loop(const DriveLoops& drive);
-/// Open loop with the rotor free: it accelerates with the current, and its back-EMF reacts to slow changes.
+/// Open current loop with the rotor free: the current accelerates the rotor, and the back-EMF reacts to slow
+/// changes.
 Transfer open_current_loop_turning(const DriveLoops& drive);
-/// Open loop from speed error to speed, with the current loop closed.
+/// Open speed loop, from speed error to speed, with the current loop closed.
 Transfer open_speed_loop(const DriveLoops& drive);
-/// The loop L of a PI with the same response to the setpoint, T = L/(1 + L): it is what a measurement of T gives.
+/// The loop L that has the setpoint response T = L/(1 + L) of the law, as a PI's open loop would. A
+/// measurement of T gives this L.
 Transfer speed_loop_by_setpoint(const DriveLoops& drive, const LinearLaw& law);
-/// The loop opened at the controller's output, for which margins are defined.
+/// The speed loop, opened at the controller's output. Margins are defined for this loop.
 Transfer open_speed_loop(const DriveLoops& drive, const LinearLaw& law);
-/// Open loop from position error to position, with both inner loops closed.
+/// Open position loop, from position error to position, with both inner loops closed.
 Transfer open_position_loop(const DriveLoops& drive);
 
 }  // namespace sixstep::design

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double ln_2 = 0.69314718055994531;
 
-/// Ratio of the bandwidth of the currents to that of the weakening.
+/// Ratio of the current loops' bandwidth to that of the field weakening.
 constexpr double weakening_is_slower = 10.0;
 
 }  // namespace

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Designs the current loops of a field-oriented drive (control/field/) from R, L, the control period and a bandwidth.
-// With decoupling, an axis is a winding of R and L, sampled with zero-order hold b0/(z + a0) as in six-step
-// (pole_placement.hpp). The PI's zero is on that pole, d0 = a0 d1, and with n periods between a sample and the period
-// of its answer
+// Designs the current loops of a field-oriented drive (control/field/) from R, L, the control period and a
+// bandwidth w. With decoupling, an axis is a winding of R and L, sampled with zero-order hold as b0/(z + a0),
+// as in six-step (pole_placement.hpp). The PI's zero cancels that pole, d0 = a0 d1. With n periods between a
+// sample and the period of its answer
 //
 //   n = 0   L = b0 d1/(z - 1)          one pole     z_1 = exp(-w T),              b0 d1 = 1 - z_1
 //   n = 1   L = b0 d1/(z (z - 1))      two poles    z_1 = exp(-w T), 1 - z_1,     b0 d1 = z_1 (1 - z_1)
 //
-// With a delay the second pole is the slower one from z_1 = 1/2 on: w T is at most ln 2. This holds for the decoupled
-// axis at rest; a turning rotor adds the change of w_e L i within a period.
+// With a delay the second pole is the slower one for z_1 below 1/2: w T is therefore at most ln 2. This holds
+// for the decoupled axis at rest; with a turning rotor w_e L i also changes within a period.
 //
-// Weakening, i_d[n+1] = i_d[n] + K (m U/sqrt 3 - |v|), acts on v_q by w_e L_d per ampere. At the speed at which the
-// magnet's back-EMF fills the whole circle, w_0 = U/(sqrt 3 p psi), it is ten times slower than the current loops
-// that follow it:
+// Weakening, i_d[n+1] = i_d[n] + K (m U/sqrt 3 - |v|), acts on v_q by w_e L_d per ampere. It is designed at
+// the speed w_0 = U/(sqrt 3 p psi), at which the magnet's back-EMF fills the whole voltage circle. There it
+// is ten times slower than the current loops that follow it:
 //
 //   1 - K w_0 p L_d = exp(-w T/10)
 #pragma once
@@ -25,7 +25,7 @@
 
 namespace sixstep::design {
 
-/// The machine in the frame of its rotor, per phase.
+/// The machine in the rotor's frame; values per phase.
 struct FieldMachine {
   double R_ohm = 0.0;
   double L_d_H = 0.0, L_q_H = 0.0;
@@ -33,20 +33,20 @@ struct FieldMachine {
   double pole_pairs = 1.0;
 };
 
-/// Reads the machine from a sheet: a trapezoid's fundamental is 1.21585 of its peak (shape_factors.hpp); a
+/// Reads the machine from a sheet. A trapezoid's fundamental is 1.21585 of its peak (shape_factors.hpp); a
 /// salient rotor has L_d and L_q.
 FieldMachine field_machine(const MotorModel& motor, const Sheet& sheet);
 
-/// T = 3/2 p psi i_q, N m per A of i_q, for a round rotor.
+/// Torque T/i_q = 3/2 p psi, N m per A, for a round rotor.
 inline double torque_per_q_A(const FieldMachine& machine) { return 1.5 * machine.magnet_V_s; }
 
 struct FieldLoopSpec {
   double bandwidth_rad_s = 0.0;
   double period_s = 0.0;
-  int delay_periods = 0;  ///< n, 0 or 1
+  int delay_periods = 0;  ///< n, periods from a sample to its answer, 0 or 1
 };
 
-/// A twentieth of the control frequency: w T = pi/10.
+/// Default bandwidth: a twentieth of the control frequency, w T = pi/10.
 double usual_field_bandwidth_rad_s(double period_s);
 
 struct FieldAxis {
@@ -56,21 +56,23 @@ struct FieldAxis {
   std::vector<DerivationStep> steps;
 };
 
-/// Problems: a value that is not above 0; a bandwidth that the delay does not allow.
+/// Designs the PI of an axis. Problems: a value that is not above 0; a bandwidth that the delay does not
+/// allow.
 base::Result<FieldAxis> field_axis(double R_ohm, double L_H, const FieldLoopSpec& spec);
 
 /// Gain K of the weakening, A per V and sample.
 double weakening_gain(const FieldMachine& machine, double bus_V, const FieldLoopSpec& spec);
 
-/// psi/L_d: a larger current against the magnet raises the voltage again.
+/// Largest current that weakens the field, psi/L_d, A: more current against the magnet raises the voltage
+/// again.
 inline double most_weakening_A(const FieldMachine& machine) {
   return machine.magnet_V_s / (machine.pole_pairs * machine.L_d_H);
 }
 
-/// Part of the voltage circle up to which weakening goes; the rest is for changes of the currents.
+/// Fraction m of the voltage circle at which weakening begins; the rest is for changes of the currents.
 inline constexpr double usual_weakening_part = 0.95;
 
-/// k of torque_per_ampere.hpp, 1/A; 0 for a round rotor.
+/// Gain k of torque_per_ampere.hpp, 1/A; 0 for a round rotor.
 double torque_per_ampere_gain(const FieldMachine& machine);
 
 }  // namespace sixstep::design

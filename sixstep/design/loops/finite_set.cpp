@@ -9,7 +9,7 @@ namespace sixstep::design {
 
 namespace {
 
-/// Radius of the triangles over bus and b.
+/// Radius of the triangles divided by b U.
 const double triangles = 2 / (3 * std::sqrt(3.0));
 
 }  // namespace

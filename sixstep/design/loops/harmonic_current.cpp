@@ -15,10 +15,10 @@ namespace {
 
 using control::shape_points;
 
-/// The magnet is 150 degrees behind the electrical angle: half a sector, and two whole ones.
+/// The magnet is 150 degrees behind the electrical angle: half a sector plus two whole sectors.
 constexpr double sector_middle_rad = 5 * base::pi / 6;
 
-/// Back-EMF over speed of the three phases, at x after the start of a sector.
+/// Back-EMF per speed of the three phases, V s, at the angle x, rad, after the start of a sector.
 control::Abc<double> back_emf(const plant::general::ShapeTable<double>& table, std::size_t sector, double x) {
   std::array<double, 3> e{};
   const auto& pieces = table.sector[sector];
@@ -32,7 +32,7 @@ control::Abc<double> back_emf(const plant::general::ShapeTable<double>& table, s
   return {e[0], e[1], e[2]};
 }
 
-/// Mean of the six sectors in the frame of the magnet.
+/// Back-EMF per speed in the magnet's frame, mean over the six sectors, V s.
 control::Dq<double> in_magnets_frame(const plant::general::ShapeTable<double>& table, double x) {
   control::Dq<double> mean;
   for (std::size_t s = 0; s < 6; ++s) {
@@ -55,7 +55,7 @@ control::HarmonicCurrentConfig<double> harmonic_shape(const plant::general::Mach
   control::HarmonicCurrentConfig<double> c;
   c.on = true;
   for (int n = 0; n < shape_points; ++n) {
-    // The magnet at 0 is the middle of a sector.
+    // Magnet angle 0 lies in the middle of a sector, so that the table starts half a sector later.
     const int from = (n + shape_points / 2) % shape_points;
     control::Dq<double>& g = c.shape[n] = in_magnets_frame(table, from * base::sector_rad / shape_points);
     g.d /= magnet_V_s;

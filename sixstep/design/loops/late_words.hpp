@@ -5,9 +5,9 @@
 
 namespace sixstep::design {
 
-/// "at once", "half a period late", "one period late", "1.5 periods late"
+/// Delay of a command in words: "at once", "half a period late", "one period late", "1.5 periods late".
 std::string late_words(double periods);
-/// "half a period", "one period", "1.5 periods"
+/// A number of periods in words: "half a period", "one period", "1.5 periods".
 std::string periods_words(double periods);
 
 }  // namespace sixstep::design

@@ -11,7 +11,7 @@
 namespace sixstep::design {
 namespace {
 
-/// Point between low and high at which f changes its sign, to rounding.
+/// Point between low and high at which f changes its sign, exact to rounding.
 template <class F>
 double root(double low, double high, F f) {
   const bool rising = f(low) < 0.0;
@@ -23,7 +23,7 @@ double root(double low, double high, F f) {
   return low + (high - low) / 2.0;
 }
 
-/// Turns w T_s from low to pi, evenly spaced in their logarithm.
+/// Turns w T_s per sample, rad, from low to pi, evenly spaced in their logarithm.
 std::vector<double> grid(double low, int points) {
   std::vector<double> turns(static_cast<std::size_t>(points));
   const double ratio = base::exp(base::log(base::pi / low) / (points - 1));
@@ -36,7 +36,8 @@ std::vector<double> grid(double low, int points) {
   return turns;
 }
 
-/// A hundredth of the slowest pole's frequency: below it L only rises.
+/// Start of the scan, rad per sample: a hundredth of the slowest pole's frequency, below which |L| only
+/// rises.
 double lowest_turn(const Transfer& loop) {
   const double decay = slowest_decay(closed(loop).den);
   return std::clamp(decay > 0.0 ? 0.01 * decay : 1e-5, 1e-12, 0.1);
@@ -55,7 +56,7 @@ void look_at_crossing(LoopFigures& f, double w, double left, bool falls) {
   if (!f.delay_s || delay_s < *f.delay_s) f.delay_s = delay_s;
 }
 
-/// At Im L = 0 with L < 0 the gain may grow until |L| = 1.
+/// Gain margin: where Im L = 0 and L < 0, the gain may grow until |L| = 1.
 void look_at_axis(LoopFigures& f, Complex L) {
   const double size = L.size();
   if (L.re >= 0.0 || size >= 1.0 || size <= 0.0) return;
@@ -66,7 +67,7 @@ void look_at_axis(LoopFigures& f, Complex L) {
 
 namespace {
 
-/// Scans a loop that is given by its value L(turn) and its phase distance to -180 degrees.
+/// Scans a loop L over frequency. loop(turn) gives its value, left(turn) its phase distance to -180 degrees.
 template <class Loop, class Left>
 LoopFigures scanned(const Loop& loop, const Left& left, double lowest, double period_s, int points) {
   LoopFigures f;
@@ -92,7 +93,7 @@ LoopFigures scanned(const Loop& loop, const Left& left, double lowest, double pe
         const double at = root(before, turn, [&](double x) { return loop(x).size() - 1.0; });
         look_at_crossing(f, at / period_s, left(at), L.size() < 1.0);
       }
-      const bool end = n + 1 == turns.size();  // at half the sampling rate L is real
+      const bool end = n + 1 == turns.size();  // at half the sampling rate, where L is real
       if (!end && (L.im < 0.0) != (last.im < 0.0) && L.re < 0.0)
         look_at_axis(f, loop(root(before, turn, [&](double x) { return loop(x).im; })));
       if (end) look_at_axis(f, {L.re, 0.0});
@@ -118,7 +119,8 @@ LoopFigures loop_figures(const Transfer& loop, double period_s, int points) {
 LoopFigures sensed_figures(const SensedLoop& s, double period_s, int points) {
   const Complex one{1.0, 0.0};
   const auto H = [&](double turn) { return s.lag.at(turn / period_s); };
-  // The lag's own phase is linear; it is added separately, so that it does not wrap however long the lag is.
+  // The lag's own phase is linear in the frequency. It is added separately, so that it does not wrap for any
+  // lag.
   const auto left = [&](double turn) {
     return phase_left(s.loop.at(turn)) - turn / period_s * s.lag.delay_s();
   };
@@ -157,8 +159,8 @@ std::vector<BodePoint> bode(const Transfer& loop, double period_s, double from_r
 
 namespace {
 
-/// num/den in its first canonical form: x_1' = x_2, .., x_n' = u - sum den_k x_(k+1), where ' is the difference to
-/// the next sample. It keeps its digits however slow the system is.
+/// num/den in its first canonical form: x_1' = x_2, .., x_n' = u - sum den_k x_(k+1), where ' is the
+/// difference to the next sample. This form keeps all digits for slow systems too.
 class Recursion {
  public:
   explicit Recursion(const Transfer& t) : num_(t.num), den_(t.den), x_(t.den.size() - 1) {
@@ -167,7 +169,7 @@ class Recursion {
     for (double& n : num_) n /= lead;
     num_.resize(den_.size());
   }
-  /// Output for this input; then advances to the next sample.
+  /// Returns the output for the input u and advances to the next sample.
   double next(double u) {
     double top = u, y = 0.0;
     for (std::size_t k = 0; k < x_.size(); ++k) {
@@ -178,7 +180,7 @@ class Recursion {
     for (std::size_t k = 0; k < x_.size(); ++k) x_[k] += k + 1 < x_.size() ? x_[k + 1] : top;
     return y;
   }
-  /// Present output of a system without direct feed-through.
+  /// Output at the present sample, for a system whose output does not depend on the input of the same sample.
   double output() const {
     double y = 0.0;
     for (std::size_t k = 0; k < x_.size(); ++k) y += num_[k] * x_[k];
@@ -190,7 +192,7 @@ class Recursion {
   std::vector<double> x_;
 };
 
-/// The mean over the last `samples` samples, 0 before the first.
+/// Mean over the last `samples` samples; samples before the first count as 0.
 class Mean {
  public:
   explicit Mean(double samples)
@@ -208,7 +210,7 @@ class Mean {
   double sum_ = 0.0;
 };
 
-/// Delay by `samples`, rounded to whole samples.
+/// Delays by `samples`, rounded to whole samples.
 class Late {
  public:
   explicit Late(double samples) : held_(static_cast<std::size_t>(std::floor(samples + 0.5))) {}
@@ -224,7 +226,7 @@ class Late {
   std::size_t at_ = 0;
 };
 
-/// Figures of a step whose samples come from `next`.
+/// Figures of a step response whose samples come from `next`.
 template <class Next>
 StepResponse response(const Next& next, double period_s, double seconds, double band) {
   StepResponse r;

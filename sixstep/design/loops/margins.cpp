@@ -21,8 +21,8 @@ std::array<std::optional<double>, 2> roots(double a, double b, double c) {
   return found;
 }
 
-/// L on the unit circle as a function of v = 1 - cos(w T_s), which keeps its digits if the loop is slow against the
-/// sampling.
+/// L on the unit circle as a function of v = 1 - cos(w T_s). This variable keeps its digits if the loop is
+/// slow compared with the sampling.
 struct OpenLoop {
   ZohPlant plant;
   PiGains gains;
@@ -48,8 +48,8 @@ struct OpenLoop {
   }
 };
 
-/// Finds where L is real: Im(N conj D) = 0 divided by sin(w T_s), c = cos(w T_s), p = a0 - 1, q = -a0,
-/// in addition to z = -1.
+/// Finds where L is real, in addition to z = -1: Im(N conj D) = 0, divided by sin(w T_s), with c = cos(w
+/// T_s), p = a0 - 1, q = -a0.
 ///   m = 0: 2 d0 c = d1 (q - 1) - d0 p
 ///   m = 1: 4 d0 c^2 + 2 (d1 + d0 p) c + d1 p + d0 (q - 1) = 0
 std::optional<double> gain_margin(const OpenLoop& loop) {
@@ -75,7 +75,8 @@ std::optional<double> gain_margin(const OpenLoop& loop) {
 
 }  // namespace
 
-// |N|^2 = |D|^2 in v = 1 - cos(w T_s): b0^2 (K_i^2 - 2 d1 d0 v) = ((1 + a0)^2 - 2 a0 v) 2 v, K_i = d1 + d0.
+// Crossover, |N|^2 = |D|^2 in v = 1 - cos(w T_s): b0^2 (K_i^2 - 2 d1 d0 v) = ((1 + a0)^2 - 2 a0 v) 2 v, K_i =
+// d1 + d0.
 std::optional<Margins> margins(const ZohPlant& plant, const PiGains& gains, double period_s, bool delayed) {
   const double p = 1.0 + plant.a0, K_i = gains.d1 + gains.d0, square = plant.b0 * plant.b0;
   const OpenLoop loop{plant, gains, delayed};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the stability margins of a single loop, inside which a faster loop counts as 1, in closed form: L(z) = b0
+// Computes the stability margins of a single loop in closed form. A faster inner loop counts as 1: L(z) = b0
 // (d1 z + d0) / ((z + a0)(z - 1) z^m).
 #pragma once
 #include <optional>
@@ -9,14 +9,14 @@
 namespace sixstep::design {
 
 struct Margins {
-  double crossover_rad_s = 0.0;  ///< where |L| = 1
-  double phase_rad = 0.0;        ///< distance to -180 degrees there
+  double crossover_rad_s = 0.0;  ///< frequency at which |L| = 1
+  double phase_rad = 0.0;        ///< phase distance to -180 degrees at the crossover
   std::optional<double> gain;    ///< factor on the loop's gain that makes it unstable; empty: none above 1
-  double delay_s = 0.0;          ///< extra dead time that uses up the phase margin
+  double delay_s = 0.0;          ///< additional dead time that uses up the phase margin
 };
 
-/// m = 1 if a command takes effect one period after its sample, else 0. Empty if |L| never crosses 1: the gains are
-/// zero, or too high for the sampling.
+/// `delayed` sets m: 1 if a command takes effect one period after its sample, else 0. The result is empty if
+/// |L| never crosses 1: the gains are zero, or too high for the sampling.
 std::optional<Margins> margins(const ZohPlant& plant, const PiGains& gains, double period_s, bool delayed);
 
 }  // namespace sixstep::design

@@ -13,10 +13,10 @@ namespace sixstep::design {
 
 namespace {
 
-/// Ripple between two voltages that are `swing_V` apart.
+/// Ripple, A peak to peak, of a pair that switches between two voltages `swing_V` apart.
 double swing_ripple_A(const MotorModel& motor, double swing_V, double duty, double period_s) {
   const double R = 2.0 * motor.machine.R_ohm, x = period_s * motor.machine.R_ohm / motor.machine.L_H;
-  // R b0 = 1 - exp(-R T/L), without cancellation: pole_placement's plant of resistance 1.
+  // R b0 = 1 - exp(-R T/L) without cancellation: b0 is that of pole_placement's plant with R = L = 1.
   const auto rise = [](double t) { return t > 0.0 ? current_plant(1.0, 1.0, t).b0 : 0.0; };
   return swing_V / R * rise(duty * x) * rise((1.0 - duty) * x) / rise(x);
 }
@@ -25,7 +25,7 @@ double swing_ripple_A(const MotorModel& motor, double swing_V, double duty, doub
 
 double volts_per_duty(control::Chopping chopping) { return chopping == control::Chopping::hard ? 2.0 : 1.0; }
 
-// u/U = s d - (s - 1) with s = volts_per_duty()
+// Inverts u/U = s d - (s - 1), with s = volts_per_duty().
 double duty_for_voltage(control::Chopping chopping, double part_of_bus) {
   const double s = volts_per_duty(chopping);
   return (part_of_bus + s - 1.0) / s;
@@ -48,7 +48,8 @@ Ripple worst_ripple(const MotorModel& motor, double bus_V, double period_s, cont
   return r;
 }
 
-// At d = 1/2 the ripple is (dU/R) tanh(x/4): x = 2 ln((1 + y)/(1 - y)), y = ripple R/dU.
+// At d = 1/2 the ripple is (dU/R) tanh(x/4), dU the swing of the voltage. So x = 2 ln((1 + y)/(1 - y)) with y
+// = ripple R/dU.
 double period_for_ripple_s(const MotorModel& motor, double bus_V, control::Chopping chopping,
                            double ripple_A) {
   const double y = ripple_A * 2.0 * motor.machine.R_ohm / (volts_per_duty(chopping) * bus_V);
@@ -98,7 +99,8 @@ double soft_braking_limit_rad_s(const MotorModel& motor, double current_A) {
   return current_A / motor.K_t_Nm_A * 2.0 * motor.machine.R_ohm;
 }
 
-// The staying phase is at the middle of its top, the other two 120 degrees from theirs.
+// At the edge the staying phase is in the middle of its top, the other two are 120 degrees from the middle of
+// theirs.
 double commutation_emfs(const plant::Machine& machine) {
   if (machine.back_emf == plant::BackEmf::sine) return 3.0;
   const double ramp_deg = 90.0 - machine.flat_deg / 2;

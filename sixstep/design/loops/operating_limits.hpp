@@ -7,81 +7,86 @@
 
 namespace sixstep::design {
 
-/// Change of the pair's mean voltage per duty, relative to the bus, with continuous current. If one switch of the
-/// pair stays on, the off state puts 0 on the pair, u = d U: 1, soft and complementary. If both are off, the current
-/// flows against the bus, u = d U - (1 - d) U: 2, hard.
+/// Change of the pair's mean voltage per duty, relative to the bus, with continuous current. If one switch of
+/// the pair stays on, the pair has 0 V in the off state, u = d U: the result is 1 (soft and complementary).
+/// If both are off, the current flows against the bus, u = d U - (1 - d) U: the result is 2 (hard).
 double volts_per_duty(control::Chopping chopping);
-/// The duty at which that mean voltage is the part u/U of the bus.
+/// The duty at which the pair's mean voltage is the fraction `part_of_bus` of the bus.
 double duty_for_voltage(control::Chopping chopping, double part_of_bus);
 
-/// Peak to peak of the driven pair's current in steady chopping at a duty, conduction continuous, ideal
-/// switches: the pair has U_on for d T and U_off for (1 - d) T,
-///   (U_on - U_off)/R (1 - exp(-d x)) (1 - exp(-(1 - d) x))/(1 - exp(-x)),   x = R T/L,
-/// independent of the EMF. U_on - U_off = volts_per_duty() U_s.
+/// Ripple of the driven pair's current, A peak to peak, in steady chopping at a duty, with continuous current
+/// and ideal switches. The pair has U_on for d T and U_off for (1 - d) T:
+///   (U_on - U_off)/R (1 - exp(-d x)) (1 - exp(-(1 - d) x))/(1 - exp(-x)),   x = R T/L.
+/// The ripple does not depend on the back-EMF. U_on - U_off = volts_per_duty() U_s.
 double current_ripple_A(const MotorModel& motor, double bus_V, double period_s, control::Chopping chopping,
                         double duty);
 
-/// The same ripple between two voltages across the pair, whose mean over a period is mean_V. 0 where mean_V is not
-/// between them.
+/// Ripple, A peak to peak, if the pair switches between on_V and off_V so that the mean over a period is
+/// mean_V; 0 if mean_V is not between them.
 double ripple_between_A(const MotorModel& motor, double on_V, double off_V, double mean_V, double period_s);
 
 struct Ripple {
   double worst_A = 0.0;  ///< peak to peak, at worst_duty = 0.5
   double worst_duty = 0.5;
   double continuous_above_A =
-      0.0;  ///< half the worst: below this mean current a soft-chopped current is discontinuous
+      0.0;  ///< half of worst_A: a soft-chopped current with a smaller mean is discontinuous
 };
 Ripple worst_ripple(const MotorModel& motor, double bus_V, double period_s, control::Chopping chopping);
 
-/// Period at which the worst ripple is `ripple_A`; infinite if it stays below for any period.
+/// Period at which the worst ripple is `ripple_A`, s; infinite if the ripple is smaller for every period.
 double period_for_ripple_s(const MotorModel& motor, double bus_V, control::Chopping chopping,
                            double ripple_A);
 
-/// Nominal current of a motor. If the sheet has none, it is a tenth of the stall current and `printed` is false,
-/// which every output of the number must show.
+/// Nominal current of a motor. If the sheet has none, A is a tenth of the stall current and `printed` is
+/// false; every output of the number must show this.
 struct NominalCurrent {
   double A = 0.0;
   bool printed = true;
 };
 NominalCurrent nominal_current(const MotorModel& motor, double bus_V);
 
-/// Default torque limit of a drive: that of 2.5 times the nominal current, which a winding carries for seconds (2 to
-/// 3 is usual), but no more than the bus drives through the held rotor.
+/// Default torque limit of a drive: the torque of 2.5 times the nominal current, which a winding carries for
+/// seconds (2 to 3 is usual). It is at most the torque of the current that the bus drives through the held
+/// rotor.
 inline constexpr double usual_overload = 2.5;
 double usual_torque_limit_Nm(const MotorModel& motor, double bus_V);
 
-/// Remaining voltage of the bus for changing the current i at speed w: U_s - R_tt i - K_t w. Negative: i cannot flow.
+/// Voltage of the bus that is left for changing the current i at speed w, V: U_s - R_tt i - K_t w. If it is
+/// negative, i cannot flow.
 double headroom_V(const MotorModel& motor, double bus_V, double current_A, double speed_rad_s);
-/// Speed at which the headroom for that current ends.
+/// Speed at which headroom_V() is 0 for this current.
 double speed_for_current_rad_s(const MotorModel& motor, double bus_V, double current_A);
 
-/// Part of the highest speed at nominal current that counts as a high speed; the voltage left there is for control.
+/// A high speed, as a fraction of the highest speed at nominal current. The voltage that is left at this
+/// speed is for control.
 inline constexpr double high_speed_part = 0.9;
 
-/// Speed lost during commutations at a current, relative to the speed that is left. In each sector of pi/(3 p w) the
-/// entering phase takes over the current, which costs the bus L_s i of its volt seconds, L_s of a phase: 3 p L_s i/(pi K_t).
-/// Simulated motors lose 0.9 to 1.3 times that.
+/// Speed that commutations cost at a current, relative to the speed that is left. In each sector, of duration
+/// pi/(3 p w), the entering phase takes over the current. This costs volt seconds L_s i of the bus, L_s of a
+/// phase: the result is 3 p L_s i/(pi K_t). Simulated motors lose 0.9 to 1.3 times as much.
 double commutation_loss(const MotorModel& motor, double current_A);
 
-/// Speeds at which a speed loop is tested: against half the torque of the nominal current, up to a tenth below the highest speed
-/// with that load and its commutations.
+/// Speeds at which a speed loop is tested. The load is half of the nominal current's torque. The top speed is
+/// nine tenths of the highest speed with this load and its commutations.
 struct TestSpeeds {
   double load_A = 0.0, top_rad_s = 0.0;
-  /// Upper bound of the lowest speed: a fifth of it must remain above for a step down to it, and the bus must drive
-  /// the nominal current there. 0 if the bus drives none at any speed.
+  /// Upper bound of the lowest speed. A fifth of it must remain above it for a step down to it, and the bus
+  /// must drive the nominal current there. 0 if the bus drives the nominal current at no speed.
   double most_lowest_rad_s = 0.0;
 };
 TestSpeeds test_speeds(const MotorModel& motor, double bus_V, double torque_limit_Nm);
 
-/// Soft chopping brakes through the lower switches: at speed w the current cannot be less than the short circuit's
-/// K_t w/R_tt. Result: highest speed at which a braking current i can be held, (i/K_t) R_tt.
+/// Soft chopping brakes through the lower switches: at speed w the current cannot be less than the short
+/// circuit's, K_t w/R_tt. The result is the highest speed at which a braking current i can be held, (i/K_t)
+/// R_tt.
 double soft_braking_limit_rad_s(const MotorModel& motor, double current_A);
 
-/// Back-EMF that a commutation must overcome, relative to the peak E of a phase: 2 e_staying - e_entering - e_leaving
-/// at the edge. 4 for a flat top of at least 120 degrees, 3 for a sine.
+/// Back-EMF that a commutation must overcome, relative to the peak E of a phase: 2 e_staying - e_entering -
+/// e_leaving at the edge. It is 4 for a flat top of at least 120 degrees, and 3 for a sine.
 double commutation_emfs(const plant::Machine& machine);
-/// Highest speed at which a duty exists that holds the staying phase's current through a commutation, with R_s of a
-/// phase: commutation_emfs() K_e w + 3 R_s i = U_s (sixstep/control/commutation_step.hpp). 0 if there is none.
+/// Highest speed at which a duty can hold the staying phase's current through a commutation:
+/// commutation_emfs() K_e w + 3 R_s i = U_s, R_s of a phase (sixstep/control/commutation_step.hpp). 0 if
+/// there is no such speed.
 double commutation_limit_rad_s(const MotorModel& motor, double bus_V, double current_A);
 
 }  // namespace sixstep::design

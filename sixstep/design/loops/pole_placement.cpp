@@ -14,7 +14,7 @@ using base::written;
 
 bool positive(double x) { return x > 0.0 && x - x == 0.0; }
 
-/// 1 - exp(-x) for x >= 0 without the cancellation near 0: the series there, exp elsewhere.
+/// 1 - exp(-x) for x >= 0 without cancellation near 0: by its series up to x = 0.25, by exp above.
 double one_minus_exp(double x) {
   if (x > 0.25) return 1.0 - base::exp(-x);
   double sum = 0.0;
@@ -63,13 +63,13 @@ std::vector<DerivationStep> derivation(const PolePlacement& p, double z_sum, dou
 
 }  // namespace
 
-// Thesis 6.6: b0/(z + a0) with the time constant L/R; a0 = -exp(-R T_s/L), b0 = (1 - exp(-R T_s/L))/R.
+// Thesis 6.6: b0/(z + a0) for the time constant L/R, with a0 = -exp(-R T_s/L), b0 = (1 - exp(-R T_s/L))/R.
 ZohPlant current_plant(double R_ohm, double L_H, double period_s) {
   const double x = R_ohm * period_s / L_H;
   return {-base::exp(-x), one_minus_exp(x) / R_ohm};
 }
 
-// Thesis 6.18 (erratum: the exponent is T_s B/J): T_max/(J s + B); B -> 0 gives T_max T_s/J.
+// Thesis 6.18 (erratum: the exponent is T_s B/J): the plant T_max/(J s + B). For B -> 0 b0 is T_max T_s/J.
 ZohPlant speed_plant(double torque_max_Nm, double J_kg_m2, double B_Nm_s, double period_s) {
   if (B_Nm_s == 0.0) return {-1.0, torque_max_Nm * period_s / J_kg_m2};
   const double x = period_s * B_Nm_s / J_kg_m2;
@@ -93,7 +93,7 @@ base::Result<PolePlacement> place_poles(const ZohPlant& plant, double settle_s, 
   const base::SinCos turn = base::sin_cos(p.s_im * period_s);
   p.z_re = radius * turn.cos;
   p.z_im = radius * turn.sin;
-  // (z - z1)(z - z2) = z^2 + c1 z + c0 against z^2 + (b0 d1 + a0 - 1) z + (b0 d0 - a0).
+  // Compares (z - z1)(z - z2) = z^2 + c1 z + c0 with z^2 + (b0 d1 + a0 - 1) z + (b0 d0 - a0).
   const double c1 = -2.0 * p.z_re, c0 = p.z_re * p.z_re + p.z_im * p.z_im;
   p.gains = gains_for_poles(plant, p.z_re, p.z_im);
   p.steps = derivation(p, c1, c0);

@@ -12,12 +12,15 @@
 namespace sixstep::design {
 namespace {
 
-constexpr double clear = 2.0;     // factor on the certain level
-constexpr double of_range = 0.9;  // part of the range; noise and rounding stay within it
+constexpr double clear = 2.0;     // factor of the signals over the certain level
+constexpr double of_range = 0.9;  // fraction of the converter's range for the current, so that noise and
+                                  // rounding stay within it
 constexpr double most_turned =
     15.0;  // electrical degrees: a quarter of a sector costs 3 % of the ramp's torque
-constexpr double tolerance = 0.125;  // part of the range: a larger offset means a broken amplifier
-constexpr double least_counts = 64;  // between source and sink; below it the chip assumes an open wire
+constexpr double tolerance = 0.125;  // fraction of the range: a larger offset means that an amplifier is
+                                     // broken
+constexpr double least_counts = 64;  // difference between source and sink; with less the chip assumes an open
+                                     // wire
 constexpr double noises = 5.0;
 
 /// Values from which the others are computed.
@@ -41,39 +44,41 @@ Basis basis_of(const MotorModel& motor, const PulseSpec& spec) {
   b.limit_A = std::min(spec.most_A, of_range * (spec.current_range_A - std::fabs(spec.offset_A)));
   const bool saturates = spec.saturation_A > 0.0;
   if (saturates) b.limit_A = std::min(b.limit_A, base::root_3 / 2 * spec.saturation_A / 2);
-  // With and against the magnet, the largest current gives the smallest and the largest inductance.
+  // With the largest current along the magnet the inductance is least, against the magnet it is greatest.
   const double bent = saturates ? 2 / base::root_3 * b.limit_A / (2 * spec.saturation_A) : 0.0;
   b.L_least = std::min(spec.L_d_H * (1 - bent), spec.L_q_H);
   b.L_most = std::max(spec.L_d_H * (1 + bent), spec.L_q_H);
   return b;
 }
 
-/// Time from the beginning of a pulse to its sample.
+/// Time from the begin of a pulse to its sample, s.
 double time_s(const Basis& b, int ticks) { return (ticks - 0.5 - b.spec.delay_periods) * b.spec.period_s; }
 
 double current_A(const Basis& b, double t_s, double L_H) {
   return b.spec.bus_V / b.R_tt * (1 - base::exp(-b.R_tt * t_s / (2 * L_H)));
 }
 
-/// L_d i/(2 I_sat L_S) of the pair's current along the magnet.
+/// Depth of the saturation, L_d i/(2 I_sat L_S), for a pair's current i along the magnet.
 double depth(const Basis& b, double i_A) {
   return b.spec.saturation_A > 0.0 ? 2 / base::root_3 * b.spec.L_d_H * i_A / (2 * b.spec.saturation_A * b.L_S)
                                    : 0.0;
 }
 
-/// sigma of pulse_position.hpp, in eighths of a count.
+/// sigma of pulse_position.hpp, the standard deviation of a reading, in eighths of a count.
 double noise_8(const Basis& b, const control::PulsePositionConfig& p) {
   const double of_reading = 8 * b.spec.noise_A / b.lsb_A;
   const double s2 = 2 * (of_reading * of_reading + 64.0 / 12.0);
   return std::sqrt(s2 / p.rounds + 3 * s2 / static_cast<double>(1 << p.current.log2_samples) + 45.0);
 }
 
-/// Upper bound, electrical degrees: the two parts in the header.
+/// Upper bound of the angle by which the pulses turn the rotor, electrical degrees: the two parts that the
+/// header explains.
 double turned_deg(const Basis& b, const PulseStart& s, double t_s) {
   const double I = s.greatest_A, D = (s.pulses.pulse_ticks + s.pulses.rest_ticks) * b.spec.period_s;
   const double pairs = b.motor.machine.pole_pairs;
   const double P = base::pi / 3 * b.motor.K_t_Nm_A * I * t_s;
-  // p |L_d - L_q| i^2 over two ramps of i; 2 m P cos^3 sin, which is 3 sqrt 3/16 at most.
+  // Impulse p |L_d - L_q| i^2 over a rising and a falling ramp of i, plus 2 m P cos^3 sin, which is at most 3
+  // sqrt 3/16 of 2 m P.
   const double P_e =
       pairs * std::fabs(2 * b.L_D) * I * I * 2 / 3 * t_s + 6 * base::root_3 / 16 * depth(b, I) * P;
   const double turned_rad = s.pulses.rounds * D / b.motor.shaft.J_kg_m2 * (2 * P + 12 * P_e);
@@ -82,8 +87,8 @@ double turned_deg(const Basis& b, const PulseStart& s, double t_s) {
 
 double off_deg(const Basis& b, const PulseStart& s) {
   const double m = depth(b, s.current_A), saliency = std::fabs(b.L_D) / b.L_S;
-  // In addition to the noise: the part of saturation in the second harmonic, or without that the effect of 1/I on
-  // cos^3, a tenth of its depth.
+  // In addition to the noise there is a second error. If the axis is seen, it is the part of saturation in
+  // the second harmonic; if not, it is the effect of 1/I on cos^3, a tenth of its depth.
   const bool axis_seen = s.axis >= s.pulses.certain && 1000 * saliency > s.pulses.amplifiers;
   const double off_rad = axis_seen     ? (noises / s.axis + 3.0 / 32.0 * m * m / saliency) / 2
                          : s.north > 0 ? noises / s.north + m / 10
@@ -98,7 +103,7 @@ PulseStart of_length(const Basis& b, int ticks) {
   s.pulses.current.offset_tolerance =
       static_cast<std::uint16_t>(tolerance * static_cast<double>(1 << (b.spec.adc_bits - 1)));
   s.pulses.pulse_ticks = static_cast<std::uint16_t>(ticks);
-  s.pulses.rest_ticks = static_cast<std::uint16_t>(ticks + 1);  // the current falls faster than it rose
+  s.pulses.rest_ticks = static_cast<std::uint16_t>(ticks + 1);  // long enough: it falls faster than it rose
   s.current_A = current_A(b, t_s, b.L_S);
   s.greatest_A = current_A(b, t_s, b.L_least);
   const double k = x / (base::exp(x) - 1);

@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// Designs the six pulses that find the angle of a rotor at rest (control/commissioning/pulse_position.hpp), from
-// sheet and board. A pair at an angle x from the magnet's north has, with i = 2/sqrt 3 of the pair's current as the
-// amplitude of the space vector (model.md 7),
+// Designs the six pulses that find the angle of a rotor at rest (control/commissioning/pulse_position.hpp),
+// from sheet and board. i = 2/sqrt 3 of the pair's current is the amplitude of the space vector. For a pair
+// at an angle x from the magnet's north the inductance is (model.md 7)
 //
 //   L(x) = L_S + L_D cos 2x - (L_d i/(2 I_sat)) cos^3 x
 //
-//   time       t = (n - 1/2) T: a pulse begins with a period and ends with its sample, in the middle of one; minus the
-//              periods by which a command is delayed
-//   current    I = U/R (1 - exp(-R t/2 L_S)), at worst with the least L(x) that a current allowed can make,
+//   time       t = (n - 1/2) T: a pulse begins with a period and ends with its sample, in the middle of a period. The
+//              periods by which a command is delayed are subtracted from n
+//   current    I = U/R (1 - exp(-R t/2 L_S)); at worst with the least L(x) that an allowed current can make,
 //              L_least = min(L_d (1 - (2/sqrt 3) I_most/(2 I_sat)), L_q)
-//   north      (3/4) m k of I by saturation, m = (2/sqrt 3) L_d I/(2 I_sat L_S); k = x/(e^x - 1), x = R t/2 L_S, is
-//              the factor by which the resistance reduces an inductance's effect
+//   north      (3/4) m k of I by saturation, m = (2/sqrt 3) L_d I/(2 I_sat L_S). k = x/(e^x - 1), x = R t/2 L_S, is the
+//              factor by which the resistance reduces the effect of an inductance
 //   axis       (|L_D|/L_S) k of I by saliency
-//   over noise each times sqrt 3 I_0/sigma, with sigma as pulse_position.hpp states it
+//   over noise the two signals times sqrt 3 I_0/sigma, with sigma as pulse_position.hpp defines it
 //   length     the shortest pulse whose signals are twice the certain level. If there is none, or the sheet has no
-//              I_sat, the longest allowed one: the pulses are tried, and if they find nothing the rotor is aligned
-//   allowed    no more current than the start's, 9/10 of the converter's range and I_sat/2 along the magnet, no longer than
-//              2 L_S/R, and no pulses that turn the rotor by more than a quarter of a sector
+//              I_sat, the longest allowed pulse: the pulses are tried, and if they find nothing the rotor is aligned
+//   allowed    a current of at most the start's, 9/10 of the converter's range and I_sat/2 along the magnet; a length
+//              of at most 2 L_S/R; and pulses that turn the rotor by at most a quarter of a sector
 //
-// Turning. Opposite pairs follow each other at a distance D: the impulse of the first, P = (pi/3) K_t I t, is
-// cancelled by the other, and the rotor has moved by P D/J. Three pairs make at most twice that. The part that does
-// not change its sign with the current, P_e by saliency and by the difference of the two currents, cancels only after
-// three pairs: at most 12 P_e D/J. Friction is left out.
+// Turning. Opposite pairs follow each other at a time D. The impulse of the first pulse, P = (pi/3) K_t I t,
+// is cancelled by that of the second, and the rotor has moved by P D/J. Three pairs together make at most
+// twice this angle. One part of the impulse, P_e, does not change its sign with the current: it comes from
+// saliency and from the difference of the two currents, and cancels only after three pairs. It turns the
+// rotor by at most 12 P_e D/J. Friction is not considered.
 #pragma once
 #include <vector>
 
@@ -36,29 +37,31 @@ namespace sixstep::design {
 struct PulseSpec {
   double bus_V = 0.0;     ///< voltage of the supply
   double period_s = 0.0;  ///< time from sample to sample
-  int delay_periods = 0;  ///< delay of a command beyond the start of the next period
+  int delay_periods = 0;  ///< periods by which a command is delayed beyond the start of the next period
   double L_d_H = 0.0, L_q_H = 0.0;
   double saturation_A = 0.0;     ///< I_sat of a phase; 0: the sheet has none
-  double most_A = 0.0;           ///< current of a pair that the start needs anyway
+  double most_A = 0.0;           ///< current of a pair that the start needs in any case
   int adc_bits = 12;             ///< bits of the phase currents' converters
   double current_range_A = 0.0;  ///< range in each direction
   double offset_A = 0.0, noise_A = 0.0;
-  double late_s = 0.0;  ///< age of a rising current's measurement: amplifier's lag and delay
+  double late_s = 0.0;  ///< age of the measurement of a rising current, by the amplifier's lag and delay
 };
 
-/// Configuration of the chip, and figures of the design.
+/// Configuration of the pulses on the chip, and figures of the design.
 struct PulseStart {
   control::PulsePositionConfig pulses;
-  double current_A = 0.0, greatest_A = 0.0;  ///< current at the sample: with L_S, and at worst
+  double current_A = 0.0, greatest_A = 0.0;  ///< current of the pair at the sample: with L_S, and at worst
   double north = 0.0, axis = 0.0;            ///< signals relative to their noise
-  double off_deg = 0.0;                      ///< electrical: error of the angle at five times the noise
-  double turned_deg = 0.0;                   ///< electrical: largest angle by which the pulses turn the rotor
+  double off_deg = 0.0;                      ///< error of the angle at five times the noise, electrical
+                                             ///< degrees
+  double turned_deg = 0.0;                   ///< largest angle by which the pulses turn the rotor, electrical
+                                             ///< degrees
   double lasts_s = 0.0;
   std::vector<DerivationStep> steps;
 };
 
-/// `motor`: with the load's inertia on its shaft. Problems name the key: a pulse of one period is already too strong,
-/// or the converter is too coarse or too fine for any pulse.
+/// `motor` includes the load's inertia on its shaft. Problems name the key: a pulse of one period is already
+/// too strong, or the converter is too coarse or too fine for any pulse.
 base::Result<PulseStart> pulse_start(const MotorModel& motor, const PulseSpec& spec);
 
 }  // namespace sixstep::design

@@ -5,11 +5,13 @@
 //
 //   H(jv) = sinc(v k T/2) exp(-j v k T/2) . sinc(v T/2) exp(-j v T/2),        sinc x = sin x / x,
 //
-// the mean over k T and the hold over T (its mean over the position of a control tick in the sector): nearly a pure
-// delay of (k + 1)/2 T. It grows as the rotor slows down, so a loop is judged at the lowest required speed. The delay
-// of the lines is added. If k sectors together deviate by s from k pi/3, their speed deviates by w s/(k pi/3); a
-// sector longer than the time-out ends the speed. shaft_sensing.hpp has encoders and resolvers, whose angle may be
-// late too.
+// the mean over k T and the hold over T (averaged over the position of a control tick in the sector). This is
+// nearly a pure delay of (k + 1)/2 T. The delay grows as the rotor slows down, so that a loop is judged at
+// the lowest required speed. The delay of the lines is added.
+//
+// If k sectors together deviate by s from k pi/3, their speed deviates by w s/(k pi/3). A sector longer than
+// the time-out makes the speed 0. shaft_sensing.hpp is for encoders and resolvers, whose angle may be late
+// too.
 #pragma once
 #include <string>
 #include <vector>
@@ -22,31 +24,33 @@ namespace sixstep::design {
 
 /// Sensors of speed and position.
 struct RotorSensing {
-  bool hall = true;  ///< Hall probes; false: ideal, like an encoder with very many lines
-  int edges = 0;  ///< edges over which a speed is taken, 1..6; 0: six if they cost the loop little, else one
-  ShaftSensing shaft{};     ///< an encoder or a resolver instead of both
+  bool hall = true;  ///< true: Hall probes; false: an ideal sensor, like an encoder with very many lines
+  int edges = 0;  ///< edges over which a speed is taken, 1..6; 0: six if their delay costs the loop little,
+                  ///< else one
+  ShaftSensing shaft{};     ///< an encoder or a resolver, which replaces Hall probes and the ideal sensor
   double late_s = 0.0;      ///< delay from a probe's edge to the pin of the chip
-  double stray_rad = 0.0;   ///< electrical: largest deviation of k sectors together from k pi/3
+  double stray_rad = 0.0;   ///< largest deviation of k sectors together from k pi/3, electrical
   double timeout_s = 0.0;   ///< time without an edge after which the speed reads 0; 0: not given
   double capture_Hz = 0.0;  ///< clock of the timer that captures the probes' edges; 0: not given
 
-  /// True if the measured speed is older than the sample.
+  /// True if the measured speed is older than the sample at which it is read.
   bool lags() const { return hall || shaft.kind != ShaftSensorKind::none; }
 };
 
-/// "Hall, 1 edge", "Hall, 6 edges or 1"; sensor_words() for an encoder or a resolver
+/// The speed's sensor in words: "Hall, 1 edge", "Hall, 6 edges or 1"; sensor_words() for an encoder or a
+/// resolver.
 std::string edges_words(const RotorSensing& sensing);
 
-/// Phase in rad by which six edges may delay a speed loop at its crossover; above it one edge is used instead. It is
-/// an eighth of the half turn that makes feedback unstable.
+/// Phase, rad, by which six edges may delay a speed loop at its crossover; if they delay it more, one edge is
+/// used instead. The value is an eighth of the half turn that makes feedback unstable.
 inline constexpr double six_edges_phase_rad = 0.39269908169872415480783;
 
-/// Time within which six edges must come to be averaged, s, for a loop with crossover at `crossover_rad_s`: their
-/// delay is 7/12 of it. 0 without a speed loop: one edge is enough.
+/// Time within which six edges must come to be averaged, s, for a loop with crossover at `crossover_rad_s`.
+/// The delay of six edges is 7/12 of this time. 0 without a speed loop: one edge suffices then.
 double hall_window_s(double crossover_rad_s);
 
-/// Crossover of a PI of gain d1 (rad/s -> part of the full output) without its integral: the acceleration of the full
-/// output times d1.
+/// Crossover of a PI of gain d1 (rad/s -> fraction of full output) without its integral, rad/s: d1 times the
+/// acceleration at full output.
 double speed_crossover_rad_s(double d1, double full_acceleration_rad_s2);
 
 /// Lag of the measured speed.
@@ -56,20 +60,22 @@ struct SpeedLag {
   double late_s = 0.0;  ///< additional delay
 
   double delay_s() const { return (mean_s + hold_s) / 2 + late_s; }
-  /// Transfer at angular frequency v.
+  /// Transfer function at angular frequency v.
   Complex at(double v_rad_s) const;
 };
 
-/// The longest delay at any speed from `speed_rad_s` up. `crossover_rad_s`: of the speed loop, for adaptive edges.
+/// The lag with the longest delay at any speed from `speed_rad_s` upwards. `crossover_rad_s`: of the speed
+/// loop; it decides between six edges and one.
 SpeedLag speed_lag(const RotorSensing& sensing, double pole_pairs, double speed_rad_s,
                    double crossover_rad_s);
 
-/// Largest step of the measured speed between two readings at constant speed: by a tick of the timer, a count, or
-/// wrong positions of probes; for a resolver the root mean square of its noise. Mechanical, rad/s.
+/// Largest step of the measured speed between two readings at constant speed, mechanical, rad/s. It comes
+/// from a tick of the timer, a count, or wrong positions of probes; for a resolver it is the rms value of the
+/// noise.
 double speed_step_rad_s(const RotorSensing& sensing, double pole_pairs, double speed_rad_s,
                         double crossover_rad_s);
 
-/// The same for a reader, with the phase lost at the crossover.
+/// Derivation of the lag for a reader, with the phase that it costs at the crossover.
 std::vector<DerivationStep> lag_steps(const RotorSensing& sensing, double pole_pairs, double speed_rad_s,
                                       double crossover_rad_s);
 

@@ -11,18 +11,18 @@
 namespace sixstep::design {
 namespace {
 
-constexpr double lag_part = 0.2;      // of a sector at no-load speed
-constexpr double level_scale = 0.25;  // of psi: the format's range is four levels
+constexpr double lag_part = 0.2;      // lag as a fraction of a sector at no-load speed
+constexpr double level_scale = 0.25;  // level as a fraction of psi's format: its range is four levels
 constexpr double observed_periods_a_sector = 4.0;
 
-/// The back-EMF of a phase `deg` after its rising zero, relative to its peak.
+/// The back-EMF of a phase relative to its peak, `deg` degrees after its zero crossing from below.
 double shape(const plant::Machine& machine, double deg) {
   if (machine.back_emf == plant::BackEmf::sine) return base::sin(deg * base::pi / 180.0);
   const double from_top = deg > 270.0 ? deg - 450.0 : deg - 90.0;
   return std::clamp((90.0 - std::fabs(from_top)) / (90.0 - machine.flat_deg / 2.0), -1.0, 1.0);
 }
 
-/// The same minus the common part of all three phases.
+/// shape() minus the common part of all three phases.
 double own_shape(const plant::Machine& machine, double deg) {
   return (2.0 * shape(machine, deg) - shape(machine, deg + 120.0) - shape(machine, deg + 240.0)) / 3.0;
 }
@@ -44,7 +44,7 @@ base::Problems problems_of(const MotorModel& motor, const SensorlessSpec& spec) 
 }  // namespace
 
 double flux_level_V_s(const plant::Machine& machine) {
-  constexpr int parts = 60;  // Simpson's rule
+  constexpr int parts = 60;  // number of intervals of Simpson's rule
   constexpr double step_deg = 30.0 / parts;
   double sum = own_shape(machine, 0.0) + own_shape(machine, 30.0);
   for (int n = 1; n < parts; ++n) sum += (n % 2 == 1 ? 4.0 : 2.0) * own_shape(machine, n * step_deg);

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Designs a back-EMF observer (control/sensorless/observer.hpp) from the sheet, with one rule for all three kinds:
 //
-//   lag             1/5 of a sector at no-load speed: long enough to average, short enough that crossing + lag + one
-//                   period is before the commutation. m = lag/T - 1/2 periods of it are the observer's own
+//   lag             1/5 of a sector at no-load speed: long enough to average, and short enough that crossing + lag + one
+//                   period is before the commutation. The observer itself has m = lag/T - 1/2 periods of it
 //   Luenberger      both poles at p = m/(2 + m): (1 - l) a = p^2, h b = (1 - p)^2
-//   sliding mode    k = U: above 4/3 K_e w up to 3/2 of the no-load speed; phi = k b/a; low-pass c = 1/(1 + m)
-//   flux linkage    psi_c = K_e/p integral over 30 degrees after the crossing; (1 - advance/30)^2 of it commutates;
-//                   lag T/2
+//   sliding mode    k = U, which is above 4/3 K_e w up to 3/2 of the no-load speed; phi = k b/a; low-pass c = 1/(1 + m)
+//   flux linkage    psi_c = K_e/p integral over 30 degrees after the crossing; the drive commutates when psi has fallen
+//                   by (1 - advance/30)^2 of it; the lag is T/2
 //
-// Effect of wrong parameters: no current flows in the floating leg, so neither R nor L moves its crossing; they make
-// the old estimate decay a little faster or slower. K_e moves the commutation only with flux linkage, by 15 degrees
-// times its relative error.
+// Effect of wrong parameters. No current flows in the floating leg, so that neither R nor L moves the
+// crossing; they only make the old estimate decay a little faster or slower. K_e moves the commutation only
+// with flux linkage, by 15 degrees times its relative error.
 #pragma once
 #include <vector>
 
@@ -22,20 +22,20 @@ namespace sixstep::design {
 
 struct SensorlessObserver {
   control::ObserverConfig<double> chip;
-  double pole = 0.0;           ///< p in z, both of the Luenberger observer
+  double pole = 0.0;           ///< p in z, both poles of the Luenberger observer
   double lag_s = 0.0;          ///< lag of the estimate
-  double level_V_s = 0.0;      ///< psi_c
-  double highest_rad_s = 0.0;  ///< four control periods a sector
+  double level_V_s = 0.0;      ///< psi_c, fall of the flux linkage in the 30 degrees after the crossing
+  double highest_rad_s = 0.0;  ///< highest speed, at four control periods per sector
   std::vector<DerivationStep> steps;
 };
 
-/// For the same motor and board as sensorless_start. Problems name the key: samples in the freewheel may measure a
-/// terminal that a diode holds; without an inductance there is no equation. A `follow` that is no observer gives the
-/// default.
+/// Designs an observer for the motor and board of sensorless_start(). Problems name the key: samples in the
+/// freewheel may measure a terminal that a diode holds, and without an inductance there is no equation. If
+/// `follow` is no observer, the result is the default.
 base::Result<SensorlessObserver> sensorless_observer(const MotorModel& motor, const SensorlessSpec& spec,
                                                      control::Follow follow);
 
-/// The flux linkage by which the floating leg's changes from its zero crossing to the commutation, V s.
+/// The flux linkage by which the floating leg's flux changes from its zero crossing to the commutation, V s.
 double flux_level_V_s(const plant::Machine& machine);
 
 /// Returns sensorless_drive() with an observer.

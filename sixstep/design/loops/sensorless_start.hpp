@@ -1,32 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes every number of a sensorless drive (control/sensorless/) from motor and board, so that nothing has to be
-// tuned:
+// Computes every number of a sensorless drive (control/sensorless/) from motor and board, so that no number
+// has to be tuned:
 //
-//   threshold       y = 2 u_f - u_s - u_k: noise of three converters, their steps, and the mismatch of the dividers
-//   lowest speed    2 K_e w is `clear` times that threshold; never below lowest_part of the no-load speed
-//   start current   `overload` times the nominal one, no more than 4/5 of the current that the bus drives through a
+//   threshold       for y = 2 u_f - u_s - u_k: noise of three converters, their steps, and the mismatch of the dividers
+//   lowest speed    2 K_e w is `clear` times the threshold; at least lowest_part of the no-load speed
+//   start current   `overload` times the nominal current, and at most 4/5 of the current that the bus drives through a
 //                   held rotor
-//   alignment       `swings` periods of sqrt(p K_t I/J) for each of the two steps (start_up.hpp)
+//   alignment       each of its two steps (start_up.hpp) lasts `swings` periods of sqrt(p K_t I/J)
 //   ramp            half of the start current's excess over the greatest load: a = (K_t I - T_load)/(2 J)
 //   hand-over       a speed loop continues from the ramp's current, (J a + T_c + B w)/K_t, not from the start current
-//   catching        currents are zero after 6 L_s I/U; the rotor is at rest if two sectors of the lowest speed have no
-//                   crossing
-//   throttle        the duty grows no faster than the back-EMF follows: d' = I_N K_t^2/(J U), I_N in addition to the
-//                   load's current; a faster growth would hide the crossing behind its freewheel. Hard chopping: half
-//                   of it, because its duty moves the voltage twice as far; complementary: half of it, too. While
-//                   braking, the freewheel holds the old leg at its diode, and the current grows there until K_e w
-//                   |s_f| has fallen below d U/2
+//   catching        currents are zero after 6 L_s I/U. The rotor is at rest if there is no crossing for two sectors of
+//                   the lowest speed
+//   throttle        the duty grows no faster than the back-EMF follows: d' = I_N K_t^2/(J U), with I_N in addition to
+//                   the load's current. A faster growth would hide the crossing behind its freewheel. Half of it in
+//                   two cases. Hard chopping: its duty changes the voltage twice as much. Complementary chopping:
+//                   while braking, the freewheel holds the old leg at its diode, and the current there grows until
+//                   K_e w |s_f| has fallen below d U/2
 //   highest speed   two samples before the crossing and one after the freewheel: four control periods per sector
-//   filters         terminals and bus with equal lags tau: y is tau late, and the lead is reduced by it. A leg is at
-//                   its rail, to the 3 % that the chip requires, 3.5 tau after an edge: half of the least on-time, and
-//                   the blanking after commutation and freewheel. That costs a sample: five control periods per
-//                   sector. But with hard chopping a diode may hold the leg up to any instant of the on-time: y keeps
-//                   its sign, but its size has no meaning
-//   comparators     their offset and half their hysteresis are added to the threshold, counted in y: 3 times with the
-//                   virtual star, 2 times with half the bus. The lead is reduced by their low-pass's tau. With the
-//                   virtual star 5 tau are at most half a sector at no-load speed, so that the freewheel's effect has
-//                   decayed; with half the bus 7 tau are the least on-time. One sample after the freewheel, one after
-//                   the edge: three control periods per sector
+//   filters         terminals and bus have equal lags tau: y is tau late, and the lead is reduced by tau. 3.5 tau after
+//                   an edge a leg is at its rail within the 3 % that the chip requires. This time is half of the least
+//                   on-time, and the blanking after commutation and freewheel. It costs one sample: five control
+//                   periods per sector. With hard chopping a diode may hold the leg up to any instant of the on-time:
+//                   the sign of y is then right, but its size has no meaning
+//   comparators     offset and half the hysteresis are added to the threshold, counted in y: 3 times with the virtual
+//                   star, 2 times with half the bus. The lead is reduced by the low-pass's tau. With the virtual star
+//                   5 tau are at most half a sector at no-load speed, so that the freewheel's effect has decayed; with
+//                   half the bus 7 tau are at most the least on-time. One sample after the freewheel and one after the
+//                   edge: three control periods per sector
 #pragma once
 #include <vector>
 
@@ -42,8 +42,10 @@ struct ComparatorSpec {
   bool followed = false;
   double bandwidth_Hz = 0.0;      ///< bandwidth of each low-pass
   bool against_half_bus = false;  ///< false: against the virtual star
-  double offset_V = 0.0;          ///< largest offset by their sheet, referred to the terminal
-  double hysteresis_V = 0.0;      ///< difference between the levels of the two edges
+  double offset_V = 0.0;          ///< largest offset according to the comparators' sheet, referred to the
+                                  ///< terminal
+  double hysteresis_V = 0.0;      ///< difference between the levels of a rising and a falling edge, at the
+                                  ///< terminal
 };
 
 /// Supply, board and load of a sensorless drive; SI.
@@ -53,45 +55,50 @@ struct SensorlessSpec {
   double capture_Hz = 16e6;
   int adc_bits = 12;
   double adc_range_V = 0.0;     ///< range of terminals and bus, at their dividers' inputs; 0: 5/4 of the bus
-  double adc_noise_V = 0.0;     ///< noise of each converter, root mean square
+  double adc_noise_V = 0.0;     ///< rms noise of each converter
   double mismatch = 0.0;        ///< relative mismatch of the dividers
   double greatest_load = 0.5;   ///< load at the start, relative to the nominal torque
-  double overload = 1.5;        ///< start current, relative to the nominal one
-  double lowest_part = 0.05;    ///< part of the no-load speed; the ramp ends there
-  double advance_deg = 0.0;     ///< electrical, ahead of the middle between two crossings
+  double overload = 1.5;        ///< start current relative to the nominal current
+  double lowest_part = 0.05;    ///< fraction of the no-load speed at which the ramp ends
+  double advance_deg = 0.0;     ///< advance of the commutation before the middle between two crossings,
+                                ///< electrical
   double sampling_s = 0.25e-6;  ///< time that a pulse must have on either side of its middle for a sample
   double pulse_late_s =
-      0.0;                  ///< delay of the pulse after the timer: a dead time, with complementary chopping
-  double blanking_s = 0.0;  ///< time after the end of the freewheel: filters of dividers and converters
-  double terminal_bandwidth_Hz = 0.0;  ///< first-order lags of dividers and bus; 0: no filters
+      0.0;                  ///< delay of the pulse after the timer's command: a dead time, with complementary
+                            ///< chopping
+  double blanking_s = 0.0;  ///< blanking after the end of the freewheel, for filters of dividers and
+                            ///< converters
+  double terminal_bandwidth_Hz = 0.0;  ///< bandwidth of the first-order lags of terminals and bus; 0: no
+                                       ///< filters
   double speed_window_s =
-      0.0;  ///< six crossings make a speed within this time, otherwise one (hall_speed.hpp); 0: always six
+      0.0;  ///< a speed is taken over six crossings if they come within this time, else over one
+            ///< (hall_speed.hpp); 0: always six
   control::Chopping chopping = control::Chopping::soft;
   control::NeutralSeen seen = control::NeutralSeen::on_time;
-  double diode_V = 0.0;  ///< drop of the bridge's diodes; measured in a freewheel
+  double diode_V = 0.0;  ///< drop of the bridge's diodes; a measurement in the freewheel contains it
   bool catches_spin = true;
   ComparatorSpec comparators{};
 };
 
-/// Configuration of the chip, and figures of the design.
+/// Configuration of the rotor's part of the chip, and figures of the design.
 struct SensorlessStart {
   control::SensorlessConfig<double> rotor;
-  double start_output = 0.0;        ///< the ramp's current relative to that of a speed loop's full output
-  double duty_per_period = 0.0;     ///< largest change of the throttle's duty
+  double start_output = 0.0;        ///< the ramp's current relative to that of the speed loop's full output
+  double duty_per_period = 0.0;     ///< largest change of a duty setpoint per period
   double least_duty = 0.0;          ///< least duty whose pulse is long enough for a sample
-  double current_per_period = 0.0;  ///< A
+  double current_per_period = 0.0;  ///< largest change of a current setpoint per period, A
   double start_current_A = 0.0;
   double lowest_rad_s = 0.0, highest_rad_s = 0.0;  ///< range in which crossings can be measured
   std::vector<DerivationStep> steps;
 };
 
-/// `motor`: with the load's inertia on its shaft. `current_at_full_output_A`: of the speed loop; 0 without one.
-/// Problems name the key to change: the bus is not given, the start current does not move the load, or the converter
-/// is too coarse, or a comparator too inexact, to measure the back-EMF below half the no-load speed.
+/// `motor` includes the load's inertia on its shaft. `current_at_full_output_A` belongs to the speed loop; 0
+/// without one. Problems name the key to change: the bus is not given, the start current does not move the
+/// load, or converter or comparators are too inexact to measure the back-EMF below half the no-load speed.
 base::Result<SensorlessStart> sensorless_start(const MotorModel& motor, const SensorlessSpec& spec,
                                                double current_at_full_output_A);
 
-/// The same around a designed drive: the chip's configuration.
+/// The chip's configuration: sensorless operation around a designed drive.
 control::SensorlessDriveConfig<double> sensorless_drive(const control::DriveConfig<double>& drive,
                                                         const SensorlessStart& start);
 

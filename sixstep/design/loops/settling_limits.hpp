@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes how fast a speed loop may be with its sensor at the lowest speed that it must hold.
+// Computes how fast a speed loop may be with the lag of its sensor at the lowest speed that it must hold.
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -10,15 +10,17 @@
 
 namespace sixstep::design {
 
-/// A speed loop by pole placement around a current loop; `drive` has the current loop's gains, delay and period.
+/// A speed loop by pole placement around a current loop. `drive` has the current loop's gains, delay and
+/// period.
 struct SettlingQuestion {
   DriveLoops drive;
   double torque_limit_Nm = 0.0;
   double damping = usual_damping;
 };
 
-/// The shortest settling time whose loop keeps least_phase_deg with the sensor's lag at the lowest speed. Such a loop
-/// is stable; with a third of that time it has no margin left. Empty: none up to 1000 s.
+/// The shortest settling time, s, whose loop keeps least_phase_deg with the sensor's lag at the lowest speed.
+/// Such a loop is stable; with a third of that time the loop has no margin left. Empty if no time up to 1000
+/// s suffices.
 std::optional<double> fastest_settling_s(const SettlingQuestion& question, const RotorSensing& sensing,
                                          double lowest_speed_rad_s);
 
@@ -27,17 +29,17 @@ struct SettlingLimit {
   double lowest_speed_rad_s = 0.0;
   std::optional<double> settle_s;
 };
-/// Lowest speeds that a drive may have to hold, rad/s. The second and third are twice and five times the first, if
-/// these are at most `highest`.
+/// Lowest speeds that a drive may have to hold, rad/s: `lowest`, and twice and five times it, as far as these
+/// are at most `highest`.
 struct SpeedsToHold {
   double lowest = 0.0, highest = 0.0;
 };
 
-/// For Hall probes with one edge, with six and adaptive, or for the given encoder or resolver: each way of sensing
-/// with every speed, one way after the other.
+/// Limits for each kind of sensing and each speed, one kind after the other. The kinds are Hall probes with
+/// one edge, with six edges and adaptive, or the given encoder or resolver.
 std::vector<SettlingLimit> settling_limits(const SettlingQuestion& question, const RotorSensing& rotor,
                                            const SpeedsToHold& speeds);
-/// Number of speeds for each way of sensing.
+/// Number of speeds for each kind of sensing.
 std::size_t speeds_in(const std::vector<SettlingLimit>& limits);
 
 }  // namespace sixstep::design

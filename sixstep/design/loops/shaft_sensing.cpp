@@ -9,13 +9,13 @@
 namespace sixstep::design {
 namespace {
 
-/// One count of the sensor, as an angle of the motor's shaft.
+/// Angle of one count of the sensor, rad of the motor's shaft.
 double count_rad(const ShaftSensing& s) {
   const double counts = s.kind == ShaftSensorKind::encoder ? 4.0 * s.lines : std::ldexp(1.0, s.bits);
   return s.gear * 2 * base::pi / counts;
 }
 
-/// Time from one count to the next.
+/// Time from one count to the next, s.
 double count_s(const ShaftSensing& s, double speed_rad_s) { return count_rad(s) / std::fabs(speed_rad_s); }
 
 void add_encoder(const ShaftSensing& s, double speed, std::vector<DerivationStep>& steps) {

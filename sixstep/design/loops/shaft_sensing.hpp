@@ -2,16 +2,16 @@
 // Computes the lag of an encoder or a resolver in a speed loop, the jitter of its speed, and the lowest speed that it
 // measures.
 //
-//   encoder    M/T (control/sensing/pulse_speed.hpp): the mean over T between two edges found by control ticks, held
-//              until the next one, c = (2 pi/4N)/w later;  T = max(T_s, c).  A tick of the timer in T is 1/(f T) of
-//              the speed; the lowest speed is one count per time-out
-//   absolute   the mean over k samples, late by the code's latency; a count in k T_s is (2 pi/2^n)/(k T_s), and a lower
-//              speed reads as zero or as that
-//   resolver   the integrator of a loop of type 2, w_n^2/(s^2 + 2 D w_n s + w_n^2): 2 D/w_n late at frequencies far
-//              below w_n, where a loop should be; plus the delay of its angle. Windings with noise of s rad in each
-//              step of T_l jitter by s sqrt(T_l w_n^3/(4 D)); it measures every speed
+//   encoder    M/T (control/sensing/pulse_speed.hpp): the mean over the time T between two edges that control ticks
+//              have found, T = max(T_s, c), held for c = (2 pi/4N)/w until the next edge. A tick of the timer in T is
+//              1/(f T) of the speed; the lowest speed is one count per time-out
+//   absolute   the mean over k samples, late by the code's latency. One count in k T_s is (2 pi/2^n)/(k T_s); a lower
+//              speed reads as zero or as this speed
+//   resolver   the integrator of a loop of type 2, w_n^2/(s^2 + 2 D w_n s + w_n^2). It is 2 D/w_n late at frequencies
+//              far below w_n, where a speed loop should be; the delay of the angle is added. Noise of s rad in each
+//              step of T_l makes a jitter of s sqrt(T_l w_n^3/(4 D)). Every speed is measured
 //
-// All speeds are mechanical; on the load's side of a gear n turns of the motor are one of the sensor.
+// All speeds are mechanical. On the load's side of a gear, n turns of the motor are one turn of the sensor.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -25,38 +25,40 @@ enum class ShaftSensorKind : std::uint8_t { none, encoder, absolute, resolver };
 
 struct ShaftSensing {
   ShaftSensorKind kind = ShaftSensorKind::none;
-  double gear = 1.0;      ///< n
-  bool linear = false;    ///< a linear scale: n is the magnets' period over 2 pi, in m, N the lines in it
+  double gear = 1.0;      ///< n, turns of the motor per turn of the sensor
+  bool linear = false;    ///< a linear scale: n is the magnets' period over 2 pi, in m, and N the lines in a
+                          ///< period
   double period_s = 0.0;  ///< T_s, the control period
   // incremental encoder
-  int lines = 0;            ///< N
-  double capture_Hz = 0.0;  ///< f
+  int lines = 0;            ///< N, lines per turn
+  double capture_Hz = 0.0;  ///< f, clock of the timer that captures edges
   double timeout_s = 0.0;
   // absolute encoder
-  int bits = 0;            ///< n
-  int samples = 1;         ///< k
+  int bits = 0;            ///< n, bits of the code
+  int samples = 1;         ///< k, samples over which a speed is taken
   double latency_s = 0.0;  ///< latency of the code, or of a resolver's angle
   // resolver
   int pole_pairs = 1;          ///< pole pairs of the resolver
-  double natural_rad_s = 0.0;  ///< w_n of its tracking loop
-  double damping = 1.0;        ///< D
-  double step_s = 0.0;         ///< T_l, of that loop
-  double noise_rad = 0.0;      ///< s, root mean square, of the resolver's turn
+  double natural_rad_s = 0.0;  ///< w_n, natural frequency of the tracking loop
+  double damping = 1.0;        ///< D, damping of the tracking loop
+  double step_s = 0.0;         ///< T_l, step of the tracking loop
+  double noise_rad = 0.0;      ///< s, rms noise as an angle of the resolver's turn
 };
 
-/// "encoder, 1024 lines", "absolute encoder, 14 bits", "resolver, followed within 1 kHz"
+/// The sensor in words: "encoder, 1024 lines", "absolute encoder, 14 bits", "resolver, followed within 1
+/// kHz".
 std::string sensor_words(const ShaftSensing& sensing);
 
-/// The speed is the mean over `mean_s`, is held for `hold_s`, and is `late_s` late.
+/// Age of a measured speed: it is the mean over `mean_s`, is held for `hold_s`, and is `late_s` late.
 struct ShaftSpeedAge {
   double mean_s = 0.0, hold_s = 0.0, late_s = 0.0;
 };
 ShaftSpeedAge speed_age(const ShaftSensing& sensing, double speed_rad_s);
 
-/// Jitter of the measured speed: one step for an encoder, the root mean square for a resolver.
+/// Jitter of the measured speed, rad/s: one step for an encoder, the rms value for a resolver.
 double speed_jitter_rad_s(const ShaftSensing& sensing, double speed_rad_s);
 
-/// Below it the speed sometimes reads 0; 0: every speed is measured.
+/// Speed below which the measured speed sometimes reads 0, rad/s; 0: every speed is measured.
 double lowest_told_rad_s(const ShaftSensing& sensing);
 
 /// Derivation of these values, for a reader.

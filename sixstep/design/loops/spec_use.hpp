@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Members of a spec that a design reads: by mode, by method of the gains, and by the rotor's sensor. This is their
-// only definition; tests/analysis/spec_use_test.cpp checks every member in all of them.
+// Which members of a spec a design reads: by mode, by method of the gains, and by the rotor's sensor. Only
+// this file defines it; tests/analysis/spec_use_test.cpp checks every member for all of them.
 #pragma once
 #include <optional>
 #include <string_view>
@@ -10,8 +10,8 @@
 
 namespace sixstep::design {
 
-/// Reason why a given member has no effect on this design, and what it requires; empty if the design reads it. The
-/// problem names the member and has no value.
+/// The reason why a given member has no effect on this design, and what the member requires; empty if the
+/// design reads the member. The problem names the member and contains no value.
 std::optional<base::Problem> without_use(const DesignSpec& spec, std::string_view member);
 
 }  // namespace sixstep::design

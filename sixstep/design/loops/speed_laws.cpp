@@ -32,7 +32,7 @@ double pole_of(const SpeedLawSpec& s, double faster = 1.0) {
   return base::exp(-faster * time_constants_to_settle * s.period_s / s.settle_s);
 }
 
-/// Both poles of the observer at z_o.
+/// Places both poles of the observer at z_o.
 void place_observer(control::ObservedSpeedConfig<double>& c, double z_o) {
   c.L_w = 1.0 - z_o * z_o / c.a;
   c.L_l = (1.0 - z_o) * (1.0 - z_o) / c.b;
@@ -51,7 +51,7 @@ void add_observer(const SpeedLawSpec& s, const SpeedLawDesign& d, std::vector<De
   steps.push_back({"L_l", "(1 - z_o)^2 / b", d.gains.observed.L_l, "s/rad"});
 }
 
-/// Deviations of a pole from 1, (1 - z)^2/z.
+/// Distance of a pole from 1, (1 - z)^2/z.
 double bend(double z) { return (1.0 - z) * (1.0 - z) / z; }
 
 }  // namespace
@@ -166,7 +166,8 @@ const Polynomial z_itself{1.0, 1.0};
 
 }  // namespace
 
-// With E = (z - z_o)^2 the observer's error is e = ((z - a)(z - c) (z - 1) y - b (1 - c) z (z - 1) u)/((z - c) E).
+// With E = (z - z_o)^2 the observer's error is e = ((z - a)(z - c)(z - 1) y - b (1 - c) z (z - 1) u)/((z - c)
+// E).
 LinearLaw linear(const control::ObservedSpeedConfig<double>& k) {
   const Polynomial A{1.0 - k.a, 1.0}, C{1.0 - k.c, 1.0}, D{0.0, 1.0};
   const double ahead = 1.0 + k.K * k.g;
@@ -176,7 +177,7 @@ LinearLaw linear(const control::ObservedSpeedConfig<double>& k) {
   law.r = times(k.f + k.K * (1.0 + k.g * k.f), product(C, E));
   law.y = product(C, sum(times(k.K, E), times(-1.0, product(N, A))));
   law.q = sum(product(sum(C, {k.K * k.g * (1.0 - k.c)}), E), times(k.b * (1.0 - k.c), product(N, z_itself)));
-  law.q[0] = 0.0;  // the load is integrated, so this is 0; the sum above would leave rounding
+  law.q[0] = 0.0;  // exactly 0, because the load is integrated; the sum above leaves rounding
   law.y[0] = law.r[0];
   return law;
 }

@@ -9,8 +9,8 @@
 //
 //   1 - K_p = z_1 z_2 = exp(-2 D w_n T),   2 - K_p - K_i = z_1 + z_2 = 2 exp(-D w_n T) cos(w_n T sqrt(1 - D^2))
 //
-// They are inside the unit circle for any period. Gains copied from continuous time, K_p = 2 D w_n T and K_i = (w_n
-// T)^2, leave it at w_n T = 2 (sqrt(1 + D^2) - D): Jury's 2 K_p + K_i < 4.
+// The poles are inside the unit circle for any period. Gains copied from continuous time, K_p = 2 D w_n T and
+// K_i = (w_n T)^2, are unstable from w_n T = 2 (sqrt(1 + D^2) - D) on, by Jury's 2 K_p + K_i < 4.
 #pragma once
 #include "sixstep/base/result.hpp"
 #include "sixstep/control/sensing/tracking.hpp"
@@ -18,19 +18,19 @@
 namespace sixstep::design {
 
 struct TrackingSpec {
-  double bandwidth_rad_s = 0.0;  ///< w_b, electrical or mechanical like the tracked angle
-  double damping = 1.0;          ///< D
-  double period_s = 0.0;         ///< T
+  double bandwidth_rad_s = 0.0;  ///< w_b; electrical or mechanical, as the tracked angle
+  double damping = 1.0;          ///< D, damping of the loop
+  double period_s = 0.0;         ///< T, period of the loop
 };
 
 struct TrackingDesign {
   double K_p = 0.0, K_i = 0.0;
-  double natural_rad_s = 0.0;     ///< w_n
-  double K_a_per_s2 = 0.0;        ///< acceleration over the steady error, K_i/T^2
-  double speed_rad_s_unit = 0.0;  ///< rad/s of one unit of control::tracking_speed, 2 pi/(2^32 T)
+  double natural_rad_s = 0.0;     ///< w_n, natural frequency of the loop
+  double K_a_per_s2 = 0.0;        ///< K_i/T^2: acceleration over the constant error that it causes
+  double speed_rad_s_unit = 0.0;  ///< rad/s of one unit of control::tracking_speed(), 2 pi/(2^32 T)
 };
 
-/// Problems: values not above 0, and a bandwidth of half the sampling frequency or more.
+/// Computes the gains. Problems: values not above 0, and a bandwidth of half the sampling frequency or more.
 base::Result<TrackingDesign> tracking_loop(const TrackingSpec& spec);
 
 /// True if the sampled loop is stable (Jury).
@@ -38,10 +38,10 @@ constexpr bool tracking_is_stable(double K_p, double K_i) {
   return K_p > 0 && K_p < 2 && K_i > 0 && 2 * K_p + K_i < 4;
 }
 
-/// The largest stable w_n T of gains copied from continuous time.
+/// The largest w_n T at which gains copied from continuous time are stable.
 double taken_over_limit(double damping);
 
-/// The gains in the chip's numbers.
+/// The gains in the chip's number format.
 control::TrackingConfig tracking_config(const TrackingDesign& design);
 
 }  // namespace sixstep::design

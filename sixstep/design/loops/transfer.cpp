@@ -15,7 +15,7 @@ Complex value(const Polynomial& p, Complex delta) {
   return sum;
 }
 
-/// States and the held input in one matrix of at most 5 x 5.
+/// Matrix of the states and the held input, of at most 5 x 5.
 using Square = std::array<std::array<double, 5>, 5>;
 
 Square times(const Square& a, const Square& b) {
@@ -26,8 +26,8 @@ Square times(const Square& a, const Square& b) {
   return c;
 }
 
-/// exp(M) - 1 by the series of M/2^n, doubled n times: E -> 2 E + E^2. With a norm below 1/16 twelve terms
-/// leave (1/16)^13/13!, far below rounding.
+/// exp(M) - 1. The series is summed for M/2^n, and the result is doubled n times by E -> 2 E + E^2. With a
+/// norm below 1/16 twelve terms leave an error of (1/16)^13/13!, far below rounding.
 Square exponential_minus_one(Square m) {
   double norm = 0.0;
   for (const auto& row : m) {
@@ -55,7 +55,7 @@ Square exponential_minus_one(Square m) {
   return e;
 }
 
-/// det(delta - E) by Faddeev and LeVerrier, the constant first.
+/// Coefficients of det(delta - E) by Faddeev and LeVerrier, the constant first.
 Polynomial characteristic(const Square& e, int states) {
   Polynomial p(static_cast<std::size_t>(states) + 1);
   p.back() = 1.0;
@@ -77,7 +77,7 @@ Polynomial characteristic(const Square& e, int states) {
   return p;
 }
 
-/// True if all roots have a negative real part: Routh's scheme has no change of sign.
+/// True if all roots have a negative real part, by Routh's scheme: it then has no change of sign.
 bool is_hurwitz(Polynomial p) {
   if (p.back() < 0.0)
     for (double& x : p) x = -x;
@@ -113,7 +113,7 @@ Polynomial sum(const Polynomial& a, const Polynomial& b) {
   return c;
 }
 
-// exp(j t) - 1 = -2 sin^2(t/2) + j sin t, without cancellation.
+// At z = exp(j t), t = turn: exp(j t) - 1 = -2 sin^2(t/2) + j sin t, which has no cancellation.
 Complex Transfer::at(double turn) const {
   const double half = base::sin(turn / 2.0);
   const Complex delta{-2.0 * half * half, base::sin(turn)};
@@ -132,7 +132,7 @@ Transfer delay(int periods) {
 
 Transfer closed(const Transfer& loop) { return {loop.num, sum(loop.num, loop.den)}; }
 
-// delta = 2 w/(1 - w): sum p_k (2 w)^k (1 - w)^(n - k) has its roots in the left half plane.
+// With delta = 2 w/(1 - w), the roots of sum p_k (2 w)^k (1 - w)^(n - k) must be in the left half plane.
 bool is_stable(const Polynomial& denominator) {
   const std::size_t n = denominator.size() - 1;
   Polynomial in_w(n + 1), power{1.0};
@@ -145,7 +145,7 @@ bool is_stable(const Polynomial& denominator) {
   return in_w.back() != 0.0 && is_hurwitz(in_w);
 }
 
-// Roots with |z| < r are those with |z/r| < 1: delta = r delta' - (1 - r).
+// Roots with |z| < r are those with |z/r| < 1. For these delta = r delta' - (1 - r).
 double slowest_decay(const Polynomial& denominator) {
   const auto inside = [&](double decay) {
     const Polynomial shifted{-decay, 1.0 - decay};
@@ -167,7 +167,7 @@ double slowest_decay(const Polynomial& denominator) {
 
 namespace {
 
-/// exp([A B; 0 0] t) - 1: change of the states in a time t with the input held.
+/// exp([A B; 0 0] t) - 1: the change of the states in a time t while the input is held.
 Square step_of(const Linear& system, double time_s) {
   const auto n = static_cast<std::size_t>(system.states);
   Square m{};
@@ -178,8 +178,8 @@ Square step_of(const Linear& system, double time_s) {
   return exponential_minus_one(m);
 }
 
-/// C (delta - E)^-1 x = sum C E^(k-1) x delta^-k, times den: the numerator has the powers from 0 on. E + 1 = `step` +
-/// 1, and x is the last column of `held`.
+/// Numerator of C (delta - E)^-1 x over `den`, from C (delta - E)^-1 x = sum C E^(k-1) x delta^-k; its powers
+/// begin at 0. E is `step`, and x is the last column of `held`.
 Polynomial numerator(const Square& step, const Square& held, const Polynomial& den, int output) {
   const std::size_t n = den.size() - 1;
   std::array<double, 5> x{};
@@ -198,8 +198,8 @@ Polynomial numerator(const Square& step, const Square& held, const Polynomial& d
 
 }  // namespace
 
-// G(t): change of the states by an input in a time t. x' = E x + (G(T) - G(T - late)) u/z + G(T - late) u: the
-// numerator over z den is that of G(T), and z - 1 times that of G(T - late).
+// G(t) is the change of the states by an input in a time t. x' = E x + (G(T) - G(T - late)) u/z + G(T - late)
+// u. Over the denominator z den, the numerator is that of G(T) plus z - 1 times that of G(T - late).
 Transfer sampled(const Linear& system, int output, double period_s, double late_s) {
   const Square step = step_of(system, period_s);
   Transfer t;

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Linear sampled systems as ratios of polynomials: built from a state space with zero-order hold, connected in
-// series, closed, checked for stability, evaluated on the unit circle. They describe the drive between PWM and ADC
-// while no limit acts. The variable is delta = z - 1, not z: a loop that settles in a second has its poles 1e-4 from
-// z = 1, and a polynomial in z loses them to rounding if several are there (Middleton, Goodwin).
+// Linear sampled systems as ratios of polynomials. They are built from a state space with zero-order hold,
+// connected in series, closed, checked for stability, and evaluated on the unit circle. They describe the
+// drive between PWM and ADC while no limit acts. The variable is delta = z - 1 and not z: a loop that settles
+// in a second has its poles 1e-4 from z = 1, and if several poles are there, a polynomial in z loses them to
+// rounding (Middleton, Goodwin).
 #pragma once
 #include <array>
 #include <vector>
 
 namespace sixstep::design {
 
-/// A complex number. (std::complex calls the C library for magnitude and angle.)
+/// A complex number. std::complex is not used, because it calls the C library for magnitude and angle.
 struct Complex {
   double re = 0.0, im = 0.0;
 
@@ -32,31 +33,31 @@ using Polynomial = std::vector<double>;
 Polynomial product(const Polynomial& a, const Polynomial& b);
 Polynomial sum(const Polynomial& a, const Polynomial& b);
 
-/// num(z - 1)/den(z - 1); den has a leading coefficient that is not 0, num no higher degree.
+/// num(z - 1)/den(z - 1). The leading coefficient of den is not 0, and num has no higher degree than den.
 struct Transfer {
   Polynomial num{1.0}, den{1.0};
 
-  /// Value at z = exp(j turn), turn = w T_s.
+  /// Value at z = exp(j turn), turn = w T_s in rad.
   Complex at(double turn) const;
 };
 
 /// a and b in series.
 Transfer series(const Transfer& a, const Transfer& b);
-/// Periods of pure delay: z^-periods.
+/// Delay of whole periods: z^-periods.
 Transfer delay(int periods);
-/// L/(1 + L)
+/// The closed loop L/(1 + L).
 Transfer closed(const Transfer& loop);
 
-/// True if all roots have |z| < 1: z = (1 + w)/(1 - w) and Routh's scheme; no root is computed. For the degrees of a
-/// drive: beyond some twenty the scheme is only rounding.
+/// True if all roots have |z| < 1. By z = (1 + w)/(1 - w) and Routh's scheme, so that no root is computed. It
+/// is for the degrees of a drive: above a degree of some twenty the scheme gives only rounding.
 bool is_stable(const Polynomial& denominator);
-/// 1 - |z| of the largest root, by bisection with is_stable: the part of a disturbance that disappears per period.
-/// Negative for an unstable system.
+/// 1 - |z| of the largest root, by bisection with is_stable(): the fraction of a disturbance that disappears
+/// per period. Negative for an unstable system.
 double slowest_decay(const Polynomial& denominator);
 
-/// x' = A x + B u with at most four states, sampled with zero-order hold: transfer from u to state `output`. With
-/// late_s, a part of a period, an input acts from that time after its sample on, and the input before it acts
-/// until then.
+/// x' = A x + B u with at most four states, sampled with zero-order hold: transfer from u to the state
+/// `output`. late_s is less than a period: an input acts from late_s after its sample on, and until then the
+/// input before it acts.
 struct Linear {
   int states = 0;
   std::array<std::array<double, 4>, 4> A{};

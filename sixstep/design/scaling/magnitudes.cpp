@@ -18,7 +18,7 @@ Magnitudes magnitudes(const control::DriveConfig<double>& d, const OperatingRang
     m.position = r.position_deg;
     m.position_ref = r.setpoint;
   }
-  // A slewed setpoint begins at the measured value.
+  // A slewed setpoint begins at the measured value, which may be the larger one.
   const bool slews = d.extras.on && d.extras.slews_setpoint;
   const auto slewed = [slews](double wanted, double measured) {
     return slews ? std::max(wanted, measured) : wanted;
@@ -33,7 +33,7 @@ Magnitudes magnitudes(const control::DriveConfig<double>& d, const OperatingRang
     const bool hysteresis = d.current_control == control::CurrentControl::hysteresis;
     m.current_levels = m.current_ref + (hysteresis ? d.hysteresis.band_A : 0.0);
     if (d.extras.on) m.emf = std::min(d.current.limit, r.speed_rad_s * d.extras.feed_forward.K_t_V_s);
-    // A prediction subtracts a voltage of either sign from one of either sign.
+    // A prediction subtracts two voltages, each of either sign.
     if (d.extras.on && d.extras.predicts_current) m.emf = m.voltage = d.extras.deadbeat.limit;
   }
   return m;

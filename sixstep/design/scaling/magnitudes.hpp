@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Largest magnitudes that occur in a drive's loops, in SI: interval arithmetic around 0 on the lines of drive.hpp.
+// Largest magnitudes that occur in a drive's loops, in SI units, by interval arithmetic around 0 on the lines
+// of drive.hpp.
 #pragma once
 #include "sixstep/design/scaling/scaling.hpp"
 
@@ -8,14 +9,14 @@ namespace sixstep::design::detail {
 struct Magnitudes {
   double current = 0.0;  ///< phase and motor current
   double current_ref = 0.0;
-  double current_levels = 0.0;  ///< reference and band
+  double current_levels = 0.0;  ///< current reference plus the band
   double speed = 0.0;
   double speed_ref = 0.0;
-  double speed_change = 0.0;  ///< change from sample to sample
+  double speed_change = 0.0;  ///< change of the speed from sample to sample
   double position = 0.0;
   double position_ref = 0.0;
   double voltage = 0.0;  ///< limit of the current PI
-  double emf = 0.0;      ///< feed-forward, clamped at that limit
+  double emf = 0.0;      ///< feed-forward, clamped at the PI's limit
   double bus = 0.0;
 };
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts the configuration of a back-EMF observer to the chip's own numbers.
+// Converts the configuration of a back-EMF observer to the chip's number format.
 #pragma once
 #include "sixstep/control/sensorless/observer.hpp"
 #include "sixstep/design/scaling/scaling.hpp"
 
 namespace sixstep::design {
 
-/// In floating point every base is 1.
+/// The configuration in numbers of type Scalar. In floating point every base is 1.
 template <class Scalar>
 control::ObserverConfig<Scalar> observer_in(const control::ObserverConfig<double>& d, const Bases& b) {
   double digit = 1.0, volt = 1.0, ampere = 1.0;

@@ -40,7 +40,7 @@ using Range = OperatingRange;
                                                                        const Bases&, int);
 SIXSTEP_FIXED_FORMATS(SIXSTEP_SCALED_IN)
 #undef SIXSTEP_SCALED_IN
-// Formats for tests only.
+// Formats that only tests use.
 template base::Result<ScaledProduct<control::Fixed<std::int16_t, 13>>> scaled_product(const Product&,
                                                                                       const Range&, int);
 template base::Result<ScaledProduct<control::Fixed<std::int16_t, 13>>> scaled_product(const Product&,

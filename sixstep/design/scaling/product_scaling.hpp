@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts the whole product's configuration to fixed point: the drive by scaling.hpp, and around it ADC gains, speed
-// from edges, thresholds of faults, each with its line of the proof.
+// Converts the whole product's configuration to fixed point: the drive by scaling.hpp, and in addition ADC
+// gains, speed from edges, and thresholds of faults. Each value has its line in the proof.
 #pragma once
 #include "sixstep/control/protected_drive.hpp"
 #include "sixstep/design/scaling/scaling.hpp"
@@ -14,18 +14,19 @@ struct ScaledProduct {
   std::vector<Headroom> proof;
 };
 
-/// In `product`, gains of ADCs are A and V per eighth of a count, speeds rad/s, positions degrees, as in the
-/// configuration of double. In addition to those of scaling.hpp, Problems are
+/// Converts with given bases. In `product`, gains of ADCs are A and V per eighth of a count, speeds rad/s,
+/// positions degrees, as in the configuration of double. In addition to those of scaling.hpp, Problems are
 ///   - a converter's span beyond full scale, or more eighths of counts than the format holds;
 ///   - a threshold that no signal can pass, because it is beyond the format's range;
 ///   - a ratio of ticks that does not fit its sum.
-/// Position is measured in position mode only: in other modes it has no base. Instantiated as scaled().
+/// Position is measured in position mode only: in other modes it has no base. The template is instantiated as
+/// scaled() is.
 template <class Scalar>
 base::Result<ScaledProduct<Scalar>> scaled_product(const control::ProtectedConfig<double>& product,
                                                    const OperatingRange& range, const Bases& bases,
                                                    int adc_bits);
 
-/// Scales with the bases of bases_for.
+/// Converts with the bases of bases_for().
 template <class Scalar>
 base::Result<ScaledProduct<Scalar>> scaled_product(const control::ProtectedConfig<double>& product,
                                                    const OperatingRange& range, int adc_bits);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The walk that converts a configuration's fields to fixed point (design/fields): each is divided by its base, with
-// its lines of the proof.
+// The walk that converts a configuration's fields to fixed point (design/fields). Each field is divided by
+// its base, and has its lines in the proof.
 #pragma once
 #include <algorithm>
 #include <string>
@@ -11,9 +11,9 @@
 
 namespace sixstep::design::detail {
 
-inline constexpr double trip_ratio = 1.25;  // limits.hpp: over_limit
+inline constexpr double trip_ratio = 1.25;  // 5/4, as in over_limit() of limits.hpp
 
-/// Fields that no mode uses, or that a flag turns off, keep their defaults.
+/// Walk with conversion. Fields that the mode does not use, or that a flag turns off, keep their defaults.
 template <class Scalar>
 class Scale {
  public:
@@ -81,7 +81,8 @@ class Scale {
   double value(Base base) const { return value_of(base, mode_, b_); }
   std::string path(const Field& f) const { return within_ + f.name; }
 
-  // Checks a part's further conditions and adds their lines to the proof; false: the part keeps its defaults.
+  // Checks further conditions of a nested part and adds their lines to the proof. If the result is false, the
+  // part keeps its defaults.
   template <class Config, class... Told>
   bool prove(const Config&, const Told&...) {
     return true;
@@ -116,15 +117,16 @@ class Scale {
   const control::DriveExtras<double>* extras_ = nullptr;
 };
 
-/// pi_positional.hpp and derivative.hpp: |y| <= g times the widest step of the speed, and g/b times its largest
-/// change per sample; |I| <= limit + |y| + |K_c| |e|/K_b. K e may saturate. K_i and its increments were proved with
-/// DriveConfig::speed.
+/// Conditions of pi_positional.hpp and derivative.hpp: the derivative's |y| is at most g times the widest
+/// step of the speed, and g/b times its largest change per sample; |I| <= limit + |y| + |K_c| |e|/K_b. K e
+/// may saturate. K_i and its increments are proved with DriveConfig::speed.
 template <class Scalar>
 bool Scale<Scalar>::prove(const control::PiPositionalConfig<double>& pi) {
   const control::DerivativeConfig<double>& d = extras_->speed_derivative;
   const double steepest = d.b > 0 ? d.g / d.b * m_.speed_change : HUGE_VAL;
   const double braked = d.g > 0 ? std::min(2 * m_.speed * d.g, steepest) : 0.0;
-  // The part removed by a setpoint weight is fed forward like the derivative, and the integral compensates it.
+  // The part that a setpoint weight removes is fed forward as the derivative is, and the integral compensates
+  // it.
   const double weighted = extras_->speed_weight_off * m_.speed_ref;
   const double integral =
       pi.K_b > 0 ? pi.limit + braked + weighted + std::fabs(pi.K_c) / pi.K_b * (m_.speed + m_.speed_ref)
@@ -144,11 +146,11 @@ bool Scale<Scalar>::prove(const control::PiPositionalConfig<double>& pi) {
   return true;
 }
 
-/// A converter without a gain does not exist.
+/// A converter without a gain does not exist and needs no proof.
 template <class Scalar>
 bool Scale<Scalar>::prove(const control::AdcConfig<double>& adc, const AdcUse& use) {
   if (adc.per_eighth == 0) return false;
-  // "current_adc[1]" is named "current_adc b" in the proof.
+  // The proof names "current_adc[1]" as "current_adc b".
   const std::size_t phase = within_.find('[');
   const std::string name = phase == std::string::npos ? within_
                                                       : within_.substr(0, phase) + " " +

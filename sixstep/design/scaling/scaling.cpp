@@ -39,7 +39,8 @@ Bases bases_for(const DriveConfig<double>& drive, const OperatingRange& range, d
   double current = std::max(m.current + m.current_ref, m.current_levels);
   if (drive.extras.on && drive.extras.limits_current) {
     const control::LimitsConfig<double>& l = drive.extras.limits;
-    const double below_the_end = 1 + 1e-3;  // a signal never exceeds a threshold at full scale
+    const double below_the_end = 1 + 1e-3;  // factor: a signal must be able to exceed a threshold, which
+                                            // therefore is below full scale
     current = std::max(current, trip_ratio * l.current_A * below_the_end);
     if (l.limits_speed) speed = std::max(speed, m.speed + l.speed_rad_s);
     if (l.limits_regeneration) bus = std::max(bus, l.bus_V * below_the_end);
@@ -73,7 +74,7 @@ using Range = OperatingRange;
   template base::Result<Scaled<control::Format>> scaled(const Drive&, const Range&);
 SIXSTEP_FIXED_FORMATS(SIXSTEP_SCALED_IN)
 #undef SIXSTEP_SCALED_IN
-// Formats for tests only.
+// Formats that only tests use.
 template base::Result<Scaled<control::Fixed<std::int16_t, 13>>> scaled(const Drive&, const Range&,
                                                                        const Bases&);
 template base::Result<Scaled<control::Fixed<std::int32_t, 29>>> scaled(const Drive&, const Range&,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes which A, V, rad/s and degrees a fixed-point 1.0 means, and converts the drive's configuration to
-// those units. Interval arithmetic proves that, over a stated range of inputs, nothing saturates except where it may.
+// Computes for how many A, V, rad/s and degrees the fixed-point number 1.0 stands, and converts the drive's
+// configuration to these units. Interval arithmetic proves that, over a given range of inputs, nothing
+// saturates except where it may.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,19 +12,19 @@
 
 namespace sixstep::design {
 
-/// Range of the inputs: magnitudes that measurements and setpoint do not exceed. Beyond them a sensor or a user is at
-/// fault, and saturation is the right answer.
+/// Range of the inputs: magnitudes that measurements and setpoint do not exceed. An input beyond them is an
+/// error of a sensor or a user, and saturation is the right response.
 struct OperatingRange {
-  double current_A = 0.0;     ///< current of each phase, the ADC's range
+  double current_A = 0.0;     ///< current of each phase: the ADC's range
   double speed_rad_s = 0.0;   ///< mechanical
   double position_deg = 0.0;  ///< mechanical; only in position mode
   double bus_V = 0.0;
-  double setpoint = 0.0;  ///< setpoint in the unit of the mode
+  double setpoint = 0.0;  ///< in the unit of the mode
   double speed_change_rad_s =
       0.0;  ///< change of the measured speed from one sample to the next; 0: any change within speed_rad_s
 };
 
-/// SI values of 1.0. Duties and fractions of torque have the base 1.
+/// Bases: SI values of the number 1.0. Duties and fractions of torque have the base 1.
 struct Bases {
   double current_A = 1.0;
   double voltage_V = 1.0;
@@ -31,7 +32,7 @@ struct Bases {
   double position_deg = 1.0;
 };
 
-/// Base of a setpoint.
+/// Base of the setpoint in a mode; 1 for a duty.
 constexpr double setpoint_base(control::Mode mode, const Bases& b) {
   return mode == control::Mode::current    ? b.current_A
          : mode == control::Mode::speed    ? b.speed_rad_s
@@ -39,7 +40,7 @@ constexpr double setpoint_base(control::Mode mode, const Bases& b) {
                                            : 1.0;
 }
 
-/// Value of a field's base (design/fields).
+/// Value of a field's base (design/fields) in SI units.
 constexpr double value_of(Base base, control::Mode mode, const Bases& b) {
   switch (base) {
     case Base::one:
@@ -58,11 +59,11 @@ constexpr double value_of(Base base, control::Mode mode, const Bases& b) {
   return 1.0;
 }
 
-/// One line of the proof: a quantity, its largest value, and the end of the format.
+/// One line of the proof: a quantity, its largest value, and the largest value that the format holds.
 struct Headroom {
   std::string name;
   double largest = 0.0;     ///< SI
-  double full_scale = 0.0;  ///< the same unit
+  double full_scale = 0.0;  ///< largest value that the format holds, in the unit of `largest`
 };
 
 template <class Scalar>
@@ -72,24 +73,25 @@ struct Scaled {
   std::vector<Headroom> proof;
 };
 
-/// The smallest bases with which every signal and every difference of signals fits the format.
+/// The smallest bases with which every signal, and every difference of two signals, fits the format.
 Bases bases_for(const control::DriveConfig<double>& drive, const OperatingRange& range, double full_scale);
 
-/// The drive in fixed point. Problems name the quantity that does not fit, or the gain that the format cannot hold to
-/// its last bits, with the value and the end of the range:
+/// Converts the drive to fixed point. Problems name the quantity that does not fit, or the gain that the
+/// format cannot hold to its last bits, with the value and the end of the range:
 ///   - a signal, a limit or a difference of signals beyond full scale;
 ///   - a gain above the mantissa, or so small that its mantissa loses bits;
 ///   - an integral gain for which an error of one digit has no effect (pi.hpp);
-///   - an integral increment that could saturate its sum (14 of the 16 times the range it holds);
-///   - a derivative and the integral behind it, together beyond 14 times the range; an integral without
-///     a back-calculation gain.
-/// Values that go directly into a limit (products before a clamp, the proportional kick) may saturate, because the
-/// clamp hides it. Instantiated for Q15, Q31 and the formats with one and two bits before the point.
+///   - an integral increment that could saturate its sum (above 14 of the 16 ranges that the sum holds);
+///   - a derivative and the integral after it, together beyond 14 ranges; an integral without a gain of
+///     back-calculation.
+/// Values that go directly into a limit (products before a clamp, the proportional kick) may saturate,
+/// because the clamp hides it. The template is instantiated for Q15, Q31 and the formats with one and two
+/// bits before the point.
 template <class Scalar>
 base::Result<Scaled<Scalar>> scaled(const control::DriveConfig<double>& drive, const OperatingRange& range,
                                     const Bases& bases);
 
-/// Scales with the bases of bases_for.
+/// Converts with the bases of bases_for().
 template <class Scalar>
 base::Result<Scaled<Scalar>> scaled(const control::DriveConfig<double>& drive, const OperatingRange& range);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Collects the proof of a scaling: lines for values that fit, Problems for those that do not.
+// Collects the proof of a scaling: one line for each value that fits, and one Problem for each that does not.
 #pragma once
 #include <cmath>
 #include <string>
@@ -32,14 +32,15 @@ struct Proof {
   void fits(const char* name, double largest, double base) {
     const double end = base * full_scale<Scalar>;
     rows.push_back({name, largest, end});
-    // A whole base counts as fitting if the format ends one digit below it (Q15, Q31).
+    // A value of exactly the base fits, even if the format ends one digit below 1 (Q15, Q31).
     if (std::fabs(largest) > end + base * static_cast<double>(Scalar::from_raw(1)))
       problems.push_back({name, at_least(largest), "is above full scale, " + at_most(end),
                           "take a base of " + at_least(std::fabs(largest) / full_scale<Scalar>) +
                               " or more, or a format with more bits before the point"});
   }
 
-  /// A threshold must be below full scale, otherwise no signal can pass it. A threshold of 0 always fits.
+  /// Converts a threshold. It must be below full scale, because otherwise no signal can pass it. A threshold
+  /// of 0 always fits.
   Scalar threshold(const char* name, double value, double base) {
     if (value != 0) fits(name, std::fabs(value) + 2 * base * static_cast<double>(Scalar::from_raw(1)), base);
     return Scalar(value / base);
@@ -60,7 +61,8 @@ struct Proof {
     return control::Gain<Scalar>(per_unit);
   }
 
-  /// For a PI: an error of one digit has an effect on its integral, and no increment saturates it.
+  /// Conditions of a PI: an error of one digit has an effect on its integral, and no increment saturates the
+  /// integral.
   void integral(const std::string& name, const control::PiConfig<double>& c, double in, double out,
                 double largest_error) {
     const double K_i = c.d1 + c.d0, K_i_pu = K_i * in / out;

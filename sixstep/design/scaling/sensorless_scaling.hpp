@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts the sensorless drive's configuration to fixed point: the drive by scaling.hpp, and the loop that runs
-// during the start in every mode, each with its lines of the proof.
+// Converts the sensorless drive's configuration to fixed point: the drive by scaling.hpp, and the current
+// loop that runs during the start in every mode. Each value has its line in the proof.
 #pragma once
 #include "sixstep/control/sensorless/sensorless_drive.hpp"
 #include "sixstep/design/scaling/scaling.hpp"
@@ -14,18 +14,19 @@ struct ScaledSensorless {
   std::vector<Headroom> proof;
 };
 
-/// The same drive during its start: it controls a current in every mode.
+/// The drive during its start, in which it controls a current in every mode.
 control::DriveConfig<double> while_it_starts(const control::DriveConfig<double>& drive);
 
 /// Range of the inputs during the start.
 OperatingRange while_it_starts(const OperatingRange& range,
                                const control::SensorlessDriveConfig<double>& sensorless);
 
-/// Bases for both the drive's mode and its start.
+/// Bases that suffice both for the drive's mode and for its start.
 Bases bases_for(const control::SensorlessDriveConfig<double>& sensorless, const OperatingRange& range,
                 double full_scale);
 
-/// Problems as in scaled(). Instantiated for Q15, Q31 and the formats with one bit before the point.
+/// Problems as in scaled(). The template is instantiated for Q15, Q31 and the formats with one bit before the
+/// point.
 template <class Scalar>
 base::Result<ScaledSensorless<Scalar>> scaled_sensorless(
     const control::SensorlessDriveConfig<double>& sensorless, const OperatingRange& range,

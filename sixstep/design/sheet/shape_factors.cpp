@@ -11,9 +11,9 @@
 namespace sixstep::design {
 namespace {
 
-/// Mean of f_p - f_n over a sector for peak 1 (model.md 1): torque per ampere of the driven pair over K_e.
-/// It is, by symmetry, twice the mean of one phase's shape over 60 degrees from the middle of its top.
-/// Trapezoid with ramps through zero at 90 degrees, h = 90 - w/2 from top to zero:
+/// Mean of f_p - f_n over a sector for a shape of peak 1 (model.md 1): torque per ampere of the driven pair
+/// over K_e. By symmetry it is twice the mean of one phase's shape over 60 degrees from the middle of its
+/// top. For a trapezoid with ramps through zero at 90 degrees, h = 90 - w/2 degrees from top to zero:
 ///   w >= 120:  2
 ///   w < 120:   (2/60) (w/2 + integral of (90 - x)/h over w/2..60) = (90 - h/2 - 450/h)/30
 /// Sine: (6/pi) sin 60 = 3 sqrt(3)/pi = 1.65399
@@ -31,8 +31,8 @@ double trapezoid_wave(double x_deg, double flat_deg) {
   return std::clamp((90.0 - x) / h, -1.0, 1.0);
 }
 
-/// Peak and mean square of f(x) - f(x - 120) over half a turn. It is linear between the corners of both, so that the
-/// peak is at a corner and Simpson's rule is exact for the square.
+/// Peak and mean square of f(x) - f(x - 120) over half a turn. The difference is linear between the corners
+/// of both terms, so that its peak is at a corner and Simpson's rule is exact for its square.
 void line_to_line(double flat_deg, ShapeFactors& out) {
   std::array<double, 6> corners = {0.0, 180.0};
   std::size_t count = 2;
@@ -68,7 +68,8 @@ ShapeFactors shape_factors(BackEmfShape shape, double flat_deg) {
     return out;
   }
   line_to_line(flat_deg, out);
-  // A ramp from 0 to 1 over h has mean square 1/3: per quarter turn (w/2 + h/3)/90 with h = 90 - w/2.
+  // A ramp from 0 to 1 over h degrees has the mean square 1/3. Over a quarter turn the mean square is (w/2 +
+  // h/3)/90 with h = 90 - w/2.
   const double half_flat = flat_deg / 2.0, h_deg = 90.0 - half_flat, h = h_deg / 180.0 * base::pi;
   out.phase_rms = std::sqrt((half_flat + h_deg / 3.0) / 90.0);
   out.phase_peak = 1.0;
@@ -87,7 +88,7 @@ ShapeFactors harmonic_factors(std::span<const double> orders, std::span<const do
   }
   out.phase_rms = std::sqrt(phase_square);
   out.line_rms = std::sqrt(line_square);
-  // The peaks, each symmetric about its middle, by a scan of half a turn in steps of a 4096th.
+  // The shapes are symmetric about their middle: half a turn is scanned for their peaks, in 4096 steps.
   const auto phase = [&](double x) {
     double v = base::cos(x);
     for (std::size_t n = 0; n < orders.size(); ++n) v += sizes[n] * base::cos(orders[n] * x);

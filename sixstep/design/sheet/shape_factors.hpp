@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Factors of a back-EMF's shape, from one phase of peak 1 to line values, means and the fundamental: they convert a
-// printed constant of any convention to K_e.
+// Factors of a back-EMF's shape, from one phase of peak 1 to line values, means and the fundamental. With
+// them a printed constant of any convention is converted to K_e.
 #pragma once
 #include <span>
 
@@ -8,15 +8,16 @@
 
 namespace sixstep::design {
 
-/// Sheets that print "peak", "rms" or "flux linkage" mean sine machines. For a trapezoid the same measurement gives
-/// other factors; these are the factors of the given shape.
+/// Sheets that print "peak", "rms" or "flux linkage" assume a sine machine. For a trapezoid the same
+/// measurement gives other factors; the members are the factors of the given shape. Comments give two values:
+/// for 120 degrees flat, and for a sine.
 struct ShapeFactors {
-  double sector_mean =
-      0.0;  ///< mean of f_p - f_n over a sector: K_t/K_e; 2 for 120 degrees flat, 1.65399 for a sine
-  double line_peak = 0.0;   ///< largest f_a - f_b; 2, sqrt 3
-  double line_rms = 0.0;    ///< rms of f_a - f_b; 1.49071, 1.22474
-  double phase_rms = 0.0;   ///< 0.88192, 0.70711
-  double phase_peak = 0.0;  ///< largest |f_a|; 1 unless a table or harmonics say otherwise
+  double sector_mean = 0.0;  ///< mean of f_p - f_n over a sector: K_t/K_e; 2, 1.65399
+  double line_peak = 0.0;    ///< largest f_a - f_b; 2, sqrt 3
+  double line_rms = 0.0;     ///< rms of f_a - f_b; 1.49071, 1.22474
+  double phase_rms = 0.0;    ///< rms of f_a; 0.88192, 0.70711
+  double phase_peak = 0.0;   ///< largest |f_a|; 1 for trapezoid and sine, another value for harmonics or a
+                             ///< table
   double fundamental =
       0.0;  ///< amplitude of the first harmonic, which a field-oriented drive uses; 1.21585, 1
 };
@@ -24,15 +25,17 @@ struct ShapeFactors {
 /// Factors of a trapezoid or a sine. flat_deg in (0, 180); ignored for a sine.
 ShapeFactors shape_factors(BackEmfShape shape, double flat_deg);
 
-/// Factors of a sine with odd harmonics: as many sizes as orders, relative to the sine's.
+/// Factors of a sine with odd harmonics. There are as many sizes as orders; sizes are relative to the sine's
+/// peak.
 ShapeFactors harmonic_factors(std::span<const double> orders, std::span<const double> sizes);
 
-/// Factors of a table (model.md 7), exact by the integrals of its straight lines: angles in degrees as in
-/// sheet_description.hpp, one value each, at least two points. sector_mean is the mean over all six sectors, each
-/// with its pair; no symmetry is required. The values are not normalised.
+/// Factors of a table (model.md 7), exact by the integrals of its straight lines. Angles are in degrees as in
+/// sheet_description.hpp, with one value each, at least two points. sector_mean is the mean over all six
+/// sectors, each with its own pair, so that no symmetry is required. The values are not normalised.
 ShapeFactors table_factors(std::span<const double> angle_deg, std::span<const double> values);
 
-/// Torque per ampere rms of a sine in each phase, in phase with the EMF: (3/2) sqrt 2 of the fundamental.
+/// Torque per ampere, N m/A, for sine currents of rms 1 A in phase with the back-EMF: (3/2) sqrt 2 K_e times
+/// the fundamental.
 inline double torque_per_rms_A(double K_e_V_s, const ShapeFactors& f) {
   return 1.5 * 1.4142135623730951 * K_e_V_s * f.fundamental;
 }

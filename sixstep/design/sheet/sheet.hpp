@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A motor's data sheet as printed: the sheet's own units and frames, each value with its source. Makers print one
-// constant in different ways. A sheet gives each constant in one of them, or in several, which are then compared
-// (sheet_constants.hpp, sheet_check.hpp). A linear motor's sheet uses the same members, 1 rad for 1 m, under its own
-// key names (base/linear.hpp, sheet_spellings.hpp).
+// A motor's data sheet as printed: the sheet's own units and frames, each value with its source. Makers print
+// one constant in different forms. A file gives each constant in one form, or in several, which are then
+// compared (sheet_constants.hpp, sheet_check.hpp). A linear motor's sheet uses the same members, with 1 rad
+// for 1 m, under its own key names (base/linear.hpp, sheet_spellings.hpp).
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -21,7 +21,7 @@ enum class MotorKind : std::uint8_t { rotary, linear };
 
 enum class RotorPlace : std::uint8_t { inner, outer };
 
-/// Default density of a rotor.
+/// Density of a rotor if the file gives none.
 inline constexpr double steel_kg_m3 = 7850.0;
 
 struct Sheet {
@@ -33,15 +33,17 @@ struct Sheet {
   std::vector<std::string> known_deviation;  // names of the check's relations that this sheet breaks
 
   MotorKind kind = MotorKind::rotary;
-  std::optional<base::Quantity> pole_pitch_mm;  // linear: tau, in place of the pole pairs
-  std::optional<int> pole_pairs;                // or poles, or the winding's code
+  std::optional<base::Quantity> pole_pitch_mm;  // linear motor: tau, instead of pole pairs
+  std::optional<int> pole_pairs;                // or `poles`, or `winding`
   std::optional<int> poles;
-  std::string winding;  // "12N14P": 12 teeth, 14 poles
+  std::string winding;  // the winding's code; "12N14P" has 12 teeth and 14 poles
   BackEmfShape back_emf = BackEmfShape::trapezoid;
   double flat_deg = 120.0;                                 // width of the trapezoid's flat top, electrical
-  std::vector<double> harmonic_orders, harmonic_sizes;     // without order 1; relative to its peak
-  std::vector<double> back_emf_angle_deg, back_emf_shape;  // table: points of phase a over an electrical turn
-  std::string back_emf_file;  // table: file of the two lists, as written; text/ reads it
+  std::vector<double> harmonic_orders, harmonic_sizes;     // without order 1; sizes relative to the sine's
+                                                           // peak
+  std::vector<double> back_emf_angle_deg, back_emf_shape;  // table: points of phase a over one electrical
+                                                           // turn
+  std::string back_emf_file;  // table: file with the two lists, as written; text/ reads the file
   WindingConnection connection = WindingConnection::star;
   double mutual_inductance_mH = 0.0;  // delta: between two branches
   std::vector<double> phase_resistance_deviation,
@@ -51,18 +53,20 @@ struct Sheet {
   std::optional<base::Quantity> nominal_voltage_V;
   std::optional<base::Quantity> resistance_ohm;                              // frame terminal or phase
   std::optional<base::Quantity> inductance_mH;                               // frame terminal or phase
-  std::optional<base::Quantity> d_axis_inductance_mH, q_axis_inductance_mH;  // phase; instead of the above
+  std::optional<base::Quantity> d_axis_inductance_mH, q_axis_inductance_mH;  // frame phase; both instead of
+                                                                             // inductance_mH
 
   std::optional<base::Quantity>
       saturation_current_A;  // of a phase along the magnet: L_d i_d (1 - i_d/(2 I_sat))
 
-  // The torque constant and its other forms. The first one given is used, in this order.
+  // The torque constant in its printed forms. The first form that is given, in this order, is used.
   std::optional<base::Quantity> torque_constant_mNm_A;  // terminal: torque per ampere through the driven pair
-  std::optional<base::Quantity> back_emf_mV_s;  // frame phase: peak per mechanical rad/s, used as it is
-  std::optional<base::Quantity> torque_constant_Nm_A;      // frame terminal, peak or rms
-  std::optional<base::Quantity> back_emf_constant_V_krpm;  // frame line or phase, peak or rms; six-step
+  std::optional<base::Quantity> back_emf_mV_s;         // frame phase: peak per mechanical rad/s, used without
+                                                       // conversion
+  std::optional<base::Quantity> torque_constant_Nm_A;  // frame terminal, peak or rms
+  std::optional<base::Quantity> back_emf_constant_V_krpm;  // frames line or phase, peak or rms; six-step
   std::optional<base::Quantity> flux_linkage_mWb;          // phase, peak of the fundamental
-  std::optional<base::Quantity> speed_constant_rpm_V;      // frame six-step or line-peak: "KV"
+  std::optional<base::Quantity> speed_constant_rpm_V;      // frames six-step or line-peak: "KV"
   std::optional<base::Quantity> flux_density_T, active_length_mm, air_gap_radius_mm;  // K_t = 2 B l r N
   std::optional<int> turns_in_series;                                                 // between two terminals
 
@@ -71,12 +75,14 @@ struct Sheet {
   bool with_brake = false;
   RotorPlace rotor = RotorPlace::inner;
   std::optional<base::Quantity> rotor_radius_mm, rotor_inner_radius_mm, rotor_length_mm;
-  std::optional<base::Quantity> rotor_density_kg_m3;  // without it steel_kg_m3
+  std::optional<base::Quantity> rotor_density_kg_m3;  // default: steel_kg_m3
   std::optional<base::Quantity> viscous_friction_Nm_s;
   std::optional<base::Quantity> coulomb_friction_mNm;
-  std::optional<base::Quantity> iron_viscous_Nm_s, iron_coulomb_mNm;  // eddy currents, hysteresis
+  std::optional<base::Quantity> iron_viscous_Nm_s, iron_coulomb_mNm;  // parts of the friction by eddy
+                                                                      // currents and by hysteresis
 
-  std::optional<base::Quantity> no_load_voltage_V;  // of the no-load point; default: the nominal voltage
+  std::optional<base::Quantity> no_load_voltage_V;  // voltage of the no-load point; default: the nominal
+                                                    // voltage
   std::optional<base::Quantity> no_load_speed_rpm, no_load_current_mA;
   std::optional<base::Quantity> second_no_load_voltage_V, second_no_load_speed_rpm, second_no_load_current_mA;
   std::optional<base::Quantity> nominal_speed_rpm, nominal_torque_mNm, nominal_current_A;
@@ -90,7 +96,7 @@ struct Sheet {
   std::optional<base::Quantity> thermal_resistance_housing_ambient_K_W;
   std::optional<base::Quantity> thermal_time_constant_winding_s, thermal_time_constant_motor_s;
   std::optional<base::Quantity> max_winding_temperature_degC;
-  double magnet_loss_percent_K = 0.12;  // loss of K_e above 25 degC: NdFeB
+  double magnet_loss_percent_K = 0.12;  // loss of K_e above 25 degC per kelvin; the default is that of NdFeB
 };
 
 }  // namespace sixstep::design

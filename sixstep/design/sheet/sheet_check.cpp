@@ -15,7 +15,8 @@ namespace {
 
 using base::Quantity;
 
-/// Reason why the model does not use a line. Keys without an entry print a used value in another way.
+/// Reason why the model does not use a line. Keys without an entry here print a value that another key has
+/// given.
 struct Reason {
   std::string_view key;
   std::string_view why;
@@ -52,7 +53,7 @@ constexpr Reason reasons[] = {
     {"max_winding_temperature_degC", "a limit"},
 };
 
-/// Visits a sheet and notes for each given quantity whether the model uses it.
+/// Visitor that notes, for each quantity that the sheet gives, whether the model uses it.
 class Lines final : public base::Visitor {
  public:
   explicit Lines(const SheetConstants& constants) : constants_(constants) {}
@@ -91,7 +92,7 @@ class Lines final : public base::Visitor {
       return "another print of the torque constant, which is read from " + constants_.K_e_V_s->from;
     return "not enough to go with it";
   }
-  /// A no-load point gives the friction only if it is complete and no other line does.
+  /// A no-load point gives the friction only if the point is complete and no other line gives the friction.
   std::string why_no_point(std::string_view key) const {
     const Friction& f = constants_.friction;
     const auto& used = constants_.used;
@@ -121,14 +122,14 @@ void judge_known(const Sheet& sheet, SheetCheck& check, base::Problems& problems
   }
 }
 
-/// "makes R J/K_t^2 440 s, and next to no motor is above 100 s"
+/// The limit in words: "makes R J/K_t^2 440 s, and next to no motor is above 100 s".
 std::string slow_words(const char* what, double seconds, double usual_s) {
   return std::string("makes ") + what + " " + rounded(seconds, 3) + " s, and next to no motor is above " +
          rounded(usual_s, 3) + " s";
 }
 
-/// Reports wrong units that make a motor too slow: a simulation runs with them, and no relation of the sheet may show
-/// them.
+/// Reports values that make a motor too slow, probably by a wrong unit. A simulation runs with them, and it
+/// may be that no relation of the sheet shows the error.
 void doubt_pace(const Sheet& sheet, SheetCheck& check) {
   SheetConstants& c = check.constants;
   const SheetReader reader{sheet, c};
@@ -162,7 +163,7 @@ void doubt_pace(const Sheet& sheet, SheetCheck& check) {
   }
 }
 
-/// Numbered lines that fix the frame of their value, as maxon's sheets mean it.
+/// Prefixes of numbered lines whose number fixes the frame of the value, as on maxon's sheets.
 constexpr std::string_view framed_lines[] = {"line_6_", "line_10_", "line_11_", "line_12_", "line_13_"};
 
 void doubt_maker(const Sheet& sheet, SheetCheck& check) {

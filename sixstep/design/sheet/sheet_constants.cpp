@@ -13,7 +13,7 @@ namespace {
 
 using base::Quantity;
 
-/// Star equivalent of a winding's value: half of a value between two terminals.
+/// Value per phase of the star equivalent: half of a value between two terminals.
 double per_phase(double value, std::string_view frame) { return frame == "phase" ? value : value / 2.0; }
 
 std::string from_frame(std::string_view key, const Quantity& q) {
@@ -64,7 +64,7 @@ void read_resistance(SheetReader& reader) {
   unknown_frame(reader, "resistance_ohm", *q, candidates, hint);
 }
 
-/// The model has no saliency: L_d and L_q must be one number.
+/// The model has no saliency here: L_d and L_q must be one number.
 void read_axes(SheetReader& reader) {
   const std::optional<Quantity>&d = reader.sheet.d_axis_inductance_mH, &q = reader.sheet.q_axis_inductance_mH;
   if (!d || !q)
@@ -117,7 +117,8 @@ void read_inductance(SheetReader& reader) {
   unknown_frame(reader, "inductance_mH", *q, candidates, hint);
 }
 
-/// The nominal current is not part of the model. Its frame is required for the comparison with the nominal torque.
+/// Reads the nominal current's frame. The current is not part of the model; its frame is required for the
+/// comparison with the nominal torque.
 void read_nominal_current(SheetReader& reader) {
   const std::optional<Quantity>& q = reader.sheet.nominal_current_A;
   const SheetConstants& c = reader.out;
@@ -134,7 +135,8 @@ void read_nominal_current(SheetReader& reader) {
   unknown_frame(reader, "nominal_current_A", *q, candidates);
 }
 
-/// Errors are reported elsewhere; the factors are then those of a valid shape, so that the other values can be read.
+/// Reads the shape. If its values are wrong, which is reported, the factors are those of a valid shape, so
+/// that the other values can be read.
 ShapeFactors read_shape(SheetReader& reader) {
   const Sheet& s = reader.sheet;
   const bool flat = base::strictly_between(0.0, 180.0).holds(s.flat_deg);
@@ -162,7 +164,8 @@ void read_trust(SheetReader& reader) {
 double relative_doubt(const Quantity& q) {
   if (!(q.value > 0.0)) return 0.0;
   double digit = q.last_digit.value_or(base::last_digit_of(q.value));
-  // 1690 may be a number of three digits: its zero is a place holder. 780 has three without it.
+  // 1690 may be a number of three digits, whose zero is a place holder. 780 has three digits only with its
+  // zero.
   const auto whole = [&](double unit) { return std::floor(q.value / unit) * unit == q.value; };
   while (digit >= 1.0 && digit * 1e3 <= q.value && whole(digit * 10.0)) digit *= 10.0;
   return 0.5 * digit / q.value;
@@ -218,7 +221,7 @@ Sheet in_standard_keys(Sheet s) {
     s.with_brake = false;
   }
   if (c.J_kg_m2) fill(s.inertia_gcm2, c.J_kg_m2, c.J_kg_m2->value * 1e7, "");
-  if (!s.viscous_friction_Nm_s) {  // the iron's part keeps its own keys
+  if (!s.viscous_friction_Nm_s) {  // the iron's part stays in its own keys
     const Friction& f = c.friction;
     const Constant B{f.B_Nm_s - f.iron.B_Nm_s, f.from};
     fill(s.viscous_friction_Nm_s, B, B.value, "");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the constants of the machine from a sheet: each from one printed form, with its provenance, converted to SI
-// and the model's frame.
+// Reads the machine's constants from a sheet. Each comes from one printed form and is converted to SI units
+// and the model's frame; its origin is stored with it.
 #pragma once
 #include <optional>
 #include <string>
@@ -14,35 +14,38 @@
 
 namespace sixstep::design {
 
-/// A value in SI and the model's frame, with its derivation: "resistance_ohm, terminal: halved".
+/// A value in SI units and the model's frame, with its derivation in words: "resistance_ohm, terminal:
+/// halved".
 struct Constant {
   double value = 0.0;
   std::string from;
 };
 
-/// The same constant from another line of the sheet, for comparison with the one used.
+/// The same constant from another line of the sheet, to be compared with the constant that the model uses.
 struct OtherWay {
   std::string key;
   double K_e_V_s = 0.0;
-  double relative_doubt = 0.0;  ///< relative error of the printed value
+  double relative_doubt = 0.0;  ///< relative rounding error of the printed value
 };
 
-/// The iron's part of the friction: hysteresis does not depend on speed, eddy currents grow with it (model.md 7).
+/// The iron's part of the friction. Hysteresis does not depend on speed; eddy currents grow with it (model.md
+/// 7).
 struct IronDrag {
   double B_Nm_s = 0.0;
   double coulomb_Nm = 0.0;
 };
 
-/// Friction: T = B w + T_c, of bearings and iron together. One no-load point fixes only K_t I_0 = B w_0 + T_c.
+/// Friction T = B w + T_c of bearings and iron together. One no-load point gives only the sum, K_t I_0 = B
+/// w_0 + T_c.
 struct Friction {
   double B_Nm_s = 0.0;  ///< value of the model
   double coulomb_Nm = 0.0;
-  IronDrag iron;  ///< the iron's part of both, if the sheet separates it
+  IronDrag iron;  ///< the iron's part of B and T_c, if the sheet separates it
   std::string from;
   double no_load_speed_rad_s = 0.0;          ///< speed of the no-load point used; 0: none
-  std::optional<double> all_viscous_Nm_s;    ///< one extreme for a single point: B = K_t I_0/w_0
-  std::optional<double> all_coulomb_Nm;      ///< the other extreme: T_c = K_t I_0
-  std::optional<double> split_viscous_Nm_s;  ///< from two points
+  std::optional<double> all_viscous_Nm_s;    ///< one extreme for one point, no dry friction: B = K_t I_0/w_0
+  std::optional<double> all_coulomb_Nm;      ///< the other extreme, no viscous friction: T_c = K_t I_0
+  std::optional<double> split_viscous_Nm_s;  ///< B and T_c from two no-load points
   std::optional<double> split_coulomb_Nm;
 };
 
@@ -50,7 +53,7 @@ struct SheetConstants {
   ShapeFactors shape;
   std::optional<int> pole_pairs;       ///< pole pairs of a rotary motor
   std::optional<double> pole_pitch_m;  ///< pole pitch of a linear motor
-  /// Electrical radians per mechanical one, or per metre: p, pi/tau.
+  /// Electrical radians per mechanical radian, or per metre of a linear motor: p, or pi/tau.
   std::optional<double> electrical_per_mechanical() const {
     if (pole_pitch_m) return base::pi / *pole_pitch_m;
     return pole_pairs ? std::optional<double>(*pole_pairs) : std::nullopt;
@@ -58,30 +61,32 @@ struct SheetConstants {
   std::optional<double> nominal_voltage_V;
   std::optional<Constant> R_ohm;     ///< per phase
   std::optional<Constant> L_H;       ///< per phase, L - M
-  std::optional<Constant> K_e_V_s;   ///< peak phase EMF per mechanical rad/s
-  std::optional<Constant> K_t_Nm_A;  ///< terminal, sector mean
+  std::optional<Constant> K_e_V_s;   ///< peak back-EMF of a phase per mechanical rad/s
+  std::optional<Constant> K_t_Nm_A;  ///< between terminals, mean over a sector
   std::optional<Constant> J_kg_m2;
   std::optional<Constant>
-      J_of_body_kg_m2;  ///< from the rotor's dimensions, in addition to a printed value or instead of it
+      J_of_body_kg_m2;  ///< computed from the rotor's dimensions, whether or not an inertia is printed
   double K_e_relative_doubt = 0.0;
   std::vector<OtherWay> other_ways;
   Friction friction;
   std::vector<std::string_view> used;  ///< keys that the model uses
   base::Problems problems;             ///< errors in the written values
-  base::Problems missing;              ///< values that a model also needs
+  base::Problems missing;              ///< values that the model needs and the sheet lacks
 };
 
-/// It has no side effects. Two forms of one printed value are a Problem; two printed values of one constant are
-/// kept as other_ways. A missing frame is a Problem that gives the meaning of each candidate.
+/// Reads the constants; it has no side effects. Two forms of one printed value are a Problem. Two printed
+/// values of one constant are allowed, and the second goes to other_ways. A missing frame is a Problem that
+/// gives the meaning of each candidate.
 SheetConstants sheet_constants(const Sheet& sheet);
 
-/// Relative rounding error: half of the last printed digit over the value. The digit is the file's if the text is
-/// known, else that of the shortest decimal.
+/// Relative rounding error: half of the last printed digit over the value. The last digit is the one that the
+/// file writes; if the text is not known, that of the shortest decimal.
 double relative_doubt(const base::Quantity& q);
 
 /// The sheet with all values that the model needs in the standard keys (resistance_ohm, inductance_mH,
-/// torque_constant_mNm_A, inertia_gcm2, viscous_friction_Nm_s, coulomb_friction_mNm), for any printed form.
-/// Values already in a standard key keep their bits. For callers that change single values.
+/// torque_constant_mNm_A, inertia_gcm2, viscous_friction_Nm_s, coulomb_friction_mNm), whatever forms it
+/// prints. Values that are in a standard key already keep their bits. It is for callers that change single
+/// values.
 Sheet in_standard_keys(Sheet sheet);
 
 }  // namespace sixstep::design

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads further data of a sheet's winding in addition to R, L and K_t: harmonics, delta, unequal phases, cogging.
+// Reads the data of a sheet's winding other than R, L and K_t: harmonics, delta, unequal phases, cogging.
 #include <cmath>
 
 #include "sixstep/design/sheet/parameters.hpp"
@@ -12,7 +12,8 @@ namespace {
 
 bool is_whole(double x) { return std::floor(x) == x; }
 
-/// Number of rotations in the general kernel (plant/general/constants.hpp), including the sine and a salient rotor's.
+/// Bounds so that the rotations, with those of the sine and a salient rotor, fit in the general kernel
+/// (plant/general/constants.hpp).
 constexpr std::size_t most_harmonics = 5, most_cogging = 4;
 
 void read_harmonics(SheetReader& reader) {
@@ -39,7 +40,7 @@ void read_harmonics(SheetReader& reader) {
     }
 }
 
-/// Reports lists of a table for a shape that is no table.
+/// Reports lists of a table if the shape is no table.
 void read_table_keys(SheetReader& reader) {
   const Sheet& s = reader.sheet;
   if (s.back_emf == BackEmfShape::table) return;  // read_shape_table() checks them

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the rotor's moment of inertia, as printed or from its dimensions: J = pi/2 rho l (r^4 - r_i^4), a cylinder or
-// a ring.
+// Reads the rotor's moment of inertia, as printed or from its dimensions, J = pi/2 rho l (r^4 - r_i^4) for a
+// cylinder or a ring.
 #include "sixstep/base/angle.hpp"
 #include "sixstep/design/sheet/sheet_reader.hpp"
 
@@ -28,7 +28,7 @@ std::optional<Constant> printed_inertia(SheetReader& reader) {
   return Constant{base::times_ten_to(printed.value, -7), SheetReader::key_of(key, printed)};
 }
 
-/// True if dimensions are given and make a body; errors are reported.
+/// True if dimensions are given and make a body. Errors in them are reported.
 bool has_body(SheetReader& reader) {
   const Sheet& s = reader.sheet;
   const auto needs = [&](const char* key, const char* other) {
@@ -82,7 +82,7 @@ void read_inertia(SheetReader& reader) {
   reader.out.J_kg_m2 = printed_inertia(reader);
   read_body(reader);
   const bool printed = s.with_brake ? s.inertia_with_brake_gcm2.has_value() : s.inertia_gcm2.has_value();
-  if (printed || reader.out.problems.size() > told) return;  // errors in it are already reported
+  if (printed || reader.out.problems.size() > told) return;  // errors of the inertia are reported already
   if (reader.out.J_of_body_kg_m2 && !s.with_brake) {
     reader.out.J_kg_m2 = reader.out.J_of_body_kg_m2;
     return reader.use("rotor_radius_mm");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Clears lines of a sheet that are invalid because others are overridden.
+// Clears lines of a sheet that become invalid because other lines are overridden.
 #pragma once
 #include <functional>
 #include <string_view>
@@ -8,9 +8,9 @@
 
 namespace sixstep::design {
 
-/// Clears lines with the same meaning as an overridden one (torque constants of every kind, inductances, pole
-/// numbers): their printed values are then invalid. `overridden` returns whether a key is overridden, in any
-/// spelling.
+/// Clears lines with the same meaning as an overridden line (torque constants of every form, inductances,
+/// pole numbers), because their printed values are then invalid. `overridden` returns whether a key is
+/// overridden, in any spelling.
 void drop_stale(Sheet& sheet, const std::function<bool(std::string_view key)>& overridden);
 
 }  // namespace sixstep::design

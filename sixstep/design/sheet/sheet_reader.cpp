@@ -58,7 +58,7 @@ std::string SheetReader::value_of(std::string_view key, const base::Quantity& q)
 }
 
 void note_implausible(SheetReader& reader) {
-  Sheet described = reader.sheet;  // descriptions are written for readers, which write to what they visit
+  Sheet described = reader.sheet;  // a copy, because a description needs a sheet that can be written to
   Numbers numbers(reader);
   describe(numbers, described);
 }

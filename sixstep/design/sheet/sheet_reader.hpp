@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads numbers of a sheet and collects their problems. Shared by the sources of sheet_constants.
+// Reads numbers of a sheet and collects their problems. The sources of sheet_constants() share it.
 #pragma once
 #include <span>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace sixstep::design {
 
-/// Messages use four digits.
+/// x with four digits, the form of numbers in messages.
 inline std::string rounded(double x, int digits = 4) { return base::rounded(x, digits); }
 
 struct SheetReader {
@@ -28,16 +28,17 @@ struct SheetReader {
   void missing(std::string_view where, std::string_view cure) {
     out.missing.push_back({std::string(where), "", "is missing", std::string(cure)});
   }
-  /// `key` must live as long as the program.
+  /// Notes that the model uses a key. `key` must live as long as the program.
   void use(std::string_view key) { out.used.push_back(key); }
 
   /// The key as the file writes it.
   static std::string key_of(std::string_view key, const base::Quantity& q) {
     return q.key.empty() ? std::string(key) : q.key;
   }
-  /// The value in the unit of that key: 4.8e-06 for inertia_kgm2, where the standard key would have 48.
+  /// The value in the unit of the key that the file uses: 4.8e-06 for inertia_kgm2, where the standard key
+  /// would have 48.
   std::string value_of(std::string_view key, const base::Quantity& q) const;
-  /// The value times 10^ten; empty if it is out of its range, which note_implausible() has reported.
+  /// The value times 10^ten. Empty if the value is out of its range, which note_implausible() reports.
   static std::optional<double> positive(const base::Quantity& q, int ten = 0) {
     return base::above(0.0).holds(q.value) ? std::optional(base::times_ten_to(q.value, ten)) : std::nullopt;
   }
@@ -46,10 +47,10 @@ struct SheetReader {
   }
 };
 
-/// Reports every number of the sheet that is out of its key's range, or impossible for its unit.
+/// Reports every number of the sheet that is out of its key's range, or implausible for its unit.
 void note_implausible(SheetReader& reader);
 
-/// Meaning of a value in a frame, in words, for the message about a missing frame.
+/// Meaning of a value in one frame, in words, for the message about a missing frame.
 struct FrameMeaning {
   std::string_view frame;
   std::string means;
@@ -59,10 +60,11 @@ struct FrameMeaning {
 void unknown_frame(SheetReader& reader, std::string_view key, const base::Quantity& q,
                    std::span<const FrameMeaning> candidates, const std::string& hint = "");
 
-/// The factors of back_emf = "table"; empty if the lists are invalid, which is reported.
+/// The factors of back_emf = "table". Empty if the lists are invalid, which is reported.
 std::optional<ShapeFactors> read_shape_table(SheetReader& reader);
 
-/// tau of a linear motor, m; the pole pairs of a rotary one. Keys of the other kind are reported.
+/// The pole pitch tau of a linear motor, m; read_pole_pairs() is for a rotary motor. Keys of the other kind
+/// of motor are reported.
 std::optional<double> read_pole_pitch(SheetReader& reader);
 std::optional<int> read_pole_pairs(SheetReader& reader);
 void read_inertia(SheetReader& reader);

@@ -47,7 +47,7 @@ class Relations {
   }
 
  private:
-  /// Converts to the words and units of a linear motor; the deviation does not change.
+  /// Converts a relation to the words and units of a linear motor. The deviation does not change.
   static void in_metres(Relation& r) {
     const base::LinearUnit unit = base::in_linear(r.unit);
     r.name = base::linear_words(r.name);
@@ -58,7 +58,8 @@ class Relations {
     r.right *= unit.factor;
   }
 
-  /// `below` and `above` widen the tolerance beyond rounding; `frames`: a constant with a frame may be the wrong one.
+  /// Adds a relation. `below` and `above` widen the tolerance beyond rounding. `frames`: the value has a
+  /// frame, which may be the wrong one.
   Relation& add(std::string name, std::string left_words, std::string right_words, Term left, Term right,
                 std::string unit, double below = 0.0, double above = 0.0, bool frames = true) {
     Relation r;
@@ -72,7 +73,7 @@ class Relations {
     const double rounding = left.doubt + right.doubt;
     r.lowest = -(rounding + below);
     r.highest = rounding + above;
-    // A small tolerance for the arithmetic itself: an exact pair without rounding errors must hold.
+    // A small tolerance for the arithmetic itself: two exact numbers that are equal must hold.
     constexpr double arithmetic = 1e-12;
     const bool holds = r.deviation >= r.lowest - arithmetic && r.deviation <= r.highest + arithmetic;
     r.verdict = holds ? RelationVerdict::holds : RelationVerdict::broken;
@@ -107,7 +108,7 @@ class Relations {
           "mNm");
   }
 
-  /// Compares constants that are printed in addition to the one used.
+  /// Compares constants that the sheet prints in addition to the one that the model uses.
   void constants() {
     for (const OtherWay& other : c_.other_ways) {
       const std::optional<Quantity>& k_n = s_.speed_constant_rpm_V;
@@ -129,7 +130,7 @@ class Relations {
 
   void no_load() {
     for (const NoLoadSides& n : no_load_sides(s_, c_)) {
-      // A current compared with friction lines is a torque, which has no frame.
+      // The two sides are torques, which have no frame, although the relation is one of a current.
       Relation& r =
           add(n.name, n.left_words, n.right_words, n.left, n.right, n.unit, n.below, n.above, !n.of_friction);
       const bool lacks_dry = n.of_friction && r.verdict == RelationVerdict::broken && r.deviation < 0.0 &&
@@ -142,21 +143,21 @@ class Relations {
     }
   }
 
-  /// Torque of a winding's terminal ampere; of the rms value where the sheet prints that.
+  /// Torque per ampere of the current that the sheet prints: of the terminal, or of the rms value.
   Term per_ampere() const {
     const bool rms = s_.nominal_current_A && s_.nominal_current_A->frame == "rms";
     return rms ? Term{torque_per_rms_A(c_.K_e_V_s->value, c_.shape), K_t_->doubt} : *K_t_;
   }
 
-  /// Slowest nominal speed that a warm motor explains: by the usual drop, or by winding and commutation.
+  /// Lowest nominal speed that a warm motor explains, by the usual drop, or by warm winding and commutation.
   double slowest_nominal(const Term& top, const Term& drop, double torque_Nm) const {
     const double current_A = torque_Nm / K_t_->value + (idle_ ? idle_->value : 0.0);
     return std::fmin(top.value - most_nominal_drop * drop.value,
                      (top.value - warm_winding * drop.value) / (1.0 + commutation_part(c_, current_A)));
   }
 
-  /// The nominal point lies on the no-load speed minus gradient times torque, or below it by the additional
-  /// drop of a warm motor.
+  /// Compares the nominal speed with the no-load speed minus gradient times torque. It may be lower by the
+  /// additional drop of a warm motor.
   void nominal_speed() {
     const std::optional<Term> printed = term(s_.nominal_speed_rpm), current = term(s_.nominal_current_A);
     if (!printed) return;
@@ -210,15 +211,16 @@ class Relations {
   void nominal() {
     const std::optional<Term> torque = term(s_.nominal_torque_mNm), current = term(s_.nominal_current_A);
     if (torque && current && K_t_) {
-      // Some sheets subtract the friction, K_t (I_N - I_0), others do not; no torque is above K_t I_N.
+      // Some sheets subtract the friction, K_t (I_N - I_0), others do not. No torque is above K_t I_N.
       const bool rms = s_.nominal_current_A->frame == "rms", known = idle_ && idle_->value < current->value;
       const Term computed = per_ampere() * *current * 1e3;
       double friction = 0.0;
       if (known && !rms) {
-        // I/(I - I_0) - 1 at the ends of both roundings. Without friction the rounding of I is in I K_t already.
+        // I/(I - I_0) - 1, with I and I_0 at the ends of their rounding. Without friction the rounding of I
+        // is contained in I K_t already.
         const double idle = idle_->value * (1.0 + idle_->doubt),
                      least = current->value * (1.0 - current->doubt);
-        // This factor is in addition to that of the rounding, which add() adds.
+        // This factor multiplies that of the rounding, which add() adds.
         const double share = (1.0 + computed.doubt + torque->doubt) * idle / (least - idle);
         friction = idle < least ? std::fmin(share, most_above) : most_above;
       }
@@ -229,8 +231,9 @@ class Relations {
     }
     if (const std::optional<Term> printed = term(s_.max_efficiency_percent);
         printed && idle_ && stall_ && idle_->value < stall_->value) {
-      // With x = sqrt(I_0/I_stall): (1 - x)^2 if friction is the same at every speed, (1 - x)/(1 + x) if it grows
-      // with speed; both at the current sqrt(I_0 I_stall). An error d of the ratio is x d/(1 - x) of the result.
+      // With x = sqrt(I_0/I_stall) the best efficiency is (1 - x)^2 if friction is the same at every speed,
+      // and (1 - x)/(1 + x) if it grows with speed, both at the current sqrt(I_0 I_stall). A relative error d
+      // of the ratio changes the result by x d/(1 - x).
       const double x = std::sqrt(idle_->value / stall_->value);
       const Term computed = {100.0 * (1.0 - x) * (1.0 - x), (idle_->doubt + stall_->doubt) * x / (1.0 - x)};
       const double viscous = 100.0 * (1.0 - x) / (1.0 + x);
@@ -255,7 +258,7 @@ class Relations {
           steepness * (base::rpm_per_rad_s * 1e-3), *printed, "rpm/mNm");
   }
 
-  /// Rounding error of the rotor's dimensions in r^4 - r_i^4.
+  /// Relative rounding error of r^4 - r_i^4 from the rotor's dimensions.
   double body_doubt() const {
     const auto doubt = [](const std::optional<Quantity>& q) { return q ? relative_doubt(*q) : 0.0; };
     const double r = s_.rotor_radius_mm ? s_.rotor_radius_mm->value : 0.0;
@@ -267,7 +270,7 @@ class Relations {
     return radii + doubt(s_.rotor_length_mm) + doubt(s_.rotor_density_kg_m3);
   }
 
-  /// Compares the printed inertia with that of the dimensions.
+  /// Compares the printed inertia with that of the rotor's dimensions.
   void body() {
     if (!c_.J_of_body_kg_m2 || !s_.inertia_gcm2 || !J_) return;
     const Term printed{s_.inertia_gcm2->value, relative_doubt(*s_.inertia_gcm2)};
@@ -278,8 +281,8 @@ class Relations {
       r.remark = "a factor 16: a diameter for the radius?";
   }
 
-  /// This is no relation of the motor, because a bus may be lower than its nominal voltage. A speed far above
-  /// the allowed one is a misread line.
+  /// Checks the no-load speed against the mechanical limit. The two need not agree, because a bus may be
+  /// lower than the nominal voltage. But a speed far above the limit is a line that was read wrongly.
   void mechanics() {
     const std::optional<Term> allowed = term(s_.max_speed_rpm), printed = term(s_.no_load_speed_rpm);
     if (!allowed || !(printed || (U_ && K_t_))) return;
@@ -294,7 +297,7 @@ class Relations {
       r.remark = "at its nominal voltage it would turn far faster than its mechanics allow";
   }
 
-  /// A contradiction is a Problem already; here a line says that both agree.
+  /// Says that two lines of the pole pairs agree. If they contradict each other, that is a Problem already.
   void winding() {
     if (!s_.pole_pairs || (s_.winding.empty() && !s_.poles) || !c_.pole_pairs) return;
     const double pairs = *c_.pole_pairs;

@@ -13,8 +13,8 @@ constexpr Spelling linear(std::string_view key, std::string_view unit, int ten =
   return {.key = key, .ten = ten, .unit = unit, .factor = factor, .linear = true};
 }
 
-/// A line of maxon's sheets, whose numbers and frames have not changed over the years.
-/// `meaning` replaces a key's meaning that offers a choice of frames.
+/// A line of maxon's sheets, whose numbers and frames have not changed over the years. `meaning` replaces the
+/// meaning of a key that offers a choice of frames.
 constexpr Spelling line(std::string_view key, std::string_view source, std::string_view frame = "",
                         std::string_view meaning = "") {
   return {.key = key, .frame = frame, .source = source, .meaning = meaning};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the torque constant in all its printed forms, and computes the peak phase EMF K_e from each. For a sine the
-// factors are model.md 1's table of constants; for a trapezoid they are those of its own shape.
+// Reads the torque constant in all its printed forms, and computes the peak back-EMF K_e of a phase from
+// each. For a sine the factors are those of model.md 1's table of constants; for a trapezoid they follow from
+// its shape.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,7 +24,8 @@ struct Constants {
 
 constexpr int milli = -3;
 
-/// One printed form: its possible frames (a single one: no choice), and the meaning of a value in a frame.
+/// One printed form: its possible frames (if there is only one, the file need not give it), and its
+/// conversion.
 struct Way {
   std::string_view key;
   const std::optional<Quantity> Sheet::*member;
@@ -34,14 +36,16 @@ struct Way {
 Constants by_K_t(double K_t, const ShapeFactors& f) { return {K_t / f.sector_mean, K_t}; }
 Constants by_K_e(double K_e, const ShapeFactors& f) { return {K_e, K_e * f.sector_mean}; }
 
-/// A q-axis current of peak I makes the torque (3/2) K_e1 I, K_e1 the fundamental's peak; rms is peak/sqrt 2.
+/// Torque constants in N m/A. A q-axis current of peak I makes the torque (3/2) K_e1 I, K_e1 the
+/// fundamental's peak; rms is peak/sqrt 2.
 Constants by_torque(double value, std::string_view frame, const ShapeFactors& f, double) {
   if (frame == "terminal") return by_K_t(value, f);
   const double peak = frame == "rms" ? value / std::sqrt(2.0) : value;
   return by_K_e(2.0 * peak / (3.0 * f.fundamental), f);
 }
 
-/// 1000 rpm are 104.72 rad/s. Six-step: the mean between the driven pair over a sector, whose V s are K_t's N m/A.
+/// Back-EMF constants in V/krpm; 1000 rpm are 104.72 rad/s. Six-step: the mean voltage between the driven
+/// pair over a sector, whose V s are K_t's N m/A.
 Constants by_volts(double value, std::string_view frame, const ShapeFactors& f, double) {
   const double V_s = value / (1000.0 * base::pi / 30.0);
   if (frame == "six-step") return by_K_t(V_s, f);
@@ -52,7 +56,8 @@ Constants by_volts(double value, std::string_view frame, const ShapeFactors& f, 
   return by_K_e(V_s / factor, f);
 }
 
-/// Six-step: the mean voltage of the driven pair, K_t = 9.5493/KV. Line-peak: the crest between terminals.
+/// Speed constants in rpm/V. Six-step: the mean voltage of the driven pair, K_t = 9.5493/KV. Line-peak: the
+/// peak voltage between terminals.
 Constants by_speed(double value, std::string_view frame, const ShapeFactors& f, double) {
   const double V_s = 30.0 / base::pi / value;
   return frame == "six-step" ? by_K_t(V_s, f) : by_K_e(V_s / f.line_peak, f);
@@ -114,7 +119,8 @@ struct Read {
   std::string from;
 };
 
-/// K_t = 2 B l r N (thesis 1.1): N turns in series have 2 N conductors, each with force B l i at radius r.
+/// K_t = 2 B l r N (thesis 1.1): N turns in series have 2 N conductors, each with the force B l i at the
+/// radius r.
 void read_geometry(SheetReader& reader, std::vector<Read>& reads) {
   const Sheet& s = reader.sheet;
   const std::pair<std::string_view, const std::optional<Quantity>*> parts[] = {
@@ -186,7 +192,8 @@ void read_torque_constant(SheetReader& reader) {
   const Read& first = reads.front();
   Constants c = first.constants;
   std::size_t used = 1;
-  // Terminal torque constant and phase back-EMF are the same fact and both are used unchanged: they must agree.
+  // The torque constant between terminals and the back-EMF of a phase state one fact, and both are used
+  // unchanged: they must agree.
   if (first.key == "torque_constant_mNm_A" && reads.size() > 1 && reads[1].key == "back_emf_mV_s") {
     const double implied = c.K_e_V_s;
     c.K_e_V_s = reads[1].constants.K_e_V_s;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the pole pairs from a sheet's pairs, poles, or winding code.
+// Reads the pole pairs from a sheet's pole pairs, poles, or winding code.
 #include <charconv>
 
 #include "sixstep/design/sheet/sheet_description.hpp"
@@ -17,7 +17,8 @@ struct Winding {
   int poles = 0;
 };
 
-/// "12N14P", upper or lower case, with optional spaces between the two halves.
+/// Teeth and poles of a code such as "12N14P", in upper or lower case, with optional spaces between its
+/// halves.
 std::optional<Winding> parsed(std::string_view text) {
   const auto number = [&](char letter) -> std::optional<int> {
     while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
@@ -67,7 +68,7 @@ std::optional<int> of_poles(SheetReader& reader) {
   return {};
 }
 
-/// Compares the given pole pairs with those from another line.
+/// Compares the given pole pairs with the number `other` from another line.
 void compare(SheetReader& reader, int pole_pairs, int other, const std::string& other_line) {
   if (pole_pairs == other) return;
   const std::string pairs = std::to_string(other);

@@ -11,11 +11,12 @@ namespace sixstep::design {
 
 struct WorseEnds {
   ThermalModel model;
-  std::string values;  ///< the differing ones, as the motor file writes them: "key = 11.7, key = 5.3"
+  std::string values;  ///< the values that differ, as the motor file writes them: "key = 11.7, key = 5.3"
 };
 
-/// Higher resistances, shorter time constants (at a given resistance less copper and iron to warm) and a lower limit
-/// are worse. Empty if the sheet's thermal lines are incomplete or no range has an end worse than its value.
+/// The worse ends. Higher resistances and a lower limit are worse, and so are shorter time constants, because
+/// at a given resistance less copper and iron must be heated. Empty if the sheet's thermal lines are
+/// incomplete, or if no range has an end worse than its value.
 std::optional<WorseEnds> at_worse_ends(const Sheet& sheet);
 
 /// How long a winding that starts at ambient temperature withstands a heating, s. Empty: without end.

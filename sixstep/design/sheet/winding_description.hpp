@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The keys of a motor file for poles and windings: the only definition of their names, units, frames and meanings.
+// The keys of a motor file for poles and windings. Their names, units, frames and meanings are defined only
+// here.
 #pragma once
 #include "sixstep/base/visitor.hpp"
 #include "sixstep/design/sheet/sheet.hpp"
@@ -7,14 +8,15 @@
 
 namespace sixstep::design {
 
-/// The ring motors of telescopes have a hundred pole pairs.
+/// Bounds of the keys; the ring motors of telescopes have a hundred pole pairs.
 inline constexpr int most_pole_pairs = 500, most_turns = 100'000;
 
-/// Highest harmonic of a back-EMF; higher ones are noise of a measurement.
+/// Highest order of a harmonic of the back-EMF; higher ones are noise of a measurement.
 inline constexpr int highest_order = 23;
 
-/// Bounds for a back-EMF table: number of points, their smallest distance, mean over the turn relative to the
-/// peak-to-peak value, and the least torque of the sectors' pairs relative to the line's peak (a sine has 0.955).
+/// Bounds of a back-EMF table: the number of its points; their smallest distance; its mean over a turn
+/// relative to the peak-to-peak value; and the least torque of the sectors' pairs relative to the line's peak
+/// (0.955 for a sine).
 inline constexpr std::size_t most_shape_points = 1000;
 inline constexpr double least_shape_step_deg = 0.01, most_shape_mean = 1e-3, least_shape_torque = 0.2;
 

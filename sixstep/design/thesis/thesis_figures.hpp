@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Intermediate numbers that the thesis prints, for comparison with the tool. They have its rounding, and an error:
-// its gains belong to the poles that it prints, and those to w0 = 5504 rad/s, not 5111.
+// Intermediate numbers that the thesis prints, for comparison with those that sixstep computes. They have the
+// thesis's rounding, and an error: its gains belong to the poles that it prints, but these poles belong to w0
+// = 5504 rad/s, not to the printed 5111.
 #pragma once
 #include <optional>
 #include <string_view>
@@ -9,8 +10,8 @@
 
 namespace sixstep::design {
 
-/// Printed value for a symbol of PolePlacement::steps; empty for another motor, period or spec, and for values that
-/// the thesis does not print. Loops: "current", "speed".
+/// The printed value for a symbol of PolePlacement::steps. Empty for another motor, period or spec, and for
+/// values that the thesis does not print. `loop`: "current" or "speed".
 std::optional<double> thesis_figure(std::string_view loop, const PolePlacement& design,
                                     std::string_view symbol);
 

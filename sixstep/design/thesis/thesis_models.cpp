@@ -10,7 +10,8 @@ namespace sixstep::design {
 double trapezoid(base::ElectricalAngle theta_e, double flat_deg) {
   const double turns = theta_e.rad / base::turn_rad;
   const double deg = (turns - std::floor(turns)) * 360.0;
-  // Symmetric about the middle of the positive top, odd about 90 degrees from it.
+  // The trapezoid is symmetric about the middle of its positive top, and odd about the angle 90 degrees from
+  // it.
   double from_top = std::abs(deg - 60.0);
   if (from_top > 180.0) from_top = 360.0 - from_top;
   const double ramp = 90.0 - flat_deg / 2.0;
@@ -21,7 +22,8 @@ double trapezoid(base::ElectricalAngle theta_e, double flat_deg) {
 base::Abc<double> back_emf_shape(const plant::Machine& m, base::ElectricalAngle theta_e) {
   const double third = base::turn_rad / 3.0;
   if (m.back_emf == plant::BackEmf::sine) {
-    const double top = base::turn_rad / 6.0;  // cos(theta - 60 degrees), b and c later by 120 and 240
+    const double top = base::turn_rad / 6.0;  // the sine of phase a is cos(theta - 60 degrees); those of b
+                                              // and c follow by 120 and 240
     return {base::cos(theta_e.rad - top), base::cos(theta_e.rad - top - third),
             base::cos(theta_e.rad - top - 2.0 * third)};
   }
@@ -34,9 +36,10 @@ double electromagnetic_torque(const plant::Machine& m, const base::Abc<double>& 
   return m.K_e_V_s * (f.a * i.a + f.b * i.b + f.c * i.c);
 }
 
-// Thesis 3.11, corrected: the EMF enters the current rows with a minus and K_t/2 (it opposes the current),
-// the torque enters the speed row over J, -1/J is in the speed row, each phase has its 1/(L - M). The
-// thesis's last state is theta_e with p under w; here it is theta_m with 1.
+// Thesis 3.11, corrected. The back-EMF enters the current rows with a minus and K_t/2, because it opposes the
+// current. The torque enters the speed row over J, and -1/J of the load is in the speed row. Each phase has
+// its 1/(L - M). The thesis's last state is theta_e, whose derivative is p w; here it is theta_m, whose
+// derivative is w.
 //   L i_k' = u_kn - R i_k - K_e f_k w      J w' = K_e sum f_k i_k - B w - T_load      theta_m' = w
 StateSpace<5, 4> phase_voltage_model(const plant::Machine& m, const plant::Shaft& s,
                                      base::MechanicalAngle theta_m) {
@@ -56,8 +59,8 @@ StateSpace<5, 4> phase_voltage_model(const plant::Machine& m, const plant::Shaft
   return model;
 }
 
-// Thesis 3.15 and 3.16, corrected: u_bc - e_bc = R (2 i_b + i_a) + L (2 i_b' + i_a') since
-// i_c = -i_a - i_b; solved,
+// Thesis 3.15 and 3.16, corrected: u_bc - e_bc = R (2 i_b + i_a) + L (2 i_b' + i_a') because i_c = -i_a -
+// i_b. Solved for the derivatives,
 //   i_a' = -R/L i_a + (2 (u_ab - e_ab) + (u_bc - e_bc))/(3 L)
 //   i_b' = -R/L i_b + ((u_bc - e_bc) - (u_ab - e_ab))/(3 L)
 // with e_ab = K_e (f_a - f_b) w, e_bc = K_e (f_b - f_c) w, and T_e = K_e ((f_a - f_c) i_a + (f_b - f_c) i_b).

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The thesis's two models of the machine (chapter 3, errata applied) as state spaces x' = A(theta) x + B u, without
-// bridge and diodes. Textbooks integrate such models; the simulator's plant is tested against them.
+// The thesis's two models of the machine (chapter 3, errata applied) as state spaces x' = A(theta) x + B u,
+// without bridge and diodes. Textbooks integrate such models; tests compare the simulator's plant with them.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -31,24 +31,25 @@ struct StateSpace {
   }
 };
 
-/// Trapezoid of peak 1, +1 within flat/2 of theta_e = 60 degrees, straight ramps between the tops (model.md
-/// 1).
+/// Trapezoid of peak 1: +1 within flat/2 of theta_e = 60 degrees, -1 half a turn later, with straight ramps
+/// between (model.md 1).
 double trapezoid(base::ElectricalAngle theta_e, double flat_deg = 120.0);
 
-/// f_a, f_b, f_c of the machine at this angle: one shape, each phase 120 degrees after the one before.
+/// Shapes f_a, f_b, f_c of the machine at this angle: the same shape, each phase 120 degrees later than the
+/// one before.
 base::Abc<double> back_emf_shape(const plant::Machine& machine, base::ElectricalAngle theta_e);
 
-/// T_e = K_e sum f_k i_k (model.md (3)), defined at standstill too.
+/// Torque, N m: T_e = K_e sum f_k i_k (model.md (3)), defined at standstill too.
 double electromagnetic_torque(const plant::Machine& machine, const base::Abc<double>& f,
                               const base::Abc<double>& i_A);
 
-/// Thesis 3.11. States i_a, i_b, i_c (A), w_m (rad/s), theta_m (rad); inputs u_an, u_bn, u_cn against the
-/// star point (V), T_load (N m). Keeps i_a + i_b + i_c = 0 only where the inputs sum to the EMFs, as those of
-/// a real star do.
+/// Thesis 3.11. States: i_a, i_b, i_c (A), w_m (rad/s), theta_m (rad). Inputs: u_an, u_bn, u_cn against the
+/// star point (V), T_load (N m). i_a + i_b + i_c stays 0 only if the sum of the voltages equals that of the
+/// back-EMFs, as at a real star point.
 StateSpace<5, 4> phase_voltage_model(const plant::Machine& machine, const plant::Shaft& shaft,
                                      base::MechanicalAngle theta_m);
 
-/// Thesis 3.16. States i_a, i_b (A), w_m (rad/s), theta_m (rad); inputs u_ab, u_bc (V), T_load (N m).
+/// Thesis 3.16. States: i_a, i_b (A), w_m (rad/s), theta_m (rad). Inputs: u_ab, u_bc (V), T_load (N m).
 StateSpace<4, 3> terminal_voltage_model(const plant::Machine& machine, const plant::Shaft& shaft,
                                         base::MechanicalAngle theta_m);
 

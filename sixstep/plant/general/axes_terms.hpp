@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Currents and torque of a machine whose fluxes along the magnet's axis and across it have their own laws (model.md
-// 7): lambda_d = L_d i_d (1 - i_d/(2 I_sat)), lambda_q = L_q i_q, in the stator's two axes. The newest current of an
-// order enters its fluxes linearly, multiplied by the incremental inductances, so that the equations are solved for
-// it.
+// Currents and torque of a machine with saliency or saturation: the flux along the magnet's axis (d) and the
+// flux across it (q) have their own laws (model.md 7), lambda_d = L_d i_d (1 - i_d/(2 I_sat)), lambda_q = L_q
+// i_q. The equations are solved in the stator's two axes. The current of the newest order enters its flux
+// linearly, multiplied by the incremental inductance, so that each order is a linear equation for that
+// current.
 #pragma once
 #include "sixstep/plant/general/constants.hpp"
 
@@ -25,7 +26,7 @@ class AxesTerms {
     z_.q[0] = cos_[0] * beta_[0] - sin_[0] * alpha_[0];
     flux_d_[0] = c_.axes.L_d * z_.d[0] * (1 - z_.d[0] * c_.axes.inv_I_sat / 2);
     flux_q_[0] = c_.axes.L_q * z_.q[0];
-    // Incremental inductances along d and along q, then transformed to the stator's axes.
+    // Incremental inductances along d and along q, transformed to the stator's axes.
     const Real along = c_.axes.L_d * (1 - z_.d[0] * c_.axes.inv_I_sat), across = c_.axes.L_q;
     aa_ = cos_[0] * cos_[0] * along + sin_[0] * sin_[0] * across;
     bb_ = sin_[0] * sin_[0] * along + cos_[0] * cos_[0] * across;
@@ -33,9 +34,10 @@ class AxesTerms {
     along_ = along;
   }
 
-  /// Computes the currents of order n + 1 from u_k - R_k i_k - e_k of order n; f = h/(n + 1). The first `connected`
-  /// of `leg` are connected, and `drive` is in their order. Returns the voltage that the flux's change adds to the
-  /// pole voltage of a floating leg: 3/2 of that leg's own.
+  /// Computes the currents of order n + 1 from `drive`, which is u_k - R_k i_k - e_k of order n in the order
+  /// of `leg`; f = h/(n + 1). The first `connected` entries of `leg` are the connected legs. Returns the
+  /// voltage that the flux's change adds to the pole voltage of a floating leg: 3/2 of the voltage induced in
+  /// that leg.
   Real take_order(int n, Real f, const PerLeg<Real>& drive, int connected, const std::array<int, 3>& leg) {
     turn(n + 1);
     const Changes without = without_newest(n + 1);
@@ -48,7 +50,8 @@ class AxesTerms {
       y_.i[1][n + 1] = -alpha / 2 + Real(half_root3_l) * beta;
       y_.i[2][n + 1] = -alpha / 2 - Real(half_root3_l) * beta;
     } else if (connected == 2) {
-      // Along the pair: lambda_j - lambda_k = g . lambda, and a current i from j to k is (2/3) g i.
+      // Flux along the pair: lambda_j - lambda_k = g . lambda. A current i from j to k is the vector (2/3) g
+      // i.
       const int j = leg[0], k = leg[1];
       const Real g_alpha = axis_alpha[j] - axis_alpha[k], g_beta = axis_beta[j] - axis_beta[k];
       const Real L = Real(2.0L / 3) *
@@ -78,7 +81,7 @@ class AxesTerms {
     Real d = 0, q = 0, flux_d = 0, flux_q = 0, alpha = 0, beta = 0;
   };
 
-  /// theta_d = theta_e - 150 deg
+  /// cos and sin of theta_d = theta_e - 150 deg, the angle of the magnet's axis.
   void turn(int n) {
     const Real cos = z_.cos[c_.axes.rotation][n], sin = z_.sin[c_.axes.rotation][n];
     cos_[n] = sin / 2 - Real(half_root3_l) * cos;
@@ -91,7 +94,7 @@ class AxesTerms {
     beta_[n] = beta_of(n);
   }
 
-  /// The changes of order n without the part of that order's own currents.
+  /// The changes of the fluxes of order n, without the part that the currents of order n cause.
   Changes without_newest(int n) const {
     Changes to;
     for (int j = 1; j <= n; ++j) {

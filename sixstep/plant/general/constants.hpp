@@ -9,21 +9,22 @@ namespace sixstep::plant::general {
 
 inline constexpr std::size_t most_rotations = 12;
 
-/// A torque over the load's speed between two of its points: now + rise w, N m.
+/// A piece of a torque over the load's speed, linear between two points of the table: now + rise w, N m.
 template <class Real>
 struct TorquePiece {
   Real from = 0, to = 0;  ///< rad/s of the load
   Real now = 0, rise = 0;
 };
 
-/// The open-circuit voltage over the charge between two of its points: now + rise q, V.
+/// A piece of the open-circuit voltage over the charge, linear between two points of the table: now + rise q,
+/// V.
 template <class Real>
 struct ChargePiece {
   Real from = 0, to = 0;
   Real now = 0, rise = 0;
 };
 
-/// lambda_d = L_d i_d (1 - i_d/(2 I_sat)), lambda_q = L_q i_q.
+/// Fluxes of the magnet's axes, V s: lambda_d = L_d i_d (1 - i_d/(2 I_sat)), lambda_q = L_q i_q.
 template <class Real>
 struct Axes {
   Real L_d = 0, L_q = 0, inv_I_sat = 0;
@@ -32,7 +33,7 @@ struct Axes {
 
 template <class Real>
 struct Constants {
-  // Star equivalent: phases of R and L. A delta's loop has values of its own.
+  // Star equivalent: phases of R and L. The loop of a delta has its own R and L, `loop_R` and `loop_inv_L`.
   PerLeg<Real> R{};
   Real L = 0, inv_L = 0;
   bool has_axes = false, has_loop = false;
@@ -41,7 +42,8 @@ struct Constants {
   ShapeTable<Real> shape;
   std::size_t rotations = 0;
   Real pole_pairs = 1;
-  // Shaft. inv_J and B: with a rigid shaft including the load's, with an elastic one the motor's side alone.
+  // Shaft. inv_J and B include the load's side if the shaft is rigid; if it is elastic, they are the motor's
+  // alone.
   Real inv_J = 0, B = 0, coulomb = 0, breakaway = 0, gear = 1, inv_gear = 1;
   Real J_1 = 0, B_1 = 0, efficiency = 1;
   bool elastic = false, dry_friction = false, locked = false, imposed = false;
@@ -69,7 +71,7 @@ struct Constants {
        mains_edge = 0;  ///< mains_rate in rad/s; mains_edge: edge of a pulse, rad
   // Scales and noise levels of rounding.
   Real volt_scale = 0, amp_scale = 0, speed_scale = 0, torque_scale = 0;
-  Real per_amp = 0, per_speed = 0;  ///< 1 over their scales
+  Real per_amp = 0, per_speed = 0;  ///< 1/amp_scale, 1/speed_scale
   Real volt_noise = 0, amp_noise = 0, speed_noise = 0, torque_noise = 0;
   Real steady_rate = 0, turning_rate = 0;  ///< 1/s, and 1/s per mechanical rad/s
 
@@ -99,11 +101,11 @@ void for_each_kept(const More<Real>& m, Visit&& visit) {
     visit(*kept);
 }
 
-/// The members of plant::Mode, and those of this kernel alone.
+/// The members of plant::Mode, and more that only this kernel has.
 struct Mode {
   Legs legs{};
   Motion motion = Motion::free;
-  bool source_feeds = true;  ///< false: the source is at the limit of the current that it takes back
+  bool source_feeds = true;  ///< false: the source takes back the largest current that it can
   std::uint8_t sector = 0;
   std::uint16_t piece = 0;       ///< a back-EMF table has many pieces
   bool braking = false;          ///< the brake resistor is on
@@ -113,7 +115,7 @@ struct Mode {
   bool operator==(const Mode&) const = default;
 };
 
-/// Series of one segment in addition to those of both kernels.
+/// Series of one segment in addition to those of plant::Expansion.
 template <class Real>
 struct Series {
   using Coefficients = series::Coefficients<Real>;
@@ -123,11 +125,12 @@ struct Series {
   Coefficients loop, source, load_w, twist;
   Coefficients load, cogging;       ///< torque of the load at its side, cogging torque at the motor
   Coefficients through;             ///< lossy gear: the torque that it transmits, at the load's side
-  Coefficients forward, backward;   ///< torque against the breakaway torque at rest, for either direction
+  Coefficients forward, backward;   ///< motor torque that the breakaway torque opposes at rest, forward and
+                                    ///< backward
   Coefficients turn_cos, turn_sin;  ///< cos and sin of the load's angle, for gravity
-  Coefficients open;                ///< the source's V_0
+  Coefficients open;                ///< open voltage V_0 of the source
   Coefficients capacitor, capacitor_A, charge, slow, phase, mains_cos, mains_sin;
-  Coefficients d, q;  ///< currents along the magnet's axes, if these have their own laws
+  Coefficients d, q;  ///< currents along and across the magnet's axis, if the two axes have their own laws
   std::array<Coefficients, most_rotations> cos, sin;
 };
 

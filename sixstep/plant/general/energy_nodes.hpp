@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values of the general plant's series at the nodes of a quadrature, and the losses of copper and devices over a part
-// of a segment. Used by the audit, and by the plant itself when it simulates temperatures.
+// Values of the general plant's series at the nodes of a quadrature, and the losses of copper and devices
+// over a part of a segment. The audit uses them, and the plant itself when it simulates temperatures.
 #pragma once
 #include "sixstep/plant/general/constants.hpp"
 #include "sixstep/series/quadrature.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Expands the general plant's series over one segment, order by order until the rest is rounding; the segment is
-// shortened if the highest degree does not suffice.
+// Expands the general plant's series over one segment, order by order until the remaining terms are below
+// rounding. If the highest degree does not suffice, the segment is shortened.
 #pragma once
 #include "sixstep/plant/expand.hpp"
 #include "sixstep/plant/general/recurrence.hpp"
@@ -10,8 +10,8 @@ namespace sixstep::plant::general {
 
 namespace detail {
 
-/// cos and sin of m theta_e at the rotor's position: the sector by exact sixths of a turn, the angle within it
-/// separately.
+/// cos and sin of m theta_e at the rotor's position. The sector is turned by exact sixths of a turn, and the
+/// angle within the sector is added separately.
 template <class Real>
 void rotation_at(int order, const State<Real>& s, int sector, Real& cos, Real& sin) {
   Real turn_cos, turn_sin;
@@ -61,7 +61,8 @@ void begin(const Constants<Real>& c, const State<Real>& s, const More<Real>& m, 
   }
 }
 
-/// Sets the terms of the last order for quantities that follow from the states: those have none.
+/// Sets the last term of the quantities that follow from the states: the recurrence computes one term more
+/// for states.
 template <class Real>
 void end(const Constants<Real>& c, Expansion<Real>& y, Series<Real>& z) {
   const int n = y.degree;
@@ -81,7 +82,7 @@ bool moves_more(const Constants<Real>& c) {
          c.gravity != 0;
 }
 
-/// Part of size_of() for all other quantities.
+/// Part of size_of() for the quantities other than currents and speed.
 template <class Real>
 [[gnu::noinline]] Real size_of_more(const Constants<Real>& c, const Expansion<Real>& y, const Series<Real>& z,
                                     int n) {
@@ -140,7 +141,8 @@ void shorten(const Constants<Real>& c, Expansion<Real>& y, Series<Real>& z) {
   y.h *= half;
 }
 
-/// x_(n+1) = p h w_n/(n + 1): after its first term at most half of p h times the change of the speed.
+/// Bounds of the changes. By x_(n+1) = p h w_n/(n + 1), the terms of x after its first are at most half of p
+/// h times the change of the speed.
 template <class Real>
 [[gnu::always_inline]] inline void note_reach(const Constants<Real>& c, const Mode& mode,
                                               Expansion<Real>& y) {
@@ -160,7 +162,8 @@ template <class Real>
   ShaftTerms<Real> shaft(c, mode, m.load.value, y, z);
   Recurrence<Real> recurrence(c, mode, y, z);
   const bool more = moves_more(c);
-  // At rest and without current some terms are zero by symmetry: a zero term then proves nothing.
+  // At rest and without current some terms are zero by symmetry: a zero term does not show that the series
+  // converged.
   const bool from_nothing = s.w == 0 && s.i[0] == 0 && s.i[1] == 0;
   Real last = 0, before = 0;
   bool reached = false;
@@ -179,7 +182,7 @@ template <class Real>
 
 }  // namespace detail
 
-/// Expands only the start: terms 0 of voltages and torques, terms 1 of the states.
+/// Expands only the first terms: term 0 of voltages and torques, term 1 of the states.
 template <class Real>
 void expand_first(const Constants<Real>& c, const State<Real>& s, const More<Real>& m, Mode& mode, Real h,
                   Expansion<Real>& y, Series<Real>& z) {
@@ -190,17 +193,18 @@ void expand_first(const Constants<Real>& c, const State<Real>& s, const More<Rea
   Recurrence<Real>(c, mode, y, z).take_order(0, shaft);
 }
 
-/// Expands the state in the given mode over `wanted` seconds, or over less where full accuracy requires it.
+/// Expands the state in the given mode over `wanted`, s, or over less where full accuracy requires it.
 template <class Real>
 void expand(const Constants<Real>& c, const State<Real>& s, const More<Real>& m, Mode& mode, Real wanted,
             Expansion<Real>& y, Series<Real>& z) {
   detail::grow(c, s, m, mode, wanted, y, z);
 }
-/// For double it is compiled once for any x86-64 and once for those with AVX (plant/expand.hpp), with the same bits.
+/// The version for double is compiled once for any x86-64 and once for those with AVX (plant/expand.hpp);
+/// both give the same bits.
 void expand(const Constants<double>& c, const State<double>& s, const More<double>& m, Mode& mode,
             double wanted, Expansion<double>& y, Series<double>& z);
 
-/// `wanted`, or half of the fastest time constant if that is less.
+/// `wanted`, s, or half of the fastest time constant if that is less.
 template <class Real>
 Real useful_length(const Constants<Real>& c, const State<Real>& s, Real wanted) {
   const Real rate = c.steady_rate + c.turning_rate * plant::detail::abs(s.w);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Voltage that is assumed for an unconnected star point (plant/circuit.hpp), also with broken wires.
+// Voltage that the model assumes for an unconnected star point (plant/circuit.hpp), also with broken wires.
 #pragma once
 #include <cstddef>
 
@@ -11,8 +11,9 @@ struct StarEnds {
   std::size_t high = 0, low = 0;
 };
 
-/// The highest and the lowest terminal; u_n = (U_s - e_high - e_low)/2 centres them. A terminal behind a broken wire
-/// (`dead`, a mask of legs) is not near any rail and does not count; if all wires are broken, all three count.
+/// Legs with the highest and the lowest terminal; u_n = (U_s - e_high - e_low)/2 centres both between the
+/// rails. A terminal behind a broken wire (`dead`, a mask of legs) cannot conduct to a rail and does not
+/// count. If all wires are broken, all three count.
 template <class Real>
 constexpr StarEnds star_ends(const PerLeg<Real>& e, unsigned dead) {
   if (dead == 0b111) dead = 0;

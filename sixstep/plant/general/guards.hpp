@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Guards of the general plant: values that stay >= 0 while a mode holds, from the same series as its dynamics
-// (plant/guards.hpp). A floating leg stays between the voltages at which it would begin to conduct in either
-// direction: without a gate those of its diodes, for an IGBT with a gate also that of its transistor (model.md 2).
+// (plant/guards.hpp). A floating leg stays between the two voltages at which it would begin to conduct.
+// Without a gate its diodes set both voltages; for an IGBT with a gate its transistor sets one of them
+// (model.md 2).
 #pragma once
 #include "sixstep/plant/general/expand.hpp"
 #include "sixstep/plant/general/leg_connections.hpp"
@@ -11,7 +12,7 @@ namespace sixstep::plant::general {
 
 namespace detail {
 
-/// sign (pole voltage of `at` without current - u), as a series.
+/// sign (pole voltage of connection `at` without current - u), V, as a series.
 template <class Real>
 series::Coefficients<Real> beyond(const PoleTerms<Real>& at, const Expansion<Real>& y,
                                   const series::Coefficients<Real>& u, Real sign) {
@@ -32,7 +33,8 @@ void leg_guards(const Constants<Real>& c, const Gates& gates, const Mode& mode, 
     for (unsigned j = 0; j < 3; ++j)
       for (unsigned k = 0; k < 3; ++k) {
         if (j == k || (dead >> j & 1) != 0 || (dead >> k & 1) != 0) continue;
-        // e_j - e_k is at most the distance from k's positive connection up to j's negative one.
+        // The guard is >= 0 while e_j - e_k is too small to drive a current into the motor at leg k and out
+        // of it at leg j.
         series::Coefficients<Real> g = beyond(c.terms(j, ways[j].negative), y, z.pole[j], Real(1));
         const series::Coefficients<Real> low = beyond(c.terms(k, ways[k].positive), y, z.pole[k], Real(-1));
         for (int n = 0; n <= y.degree; ++n) g[n] += low[n];
@@ -73,7 +75,7 @@ void friction_guards(const Constants<Real>& c, const Mode& mode, const Expansion
   visit(guard::breakaway_backward, affine(z.backward, y.degree, Real(1), c.breakaway), y.degree, noise);
 }
 
-/// Guards of from <= of <= to, except at the outer ends of the table.
+/// Guards of from <= of <= to for one piece of a table; the table's first and last piece are open outwards.
 template <class Real, class Pieces, class Visit>
 void piece_guards(const Pieces& pieces, std::size_t at, const series::Coefficients<Real>& of, int degree,
                   int up, int down, Real noise, Visit&& visit) {
@@ -98,7 +100,7 @@ void shaft_guards(const Constants<Real>& c, const Mode& mode, const Expansion<Re
                  visit);
 }
 
-/// Without L_b the limit of the current is a limit of the voltage: V_0 + R_b I_sink.
+/// Without L_b the limit of the current is a limit of the voltage: the bus stays below V_0 + R_b I_sink.
 template <class Real, class Visit>
 void source_guard(const Constants<Real>& c, const Mode& mode, const Expansion<Real>& y, const Series<Real>& z,
                   Real slack, Visit&& visit) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Temperatures of copper, magnets and channels (model.md 8). Losses are summed over thermal steps. At the end of each
-// step the two bodies are solved exactly with the step's mean powers, and R, K_e and R_on follow.
+// Temperatures of copper, magnets and channels (model.md 8). Losses are summed over thermal steps. At the end
+// of each step the two bodies, winding and housing, are solved exactly with the step's mean powers. R, K_e
+// and R_on then follow the new temperatures.
 #pragma once
 #include <cmath>
 
@@ -16,7 +17,8 @@ struct HeatGiven {
   // The motor: resistances K/W, time constants s, temperatures degC.
   double winding_housing_K_W = 0.0, housing_ambient_K_W = 0.0, winding_s = 0.0, motor_s = 0.0;
   double ambient_degC = 25.0, winding_degC = 25.0, housing_degC = 25.0;
-  double copper_per_K = 0.0, magnet_per_K = 0.0, given_at_degC = 25.0;  ///< temperature of R and K_e
+  double copper_per_K = 0.0, magnet_per_K = 0.0, given_at_degC = 25.0;  ///< temperature at which R, K_e and
+                                                                        ///< R_on are given
   double own_coulomb_Nm = 0.0,
          own_B_Nm_s = 0.0;  ///< the motor's part of the friction, which heats its housing
   // The devices.
@@ -25,7 +27,7 @@ struct HeatGiven {
   double sink_degC = 25.0, junction_K_W = 0.0, on_per_K = 0.0;
 };
 
-/// Losses of a part of a run.
+/// Losses over a part of a run.
 struct StretchLosses {
   double dt_s = 0.0, copper_J = 0.0;
   double square = 0.0, travel = 0.0;  ///< integral of w^2, rad^2/s; angle turned, rad
@@ -46,7 +48,8 @@ class Heat {
     copper_.add(of.copper_J);
     friction_.add(friction_J(of));
   }
-  /// True at the end of a thermal step. Instants are whole ps, but their sums have rounding errors.
+  /// True at the end of a thermal step. Instants are whole ps, but the sum of the durations, s, has a
+  /// rounding error.
   bool due() const { return on() && elapsed_.value > given_.step_s - 1e-9; }
   void take_step();
 
@@ -57,10 +60,10 @@ class Heat {
   double on_R_on(std::size_t leg, bool upper) const {
     return 1 + given_.on_per_K * (junction_[leg][upper ? 0 : 1] - given_.given_at_degC);
   }
-  /// Temperatures of both bodies after the further losses `more`, degC, by the mean powers since the last thermal
-  /// step. At the end of a step they equal the step's result.
+  /// Temperatures of winding and housing, degC, after the mean powers since the last thermal step, which
+  /// include the further losses `more`. At the end of a step they equal the step's result.
   BodyTemperatures bodies_degC(const StretchLosses& more = {}) const;
-  /// At the last thermal step. A junction has no heat capacity.
+  /// Hottest junction at the last thermal step, degC. A junction has no heat capacity.
   double hottest_junction_degC() const {
     double hottest = junction_[0][0];
     for (const auto& leg : junction_)
@@ -76,7 +79,7 @@ class Heat {
   HeatGiven given_;
   DeviceLosses losses_;
   double winding_ = 25.0, housing_ = 25.0;
-  std::array<std::array<double, 2>, 3> junction_{};  ///< upper, lower
+  std::array<std::array<double, 2>, 3> junction_{};  ///< upper and lower switch of each leg, degC
   series::CompensatedSum<double> elapsed_, copper_, friction_;
 };
 

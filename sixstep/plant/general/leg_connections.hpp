@@ -5,8 +5,8 @@
 
 namespace sixstep::plant::general {
 
-/// Connections that a leg without current may take with its gates: the one that carries a positive current and the
-/// one that carries a negative current.
+/// Connections that a leg without current may take with its gates: one for a beginning positive current, one
+/// for a beginning negative current.
 struct LegConnections {
   Connection positive = Connection::low_diode, negative = Connection::high_diode;
 };
@@ -16,8 +16,8 @@ inline LegConnections ways_of(const Devices& devices, bool gate_high, bool gate_
   return {};
 }
 
-/// Direction of the current in a connection that carries only one: 1 or -1; 0 for a MOSFET's channel, which carries
-/// both.
+/// Direction of the current in a connection: 1 or -1 if it can carry only one direction, 0 for a MOSFET's
+/// channel, which carries both.
 inline int direction_of(const Devices& devices, Connection c) {
   if (c == Connection::low_diode) return 1;
   if (c == Connection::high_diode) return -1;

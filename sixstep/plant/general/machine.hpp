@@ -9,13 +9,13 @@
 
 namespace sixstep::plant::general {
 
-/// c cos(n (theta - 60 deg)), n odd: one harmonic of the back-EMF's shape.
+/// One harmonic of the back-EMF's shape: c cos(n (theta - 60 deg)), n odd.
 struct Harmonic {
   int order = 1;
   double size = 1.0;
 };
 
-/// A point of a shape given as a table: piecewise linear between, periodic over one electrical turn.
+/// A point of a shape given as a table: piecewise linear between points, periodic over one electrical turn.
 struct ShapePoint {
   double angle_deg = 0.0;  ///< electrical, in [0, 360), rising
   double value = 0.0;
@@ -28,7 +28,8 @@ struct Shape {
   std::vector<ShapePoint> table{};
 };
 
-/// C sin(order theta_m + phase), N m. order: per mechanical turn, a whole multiple of the pole pairs.
+/// Cogging torque C sin(order theta_m + phase), N m. `order` is per mechanical turn, a whole multiple of the
+/// pole pairs.
 struct Cogging {
   double order = 0;
   double torque_Nm = 0.0;
@@ -40,16 +41,16 @@ enum class Winding : std::uint8_t { star, delta };
 struct Machine {
   Winding winding = Winding::star;
   PerLeg<double> R_ohm{};    ///< per phase; delta: of the branches ab, bc, ca, all equal
-  PerLeg<double> K_e_V_s{};  ///< peak EMF of a shape of peak 1 per mechanical rad/s, per phase or branch
+  PerLeg<double> K_e_V_s{};  ///< peak back-EMF per mechanical rad/s of a shape of peak 1, per phase or branch
   double L_H = 0.0;          ///< star: L_s = L - M; delta: L_x of a branch
-  double M_H = 0.0;          ///< delta: between branches
-  double L_d_H = 0.0, L_q_H = 0.0;  ///< star: replace L_H if both are given
+  double M_H = 0.0;          ///< delta: mutual inductance between branches
+  double L_d_H = 0.0, L_q_H = 0.0;  ///< star: both replace L_H if both are given
   double saturation_A = 0.0;        ///< I_sat: lambda_d = L_d i_d (1 - i_d/(2 I_sat)); 0: none
   double pole_pairs = 1;            ///< for a linear motor pi/tau
   Shape shape{};
   std::vector<Cogging> cogging{};
 
-  /// True if the fluxes of the magnet's two axes have their own laws.
+  /// True if the fluxes of the magnet's two axes have their own laws, by saliency or saturation.
   bool has_axes() const { return L_d_H > 0.0 && L_q_H > 0.0 && (L_d_H != L_q_H || saturation_A > 0.0); }
 };
 
@@ -62,14 +63,14 @@ struct TorquePoint {
 /// Load torques at the load's side of gear and coupling.
 struct Load {
   double torque_Nm = 0.0;
-  double fan_Nm_s2 = 0.0;   ///< k w|w|
-  double gravity_Nm = 0.0;  ///< k sin(theta - angle)
+  double fan_Nm_s2 = 0.0;   ///< k of the torque k w|w|
+  double gravity_Nm = 0.0;  ///< k of the torque k sin(theta - angle)
   double gravity_angle_rad = 0.0;
   std::vector<TorquePoint> over_speed{};
 };
 
 struct Shaft {
-  double J_kg_m2 = 0.0, B_Nm_s = 0.0;  ///< the motor's side
+  double J_kg_m2 = 0.0, B_Nm_s = 0.0;  ///< motor's side alone
   double coulomb_Nm = 0.0, static_Nm = 0.0;
   double gear = 1.0;        ///< motor turns per load turn
   double efficiency = 1.0;  ///< gear, in (0, 1]: torque of the driven side over the lossless one
@@ -78,17 +79,18 @@ struct Shaft {
   double damping_Nm_s = 0.0;
   Load load{};
   bool locked = false;
-  bool dynamometer = false;  ///< the load's speed is imposed (set_speed()), its torque a result
+  bool dynamometer = false;  ///< true: set_speed() imposes the load's speed, and its torque is a result
 
   bool elastic() const { return stiffness_Nm > 0.0; }
 };
 
-/// Without a gate, MOSFET and IGBT are the same. An IGBT's transistor carries one direction only (model.md 2).
+/// Without a gate, MOSFET and IGBT conduct alike. An IGBT's transistor carries one direction only (model.md
+/// 2).
 struct Devices {
   bool igbt = false;
-  double R_on_ohm = 0.0;              ///< MOSFET's channel, IGBT's r_ce
-  double V_ce_V = 0.0;                ///< IGBT
-  double V_f_V = 0.0, r_d_ohm = 0.0;  ///< diodes
+  double R_on_ohm = 0.0;              ///< resistance of a MOSFET's channel, or an IGBT's r_ce
+  double V_ce_V = 0.0;                ///< constant drop of an IGBT's transistor
+  double V_f_V = 0.0, r_d_ohm = 0.0;  ///< constant drop and resistance of the diodes
 };
 
 /// Law of the source's open voltage V_0 over time and charge (model.md 9).
@@ -119,7 +121,8 @@ struct Supply {
   double V_0_V = 0.0, R_b_ohm = 0.0, L_b_H = 0.0, C_F = 0.0, R_C_ohm = 0.0;
   bool sinks = true;
   double sink_A = 0.0;     ///< if `sinks` is false: the largest current that the source takes back
-  double brake_ohm = 0.0;  ///< across the bus from on_V until off_V; 0: none
+  double brake_ohm = 0.0;  ///< resistor across the bus: on above brake_on_V until the bus is below
+                           ///< brake_off_V; 0: none
   double brake_on_V = 0.0, brake_off_V = 0.0;
   Source source = Source::steady;
   Battery battery{};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The general kernel: it has the members of plant::Plant, for machines, shafts, bridges and supplies that the lean
-// kernel does not model (model.md 7 to 9). A run chooses once which of the two it needs.
+// The general kernel. It has the members of plant::Plant, for machines, shafts, bridges and supplies that the
+// lean kernel does not model (model.md 7 to 9). A run chooses one of the two kernels at its start.
 #pragma once
 #include <utility>
 
@@ -19,7 +19,7 @@ class Plant {
   Plant(const Machine& machine, const Shaft& shaft, const Devices& devices, const Supply& supply,
         const Start& start, const HeatGiven& heat = {});
 
-  /// False: both switches of a leg would be on, a shoot-through; nothing is changed then.
+  /// Returns false, and changes nothing, if both switches of a leg would be on: a shoot-through.
   bool set_gates(const Gates& wanted) {
     const Gates gates{(wanted.high & ~failed_.open.high) | failed_.shorted.high,
                       (wanted.low & ~failed_.open.low) | failed_.shorted.low};
@@ -29,21 +29,22 @@ class Plant {
     stale_ = true;
     return true;
   }
-  /// Load torque at the load's side; it grows by `rate` per second.
+  /// Sets the load torque at the load's side, which then grows by `rate` per second.
   void set_load(double torque_Nm, double rate_Nm_s = 0.0) {
     more_.load.set(static_cast<Real>(torque_Nm));
     constants_.load_rate = static_cast<Real>(rate_Nm_s);
     stale_ = true;
   }
-  /// Speed imposed by a dynamometer at the load's side; it grows by `rate` per second.
+  /// Sets the speed that a dynamometer imposes at the load's side, which then grows by `rate` per second.
   void set_speed(double speed_rad_s, double rate_rad_s2);
   void set_locked(bool locked);
   /// Requires a steady source.
   void set_source_voltage(double V_0_V);
   void set_source_sinks(bool sinks);
-  /// Factors of temperature on the given R and K_e. Currents and speed continue.
+  /// Sets the factors of temperature on the given R and K_e. Currents and speed continue without a jump.
   void set_warmth(double on_R, double on_K_e);
-  /// True if temperatures are simulated: a control tick that ends a thermal step then changes R, K_e and R_on.
+  /// True if temperatures are simulated: the control tick that ends a thermal step then changes R, K_e and
+  /// R_on.
   bool warms() const { return heat_.on(); }
   void take_thermal_step();
   const Heat& heat() const { return heat_; }
@@ -125,8 +126,8 @@ class Plant {
   };
   Failed failed_{};
   Heat heat_;
-  Real cold_R_ = 1, cold_K_e_ = 1;    ///< the factors of set_warmth()
-  unsigned dead_ = 0, breaking_ = 0;  ///< masks of legs: the wire is open; the wire opens at the next zero
+  Real cold_R_ = 1, cold_K_e_ = 1;    ///< the factors that set_warmth() received
+  unsigned dead_ = 0, breaking_ = 0;  ///< masks of legs: wire is open; wire opens at the current's next zero
   bool stale_ = true, doubted_ = false, beyond_model_ = false;
   int last_event_ = -1;
 };

@@ -45,8 +45,8 @@ bool Plant<Real>::settle_fully(Real wanted, bool& expanded) {
   return false;
 }
 
-/// Sets to zero currents within rounding of zero in legs that carry one direction only, and a speed within rounding
-/// of rest where friction may hold the rotor.
+/// Sets currents within rounding of zero to zero, in legs that carry one direction only. Also sets a speed
+/// within rounding of rest to zero, where friction may hold the rotor.
 template <class Real>
 void Plant<Real>::snap() {
   const Constants<Real>& c = constants_;
@@ -117,7 +117,8 @@ bool Plant<Real>::pass_edge(bool ahead) {
       [&](std::size_t sector) { return sectors[sector].size(); });
 }
 
-/// Events of the mode that settle() does not determine, and of a source that leaves its limit.
+/// Events that change a part of the mode that settle() does not determine, and the event that a source leaves
+/// its limit.
 template <class Real>
 void Plant<Real>::mode_event(int id) {
   switch (id) {

@@ -43,8 +43,8 @@ void Plant<Real>::take_thermal_step() {
   stale_ = true;
 }
 
-// Defined once, in plant_heat.cpp: sources that only read a temperature are compiled for size, and the linker might take their copy of
-// the integrals for the engine, too.
+// Defined once, in plant_heat.cpp. Sources that only read a temperature are compiled for size, and the linker
+// might otherwise use their copy of the integrals for the engine.
 extern template StretchLosses Plant<double>::losses_up_to(double) const;
 
 }  // namespace sixstep::plant::general

@@ -149,12 +149,12 @@ void Plant<Real>::set_source(const Supply& supply) {
     c.mains_rate = 2 * Real(base::pi) * Real(supply.mains.frequency_Hz);
     c.mains_edge = single ? Real(1.5) * Real(base::sector_rad) : Real(0.5) * Real(base::sector_rad);
     more_.phase.set(single ? -c.mains_edge
-                           : Real(0));  // |sin| begins at its zero, the cosine's pulse at its top
+                           : Real(0));  // |sin| begins at its zero, a three-phase pulse at its top
   }
 }
 
-/// Sets the poles with the channels' present temperatures. High by transistor: U_s - V_ce - r_ce i; low by
-/// transistor, i < 0: V_ce - r_ce i (model.md 2).
+/// Computes the pole terms with the channels' present temperatures. High by transistor: U_s - V_ce - r_ce i;
+/// low by transistor, i < 0: V_ce - r_ce i (model.md 2).
 template <class Real>
 void Plant<Real>::set_bridge() {
   Constants<Real>& c = constants_;
@@ -205,7 +205,7 @@ void Plant<Real>::set_rates() {
   c.turning_rate = c.pole_pairs * order;
 }
 
-/// Sets the rotor's start like plant::Plant.
+/// Sets the rotor's start as plant::Plant does.
 template <class Real>
 void Plant<Real>::place(const Start& start) {
   state_.w = constants_.locked ? Real(0) : Real(start.speed_rad_s);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// One order of the general plant's Taylor recurrence (model.md 7 to 9): voltages from currents, currents from flux
-// linkages, torques from both, then shaft and supply. Its loops are not unrolled, because this kernel runs only where
-// the lean one does not suffice.
+// One order of the general plant's Taylor recurrence (model.md 7 to 9): voltages from currents, currents from
+// flux linkages, torques from both, then shaft and supply. The loops are not unrolled, because this kernel
+// runs only where the lean one does not suffice.
 #pragma once
 #include "sixstep/plant/general/axes_terms.hpp"
 #include "sixstep/plant/general/shaft_terms.hpp"
@@ -65,14 +65,15 @@ class Recurrence {
     for (int j = 1; j <= n; ++j) sum += a[j] * b[n - j];
     return sum;
   }
-  /// (a - a[0]) b
+  /// Term n of (a - a[0]) b.
   static Real later_product(const Coefficients& a, const Coefficients& b, int n) {
     Real sum = 0;
     for (int j = 1; j <= n; ++j) sum += a[j] * b[n - j];
     return sum;
   }
 
-  /// Advances the rotations with the speed; their products with it are the parts of the back-EMF.
+  /// Advances the rotations cos and sin m theta by one order; their products with the speed are the parts of
+  /// the back-EMF.
   [[gnu::always_inline]] void turn(int n, Real f) {
     if (is_linear_) wx_ = later_product(y_.x, y_.w, n);
     for (std::size_t r = 0; r < rotations_; ++r) {
@@ -91,7 +92,8 @@ class Recurrence {
     return e;
   }
 
-  /// The number of connected legs is two or three in nearly all segments; for those it is a compile-time constant.
+  /// Two or three legs are connected in nearly all segments; for these numbers the count is a compile-time
+  /// constant.
   [[gnu::always_inline]] void electrical(int n, Real f) {
     if (connected_ == 3) return electrical_with(std::integral_constant<int, 3>(), n, f);
     if (connected_ == 2) return electrical_with(std::integral_constant<int, 2>(), n, f);
@@ -130,7 +132,7 @@ class Recurrence {
     if (has_loop_) z_.loop[n + 1] = -f * c_.loop_inv_L * (c_.loop_R * z_.loop[n] + emf(3, n));
   }
 
-  /// T_e of all phases, loop and axes, and separately the cogging torque, which needs no current.
+  /// Adds up T_e of phases, loop and axes. The cogging torque, which needs no current, is separate.
   [[gnu::always_inline]] void torques(int n) {
     const auto current = [&](int way) { return way < 3 ? y_.i[way][n] : z_.loop[n] * Real(1.0L / 3); };
     const int used = has_loop_ ? way_count : 3;
@@ -171,7 +173,7 @@ class Recurrence {
   std::array<int, 3> leg_{};       ///< the connected legs, then the floating ones
   PerLeg<PoleTerms<Real>> terms_;  ///< terms of the connected legs, in the order of leg_
   PerLeg<Real> R_;                 ///< resistances in the order of leg_
-  Real part_ = 0, change_ = 0;     ///< weight of a connected leg in their mean; 1/L if a current can flow
+  Real part_ = 0, change_ = 0;     ///< 1/number of connected legs; 1/L if a current can flow, else 0
   PerWay<Real> now_{}, rise_{};
   Real wx_ = 0;
   std::array<Real, most_rotations> w_cos_, w_sin_;

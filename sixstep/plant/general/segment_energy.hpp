@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Integrates the energies of the general plant's bridge, winding and shaft over one segment
-// (plant/segment_energy.hpp), and computes the energy stored at an instant: fields, masses, elastic shaft. Cogging
-// takes and returns energy; its sum is computed separately.
+// (plant/segment_energy.hpp), and computes the energy stored at an instant in fields, masses and elastic
+// shaft. Cogging torque takes and returns energy; that energy is computed separately.
 #pragma once
 #include "sixstep/plant/general/energy_nodes.hpp"
 #include "sixstep/plant/general/plant.hpp"
@@ -51,7 +51,7 @@ void shaft_energy(const AtNodes<points, Real>& at, SegmentEnergy<Real>& out) {
 
 }  // namespace detail
 
-/// Energies over [0, to] of the present expansion.
+/// Energies of the present segment, J, from its start to `to`, a fraction 0 to 1.
 template <class Real>
 SegmentEnergy<Real> segment_energy(const Plant<Real>& plant, Real to) {
   SegmentEnergy<Real> out;
@@ -63,7 +63,7 @@ SegmentEnergy<Real> segment_energy(const Plant<Real>& plant, Real to) {
   return out;
 }
 
-/// Heat of the brake resistor over [0, to], J.
+/// Heat of the brake resistor, J, from the segment's start to the fraction `to`.
 template <class Real>
 Real brake_energy(const Plant<Real>& plant, Real to) {
   if (!plant.mode().braking) return 0;
@@ -76,7 +76,7 @@ Real brake_energy(const Plant<Real>& plant, Real to) {
   return heat;
 }
 
-/// Energy from cogging into the shaft over [0, to], J.
+/// Energy that cogging gives to the shaft, J, from the segment's start to the fraction `to`.
 template <class Real>
 Real cogging_energy(const Plant<Real>& plant, Real to) {
   Real given = 0;
@@ -87,7 +87,7 @@ Real cogging_energy(const Plant<Real>& plant, Real to) {
   return given;
 }
 
-/// (1/2) i^T L i and the loop's field at the fraction s, J.
+/// Magnetic energy (1/2) i^T L i of the phases, and that of the loop, at the fraction s of the segment, J.
 template <class Real>
 Real field_energy(const Plant<Real>& plant, Real s) {
   const auto& c = plant.constants();
@@ -109,7 +109,7 @@ Real field_energy(const Plant<Real>& plant, Real s) {
   return energy;
 }
 
-/// Energy of both masses and of the twist between them at the fraction s, J.
+/// Kinetic energy of both masses and energy of the twist between them at the fraction s of the segment, J.
 template <class Real>
 Real moving_energy(const Plant<Real>& plant, Real s) {
   const auto& c = plant.constants();

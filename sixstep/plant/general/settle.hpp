@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// settle() finds the general plant's consistent mode (plant/settle.hpp). Gates and currents determine part of it; the
-// rest is tried: legs without current (fewest legs on first), a rotor at rest and a source at its limit. First values
-// decide; only ties are expanded.
+// settle() finds the general plant's consistent mode (plant/settle.hpp). Gates and currents determine part of
+// the mode. The other parts are tried: legs without current (fewest legs on first), a rotor at rest, and a
+// source at its limit. Values at the instant decide first; the series are expanded only for a tie.
 #pragma once
 #include "sixstep/plant/general/guards.hpp"
 #include "sixstep/plant/settle.hpp"
@@ -50,7 +50,7 @@ unsigned named_legs(const Question<Real>& q, Legs& legs) {
   return open;
 }
 
-/// Checks the legs by first values, which expand_first() has written to y and z.
+/// Checks the legs by the values at the instant, which expand_first() has written to y and z.
 template <class Real>
 Judgement judge_legs(const Question<Real>& q, const Mode& mode, const Expansion<Real>& y,
                      const Series<Real>& z) {
@@ -60,7 +60,8 @@ Judgement judge_legs(const Question<Real>& q, const Mode& mode, const Expansion<
     const PoleTerms<Real>& terms = c.terms(k, to);
     return terms.bus_share * y.bus[0] + terms.offset_V;
   };
-  PerLeg<Real> up{}, down{};  // voltage at which it would begin to carry a negative and a positive current
+  PerLeg<Real> up{}, down{};  // voltages at which leg k would begin to carry a negative and a positive
+                              // current
   for (unsigned k = 0; k < 3; ++k) {
     const LegConnections ways = ways_of(c.devices, q.gates.high[k], q.gates.low[k]);
     up[k] = at(k, ways.negative);
@@ -103,7 +104,7 @@ Judgement judge_rest(const Question<Real>& q, const Mode& mode, const Expansion<
   return both(all, judge(mode.source_feeds ? below : -below, c.volt_noise * q.slack));
 }
 
-/// False for the parts of the mode that settle() does not determine: only events change those.
+/// False for the parts of the mode that settle() does not determine, because only events change them.
 constexpr bool is_sought(int id) { return id < guard::brake; }
 
 /// Lexicographic check of the series (plant/settle.hpp).
@@ -118,7 +119,7 @@ bool holds_in_series(const Question<Real>& q, const Mode& mode, const Expansion<
   return ok;
 }
 
-/// True if the mode is consistent. `expanded`: y and z hold its whole expansion.
+/// True if the mode is consistent. `expanded` becomes true if y and z then hold the mode's whole expansion.
 template <class Real>
 bool accepts(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series<Real>& z, bool& expanded) {
   const std::int8_t through_sign = mode.through_sign;
@@ -154,7 +155,7 @@ bool settle_legs(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series
   return false;
 }
 
-/// A source at its limit of current taken back feeds again when the bus is below it.
+/// A source that takes back its largest current feeds again when the bus is below it.
 template <class Real>
 bool settle_source(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series<Real>& z, bool& expanded) {
   const Constants<Real>& c = q.constants;
@@ -171,9 +172,10 @@ bool settle_source(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Seri
 
 }  // namespace detail
 
-/// Settles the mode without trials, which nearly always suffices: gates and currents determine all connections, and
-/// each open leg is clearly inside its window; or one open leg, while two others conduct, is clearly outside
-/// it. False: trials are necessary; `mode` may have been changed.
+/// Settles the mode without trials, which nearly always suffices. One of two conditions must hold: gates and
+/// currents determine all connections and each open leg is clearly inside its window; or two legs conduct and
+/// the third, open one is clearly outside its window. Returns false if trials are necessary; `mode` may have
+/// been changed.
 template <class Real>
 bool settle_fast(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series<Real>& z) {
   const Constants<Real>& c = q.constants;
@@ -182,8 +184,8 @@ bool settle_fast(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series
   for (int k = 0; k < 3; ++k)
     if (s.i[k] != 0 && plant::detail::abs(s.i[k]) <= c.amp_noise) return false;
   mode.motion = c.locked ? Motion::locked : c.dry_friction ? motion_at(s.w) : Motion::free;
-  // Whether such a source feeds may depend on the current that it feeds: it is guessed from the present bus and then
-  // checked.
+  // Whether a source that cannot sink feeds may depend on the current that it feeds. The guess from the
+  // present bus is checked below.
   const Real open_V = c.source == Source::steady ? c.V_0 : z.open[0];
   mode.source_feeds =
       c.source_sinks || (c.inv_L_b > 0 && q.more.source.value > -c.sink) || s.bus < open_V + c.R_b * c.sink;
@@ -196,7 +198,7 @@ bool settle_fast(const Question<Real>& q, Mode& mode, Expansion<Real>& y, Series
   if (legs == Judgement::holds) return true;
   if (legs == Judgement::tie || connected_count(mode.legs) != 2 || (open & (open - 1)) != 0 || open == 0)
     return false;
-  // With the third leg on, L di/dt is two thirds of the excess voltage.
+  // Once the third leg conducts, its L di/dt is two thirds of the excess voltage.
   const unsigned k = open >> 1;
   const LegConnections ways = ways_of(c.devices, q.gates.high[k], q.gates.low[k]);
   const auto stands = [&](Connection to) {

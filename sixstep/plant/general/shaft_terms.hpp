@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Terms of the shaft (model.md 7): the load's torque at its own side, the torque through gear and coupling, the
-// motion of both sides. If the load's speed is imposed, its torque is the remainder of the balance.
+// Terms of the shaft (model.md 7): the load's torque at its own side, the torque through gear and coupling,
+// and the motion of both sides. If the load's speed is imposed, the load's torque is the remainder of the
+// balance.
 #pragma once
 #include "sixstep/plant/general/constants.hpp"
 #include "sixstep/plant/torques.hpp"
 
 namespace sixstep::plant::general {
 
-/// Factor from the torque through a lossy gear to the motor's side: the driven side has less torque than the driving
-/// one.
+/// Factor from the lossless torque through a gear to the torque at the motor's side: the driven side has less
+/// torque than the driving one.
 template <class Real>
 constexpr Real gear_factor(Real efficiency, bool motor_drives) {
   return motor_drives ? 1 / efficiency : efficiency;
@@ -37,12 +38,12 @@ class ShaftTerms {
   }
 
  private:
-  /// A rigid shaft whose load has only steps and ramps.
+  /// True for a rigid shaft with a lossless gear whose load has only steps and ramps.
   static bool is_plain(const Constants<Real>& c) {
     return !c.elastic && !c.imposed && !c.lossy_gear() && c.fan == 0 && c.gravity == 0 &&
            c.over_speed.empty();
   }
-  /// Load torque of steps and ramps.
+  /// Term n of the load torque's steps and ramps.
   Real steps(int n) const { return n == 0 ? load_ : n == 1 ? c_.load_rate * y_.h : Real(0); }
 
   [[gnu::noinline]] void take_any_order(int n, Real f) {
@@ -67,7 +68,7 @@ class ShaftTerms {
     return sum;
   }
 
-  /// Load torque: steps and ramps, fan, weight, torque over speed.
+  /// Term n of the load torque: steps and ramps, fan, weight, and torque over speed.
   Real asked_for(int n, Real f) {
     Real load = steps(n);
     if (c_.fan != 0) load += Real(mode_.load_sign) * c_.fan * product(z_.load_w, z_.load_w, n);
@@ -88,8 +89,8 @@ class ShaftTerms {
     z_.forward[n] = drive - c_.inv_gear * through;
     z_.backward[n] = z_.forward[n];
     if (!c_.lossy_gear()) return;
-    // Forward, the gear's factor follows from the sign of `through`: a load that resists is driven, one that pushes
-    // drives. Backward it is the other way round.
+    // Forward, the gear's factor follows from the sign of `through`: the motor drives a load that resists,
+    // and a load that pushes drives the motor. Backward, the two cases are exchanged.
     const bool asks = z_.through[0] > 0;
     z_.forward[n] = drive - c_.inv_gear * through * gear_factor(c_.efficiency, asks);
     z_.backward[n] = drive - c_.inv_gear * through * gear_factor(c_.efficiency, !asks);
@@ -103,8 +104,8 @@ class ShaftTerms {
     turn(n, f, c_.inv_J, sum);
   }
 
-  /// Rigid: the gear transmits J_2 dw_2/dt + B_2 w_2 + T_load. The sign of this torque does not depend on the gear's
-  /// losses.
+  /// Rigid shaft: the gear transmits J_2 dw_2/dt + B_2 w_2 + T_load. Its losses do not change the sign of
+  /// this torque.
   void move_through_losses(int n, Real f, Real drive, Real dry) {
     const Real at_load = c_.load_B * z_.load_w[n] + z_.load[n];
     const Real at_motor = drive - dry - c_.B_1 * y_.w[n];
@@ -120,13 +121,14 @@ class ShaftTerms {
     turn(n, f, 1 / (c_.J_1 + k * own * c_.inv_gear), at_motor - k * c_.inv_gear * at_load);
     z_.through[n] = f > 0 ? own * y_.w[n + 1] / f + at_load : at_load;
   }
-  /// J_2 dw_2/dt + B_2 w_2 + T_load, from a sum that has the same sign. If J_2 is most of the inertia, the torque is
-  /// a small part of that sum, down to its noise.
+  /// Torque through the gear, J_2 dw_2/dt + B_2 w_2 + T_load, from a sum `sign_of` with the same sign. If J_2
+  /// is most of the inertia, the torque is a small part of that sum, down to its noise.
   Real handed_on(Real sign_of, Real own, bool forward) const {
     const Real k = gear_factor(c_.efficiency, (sign_of > 0) == forward);
     return sign_of / (1 + k * own * c_.inv_gear / c_.J_1);
   }
-  /// A torque clearly different from zero determines the sign; otherwise the sign of the last event remains.
+  /// A torque clearly different from zero determines the sign; otherwise the sign from the last event
+  /// remains.
   void judge_through() {
     if (plant::detail::abs(z_.through[0]) > c_.torque_noise * c_.gear)
       mode_.through_sign = z_.through[0] > 0 ? 1 : -1;
@@ -152,7 +154,8 @@ class ShaftTerms {
     }
   }
 
-  /// Rigid and imposed: the speed is given, and the load takes the torque that the shaft does not need.
+  /// Rigid shaft with imposed speed: the load takes the part of the motor's torque that the shaft does not
+  /// need.
   void follow(int n, Real f, Real drive, Real dry) {
     const Real rate = n == 0 && turns(mode_.motion) ? c_.speed_rate * c_.gear : Real(0);
     y_.w[n + 1] = f * rate;

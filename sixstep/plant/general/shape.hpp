@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shapes of the back-EMF of a, b, c and of the delta's loop as sums of few functions of the angle, so that one
-// product with the speed serves all: 1 and x (the angle since the sector's start) piece by piece, cos m theta and sin
-// m theta for each order m. A delta is replaced by the star with the same terminal behaviour: e_a = (e_ab - e_ca)/3,
-// and sum e drives the loop (model.md (9)).
+// Shapes of the back-EMF of a, b, c and of the delta's loop as sums of few functions of the angle: 1 and x
+// (the angle since the sector's start) piece by piece, and cos m theta and sin m theta for each order m. The
+// product of speed and function then serves all shapes. A delta is replaced by the star with the same
+// terminal behaviour: e_a = (e_ab - e_ca)/3; the sum of all e drives the loop (model.md (9)).
 #pragma once
 #include <algorithm>
 #include <array>
@@ -21,14 +21,15 @@ inline constexpr int way_count = 4;
 template <class Real>
 using PerWay = std::array<Real, way_count>;
 
-/// A piece of a sector: for each way the part of the EMF per speed that is linear in x, V s.
+/// A piece of a sector: for each way the EMF per speed, V s, as now + rise x.
 template <class Real>
 struct Piece {
   Real from = 0, to = 0;
   PerWay<Real> now{}, rise{};
 };
 
-/// cos(m theta_e) and sin(m theta_e): their coefficients in each way's EMF per speed and in the cogging torque.
+/// cos(m theta_e) and sin(m theta_e): their coefficients in the EMF per speed of each way, and in the cogging
+/// torque.
 template <class Real>
 struct Rotation {
   int order = 1;
@@ -40,9 +41,9 @@ template <class Real>
 struct ShapeTable {
   std::array<std::vector<Piece<Real>>, 6> sector;
   std::vector<Rotation<Real>> rotations;
-  bool is_linear = false;  ///< some pieces are not zero
+  bool is_linear = false;  ///< true: the pieces contribute to the EMF
 
-  /// The rotation of that order; added if there is none.
+  /// Returns the rotation of this order, and adds it if there is none.
   Rotation<Real>& rotation(int order) {
     for (Rotation<Real>& r : rotations)
       if (r.order == order) return r;
@@ -64,7 +65,7 @@ void turn_by(int thirties, Real& cos, Real& sin) {
   sin = table[at(thirties - 3)];
 }
 
-/// Corners of the trapezoid: 1 within half the flat width around 60 degrees, -1 half a turn later.
+/// Corners of the trapezoid: it is 1 within half the flat width around 60 degrees, and -1 half a turn later.
 inline std::vector<ShapePoint> corners(double flat_deg) {
   const double half = flat_deg / 2;
   std::vector<ShapePoint> points;
@@ -93,7 +94,8 @@ inline Line line_at(const std::vector<ShapePoint>& points, double angle_deg) {
   return {a.value + slope * from, slope};
 }
 
-/// Values of the ways from those of phases or branches: star a, b, c; delta (ab - ca)/3 and so on, and the sum.
+/// Values of the ways from the values of phases or branches. Star: a, b, c, and 0. Delta: (ab - ca)/3 and so
+/// on, and the sum.
 template <class Real>
 PerWay<Real> as_ways(Winding winding, const PerLeg<Real>& branch) {
   if (winding == Winding::star) return {branch[0], branch[1], branch[2], Real(0)};
@@ -102,7 +104,8 @@ PerWay<Real> as_ways(Winding winding, const PerLeg<Real>& branch) {
           branch[0] + branch[1] + branch[2]};
 }
 
-/// Angle by which branch or phase k follows the shape later, degrees: f(theta + 30) for ab, f(theta) for a.
+/// Angle, degrees, by which the EMF of branch or phase k lags the shape f(theta): -30 for branch ab, whose
+/// EMF is f(theta + 30), 0 for phase a.
 inline int seen_later_deg(Winding winding, int k) { return 120 * k - (winding == Winding::delta ? 30 : 0); }
 
 template <class Real>
@@ -175,8 +178,9 @@ ShapeTable<Real> shape_table(const Machine& m) {
   return table;
 }
 
-/// Torque per ampere through the driven pair for K_e = 1, mean over a sector, without loop current: K_t/K_e (model.md
-/// 1). The sectors of a table may differ: the mean is over all six, each with its own pair.
+/// K_t/K_e (model.md 1): torque per ampere through the driven pair for K_e = 1, without loop current, mean
+/// over a sector. The sectors of a table may differ: the mean is then over all six sectors, each with its own
+/// pair.
 inline double sector_mean(const Machine& m) {
   const ShapeTable<double> table = shape_table<double>(m);
   constexpr std::array<std::pair<std::size_t, std::size_t>, 6> pairs{

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Terms of the supply (model.md 9): the source's open voltage, its current, the capacitor with its resistance, the
-// brake resistor. The bus voltage of an order is computed before the winding's, because a capacitor with a resistance
-// makes it jump with the current; the terms of the next order are computed after the winding's.
+// Terms of the supply (model.md 9): the source's open voltage, its current, the capacitor with its
+// resistance, and the brake resistor. The bus voltage of an order is computed before the winding's terms,
+// because the current makes the voltage of a capacitor with a resistance jump. The supply's terms of the next
+// order are computed after the winding's terms.
 #pragma once
 #include "sixstep/plant/general/constants.hpp"
 
@@ -15,7 +16,7 @@ class SupplyTerms {
     for (unsigned k = 0; k < 3; ++k) share_[k] = c.terms(k, mode.legs[k]).bus_share;
   }
 
-  /// Terms n of V_0 and U_s from those of charge, phase, capacitor and currents.
+  /// Terms n of V_0 and U_s from terms n of charge, phase, capacitor and currents.
   void begin_order(int n) {
     if (c_.inv_C == 0) return;
     z_.open[n] = open_voltage(n);
@@ -33,7 +34,7 @@ class SupplyTerms {
     y_.bus[n] = (z_.capacitor[n] + c_.R_C * in) / (1 + c_.R_C * share);
   }
 
-  /// Terms n + 1 from terms n, f = h/(n + 1).
+  /// Terms n + 1 of the supply's states from terms n, f = h/(n + 1).
   void end_order(int n, Real f) {
     if (c_.inv_C == 0) {
       y_.bus[n + 1] = 0;
