@@ -11,7 +11,8 @@
 
 namespace sixstep::study {
 
-/// Mean powers, W; the junction's temperature follows from bridge.junction_K_W and is 0 without it.
+/// Mean powers, W. The junction's temperature follows from bridge.junction_K_W, and is 0 if that key is not
+/// given.
 struct DeviceLoss {
   std::string_view device;  // "T1" to "T6"
   double conduction_W = 0.0, turn_on_W = 0.0, turn_off_W = 0.0, diode_W = 0.0, recovery_W = 0.0;
@@ -22,7 +23,7 @@ class DeviceWatch {
  public:
   explicit DeviceWatch(const Bridge& bridge);
   void segment(const SegmentView& g, double s);
-  /// T1 to T6 in order; empty if no time has passed.
+  /// The devices T1 to T6 in order; empty if no time has passed.
   std::vector<DeviceLoss> losses() const;
 
  private:

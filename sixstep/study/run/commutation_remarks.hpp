@@ -8,10 +8,10 @@
 
 namespace sixstep::study {
 
-/// Returns a sentence with the least current for which the drive applies the duty step, and a cure. Empty if
-/// the step acted. The drive omits a step that would come too late.
+/// A sentence on a duty step that never acted: it names the least current from which the drive applies the
+/// step, and a cure. Empty if the step acted. The drive omits a step that would come too late.
 std::string on_idle_duty_step(const Scenario& scenario, const RunWatch& watch);
-/// A sentence if it acted with a pattern that chops the staying leg at some edges.
+/// A sentence if the duty step acted with a chopping pattern that chops the staying leg at some edges.
 std::string on_chopped_staying_leg(const Scenario& scenario, const RunWatch& watch);
 
 }  // namespace sixstep::study

@@ -27,7 +27,7 @@ bool is_rectifier(const Supply& s) {
 
 constexpr const char* condition = "cleared for a supply that takes current back (supply.sinks = true)";
 
-/// The first reason why the drive does not hold on such a supply.
+/// The first reason why the drive fails with a supply that cannot take current back.
 std::string first_of(const base::Problems& found) {
   const base::Problem& p = found.front();
   return p.where + (p.value.empty() ? " " : " = " + p.value + " ") + p.limit;
@@ -40,12 +40,12 @@ std::string limit_above_nominal(const Scenario& s, const design::MotorModel& mot
   const double nominal_A = motor.nominal_current_A;
   if (!cascade || s.control.drive == FirmwareKind::field || !(nominal_A > 0.0)) return {};
   const std::optional<MostCurrent> most = most_current(s, motor);
-  // A limit that is set to the nominal current itself may be rounded.
+  // A limit that was set to the nominal current may differ from it by rounding.
   if (!most || !(most->ampere > 1.005 * nominal_A)) return {};
   const auto thermal = design::thermal_model(s.sheet);
   std::string stands = "; the sheet has no thermal values that say how long the winding withstands it";
   if (thermal) {
-    // Block commutation: two phases carry the current.
+    // Copper loss with six-step commutation, where two phases carry the current.
     const double copper_W = 2 * motor.machine.R_ohm * most->ampere * most->ampere;
     const std::optional<double> stands_s = design::permissible_seconds(
         *thermal, {.copper_W = copper_W, .housing_W = 0.0, .ambient_degC = s.heat.ambient_degC});

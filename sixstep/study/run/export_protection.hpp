@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds thresholds of the product drive that check() accepts but that would not protect a bridge. A run
-// mentions them, and export refuses them.
+// mentions these thresholds in a remark, and export refuses them.
 #pragma once
 #include <optional>
 #include <string>
@@ -17,11 +17,13 @@ struct MostCurrent {
   std::string by;
 };
 
-/// Empty if nothing requests or limits a current.
+/// The largest requested current. Empty if nothing requests or limits a current.
 std::optional<MostCurrent> most_current(const Scenario& scenario, const design::MotorModel& motor);
 
-/// Finds a stall threshold above the drive's largest requested current, a stall time longer than the winding
-/// withstands that current, and an over-speed that neither bus nor motor approaches.
+/// Finds unsuitable thresholds:
+/// - a stall threshold above the drive's largest requested current,
+/// - a stall time longer than the winding withstands that current,
+/// - an over-speed threshold that neither bus nor motor approaches.
 void look_at_protection(const Scenario& scenario, const design::MotorModel& motor, base::Problems& out);
 
 }  // namespace sixstep::study

@@ -14,18 +14,20 @@ struct SeenPeaks {
   double bus_V = 0.0;    ///< highest voltage of the bus
 };
 
-/// The scenario with the measures of take_peaks() after its own [[compare]].
+/// The scenario with the measures that take_peaks() reads, behind its own [[compare]] entries.
 Scenario watching_peaks(const Scenario& scenario);
-/// Takes these measures out again: the outcome is then that of `scenario` itself.
+/// Removes these measures from the outcome, which is then that of `scenario` itself, and returns their
+/// values.
 SeenPeaks take_peaks(const Scenario& scenario, Outcome& outcome);
 
-/// Refuses a current above the converter's range: it is neither measured nor limited.
+/// Refuses a current above the converter's range, because such a current is neither measured nor limited.
 void look_at_current_range(const Scenario& scenario, const SeenPeaks& peaks, base::Problems& out);
-/// Refuses a bus above its converter's range if the drive reads it, and a bus that braking raises without a
-/// bound.
+/// Refuses a bus voltage above the converter's range if the drive reads the bus, and a bus that braking
+/// raises without a bound.
 void look_at_bus(const Scenario& scenario, const SeenPeaks& peaks, bool is_read, base::Problems& out);
-/// A product drive that brakes when its run request ends does so at its first test. Therefore it is stopped
-/// here at its highest setpoint, unless the scenario has a stop of its own.
+/// Runs a stop of a product drive that brakes when its run request ends. Otherwise the drive would brake for
+/// the first time on the user's bench. The stop begins at the highest setpoint, unless the scenario has a
+/// stop of its own.
 void look_at_stop(const Scenario& scenario, const design::MotorModel& motor, const Listeners& listeners,
                   base::Problems& out);
 
