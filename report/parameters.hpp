@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the inputs of a run: the sheet's values with frame and source, the model derived from them, the gains.
+// Writes the inputs of a run: the sheet's values with frame and source, the model that follows from them, and
+// the gains.
 #pragma once
 #include <string>
 
@@ -12,7 +13,7 @@ std::string sheet_section(const sixstep::design::Sheet& sheet);
 std::string model_section(const sixstep::design::MotorModel& motor);
 std::string setup_section(const sixstep::study::Scenario& scenario);
 std::string gains_section(const sixstep::study::Outcome& outcome);
-/// The numbers of a user's controller, those that its own file presets marked.
+/// The numbers of a user's controller. Those that are the controller's presets are marked.
 std::string own_section(const sixstep::study::Own& own);
 /// The derivation of a design's numbers: symbol, formula, value.
 std::string derivation_table(const std::vector<sixstep::design::DerivationStep>& steps, bool linear);

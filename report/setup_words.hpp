@@ -16,7 +16,7 @@ std::string shaft(const sixstep::study::Load& load, bool linear);
 std::string heat(const sixstep::study::Heat& h);
 std::string sensors(const sixstep::study::Sensors& s);
 bool all_ideal(const sixstep::study::Sensors& s);
-/// The first eight values, and their total number.
+/// The first eight values, and the number of all values.
 std::string listed(const std::vector<double>& values, const char* unit);
 std::string events(const std::vector<sixstep::study::At>& events, bool linear);
 

@@ -17,11 +17,8 @@ design::DesignSpec unhurried(design::DesignSpec spec, const design::MotorModel& 
 /// Largest usable ripple as a fraction of the nominal current: with more, a drive's current is mainly ripple.
 inline constexpr double usable_ripple = 0.5;
 
-/// Specifications that may be better, each with one change: chopping, period, sensor, method, or the settling
-/// time of a loop.
-///
-/// longer_of_periods() gives the longer of two periods: the one with a low ripple, and the one with 45
-/// degrees of phase margin. Empty unless both are shorter than the specified one.
+/// The longer of two periods: the longest one with a low ripple, and the longest one with 45 degrees of phase
+/// margin. Empty unless both are shorter than the specified one.
 std::optional<design::DesignSpec> longer_of_periods(const design::DesignSpec& spec,
                                                     const design::DriveDesign& design);
 

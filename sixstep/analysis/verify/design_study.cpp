@@ -78,9 +78,9 @@ base::Result<std::vector<design::DerivationStep>> sensorless_steps(const DesignS
   return compiled->sensorless_steps;
 }
 
-/// Warns of pulses at the edge of the period with samples in its middle. The linear loop holds its voltage
-/// over a period, and a sample in the middle measures one half of the period's effect. A pulse that begins
-/// with the period has then ended, or has only its end left.
+/// Warns of edge-aligned pulses with samples in the middle of a period. The linear loop holds its voltage
+/// over a period, and a sample in the middle measures the effect of one half. A pulse that begins with the
+/// period is measured whole, or without its end.
 void look_at_pulses(DesignStudy& s) {
   if (!s.design.spec.sampled_in_middle || s.scenario.pwm.alignment != study::Alignment::edge) return;
   const double sooner = s.design.spec.late_periods() - 0.5;

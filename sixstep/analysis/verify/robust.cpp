@@ -236,7 +236,8 @@ study::Scenario varied_scenario(const study::Scenario& nominal, const design::Mo
   study::Scenario s = nominal;
   s.designed_for = study::Nominal{nominal.sheet, nominal.supply, nominal.load};
   design::MotorModel varied = varied_motor(motor, tolerances, variation);
-  varied.shaft.J_kg_m2 -= nominal.load.inertia_kg_m2;  // the load's inertia does not vary with the rotor's
+  varied.shaft.J_kg_m2 -= nominal.load.inertia_kg_m2;  // load.inertia_kg_m2 stays nominal, so that the
+                                                       // rotor's inertia has the whole deviation
   s.sheet = sheet_of(nominal.sheet, varied);
   return s;
 }

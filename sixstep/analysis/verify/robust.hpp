@@ -58,7 +58,7 @@ struct Variation {
 std::vector<Variation> variations(const std::vector<Tolerance>& tolerances);
 
 /// The scenario with a motor that deviates; the controller stays as designed for the sheet. `motor` is that
-/// of DriveDesign: with the load's inertia, which does not deviate with the rotor's.
+/// of DriveDesign. Its inertia includes the load's, and the sum of both deviates.
 study::Scenario varied_scenario(const study::Scenario& nominal, const design::MotorModel& motor,
                                 const std::vector<Tolerance>& tolerances, const Variation& variation);
 
