@@ -39,7 +39,7 @@ struct Evaluated {
   std::vector<std::string> point;
   std::vector<double> at, figures;  ///< coordinates of the point, 0 to 1; figures of its worst drive
   double cost = none;  ///< the figure to minimise, relative to its size at the first point that has it
-  std::vector<double> misses;       ///< one value of beyond() per requirement
+  std::vector<double> misses;  ///< one value of beyond() per requirement
   double worst() const {
     return misses.empty() ? -hopeless : *std::max_element(misses.begin(), misses.end());
   }

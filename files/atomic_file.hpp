@@ -85,8 +85,8 @@ class AtomicFile {
   std::filesystem::path folder_;                    // absolute path, if the file has a temporary name
   std::unique_ptr<std::string, Remove> temporary_;  // null if the file is written directly
   std::unique_ptr<int, Close> descriptor_;  // declared last, so that it is closed before the name is removed
-  std::uint64_t size_ = 0;                          // size of the completely written text
-  bool waits_ = false;                              // true for a device or a pipe, whose reader may be slow
+  std::uint64_t size_ = 0;                  // size of the completely written text
+  bool waits_ = false;                      // true for a device or a pipe, whose reader may be slow
   int error_ = 0;
 };
 

@@ -212,8 +212,8 @@ struct Membership {
     ::pthread_setspecific(end_of_thread(), at);
   }
   ~Membership() {
-    if (at->place != ControllerPlace::outside) return;  // exit() in a controller runs this too; the handler
-                                                        // of exit() reports it
+    // If a controller calls exit(), this runs too; the handler of exit() reports it.
+    if (at->place != ControllerPlace::outside) return;
     at->runs = 0;
     at->thread = 0;
   }

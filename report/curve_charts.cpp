@@ -30,8 +30,8 @@ using Of = std::function<double(const OnCurve&)>;
 struct CurveLine {
   const char *label, *style, *meaning;
   Of of;
-  enum class Drawn { line, points, region } drawn = Drawn::line;  ///< region: the area from the curve down to
-                                                                  ///< zero is filled
+  /// region: the area from the curve down to zero is filled.
+  enum class Drawn { line, points, region } drawn = Drawn::line;
 };
 
 template <double analysis::OperatingPoint::*member>

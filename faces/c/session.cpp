@@ -122,8 +122,7 @@ void Session::note_what_applies() {
     applies_[c] = study::applies(static_cast<study::ColumnId>(c), run_->scenario());
 }
 
-/// Makes ahead_ from run_ and reads it at the instant. run_ itself stays at the last change of the gates,
-/// without reading.
+/// Makes ahead_ as a copy of run_, and reads the copy at the instant. run_ has only skipped to this instant.
 bool Session::look_ahead(std::int64_t at_ps) {
   exchange_.stop_ps = Exchange::never_ps;
   ahead_ = run_;

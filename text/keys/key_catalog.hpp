@@ -18,8 +18,8 @@ struct KeyEntry {
   std::string path;  ///< "supply.voltage_V"; keys of lists as "require.metric"
   KeyType type = KeyType::number;
   base::About about;
-  bool optional = false;  ///< true: the key may be omitted, and then has no value
-  std::string default_value{};                                 ///< as TOML; empty if there is no default
+  bool optional = false;        ///< true: the key may be omitted, and then has no value
+  std::string default_value{};  ///< as TOML; empty if there is no default
   std::vector<std::pair<std::string, std::string>> choices{};  ///< the words with their meanings
   struct LinearChoice {
     std::string turning, word, meaning;

@@ -12,8 +12,8 @@ namespace text {
 struct MotorStyle {
   std::string_view name;
   std::string_view what;
-  std::string_view shape;  ///< the usual back-EMF shape of such a sheet; the user must check it
-  std::vector<std::string_view> needed;    ///< keys without which there is no model
+  std::string_view shape;                ///< the usual back-EMF shape of such a sheet; the user must check it
+  std::vector<std::string_view> needed;  ///< keys without which there is no model
   std::vector<std::string_view> optional;  ///< keys that serve to check the others
   bool linear = false;
   /// For some keys the word that such a sheet prints; or, if the sheet omits the value, its usual range, the

@@ -66,7 +66,7 @@ std::string harmonic_lines(const EmfResult& r) {
 std::string inline_table(const EmfResult& r) {
   std::string angles, values;
   for (std::size_t n = 0; n < r.angle_deg.size();
-       n += 5) {  // every fifth value, which are few enough to type; a file has all of them
+       n += 5) {  // every tenth degree, which is enough to type; a file has all values
     angles += fmt::format("{}{:g}", n == 0 ? "" : ", ", r.angle_deg[n]);
     values += fmt::format("{}{:.4f}", n == 0 ? "" : ", ", r.shape[n]);
   }

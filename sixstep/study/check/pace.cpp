@@ -35,9 +35,8 @@ void check_bridge(const Scenario& s, const plant::Machine& m, base::Problems& ou
 
 void check_bus(const Scenario& s, const plant::Machine& m, base::Problems& out) {
   const Supply& from = s.supply;
-  if (!(from.resistance_ohm > 0 && from.capacitance_F > 0))
-    return;  // check_supply() reports the missing
-             // value
+  // A missing value is reported by check_supply().
+  if (!(from.resistance_ohm > 0 && from.capacitance_F > 0)) return;
   const double rate =
       plant::bus_rate(m, {from.voltage_V, from.resistance_ohm, from.capacitance_F, from.sinks});
   if (rate > fastest_answer_1_s)

@@ -161,9 +161,8 @@ std::optional<double> current_limit_A(const Scenario& s, const design::MotorMode
   double per_A = motor.K_t_Nm_A;
   if (s.control.drive == FirmwareKind::field) {
     const design::FieldMachine machine = design::field_machine(motor, s.sheet);
-    if (machine.L_d_H != machine.L_q_H)
-      return std::nullopt;  // the torque of a salient rotor is not
-                            // proportional to its current
+    // The torque of a salient rotor is not proportional to its current.
+    if (machine.L_d_H != machine.L_q_H) return std::nullopt;
     per_A = design::torque_per_q_A(machine);
   }
   if (!(per_A > 0.0) || !(torque > 0.0)) return limit_A;

@@ -283,9 +283,8 @@ base::Result<HarmonicFit> fit_harmonics(const EmfRecord& record, const EmfPhase&
     if (*moved < nothing_rad) break;
   }
   out.periods = seconds * out.phase.rate[0] / base::turn_rad;
-  if (!(out.periods > 1.0))
-    return out;  // no spectrum between the harmonics; the caller refuses such a
-                 // recording
+  // No spectrum between the harmonics; the caller refuses such a recording.
+  if (!(out.periods > 1.0)) return out;
   if (base::Problems problems = take_channels(record, points, iteration, out); !problems.empty())
     return problems;
   return out;
